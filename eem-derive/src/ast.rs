@@ -1,0 +1,117 @@
+//! What was written, reduced to what a free energy can contain.
+//!
+//! Output of the parse phase. The nodes borrow the syntax they come from, so that later phases can
+//! point at the guilty token. Names are not resolved here.
+
+use eem_symbolic::Number;
+use proc_macro2::Ident;
+use syn::ext::IdentExt as _;
+
+/// A struct with its free energy and its viscosity laws.
+pub(crate) struct Input<'a> {
+    /// The item that carries the derive.
+    pub(crate) original: &'a syn::DeriveInput,
+    /// The path of the crate `eem`.
+    pub(crate) krate: &'a syn::Path,
+    /// All named fields, in order of declaration.
+    pub(crate) fields: Vec<Field<'a>>,
+    /// The arguments of the closure, in the order of the closure.
+    pub(crate) arguments: Vec<Argument<'a>>,
+    /// The body of the closure: ψ.
+    pub(crate) energy: Block<'a>,
+    /// The closure as written, for errors about the whole of it.
+    pub(crate) closure: &'a syn::ExprClosure,
+    /// The viscosity laws, in order of appearance.
+    pub(crate) laws: Vec<Law<'a>>,
+}
+
+/// A named field: a parameter if its type allows and an expression mentions it.
+pub(crate) struct Field<'a> {
+    pub(crate) ident: &'a Ident,
+    pub(crate) ty: &'a syn::Type,
+}
+
+/// `name: Role` in the closure.
+pub(crate) struct Argument<'a> {
+    pub(crate) ident: &'a Ident,
+    pub(crate) role: Role,
+}
+
+/// What an argument of the closure stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Role {
+    /// The kinematic measure of a spring: its length.
+    Stretch,
+    /// An internal variable with a viscosity.
+    Viscous,
+    /// The absolute temperature.
+    Temperature,
+}
+
+impl Role {
+    /// All roles, in the order in which messages list them.
+    pub(crate) const ALL: [Self; 3] = [Self::Stretch, Self::Viscous, Self::Temperature];
+
+    /// The name that the closure uses as a type.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Stretch => "Stretch",
+            Self::Viscous => "Viscous",
+            Self::Temperature => "Temperature",
+        }
+    }
+}
+
+/// `name = expression` in a `viscosity` attribute.
+pub(crate) struct Law<'a> {
+    pub(crate) dashpot: &'a Ident,
+    pub(crate) value: Expr<'a>,
+}
+
+/// `let` bindings followed by a value.
+pub(crate) struct Block<'a> {
+    pub(crate) bindings: Vec<Binding<'a>>,
+    pub(crate) value: Box<Expr<'a>>,
+}
+
+/// `let name = value;`
+pub(crate) struct Binding<'a> {
+    pub(crate) ident: &'a Ident,
+    pub(crate) value: Expr<'a>,
+}
+
+/// An expression and the syntax it comes from.
+pub(crate) struct Expr<'a> {
+    pub(crate) original: &'a syn::Expr,
+    pub(crate) kind: ExprKind<'a>,
+}
+
+/// The expressions of a free energy.
+pub(crate) enum ExprKind<'a> {
+    /// A literal, exact where 128-bit rationals can hold it.
+    Number(Number),
+    /// A field, an argument or a binding.
+    Name(&'a Ident),
+    /// `-x`
+    Negate(Box<Expr<'a>>),
+    /// `x + y` and its relatives.
+    Binary(Operator, Box<Expr<'a>>, Box<Expr<'a>>),
+    /// `f(x, y)` or `x.f(y)`: the receiver of a method is the first argument.
+    Call(&'a Ident, Vec<Expr<'a>>),
+    /// `{ let …; value }`
+    Block(Block<'a>),
+}
+
+/// The arithmetic operators.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Operator {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+}
+
+/// The name without `r#`: `r#type` and `type` are the same name.
+pub(crate) fn name(ident: &Ident) -> String {
+    ident.unraw().to_string()
+}

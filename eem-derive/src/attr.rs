@@ -1,0 +1,147 @@
+//! Reads the attributes `free_energy` and `viscosity` into syntax trees.
+//!
+//! Nothing here fails: what cannot be read is reported and left out, so that all attributes are
+//! seen and an implementation of the trait can be written whatever happens.
+
+use proc_macro2::Ident;
+use syn::parse::ParseStream;
+use syn::punctuated::Punctuated;
+use syn::{Attribute, DeriveInput, Expr, ExprClosure, Meta, Path, Token, parse_quote};
+
+use crate::ctxt::Ctxt;
+use crate::message::attribute as message;
+
+/// The attributes of one item.
+pub(crate) struct Attributes {
+    /// The path of the crate `eem`; `::eem` unless the item says otherwise.
+    pub(crate) krate: Path,
+    /// The closure of `#[free_energy(…)]`, if there is exactly one that can be read.
+    pub(crate) closure: Option<ExprClosure>,
+    /// The laws of all `#[viscosity(…)]`.
+    pub(crate) laws: Vec<(Ident, Expr)>,
+}
+
+/// One entry of `#[free_energy(…)]`.
+enum Entry {
+    Crate(Token![crate], Path),
+    Closure(ExprClosure),
+    Other(Expr),
+}
+
+impl Attributes {
+    /// Reads all attributes of `input`.
+    pub(crate) fn from_syn(cx: &Ctxt, input: &DeriveInput) -> Self {
+        let mut energy = FreeEnergy::default();
+        let mut laws = Vec::new();
+        for attribute in &input.attrs {
+            if attribute.path().is_ident("free_energy") {
+                energy.read(cx, attribute);
+            } else if attribute.path().is_ident("viscosity") {
+                laws.extend(read_laws(cx, attribute));
+            }
+        }
+        if energy.closure.is_none() && !energy.failed {
+            cx.error(&input.ident, &message::missing_free_energy(&input.ident));
+        }
+        Self {
+            krate: energy.krate.unwrap_or_else(|| parse_quote!(::eem)),
+            closure: energy.closure,
+            laws,
+        }
+    }
+}
+
+/// What the attributes `free_energy` said so far.
+#[derive(Default)]
+struct FreeEnergy {
+    krate: Option<Path>,
+    closure: Option<ExprClosure>,
+    /// An error has been reported that explains a missing closure.
+    failed: bool,
+}
+
+impl FreeEnergy {
+    fn read(&mut self, cx: &Ctxt, attribute: &Attribute) {
+        let entries = match entries(attribute) {
+            Ok(entries) => entries,
+            Err(error) => {
+                self.failed = true;
+                return cx.error_at(error.span(), &message::unreadable_free_energy(&error));
+            }
+        };
+        if entries.is_empty() {
+            self.failed = true;
+            cx.error(attribute.path(), &message::empty_free_energy());
+        }
+        for entry in entries {
+            self.set(cx, attribute, entry);
+        }
+    }
+
+    fn set(&mut self, cx: &Ctxt, attribute: &Attribute, entry: Entry) {
+        match entry {
+            Entry::Crate(token, _) if self.krate.is_some() => {
+                cx.error(token, &message::second_crate());
+            }
+            Entry::Crate(_, path) => self.krate = Some(path),
+            Entry::Closure(_) if self.closure.is_some() => {
+                cx.error(attribute.path(), &message::second_free_energy());
+            }
+            Entry::Closure(closure) => self.closure = Some(closure),
+            Entry::Other(expr) => {
+                self.failed = true;
+                cx.error(expr, &message::free_energy_is_not_a_closure());
+            }
+        }
+    }
+}
+
+fn entries(attribute: &Attribute) -> syn::Result<Punctuated<Entry, Token![,]>> {
+    if let Meta::Path(_) = attribute.meta {
+        return Ok(Punctuated::new());
+    }
+    attribute.parse_args_with(|input: ParseStream<'_>| {
+        Punctuated::parse_terminated_with(input, parse_entry)
+    })
+}
+
+fn parse_entry(input: ParseStream<'_>) -> syn::Result<Entry> {
+    if input.peek(Token![crate]) && input.peek2(Token![=]) {
+        let token = input.parse()?;
+        input.parse::<Token![=]>()?;
+        return Ok(Entry::Crate(token, Path::parse_mod_style(input)?));
+    }
+    Ok(match input.parse()? {
+        Expr::Closure(closure) => Entry::Closure(closure),
+        expr => Entry::Other(expr),
+    })
+}
+
+fn read_laws(cx: &Ctxt, attribute: &Attribute) -> Vec<(Ident, Expr)> {
+    match laws(attribute) {
+        Ok(laws) if laws.is_empty() => {
+            cx.error(attribute.path(), &message::empty_viscosity());
+            Vec::new()
+        }
+        Ok(laws) => laws.into_iter().collect(),
+        Err(error) => {
+            cx.error_at(error.span(), &message::unreadable_viscosity(&error));
+            Vec::new()
+        }
+    }
+}
+
+fn laws(attribute: &Attribute) -> syn::Result<Punctuated<(Ident, Expr), Token![,]>> {
+    if let Meta::Path(_) = attribute.meta {
+        return Ok(Punctuated::new());
+    }
+    attribute.parse_args_with(|input: ParseStream<'_>| {
+        Punctuated::parse_terminated_with(input, parse_law)
+    })
+}
+
+fn parse_law(input: ParseStream<'_>) -> syn::Result<(Ident, Expr)> {
+    let dashpot = input.parse()?;
+    input.parse::<Token![=]>()?;
+    Ok((dashpot, input.parse()?))
+}

@@ -1,0 +1,90 @@
+//! A model whose names are resolved and whose roles and laws are complete.
+//!
+//! Output of the check phase: nothing in here can be wrong in a way that names, arguments or types
+//! could show. Indices are valid by construction.
+
+use eem_symbolic::{Function, Number};
+use proc_macro2::Ident;
+
+use crate::ast::{Operator, Role};
+
+/// A checked model.
+pub(crate) struct Checked<'a> {
+    /// The item that carries the derive.
+    pub(crate) original: &'a syn::DeriveInput,
+    /// The path of the crate `eem`.
+    pub(crate) krate: &'a syn::Path,
+    /// The scalar that the implementation is for.
+    pub(crate) scalar: Scalar<'a>,
+    /// The fields that an expression mentions, in order of declaration.
+    pub(crate) parameters: Vec<Parameter<'a>>,
+    /// The arguments in the order of the state: measures, dashpots, temperature.
+    pub(crate) variables: Vec<Variable<'a>>,
+    /// The free energy.
+    pub(crate) energy: Body<'a>,
+    /// One viscosity per dashpot, in the order of the dashpots.
+    pub(crate) viscosities: Vec<Body<'a>>,
+}
+
+/// The scalar that the implementation is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Scalar<'a> {
+    /// All parameters are floats: the model works in any scalar.
+    Any,
+    /// Some parameters have this type parameter of the struct as their type.
+    Parameter(&'a Ident),
+}
+
+/// A field that an expression mentions.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Parameter<'a> {
+    /// Which field of the struct it is.
+    pub(crate) field: usize,
+    pub(crate) ident: &'a Ident,
+    /// The field is an `f64` or an `f32` and has to be converted to the scalar.
+    pub(crate) float: bool,
+}
+
+/// An argument of the free energy.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Variable<'a> {
+    pub(crate) ident: &'a Ident,
+    pub(crate) role: Role,
+}
+
+/// An expression and the `let` bindings before it, each of which uses earlier ones only.
+///
+/// Nested blocks are flattened: a name that two blocks bind is two bindings here.
+pub(crate) struct Body<'a> {
+    pub(crate) bindings: Vec<Expr<'a>>,
+    pub(crate) value: Expr<'a>,
+}
+
+/// A resolved expression and the syntax it comes from.
+pub(crate) struct Expr<'a> {
+    pub(crate) original: &'a syn::Expr,
+    pub(crate) kind: ExprKind<'a>,
+}
+
+/// A resolved expression.
+pub(crate) enum ExprKind<'a> {
+    Number(Number),
+    /// Index of a field of the struct: see [`Parameter::field`].
+    Parameter(usize),
+    /// Index into [`Checked::variables`].
+    Variable(usize),
+    /// Index into [`Body::bindings`].
+    Binding(usize),
+    Negate(Box<Expr<'a>>),
+    Binary(Operator, Box<Expr<'a>>, Box<Expr<'a>>),
+    Sqrt(Box<Expr<'a>>),
+    Recip(Box<Expr<'a>>),
+    /// The absolute value, with the token that asks for it.
+    Abs(&'a Ident, Box<Expr<'a>>),
+    Apply(Function, Box<Expr<'a>>),
+    /// Base and exponent; the exponent has to turn out an integer.
+    Powi(Box<Expr<'a>>, Box<Expr<'a>>),
+    Powf(Box<Expr<'a>>, Box<Expr<'a>>),
+    /// The derivative with respect to a variable.
+    Diff(Box<Expr<'a>>, usize),
+}

@@ -1,0 +1,65 @@
+//! Collects the errors of a phase, so that a user sees all of them at once.
+
+use std::cell::RefCell;
+
+use proc_macro2::Span;
+use quote::ToTokens;
+
+use crate::message::Message;
+
+/// The errors found so far.
+///
+/// Every phase takes a `&Ctxt`, reports what is wrong and goes on as far as it can; the end of
+/// the phase is a [`Ctxt::barrier`].
+#[derive(Debug, Default)]
+pub(crate) struct Ctxt {
+    errors: RefCell<Vec<syn::Error>>,
+}
+
+impl Ctxt {
+    /// A collector without errors.
+    pub(crate) fn new() -> Self {
+        Self::default()
+    }
+
+    /// Reports `message` at the given tokens, which should be as few as show the mistake.
+    pub(crate) fn error(&self, tokens: impl ToTokens, message: &Message) {
+        self.push(syn::Error::new_spanned(tokens, message));
+    }
+
+    /// Reports `message` at a single span, for delimiters and other places without tokens.
+    pub(crate) fn error_at(&self, span: Span, message: &Message) {
+        self.push(syn::Error::new(span, message));
+    }
+
+    fn push(&self, error: syn::Error) {
+        self.errors.borrow_mut().push(error);
+    }
+
+    /// Ends a phase: its value if nothing was reported, otherwise all errors in one.
+    pub(crate) fn barrier<T>(&self, value: Option<T>) -> syn::Result<T> {
+        let errors = self.errors.take();
+        match errors.into_iter().reduce(combined) {
+            Some(error) => Err(error),
+            None => {
+                Ok(value.unwrap_or_else(|| unreachable!("a phase without a value says why")))
+            }
+        }
+    }
+}
+
+fn combined(mut first: syn::Error, second: syn::Error) -> syn::Error {
+    first.combine(second);
+    first
+}
+
+impl Drop for Ctxt {
+    fn drop(&mut self) {
+        if !std::thread::panicking() {
+            assert!(
+                self.errors.borrow().is_empty(),
+                "errors were reported and not shown"
+            );
+        }
+    }
+}

@@ -1,0 +1,59 @@
+//! Expand phase: the programs of a model → one `impl FreeEnergy`.
+//!
+//! Prints and decides nothing: which values exist, in which order and at which stage they are
+//! computed, is the business of [`eem_symbolic::Program`].
+
+mod constants;
+mod docs;
+mod forms;
+mod header;
+mod inputs;
+mod points;
+mod statements;
+
+use eem_symbolic::Model;
+use proc_macro2::TokenStream;
+use quote::quote;
+use syn::Path;
+
+use crate::checked::Checked;
+pub(crate) use header::Header;
+use inputs::Inputs;
+
+/// The implementation of the trait.
+pub(crate) fn expand(checked: &Checked<'_>, model: &Model) -> TokenStream {
+    let header = Header::new(checked.original, checked.scalar);
+    let programs = model.programs();
+    let inputs = Inputs::new(checked, &header.scalar);
+    let constants = constants::constants(checked, &programs, &inputs);
+    let points = points::points(&programs, &inputs);
+    let forms = forms::forms(&programs, &inputs);
+    let formulas = docs::formulas(checked, model);
+    let body = quote! { #constants #points #forms };
+    let implementation = header.implementation(&body);
+    wrap(checked.krate, &quote! { #formulas #implementation })
+}
+
+// Expands to: a scope of its own, in which `__eem` is the private module of the crate. Everything
+// that generated code names starts there.
+//
+//     const _: () = {
+//         use ::eem::__private as __eem;
+//         impl __eem::FreeEnergy<f64> for Spring { … }
+//     };
+pub(crate) fn wrap(krate: &Path, implementation: &TokenStream) -> TokenStream {
+    quote! {
+        // Numbers are printed with all their digits, which is not for reading.
+        #[allow(clippy::unreadable_literal, clippy::excessive_precision)]
+        // The names of the values count them.
+        #[allow(clippy::many_single_char_names, clippy::similar_names)]
+        // The length and the shape of a function are those of the formula.
+        #[allow(clippy::too_many_lines, clippy::cognitive_complexity, clippy::let_and_return)]
+        // `__eem` may be a path through the crate that defines the struct.
+        #[allow(unused_qualifications)]
+        const _: () = {
+            use #krate::__private as __eem;
+            #implementation
+        };
+    }
+}

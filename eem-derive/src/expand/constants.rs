@@ -1,0 +1,69 @@
+//! The shape of a model: associated constants and types, and its parameters.
+
+use eem_symbolic::Programs;
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use super::inputs::Inputs;
+use crate::ast;
+use crate::checked::Checked;
+
+// Expands to:
+//
+//     const MEASURES: usize = 1; …
+//     type Variables = [__S; 3]; …
+//     fn parameter(&self, index: usize) -> __S { [self.stiffness, …][index] }
+pub(super) fn constants(
+    checked: &Checked<'_>,
+    programs: &Programs,
+    inputs: &Inputs,
+) -> TokenStream {
+    let types = types(programs, inputs);
+    let (dashpots, thermal) = (Literal::usize_unsuffixed(inputs.dashpots), inputs.thermal);
+    let measures = Literal::usize_unsuffixed(inputs.measures());
+    let names = checked.parameters.iter().map(|p| ast::name(p.ident));
+    let (scalar, parameters) = (&inputs.scalar, &inputs.parameters);
+    let count = Literal::usize_unsuffixed(parameters.len());
+    quote! {
+        const MEASURES: __eem::core::primitive::usize = #measures;
+        const DASHPOTS: __eem::core::primitive::usize = #dashpots;
+        const THERMAL: __eem::core::primitive::bool = #thermal;
+        const PARAMETERS: &'static [&'static __eem::core::primitive::str] = &[#(#names),*];
+
+        #types
+
+        fn parameter(&self, __index: __eem::core::primitive::usize) -> #scalar {
+            let __parameters: [#scalar; #count] = [#(#parameters),*];
+            __parameters[__index]
+        }
+    }
+}
+
+fn types(programs: &Programs, inputs: &Inputs) -> TokenStream {
+    let scalar = &inputs.scalar;
+    let array = |length: usize| {
+        let length = Literal::usize_unsuffixed(length);
+        quote!([#scalar; #length])
+    };
+    let matrix = |rows: usize| {
+        let (row, rows) = (array(inputs.variables), Literal::usize_unsuffixed(rows));
+        quote!([#row; #rows])
+    };
+    let (variables, hessian) = (array(inputs.variables), matrix(inputs.variables));
+    let viscosities = array(inputs.dashpots);
+    let corners = array(inputs.corners());
+    let (response, tangent) = (array(inputs.responses()), matrix(inputs.responses()));
+    let entropy = array(programs.entropy_form.hoisted().len());
+    let temperature = programs.temperature_form.as_ref().unwrap_or(&programs.entropy_form);
+    let temperature = array(temperature.hoisted().len());
+    quote! {
+        type Variables = #variables;
+        type Hessian = #hessian;
+        type Viscosities = #viscosities;
+        type Corners = #corners;
+        type Response = #response;
+        type Tangent = #tangent;
+        type EntropyFormOld = #entropy;
+        type TemperatureFormOld = #temperature;
+    }
+}

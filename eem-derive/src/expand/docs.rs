@@ -1,0 +1,170 @@
+//! The documentation of the generated code: the model as formulas, each function with its cost.
+
+use eem_symbolic::{Formulas, Model, Program, StageCount};
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use crate::ast::{self, Role};
+use crate::checked::Checked;
+
+/// Columns of a line in a formula block.
+const WIDTH: usize = 96;
+
+// Expands to:
+//
+//     /// Generated from the free energy of the model.
+//     ///
+//     /// ```text
+//     /// ψ = …
+//     /// f = ∂ψ/∂lambda = …
+//     /// ```
+pub(super) fn formulas(checked: &Checked<'_>, model: &Model) -> TokenStream {
+    let mut lines = vec![
+        "Generated from the free energy of the model:".to_owned(),
+        String::new(),
+        "```text".to_owned(),
+    ];
+    for (left, right) in equations(checked, &model.formulas()) {
+        wrap(&format!("{left} = {right}"), &mut lines);
+    }
+    lines.push("```".to_owned());
+    doc(lines)
+}
+
+/// Left and right sides, in the order in which a reader wants them.
+fn equations(checked: &Checked<'_>, formulas: &Formulas) -> Vec<(String, String)> {
+    let names = |role| {
+        let variables = checked.variables.iter().filter(move |v| v.role == role);
+        variables.map(|v| ast::name(v.ident))
+    };
+    let theta = names(Role::Temperature).next().unwrap_or_default();
+    let mut equations = vec![("ψ".to_owned(), formulas.free_energy.clone())];
+    if let Some(entropy) = &formulas.entropy {
+        equations.push((format!("s = −∂ψ/∂{theta}"), entropy.clone()));
+        let energy = formulas.internal_energy.clone();
+        equations.push((format!("e = ψ + {theta} s"), energy));
+    }
+    for (name, force) in names(Role::Stretch).zip(&formulas.forces) {
+        equations.push((format!("f = ∂ψ/∂{name}"), force.clone()));
+    }
+    for (k, (name, force)) in names(Role::Viscous).zip(&formulas.dashpot_forces).enumerate() {
+        let g = subscript("g", k, formulas.dashpot_forces.len());
+        equations.push((format!("{g} = −∂ψ/∂{name}"), force.clone()));
+    }
+    if let Some(capacity) = &formulas.heat_capacity {
+        equations.push((format!("c = {theta} ∂s/∂{theta}"), capacity.clone()));
+    }
+    for (k, viscosity) in formulas.viscosities.iter().enumerate() {
+        let eta = subscript("η", k, formulas.viscosities.len());
+        equations.push((eta, viscosity.clone()));
+    }
+    equations
+}
+
+/// `symbol`, numbered from 1 if there are several.
+fn subscript(symbol: &str, index: usize, count: usize) -> String {
+    if count == 1 {
+        symbol.to_owned()
+    } else {
+        format!("{symbol}_{}", index + 1)
+    }
+}
+
+/// Appends a formula, broken at blanks into lines of at most [`WIDTH`] columns where possible.
+fn wrap(formula: &str, lines: &mut Vec<String>) {
+    let mut line = String::new();
+    for word in formula.split(' ') {
+        if line.is_empty() {
+            line.push_str(word);
+        } else if line.chars().count() + 1 + word.chars().count() <= WIDTH {
+            line.push(' ');
+            line.push_str(word);
+        } else {
+            lines.push(std::mem::replace(&mut line, format!("    {word}")));
+        }
+    }
+    lines.push(line);
+}
+
+/// `purpose` and what one call costs.
+pub(super) fn function(purpose: &str, program: &Program) -> TokenStream {
+    let count = program.operation_count();
+    let both = StageCount {
+        additions: count.old.additions + count.new.additions,
+        multiplications: count.old.multiplications + count.new.multiplications,
+        divisions: count.old.divisions + count.new.divisions,
+        functions: count.old.functions + count.new.functions,
+        kernels: count.old.kernels + count.new.kernels,
+    };
+    paragraphs(purpose, &operations(&both))
+}
+
+/// `purpose` and what the part that runs once per step costs.
+pub(super) fn old_stage(purpose: &str, program: &Program) -> TokenStream {
+    paragraphs(purpose, &operations(&program.operation_count().old))
+}
+
+/// `purpose` and what the part that runs once per iteration costs.
+pub(super) fn new_stage(purpose: &str, program: &Program) -> TokenStream {
+    paragraphs(purpose, &operations(&program.operation_count().new))
+}
+
+/// `12 operations: 5 additions, 6 multiplications, 1 function.`
+fn operations(count: &StageCount) -> String {
+    let kinds = [
+        (count.additions, "addition"),
+        (count.multiplications, "multiplication"),
+        (count.divisions, "division"),
+        (count.functions, "function"),
+        (count.kernels, "divided difference"),
+    ];
+    let plural = |n: usize, noun: &str| match n {
+        1 => format!("1 {noun}"),
+        n => format!("{n} {noun}s"),
+    };
+    let parts = kinds.into_iter().filter(|&(n, _)| n > 0);
+    let parts: Vec<String> = parts.map(|(n, noun)| plural(n, noun)).collect();
+    match parts.as_slice() {
+        [] => "No operations.".to_owned(),
+        [only] => format!("{only}."),
+        parts => format!("{}: {}.", plural(count.total(), "operation"), parts.join(", ")),
+    }
+}
+
+fn paragraphs(first: &str, second: &str) -> TokenStream {
+    doc([first.to_owned(), String::new(), second.to_owned()])
+}
+
+fn doc(lines: impl IntoIterator<Item = String>) -> TokenStream {
+    let lines = lines.into_iter().map(|line| format!(" {line}"));
+    quote! { #(#[doc = #lines])* }
+}
+
+#[cfg(test)]
+mod tests {
+    use eem_symbolic::StageCount;
+
+    use super::{WIDTH, operations, wrap};
+
+    #[test]
+    fn costs_are_said_in_words() {
+        let mut count = StageCount::default();
+        assert_eq!(operations(&count), "No operations.");
+        count.divisions = 1;
+        assert_eq!(operations(&count), "1 division.");
+        count.kernels = 2;
+        assert_eq!(operations(&count), "3 operations: 1 division, 2 divided differences.");
+    }
+
+    #[test]
+    fn long_formulas_are_broken_at_blanks() {
+        let terms: Vec<String> = (0..60).map(|i| format!("term{i}")).collect();
+        let formula = terms.join(" + ");
+        let mut lines = Vec::new();
+        wrap(&formula, &mut lines);
+        assert!(lines.len() > 1);
+        assert!(lines.iter().all(|line| line.chars().count() <= WIDTH));
+        let words: Vec<&str> = lines.iter().flat_map(|line| line.split_whitespace()).collect();
+        assert_eq!(words.join(" "), formula);
+    }
+}

@@ -1,0 +1,110 @@
+//! The algorithmic quantities of a step, in entropy and in temperature form.
+//!
+//! Each form is two functions: one that runs once per step, of the old state, and one that runs
+//! once per iteration and starts from what the first has left.
+
+use eem_symbolic::{Program, Programs, Stage};
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::docs;
+use super::inputs::Inputs;
+use super::statements::{Statements, value};
+
+/// Both forms.
+pub(super) fn forms(programs: &Programs, inputs: &Inputs) -> TokenStream {
+    let entropy = entropy_form(&programs.entropy_form, inputs);
+    let temperature = match &programs.temperature_form {
+        Some(program) => temperature_form(program, inputs),
+        None => the_same_form(),
+    };
+    quote! { #entropy #temperature }
+}
+
+fn entropy_form(program: &Program, inputs: &Inputs) -> TokenStream {
+    let (old, new) = (old_stage(program, inputs), new_stage(program, inputs));
+    let old_docs = docs::old_stage("Entropy form: what the old state decides.", program);
+    let new_docs = docs::new_stage(
+        "Entropy form: algorithmic quantities at the corner temperatures, and their tangent.",
+        program,
+    );
+    let corners = if inputs.thermal { quote!(__corners) } else { quote!(_) };
+    quote! {
+        #old_docs
+        fn entropy_form_old(&self, __x0: &Self::Variables) -> Self::EntropyFormOld { #old }
+        #new_docs
+        fn entropy_form(
+            &self,
+            __old: &Self::EntropyFormOld,
+            __x1: &Self::Variables,
+            #corners: &Self::Corners,
+        ) -> (Self::Response, Self::Tangent) { #new }
+    }
+}
+
+fn temperature_form(program: &Program, inputs: &Inputs) -> TokenStream {
+    let (old, new) = (old_stage(program, inputs), new_stage(program, inputs));
+    let old_docs = docs::old_stage("Temperature form: what the old state decides.", program);
+    let new_docs = docs::new_stage(
+        "Temperature form: algorithmic quantities and their tangent.",
+        program,
+    );
+    quote! {
+        #old_docs
+        fn temperature_form_old(&self, __x0: &Self::Variables) -> Self::TemperatureFormOld { #old }
+        #new_docs
+        fn temperature_form(
+            &self,
+            __old: &Self::TemperatureFormOld,
+            __x1: &Self::Variables,
+        ) -> (Self::Response, Self::Tangent) { #new }
+    }
+}
+
+// Without a temperature there is nothing to tell the forms apart.
+fn the_same_form() -> TokenStream {
+    quote! {
+        /// There is no temperature: the same as the entropy form.
+        fn temperature_form_old(&self, __x0: &Self::Variables) -> Self::TemperatureFormOld {
+            __eem::FreeEnergy::entropy_form_old(self, __x0)
+        }
+        /// There is no temperature: the same as the entropy form.
+        fn temperature_form(
+            &self,
+            __old: &Self::TemperatureFormOld,
+            __x1: &Self::Variables,
+        ) -> (Self::Response, Self::Tangent) {
+            __eem::FreeEnergy::entropy_form(self, __old, __x1, &[])
+        }
+    }
+}
+
+// Expands to: `let __v0 = __x0[0]; … [__v3, __v5]`.
+fn old_stage(program: &Program, inputs: &Inputs) -> TokenStream {
+    let lets = statements(program, inputs, Stage::Old);
+    let hoisted = program.hoisted().into_iter().map(value);
+    quote! { #lets [#(#hoisted),*] }
+}
+
+// Expands to: `let [__v3, __v5] = *__old; let __v6 = __x1[0]; … ([…], [[…], …])`.
+fn new_stage(program: &Program, inputs: &Inputs) -> TokenStream {
+    let hoisted = program.hoisted().into_iter().map(value);
+    let lets = statements(program, inputs, Stage::New);
+    let outputs: Vec<_> = program.outputs.iter().map(|&output| value(output)).collect();
+    let (response, tangent) = outputs.split_at(inputs.responses());
+    let rows = tangent.chunks(inputs.variables).map(|row| quote!([#(#row),*]));
+    quote! {
+        let [#(#hoisted),*] = *__old;
+        #lets
+        ([#(#response),*], [#(#rows),*])
+    }
+}
+
+fn statements(program: &Program, inputs: &Inputs, stage: Stage) -> TokenStream {
+    Statements {
+        program,
+        scalar: &inputs.scalar,
+        input: &|index| inputs.form(index),
+    }
+    .lets(|instruction| instruction.stage == stage)
+}

@@ -1,0 +1,97 @@
+//! Where the inputs of a program come from in the generated functions.
+
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+use crate::ast::Role;
+use crate::checked::{Checked, Parameter};
+
+/// The parameters and the shape of the state of one model.
+pub(super) struct Inputs {
+    /// The scalar of the implementation.
+    pub(super) scalar: TokenStream,
+    /// Fields of `self`, converted to the scalar.
+    pub(super) parameters: Vec<TokenStream>,
+    /// Number of variables, N.
+    pub(super) variables: usize,
+    /// Number of dashpots, K.
+    pub(super) dashpots: usize,
+    /// There is a temperature.
+    pub(super) thermal: bool,
+}
+
+impl Inputs {
+    /// The inputs of a model.
+    pub(super) fn new(checked: &Checked<'_>, scalar: &TokenStream) -> Self {
+        let of_role = |role| checked.variables.iter().filter(move |v| v.role == role);
+        let parameters = checked.parameters.iter();
+        Self {
+            scalar: scalar.clone(),
+            parameters: parameters.map(|p| parameter(p, scalar)).collect(),
+            variables: checked.variables.len(),
+            dashpots: of_role(Role::Viscous).count(),
+            thermal: of_role(Role::Temperature).count() == 1,
+        }
+    }
+
+    /// Number of measures, M.
+    pub(super) fn measures(&self) -> usize {
+        self.variables - self.dashpots - usize::from(self.thermal)
+    }
+
+    /// Number of corner temperatures of the entropy form, 2(N − 1) if there is a temperature.
+    pub(super) fn corners(&self) -> usize {
+        if self.thermal { 2 * (self.variables - 1) } else { 0 }
+    }
+
+    /// Number of algorithmic quantities: f* and g*, and with a temperature θ* and Δs.
+    pub(super) fn responses(&self) -> usize {
+        self.variables + usize::from(self.thermal)
+    }
+
+    /// Input `index` of a program at one state: parameters, x.
+    pub(super) fn point(&self, index: usize) -> TokenStream {
+        self.parameter_or(index, |index| element(&quote!(__x), index))
+    }
+
+    /// Input `index` of a viscosity: parameters, θ.
+    pub(super) fn viscosity(&self, index: usize) -> TokenStream {
+        self.parameter_or(index, |_| quote!(__theta))
+    }
+
+    /// Input `index` of an algorithmic form: parameters, x⁰, x¹, corner temperatures.
+    pub(super) fn form(&self, index: usize) -> TokenStream {
+        let variables = self.variables;
+        self.parameter_or(index, |index| match index / variables {
+            0 => element(&quote!(__x0), index),
+            1 => element(&quote!(__x1), index - variables),
+            _ => element(&quote!(__corners), index - 2 * variables),
+        })
+    }
+
+    fn parameter_or(
+        &self,
+        index: usize,
+        state: impl FnOnce(usize) -> TokenStream,
+    ) -> TokenStream {
+        match self.parameters.get(index) {
+            Some(parameter) => parameter.clone(),
+            None => state(index - self.parameters.len()),
+        }
+    }
+}
+
+fn parameter(parameter: &Parameter<'_>, scalar: &TokenStream) -> TokenStream {
+    let ident = parameter.ident;
+    if parameter.float {
+        // `f32` widens, `f64` stays what it is.
+        quote!(<#scalar as __eem::Scalar>::from_f64(__eem::core::convert::From::from(self.#ident)))
+    } else {
+        quote!(self.#ident)
+    }
+}
+
+fn element(array: &TokenStream, index: usize) -> TokenStream {
+    let index = Literal::usize_unsuffixed(index);
+    quote!(#array[#index])
+}

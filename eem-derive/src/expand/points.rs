@@ -1,0 +1,141 @@
+//! The functions of one state: ψ, e, gradient, Hessian, caloric quantities, viscosities.
+
+use eem_symbolic::{Program, Programs};
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::docs;
+use super::inputs::Inputs;
+use super::statements::{Statements, value};
+
+/// All of them.
+pub(super) fn points(programs: &Programs, inputs: &Inputs) -> TokenStream {
+    let scalar = &inputs.scalar;
+    let free_energy = scalar_function(&programs.free_energy, inputs);
+    let internal_energy = scalar_function(&programs.internal_energy, inputs);
+    let docs = [
+        docs::function("Free energy ψ.", &programs.free_energy),
+        docs::function("Internal energy e = ψ + θ s.", &programs.internal_energy),
+    ];
+    let [free_energy_docs, internal_energy_docs] = docs;
+    let gradient = gradient(&programs.gradient, inputs);
+    let hessian = hessian(&programs.hessian, inputs);
+    let caloric = caloric(programs.caloric.as_ref(), inputs);
+    let viscosity = viscosity(programs.viscosity.as_ref(), inputs);
+    quote! {
+        #free_energy_docs
+        fn free_energy(&self, __x: &Self::Variables) -> #scalar { #free_energy }
+        #internal_energy_docs
+        fn internal_energy(&self, __x: &Self::Variables) -> #scalar { #internal_energy }
+        #gradient
+        #hessian
+        #caloric
+        #viscosity
+    }
+}
+
+// Expands to: `let __v0 = __x[0]; … __v9`.
+fn scalar_function(program: &Program, inputs: &Inputs) -> TokenStream {
+    let lets = lets(program, inputs);
+    let output = value(program.outputs[0]);
+    quote! { #lets #output }
+}
+
+fn gradient(program: &Program, inputs: &Inputs) -> TokenStream {
+    let lets = lets(program, inputs);
+    let outputs = program.outputs.iter().map(|&output| value(output));
+    let docs = docs::function("Gradient ∂ψ/∂x.", program);
+    quote! {
+        #docs
+        fn gradient(&self, __x: &Self::Variables) -> Self::Variables {
+            #lets
+            [#(#outputs),*]
+        }
+    }
+}
+
+// Expands to: `let __v0 = …; ([__v7, __v8], [[__v9, __v10], [__v10, __v11]])`.
+fn hessian(program: &Program, inputs: &Inputs) -> TokenStream {
+    let lets = lets(program, inputs);
+    let outputs: Vec<_> = program.outputs.iter().map(|&output| value(output)).collect();
+    let (gradient, hessian) = outputs.split_at(inputs.variables);
+    let rows = hessian.chunks(inputs.variables).map(|row| quote!([#(#row),*]));
+    let docs = docs::function("Gradient ∂ψ/∂x and Hessian ∂²ψ/∂x².", program);
+    quote! {
+        #docs
+        fn hessian(&self, __x: &Self::Variables) -> (Self::Variables, Self::Hessian) {
+            #lets
+            ([#(#gradient),*], [#(#rows),*])
+        }
+    }
+}
+
+// Expands to: `let __v0 = …; __eem::Caloric { entropy: __v7, heat_capacity: __v8, magnitude: __v9 }`.
+fn caloric(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
+    let scalar = &inputs.scalar;
+    let Some(program) = program else {
+        return quote! {
+            /// There is no temperature: zero.
+            fn caloric(&self, _: &Self::Variables) -> __eem::Caloric<#scalar> {
+                let __zero = <#scalar as __eem::Scalar>::zero();
+                __eem::Caloric { entropy: __zero, heat_capacity: __zero, magnitude: __zero }
+            }
+        };
+    };
+    let lets = lets(program, inputs);
+    let [entropy, heat_capacity, magnitude] = [0, 1, 2].map(|i| value(program.outputs[i]));
+    let docs = docs::function(
+        "Entropy s, heat capacity θ ∂s/∂θ, and the sum of the magnitudes of the terms of s.",
+        program,
+    );
+    quote! {
+        #docs
+        fn caloric(&self, __x: &Self::Variables) -> __eem::Caloric<#scalar> {
+            #lets
+            __eem::Caloric {
+                entropy: #entropy,
+                heat_capacity: #heat_capacity,
+                magnitude: #magnitude,
+            }
+        }
+    }
+}
+
+// Expands to: `let __v0 = __theta; … ([__v7], [__v8])`.
+fn viscosity(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
+    let scalar = &inputs.scalar;
+    let Some(program) = program else {
+        return quote! {
+            /// There is no dashpot: nothing.
+            fn viscosity(&self, _: #scalar) -> (Self::Viscosities, Self::Viscosities) {
+                ([], [])
+            }
+        };
+    };
+    let lets = Statements {
+        program,
+        scalar,
+        input: &|index| inputs.viscosity(index),
+    }
+    .lets(|_| true);
+    let outputs: Vec<_> = program.outputs.iter().map(|&output| value(output)).collect();
+    let (viscosities, derivatives) = outputs.split_at(inputs.dashpots);
+    let theta = if inputs.thermal { quote!(__theta) } else { quote!(_) };
+    let docs = docs::function("Viscosities η and dη/dθ.", program);
+    quote! {
+        #docs
+        fn viscosity(&self, #theta: #scalar) -> (Self::Viscosities, Self::Viscosities) {
+            #lets
+            ([#(#viscosities),*], [#(#derivatives),*])
+        }
+    }
+}
+
+fn lets(program: &Program, inputs: &Inputs) -> TokenStream {
+    Statements {
+        program,
+        scalar: &inputs.scalar,
+        input: &|index| inputs.point(index),
+    }
+    .lets(|_| true)
+}

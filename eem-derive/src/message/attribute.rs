@@ -1,0 +1,171 @@
+//! Messages about the attributes, the arguments of the closure and the viscosity laws.
+
+use proc_macro2::Ident;
+
+use super::{Message, list};
+use crate::ast::{self, Role};
+
+const CLOSURE: &str = "`#[free_energy(|lambda: Stretch, theta: Temperature| …)]`";
+
+pub(crate) fn missing_free_energy(item: &Ident) -> Message {
+    Message::new(
+        format!("`{item}` has no free energy"),
+        format!("write {CLOSURE} on top of the struct"),
+    )
+}
+
+pub(crate) fn second_free_energy() -> Message {
+    Message::new(
+        "a second free energy",
+        "a struct has one `#[free_energy]`; add the terms, or derive for another struct",
+    )
+}
+
+pub(crate) fn empty_free_energy() -> Message {
+    Message::new(
+        "`#[free_energy]` without a closure",
+        format!("write {CLOSURE}"),
+    )
+}
+
+pub(crate) fn unreadable_free_energy(error: &syn::Error) -> Message {
+    Message::new(
+        format!("cannot read the free energy: {error}"),
+        format!("it is a closure with typed arguments, {CLOSURE}"),
+    )
+}
+
+pub(crate) fn free_energy_is_not_a_closure() -> Message {
+    Message::new(
+        "the free energy is a closure, so that its arguments have names and roles",
+        format!("write {CLOSURE}"),
+    )
+}
+
+pub(crate) fn second_crate() -> Message {
+    Message::new(
+        "a second `crate = …`",
+        "the path of the crate is given once per struct",
+    )
+}
+
+pub(crate) fn closure_modifier(modifier: &str) -> Message {
+    Message::new(
+        format!("a free energy is not `{modifier}`"),
+        format!("remove `{modifier}`"),
+    )
+}
+
+pub(crate) fn closure_output() -> Message {
+    Message::new(
+        "a free energy has no return type: it is an energy",
+        "remove `-> …`",
+    )
+}
+
+pub(crate) fn argument_without_role(argument: &str) -> Message {
+    Message::new(
+        format!("the argument `{argument}` has no role"),
+        format!(
+            "say what it stands for: `{argument}: Stretch`, `{argument}: Viscous` or `{argument}: Temperature`"
+        ),
+    )
+}
+
+pub(crate) fn argument_pattern() -> Message {
+    Message::new(
+        "an argument of a free energy is a plain name",
+        "write `name: Role`, for example `lambda: Stretch`",
+    )
+}
+
+pub(crate) fn unknown_role(role: &str, nearest: Option<&str>) -> Message {
+    let help = match nearest {
+        Some(nearest) => format!("did you mean `{nearest}`?"),
+        None => format!("the roles are {}", list(Role::ALL.map(Role::name))),
+    };
+    Message::new(format!("unknown role `{role}`"), help)
+}
+
+pub(crate) fn no_stretch() -> Message {
+    Message::new(
+        "the free energy has no argument of role `Stretch`",
+        "add one: `lambda: Stretch` is the length of the spring",
+    )
+}
+
+pub(crate) fn second_role(role: Role, argument: &Ident, first: &Ident) -> Message {
+    let (argument, first) = (ast::name(argument), ast::name(first));
+    let help = match role {
+        Role::Stretch => "a spring has one length; an internal variable is `Viscous`",
+        Role::Temperature => "an element has one temperature",
+        Role::Viscous => unreachable!("there may be many dashpots"),
+    };
+    Message::new(
+        format!("`{argument}` is a second `{}` after `{first}`", role.name()),
+        help,
+    )
+}
+
+pub(crate) fn second_argument(argument: &Ident) -> Message {
+    let name = ast::name(argument);
+    Message::new(
+        format!("`{name}` is already an argument"),
+        "give every argument its own name",
+    )
+}
+
+pub(crate) fn empty_viscosity() -> Message {
+    Message::new(
+        "`#[viscosity]` without a law",
+        "write `#[viscosity(gamma = …)]` with the name of a `Viscous` argument",
+    )
+}
+
+pub(crate) fn unreadable_viscosity(error: &syn::Error) -> Message {
+    Message::new(
+        format!("cannot read the viscosity: {error}"),
+        "it is a list of `dashpot = expression`, for example `#[viscosity(gamma = eta_ref)]`",
+    )
+}
+
+pub(crate) fn missing_viscosity(dashpot: &Ident) -> Message {
+    let name = ast::name(dashpot);
+    Message::new(
+        format!("the dashpot `{name}` has no viscosity"),
+        format!("write `#[viscosity({name} = …)]` on top of the struct, in N s/m"),
+    )
+}
+
+pub(crate) fn second_viscosity(dashpot: &Ident) -> Message {
+    let name = ast::name(dashpot);
+    Message::new(
+        format!("a second viscosity for `{name}`"),
+        "a dashpot has one law; remove one of them",
+    )
+}
+
+pub(crate) fn viscosity_without_dashpot<'n>(
+    name: &Ident,
+    nearest: Option<&str>,
+    dashpots: impl IntoIterator<Item = &'n str>,
+) -> Message {
+    let name = ast::name(name);
+    let mut dashpots = dashpots.into_iter().peekable();
+    let help = match nearest {
+        Some(nearest) => format!("did you mean `{nearest}`?"),
+        None if dashpots.peek().is_none() => {
+            format!("remove the law, or declare `{name}: Viscous` in the free energy")
+        }
+        None => format!("the free energy has {}", list(dashpots)),
+    };
+    Message::new(format!("there is no dashpot `{name}`"), help)
+}
+
+pub(crate) fn viscosity_of_another_role(name: &Ident, role: Role) -> Message {
+    let name = ast::name(name);
+    Message::new(
+        format!("`{name}` has no viscosity: it is a `{}`", role.name()),
+        "only arguments of role `Viscous` have one",
+    )
+}

@@ -1,0 +1,153 @@
+//! Messages about expressions.
+
+use proc_macro2::Ident;
+
+use super::{Message, list};
+use crate::ast::{self, Role};
+
+pub(crate) mod syntax;
+
+pub(crate) fn unknown_name(name: &Ident, nearest: Option<&str>) -> Message {
+    let name = ast::name(name);
+    let help = match nearest {
+        Some(nearest) => format!("did you mean `{nearest}`?"),
+        None => format!(
+            "known are the arguments, the fields and earlier `let` bindings; a parameter is a field, `{name}: f64`"
+        ),
+    };
+    Message::new(format!("unknown name `{name}`"), help)
+}
+
+pub(crate) fn unknown_function(name: &str, advice: String) -> Message {
+    Message::new(format!("unknown function `{name}`"), advice)
+}
+
+/// What to write for a function that is known elsewhere, if there is a good answer.
+pub(crate) fn function_advice(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "log" => "the natural logarithm is `ln(x)`; there are `log2(x)` and `log10(x)` too",
+        "log1p" => "write `ln_1p(x)`",
+        "expm1" => "write `exp_m1(x)`",
+        "exp2" => "write `powf(2, x)`",
+        "pow" => "write `powi(x, 2)` for an integer power and `powf(x, y)` for any other",
+        "sqr" | "square" => "write `powi(x, 2)`",
+        "cube" => "write `powi(x, 3)`",
+        "asin" | "arcsin" => "write `atan(x / sqrt(1 - x * x))`",
+        "acos" | "arccos" => "write `2 * atan(sqrt((1 - x) / (1 + x)))`",
+        "arctan" => "write `atan(x)`",
+        "atan2" => "write `atan(y / x)` where `x` is positive",
+        "acosh" => "write `ln(x + sqrt(x * x - 1))`",
+        "hypot" => "write `sqrt(x * x + y * y)`",
+        "mul_add" => "write `a * b + c`",
+        "min" | "max" | "clamp" | "signum" | "copysign" | "floor" | "ceil" | "round" | "trunc"
+        | "fract" | "rem_euclid" => {
+            "forces are derivatives of the free energy, and this one has none at its kinks: use a smooth function"
+        }
+        _ => return None,
+    })
+}
+
+/// What to write for a function that is known nowhere.
+pub(crate) fn function_help<'n>(
+    name: &str,
+    nearest: Option<&str>,
+    functions: impl IntoIterator<Item = &'n str>,
+) -> String {
+    match (function_advice(name), nearest) {
+        (Some(advice), _) => advice.to_owned(),
+        (None, Some(nearest)) => format!("did you mean `{nearest}`?"),
+        (None, None) => format!("the functions are {}", list(functions)),
+    }
+}
+
+pub(crate) fn argument_count(function: &str, form: &str, expected: usize, found: usize) -> Message {
+    let plural = if expected == 1 { "" } else { "s" };
+    Message::new(
+        format!("`{function}` takes {expected} argument{plural}, and here are {found}"),
+        format!("write `{form}`"),
+    )
+}
+
+pub(crate) fn name_is_a_function(name: &str) -> Message {
+    Message::new(
+        format!("`{name}` is a function without its argument"),
+        format!("write `{name}(…)`"),
+    )
+}
+
+pub(crate) fn name_is_not_a_function(name: &str) -> Message {
+    Message::new(
+        format!("`{name}` is a number, not a function"),
+        format!("for a product write `{name} * (…)`"),
+    )
+}
+
+pub(crate) fn exponent_is_not_an_integer() -> Message {
+    Message::new(
+        "the exponent of `powi` is an integer known at compile time",
+        "write `powf(x, y)` for any other exponent",
+    )
+}
+
+pub(crate) fn diff_variable_is_not_a_name() -> Message {
+    Message::new(
+        "the second argument of `diff` is the name of an argument of the free energy",
+        "write `diff(expression, lambda)`",
+    )
+}
+
+pub(crate) fn diff_variable<'n>(
+    name: &Ident,
+    kind: &str,
+    arguments: impl IntoIterator<Item = &'n str>,
+) -> Message {
+    let name = ast::name(name);
+    Message::new(
+        format!("`{name}` is a {kind}, and `diff` is with respect to an argument of the free energy"),
+        format!("the arguments are {}", list(arguments)),
+    )
+}
+
+pub(crate) fn abs_of_state(argument: &str) -> Message {
+    Message::new(
+        format!("`abs` of something that depends on `{argument}` has no derivative at zero"),
+        "write `sqrt(x * x + c * c)` with a small parameter `c`, or `x.powi(2)`",
+    )
+}
+
+pub(crate) fn law_of_state(name: &Ident, role: Role) -> Message {
+    let name = ast::name(name);
+    Message::new(
+        format!("a viscosity depends on the temperature and the fields, and `{name}` is a `{}`", role.name()),
+        format!("remove `{name}` from the law"),
+    )
+}
+
+pub(crate) fn law_of_binding(name: &Ident) -> Message {
+    let name = ast::name(name);
+    Message::new(
+        format!("`{name}` is a `let` of the free energy, which a viscosity does not see"),
+        "repeat it: a law may be a block, `gamma = { let x = …; … }`",
+    )
+}
+
+pub(crate) fn number_out_of_range() -> Message {
+    Message::new(
+        "this number does not fit an `f64`",
+        "they reach from about `2.3e-308` to `1.8e308`; choose other units",
+    )
+}
+
+pub(crate) fn not_finite() -> Message {
+    Message::new(
+        "this constant is not a finite number",
+        "check the domain: `1 / 0`, `ln(0)` and `sqrt(-1)` have no value",
+    )
+}
+
+pub(crate) fn number_suffix(suffix: &str) -> Message {
+    Message::new(
+        format!("a number in a free energy has no type `{suffix}`"),
+        "write it without suffix: all numbers are exact",
+    )
+}

@@ -1,0 +1,200 @@
+//! Messages about Rust syntax that a free energy does not have.
+
+use crate::message::Message;
+
+const SMOOTH: &str = "a free energy is one smooth formula; for a transition use a smooth function such as `tanh`";
+
+pub(crate) fn caret() -> Message {
+    Message::new(
+        "`^` is not a power in Rust",
+        "write `x.powi(2)` or `x.powf(y)`",
+    )
+}
+
+pub(crate) fn remainder() -> Message {
+    Message::new(
+        "`%` has jumps and so no derivative",
+        "use `sin` or `cos` for something periodic",
+    )
+}
+
+pub(crate) fn comparison(operator: &str) -> Message {
+    Message::new(format!("`{operator}` compares, and nothing follows from it"), SMOOTH)
+}
+
+pub(crate) fn bit_operator(operator: &str) -> Message {
+    Message::new(
+        format!("`{operator}` works on bits"),
+        "the operators are `+`, `-`, `*` and `/`",
+    )
+}
+
+pub(crate) fn assignment(operator: &str) -> Message {
+    Message::new(
+        format!("`{operator}` changes a value, and values do not change in a formula"),
+        "bind a new name: `let x = x + …;`",
+    )
+}
+
+pub(crate) fn not_operator() -> Message {
+    Message::new("`!` works on bits", "for a negative write `-x`")
+}
+
+pub(crate) fn dereference() -> Message {
+    Message::new(
+        "`*` needs a factor on its left",
+        "for a power write `x.powi(2)`; there are no references to follow",
+    )
+}
+
+pub(crate) fn reference() -> Message {
+    Message::new("there are no references in a free energy", "remove `&`")
+}
+
+pub(crate) fn control_flow(keyword: &str) -> Message {
+    Message::new(format!("`{keyword}` is not part of a formula"), SMOOTH)
+}
+
+pub(crate) fn repetition(keyword: &str) -> Message {
+    Message::new(
+        format!("`{keyword}` is not part of a formula"),
+        "write the terms out",
+    )
+}
+
+pub(crate) fn jump(keyword: &str) -> Message {
+    Message::new(
+        format!("`{keyword}` is not part of a formula"),
+        "the value of a block is its last expression, without `;`",
+    )
+}
+
+pub(crate) fn cast() -> Message {
+    Message::new(
+        "`as` is not needed: all numbers are real",
+        "remove `as …`; `1 / 2` is one half",
+    )
+}
+
+pub(crate) fn closure() -> Message {
+    Message::new(
+        "a closure inside a free energy",
+        "bind the value with `let`; a derivative is `diff(expression, argument)`",
+    )
+}
+
+pub(crate) fn index() -> Message {
+    Message::new(
+        "a parameter is a number and has no elements",
+        "use one field per parameter",
+    )
+}
+
+pub(crate) fn aggregate(what: &str) -> Message {
+    Message::new(
+        format!("{what} is not a number"),
+        "bind each number with its own `let`",
+    )
+}
+
+pub(crate) fn invocation() -> Message {
+    Message::new(
+        "a macro cannot be expanded inside a free energy",
+        "write its result",
+    )
+}
+
+pub(crate) fn question_mark() -> Message {
+    Message::new("`?` is not part of a formula", "remove `?`")
+}
+
+pub(crate) fn field_access(name: Option<&str>) -> Message {
+    let help = match name {
+        Some(name) => format!("fields are used by bare name: write `{name}`"),
+        None => "use one field per parameter, by bare name".to_owned(),
+    };
+    Message::new("a field access", help)
+}
+
+pub(crate) fn path(path: &str, last: &str) -> Message {
+    Message::new(
+        format!("`{path}` is outside of the free energy"),
+        format!("names are bare: write `{last}` for a field or a function, or the number itself"),
+    )
+}
+
+pub(crate) fn generic_arguments() -> Message {
+    Message::new("functions of a free energy have no type arguments", "remove `::<…>`")
+}
+
+pub(crate) fn callee() -> Message {
+    Message::new("only a named function can be called", "for a product write `*`")
+}
+
+pub(crate) fn literal(what: &str) -> Message {
+    Message::new(
+        format!("{what} is not a number"),
+        "numbers are written `2`, `2.0` or `1e-3`",
+    )
+}
+
+pub(crate) fn attribute() -> Message {
+    Message::new(
+        "an attribute inside a free energy would be ignored",
+        "remove it; to choose between two energies put `#[cfg_attr(…, free_energy(…))]` on the struct",
+    )
+}
+
+pub(crate) fn label_or_modifier() -> Message {
+    Message::new(
+        "only plain blocks belong into a formula",
+        "write `{ let …; value }`",
+    )
+}
+
+pub(crate) fn unsupported() -> Message {
+    Message::new(
+        "this is not an arithmetic expression",
+        "use `+`, `-`, `*`, `/`, functions and `let`",
+    )
+}
+
+pub(crate) fn block_without_value() -> Message {
+    Message::new(
+        "this block ends without a value",
+        "end it with an expression that has no `;`",
+    )
+}
+
+pub(crate) fn statement_without_effect() -> Message {
+    Message::new(
+        "the value of this expression is not used",
+        "bind it with `let`, or add it to the result",
+    )
+}
+
+pub(crate) fn item_in_block() -> Message {
+    Message::new(
+        "an item inside a free energy",
+        "use `let` for an intermediate value and a field for a parameter",
+    )
+}
+
+pub(crate) fn let_pattern() -> Message {
+    Message::new(
+        "a `let` of a free energy binds one plain name",
+        "write `let name = value;`",
+    )
+}
+
+pub(crate) fn let_type() -> Message {
+    Message::new("a `let` of a free energy has no type", "write `let name = value;`")
+}
+
+pub(crate) fn let_without_value() -> Message {
+    Message::new("this `let` has no value", "write `let name = value;`")
+}
+
+pub(crate) fn let_else() -> Message {
+    Message::new("a formula has no other way out", "remove `else { … }`")
+}

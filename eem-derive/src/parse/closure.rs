@@ -1,0 +1,107 @@
+//! The closure of a free energy: its arguments with their roles, and its body.
+
+use quote::ToTokens;
+use syn::{ExprClosure, Pat, PatIdent, PatType, ReturnType, Type};
+
+use super::{block, expr};
+use crate::ast::{Argument, Block, Role};
+use crate::ctxt::Ctxt;
+use crate::message::attribute as message;
+use crate::nearest::nearest;
+
+/// The arguments that can be read; reports the others.
+pub(super) fn arguments<'a>(cx: &Ctxt, closure: &'a ExprClosure) -> Vec<Argument<'a>> {
+    check_modifiers(cx, closure);
+    let arguments = closure.inputs.iter();
+    arguments.filter_map(|pat| argument(cx, pat)).collect()
+}
+
+/// The body, which is a block or a bare expression.
+pub(super) fn body<'a>(cx: &Ctxt, closure: &'a ExprClosure) -> Option<Block<'a>> {
+    if let syn::Expr::Block(body) = &*closure.body {
+        return block::block(cx, body);
+    }
+    Some(Block {
+        bindings: Vec::new(),
+        value: Box::new(expr::expr(cx, &closure.body)?),
+    })
+}
+
+fn check_modifiers(cx: &Ctxt, closure: &ExprClosure) {
+    fn refuse(cx: &Ctxt, token: Option<impl ToTokens>, modifier: &str) {
+        if let Some(token) = token {
+            cx.error(token, &message::closure_modifier(modifier));
+        }
+    }
+    refuse(cx, closure.lifetimes.as_ref(), "for<…>");
+    refuse(cx, closure.constness, "const");
+    refuse(cx, closure.asyncness, "async");
+    refuse(cx, closure.capture, "move");
+    if let ReturnType::Type(arrow, _) = &closure.output {
+        cx.error(arrow, &message::closure_output());
+    }
+}
+
+fn argument<'a>(cx: &Ctxt, pat: &'a Pat) -> Option<Argument<'a>> {
+    match pat {
+        Pat::Type(PatType { pat, ty, .. }) => {
+            let ident = plain_name(cx, pat);
+            let role = role(cx, ident, ty);
+            Some(Argument {
+                ident: ident?,
+                role: role?,
+            })
+        }
+        Pat::Ident(PatIdent { ident, .. }) => {
+            let name = crate::ast::name(ident);
+            cx.error(ident, &message::argument_without_role(&name));
+            None
+        }
+        other => {
+            cx.error(other, &message::argument_pattern());
+            None
+        }
+    }
+}
+
+/// The name of a pattern that is nothing but a name.
+fn plain_name<'a>(cx: &Ctxt, pat: &'a Pat) -> Option<&'a syn::Ident> {
+    match pat {
+        Pat::Ident(PatIdent {
+            by_ref: None,
+            mutability: None,
+            subpat: None,
+            ident,
+            ..
+        }) => Some(ident),
+        other => {
+            cx.error(other, &message::argument_pattern());
+            None
+        }
+    }
+}
+
+fn role(cx: &Ctxt, argument: Option<&syn::Ident>, ty: &Type) -> Option<Role> {
+    let name = match ty {
+        Type::Group(group) => return role(cx, argument, &group.elem),
+        Type::Path(path) => path.path.get_ident(),
+        _ => None,
+    };
+    let role = name.and_then(|name| Role::ALL.into_iter().find(|role| name == role.name()));
+    if role.is_some() {
+        return role;
+    }
+    let text = ty.to_token_stream().to_string().replace(' ', "");
+    match argument {
+        // The habit of writing the type of the value.
+        Some(argument) if text == "f64" || text == "f32" || text == "_" => {
+            let name = crate::ast::name(argument);
+            cx.error(ty, &message::argument_without_role(&name));
+        }
+        _ => {
+            let nearest = nearest(&text, Role::ALL.map(Role::name));
+            cx.error(ty, &message::unknown_role(&text, nearest));
+        }
+    }
+    None
+}

@@ -1,0 +1,47 @@
+//! Literals, read exactly.
+
+use eem_symbolic::{Number, Rational};
+use syn::Lit;
+
+use crate::ast::ExprKind;
+use crate::ctxt::Ctxt;
+use crate::message::expression::{self as message, syntax};
+
+/// The value of a numeric literal; reports every other literal.
+pub(super) fn literal<'a>(cx: &Ctxt, literal: &Lit) -> Option<ExprKind<'a>> {
+    let (digits, suffix) = match literal {
+        Lit::Int(int) => (int.base10_digits(), int.suffix()),
+        Lit::Float(float) => (float.base10_digits(), float.suffix()),
+        other => {
+            cx.error(other, &syntax::literal(kind(other)));
+            return None;
+        }
+    };
+    if !matches!(suffix, "" | "f64") {
+        cx.error(literal, &message::number_suffix(suffix));
+        return None;
+    }
+    let number = number(digits);
+    if number.is_none() {
+        cx.error(literal, &message::number_out_of_range());
+    }
+    number.map(ExprKind::Number)
+}
+
+/// The value of decimal digits: exact if 128-bit rationals can hold it, else the nearest `f64`.
+fn number(digits: &str) -> Option<Number> {
+    if let Ok(rational) = Rational::parse_decimal(digits) {
+        return Some(Number::Exact(rational));
+    }
+    let float: f64 = digits.parse().ok()?;
+    // `1e-999` is not zero: an exact zero has been read above.
+    float.is_normal().then_some(Number::Float(float))
+}
+
+fn kind(literal: &Lit) -> &'static str {
+    match literal {
+        Lit::Bool(_) => "a truth value",
+        Lit::Char(_) | Lit::Byte(_) => "a character",
+        _ => "a string",
+    }
+}

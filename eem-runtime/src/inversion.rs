@@ -1,0 +1,108 @@
+//! The temperature at which a spring has a given entropy, on the stable branch it is on.
+//!
+//! The entropy form of a scheme carries `s` as the state and needs `θ` from
+//! `S(θ) = s` for free energies whose `S` has no closed inverse. The unknown is
+//! `x = ln θ`, so that temperatures stay positive and `dS/dx = θS_θ = C` is the
+//! heat capacity. Newton's method is safeguarded by three intervals, each of
+//! which only shrinks: where the residual changes sign, where the heat capacity
+//! is known to be positive (beyond a spinodal it is not), and how far an
+//! unbracketed step may reach.
+
+mod error;
+mod point;
+mod search;
+
+use crate::free_energy::Caloric;
+use crate::scalar::Real;
+
+pub use error::InversionError;
+use point::Point;
+use search::Search;
+
+/// A temperature found by [`invert`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inversion<S> {
+    /// The temperature, in the unit of the start.
+    pub temperature: S,
+    /// How many times the entropy was evaluated.
+    pub evaluations: usize,
+}
+
+/// The temperature `θ` with `S(θ) = entropy` on the stable branch that contains `start`.
+///
+/// ```text
+/// x = ln θ,   S(eˣ) = s,   dS/dx = C,   x ← x − (S − s)/C
+/// ```
+///
+/// The stable branch is the connected set of temperatures with `C > 0` around
+/// the start, normally the last accepted temperature; `S` increases on it, so
+/// that there is at most one solution. `evaluate` returns entropy, heat capacity and
+/// the sum of |terms of S|, which tells rounding noise from a residual. Any
+/// units. The returned temperature is right to a few ulp of the condition of `S`.
+///
+/// # Errors
+///
+/// [`InversionError`] if the entropy is not finite, the start is not a stable
+/// temperature, or the branch does not reach the entropy.
+///
+/// ```
+/// use eem_runtime::{Caloric, invert};
+///
+/// // A Debye solid at low temperature: S = θ³.
+/// let debye = |theta: f64| Caloric {
+///     entropy: theta.powi(3),
+///     heat_capacity: 3.0 * theta.powi(3),
+///     magnitude: theta.powi(3),
+/// };
+/// let found = invert(debye, 8.0, 300.0)?;
+/// assert!((found.temperature - 2.0).abs() < 1e-15);
+/// # Ok::<(), eem_runtime::InversionError>(())
+/// ```
+pub fn invert<S: Real>(
+    mut evaluate: impl FnMut(S) -> Caloric<S>,
+    entropy: S,
+    start: S,
+) -> Result<Inversion<S>, InversionError> {
+    if !entropy.is_finite() {
+        return Err(InversionError::EntropyNotFinite {
+            entropy: entropy.to_f64(),
+        });
+    }
+    if !(start > S::zero() && start.is_finite()) {
+        return Err(InversionError::InvalidStart {
+            start: start.to_f64(),
+        });
+    }
+    let first = Point::new(start.ln(), start, evaluate(start), entropy);
+    if !first.stable() {
+        return Err(InversionError::UnstableStart {
+            start: start.to_f64(),
+            heat_capacity: first.heat_capacity.to_f64(),
+        });
+    }
+    let mut search = Search::new(entropy, first);
+    loop {
+        if search.converged() {
+            return Ok(search.solution());
+        }
+        if search.evaluations >= BUDGET || search.exhausted() {
+            return search.conclude();
+        }
+        let mut step = search.step();
+        loop {
+            let x = search.point.x + step;
+            let theta = x.exp();
+            let trial = Point::new(x, theta, evaluate(theta), entropy);
+            search.evaluations += 1;
+            if trial.stable() {
+                search.accept(trial, step);
+                break;
+            }
+            search.exclude(x);
+            step = search.shorter(step);
+            if search.evaluations >= BUDGET || search.exhausted() {
+                return search.conclude();
+            }
+        }
+    }
+}

@@ -1,0 +1,242 @@
+//! The intervals that enclose the temperature, and the choice of the next step.
+//!
+//! Every step either reduces the residual as fast as Newton's method should, or
+//! halves an interval.
+
+use super::Inversion;
+use super::error::InversionError;
+use super::point::{Model, Point};
+use crate::scalar::Real;
+
+/// Evaluations after which [`invert`] gives up: twice what bisection of the
+/// whole range of `ln θ` to the last bit would take.
+const BUDGET: usize = 128;
+
+/// What is known about the solution.
+struct Search<S> {
+    target: S,
+    /// The current point.
+    point: Point<S>,
+    /// The point of smallest |residual|.
+    best: Point<S>,
+    /// Largest `x` with a negative and smallest with a positive residual.
+    below: Option<S>,
+    above: Option<S>,
+    /// The ends of what may be stable.
+    edge_low: S,
+    edge_high: S,
+    /// How far an unbracketed step may go.
+    reach: S,
+    /// The last two steps, infinite at first.
+    last: S,
+    last_but_one: S,
+    /// Which of the two models of `S` foretold the current point better.
+    model: Model,
+    /// Whether the last step was that of a model inside the bracket.
+    modelled: bool,
+    /// How many such steps made the residual larger, and how many bisections
+    /// are still due for the last of them.
+    failures: u32,
+    bisections_due: u32,
+    evaluations: usize,
+}
+
+impl<S: Real> Search<S> {
+    fn new(target: S, first: Point<S>) -> Self {
+        let infinity = S::one() / S::zero();
+        // All normal numbers with normal reciprocals, but for a factor e².
+        let widest = S::MAX.ln() - S::from_f64(2.0);
+        let mut search = Self {
+            target,
+            point: first,
+            best: first,
+            below: None,
+            above: None,
+            edge_low: (-widest).minimum(first.x),
+            edge_high: widest.maximum(first.x),
+            reach: S::one(),
+            last: infinity,
+            last_but_one: infinity,
+            model: first.first_model(target),
+            modelled: false,
+            failures: 0,
+            bisections_due: 0,
+            evaluations: 1,
+        };
+        search.narrow();
+        search
+    }
+
+    /// Moves the end of the bracket on the side of the current point.
+    fn narrow(&mut self) {
+        if self.point.residual < S::zero() {
+            self.below = Some(self.point.x);
+        } else {
+            self.above = Some(self.point.x);
+        }
+        if self.point.residual.abs() < self.best.residual.abs() {
+            self.best = self.point;
+        }
+    }
+
+    /// Makes a stable trial the current point.
+    fn accept(&mut self, trial: Point<S>, step: S) {
+        self.model = self.point.better_model(step, trial.entropy);
+        if self.modelled && trial.residual.abs() > self.point.residual.abs() {
+            self.failures += 1;
+            self.bisections_due = self.failures;
+        }
+        self.last_but_one = self.last;
+        self.last = step.abs();
+        self.point = trial;
+        self.narrow();
+    }
+
+    /// Notes that `x` is beyond a spinodal, and forgets what lies farther off:
+    /// it belongs to another branch.
+    fn exclude(&mut self, x: S) {
+        if x < self.point.x {
+            self.edge_low = x;
+            self.below = self.below.filter(|&below| below > x);
+        } else {
+            self.edge_high = x;
+            self.above = self.above.filter(|&above| above < x);
+        }
+        if self.best.x < self.edge_low || self.best.x > self.edge_high {
+            self.best = self.point;
+        }
+    }
+
+    /// Half of a step that led beyond a spinodal.
+    fn shorter(&self, step: S) -> S {
+        S::from_f64(0.5) * step
+    }
+
+    fn low(&self) -> S {
+        self.below
+            .map_or(self.edge_low, |x| x.maximum(self.edge_low))
+    }
+
+    fn high(&self) -> S {
+        self.above
+            .map_or(self.edge_high, |x| x.minimum(self.edge_high))
+    }
+
+    fn converged(&self) -> bool {
+        let point = &self.point;
+        point.residual.abs() <= point.noise || point.newton().abs() <= point.resolution()
+    }
+
+    /// There is no number left between the bounds.
+    fn exhausted(&self) -> bool {
+        self.high() - self.low() <= self.point.resolution()
+    }
+
+    /// The current point after one more correction, which needs no evaluation.
+    fn solution(&self) -> Inversion<S> {
+        Inversion {
+            temperature: self.point.theta * self.point.newton().exp(),
+            evaluations: self.evaluations,
+        }
+    }
+
+    /// The next step from the current point.
+    fn step(&mut self) -> S {
+        let linear = self.point.newton();
+        let logarithmic = self.point.logarithmic_newton(self.target).unwrap_or(linear);
+        let (first, second) = match self.model {
+            Model::Linear => (linear, logarithmic),
+            Model::Logarithmic => (logarithmic, linear),
+        };
+        let step = if let (Some(below), Some(above)) = (self.below, self.above) {
+            self.bracketed(first, second, below, above)
+        } else {
+            self.unbracketed(first, second)
+        };
+        self.inside_edges(step)
+    }
+
+    /// A step that does not shrink to half of the one before the last is too slow.
+    fn slow(&self, step: S) -> bool {
+        step.abs() > S::from_f64(0.5) * self.last_but_one
+    }
+
+    /// A step with the solution between two known points.
+    fn bracketed(&mut self, first: S, second: S, below: S, above: S) -> S {
+        let (x, limit) = (self.point.x, S::from_f64(0.5) * self.last_but_one);
+        let usable = |step: S| below < x + step && x + step < above && step.abs() <= limit;
+        if self.bisections_due == 0 {
+            self.modelled = true;
+            if usable(first) {
+                return first;
+            }
+            if usable(second) {
+                return second;
+            }
+        }
+        self.modelled = false;
+        self.bisections_due = self.bisections_due.saturating_sub(1);
+        S::from_f64(0.5) * (below + above) - x
+    }
+
+    /// A step that looks for the other end of the bracket.
+    fn unbracketed(&mut self, first: S, second: S) -> S {
+        let size = first.abs();
+        let slow = self.slow(first);
+        let length = if size > self.reach {
+            self.reach
+        } else if slow || size > S::from_f64(0.5) * self.last {
+            let longer = size.maximum(second.abs().minimum(self.reach));
+            if slow {
+                longer.maximum(self.reach)
+            } else {
+                longer
+            }
+        } else {
+            return first;
+        };
+        self.reach *= S::from_f64(2.0);
+        if first < S::zero() { -length } else { length }
+    }
+
+    /// A step that would leave the stable range goes half way to its end instead.
+    fn inside_edges(&self, step: S) -> S {
+        let x = self.point.x + step;
+        let half = S::from_f64(0.5);
+        if x >= self.edge_high {
+            half * (self.edge_high - self.point.x)
+        } else if x <= self.edge_low {
+            half * (self.edge_low - self.point.x)
+        } else {
+            step
+        }
+    }
+
+    /// The result when the bounds have met: the best point, or that there is no solution.
+    fn conclude(&self) -> Result<Inversion<S>, InversionError> {
+        let entropy = self.target.to_f64();
+        let temperature = self.best.theta.to_f64();
+        let residual = self.best.residual.to_f64();
+        let evaluations = self.evaluations;
+        if !self.exhausted() {
+            return Err(InversionError::TooManyEvaluations {
+                entropy,
+                temperature,
+                residual,
+                evaluations,
+            });
+        }
+        if self.below.is_some() && self.above.is_some() {
+            return Ok(Inversion {
+                temperature: self.best.theta,
+                evaluations,
+            });
+        }
+        Err(InversionError::NoSuchTemperature {
+            entropy,
+            temperature,
+            residual,
+            evaluations,
+        })
+    }
+}

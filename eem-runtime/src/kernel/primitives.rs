@@ -1,0 +1,203 @@
+//! Smooth building blocks of the kernels, accurate to a few ulp at and near zero.
+//!
+//! Each removes one removable singularity. Where the library function is
+//! already right for tiny arguments (`ln_1p`, `exp_m1`, `sin`), only 0/0 is
+//! caught; where a difference would cancel, a Taylor sum of fixed length
+//! takes over for |x| < 1, where its remainder is below 2⁻⁵⁷ of the value.
+
+use crate::scalar::Scalar;
+
+/// Number of terms of `Σ (±x)^k/(k+2)!` for |x| < 1: 1/21! = 2⁻⁶⁵.
+const EXPONENTIAL_TERMS: usize = 19;
+
+/// Number of terms of `Σ 2k(±x²)^(k−1)/(2k+1)!` for |x| < 1: 20/21! = 2⁻⁶¹.
+const SINC_TERMS: usize = 9;
+
+/// `1/(k+2)!` for `k = 0, 1, …`: correctly rounded, as 20! < 2⁶².
+const EXPONENTIAL: [f64; EXPONENTIAL_TERMS] = exponential_coefficients();
+
+/// `(−1)^k 2k/(2k+1)!` for `k = 1, 2, …`.
+const SINC_PRIME: [f64; SINC_TERMS] = sinc_prime_coefficients(-1.0);
+
+/// `2k/(2k+1)!` for `k = 1, 2, …`.
+const SINHC_PRIME: [f64; SINC_TERMS] = sinc_prime_coefficients(1.0);
+
+/// `1/(2k+1)!` for `k = 1, 2, …`.
+const SINH_TAIL: [f64; SINC_TERMS] = sinh_tail_coefficients();
+
+const fn exponential_coefficients() -> [f64; EXPONENTIAL_TERMS] {
+    let mut coefficients = [0.0; EXPONENTIAL_TERMS];
+    let mut factorial = 2.0;
+    let mut n = 2.0;
+    let mut k = 0;
+    while k < EXPONENTIAL_TERMS {
+        coefficients[k] = 1.0 / factorial;
+        n += 1.0;
+        factorial *= n;
+        k += 1;
+    }
+    coefficients
+}
+
+const fn sinc_prime_coefficients(sign: f64) -> [f64; SINC_TERMS] {
+    let mut coefficients = [0.0; SINC_TERMS];
+    let mut factorial = 6.0;
+    let mut even = 2.0;
+    let mut signed = sign;
+    let mut k = 0;
+    while k < SINC_TERMS {
+        coefficients[k] = signed * even / factorial;
+        even += 2.0;
+        factorial *= even * (even + 1.0);
+        signed *= sign;
+        k += 1;
+    }
+    coefficients
+}
+
+const fn sinh_tail_coefficients() -> [f64; SINC_TERMS] {
+    let mut coefficients = [0.0; SINC_TERMS];
+    let mut factorial = 6.0;
+    let mut even = 2.0;
+    let mut k = 0;
+    while k < SINC_TERMS {
+        coefficients[k] = 1.0 / factorial;
+        even += 2.0;
+        factorial *= even * (even + 1.0);
+        k += 1;
+    }
+    coefficients
+}
+
+/// `Σ c_k x^k` by Horner's rule.
+#[inline]
+fn horner<S: Scalar, const N: usize>(coefficients: &[f64; N], x: S) -> S {
+    let mut sum = S::zero();
+    for coefficient in coefficients.iter().rev() {
+        sum = S::from_f64(*coefficient) + x * sum;
+    }
+    sum
+}
+
+/// `2x`, exact.
+#[inline]
+pub(super) fn twice<S: Scalar>(x: S) -> S {
+    x + x
+}
+
+/// `x/2`, exact unless subnormal.
+#[inline]
+pub(super) fn half<S: Scalar>(x: S) -> S {
+    S::from_f64(0.5) * x
+}
+
+/// The smaller end, the larger end, and their distance.
+#[inline]
+pub(super) fn ends<S: Scalar>(a: S, b: S) -> (S, S, S) {
+    let (low, high) = (a.minimum(b), a.maximum(b));
+    (low, high, high - low)
+}
+
+/// `near` for |x| < 1 and `far` elsewhere.
+#[inline]
+pub(super) fn near_or_far<S: Scalar>(x: S, near: impl FnOnce() -> S, far: impl FnOnce() -> S) -> S {
+    S::branch(x.abs().less(S::one()), near, far)
+}
+
+/// `value` if it is finite and not zero, `otherwise` if it over- or underflowed.
+#[inline]
+pub(super) fn in_range_or<S: Scalar>(value: S, otherwise: impl Fn() -> S) -> S {
+    S::branch(value.equal(S::zero()), &otherwise, || {
+        S::branch((value - value).equal(S::zero()), || value, &otherwise)
+    })
+}
+
+/// `f[a,b,b] = (f′(b) − f[a,b])/(b − a)` by definition: for distant ends only.
+#[inline]
+pub(super) fn by_definition<S: Scalar>(slope_at_b: S, difference: S, a: S, b: S) -> S {
+    (slope_at_b - difference) / (b - a)
+}
+
+/// `φ(d) = (1 − e^(−d))/d` for `d ≥ 0`, condition at most 1.
+#[inline]
+pub(super) fn phi<S: Scalar>(d: S) -> S {
+    S::branch(d.equal(S::zero()), S::one, || -(-d).exp_m1() / d)
+}
+
+/// `φ₂(x) = (e^(−x) − 1 + x)/x²` for |x| < 1.
+#[inline]
+pub(super) fn phi2_near<S: Scalar>(x: S) -> S {
+    horner(&EXPONENTIAL, -x)
+}
+
+/// `φ₂(x) = (e^(−x) − 1 + x)/x²` for `x ≥ 0`.
+#[inline]
+pub(super) fn phi2<S: Scalar>(x: S) -> S {
+    near_or_far(x, || phi2_near(x), || (S::one() - phi(x)) / x)
+}
+
+/// `φ₃(x) = (1 − (1 + x)e^(−x))/x²` for `x ≥ 0`.
+#[inline]
+pub(super) fn phi3<S: Scalar>(x: S) -> S {
+    near_or_far(
+        x,
+        || (-x).exp() * horner(&EXPONENTIAL, x),
+        || (phi(x) - (-x).exp()) / x,
+    )
+}
+
+/// `ln(1 + d/w)` for `d ≥ 0`, `w ≥ 0`, also where `d/w` overflows.
+#[inline]
+pub(super) fn log_ratio<S: Scalar>(d: S, w: S) -> S {
+    let u = d / w;
+    S::branch((u - u).equal(S::zero()), || u.ln_1p(), || d.ln() - w.ln())
+}
+
+/// `ln(1 + d/w)/d` for `d ≥ 0`, `w > 0`: the divided difference of `ln` on `[w, w + d]`.
+#[inline]
+pub(super) fn log_difference<S: Scalar>(d: S, w: S) -> S {
+    S::branch(d.equal(S::zero()), || w.recip(), || log_ratio(d, w) / d)
+}
+
+/// `sinc x = sin x/x`.
+#[inline]
+pub(super) fn sinc<S: Scalar>(x: S) -> S {
+    S::branch(x.equal(S::zero()), S::one, || x.sin() / x)
+}
+
+/// `sinc′ x = (cos x − sinc x)/x`.
+#[inline]
+pub(super) fn sinc_prime<S: Scalar>(x: S) -> S {
+    near_or_far(
+        x,
+        || x * horner(&SINC_PRIME, x * x),
+        || (x.cos() - sinc(x)) / x,
+    )
+}
+
+/// `sinhc x = sinh x/x`.
+#[inline]
+pub(super) fn sinhc<S: Scalar>(x: S) -> S {
+    S::branch(x.equal(S::zero()), S::one, || x.sinh() / x)
+}
+
+/// `sinhc′ x = (cosh x − sinhc x)/x` for |x| < 1.
+#[inline]
+pub(super) fn sinhc_prime_near<S: Scalar>(x: S) -> S {
+    x * horner(&SINHC_PRIME, x * x)
+}
+
+/// `(sinhc x − 1)/x` for |x| < 1.
+#[inline]
+pub(super) fn sinhc_tail_near<S: Scalar>(x: S) -> S {
+    x * horner(&SINH_TAIL, x * x)
+}
+
+/// `a + b = sum + error` exactly (Knuth 1969, `TwoSum`).
+#[inline]
+pub(super) fn two_sum<S: Scalar>(a: S, b: S) -> (S, S) {
+    let sum = a + b;
+    let tail = sum - a;
+    let error = (a - (sum - tail)) + (b - tail);
+    (sum, error)
+}

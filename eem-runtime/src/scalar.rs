@@ -1,0 +1,295 @@
+//! The number types that formulas are evaluated on, without a branch on a value.
+//!
+//! [`Scalar`] is all that generated code and the kernels need. Decisions are
+//! taken with masks ([`Scalar::equal`], [`Scalar::less`], [`Scalar::branch`]),
+//! so that a bundle of SIMD lanes or a dual number can take the place of `f64`.
+//! [`Real`] adds what a time step needs to decide something: one ordered value.
+
+use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+/// A number that free energies and divided differences are evaluated on.
+///
+/// Implemented for `f64` and `f32`. The methods have the meaning and the names
+/// of the inherent methods of `f64`, except [`minimum`](Self::minimum) and
+/// [`maximum`](Self::maximum), which keep a NaN, and [`powi`](Self::powi),
+/// which is the same sequence of multiplications on every platform.
+///
+/// ```
+/// use eem_runtime::Scalar;
+///
+/// fn hill<S: Scalar>(x: S) -> S {
+///     S::branch(x.less(S::zero()), S::zero, || x * (-x).exp())
+/// }
+///
+/// assert_eq!(hill(1.0_f64), 0.36787944117144233);
+/// assert_eq!(hill(-1.0_f32), 0.0);
+/// ```
+pub trait Scalar:
+    nalgebra::Scalar
+    + Copy
+    + Send
+    + Sync
+    + Neg<Output = Self>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + AddAssign
+    + SubAssign
+    + MulAssign
+    + DivAssign
+{
+    /// The result of a comparison: `bool`, or one `bool` per lane.
+    type Mask: Copy;
+
+    /// The nearest representable number.
+    fn from_f64(value: f64) -> Self;
+
+    /// `0`.
+    #[inline]
+    fn zero() -> Self {
+        Self::from_f64(0.0)
+    }
+
+    /// `1`.
+    #[inline]
+    fn one() -> Self {
+        Self::from_f64(1.0)
+    }
+
+    /// `self == other`.
+    fn equal(self, other: Self) -> Self::Mask;
+
+    /// `self < other`.
+    fn less(self, other: Self) -> Self::Mask;
+
+    /// `then()` where the mask holds and `otherwise()` elsewhere.
+    ///
+    /// A single number calls one closure. Lanes call both and blend, so that
+    /// neither closure may panic or have effects.
+    fn branch(
+        mask: Self::Mask,
+        then: impl FnOnce() -> Self,
+        otherwise: impl FnOnce() -> Self,
+    ) -> Self;
+
+    /// `|self|`.
+    fn abs(self) -> Self;
+
+    /// The smaller of the two, NaN if either is NaN.
+    fn minimum(self, other: Self) -> Self;
+
+    /// The larger of the two, NaN if either is NaN.
+    fn maximum(self, other: Self) -> Self;
+
+    /// `√self`.
+    fn sqrt(self) -> Self;
+
+    /// `∛self`, odd in its argument.
+    fn cbrt(self) -> Self;
+
+    /// `e^self`.
+    fn exp(self) -> Self;
+
+    /// `e^self − 1`, accurate near zero.
+    fn exp_m1(self) -> Self;
+
+    /// `ln self`.
+    fn ln(self) -> Self;
+
+    /// `ln(1 + self)`, accurate near zero.
+    fn ln_1p(self) -> Self;
+
+    /// `log₂ self`.
+    fn log2(self) -> Self;
+
+    /// `log₁₀ self`.
+    fn log10(self) -> Self;
+
+    /// `sin self`, in radians.
+    fn sin(self) -> Self;
+
+    /// `cos self`, in radians.
+    fn cos(self) -> Self;
+
+    /// `tan self`, in radians.
+    fn tan(self) -> Self;
+
+    /// `sinh self`.
+    fn sinh(self) -> Self;
+
+    /// `cosh self`.
+    fn cosh(self) -> Self;
+
+    /// `tanh self`.
+    fn tanh(self) -> Self;
+
+    /// `arsinh self`.
+    fn asinh(self) -> Self;
+
+    /// `arctan self`, in radians.
+    fn atan(self) -> Self;
+
+    /// The angle of the point `(x, self)`, in radians, in `[−π, π]`.
+    fn atan2(self, x: Self) -> Self;
+
+    /// `artanh self`.
+    fn atanh(self) -> Self;
+
+    /// `√(self² + other²)` without undue overflow.
+    fn hypot(self, other: Self) -> Self;
+
+    /// `self^exponent`.
+    fn powf(self, exponent: Self) -> Self;
+
+    /// `1 / self`.
+    #[inline]
+    fn recip(self) -> Self {
+        Self::one() / self
+    }
+
+    /// `self^n` by repeated squaring; `1 / self^|n|` for negative `n`.
+    ///
+    /// The relative error is below `|n| / 2` ulp.
+    #[inline]
+    fn powi(self, n: i32) -> Self {
+        let power = natural_power(self, n.unsigned_abs());
+        if n < 0 { power.recip() } else { power }
+    }
+}
+
+/// `base^n` by repeated squaring.
+#[inline]
+pub(crate) fn natural_power<S: Scalar>(base: S, n: u32) -> S {
+    let mut remaining = n;
+    let mut square = base;
+    let mut power = if n % 2 == 1 { base } else { S::one() };
+    while remaining > 1 {
+        remaining /= 2;
+        square *= square;
+        if remaining % 2 == 1 {
+            power *= square;
+        }
+    }
+    power
+}
+
+/// A single real number that a time step can take decisions on.
+///
+/// ```
+/// use eem_runtime::Real;
+///
+/// assert_eq!(f32::EPSILON.to_f64(), 2.0_f64.powi(-23));
+/// assert!(!Real::is_finite(f64::NAN));
+/// ```
+pub trait Real: Scalar<Mask = bool> + PartialOrd {
+    /// The distance from 1 to the next larger number.
+    const EPSILON: Self;
+
+    /// The largest finite number.
+    const MAX: Self;
+
+    /// The value in double precision.
+    fn to_f64(self) -> f64;
+
+    /// Neither infinite nor NaN.
+    fn is_finite(self) -> bool;
+}
+
+/// Forwards to inherent methods of the same name.
+macro_rules! forward {
+    ($float:ident: $($method:ident($($argument:ident),*)),* $(,)?) => {
+        $(
+            #[inline]
+            fn $method(self $(, $argument: Self)*) -> Self {
+                $float::$method(self $(, $argument)*)
+            }
+        )*
+    };
+}
+
+/// Implements both traits for a floating-point type.
+macro_rules! implement {
+    ($float:ident, $from_f64:expr) => {
+        impl Scalar for $float {
+            type Mask = bool;
+
+            #[inline]
+            fn from_f64(value: f64) -> Self {
+                $from_f64(value)
+            }
+
+            #[inline]
+            #[expect(clippy::float_cmp, reason = "this is the comparison itself")]
+            fn equal(self, other: Self) -> bool {
+                self == other
+            }
+
+            #[inline]
+            fn less(self, other: Self) -> bool {
+                self < other
+            }
+
+            #[inline]
+            fn branch(
+                mask: bool,
+                then: impl FnOnce() -> Self,
+                otherwise: impl FnOnce() -> Self,
+            ) -> Self {
+                if mask { then() } else { otherwise() }
+            }
+
+            #[inline]
+            fn minimum(self, other: Self) -> Self {
+                if self < other || self.is_nan() {
+                    self
+                } else {
+                    other
+                }
+            }
+
+            #[inline]
+            fn maximum(self, other: Self) -> Self {
+                if self > other || self.is_nan() {
+                    self
+                } else {
+                    other
+                }
+            }
+
+            forward!($float:
+                abs(), sqrt(), cbrt(), exp(), exp_m1(), ln(), ln_1p(), log2(), log10(),
+                sin(), cos(), tan(), sinh(), cosh(), tanh(), asinh(), atan(), atanh(),
+                atan2(x), hypot(other), powf(exponent),
+            );
+        }
+
+        impl Real for $float {
+            const EPSILON: Self = $float::EPSILON;
+            const MAX: Self = $float::MAX;
+
+            #[inline]
+            fn to_f64(self) -> f64 {
+                f64::from(self)
+            }
+
+            #[inline]
+            fn is_finite(self) -> bool {
+                $float::is_finite(self)
+            }
+        }
+    };
+}
+
+implement!(f64, core::convert::identity);
+implement!(f32, nearest_f32);
+
+/// The single-precision number nearest to `value`.
+#[inline]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "rounding to the nearest is what is wanted"
+)]
+fn nearest_f32(value: f64) -> f32 {
+    value as f32
+}

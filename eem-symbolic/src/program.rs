@@ -1,0 +1,239 @@
+//! A schedule of expressions: single assignments, operands first, nothing twice, nothing unused.
+//!
+//! A [`Program`] is what generated code prints line by line and what
+//! [`Program::interpret`] evaluates on any arithmetic. Every instruction belongs to a [`Stage`], so
+//! that what depends on the parameters and the old state alone is computed once per step.
+
+use crate::function::Function;
+use crate::graph::Symbol;
+use crate::number::Number;
+
+/// Straight-line code for several outputs at once.
+///
+/// Value `i` is the result of instruction `i`. [`Program::verify`] says what else holds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Program {
+    /// What [`Operation::Input`] refers to, in the order in which values are handed over. An input
+    /// that no output depends on is listed here and read by no instruction.
+    pub inputs: Vec<Input>,
+    /// The assignments.
+    pub instructions: Vec<Instruction>,
+    /// The results, in the order in which the expressions were given; not necessarily distinct.
+    pub outputs: Vec<Value>,
+}
+
+/// The result of one instruction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Value(u32);
+
+impl Value {
+    /// The value of instruction `index`.
+    ///
+    /// # Panics
+    ///
+    /// If there are more than 2³² instructions.
+    #[must_use]
+    pub fn new(index: usize) -> Self {
+        Self(u32::try_from(index).expect("a program has fewer than 2³² instructions"))
+    }
+
+    /// The position of the instruction that computes the value.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// A number that comes from outside.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Input {
+    /// The symbol of the expressions that it stands for.
+    pub symbol: Symbol,
+    /// The name of the symbol.
+    pub name: String,
+    /// [`Stage::Old`] for parameters and the old state, [`Stage::New`] for the new state.
+    pub stage: Stage,
+}
+
+/// When a value can be computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Stage {
+    /// Once per step: from the parameters and the old state.
+    Old,
+    /// Once per iteration: from the new state too.
+    New,
+}
+
+/// One assignment.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Instruction {
+    /// What is computed.
+    pub operation: Operation,
+    /// When it can be computed: the latest stage of the operands, except that a constant is
+    /// repeated in each stage that uses it.
+    pub stage: Stage,
+}
+
+/// What one instruction computes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Operation {
+    /// The input of this position.
+    Input(usize),
+    /// A number, exact if it was written so.
+    Constant(Number),
+    /// `a + b`.
+    Add(Value, Value),
+    /// `a − b`.
+    Sub(Value, Value),
+    /// `a b`.
+    Mul(Value, Value),
+    /// `a / b`.
+    Div(Value, Value),
+    /// `−a`.
+    Neg(Value),
+    /// `aⁿ` with n ≥ 3: squares and reciprocals are products and quotients.
+    Powi(Value, i32),
+    /// `√a`.
+    Sqrt(Value),
+    /// `aᵇ`.
+    Power(Value, Value),
+    /// `f(a)`.
+    Apply(Function, Value),
+    /// `f[a, b] = (f(b) − f(a)) / (b − a)`, which is f′(a) for a = b.
+    DividedDifference(ProgramKernel, Value, Value),
+    /// `f[a, b, b] = ∂f[a, b]/∂b`, which is ½ f″(a) for a = b.
+    SecondDividedDifference(ProgramKernel, Value, Value),
+}
+
+/// The function f of a divided difference.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ProgramKernel {
+    /// An elementary function.
+    Function(Function),
+    /// `xⁿ`, n ≠ 0, 1, 2; −1 is the reciprocal.
+    Powi(i32),
+    /// `√x`.
+    Sqrt,
+    /// `xᵖ` with p the given value, the same at both ends.
+    Powf(Value),
+    /// `eˣ` between the logarithms of two powers, with the powers themselves at the two ends: the
+    /// values `exp(a)` and `exp(b)`, which are more accurate than what is computed from a and b.
+    Power(Value, Value),
+}
+
+impl Operation {
+    /// The operands, in the order of the formula.
+    #[must_use]
+    pub fn operands(&self) -> Vec<Value> {
+        match self {
+            Self::Input(_) | Self::Constant(_) => Vec::new(),
+            Self::Neg(a) | Self::Powi(a, _) | Self::Sqrt(a) | Self::Apply(_, a) => vec![*a],
+            Self::Add(a, b)
+            | Self::Sub(a, b)
+            | Self::Mul(a, b)
+            | Self::Div(a, b)
+            | Self::Power(a, b) => vec![*a, *b],
+            Self::DividedDifference(kernel, a, b) | Self::SecondDividedDifference(kernel, a, b) => {
+                let mut operands = kernel.operands();
+                operands.extend([*a, *b]);
+                operands
+            }
+        }
+    }
+}
+
+impl ProgramKernel {
+    /// The values that f itself depends on.
+    #[must_use]
+    pub fn operands(self) -> Vec<Value> {
+        match self {
+            Self::Function(_) | Self::Powi(_) | Self::Sqrt => Vec::new(),
+            Self::Powf(exponent) => vec![exponent],
+            Self::Power(value_a, value_b) => vec![value_a, value_b],
+        }
+    }
+}
+
+impl Program {
+    /// The old-stage values that new-stage instructions or outputs use, in order of computation:
+    /// what has to be kept from the first part of a step to the second.
+    #[must_use]
+    pub fn hoisted(&self) -> Vec<Value> {
+        let mut used = vec![false; self.instructions.len()];
+        for instruction in &self.instructions {
+            if instruction.stage == Stage::New {
+                for operand in instruction.operation.operands() {
+                    used[operand.index()] = true;
+                }
+            }
+        }
+        for output in &self.outputs {
+            used[output.index()] = true;
+        }
+        let stages = self.instructions.iter().zip(used).enumerate();
+        let hoisted = stages.filter(|(_, (instruction, used))| *used && instruction.stage == Stage::Old);
+        hoisted.map(|(index, _)| Value::new(index)).collect()
+    }
+
+    /// Counts the operations of each stage.
+    #[must_use]
+    pub fn operation_count(&self) -> OperationCount {
+        let mut count = OperationCount::default();
+        for instruction in &self.instructions {
+            match instruction.stage {
+                Stage::Old => count.old.add(&instruction.operation),
+                Stage::New => count.new.add(&instruction.operation),
+            }
+        }
+        count
+    }
+}
+
+/// Operations of both stages of a [`Program`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct OperationCount {
+    /// Once per step.
+    pub old: StageCount,
+    /// Once per iteration.
+    pub new: StageCount,
+}
+
+/// Operations of one stage.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct StageCount {
+    /// Sums, differences and changes of sign.
+    pub additions: usize,
+    /// Products, those of integer powers included.
+    pub multiplications: usize,
+    /// Quotients.
+    pub divisions: usize,
+    /// Elementary functions, roots and general powers.
+    pub functions: usize,
+    /// First and second divided differences of elementary functions.
+    pub kernels: usize,
+}
+
+impl StageCount {
+    /// All operations, each counted once.
+    #[must_use]
+    pub fn total(&self) -> usize {
+        self.additions + self.multiplications + self.divisions + self.functions + self.kernels
+    }
+
+    fn add(&mut self, operation: &Operation) {
+        match operation {
+            Operation::Input(_) | Operation::Constant(_) => {}
+            Operation::Add(..) | Operation::Sub(..) | Operation::Neg(_) => self.additions += 1,
+            Operation::Mul(..) => self.multiplications += 1,
+            Operation::Div(..) => self.divisions += 1,
+            Operation::Powi(_, n) => {
+                let n = n.unsigned_abs().max(1);
+                self.multiplications += (n.ilog2() + n.count_ones() - 1) as usize;
+            }
+            Operation::Sqrt(_) | Operation::Power(..) | Operation::Apply(..) => self.functions += 1,
+            Operation::DividedDifference(..) | Operation::SecondDividedDifference(..) => {
+                self.kernels += 1;
+            }
+        }
+    }
+}

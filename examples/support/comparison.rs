@@ -1,0 +1,75 @@
+//! From recorded runs to pictures: the same quantity of all schemes in one figure.
+
+use std::error::Error;
+use std::path::Path;
+
+use super::figures::{Curve, Figure};
+use super::record::{Outcome, Record};
+use super::scheme;
+use super::statistics::Statistics;
+
+/// What one picture shows of every run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plot {
+    /// Name of the file, without extension.
+    pub(crate) file: &'static str,
+    /// Title of the picture.
+    pub(crate) title: &'static str,
+    /// Quantity and unit of the horizontal axis.
+    pub(crate) x_label: &'static str,
+    /// Quantity and unit of the vertical axis.
+    pub(crate) y_label: &'static str,
+    /// The points of a run's curve.
+    pub(crate) points: fn(&Record) -> Vec<(f64, f64)>,
+    /// Whether a unit is as long on both axes, as in a map.
+    pub(crate) is_map: bool,
+}
+
+/// The runs that are compared: the reference, drawn first, and a run per scheme.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Comparison<'a> {
+    pub(crate) reference: &'a Record,
+    pub(crate) runs: &'a [Record],
+}
+
+impl Comparison<'_> {
+    /// Writes one SVG file per plot.
+    pub(crate) fn write(&self, directory: &Path, plots: &[Plot]) -> Result<(), Box<dyn Error>> {
+        for plot in plots {
+            let path = directory.join(format!("{}.svg", plot.file));
+            self.figure(plot).write_svg(&path)?;
+        }
+        Ok(())
+    }
+
+    fn figure(&self, plot: &Plot) -> Figure {
+        let runs = self.runs.iter().map(|run| (scheme::look(&run.scheme), run));
+        let curves = std::iter::once((0, self.reference)).chain(runs);
+        Figure {
+            title: plot.title.to_owned(),
+            x_label: plot.x_label.to_owned(),
+            y_label: plot.y_label.to_owned(),
+            is_map: plot.is_map,
+            curves: curves
+                .map(|(look, run)| Curve {
+                    label: label(run),
+                    points: (plot.points)(run),
+                    look,
+                    trusted: is_sound(run),
+                })
+                .collect(),
+        }
+    }
+}
+
+/// A run that reached its end and kept its energy decides what the axes show.
+fn is_sound(run: &Record) -> bool {
+    matches!(run.outcome, Outcome::Completed) && Statistics::of(run).breakdown.is_none()
+}
+
+fn label(run: &Record) -> String {
+    match run.outcome {
+        Outcome::Completed => run.scheme.clone(),
+        Outcome::Failed { time, .. } => format!("{} (fails at {time:.1} s)", run.scheme),
+    }
+}

@@ -1,0 +1,49 @@
+//! Line charts as SVG: several curves in one picture, told apart by colour, dash and marker.
+//!
+//! A run that blows up does not destroy the picture: the axes follow the trusted curves, the
+//! others may widen them within reason and are clipped beyond.
+
+mod chart;
+mod clip;
+mod legend;
+mod look;
+mod range;
+mod ticks;
+
+use std::error::Error;
+use std::path::Path;
+
+/// One picture.
+#[derive(Clone, Debug)]
+pub(crate) struct Figure {
+    /// Title above the picture.
+    pub(crate) title: String,
+    /// Quantity and unit of the horizontal axis, for example `time (s)`.
+    pub(crate) x_label: String,
+    /// Quantity and unit of the vertical axis.
+    pub(crate) y_label: String,
+    /// The curves, drawn in this order: later ones lie on top.
+    pub(crate) curves: Vec<Curve>,
+    /// Whether a unit is as long on both axes, as in a map: for trajectories.
+    pub(crate) is_map: bool,
+}
+
+/// One curve of a picture.
+#[derive(Clone, Debug)]
+pub(crate) struct Curve {
+    /// What the legend says.
+    pub(crate) label: String,
+    /// The points in the order in which they are joined.
+    pub(crate) points: Vec<(f64, f64)>,
+    /// Which colour, dash and marker it has: the same index looks the same in every picture.
+    pub(crate) look: usize,
+    /// Whether the axes must show the curve as a whole.
+    pub(crate) trusted: bool,
+}
+
+impl Figure {
+    /// Draws the picture into the SVG file `path`.
+    pub(crate) fn write_svg(&self, path: &Path) -> Result<(), Box<dyn Error>> {
+        chart::draw(self, path).map_err(|error| format!("{}: {error}", path.display()).into())
+    }
+}

@@ -1,0 +1,179 @@
+//! The drawing itself: title, legend, axes with grid, and the clipped curves.
+
+use std::error::Error;
+use std::path::Path;
+
+use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
+use plotters::element::DashedPathElement;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
+
+use super::clip::Window;
+use super::look::{Dash, Look};
+use super::{Curve, Figure, legend, range, ticks};
+
+/// Size of a picture in pixels, and of one with equal scales; a reader scales them.
+const SIZE: (u32, u32) = (1600, 1000);
+const MAP_SIZE: (u32, u32) = (1300, 1300);
+
+/// Fonts in pixels.
+const TITLE_FONT: f64 = 40.0;
+const AXIS_FONT: f64 = 32.0;
+const TICK_FONT: f64 = 26.0;
+
+/// Space around the chart in pixels: title above, axis labels below and on the left, and the
+/// distance of these from the picture's edge.
+const TITLE_HEIGHT: i32 = 70;
+const EDGE: i32 = 24;
+const LEFT: i32 = 150;
+const BOTTOM: i32 = 90;
+const RIGHT: i32 = 50;
+
+/// Markers of one curve; a curve with more points carries them on every n-th only.
+const MOST_MARKERS: usize = 34;
+
+type Canvas<'a> = DrawingArea<SVGBackend<'a>, Shift>;
+type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+/// Draws `figure` into the file `path`.
+pub(super) fn draw(figure: &Figure, path: &Path) -> Result<(), Box<dyn Error>> {
+    let size = if figure.is_map { MAP_SIZE } else { SIZE };
+    let (width, height) = (size.0.cast_signed(), size.1.cast_signed());
+    let canvas = SVGBackend::new(path, size).into_drawing_area();
+    canvas.fill(&WHITE)?;
+    let title = font(TITLE_FONT).pos(Pos::new(HPos::Center, VPos::Center));
+    canvas.draw_text(&figure.title, &title, (width / 2, TITLE_HEIGHT / 2))?;
+    let top = TITLE_HEIGHT + draw_legend(&canvas, &figure.curves, width)?;
+    let aspect = f64::from(width - EDGE - LEFT - RIGHT) / f64::from(height - top - BOTTOM - EDGE);
+    let window = window(figure, aspect);
+    let mut chart = ChartBuilder::on(&canvas)
+        .margin_top(top)
+        .margin_right(RIGHT)
+        .margin_bottom(EDGE)
+        .margin_left(EDGE)
+        .x_label_area_size(BOTTOM)
+        .y_label_area_size(LEFT)
+        .build_cartesian_2d(window.x.clone(), window.y.clone())?;
+    draw_axes(&mut chart, figure, &window)?;
+    for curve in &figure.curves {
+        draw_curve(&mut chart, curve, &window)?;
+    }
+    canvas.present()?;
+    Ok(())
+}
+
+/// The axes' ranges for a plotting area `aspect` times as wide as high.
+fn window(figure: &Figure, aspect: f64) -> Window {
+    let along = |coordinate: fn(&(f64, f64)) -> f64| {
+        let values = |curve: &Curve| curve.points.iter().map(coordinate).collect::<Vec<_>>();
+        let (trusted, others): (Vec<_>, Vec<_>) = figure.curves.iter().partition(|c| c.trusted);
+        let trusted: Vec<f64> = trusted.into_iter().flat_map(values).collect();
+        let others: Vec<Vec<f64>> = others.into_iter().map(values).collect();
+        range::axis(&trusted, &others)
+    };
+    let (x, y) = (along(|point| point.0), along(|point| point.1));
+    let (x, y) = if figure.is_map {
+        range::equal_scales(&x, &y, aspect)
+    } else {
+        (x, y)
+    };
+    Window { x, y }
+}
+
+fn draw_axes(
+    chart: &mut Chart<'_, '_>,
+    figure: &Figure,
+    window: &Window,
+) -> Result<(), Box<dyn Error>> {
+    let (x_ticks, y_ticks) = (ticks::formatter(&window.x), ticks::formatter(&window.y));
+    chart
+        .configure_mesh()
+        .light_line_style(TRANSPARENT)
+        .bold_line_style(RGBColor(210, 210, 210).stroke_width(1))
+        .axis_style(BLACK.stroke_width(2))
+        .x_labels(11)
+        .y_labels(9)
+        .x_label_formatter(&x_ticks)
+        .y_label_formatter(&y_ticks)
+        .label_style(font(TICK_FONT))
+        .axis_desc_style(font(AXIS_FONT))
+        .x_desc(&figure.x_label)
+        .y_desc(&figure.y_label)
+        .draw()?;
+    Ok(())
+}
+
+fn draw_curve(
+    chart: &mut Chart<'_, '_>,
+    curve: &Curve,
+    window: &Window,
+) -> Result<(), Box<dyn Error>> {
+    let look = Look::of(curve.look);
+    let style = look.colour.stroke_width(look.width);
+    for part in window.clip(&curve.points) {
+        let part = part.into_iter();
+        match look.dash {
+            Dash::Solid => chart
+                .plotting_area()
+                .draw(&PathElement::new(part.collect::<Vec<_>>(), style))?,
+            Dash::Dashed { length, gap } => chart
+                .plotting_area()
+                .draw(&DashedPathElement::new(part, length, gap, style))?,
+        }
+    }
+    let every = curve.points.len().div_ceil(MOST_MARKERS).max(1);
+    let marked = curve.points.iter().step_by(every);
+    for &point in marked.filter(|&&point| window.contains(point)) {
+        draw_marker(chart.plotting_area(), point, look)?;
+    }
+    Ok(())
+}
+
+/// Draws the legend below the title and returns its height in pixels.
+fn draw_legend(canvas: &Canvas<'_>, curves: &[Curve], width: i32) -> Result<i32, Box<dyn Error>> {
+    let labels: Vec<&str> = curves.iter().map(|curve| curve.label.as_str()).collect();
+    let places = legend::places(&labels, width);
+    let text = font(f64::from(legend::FONT)).pos(Pos::new(HPos::Left, VPos::Center));
+    for (curve, &(x, y)) in curves.iter().zip(&places) {
+        let look = Look::of(curve.look);
+        let style = look.colour.stroke_width(look.width);
+        let middle = TITLE_HEIGHT + y + legend::ROW / 2;
+        let end = x + legend::SAMPLE;
+        let sample = [(x, middle), (end, middle)];
+        match look.dash {
+            Dash::Solid => canvas.draw(&PathElement::new(sample, style))?,
+            Dash::Dashed { length, gap } => {
+                canvas.draw(&DashedPathElement::new(sample, length, gap, style))?;
+            }
+        }
+        draw_marker(canvas, (x + legend::SAMPLE / 2, middle), look)?;
+        canvas.draw_text(&curve.label, &text, (end + legend::GAP, middle))?;
+    }
+    Ok(places.last().map_or(0, |&(_, y)| y + legend::ROW))
+}
+
+/// Draws a marker at a point of the chart or of the canvas.
+fn draw_marker<C>(
+    area: &DrawingArea<SVGBackend<'_>, C>,
+    at: C::From,
+    look: Look,
+) -> Result<(), Box<dyn Error>>
+where
+    C: CoordTranslate,
+    C::From: Copy,
+{
+    for stroke in look.marker.strokes() {
+        let path = PathElement::new(*stroke, look.colour.stroke_width(look.width));
+        area.draw(&(EmptyElement::at(at) + path))?;
+    }
+    Ok(())
+}
+
+/// A font whose size in the picture is `pixels`: the SVG backend divides the size by 1.24.
+fn font(pixels: f64) -> TextStyle<'static> {
+    const BACKEND_SHRINKS_BY: f64 = 1.24;
+    ("sans-serif", pixels * BACKEND_SHRINKS_BY)
+        .into_font()
+        .color(&BLACK)
+}

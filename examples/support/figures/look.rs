@@ -1,0 +1,88 @@
+//! How curves are told apart, also without colour: each has its own colour, dash and marker.
+
+use plotters::style::RGBColor;
+
+/// Colour, dash and marker of a curve.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Look {
+    pub(super) colour: RGBColor,
+    /// Width of the line in pixels.
+    pub(super) width: u32,
+    pub(super) dash: Dash,
+    pub(super) marker: Marker,
+}
+
+/// Lengths in pixels.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Dash {
+    Solid,
+    Dashed { length: u32, gap: u32 },
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Marker {
+    None,
+    Plus,
+    Cross,
+    Triangle,
+    Diamond,
+    Square,
+}
+
+/// A line of a marker, relative to the marked point, in pixels.
+type Stroke = &'static [(i32, i32)];
+
+impl Marker {
+    /// The lines that draw the marker.
+    pub(super) fn strokes(self) -> &'static [Stroke] {
+        match self {
+            Self::None => &[],
+            Self::Plus => &[&[(-9, 0), (9, 0)], &[(0, -9), (0, 9)]],
+            Self::Cross => &[&[(-7, -7), (7, 7)], &[(-7, 7), (7, -7)]],
+            Self::Triangle => &[&[(-8, 6), (8, 6), (0, -9), (-8, 6)]],
+            Self::Diamond => &[&[(-9, 0), (0, 9), (9, 0), (0, -9), (-9, 0)]],
+            Self::Square => &[&[(-7, -7), (7, -7), (7, 7), (-7, 7), (-7, -7)]],
+        }
+    }
+}
+
+const LONG: Dash = Dash::Dashed {
+    length: 24,
+    gap: 10,
+};
+const SHORT: Dash = Dash::Dashed { length: 10, gap: 8 };
+const DOTS: Dash = Dash::Dashed { length: 3, gap: 8 };
+
+/// The first look is the reference's; the colours are those of Okabe & Ito (2008), which
+/// colour-blind readers can tell apart.
+const LOOKS: [Look; 10] = [
+    look((0, 0, 0), Dash::Solid, Marker::None),
+    look((0, 114, 178), Dash::Solid, Marker::Plus),
+    look((213, 94, 0), LONG, Marker::Cross),
+    look((0, 158, 115), SHORT, Marker::Triangle),
+    look((204, 121, 167), Dash::Solid, Marker::Diamond),
+    look((230, 159, 0), LONG, Marker::Square),
+    look((86, 180, 233), SHORT, Marker::Plus),
+    look((140, 80, 20), DOTS, Marker::Cross),
+    look((110, 110, 110), LONG, Marker::Triangle),
+    look((120, 60, 160), DOTS, Marker::Diamond),
+];
+
+const fn look((red, green, blue): (u8, u8, u8), dash: Dash, marker: Marker) -> Look {
+    Look {
+        colour: RGBColor(red, green, blue),
+        width: 3,
+        dash,
+        marker,
+    }
+}
+
+impl Look {
+    /// The look of that index; indices beyond the last start again after the reference.
+    pub(super) fn of(index: usize) -> Self {
+        if index < LOOKS.len() {
+            return LOOKS[index];
+        }
+        LOOKS[1 + (index - 1) % (LOOKS.len() - 1)]
+    }
+}

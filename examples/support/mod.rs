@@ -1,0 +1,13 @@
+//! What all examples share, so that each example's file is about its physics:
+//! command line, record of a run, table, CSV files, figures, progress bar and claims.
+
+pub(crate) mod claims;
+pub(crate) mod command_line;
+pub(crate) mod comparison;
+pub(crate) mod figures;
+pub(crate) mod output;
+pub(crate) mod progress;
+pub(crate) mod record;
+pub(crate) mod scheme;
+pub(crate) mod statistics;
+pub(crate) mod table;

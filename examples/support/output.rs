@@ -1,0 +1,36 @@
+//! Files of a run: one CSV per scheme that gives back every value bit for bit.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::record::Record;
+
+/// Creates the output directory, so that a wrong path is reported before the run.
+pub(crate) fn prepare(directory: &Path) -> io::Result<()> {
+    fs::create_dir_all(directory).map_err(|error| naming(directory, &error))
+}
+
+/// Writes `SCHEME.csv`: the record's columns with 17 significant digits, which identify a
+/// double, and the Newton iterations as the last column.
+pub(crate) fn write_csv(directory: &Path, record: &Record) -> io::Result<PathBuf> {
+    let path = directory.join(format!("{}.csv", record.scheme));
+    write_rows(&path, record).map_err(|error| naming(&path, &error))?;
+    Ok(path)
+}
+
+fn write_rows(path: &Path, record: &Record) -> io::Result<()> {
+    let mut writer = csv::Writer::from_path(path)?;
+    let names = record.columns().iter().map(String::as_str);
+    writer.write_record(names.chain(["newton_iterations"]))?;
+    for row in record.rows() {
+        let values = row.values.iter().map(|value| format!("{value:.16e}"));
+        writer.write_record(values.chain([row.newton_iterations.to_string()]))?;
+    }
+    writer.flush()
+}
+
+/// The operating system's error does not say which file it is about.
+fn naming(path: &Path, error: &io::Error) -> io::Error {
+    io::Error::new(error.kind(), format!("{}: {error}", path.display()))
+}

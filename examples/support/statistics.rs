@@ -1,0 +1,113 @@
+//! The figures that judge a recorded run, computed from its columns alone.
+
+use std::time::Duration;
+
+use super::record::Record;
+
+/// Two recorded times closer than this (s) are the same time; accumulated steps differ by rounding.
+const TIME_TOLERANCE: f64 = 1e-9;
+
+/// Relative energy defect beyond which a run has broken down, whether or not it goes on.
+pub(crate) const BREAKDOWN: f64 = 0.01;
+
+/// What a run is judged by. A quantity that the record has no column for is `None`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Statistics {
+    /// First time (s) at which the energy is off by more than [`BREAKDOWN`].
+    pub(crate) breakdown: Option<f64>,
+    /// max |E − E₀| / |E₀|.
+    pub(crate) energy_defect: Option<f64>,
+    /// min (Sₙ₊₁ − Sₙ) in J/K; the second law asks for ≥ 0.
+    pub(crate) entropy_increment: Option<f64>,
+    /// max |J − J₀| / |J₀|, in the Euclidean norm when J has components.
+    pub(crate) angular_momentum_defect: Option<f64>,
+    /// Mean Newton iterations of a completed step.
+    pub(crate) newton_iterations: Option<f64>,
+    /// Mean wall time of a completed step.
+    pub(crate) time_per_step: Option<Duration>,
+}
+
+impl Statistics {
+    /// The figures of `record`.
+    pub(crate) fn of(record: &Record) -> Self {
+        let angular_momentum =
+            |name: &str| name == "angular_momentum" || name.starts_with("angular_momentum_");
+        let rows = record.rows();
+        let iterations = rows.iter().map(|row| row.newton_iterations).sum();
+        let energy = record.vectors(|name| name == "energy");
+        Self {
+            breakdown: breakdown(record, &energy),
+            energy_defect: largest(defects(&energy)),
+            entropy_increment: smallest_increment(record.column("entropy").as_deref()),
+            angular_momentum_defect: largest(defects(&record.vectors(angular_momentum))),
+            newton_iterations: ratio(iterations, record.steps()),
+            time_per_step: u32::try_from(record.steps())
+                .ok()
+                .and_then(|steps| record.elapsed.checked_div(steps)),
+        }
+    }
+}
+
+/// Root mean square of |q − q*| over the common times, divided by that of |q*|,
+/// all positions together; `None` when the records share no time after the start.
+pub(crate) fn position_error(record: &Record, exact: &Record) -> Option<f64> {
+    let is_position = |name: &str| name.starts_with('q');
+    let (times, exact_times) = (record.column("time")?, exact.column("time")?);
+    let (positions, exact_positions) = (record.vectors(is_position), exact.vectors(is_position));
+    let (mut difference, mut size) = (0.0, 0.0);
+    for (time, q) in times.iter().zip(&positions).skip(1) {
+        let later = exact_times.partition_point(|exact| *exact < time - TIME_TOLERANCE);
+        let Some(same) = exact_times.get(later) else {
+            break;
+        };
+        if (same - time).abs() <= TIME_TOLERANCE {
+            let exact = &exact_positions[later];
+            difference += distance(q, exact).powi(2);
+            size += norm(exact).powi(2);
+        }
+    }
+    (size > 0.0).then(|| (difference / size).sqrt())
+}
+
+fn breakdown(record: &Record, energy: &[Vec<f64>]) -> Option<f64> {
+    let index = defects(energy).position(|defect| defect.is_nan() || defect > BREAKDOWN)?;
+    record.column("time")?.get(index).copied()
+}
+
+/// |v − v₀| / |v₀| for every v; nothing without components or where v₀ vanishes.
+fn defects(vectors: &[Vec<f64>]) -> impl Iterator<Item = f64> {
+    let first = vectors.first().filter(|first| norm(first) > 0.0);
+    first.into_iter().flat_map(move |first| {
+        let defect = move |vector: &Vec<f64>| distance(vector, first) / norm(first);
+        vectors.iter().map(defect)
+    })
+}
+
+/// The largest value; not a number when one of them is not.
+fn largest(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let larger = |a: f64, b: f64| if a.is_nan() || a > b { a } else { b };
+    values.reduce(larger)
+}
+
+/// The quotient of two counts; `None` when the second is zero.
+fn ratio(count: usize, total: usize) -> Option<f64> {
+    let (count, total) = (u32::try_from(count).ok()?, u32::try_from(total).ok()?);
+    (total > 0).then(|| f64::from(count) / f64::from(total))
+}
+
+fn smallest_increment(values: Option<&[f64]>) -> Option<f64> {
+    let decrements = values?.windows(2).map(|pair| pair[0] - pair[1]);
+    largest(decrements).map(|decrement| -decrement)
+}
+
+fn norm(vector: &[f64]) -> f64 {
+    vector.iter().map(|value| value * value).sum::<f64>().sqrt()
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| (a - b) * (a - b))
+        .sum::<f64>()
+        .sqrt()
+}

@@ -1,0 +1,88 @@
+//! The comparison on the terminal: one row per scheme, and why a run failed below it.
+
+use std::time::Duration;
+
+use comfy_table::{Table, presets};
+
+use super::record::{Outcome, Record};
+use super::statistics::{self, BREAKDOWN, Statistics};
+
+/// Column heads, with units where there are any.
+const HEADS: [&str; 8] = [
+    "scheme",
+    "outcome",
+    "energy defect",
+    "least ΔS (J/K)",
+    "ang. mom. defect",
+    "Newton/step",
+    "µs/step",
+    "error of q",
+];
+
+/// Prints a row per record and, below, the reasons of failed runs and what the heads mean.
+pub(crate) fn print(records: &[Record], reference: Option<&Record>) {
+    let mut table = Table::new();
+    table.load_style(presets::ASCII_MARKDOWN).set_header(HEADS);
+    for record in records {
+        table.add_row(row(record, reference));
+    }
+    println!("{table}\n");
+    for record in records {
+        explain(record);
+    }
+    println!(
+        "Defects are max |X − X₀|/|X₀| over the run; the error of q is relative, in the root \
+         mean square over the run."
+    );
+}
+
+/// Says when and why a run broke down.
+fn explain(record: &Record) {
+    let scheme = &record.scheme;
+    if let Some(time) = Statistics::of(record).breakdown {
+        let percent = 100.0 * BREAKDOWN;
+        println!(
+            "{scheme}: the energy is off by more than {percent} % for the first time at t = {time:.6} s."
+        );
+    }
+    if let Outcome::Failed { time, reason } = &record.outcome {
+        println!("{scheme} failed after t = {time:.6} s: {reason}");
+    }
+}
+
+fn row(record: &Record, reference: Option<&Record>) -> Vec<String> {
+    let figures = Statistics::of(record);
+    let error = reference.and_then(|exact| statistics::position_error(record, exact));
+    vec![
+        record.scheme.clone(),
+        outcome(&record.outcome, figures.breakdown),
+        scientific(figures.energy_defect),
+        scientific(figures.entropy_increment),
+        scientific(figures.angular_momentum_defect),
+        cell(figures.newton_iterations, |mean| format!("{mean:.2}")),
+        cell(figures.time_per_step, microseconds),
+        scientific(error),
+    ]
+}
+
+/// Completed, failed, or went on with an energy that is plainly wrong.
+fn outcome(outcome: &Outcome, breakdown: Option<f64>) -> String {
+    match (outcome, breakdown) {
+        (Outcome::Failed { time, .. }, _) => format!("failed at {time:.1} s"),
+        (Outcome::Completed, Some(time)) => format!("energy off at {time:.1} s"),
+        (Outcome::Completed, None) => "completed".to_owned(),
+    }
+}
+
+fn scientific(value: Option<f64>) -> String {
+    cell(value, |value| format!("{value:.1e}"))
+}
+
+fn microseconds(duration: Duration) -> String {
+    format!("{:.1}", duration.as_secs_f64() * 1e6)
+}
+
+/// A quantity that the scene or the run does not have is a dash.
+fn cell<T>(value: Option<T>, format: impl FnOnce(T) -> String) -> String {
+    value.map_or_else(|| "–".to_owned(), format)
+}

@@ -1,0 +1,1 @@
+//! Energy-entropy-momentum integration.

@@ -1,0 +1,61 @@
+//! Generated code triggers no lint in the crate of the user, however strict that crate is.
+
+#![deny(warnings)]
+#![deny(
+    missing_docs,
+    missing_debug_implementations,
+    non_snake_case,
+    single_use_lifetimes,
+    trivial_casts,
+    trivial_numeric_casts,
+    unreachable_pub,
+    unsafe_code,
+    unused_lifetimes,
+    unused_qualifications,
+    unused_results,
+    variant_size_differences
+)]
+#![deny(clippy::all, clippy::pedantic, clippy::nursery, clippy::cargo)]
+// Versions of dependencies of dependencies are not ours to choose.
+#![allow(clippy::multiple_crate_versions)]
+
+use eem::FreeEnergy;
+
+/// The model with everything: dashpots, temperature, powers, functions.
+#[derive(Clone, Debug, FreeEnergy)]
+#[free_energy(|lambda: Stretch, gamma: Viscous, theta: Temperature| {
+    let strain = ln(lambda / natural_length);
+    let elastic = 0.123_456_789 * stiffness * strain.powi(2) - coupling * (theta - 300) * strain;
+    elastic + branch * (lambda - gamma).powi(4) + capacity * (theta - theta * ln(theta / 300))
+        - 0.1 * gamma * diff(elastic, lambda) + theta.powf(1.25) * tanh(strain)
+})]
+#[viscosity(gamma = eta * exp(activation / theta))]
+pub struct Spring {
+    /// Length at rest, m.
+    pub natural_length: f64,
+    /// Stiffness, J.
+    pub stiffness: f64,
+    /// Thermoelastic coupling, J/K.
+    pub coupling: f64,
+    /// Stiffness of the branch, N/m³.
+    pub branch: f32,
+    /// Heat capacity, J/K.
+    pub capacity: f64,
+    /// Viscosity at high temperature, N s/m.
+    pub eta: f64,
+    /// Activation temperature, K.
+    pub activation: f64,
+}
+
+/// The model with nothing.
+#[derive(Clone, Copy, Debug, FreeEnergy)]
+#[free_energy(|lambda: Stretch| stiffness * lambda)]
+pub struct Bare<T> {
+    stiffness: T,
+}
+
+#[test]
+fn strict_crates_can_derive() {
+    let bare = Bare { stiffness: 2.0_f64 };
+    assert!((bare.free_energy(&[3.0]) - 6.0).abs() < f64::EPSILON);
+}

@@ -1,0 +1,15 @@
+use eem::FreeEnergy;
+
+#[derive(FreeEnergy)]
+#[free_energy(0.5 * k * lambda.powi(2))]
+struct Expression {
+    k: f64,
+}
+
+#[derive(FreeEnergy)]
+#[free_energy(psi)]
+struct Name {
+    k: f64,
+}
+
+fn main() {}

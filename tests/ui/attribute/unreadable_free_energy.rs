@@ -1,0 +1,21 @@
+use eem::FreeEnergy;
+
+#[derive(FreeEnergy)]
+#[free_energy(|lambda: Stretch| k * )]
+struct Unfinished {
+    k: f64,
+}
+
+#[derive(FreeEnergy)]
+#[free_energy = "k * lambda"]
+struct NameValue {
+    k: f64,
+}
+
+#[derive(FreeEnergy)]
+#[free_energy(|lambda: Stretch| k * lambda lambda)]
+struct MissingOperator {
+    k: f64,
+}
+
+fn main() {}

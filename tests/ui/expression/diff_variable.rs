@@ -1,0 +1,12 @@
+use eem::FreeEnergy;
+
+#[derive(FreeEnergy)]
+#[free_energy(|lambda: Stretch, theta: Temperature| {
+    let square = k * lambda * lambda;
+    diff(square, k) + diff(square, square) + diff(square, 2) + diff(square, thet) + diff(square, lambda * theta)
+})]
+struct Model {
+    k: f64,
+}
+
+fn main() {}

@@ -1,0 +1,7 @@
+use eem::FreeEnergy;
+
+#[derive(FreeEnergy)]
+#[free_energy(|lambda: Stretch| lambda)]
+struct Spring(f64);
+
+fn main() {}
