@@ -1,1 +1,27 @@
-//! Energy-entropy-momentum integration.
+#![doc = include_str!("../README.md")]
+
+pub use eem_derive::FreeEnergy;
+pub use eem_runtime::*;
+
+/// Everything that a program which builds and steps scenes needs, for `use eem::prelude::*`.
+///
+/// ```
+/// use eem::prelude::*;
+///
+/// let mut scene = Scene::<2>::new();
+/// let pivot = scene.anchor([0.0, 0.0]);
+/// assert_eq!(pivot.to_string(), "node 0");
+/// ```
+pub mod prelude {
+    pub use crate::{
+        Element, FreeEnergy, Ledger, NewtonSettings, Node, Reservoir, Scene, SceneError, Scheme,
+        Simulation, StepError, StepReport,
+    };
+}
+
+/// What generated code names. Not part of the public interface.
+#[doc(hidden)]
+pub mod __private {
+    pub use core;
+    pub use eem_runtime::{Array, Caloric, FreeEnergy, Scalar, kernel};
+}

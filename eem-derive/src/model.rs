@@ -80,7 +80,7 @@ impl Lowering<'_> {
 
     fn value(&mut self, expr: &Expr<'_>) -> Option<ExprId> {
         Some(match &expr.kind {
-            ExprKind::Number(number) => self.graph.number(number.clone()),
+            ExprKind::Number(number) => self.graph.number(*number),
             ExprKind::Parameter(field) => {
                 let mut parameters = self.checked.parameters.iter();
                 let index = parameters.position(|parameter| parameter.field == *field)?;

@@ -37,8 +37,18 @@ pub struct Inversion<S> {
 /// The stable branch is the connected set of temperatures with `C > 0` around
 /// the start, normally the last accepted temperature; `S` increases on it, so
 /// that there is at most one solution. `evaluate` returns entropy, heat capacity and
-/// the sum of |terms of S|, which tells rounding noise from a residual. Any
-/// units. The returned temperature is right to a few ulp of the condition of `S`.
+/// the sum of |terms of S|, which tells rounding noise from a residual; any
+/// units. The entropy is met to a few ε of that sum. Warm starts take 2 to 5
+/// evaluations, starts that are off by hundreds of orders of magnitude 10 to 20.
+///
+/// The branch is known where the entropy is evaluated: an unstable range is noticed when
+/// an evaluation falls into it or finds the entropy lower behind it, but not when a step leads
+/// across it to a branch of larger entropy. Steps that are not enclosed by two
+/// evaluations begin with a factor e in the temperature at most.
+///
+/// Where plain Newton would leave what is known of the solution or stops gaining on it,
+/// a bisection takes its place (Dekker 1969; Brent 1973); where the entropy behaves
+/// like a power of the temperature, Newton's method is applied to `ln S`.
 ///
 /// # Errors
 ///
@@ -81,28 +91,23 @@ pub fn invert<S: Real>(
         });
     }
     let mut search = Search::new(entropy, first);
-    loop {
-        if search.converged() {
-            return Ok(search.solution());
-        }
-        if search.evaluations >= BUDGET || search.exhausted() {
-            return search.conclude();
-        }
+    while !search.converged() {
         let mut step = search.step();
         loop {
+            if search.spent() {
+                return search.conclude();
+            }
             let x = search.point.x + step;
             let theta = x.exp();
             let trial = Point::new(x, theta, evaluate(theta), entropy);
             search.evaluations += 1;
-            if trial.stable() {
+            if trial.stable() && trial.follows(&search.point) {
                 search.accept(trial, step);
                 break;
             }
             search.exclude(x);
-            step = search.shorter(step);
-            if search.evaluations >= BUDGET || search.exhausted() {
-                return search.conclude();
-            }
+            step *= S::from_f64(0.5);
         }
     }
+    Ok(search.solution())
 }

@@ -16,7 +16,8 @@
 //!   1 ulp is a relative error of 2⁻⁵², for any distance of the ends, and are
 //!   **bitwise symmetric**, `f_dd(a, b) == f_dd(b, a)`: a scheme built from them
 //!   is self-adjoint in floating-point arithmetic. There is no threshold on the
-//!   increment; the only comparison with zero catches 0/0.
+//!   increment; the only comparison with zero catches 0/0. Both hold as long as
+//!   the values of `f` at the ends are normal numbers.
 //! * Second differences are right to some tens of ulp of `∫₀¹ t|f″| dt`, hence
 //!   relatively wherever `f″` keeps its sign between the ends. They are the exact
 //!   tangent: `∂f[a,b]/∂b = f_dd2(a, b)` and `∂f[a,b]/∂a = f_dd2(b, a)`.
@@ -28,7 +29,8 @@
 //! equal sign, and an exact zero of `f[a,b]` is an explicit factor.
 //!
 //! The idea is that of Kahan & Fateman, *Symbolic computation of divided
-//! differences*, SIGSAM Bull. 33 (1999); for `exp` McCurdy, Ng & Parlett, Math.
+//! differences*, SIGSAM Bull. 33 (1999); for `exp`
+//! *Accurate computation of divided differences of the exponential function*, Math.
 //! Comp. 43 (1984) 501–528; as a program transformation Reps & Rall,
 //! Higher-Order and Symbolic Computation 16 (2003).
 

@@ -14,7 +14,7 @@
 
 mod stretch;
 
-use crate::scalar::Scalar;
+use crate::scalar::Real;
 
 pub use stretch::Stretch;
 
@@ -38,13 +38,16 @@ pub struct Ends<'a, S> {
 ///
 /// Matrices are row-major slices: a gradient has a row per measure and a column
 /// per coordinate, a curvature a row and a column per coordinate.
-pub trait Kinematics<S: Scalar>: Copy + Send + Sync + 'static {
+pub trait Kinematics<S: Real>: Copy + Send + Sync + 'static {
     /// Number of nodes.
     const NODES: usize;
     /// Number of measures, M.
     const MEASURES: usize;
 
-    /// The measures `π(q)`; not positive or NaN if the configuration is degenerate.
+    /// Whether an element can have this measure; a stretch must be positive and finite.
+    fn is_admissible(&self, measure: S) -> bool;
+
+    /// The measures `π(q)`.
     fn measure(&self, q: &[S], measures: &mut [S]);
 
     /// `∂π/∂q` at `q`, whose measures are given.

@@ -1,12 +1,55 @@
-//! Runtime.
+//! Runtime of `eem`: scenes, schemes, Newton's method, ledger.
+//!
+//! The flow is one way:
+//!
+//! ```text
+//! free_energy (generated) ─▶ scheme ─▶ group ─▶ solver ─▶ simulation ─▶ ledger
+//!          kernel, inversion ─┘   kinematics ─┘
+//! ```
+//!
+//! | symbol | name | unit | meaning |
+//! |---|---|---|---|
+//! | q, p | position, momentum | m, kg m/s | of a node |
+//! | λ | stretch | m | distance of the two nodes of a spring |
+//! | γ | viscous stretch | m | of a dashpot |
+//! | θ, s | temperature, entropy | K, J/K | of an element |
+//! | ψ, e | free, internal energy | J | `e = ψ + θ s` |
+//! | f, g | force, dashpot force | N | `∂ψ/∂λ`, `−∂ψ/∂γ` |
+//! | η, κ | viscosity, conductance | N s/m, W/K | |
+//! | h | step | s | |
+//!
+//! Index 0 is the old, 1 the new state of a step, `m` their mean, `*` an algorithmic quantity.
 
 pub mod kernel;
-mod scalar;
+pub mod kinematics;
 
-pub use scalar::{Real, Scalar};
-
+mod blueprint;
+mod compensated;
+mod conduction;
+mod error;
 mod free_energy;
+mod group;
+mod handle;
 mod inversion;
+mod layout;
+mod ledger;
+mod lu;
+mod newton;
+mod scalar;
+mod scene;
+mod scheme;
+mod simulation;
+mod solver;
+mod state;
+mod system;
 
-pub use free_energy::Caloric;
+pub use error::{SceneError, StateError, StepError, StepFailure};
+pub use free_energy::{Array, Caloric, FreeEnergy};
+pub use handle::{Element, HeatPartner, Node, Reservoir};
 pub use inversion::{Inversion, InversionError, invert};
+pub use ledger::Ledger;
+pub use newton::{NewtonSettings, StepReport};
+pub use scalar::{Real, Scalar};
+pub use scene::Scene;
+pub use scheme::Scheme;
+pub use simulation::Simulation;

@@ -1,7 +1,7 @@
 //! The inversion `S(θ) = s` on entropies that break plain Newton: it finds every
 //! temperature within the promised number of evaluations, and knows where a branch ends.
 
-use eem_runtime::{Caloric, Inversion, InversionError, Real, invert};
+use eem_runtime::{Caloric, InversionError, invert};
 
 /// Random cold starts per family, and as many warm ones.
 const CASES: usize = 400;
@@ -56,7 +56,11 @@ fn einstein(theta: f64) -> Caloric<f64> {
     let x = 600.0 / theta;
     let occupation = 1.0 / x.exp_m1();
     let (first, second) = (x * occupation, -(-(-x).exp()).ln_1p());
-    caloric(first + second, x * x * occupation * (1.0 + occupation), first + second)
+    caloric(
+        first + second,
+        x * x * occupation * (1.0 + occupation),
+        first + second,
+    )
 }
 
 fn debye(theta: f64) -> Caloric<f64> {
@@ -90,7 +94,11 @@ const STEP: f64 = 350.0;
 fn step(theta: f64) -> Caloric<f64> {
     let y = (theta / STEP).ln() / 1e-5;
     let s = theta.ln() + 2.5 * (1.0 + y.tanh());
-    caloric(s, 1.0 + 2.5e5 / y.cosh().powi(2), theta.ln().abs() + 2.5 * (1.0 + y.tanh().abs()))
+    caloric(
+        s,
+        1.0 + 2.5e5 / y.cosh().powi(2),
+        theta.ln().abs() + 2.5 * (1.0 + y.tanh().abs()),
+    )
 }
 
 /// Logarithmic stiffness: `S = c ln(θ/θr) + a θr/θ`, stable above `θ = a θr/c`.
@@ -118,7 +126,11 @@ fn check_family(name: &str, entropy: fn(f64) -> Caloric<f64>, sample: impl Fn(f6
             let start = if warm {
                 let near = theta * random.within(0.9, 1.1);
                 // A start must be stable: past a spinodal it is not.
-                if entropy(near).heat_capacity > 0.0 { near } else { theta }
+                if entropy(near).heat_capacity > 0.0 {
+                    near
+                } else {
+                    theta
+                }
             } else {
                 ROOM_TEMPERATURE
             };
@@ -128,7 +140,10 @@ fn check_family(name: &str, entropy: fn(f64) -> Caloric<f64>, sample: impl Fn(f6
             let miss = (got.entropy - wanted.entropy).abs();
             // A temperature is a rounded number: one ulp of it moves S by C ε.
             let allowed = ENTROPY_TOLERANCE * (wanted.magnitude + wanted.heat_capacity);
-            assert!(miss <= allowed, "{name} at {theta:e}: entropy off by {miss:e}");
+            assert!(
+                miss <= allowed,
+                "{name} at {theta:e}: entropy off by {miss:e}"
+            );
             total += found.evaluations;
             most = most.max(found.evaluations);
         }
@@ -136,18 +151,29 @@ fn check_family(name: &str, entropy: fn(f64) -> Caloric<f64>, sample: impl Fn(f6
         #[expect(clippy::cast_precision_loss, reason = "small counts")]
         let mean = total as f64 / CASES as f64;
         println!("{name:24} {start}: {mean:5.2} evaluations on average, {most} at most");
-        assert!(most <= MOST_EVALUATIONS, "{name} {start}: {most} evaluations");
+        assert!(
+            most <= MOST_EVALUATIONS,
+            "{name} {start}: {most} evaluations"
+        );
     }
 }
 
 #[test]
 fn constant_capacity_over_the_whole_range() {
-    check_family("constant capacity", constant_capacity, uniform(-690.0, 690.0));
+    check_family(
+        "constant capacity",
+        constant_capacity,
+        uniform(-690.0, 690.0),
+    );
 }
 
 #[test]
 fn nearly_vanishing_capacity() {
-    check_family("nearly no capacity", nearly_no_capacity, uniform(-10.0, 15.0));
+    check_family(
+        "nearly no capacity",
+        nearly_no_capacity,
+        uniform(-10.0, 15.0),
+    );
 }
 
 #[test]
@@ -180,7 +206,165 @@ fn sharp_step() {
 
 #[test]
 fn logarithmic_stiffness_above_its_spinodal() {
-    check_family("logarithmic stiffness", logarithmic_stiffness, uniform(SPINODAL.ln(), 12.0));
+    check_family(
+        "logarithmic stiffness",
+        logarithmic_stiffness,
+        uniform(SPINODAL.ln(), 12.0),
+    );
     let next_to_it = |unit: f64| SPINODAL.ln() + (-30.0 * unit).exp();
     check_family("next to a spinodal", logarithmic_stiffness, next_to_it);
+}
+
+#[test]
+fn found_temperatures_are_stable_down_to_the_spinodal() {
+    let mut random = Random(7);
+    for _ in 0..CASES {
+        let theta = SPINODAL * (1.0 + random.within(-36.0, 0.0).exp());
+        let wanted = logarithmic_stiffness(theta).entropy;
+        match invert(logarithmic_stiffness, wanted, ROOM_TEMPERATURE) {
+            Ok(found) => assert!(found.temperature >= SPINODAL),
+            // Next to the spinodal the wanted entropy may round to less than the smallest.
+            Err(InversionError::NoSuchTemperature { residual, .. }) => {
+                assert!(residual.abs() < ENTROPY_TOLERANCE);
+            }
+            Err(error) => panic!("{theta}: {error}"),
+        }
+    }
+}
+
+#[test]
+fn entropy_below_the_spinodal_is_a_clean_error() {
+    let least = logarithmic_stiffness(SPINODAL).entropy;
+    let mut random = Random(11);
+    let mut most = 0;
+    for case in 0..CASES {
+        let start = SPINODAL * (1.0 + random.within(-12.0, 6.0).exp());
+        let missing = random.within(-25.0, 10.0).exp();
+        let wanted = least - missing;
+        let error = invert(logarithmic_stiffness, wanted, start).unwrap_err();
+        let InversionError::NoSuchTemperature {
+            entropy,
+            temperature,
+            residual,
+            evaluations,
+        } = error
+        else {
+            panic!("case {case}: {error}");
+        };
+        assert_eq!(entropy.to_bits(), wanted.to_bits());
+        // S is stationary at the spinodal: the temperature is found to √ε only.
+        assert!((temperature / SPINODAL - 1.0).abs() < 1e-5, "{error}");
+        assert!((residual / missing - 1.0).abs() < 1e-4, "{error}");
+        most = most.max(evaluations);
+    }
+    println!("below a spinodal: at most {most} evaluations");
+}
+
+/// Two stable branches, `y < −1` and `y > 1` with `y = ln(θ/300 K)`, and none between.
+fn two_branches(theta: f64) -> Caloric<f64> {
+    let y = (theta / ROOM_TEMPERATURE).ln();
+    let (cubic, linear) = (y.powi(3), 3.0 * y);
+    caloric(
+        cubic - linear,
+        3.0 * (y * y - 1.0),
+        cubic.abs() + linear.abs(),
+    )
+}
+
+#[test]
+fn solution_is_on_the_branch_of_the_start() {
+    let mut random = Random(13);
+    for case in 0..CASES {
+        let side = if case % 2 == 0 { 1.0 } else { -1.0 };
+        let on_branch = |y: f64| ROOM_TEMPERATURE * (side * y).exp();
+        let theta = on_branch(random.within(1.01, 4.0));
+        // Near enough for the first free step, a factor e, not to lead to the other branch.
+        let start = on_branch(random.within(1.01, 2.0));
+        let wanted = two_branches(theta).entropy;
+        let found = invert(two_branches, wanted, start).unwrap();
+        assert!((found.temperature / theta - 1.0).abs() < 1e-12);
+        assert!(
+            found.evaluations <= MOST_EVALUATIONS,
+            "{}",
+            found.evaluations
+        );
+        // The other branch has this entropy too, but not the branch of the start.
+        let beyond = side * -(2.0 + random.within(0.01, 5.0));
+        let error = invert(two_branches, beyond, start).unwrap_err();
+        let InversionError::NoSuchTemperature { temperature, .. } = error else {
+            panic!("case {case}: {error}");
+        };
+        assert!((temperature / on_branch(1.0) - 1.0).abs() < 1e-5, "{error}");
+    }
+}
+
+#[test]
+fn bad_input_has_its_own_error() {
+    for entropy in [f64::NAN, f64::INFINITY] {
+        let error = invert(debye, entropy, 300.0).unwrap_err();
+        assert!(
+            matches!(error, InversionError::EntropyNotFinite { .. }),
+            "{error}"
+        );
+    }
+    for start in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let error = invert(debye, 1.0, start).unwrap_err();
+        assert!(
+            matches!(error, InversionError::InvalidStart { .. }),
+            "{error}"
+        );
+    }
+    let unstable = 0.5 * SPINODAL;
+    let error = invert(logarithmic_stiffness, 1.0, unstable).unwrap_err();
+    assert_eq!(
+        error,
+        InversionError::UnstableStart {
+            start: unstable,
+            heat_capacity: -1.5
+        }
+    );
+    let not_a_number = |_: f64| caloric(f64::NAN, 1.0, 1.0);
+    let error = invert(not_a_number, 1.0, 300.0).unwrap_err();
+    assert!(
+        matches!(error, InversionError::UnstableStart { .. }),
+        "{error}"
+    );
+    // No temperature has a negative entropy here.
+    let error = invert(debye, -1.0, 300.0).unwrap_err();
+    assert!(
+        matches!(error, InversionError::NoSuchTemperature { .. }),
+        "{error}"
+    );
+}
+
+#[test]
+fn an_entropy_that_contradicts_its_capacity_ends() {
+    let mut calls = 0;
+    let nonsense = |theta: f64| {
+        calls += 1;
+        caloric(-theta.ln(), 1.0, 1e-30)
+    };
+    let result = invert(nonsense, 1.0, 300.0);
+    assert!(result.is_err(), "{result:?}");
+    assert!(calls <= 128);
+}
+
+#[test]
+fn single_precision_inverts_to_its_own_accuracy() {
+    let metal = |theta: f32| {
+        let (electrons, lattice) = (0.7 * theta, 1e-4 * theta * theta * theta);
+        Caloric {
+            entropy: electrons + lattice,
+            heat_capacity: electrons + 3.0 * lattice,
+            magnitude: electrons + lattice,
+        }
+    };
+    let mut random = Random(17);
+    for _ in 0..CASES {
+        #[expect(clippy::cast_possible_truncation, reason = "any f32 will do")]
+        let theta = random.within(-20.0, 20.0).exp() as f32;
+        let found = invert(metal, metal(theta).entropy, 300.0).unwrap();
+        assert!((found.temperature / theta - 1.0).abs() < 8.0 * f32::EPSILON);
+        assert!(found.evaluations <= MOST_EVALUATIONS);
+    }
 }

@@ -1,1 +1,191 @@
-//! To be written.
+//! Partitioned discrete derivatives of the internal energy, and their tangents.
+//!
+//! ```text
+//! D_i F = ½ ( F[x_i⁰, x_i¹ | x_j¹ (j < i), x_j⁰ (j > i)] + F[x_i⁰, x_i¹ | x_j⁰ (j < i), x_j¹ (j > i)] )
+//! Σ_i D_i F (x_i¹ − x_i⁰) = F(x¹) − F(x⁰)
+//! ```
+//!
+//! (García Orden & Romero 2012, eq. 28): divided differences along the edges of two staircases from
+//! x⁰ to x¹, one that renews the variables in order and one that renews them in reverse order.
+//! Every form returns the algorithmic quantities followed by their derivatives with respect to x¹.
+
+mod edge;
+mod elastic;
+mod entropy_form;
+mod temperature_form;
+
+pub(crate) use elastic::elastic_form;
+pub(crate) use entropy_form::entropy_form;
+pub(crate) use temperature_form::temperature_form;
+
+use crate::diff::diff;
+use crate::divided_difference::divided_difference;
+use crate::graph::Graph;
+use crate::model::Model;
+use crate::node::{ExprId, Symbol};
+use crate::number::Number;
+use crate::program::{Input, Program, Stage};
+use crate::schedule::{Locals, Schedule};
+use crate::substitute::substitute;
+
+/// A state: one symbol per variable.
+pub(crate) type Point = Vec<Symbol>;
+
+/// A model at two states: the graph with the symbols of both, and the thermodynamic potentials.
+pub(crate) struct Step {
+    pub(crate) graph: Graph,
+    pub(crate) locals: Locals,
+    /// The variables of the model, temperature last.
+    variables: Vec<Symbol>,
+    parameters: Vec<Symbol>,
+    measures: usize,
+    pub(crate) old: Point,
+    pub(crate) new: Point,
+    /// Corner temperatures, inputs of the entropy form only.
+    corners: Vec<Symbol>,
+    psi: ExprId,
+    /// Number of variables without the temperature.
+    mechanical: usize,
+    entropy: ExprId,
+    energy: ExprId,
+}
+
+impl Step {
+    /// `corners`: whether temperatures at the corners of the staircases are inputs.
+    pub(crate) fn new(model: &Model, corners: bool) -> Self {
+        let mut graph = model.graph.clone();
+        let variables = model.variables();
+        let (mut old, mut new) = (Point::new(), Point::new());
+        for &variable in &variables {
+            let name = graph.name(variable).to_owned();
+            old.push(graph.version(variable, &format!("{name}⁰")));
+            new.push(graph.version(variable, &format!("{name}¹")));
+        }
+        let mechanical = model.measures.len() + model.dashpots.len();
+        let corners = match model.temperature {
+            Some(theta) if corners => corner_symbols(&mut graph, theta, mechanical),
+            Some(_) | None => Vec::new(),
+        };
+        let entropy = match model.temperature {
+            Some(theta) => model.entropy(&mut graph, theta),
+            None => graph.integer(0),
+        };
+        let energy = model.internal_energy(&mut graph);
+        Self {
+            graph,
+            locals: Locals::default(),
+            variables,
+            parameters: model.parameters.clone(),
+            measures: model.measures.len(),
+            old,
+            new,
+            corners,
+            psi: model.psi,
+            mechanical,
+            entropy,
+            energy,
+        }
+    }
+
+    /// Parameters, x⁰, x¹, corner temperatures.
+    fn inputs(&self) -> Vec<Input> {
+        let old = self.parameters.iter().chain(&self.old).map(|&symbol| (symbol, Stage::Old));
+        let new = self.new.iter().chain(&self.corners).map(|&symbol| (symbol, Stage::New));
+        let input = |(symbol, stage)| Input {
+            symbol,
+            name: self.graph.name(symbol).to_owned(),
+            stage,
+        };
+        old.chain(new).map(input).collect()
+    }
+
+    /// Schedules a form.
+    pub(crate) fn program(&self, outputs: &[ExprId]) -> Program {
+        let schedule = Schedule {
+            graph: &self.graph,
+            locals: &self.locals,
+            parameters: self.parameters.len(),
+        };
+        schedule.program(self.inputs(), outputs)
+    }
+
+    /// `F` at a state.
+    fn at(&mut self, f: ExprId, point: &[Symbol]) -> ExprId {
+        let mut replacements = Vec::with_capacity(point.len());
+        for (&x, &symbol) in self.variables.iter().zip(point) {
+            replacements.push((x, self.graph.variable(symbol)));
+        }
+        substitute(&mut self.graph, f, &replacements)
+    }
+
+    /// `F[x_i: a, b]` with the other variables at a state, as a local.
+    fn along(&mut self, f: ExprId, i: usize, [a, b]: [Symbol; 2], point: &[Symbol]) -> ExprId {
+        let x = self.variables[i];
+        let mut others = point.to_vec();
+        others[i] = x;
+        let f = self.at(f, &others);
+        let (a, b) = (self.graph.variable(a), self.graph.variable(b));
+        let quotient = divided_difference(&mut self.graph, f, x, a, b);
+        self.name(quotient)
+    }
+
+    fn name(&mut self, value: ExprId) -> ExprId {
+        self.locals.name(&mut self.graph, value)
+    }
+
+    /// `∂/∂symbol`, looking through the local of a divided difference.
+    fn partial(&mut self, value: ExprId, symbol: Symbol) -> ExprId {
+        let value = self.locals.resolve(&self.graph, value);
+        diff(&mut self.graph, value, symbol)
+    }
+
+    /// `∂F/∂x_i` at a state, as a local.
+    fn slope_at(&mut self, f: ExprId, i: usize, point: &[Symbol]) -> ExprId {
+        let slope = diff(&mut self.graph, f, self.variables[i]);
+        let slope = self.at(slope, point);
+        self.name(slope)
+    }
+
+    /// `½ (a + b + …)`.
+    fn half(&mut self, terms: &[ExprId]) -> ExprId {
+        if let [a, b] = terms && a == b {
+            return *a;
+        }
+        let sum = self.graph.sum(terms);
+        let sum = self.name(sum);
+        self.graph.scale(Number::HALF, sum)
+    }
+
+    /// `x_i¹ − x_i⁰`.
+    fn increment(&mut self, i: usize) -> ExprId {
+        let (old, new) = (self.graph.variable(self.old[i]), self.graph.variable(self.new[i]));
+        let increment = self.graph.sub(new, old);
+        self.name(increment)
+    }
+
+    /// D_λ e of a measure is f*, −D_γ e of a dashpot is g*.
+    fn conjugate(&mut self, i: usize, derivative: ExprId) -> ExprId {
+        if i < self.measures {
+            derivative
+        } else {
+            self.graph.neg(derivative)
+        }
+    }
+
+    /// The first `i` variables of `before` and the others of `after`.
+    fn mixed(&self, i: usize, before: &[Symbol], after: &[Symbol]) -> Point {
+        before[..i].iter().chain(&after[i..]).copied().collect()
+    }
+}
+
+/// First the corners that variables become new at, then those that they become old at.
+fn corner_symbols(graph: &mut Graph, theta: Symbol, mechanical: usize) -> Vec<Symbol> {
+    let name = graph.name(theta).to_owned();
+    let mut corners = Vec::new();
+    for chain in ["up", "down"] {
+        for k in 1..=mechanical {
+            corners.push(graph.version(theta, &format!("{name}[{chain} {k}]")));
+        }
+    }
+    corners
+}

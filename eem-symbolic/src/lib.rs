@@ -1,1 +1,75 @@
-//! Symbolic mathematics.
+//! The mathematics behind `eem`, without tokens and without dependencies.
+//!
+//! A free energy is an expression in a hash-consed [`Graph`]. Passes over it are pure functions of
+//! the graph: partial derivatives ([`diff`]), divided differences that never subtract neighbouring
+//! function values ([`divided_difference`]), the internal energy `ψ − θ ∂ψ/∂θ` simplified term by
+//! term ([`internal_energy`]). A [`Model`] turns a free energy into [`Program`]s: straight-line
+//! code with shared subexpressions, verified, and executable by [`Program::interpret`].
+//!
+//! The same input gives the same graph, formulas and programs, byte for byte.
+//!
+//! ```
+//! use eem_symbolic::{Graph, diff, divided_difference, format};
+//!
+//! let mut graph = Graph::new();
+//! let x = graph.symbol("x");
+//! let at = graph.variable(x);
+//! let ln = graph.apply(eem_symbolic::Function::Ln, at);
+//! let e = graph.product(&[at, ln]);
+//! let slope = diff(&mut graph, e, x);
+//! assert_eq!(format(&graph, slope), "ln(x) + 1");
+//!
+//! let (a, b) = (graph.version(x, "a"), graph.version(x, "b"));
+//! let (a, b) = (graph.variable(a), graph.variable(b));
+//! let secant = divided_difference(&mut graph, e, x, a, b);
+//! assert_eq!(format(&graph, secant), "0.5*((a + b)*ln[a, b] + ln(a) + ln(b))");
+//! ```
+
+#![forbid(unsafe_code)]
+
+// Expressions.
+mod number;
+mod function;
+mod node;
+mod graph;
+mod order;
+mod sum;
+mod product;
+mod power;
+mod difference;
+
+// Passes over expressions.
+mod substitute;
+mod diff;
+mod divided_difference;
+mod internal_energy;
+mod display;
+
+// Programs.
+mod program;
+mod schedule;
+mod verify;
+mod interpret;
+mod quadrature;
+mod running_error;
+mod discrete;
+mod model;
+
+pub use diff::{diff, diff_total};
+pub use display::format;
+pub use divided_difference::divided_difference;
+pub use function::Function;
+pub use graph::Graph;
+pub use internal_energy::internal_energy;
+pub use node::{ExprId, Kernel, Node, Symbol};
+pub use number::{Number, Rational};
+pub use substitute::substitute;
+
+pub use interpret::{Arithmetic, F64};
+pub use model::{Formulas, Model, Programs};
+pub use program::{
+    Input, Instruction, Operation, OperationCount, Program, ProgramKernel, Stage, StageCount, Value,
+};
+pub use running_error::{Bounded, RunningError};
+pub use schedule::schedule;
+pub use verify::VerifyError;

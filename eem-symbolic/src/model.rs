@@ -1,7 +1,14 @@
 //! From one free energy to all programs of a constitutive law.
 
-use crate::graph::{ExprId, Graph, Symbol};
+mod point;
+
+use crate::diff::diff;
+use crate::discrete::{self, Step};
+use crate::display::format;
+use crate::graph::Graph;
+use crate::node::{ExprId, Symbol};
 use crate::program::Program;
+use point::{PointPrograms, heat_capacity};
 
 /// A free energy ψ(x; parameters) and its dashpots, x = (measures …, dashpots …, temperature).
 #[derive(Clone, Debug)]
@@ -67,15 +74,73 @@ pub struct Formulas {
 }
 
 impl Model {
+    /// x: measures, dashpots, temperature.
+    #[must_use]
+    pub fn variables(&self) -> Vec<Symbol> {
+        let mechanical = self.measures.iter().chain(&self.dashpots);
+        mechanical.chain(&self.temperature).copied().collect()
+    }
+
     /// All programs of the law.
     #[must_use]
     pub fn programs(&self) -> Programs {
-        todo!()
+        let mut point = PointPrograms::new(self);
+        Programs {
+            free_energy: point.free_energy(),
+            gradient: point.gradient(),
+            hessian: point.hessian(),
+            internal_energy: point.internal_energy(),
+            caloric: self.temperature.map(|theta| point.caloric(theta)),
+            viscosity: (!self.dashpots.is_empty()).then(|| point.viscosity()),
+            entropy_form: self.entropy_form(),
+            temperature_form: self.temperature.map(|_| self.temperature_form()),
+        }
+    }
+
+    fn entropy_form(&self) -> Program {
+        let mut step = Step::new(self, true);
+        let outputs = match self.temperature {
+            Some(_) => discrete::entropy_form(&mut step),
+            None => discrete::elastic_form(&mut step),
+        };
+        step.program(&outputs)
+    }
+
+    fn temperature_form(&self) -> Program {
+        let mut step = Step::new(self, false);
+        let outputs = discrete::temperature_form(&mut step);
+        step.program(&outputs)
     }
 
     /// All formulas of the law.
     #[must_use]
     pub fn formulas(&self) -> Formulas {
-        todo!()
+        let mut graph = self.graph.clone();
+        let (mut forces, mut dashpot_forces) = (Vec::new(), Vec::new());
+        for &lambda in &self.measures {
+            let force = diff(&mut graph, self.psi, lambda);
+            forces.push(format(&graph, force));
+        }
+        for &gamma in &self.dashpots {
+            let slope = diff(&mut graph, self.psi, gamma);
+            let force = graph.neg(slope);
+            dashpot_forces.push(format(&graph, force));
+        }
+        let caloric = self.temperature.map(|theta| {
+            let entropy = self.entropy(&mut graph, theta);
+            let capacity = heat_capacity(&mut graph, entropy, theta);
+            (format(&graph, entropy), format(&graph, capacity))
+        });
+        let (entropy, heat_capacity) = caloric.unzip();
+        let energy = self.internal_energy(&mut graph);
+        Formulas {
+            free_energy: format(&graph, self.psi),
+            entropy,
+            internal_energy: format(&graph, energy),
+            forces,
+            dashpot_forces,
+            heat_capacity,
+            viscosities: self.viscosities.iter().map(|&law| format(&graph, law)).collect(),
+        }
     }
 }

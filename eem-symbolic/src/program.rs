@@ -5,13 +5,13 @@
 //! that what depends on the parameters and the old state alone is computed once per step.
 
 use crate::function::Function;
-use crate::graph::Symbol;
+use crate::node::Symbol;
 use crate::number::Number;
 
 /// Straight-line code for several outputs at once.
 ///
 /// Value `i` is the result of instruction `i`. [`Program::verify`] says what else holds.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Program {
     /// What [`Operation::Input`] refers to, in the order in which values are handed over. An input
     /// that no output depends on is listed here and read by no instruction.
@@ -65,7 +65,7 @@ pub enum Stage {
 }
 
 /// One assignment.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Instruction {
     /// What is computed.
     pub operation: Operation,
@@ -75,7 +75,7 @@ pub struct Instruction {
 }
 
 /// What one instruction computes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Operation {
     /// The input of this position.
     Input(usize),
@@ -105,9 +105,10 @@ pub enum Operation {
     SecondDividedDifference(ProgramKernel, Value, Value),
 }
 
-/// The function f of a divided difference.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ProgramKernel {
+/// The function f of a divided difference; V is a [`Value`], or the number that an interpreter has
+/// in its place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum ProgramKernel<V = Value> {
     /// An elementary function.
     Function(Function),
     /// `xⁿ`, n ≠ 0, 1, 2; −1 is the reciprocal.
@@ -115,10 +116,10 @@ pub enum ProgramKernel {
     /// `√x`.
     Sqrt,
     /// `xᵖ` with p the given value, the same at both ends.
-    Powf(Value),
+    Powf(V),
     /// `eˣ` between the logarithms of two powers, with the powers themselves at the two ends: the
     /// values `exp(a)` and `exp(b)`, which are more accurate than what is computed from a and b.
-    Power(Value, Value),
+    Power(V, V),
 }
 
 impl Operation {
@@ -142,14 +143,25 @@ impl Operation {
     }
 }
 
-impl ProgramKernel {
+impl<V: Copy> ProgramKernel<V> {
     /// The values that f itself depends on.
     #[must_use]
-    pub fn operands(self) -> Vec<Value> {
+    pub fn operands(self) -> Vec<V> {
         match self {
             Self::Function(_) | Self::Powi(_) | Self::Sqrt => Vec::new(),
             Self::Powf(exponent) => vec![exponent],
             Self::Power(value_a, value_b) => vec![value_a, value_b],
+        }
+    }
+
+    /// The same function of other values.
+    pub fn map<W>(self, mut of: impl FnMut(V) -> W) -> ProgramKernel<W> {
+        match self {
+            Self::Function(function) => ProgramKernel::Function(function),
+            Self::Powi(n) => ProgramKernel::Powi(n),
+            Self::Sqrt => ProgramKernel::Sqrt,
+            Self::Powf(exponent) => ProgramKernel::Powf(of(exponent)),
+            Self::Power(value_a, value_b) => ProgramKernel::Power(of(value_a), of(value_b)),
         }
     }
 }

@@ -1,1 +1,122 @@
-//! To be written.
+//! Expressions → [`Program`]: one pass over all outputs, every value computed once, none for nothing.
+//!
+//! * Equal expressions are one instruction, whichever outputs they belong to, and so are equal
+//!   beginnings of sums and products.
+//! * A product is a numerator over a denominator: one division. Whole powers are products, halves
+//!   square roots. Coefficients ±1 cost a sign, which a sum absorbs.
+//! * Factors and terms of parameters alone come first, so that they are old-stage values. The others
+//!   stay in structural order whatever their stage is: an expression takes the same operations at
+//!   the old and at the new state, and what is symmetric in the two is symmetric bit by bit.
+
+mod builder;
+mod locals;
+mod power;
+mod sum;
+
+pub(crate) use locals::Locals;
+
+use crate::graph::Graph;
+use crate::node::{ExprId, Node};
+use crate::program::{Input, Program};
+use builder::{Builder, Operand};
+
+/// Schedules expressions as the outputs of one program.
+///
+/// # Panics
+///
+/// If an output depends on a symbol that is not an input.
+///
+/// ```
+/// use eem_symbolic::{Graph, Input, Stage, schedule};
+///
+/// let mut graph = Graph::new();
+/// let symbol = graph.symbol("x");
+/// let x = graph.variable(symbol);
+/// let outputs = [graph.powi(x, -1), graph.powi(x, 2)];
+/// let name = String::from("x");
+/// let program = schedule(&graph, vec![Input { symbol, name, stage: Stage::New }], &outputs);
+/// let count = program.operation_count().new;
+/// assert_eq!((count.multiplications, count.divisions), (1, 1));
+/// ```
+#[must_use]
+pub fn schedule(graph: &Graph, inputs: Vec<Input>, outputs: &[ExprId]) -> Program {
+    let schedule = Schedule {
+        graph,
+        locals: &Locals::default(),
+        parameters: 0,
+    };
+    schedule.program(inputs, outputs)
+}
+
+/// What a schedule is made from besides inputs and outputs.
+pub(crate) struct Schedule<'g> {
+    pub(crate) graph: &'g Graph,
+    pub(crate) locals: &'g Locals,
+    /// How many of the first inputs are parameters.
+    pub(crate) parameters: usize,
+}
+
+impl Schedule<'_> {
+    pub(crate) fn program(&self, inputs: Vec<Input>, outputs: &[ExprId]) -> Program {
+        let mut builder = Builder::new(self, inputs);
+        for &output in outputs {
+            self.visit(&mut builder, output);
+        }
+        let program = builder.finish(outputs);
+        debug_assert_eq!(program.verify(), Ok(()));
+        program
+    }
+
+    /// Emits what `root` depends on, operands first, without recursion.
+    fn visit(&self, builder: &mut Builder<'_>, root: ExprId) {
+        let mut pending = vec![(root, false)];
+        while let Some((e, operands_done)) = pending.pop() {
+            if builder.result(e).is_some() {
+                continue;
+            }
+            if operands_done {
+                let operand = self.emit(builder, e);
+                builder.set(e, operand);
+                continue;
+            }
+            pending.push((e, true));
+            let first = pending.len();
+            if let Some(definition) = self.definition(e) {
+                pending.push((definition, false));
+            } else {
+                let node = self.graph.node(e);
+                node.for_each_operand(|operand| pending.push((operand, false)));
+            }
+            // The first operand is on top, and done first.
+            pending[first..].reverse();
+        }
+    }
+
+    /// The expression that a local stands for.
+    fn definition(&self, e: ExprId) -> Option<ExprId> {
+        let resolved = self.locals.resolve(self.graph, e);
+        (resolved != e).then_some(resolved)
+    }
+
+    fn emit(&self, builder: &mut Builder<'_>, e: ExprId) -> Operand {
+        if let Some(definition) = self.definition(e) {
+            return builder.done(definition);
+        }
+        match self.graph.node(e) {
+            Node::Number(number) => Operand::Number(*number),
+            Node::Variable(symbol) => builder.input(*symbol),
+            Node::Sum { constant, terms } => builder.sum(*constant, terms),
+            Node::Product(factors) => builder.product(factors),
+            Node::Power(base, exponent) => builder.power(*base, *exponent),
+            Node::Apply(function, x) => builder.apply(*function, *x),
+            Node::PairSum(a, b) => builder.pair_sum(*a, *b),
+            Node::DividedDifference(kernel, a, b) => builder.divided_difference(*kernel, *a, *b),
+            Node::SecondDividedDifference(kernel, a, b) => {
+                builder.second_divided_difference(*kernel, *a, *b)
+            }
+            Node::PowerDifference { values, logarithms } => {
+                builder.power_difference(*values, *logarithms)
+            }
+        }
+    }
+}

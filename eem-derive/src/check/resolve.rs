@@ -83,7 +83,7 @@ impl<'r, 'a> Resolver<'r, 'a> {
     pub(super) fn expr(&mut self, expr: &'a ast::Expr<'a>) -> Option<Expr<'a>> {
         let kind = match &expr.kind {
             ast::ExprKind::Block(block) => return self.block(block),
-            ast::ExprKind::Number(number) => ExprKind::Number(number.clone()),
+            ast::ExprKind::Number(number) => ExprKind::Number(*number),
             ast::ExprKind::Name(ident) => self.name(ident)?,
             ast::ExprKind::Negate(inner) => ExprKind::Negate(Box::new(self.expr(inner)?)),
             ast::ExprKind::Binary(operator, left, right) => {

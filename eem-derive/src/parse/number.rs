@@ -30,7 +30,7 @@ pub(super) fn literal<'a>(cx: &Ctxt, literal: &Lit) -> Option<ExprKind<'a>> {
 
 /// The value of decimal digits: exact if 128-bit rationals can hold it, else the nearest `f64`.
 fn number(digits: &str) -> Option<Number> {
-    if let Ok(rational) = Rational::parse_decimal(digits) {
+    if let Some(rational) = Rational::parse_decimal(digits) {
         return Some(Number::Exact(rational));
     }
     let float: f64 = digits.parse().ok()?;

@@ -9,6 +9,10 @@ const NOISE: f64 = 4.0;
 /// Two logarithms of temperatures are the same within this many ε of `max(1, |ln θ|)`.
 const RESOLUTION: f64 = 2.0;
 
+/// The heat capacity may change by this part over a correction that is not
+/// checked by an evaluation, if it changes at the rate Σ|terms of S|.
+const TRUST: f64 = 0.25;
+
 /// Entropies that differ by this factor at the start suggest a power law. Any
 /// number of about this size will do: it decides one step.
 const LARGE_FACTOR: f64 = 8.0;
@@ -25,15 +29,22 @@ pub(super) enum Model {
 /// The entropy at one temperature.
 #[derive(Clone, Copy)]
 pub(super) struct Point<S> {
+    /// `ln θ`.
     pub(super) x: S,
+    /// `θ`.
     pub(super) theta: S,
-    pub(super) entropy: S,
+    /// `C = dS/dx`.
     pub(super) heat_capacity: S,
+    /// `S − s`.
     pub(super) residual: S,
-    pub(super) noise: S,
+    /// `S`.
+    pub(super) entropy: S,
+    /// What of the residual may be rounding.
+    noise: S,
 }
 
 impl<S: Real> Point<S> {
+    /// The point at `θ = eˣ` of a search for the entropy `target`.
     pub(super) fn new(x: S, theta: S, caloric: Caloric<S>, target: S) -> Self {
         Self {
             x,
@@ -52,9 +63,37 @@ impl<S: Real> Point<S> {
             && self.residual.is_finite()
     }
 
+    /// The entropy has increased with the temperature since `other`, as on one stable branch.
+    pub(super) fn follows(&self, other: &Self) -> bool {
+        let increase = self.residual - other.residual;
+        if self.x < other.x {
+            increase <= other.noise + self.noise
+        } else {
+            increase >= -(other.noise + self.noise)
+        }
+    }
+
+    /// The residual is not more than rounding.
+    pub(super) fn is_noise(&self) -> bool {
+        self.residual.abs() <= self.noise
+    }
+
     /// Newton's correction of `x`.
     pub(super) fn newton(&self) -> S {
         -self.residual / self.heat_capacity
+    }
+
+    /// Newton's correction of a converged point, or nothing where it would itself
+    /// be noise: next to a spinodal, where it could lead beyond, or with nearly no capacity.
+    pub(super) fn last_correction(&self) -> S {
+        let correction = self.newton();
+        let magnitude = self.noise / (S::from_f64(NOISE) * S::EPSILON);
+        let trusted = S::from_f64(TRUST) * self.heat_capacity / magnitude;
+        if correction.abs() <= trusted.maximum(self.resolution()) {
+            correction
+        } else {
+            S::zero()
+        }
     }
 
     /// Newton's correction for `ln S`, exact for `S ∝ θⁿ`, if both entropies are positive.

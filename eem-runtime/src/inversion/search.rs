@@ -8,15 +8,15 @@ use super::error::InversionError;
 use super::point::{Model, Point};
 use crate::scalar::Real;
 
-/// Evaluations after which [`invert`] gives up: twice what bisection of the
+/// Evaluations after which [`invert`](crate::invert) gives up: twice what bisection of the
 /// whole range of `ln θ` to the last bit would take.
 const BUDGET: usize = 128;
 
 /// What is known about the solution.
-struct Search<S> {
+pub(super) struct Search<S> {
     target: S,
     /// The current point.
-    point: Point<S>,
+    pub(super) point: Point<S>,
     /// The point of smallest |residual|.
     best: Point<S>,
     /// Largest `x` with a negative and smallest with a positive residual.
@@ -38,11 +38,12 @@ struct Search<S> {
     /// are still due for the last of them.
     failures: u32,
     bisections_due: u32,
-    evaluations: usize,
+    pub(super) evaluations: usize,
 }
 
 impl<S: Real> Search<S> {
-    fn new(target: S, first: Point<S>) -> Self {
+    /// Starts from a stable point.
+    pub(super) fn new(target: S, first: Point<S>) -> Self {
         let infinity = S::one() / S::zero();
         // All normal numbers with normal reciprocals, but for a factor e².
         let widest = S::MAX.ln() - S::from_f64(2.0);
@@ -52,8 +53,8 @@ impl<S: Real> Search<S> {
             best: first,
             below: None,
             above: None,
-            edge_low: (-widest).minimum(first.x),
-            edge_high: widest.maximum(first.x),
+            edge_low: (-widest).minimum(first.x - S::one()),
+            edge_high: widest.maximum(first.x + S::one()),
             reach: S::one(),
             last: infinity,
             last_but_one: infinity,
@@ -80,7 +81,7 @@ impl<S: Real> Search<S> {
     }
 
     /// Makes a stable trial the current point.
-    fn accept(&mut self, trial: Point<S>, step: S) {
+    pub(super) fn accept(&mut self, trial: Point<S>, step: S) {
         self.model = self.point.better_model(step, trial.entropy);
         if self.modelled && trial.residual.abs() > self.point.residual.abs() {
             self.failures += 1;
@@ -94,7 +95,7 @@ impl<S: Real> Search<S> {
 
     /// Notes that `x` is beyond a spinodal, and forgets what lies farther off:
     /// it belongs to another branch.
-    fn exclude(&mut self, x: S) {
+    pub(super) fn exclude(&mut self, x: S) {
         if x < self.point.x {
             self.edge_low = x;
             self.below = self.below.filter(|&below| below > x);
@@ -107,24 +108,26 @@ impl<S: Real> Search<S> {
         }
     }
 
-    /// Half of a step that led beyond a spinodal.
-    fn shorter(&self, step: S) -> S {
-        S::from_f64(0.5) * step
-    }
-
+    /// The lower bound of the solution.
     fn low(&self) -> S {
         self.below
             .map_or(self.edge_low, |x| x.maximum(self.edge_low))
     }
 
+    /// The upper bound of the solution.
     fn high(&self) -> S {
         self.above
             .map_or(self.edge_high, |x| x.minimum(self.edge_high))
     }
 
-    fn converged(&self) -> bool {
-        let point = &self.point;
-        point.residual.abs() <= point.noise || point.newton().abs() <= point.resolution()
+    /// The residual is rounding noise, or what it asks for is below the resolution.
+    pub(super) fn converged(&self) -> bool {
+        self.point.is_noise() || self.point.newton().abs() <= self.point.resolution()
+    }
+
+    /// The search must end without convergence.
+    pub(super) fn spent(&self) -> bool {
+        self.evaluations >= BUDGET || self.exhausted()
     }
 
     /// There is no number left between the bounds.
@@ -133,15 +136,15 @@ impl<S: Real> Search<S> {
     }
 
     /// The current point after one more correction, which needs no evaluation.
-    fn solution(&self) -> Inversion<S> {
+    pub(super) fn solution(&self) -> Inversion<S> {
         Inversion {
-            temperature: self.point.theta * self.point.newton().exp(),
+            temperature: self.point.theta * self.point.last_correction().exp(),
             evaluations: self.evaluations,
         }
     }
 
     /// The next step from the current point.
-    fn step(&mut self) -> S {
+    pub(super) fn step(&mut self) -> S {
         let linear = self.point.newton();
         let logarithmic = self.point.logarithmic_newton(self.target).unwrap_or(linear);
         let (first, second) = match self.model {
@@ -195,7 +198,9 @@ impl<S: Real> Search<S> {
         } else {
             return first;
         };
-        self.reach *= S::from_f64(2.0);
+        if length >= self.reach {
+            self.reach *= S::from_f64(2.0);
+        }
         if first < S::zero() { -length } else { length }
     }
 
@@ -213,7 +218,7 @@ impl<S: Real> Search<S> {
     }
 
     /// The result when the bounds have met: the best point, or that there is no solution.
-    fn conclude(&self) -> Result<Inversion<S>, InversionError> {
+    pub(super) fn conclude(&self) -> Result<Inversion<S>, InversionError> {
         let entropy = self.target.to_f64();
         let temperature = self.best.theta.to_f64();
         let residual = self.best.residual.to_f64();

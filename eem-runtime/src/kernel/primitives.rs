@@ -104,11 +104,17 @@ pub(super) fn near_or_far<S: Scalar>(x: S, near: impl FnOnce() -> S, far: impl F
     S::branch(x.abs().less(S::one()), near, far)
 }
 
+/// Neither infinite nor NaN: only then is the product with zero a number.
+#[inline]
+fn is_finite<S: Scalar>(x: S) -> S::Mask {
+    (x * S::zero()).equal(S::zero())
+}
+
 /// `value` if it is finite and not zero, `otherwise` if it over- or underflowed.
 #[inline]
 pub(super) fn in_range_or<S: Scalar>(value: S, otherwise: impl Fn() -> S) -> S {
     S::branch(value.equal(S::zero()), &otherwise, || {
-        S::branch((value - value).equal(S::zero()), || value, &otherwise)
+        S::branch(is_finite(value), || value, &otherwise)
     })
 }
 
@@ -150,7 +156,7 @@ pub(super) fn phi3<S: Scalar>(x: S) -> S {
 #[inline]
 pub(super) fn log_ratio<S: Scalar>(d: S, w: S) -> S {
     let u = d / w;
-    S::branch((u - u).equal(S::zero()), || u.ln_1p(), || d.ln() - w.ln())
+    S::branch(is_finite(u), || u.ln_1p(), || d.ln() - w.ln())
 }
 
 /// `ln(1 + d/w)/d` for `d ≥ 0`, `w > 0`: the divided difference of `ln` on `[w, w + d]`.

@@ -28,8 +28,7 @@ pub fn powi_dd<S: Scalar>(a: S, b: S, n: i32) -> S {
     if n >= 0 {
         return difference(a, b, order);
     }
-    let scale = natural_power(a, order) * natural_power(b, order);
-    in_range_or(-difference(a, b, order) / scale, || {
+    in_range_or(-over_powers(difference(a, b, order), a, b, order), || {
         let (x, y, _) = ends(a.recip(), b.recip());
         -difference(x, y, order) * x * y
     })
@@ -56,11 +55,21 @@ pub fn powi_dd2<S: Scalar>(a: S, b: S, n: i32) -> S {
     if n >= 0 {
         return second_difference(a, b, order);
     }
-    let scale = natural_power(a, order) * natural_power(b, order) * b;
-    in_range_or(second_difference(b, a, order + 1) / scale, || {
+    let numerator = second_difference(b, a, order + 1);
+    in_range_or(over_powers(numerator, a, b, order) / b, || {
         let (x, y) = (a.recip(), b.recip());
-        second_difference(x, y, order + 1) * x * y * y
+        second_difference(x, y, order + 1) * y * y * x
     })
+}
+
+/// `numerator/(aⁿbⁿ)`, the larger power first: what it divides is of nearly its size.
+fn over_powers<S: Scalar>(numerator: S, a: S, b: S, n: u32) -> S {
+    let (a_power, b_power) = (natural_power(a, n), natural_power(b, n));
+    S::branch(
+        a_power.abs().less(b_power.abs()),
+        || numerator / b_power / a_power,
+        || numerator / a_power / b_power,
+    )
 }
 
 /// `Pₙ(a,b)`, bitwise symmetric.
@@ -72,7 +81,7 @@ fn difference<S: Scalar>(a: S, b: S, n: u32) -> S {
         _ => {
             let (a2, b2, sum) = (a * a, b * b, a + b);
             let inner = difference(a2, b2, n / 2);
-            if n % 2 == 0 {
+            if n.is_multiple_of(2) {
                 sum * inner
             } else {
                 let ends = natural_power(a2, n / 2) + natural_power(b2, n / 2);
@@ -97,7 +106,7 @@ fn difference_pair<S: Scalar>(a: S, b: S, n: u32) -> (S, S) {
             let (a2, b2, sum) = (a * a, b * b, a + b);
             let (first, second) = difference_pair(a2, b2, n / 2);
             let even = (sum * first, first + twice(b) * sum * second);
-            if n % 2 == 0 {
+            if n.is_multiple_of(2) {
                 even
             } else {
                 // x·x²ʲ with the Leibniz rule, nodes in the order b, a, b.

@@ -1,7 +1,7 @@
 //! The distance of two nodes.
 
 use super::{Ends, Kinematics};
-use crate::scalar::Scalar;
+use crate::scalar::{Real, Scalar};
 
 /// The stretch `λ = |r|`, `r = q_j − q_i`, of two nodes in `D` dimensions, m.
 ///
@@ -58,9 +58,13 @@ fn identity<S: Scalar>(row: usize, column: usize) -> S {
     if row == column { S::one() } else { S::zero() }
 }
 
-impl<S: Scalar, const D: usize> Kinematics<S> for Stretch<D> {
+impl<S: Real, const D: usize> Kinematics<S> for Stretch<D> {
     const NODES: usize = 2;
     const MEASURES: usize = 1;
+
+    fn is_admissible(&self, measure: S) -> bool {
+        measure.is_finite() && measure > S::zero()
+    }
 
     #[inline]
     fn measure(&self, q: &[S], measures: &mut [S]) {

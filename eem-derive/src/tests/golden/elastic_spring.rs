@@ -1,0 +1,172 @@
+#[allow(clippy::unreadable_literal, clippy::excessive_precision)]
+#[allow(clippy::many_single_char_names, clippy::similar_names)]
+#[allow(clippy::too_many_lines, clippy::cognitive_complexity, clippy::let_and_return)]
+#[allow(unused_qualifications)]
+const _: () = {
+    use ::eem::__private as __eem;
+    /// Generated from the free energy of the model:
+    ///
+    /// ```text
+    /// ψ = 0.5*stiffness*(lambda - length)^2
+    /// f = ∂ψ/∂lambda = stiffness*(lambda - length)
+    /// ```
+    #[automatically_derived]
+    impl<__S: __eem::Scalar> __eem::FreeEnergy<__S> for ElasticSpring {
+        const MEASURES: __eem::core::primitive::usize = 1;
+        const DASHPOTS: __eem::core::primitive::usize = 0;
+        const THERMAL: __eem::core::primitive::bool = false;
+        const PARAMETERS: &'static [&'static __eem::core::primitive::str] = &[
+            "stiffness",
+            "length",
+        ];
+        type Variables = [__S; 1];
+        type Hessian = [[__S; 1]; 1];
+        type Viscosities = [__S; 0];
+        type Corners = [__S; 0];
+        type Response = [__S; 1];
+        type Tangent = [[__S; 1]; 1];
+        type EntropyFormOld = [__S; 4];
+        type TemperatureFormOld = [__S; 4];
+        fn parameter(&self, __index: __eem::core::primitive::usize) -> __S {
+            let __parameters: [__S; 2] = [
+                <__S as __eem::Scalar>::from_f64(
+                    __eem::core::convert::From::from(self.stiffness),
+                ),
+                <__S as __eem::Scalar>::from_f64(
+                    __eem::core::convert::From::from(self.length),
+                ),
+            ];
+            __parameters[__index]
+        }
+        /// Free energy ψ.
+        ///
+        /// 4 operations: 1 addition, 3 multiplications.
+        fn free_energy(&self, __x: &Self::Variables) -> __S {
+            let __v0 = <__S as __eem::Scalar>::from_f64(
+                __eem::core::convert::From::from(self.stiffness),
+            );
+            let __v1 = __x[0];
+            let __v2 = <__S as __eem::Scalar>::from_f64(
+                __eem::core::convert::From::from(self.length),
+            );
+            let __v3 = __v1 - __v2;
+            let __v4 = __v3 * __v3;
+            let __v5 = __v0 * __v4;
+            let __v6 = <__S as __eem::Scalar>::from_f64(0.5);
+            let __v7 = __v5 * __v6;
+            __v7
+        }
+        /// Internal energy e = ψ + θ s.
+        ///
+        /// 4 operations: 1 addition, 3 multiplications.
+        fn internal_energy(&self, __x: &Self::Variables) -> __S {
+            let __v0 = <__S as __eem::Scalar>::from_f64(
+                __eem::core::convert::From::from(self.stiffness),
+            );
+            let __v1 = __x[0];
+            let __v2 = <__S as __eem::Scalar>::from_f64(
+                __eem::core::convert::From::from(self.length),
+            );
+            let __v3 = __v1 - __v2;
+            let __v4 = __v3 * __v3;
+            let __v5 = __v0 * __v4;
+            let __v6 = <__S as __eem::Scalar>::from_f64(0.5);
+            let __v7 = __v5 * __v6;
+            __v7
+        }
+        /// Gradient ∂ψ/∂x.
+        ///
+        /// 2 operations: 1 addition, 1 multiplication.
+        fn gradient(&self, __x: &Self::Variables) -> Self::Variables {
+            let __v0 = <__S as __eem::Scalar>::from_f64(
+                __eem::core::convert::From::from(self.stiffness),
+            );
+            let __v1 = __x[0];
+            let __v2 = <__S as __eem::Scalar>::from_f64(
+                __eem::core::convert::From::from(self.length),
+            );
+            let __v3 = __v1 - __v2;
+            let __v4 = __v0 * __v3;
+            [__v4]
+        }
+        /// Gradient ∂ψ/∂x and Hessian ∂²ψ/∂x².
+        ///
+        /// 2 operations: 1 addition, 1 multiplication.
+        fn hessian(&self, __x: &Self::Variables) -> (Self::Variables, Self::Hessian) {
+            let __v0 = <__S as __eem::Scalar>::from_f64(
+                __eem::core::convert::From::from(self.stiffness),
+            );
+            let __v1 = __x[0];
+            let __v2 = <__S as __eem::Scalar>::from_f64(
+                __eem::core::convert::From::from(self.length),
+            );
+            let __v3 = __v1 - __v2;
+            let __v4 = __v0 * __v3;
+            ([__v4], [[__v0]])
+        }
+        /// There is no temperature: zero.
+        fn caloric(&self, _: &Self::Variables) -> __eem::Caloric<__S> {
+            let __zero = <__S as __eem::Scalar>::zero();
+            __eem::Caloric {
+                entropy: __zero,
+                heat_capacity: __zero,
+                magnitude: __zero,
+            }
+        }
+        /// There is no dashpot: nothing.
+        fn viscosity(&self, _: __S) -> (Self::Viscosities, Self::Viscosities) {
+            ([], [])
+        }
+        /// Entropy form: what the old state decides.
+        ///
+        /// 2 operations: 1 addition, 1 multiplication.
+        fn entropy_form_old(&self, __x0: &Self::Variables) -> Self::EntropyFormOld {
+            let __v0 = <__S as __eem::Scalar>::from_f64(
+                __eem::core::convert::From::from(self.stiffness),
+            );
+            let __v1 = __x0[0];
+            let __v2 = <__S as __eem::Scalar>::from_f64(
+                __eem::core::convert::From::from(self.length),
+            );
+            let __v3 = __v1 - __v2;
+            let __v12 = <__S as __eem::Scalar>::from_f64(0.5);
+            let __v13 = __v0 * __v12;
+            [__v0, __v2, __v3, __v13]
+        }
+        /// Entropy form: algorithmic quantities at the corner temperatures, and their tangent.
+        ///
+        /// 6 operations: 3 additions, 3 multiplications.
+        fn entropy_form(
+            &self,
+            __old: &Self::EntropyFormOld,
+            __x1: &Self::Variables,
+            _: &Self::Corners,
+        ) -> (Self::Response, Self::Tangent) {
+            let [__v0, __v2, __v3, __v13] = *__old;
+            let __v4 = __x1[0];
+            let __v5 = __v4 - __v2;
+            let __v6 = __v3 + __v5;
+            let __v7 = __v0 * __v6;
+            let __v8 = <__S as __eem::Scalar>::from_f64(0.5);
+            let __v9 = __v7 * __v8;
+            let __v10 = __v9 + __v9;
+            let __v11 = __v8 * __v10;
+            ([__v11], [[__v13]])
+        }
+        /// There is no temperature: the same as the entropy form.
+        fn temperature_form_old(
+            &self,
+            __x0: &Self::Variables,
+        ) -> Self::TemperatureFormOld {
+            __eem::FreeEnergy::entropy_form_old(self, __x0)
+        }
+        /// There is no temperature: the same as the entropy form.
+        fn temperature_form(
+            &self,
+            __old: &Self::TemperatureFormOld,
+            __x1: &Self::Variables,
+        ) -> (Self::Response, Self::Tangent) {
+            __eem::FreeEnergy::entropy_form(self, __old, __x1, &[])
+        }
+    }
+};

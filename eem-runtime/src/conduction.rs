@@ -1,0 +1,94 @@
+//! Fourier conduction between elements and to reservoirs.
+
+use core::ops::Range;
+
+use crate::handle::HeatPartner;
+use crate::layout::Layout;
+use crate::scalar::Real;
+use crate::scene::Scene;
+
+/// The far end of a path of heat.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Partner {
+    /// The element with this thermal slot.
+    Slot(usize),
+    /// The reservoir with this index.
+    Reservoir(usize),
+}
+
+/// A path of heat as one of its elements sees it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Link<S> {
+    pub(crate) partner: Partner,
+    /// κ, W/K.
+    pub(crate) conductance: S,
+}
+
+/// All paths of heat of a scene, sorted by thermal slot.
+#[derive(Clone, Debug)]
+pub(crate) struct Conduction<S> {
+    links: Vec<Link<S>>,
+    ranges: Vec<Range<usize>>,
+    /// θ_r, K.
+    pub(crate) reservoirs: Vec<S>,
+}
+
+impl<S: Real> Conduction<S> {
+    /// The paths of a scene.
+    pub(crate) fn new<const D: usize>(scene: &Scene<D, S>, layout: &Layout) -> Self {
+        let mut by_slot = vec![Vec::new(); layout.coupled.len()];
+        let slot = |index: usize| layout.elements[index].thermal;
+        for conductor in &scene.conductors {
+            let conductance = conductor.conductance;
+            let near = slot(conductor.element.index);
+            let (partner, back) = match conductor.partner {
+                HeatPartner::Reservoir(far) => (Some(Partner::Reservoir(far.index)), None),
+                HeatPartner::Element(far) => {
+                    let far = slot(far.index);
+                    (far.map(Partner::Slot), far.zip(near.map(Partner::Slot)))
+                }
+            };
+            if let (Some(near), Some(partner)) = (near, partner) {
+                by_slot[near].push(Link { partner, conductance });
+            }
+            if let Some((far, partner)) = back {
+                by_slot[far].push(Link { partner, conductance });
+            }
+        }
+        let mut links = Vec::new();
+        let mut ranges = Vec::with_capacity(by_slot.len());
+        for list in by_slot {
+            let start = links.len();
+            links.extend(list);
+            ranges.push(start..links.len());
+        }
+        Self {
+            links,
+            ranges,
+            reservoirs: scene.reservoirs.clone(),
+        }
+    }
+
+    /// The paths that end at a slot.
+    pub(crate) fn links(&self, slot: usize) -> &[Link<S>] {
+        &self.links[self.ranges[slot].clone()]
+    }
+
+    /// `Σ κ` of a slot, W/K.
+    pub(crate) fn conductance(&self, slot: usize) -> S {
+        let conductances = self.links(slot).iter().map(|link| link.conductance);
+        conductances.fold(S::zero(), |sum, conductance| sum + conductance)
+    }
+
+    /// `Σ κ (θ_partner − θ)`, the heat flow into a slot at temperature θ, W; `temperatures` are
+    /// those of the other slots.
+    pub(crate) fn heat_flow(&self, slot: usize, theta: S, temperatures: &[S]) -> S {
+        self.links(slot).iter().fold(S::zero(), |sum, link| {
+            let partner = match link.partner {
+                Partner::Slot(slot) => temperatures[slot],
+                Partner::Reservoir(index) => self.reservoirs[index],
+            };
+            sum + link.conductance * (partner - theta)
+        })
+    }
+}

@@ -1,0 +1,228 @@
+//! What can be wrong with a scene, with a state, and with a step.
+//!
+//! Every error names the thing, the value and, once time runs, the time. Values are given in `f64`
+//! whatever the scalar of the scene.
+
+use thiserror::Error;
+
+use crate::handle::{Element, HeatPartner, Node, Reservoir};
+use crate::inversion::InversionError;
+
+/// Why a scene cannot be simulated.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// A handle comes from another scene.
+    #[error("{handle} belongs to another scene")]
+    ForeignHandle {
+        /// The handle as text.
+        handle: String,
+    },
+    /// A coordinate is not finite.
+    #[error("coordinate {axis} of the position of {node} is {value} m, it must be finite")]
+    Position {
+        /// The node.
+        node: Node,
+        /// The axis, from 0.
+        axis: usize,
+        /// The coordinate, m.
+        value: f64,
+    },
+    /// A velocity is not finite.
+    #[error("component {axis} of the velocity of {node} is {value} m/s, it must be finite")]
+    Velocity {
+        /// The node.
+        node: Node,
+        /// The axis, from 0.
+        axis: usize,
+        /// The component, m/s.
+        value: f64,
+    },
+    /// A mass is not positive and finite.
+    #[error("the mass of {node} is {value} kg, it must be positive and finite")]
+    Mass {
+        /// The node.
+        node: Node,
+        /// The mass, kg.
+        value: f64,
+    },
+    /// A parameter of a model is not finite.
+    #[error("parameter `{parameter}` of {element} is {value}, it must be finite")]
+    Parameter {
+        /// The element.
+        element: Element,
+        /// The name of the field.
+        parameter: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The temperature of a reservoir is not positive and finite.
+    #[error("the temperature of {reservoir} is {value} K, it must be positive and finite")]
+    ReservoirTemperature {
+        /// The reservoir.
+        reservoir: Reservoir,
+        /// The temperature, K.
+        value: f64,
+    },
+    /// A conductance is negative or not finite.
+    #[error("the conductance between {element} and {partner} is {value} W/K, it must be finite and not negative")]
+    Conductance {
+        /// The element.
+        element: Element,
+        /// What it exchanges heat with.
+        partner: HeatPartner,
+        /// The conductance, W/K.
+        value: f64,
+    },
+    /// An element conducts heat to itself.
+    #[error("{element} conducts heat to itself")]
+    SelfConduction {
+        /// The element.
+        element: Element,
+    },
+    /// Something thermal was asked of an element whose model has no temperature.
+    #[error("{element} has no temperature: its free energy has no `Temperature` argument")]
+    NotThermal {
+        /// The element.
+        element: Element,
+    },
+    /// An element was never given a temperature.
+    #[error("{element} was never given a temperature, call `set_temperature`")]
+    MissingTemperature {
+        /// The element.
+        element: Element,
+    },
+    /// A viscous stretch was given for a dashpot that the model does not have.
+    #[error("{element} has {dashpots} dashpots, there is no dashpot {dashpot}")]
+    NoSuchDashpot {
+        /// The element.
+        element: Element,
+        /// The dashpot asked for, from 0.
+        dashpot: usize,
+        /// How many there are.
+        dashpots: usize,
+    },
+    /// The time step is not positive and finite.
+    #[error("the time step is {value} s, it must be positive and finite")]
+    Step {
+        /// The step, s.
+        value: f64,
+    },
+    /// The initial state of an element is outside the domain of its model.
+    #[error("at t = 0 s: {0}")]
+    State(#[from] StateError),
+}
+
+/// Why an element cannot be in a state.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum StateError {
+    /// The nodes of an element coincide, or their distance is not finite.
+    #[error("the stretch of {element} is {value} m, it must be positive and finite")]
+    Stretch {
+        /// The element.
+        element: Element,
+        /// The stretch, m.
+        value: f64,
+    },
+    /// A viscous stretch is not finite.
+    #[error("the viscous stretch of dashpot {dashpot} of {element} is {value} m, it must be finite")]
+    ViscousStretch {
+        /// The element.
+        element: Element,
+        /// The dashpot, from 0.
+        dashpot: usize,
+        /// The viscous stretch, m.
+        value: f64,
+    },
+    /// A temperature is not positive and finite.
+    #[error("the temperature of {element} is {value} K, it must be positive and finite")]
+    Temperature {
+        /// The element.
+        element: Element,
+        /// The temperature, K.
+        value: f64,
+    },
+    /// A heat capacity is not positive and finite.
+    #[error("the heat capacity of {element} is {value} J/K at {temperature} K, it must be positive and finite")]
+    HeatCapacity {
+        /// The element.
+        element: Element,
+        /// The heat capacity `θ ∂s/∂θ`, J/K.
+        value: f64,
+        /// The temperature, K.
+        temperature: f64,
+    },
+    /// A viscosity is not positive and finite.
+    #[error("the viscosity of dashpot {dashpot} of {element} is {value} N s/m at {temperature} K, it must be positive and finite")]
+    Viscosity {
+        /// The element.
+        element: Element,
+        /// The dashpot, from 0.
+        dashpot: usize,
+        /// The viscosity, N s/m.
+        value: f64,
+        /// The temperature, K; NaN for a model without temperature.
+        temperature: f64,
+    },
+    /// No temperature has the entropy that the element must have.
+    #[error("no temperature of {element} has the entropy {entropy} J/K: {source}")]
+    NoSuchTemperature {
+        /// The element.
+        element: Element,
+        /// The entropy, J/K.
+        entropy: f64,
+        /// What the inversion says.
+        source: InversionError,
+    },
+    /// A quantity that a model computes is not finite.
+    #[error("the {quantity} of {element} is {value}, it must be finite")]
+    NotFinite {
+        /// The element.
+        element: Element,
+        /// The quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+    },
+}
+
+/// Why a step found no new state.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum StepFailure {
+    /// The time step is not positive and finite.
+    #[error("the time step must be positive and finite")]
+    Step,
+    /// Newton's method used up its iterations.
+    #[error("Newton's method did not converge, its last scaled update was {update:e}")]
+    NotConverged {
+        /// The largest scaled update of the last iteration.
+        update: f64,
+    },
+    /// The tangent is singular.
+    #[error("the tangent matrix is singular")]
+    SingularTangent,
+    /// An element has no admissible state where Newton's method leads.
+    #[error(transparent)]
+    State(#[from] StateError),
+}
+
+/// A step that failed. The simulation is as it was before.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("step from t = {time} s by {step} s failed after {iterations} iterations: {failure}")]
+pub struct StepError {
+    /// The time at which the step began, s.
+    pub time: f64,
+    /// The time step, s.
+    pub step: f64,
+    /// How many Newton iterations were done.
+    pub iterations: usize,
+    /// Why it failed.
+    #[source]
+    pub failure: StepFailure,
+    /// The largest scaled update of each iteration.
+    pub updates: Vec<f64>,
+    /// The largest residual of the momentum balances in each iteration, N s.
+    pub residuals: Vec<f64>,
+}

@@ -1,0 +1,164 @@
+//! The end of a step: increments of all variables from the found forces, temperatures and rates.
+//!
+//! Newton's method leaves an error in the trial state. Taking `f*`, `g*` and `θ*` as given and
+//! evaluating the remaining relations explicitly from them makes the balances of momentum and
+//! entropy hold to rounding whatever that error is, and leaves the energy with its square.
+
+use super::evaluate::check_measures;
+use super::{ElementGroup, StepView, Trial, variables};
+use crate::conduction::Partner;
+use crate::error::StateError;
+use crate::free_energy::{Array, FreeEnergy};
+use crate::kinematics::Kinematics;
+use crate::scalar::Real;
+use crate::scene::is_positive;
+use crate::scheme::{ElementScheme, Infeasible, temperature_at};
+use crate::state::State;
+use crate::system::LinearSystem;
+
+impl<S, M, K, C> ElementGroup<S, M, K, C>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S>,
+    C: ElementScheme<S, M>,
+{
+    /// A of the nodal force `A q_m` of element `i`, into the matrix of the geometry.
+    fn secant(&mut self, i: usize) -> bool {
+        let response = self.members[i].response;
+        let forces = &response.as_ref()[..M::MEASURES];
+        self.geometry.secant(self.kinematics, i, C::PLACEMENT, forces)
+    }
+
+    /// See [`Group::add_secant`](super::Group::add_secant).
+    pub(super) fn add_secant_all(
+        &mut self,
+        view: &StepView<'_, S>,
+        system: &mut LinearSystem<S>,
+    ) -> bool {
+        let (width, h) = (self.geometry.width(), view.step);
+        let half = S::from_f64(0.5);
+        let old = view.state.positions.values();
+        for i in 0..self.members.len() {
+            if !self.secant(i) {
+                return false;
+            }
+            for (p, at) in self.unknowns(view, i).enumerate() {
+                let Some(at) = at else { continue };
+                let row = &self.geometry.matrix[p * width..(p + 1) * width];
+                let coordinates = self.geometry.coordinates_of(i);
+                for ((&entry, to), coordinate) in row.iter().zip(self.unknowns(view, i)).zip(coordinates) {
+                    system.add_right(at, -h * entry * old[coordinate]);
+                    if let Some(to) = to {
+                        system.add(at, to, half * h * entry);
+                    }
+                }
+            }
+        }
+        true
+    }
+
+    /// See [`Group::add_impulse`](super::Group::add_impulse).
+    pub(super) fn add_impulse_all(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S>,
+        impulse: &mut [S],
+    ) {
+        let (width, h) = (self.geometry.width(), view.step);
+        let half = S::from_f64(0.5);
+        let old = view.state.positions.values();
+        for i in 0..self.members.len() {
+            if self.secant(i) {
+                for (p, at) in self.geometry.coordinates_of(i).enumerate() {
+                    let row = &self.geometry.matrix[p * width..(p + 1) * width];
+                    let pairs = row.iter().zip(self.geometry.coordinates_of(i));
+                    let force = pairs.fold(S::zero(), |sum, (&entry, coordinate)| {
+                        let mean = old[coordinate] + half * trial.displacements[coordinate];
+                        sum + entry * mean
+                    });
+                    impulse[at] -= h * force;
+                }
+            } else {
+                let share = h * S::from_f64(C::IMPLICIT);
+                let rows = self.geometry.direction(i).chunks_exact(width);
+                let forces = &self.members[i].response.as_ref()[..M::MEASURES];
+                for (row, &force) in rows.zip(forces) {
+                    for (&entry, at) in row.iter().zip(self.geometry.coordinates_of(i)) {
+                        impulse[at] -= share * force * entry;
+                    }
+                }
+            }
+        }
+    }
+
+    /// See [`Group::close`](super::Group::close).
+    pub(super) fn close_all(&mut self, view: &StepView<'_, S>, trial: &Trial<S>, next: &mut State<S>) {
+        let share = S::from_f64(C::IMPLICIT);
+        for member in &self.members {
+            let forces = &member.response.as_ref()[M::MEASURES..M::MEASURES + M::DASHPOTS];
+            let viscosities = member.viscosities.0.as_ref();
+            let mut heat = S::zero();
+            for (k, (&g, &eta)) in forces.iter().zip(viscosities).enumerate() {
+                let rate = g / eta;
+                heat += g * rate;
+                let old_rate = member.old_rates.as_ref()[M::MEASURES + k];
+                next.viscous.add(member.slots.viscous + k, view.step * (share * rate + old_rate));
+            }
+            let Some(slot) = member.slots.thermal else {
+                next.dissipated.add(0, view.step * (share * heat + member.old_dissipation()));
+                continue;
+            };
+            let theta = member.temperature();
+            heat += view.conduction.heat_flow(slot, theta, &trial.temperatures);
+            let old_rate = member.old_rates.as_ref()[M::MEASURES + M::DASHPOTS];
+            next.entropies.add(slot, view.step * (share * heat / theta + old_rate));
+            let seen = share * theta + (S::one() - share) * view.state.temperatures[slot];
+            for link in view.conduction.links(slot) {
+                if let Partner::Reservoir(index) = link.partner {
+                    let theta_r = view.conduction.reservoirs[index];
+                    let flow = link.conductance * (seen - theta_r);
+                    next.reservoir_entropies.add(index, view.step * flow / theta_r);
+                }
+            }
+        }
+    }
+
+    /// See [`Group::settle`](super::Group::settle).
+    pub(super) fn settle_all(&mut self, state: &mut State<S>) -> Result<(), StateError> {
+        for i in 0..self.members.len() {
+            self.geometry.measure_at(self.kinematics, i, state.positions.values());
+            let measures = &self.geometry.old_measures[self.geometry.measures_range(i)];
+            let member = &mut self.members[i];
+            check_measures(self.kinematics, member.element, measures)?;
+            let x = variables::<S, M>(measures, member.slots, state);
+            for (dashpot, &stretch) in x.as_ref()[M::MEASURES..][..M::DASHPOTS].iter().enumerate() {
+                if !stretch.is_finite() {
+                    return Err(StateError::ViscousStretch {
+                        element: member.element,
+                        dashpot,
+                        value: stretch.to_f64(),
+                    });
+                }
+            }
+            let Some(slot) = member.slots.thermal else {
+                continue;
+            };
+            let entropy = state.entropies.values()[slot];
+            let guess = member.x.as_ref()[M::Variables::LEN - 1];
+            let theta = temperature_at(&member.model, x, entropy, guess)
+                .map_err(|infeasible| infeasible.of(member.element))?;
+            state.temperatures[slot] = theta;
+            let x = variables::<S, M>(measures, member.slots, state);
+            let capacity = member.model.caloric(&x).heat_capacity;
+            if !is_positive(capacity) {
+                let infeasible = Infeasible::HeatCapacity {
+                    value: capacity.to_f64(),
+                    temperature: theta.to_f64(),
+                };
+                return Err(infeasible.of(member.element));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,157 @@
+//! Old state and trial state of the elements: responses, viscosities, condensed local systems.
+
+use super::{ElementGroup, StepView, Trial, variables};
+use crate::error::StateError;
+use crate::free_energy::{Array, FreeEnergy};
+use crate::handle::Element;
+use crate::kinematics::Kinematics;
+use crate::scalar::Real;
+use crate::scene::is_positive;
+use crate::scheme::{ElementScheme, Start};
+
+impl<S, M, K, C> ElementGroup<S, M, K, C>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S>,
+    C: ElementScheme<S, M>,
+{
+    /// See [`Group::begin`](super::Group::begin).
+    pub(super) fn begin_step(
+        &mut self,
+        view: &StepView<'_, S>,
+        old_force: &mut [S],
+    ) -> Result<(), StateError> {
+        let positions = view.state.positions.values();
+        for i in 0..self.members.len() {
+            self.geometry.measure_at(self.kinematics, i, positions);
+            let member = &mut self.members[i];
+            let measures = &self.geometry.old_measures[self.geometry.measures_range(i)];
+            let x0 = variables::<S, M>(measures, member.slots, view.state);
+            let entropy = member.slots.thermal.map(|slot| view.state.entropies.values()[slot]);
+            member.start = Some(Start {
+                x0,
+                entropy: entropy.unwrap_or(S::zero()),
+                old: C::old(&member.model, &x0),
+            });
+            member.x = x0;
+            member.previous = x0;
+            member.correction = M::Variables::filled(S::zero());
+            if M::THERMAL {
+                let theta = x0.as_ref()[M::Variables::LEN - 1];
+                member.corners = M::Corners::filled(theta);
+            }
+            if C::IMPLICIT < 1.0 {
+                self.old_share(view, i, old_force)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The part of rates and nodal forces that the scheme takes from the old state.
+    fn old_share(
+        &mut self,
+        view: &StepView<'_, S>,
+        i: usize,
+        old_force: &mut [S],
+    ) -> Result<(), StateError> {
+        let share = S::one() - S::from_f64(C::IMPLICIT);
+        let member = &mut self.members[i];
+        let x0 = member.x;
+        let theta = x0.as_ref()[M::Variables::LEN - 1];
+        member.find_viscosities(theta)?;
+        let gradient = member.model.gradient(&x0);
+        let mut heat = S::zero();
+        for k in 0..M::DASHPOTS {
+            let index = M::MEASURES + k;
+            let g = -gradient.as_ref()[index];
+            let rate = g / member.viscosities.0.as_ref()[k];
+            member.old_rates.as_mut()[index] = share * rate;
+            heat += g * rate;
+        }
+        if let Some(slot) = member.slots.thermal {
+            let temperatures = &view.state.temperatures;
+            heat += view.conduction.heat_flow(slot, theta, temperatures);
+            member.old_rates.as_mut()[M::Variables::LEN - 1] = share * heat / theta;
+        }
+        let positions = view.state.positions.values();
+        self.geometry.gather(i, C::PLACEMENT, positions, positions);
+        self.geometry.place(self.kinematics, i, C::PLACEMENT);
+        let direction = self.geometry.direction(i);
+        let rows = direction.chunks_exact(self.geometry.width());
+        for (row, &force) in rows.zip(gradient.as_ref()) {
+            for (coordinate, &entry) in self.geometry.coordinates_of(i).zip(row) {
+                old_force[coordinate] += share * force * entry;
+            }
+        }
+        Ok(())
+    }
+
+    /// See [`Group::evaluate`](super::Group::evaluate).
+    pub(super) fn evaluate_trial(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &mut Trial<S>,
+    ) -> Result<(), StateError> {
+        let old = view.state.positions.values();
+        for i in 0..self.members.len() {
+            self.geometry.gather(i, C::PLACEMENT, old, &trial.positions);
+            self.geometry.place(self.kinematics, i, C::PLACEMENT);
+            let own = self.geometry.measures_range(i);
+            let measures = &self.geometry.measures[own];
+            let member = &mut self.members[i];
+            check_measures(self.kinematics, member.element, measures)?;
+            member.x.as_mut()[..M::MEASURES].copy_from_slice(measures);
+            let Some(start) = &member.start else {
+                unreachable!("a step begins before it is evaluated");
+            };
+            let response = C::respond(&member.model, start, &member.x, &mut member.corners);
+            (member.response, member.tangent) =
+                response.map_err(|infeasible| infeasible.of(member.element))?;
+            check_response::<S, M>(member.element, &member.response)?;
+            member.find_viscosities(member.temperature())?;
+            self.local.condense(view, &trial.seen_temperatures, member)?;
+            if let Some(slot) = member.slots.thermal {
+                trial.temperatures[slot] = member.temperature();
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The deformation is one that the element can have.
+pub(super) fn check_measures<S: Real, K: Kinematics<S>>(
+    kinematics: K,
+    element: Element,
+    measures: &[S],
+) -> Result<(), StateError> {
+    match measures.iter().find(|&&measure| !kinematics.is_admissible(measure)) {
+        None => Ok(()),
+        Some(measure) => Err(StateError::Stretch {
+            element,
+            value: measure.to_f64(),
+        }),
+    }
+}
+
+fn check_response<S: Real, M: FreeEnergy<S>>(
+    element: Element,
+    response: &M::Response,
+) -> Result<(), StateError> {
+    let response = response.as_ref();
+    if M::THERMAL {
+        let theta = response[M::MEASURES + M::DASHPOTS];
+        if !is_positive(theta) {
+            let value = theta.to_f64();
+            return Err(StateError::Temperature { element, value });
+        }
+    }
+    match response.iter().find(|value| !value.is_finite()) {
+        None => Ok(()),
+        Some(value) => Err(StateError::NotFinite {
+            element,
+            quantity: "force or entropy",
+            value: value.to_f64(),
+        }),
+    }
+}

@@ -1,0 +1,94 @@
+//! What the elements are in a state, from the definitions and not from what a step computed.
+
+use super::evaluate::check_measures;
+use super::{ElementGroup, ElementView, GroupTotals, variables};
+use crate::error::StateError;
+use crate::free_energy::FreeEnergy;
+use crate::kinematics::Kinematics;
+use crate::scalar::Real;
+use crate::scene::is_positive;
+use crate::scheme::{ElementScheme, Infeasible};
+use crate::state::State;
+
+/// The most measures that an element can have: the strains of a solid.
+const MOST_MEASURES: usize = 6;
+
+impl<S, M, K, C> ElementGroup<S, M, K, C>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S>,
+    C: ElementScheme<S, M>,
+{
+    /// See [`Group::initialize`](super::Group::initialize).
+    pub(super) fn initialize_all(&mut self, state: &mut State<S>) -> Result<(), StateError> {
+        for i in 0..self.members.len() {
+            self.geometry.measure_at(self.kinematics, i, state.positions.values());
+            let measures = &self.geometry.old_measures[self.geometry.measures_range(i)];
+            let member = &mut self.members[i];
+            check_measures(self.kinematics, member.element, measures)?;
+            let x = variables::<S, M>(measures, member.slots, state);
+            let theta = member.slots.thermal.map_or(S::zero(), |slot| state.temperatures[slot]);
+            member.find_viscosities(theta)?;
+            let Some(slot) = member.slots.thermal else {
+                continue;
+            };
+            let caloric = member.model.caloric(&x);
+            if !is_positive(caloric.heat_capacity) {
+                let infeasible = Infeasible::HeatCapacity {
+                    value: caloric.heat_capacity.to_f64(),
+                    temperature: theta.to_f64(),
+                };
+                return Err(infeasible.of(member.element));
+            }
+            if !caloric.entropy.is_finite() {
+                return Err(StateError::NotFinite {
+                    element: member.element,
+                    quantity: "entropy",
+                    value: caloric.entropy.to_f64(),
+                });
+            }
+            state.entropies.set(slot, caloric.entropy);
+        }
+        Ok(())
+    }
+
+    /// The variables of element `i` in a state.
+    fn variables_at(&self, i: usize, state: &State<S>) -> M::Variables {
+        let mut measures = [S::zero(); MOST_MEASURES];
+        self.geometry.measure_into(self.kinematics, i, state.positions.values(), &mut measures);
+        variables::<S, M>(&measures[..M::MEASURES], self.members[i].slots, state)
+    }
+
+    /// `ψ + θ s` of element `i`, with the entropy that is the state, J.
+    fn internal_energy(&self, i: usize, x: &M::Variables, state: &State<S>) -> S {
+        let member = &self.members[i];
+        let psi = member.model.free_energy(x);
+        match member.slots.thermal {
+            Some(slot) => psi + state.temperatures[slot] * state.entropies.values()[slot],
+            None => psi,
+        }
+    }
+
+    /// See [`Group::totals`](super::Group::totals).
+    pub(super) fn sum(&self, state: &State<S>) -> GroupTotals<S> {
+        let (mut energy, mut entropy) = (S::zero(), S::zero());
+        for (i, member) in self.members.iter().enumerate() {
+            energy += self.internal_energy(i, &self.variables_at(i, state), state);
+            if let Some(slot) = member.slots.thermal {
+                entropy += state.entropies.values()[slot];
+            }
+        }
+        GroupTotals { energy, entropy }
+    }
+
+    /// See [`Group::inspect`](super::Group::inspect).
+    pub(super) fn inspect_at(&self, place: usize, state: &State<S>) -> ElementView<S> {
+        let x = self.variables_at(place, state);
+        ElementView {
+            measure: x.as_ref()[0],
+            force: self.members[place].model.gradient(&x).as_ref()[0],
+            internal_energy: self.internal_energy(place, &x, state),
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! Which unknown of the global system belongs to which node and element.
+//!
+//! Unknowns are the displacements of the masses and, for elements that conduct heat to other
+//! elements, the algorithmic temperature that their neighbours see. Viscous stretches and
+//! temperatures proper are condensed within their element.
+
+use crate::blueprint::Shape;
+use crate::handle::HeatPartner;
+use crate::scalar::Real;
+use crate::scene::Scene;
+
+/// Where an element keeps its internal variables in the [`State`](crate::state::State).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Slots {
+    /// Offset of the viscous stretches.
+    pub(crate) viscous: usize,
+    /// Index of entropy and temperature, if the element has them.
+    pub(crate) thermal: Option<usize>,
+}
+
+/// The numbering of a scene.
+#[derive(Clone, Debug)]
+pub(crate) struct Layout {
+    /// First unknown of each node; `None` for anchors.
+    pub(crate) nodes: Vec<Option<usize>>,
+    /// The slots of each element.
+    pub(crate) elements: Vec<Slots>,
+    /// The unknown of the algorithmic temperature of each thermal slot, if it is coupled.
+    pub(crate) coupled: Vec<Option<usize>>,
+    /// Number of viscous stretches.
+    pub(crate) viscous: usize,
+    /// Number of unknowns.
+    pub(crate) unknowns: usize,
+}
+
+impl Layout {
+    /// Numbers a scene.
+    pub(crate) fn new<const D: usize, S: Real>(scene: &Scene<D, S>) -> Self {
+        let (mut unknowns, mut viscous, mut thermal) = (0, 0, 0);
+        let mut nodes = Vec::with_capacity(scene.nodes.len());
+        for node in &scene.nodes {
+            nodes.push(node.mass.is_some().then_some(unknowns));
+            unknowns += if node.mass.is_some() { D } else { 0 };
+        }
+        let mut elements = Vec::with_capacity(scene.elements.len());
+        for entry in &scene.elements {
+            let shape: Shape = scene.groups[entry.group].shape();
+            elements.push(Slots {
+                viscous,
+                thermal: shape.thermal.then_some(thermal),
+            });
+            viscous += shape.dashpots;
+            thermal += usize::from(shape.thermal);
+        }
+        let mut coupled = vec![None; thermal];
+        for conductor in &scene.conductors {
+            let HeatPartner::Element(partner) = conductor.partner else {
+                continue;
+            };
+            for element in [conductor.element, partner] {
+                let slot = elements[element.index].thermal;
+                if let Some(unknown @ None) = slot.map(|slot| &mut coupled[slot]) {
+                    *unknown = Some(unknowns);
+                    unknowns += 1;
+                }
+            }
+        }
+        Self {
+            nodes,
+            elements,
+            coupled,
+            viscous,
+            unknowns,
+        }
+    }
+}

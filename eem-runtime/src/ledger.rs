@@ -1,0 +1,146 @@
+//! Energy, entropy and momenta of a state, from their definitions.
+//!
+//! Nothing here comes from the sums of a scheme: what the ledger says of conservation is a test.
+
+use nalgebra::SVector;
+
+use crate::compensated::two_sum;
+use crate::group::Group;
+use crate::scalar::Real;
+use crate::state::State;
+
+/// The balance sheet of a scene.
+///
+/// ```text
+/// E = Σ p²/2m + Σ (ψ + θ s) + Σ θ_r σ_r + heat lost
+/// S = Σ s + Σ σ_r
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ledger<S: Real, const D: usize> {
+    /// `Σ p²/2m`, J.
+    pub kinetic_energy: S,
+    /// `Σ (ψ + θ s)` of the elements, J.
+    pub internal_energy: S,
+    /// Heat that the reservoirs received since the start, `Σ θ_r σ_r`, J.
+    pub reservoir_heat: S,
+    /// Heat that dashpots of elements without temperature gave away since the start, J.
+    pub lost_heat: S,
+    /// The sum of all energies, E, J. Constant by the first law.
+    pub energy: S,
+    /// `Σ s` of the elements, J/K.
+    pub element_entropy: S,
+    /// `Σ σ_r`, entropy that the reservoirs received since the start, J/K.
+    pub reservoir_entropy: S,
+    /// The sum of all entropies, S, J/K. Never decreasing by the second law.
+    pub entropy: S,
+    /// `Σ p`, kg m/s.
+    pub linear_momentum: SVector<S, D>,
+    /// `Σ (q − o) × p`, kg m²/s, always with three components; `o` is the anchor if the scene has
+    /// exactly one, otherwise the origin. In the plane only the third is not zero.
+    pub angular_momentum: SVector<S, 3>,
+}
+
+impl<S: Real, const D: usize> Ledger<S, D> {
+    /// The balance sheet of a state.
+    pub(crate) fn of(
+        state: &State<S>,
+        masses: &[Option<S>],
+        groups: &[Box<dyn Group<S, D>>],
+        reservoirs: &[S],
+    ) -> Self {
+        let (mut kinetic, mut internal, mut heat) = (Sum::new(), Sum::new(), Sum::new());
+        let (mut element_entropy, mut reservoir_entropy) = (Sum::new(), Sum::new());
+        let momenta = state.momenta.values();
+        for (p, mass) in momenta.chunks_exact(D).zip(masses) {
+            let Some(mass) = *mass else { continue };
+            for &component in p {
+                kinetic.add(component * component / (mass + mass));
+            }
+        }
+        for group in groups {
+            let totals = group.totals(state);
+            internal.add(totals.energy);
+            element_entropy.add(totals.entropy);
+        }
+        for (&entropy, &theta) in state.reservoir_entropies.values().iter().zip(reservoirs) {
+            heat.add(theta * entropy);
+            reservoir_entropy.add(entropy);
+        }
+        let lost_heat = state.dissipated.values()[0];
+        let energy = [kinetic.value(), internal.value(), heat.value(), lost_heat];
+        let entropy = [element_entropy.value(), reservoir_entropy.value()];
+        Self {
+            kinetic_energy: kinetic.value(),
+            internal_energy: internal.value(),
+            reservoir_heat: heat.value(),
+            lost_heat,
+            energy: Sum::of(energy),
+            element_entropy: element_entropy.value(),
+            reservoir_entropy: reservoir_entropy.value(),
+            entropy: Sum::of(entropy),
+            linear_momentum: SVector::from_fn(|axis, _| {
+                Sum::of(momenta.chunks_exact(D).map(|p| p[axis]))
+            }),
+            angular_momentum: angular_momentum::<S, D>(state, masses),
+        }
+    }
+}
+
+fn angular_momentum<S: Real, const D: usize>(
+    state: &State<S>,
+    masses: &[Option<S>],
+) -> SVector<S, 3> {
+    let positions = state.positions.values();
+    let mut anchors = masses.iter().enumerate().filter(|(_, mass)| mass.is_none());
+    let anchor = match (anchors.next(), anchors.next()) {
+        (Some((node, _)), None) => Some(&positions[node * D..(node + 1) * D]),
+        _ => None,
+    };
+    let mut sums = [Sum::new(), Sum::new(), Sum::new()];
+    for (q, p) in positions.chunks_exact(D).zip(state.momenta.values().chunks_exact(D)) {
+        let arm = |axis: usize| match (axis < D, anchor) {
+            (false, _) => S::zero(),
+            (true, None) => q[axis],
+            (true, Some(o)) => q[axis] - o[axis],
+        };
+        let momentum = |axis: usize| if axis < D { p[axis] } else { S::zero() };
+        for (axis, sum) in sums.iter_mut().enumerate() {
+            let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
+            sum.add(arm(i) * momentum(j));
+            sum.add(-arm(j) * momentum(i));
+        }
+    }
+    SVector::from_fn(|axis, _| sums[axis].value())
+}
+
+/// A sum to twice the precision, so that adding up a large scene costs no digits.
+#[derive(Clone, Copy, Debug)]
+struct Sum<S> {
+    value: S,
+    rest: S,
+}
+
+impl<S: Real> Sum<S> {
+    fn new() -> Self {
+        let (value, rest) = (S::zero(), S::zero());
+        Self { value, rest }
+    }
+
+    fn add(&mut self, term: S) {
+        let (value, rest) = two_sum(self.value, term);
+        self.value = value;
+        self.rest += rest;
+    }
+
+    fn value(self) -> S {
+        self.value + self.rest
+    }
+
+    fn of(terms: impl IntoIterator<Item = S>) -> S {
+        let mut sum = Self::new();
+        for term in terms {
+            sum.add(term);
+        }
+        sum.value()
+    }
+}

@@ -1,0 +1,88 @@
+//! When Newton's method is done, and what it did.
+
+use crate::scalar::Real;
+
+/// How hard a step tries.
+///
+/// The defaults suit every model and step size; a looser tolerance costs energy only to second
+/// order, the other laws hold for any.
+///
+/// ```
+/// use eem_runtime::NewtonSettings;
+///
+/// let settings = NewtonSettings::<f64>::default();
+/// assert_eq!(settings.max_iterations, 50);
+/// assert!((settings.tolerance - 1.5e-8).abs() < 1e-9);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NewtonSettings<S> {
+    /// Iterations after which a step is given up. Default 50. More only helps steps that are far
+    /// too large.
+    pub max_iterations: usize,
+    /// The largest update, in units of the longest stretch and of the temperatures, that may be
+    /// the last one. Default √ε, 1.5·10⁻⁸ in double precision: the error after the update is its
+    /// square. Smaller costs iterations and gains nothing.
+    pub tolerance: S,
+}
+
+impl<S: Real> Default for NewtonSettings<S> {
+    fn default() -> Self {
+        Self {
+            max_iterations: 50,
+            tolerance: S::EPSILON.sqrt(),
+        }
+    }
+}
+
+/// What Newton's method needed for one step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepReport<S> {
+    /// The time at the end of the step, s.
+    pub time: S,
+    /// The size of the step, s.
+    pub step: S,
+    /// Newton iterations.
+    pub iterations: usize,
+    /// The last scaled update.
+    pub update: S,
+    /// The largest residual of the momentum balances before the last update, N s.
+    pub residual: S,
+}
+
+/// An update below `tolerance` is the last one if it is also this much smaller than the one before:
+/// the iteration then contracts, and what remains is smaller still.
+const CONTRACTION: f64 = 0.1;
+
+/// An iteration that contracts less than this, with updates below a tenth of the tolerance,
+/// has reached what rounding allows.
+const STAGNATION: f64 = 0.25;
+
+/// Whether an update is the last one, given the one before.
+pub(crate) fn is_last<S: Real>(update: S, before: Option<S>, tolerance: S) -> bool {
+    let Some(before) = before else {
+        return update <= tolerance;
+    };
+    let converged = update <= tolerance && update <= S::from_f64(CONTRACTION) * before;
+    let floor = S::from_f64(CONTRACTION) * tolerance;
+    let stagnated = update <= floor && update >= S::from_f64(STAGNATION) * before;
+    converged || stagnated
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_last;
+
+    #[test]
+    fn a_small_update_must_contract() {
+        assert!(is_last(1e-9, None, 1e-8));
+        assert!(is_last(1e-9, Some(1e-4), 1e-8));
+        assert!(!is_last(5e-9, Some(1e-8), 1e-8));
+    }
+
+    #[test]
+    fn rounding_is_a_floor_and_a_stall_is_not() {
+        assert!(is_last(3e-10, Some(4e-10), 1e-8));
+        assert!(!is_last(3e-3, Some(4e-3), 1e-8));
+        assert!(!is_last(f64::NAN, Some(1e-3), 1e-8));
+    }
+}

@@ -1,0 +1,218 @@
+//! A scene as a user describes it: nodes, elements, reservoirs, conductances.
+//!
+//! Describing never fails; [`Simulation::new`](crate::Simulation::new) checks all of it and says what is wrong.
+
+mod check;
+
+use nalgebra::SVector;
+
+use crate::blueprint::{Blueprint, ModelSet};
+use crate::error::SceneError;
+use crate::free_energy::FreeEnergy;
+use crate::handle::{Element, HeatPartner, Node, Reservoir, SceneId};
+use crate::kinematics::Stretch;
+use crate::scalar::Real;
+
+pub(crate) use check::is_positive;
+
+/// A node: an anchor or a mass.
+#[derive(Clone, Debug)]
+pub(crate) struct NodeEntry<S, const D: usize> {
+    /// `None` for an anchor.
+    pub(crate) mass: Option<S>,
+    pub(crate) position: SVector<S, D>,
+    pub(crate) velocity: SVector<S, D>,
+}
+
+/// What the scene knows of an element apart from its model.
+#[derive(Clone, Debug)]
+pub(crate) struct ElementEntry<S> {
+    pub(crate) nodes: Vec<usize>,
+    pub(crate) temperature: Option<S>,
+    /// `(dashpot, γ)` as given.
+    pub(crate) viscous_stretches: Vec<(usize, S)>,
+    /// The blueprint that holds the model, and its place there.
+    pub(crate) group: usize,
+    pub(crate) place: usize,
+}
+
+/// A path of heat.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Conductor<S> {
+    pub(crate) element: Element,
+    pub(crate) partner: HeatPartner,
+    pub(crate) conductance: S,
+}
+
+/// Masses on springs that heat up, in `D` dimensions.
+///
+/// ```
+/// use eem_runtime::Scene;
+///
+/// let mut scene = Scene::<2>::new();
+/// let pivot = scene.anchor([0.0, 0.0]);
+/// let bob = scene.mass(1.0, [3.0, 0.0], [0.0, 1.0]);
+/// let air = scene.reservoir(300.0);
+/// assert_eq!(pivot.to_string(), "node 0");
+/// assert_eq!(bob.to_string(), "node 1");
+/// assert_eq!(air.to_string(), "reservoir 0");
+/// ```
+#[derive(Debug)]
+pub struct Scene<const D: usize, S: Real = f64> {
+    pub(crate) id: SceneId,
+    pub(crate) nodes: Vec<NodeEntry<S, D>>,
+    pub(crate) elements: Vec<ElementEntry<S>>,
+    pub(crate) reservoirs: Vec<S>,
+    pub(crate) conductors: Vec<Conductor<S>>,
+    pub(crate) groups: Vec<Box<dyn Blueprint<S, D>>>,
+    /// What was asked for in vain, reported with everything else.
+    pub(crate) misuse: Vec<SceneError>,
+}
+
+impl<const D: usize> Scene<D> {
+    /// An empty scene in double precision; [`Scene::default`] for any other scalar.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+}
+
+impl<const D: usize, S: Real> Default for Scene<D, S> {
+    fn default() -> Self {
+        Self {
+            id: SceneId::unique(),
+            nodes: Vec::new(),
+            elements: Vec::new(),
+            reservoirs: Vec::new(),
+            conductors: Vec::new(),
+            groups: Vec::new(),
+            misuse: Vec::new(),
+        }
+    }
+}
+
+impl<const D: usize, S: Real> Scene<D, S> {
+    /// A node that does not move; position in m.
+    pub fn anchor(&mut self, position: [S; D]) -> Node {
+        self.node(None, position, [S::zero(); D])
+    }
+
+    /// A point mass (kg) with its initial position (m) and velocity (m/s).
+    pub fn mass(&mut self, mass: S, position: [S; D], velocity: [S; D]) -> Node {
+        self.node(Some(mass), position, velocity)
+    }
+
+    fn node(&mut self, mass: Option<S>, position: [S; D], velocity: [S; D]) -> Node {
+        self.nodes.push(NodeEntry {
+            mass,
+            position: position.into(),
+            velocity: velocity.into(),
+        });
+        Node {
+            scene: self.id,
+            index: self.nodes.len() - 1,
+        }
+    }
+
+    /// A spring between two nodes, made of the material `model`.
+    ///
+    /// Springs of one model type are kept and stepped together; any number of
+    /// types can be mixed. A model with a temperature needs
+    /// [`set_temperature`](Self::set_temperature); viscous stretches start at zero.
+    pub fn spring<M>(&mut self, model: M, nodes: [Node; 2]) -> Element
+    where
+        M: FreeEnergy<S> + Send + Sync + 'static,
+    {
+        const {
+            assert!(M::MEASURES == 1, "a spring has one measure, its stretch");
+        }
+        let element = Element {
+            scene: self.id,
+            index: self.elements.len(),
+        };
+        for node in nodes {
+            self.expect_own(node.scene, &node);
+        }
+        let group = self.group_of::<M>();
+        let place = self.groups[group].len();
+        let set = self.groups[group].as_any_mut().downcast_mut();
+        let set: &mut ModelSet<M, Stretch<D>> = set.unwrap_or_else(|| {
+            unreachable!("`group_of` returns a set of this model")
+        });
+        set.push(model, element);
+        self.elements.push(ElementEntry {
+            nodes: nodes.iter().map(|node| node.index).collect(),
+            temperature: None,
+            viscous_stretches: Vec::new(),
+            group,
+            place,
+        });
+        element
+    }
+
+    /// The group of springs of model `M`, new if there is none yet.
+    fn group_of<M>(&mut self) -> usize
+    where
+        M: FreeEnergy<S> + Send + Sync + 'static,
+    {
+        let is_set = |group: &Box<dyn Blueprint<S, D>>| {
+            group.as_any().is::<ModelSet<M, Stretch<D>>>()
+        };
+        self.groups.iter().position(is_set).unwrap_or_else(|| {
+            self.groups.push(Box::new(ModelSet::<M, _>::new(Stretch::<D>)));
+            self.groups.len() - 1
+        })
+    }
+
+    /// The initial temperature of an element, K.
+    pub fn set_temperature(&mut self, element: Element, temperature: S) {
+        if self.expect_own(element.scene, &element) {
+            self.elements[element.index].temperature = Some(temperature);
+        }
+    }
+
+    /// The initial viscous stretch of a dashpot (from 0) of an element, m; zero unless set.
+    pub fn set_viscous_stretch(&mut self, element: Element, dashpot: usize, stretch: S) {
+        if self.expect_own(element.scene, &element) {
+            let given = &mut self.elements[element.index].viscous_stretches;
+            given.push((dashpot, stretch));
+        }
+    }
+
+    /// A heat reservoir at a constant temperature, K.
+    pub fn reservoir(&mut self, temperature: S) -> Reservoir {
+        self.reservoirs.push(temperature);
+        Reservoir {
+            scene: self.id,
+            index: self.reservoirs.len() - 1,
+        }
+    }
+
+    /// Fourier conduction with conductance κ (W/K) from an element to another or to a reservoir:
+    /// the element receives the heat flow `κ (θ_partner − θ_element)`.
+    pub fn conduct(&mut self, element: Element, partner: impl Into<HeatPartner>, conductance: S) {
+        let partner = partner.into();
+        let own = self.expect_own(element.scene, &element)
+            & match partner {
+                HeatPartner::Element(other) => self.expect_own(other.scene, &other),
+                HeatPartner::Reservoir(other) => self.expect_own(other.scene, &other),
+            };
+        if own {
+            self.conductors.push(Conductor {
+                element,
+                partner,
+                conductance,
+            });
+        }
+    }
+
+    /// Whether a handle is of this scene; if not, that is noted as misuse.
+    fn expect_own(&mut self, scene: SceneId, handle: &dyn core::fmt::Display) -> bool {
+        let own = scene == self.id;
+        if !own {
+            let handle = handle.to_string();
+            self.misuse.push(SceneError::ForeignHandle { handle });
+        }
+        own
+    }
+}

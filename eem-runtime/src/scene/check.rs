@@ -1,0 +1,131 @@
+//! The rules that a scene must satisfy, one function per rule.
+
+use super::{ElementEntry, NodeEntry, Scene};
+use crate::blueprint::Shape;
+use crate::error::{SceneError, StateError};
+use crate::handle::{Element, HeatPartner, Node, Reservoir};
+use crate::scalar::Real;
+
+/// Finite and greater than zero.
+pub(crate) fn is_positive<S: Real>(value: S) -> bool {
+    value.is_finite() && value > S::zero()
+}
+
+impl<const D: usize, S: Real> Scene<D, S> {
+    /// The first thing that is wrong with the description.
+    pub(crate) fn check(&self) -> Result<(), SceneError> {
+        if let Some(misuse) = self.misuse.first() {
+            return Err(misuse.clone());
+        }
+        for (index, entry) in self.nodes.iter().enumerate() {
+            let node = Node { scene: self.id, index };
+            check_node(node, entry)?;
+        }
+        for (index, &temperature) in self.reservoirs.iter().enumerate() {
+            let reservoir = Reservoir { scene: self.id, index };
+            check_reservoir(reservoir, temperature)?;
+        }
+        for (index, entry) in self.elements.iter().enumerate() {
+            let element = Element { scene: self.id, index };
+            let group = &self.groups[entry.group];
+            group.check_parameters(entry.place, element)?;
+            check_element(element, entry, group.shape())?;
+        }
+        self.check_conductors()
+    }
+
+    fn check_conductors(&self) -> Result<(), SceneError> {
+        for conductor in &self.conductors {
+            let (element, partner) = (conductor.element, conductor.partner);
+            self.check_thermal(element)?;
+            if let HeatPartner::Element(other) = partner {
+                self.check_thermal(other)?;
+                if other == element {
+                    return Err(SceneError::SelfConduction { element });
+                }
+            }
+            let value = conductor.conductance;
+            if !value.is_finite() || value < S::zero() {
+                return Err(SceneError::Conductance {
+                    element,
+                    partner,
+                    value: value.to_f64(),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn check_thermal(&self, element: Element) -> Result<(), SceneError> {
+        let group = self.elements[element.index].group;
+        if self.groups[group].shape().thermal {
+            Ok(())
+        } else {
+            Err(SceneError::NotThermal { element })
+        }
+    }
+}
+
+fn check_node<S: Real, const D: usize>(
+    node: Node,
+    entry: &NodeEntry<S, D>,
+) -> Result<(), SceneError> {
+    for axis in 0..D {
+        let (position, velocity) = (entry.position[axis], entry.velocity[axis]);
+        if !position.is_finite() {
+            let value = position.to_f64();
+            return Err(SceneError::Position { node, axis, value });
+        }
+        if !velocity.is_finite() {
+            let value = velocity.to_f64();
+            return Err(SceneError::Velocity { node, axis, value });
+        }
+    }
+    match entry.mass {
+        Some(mass) if !is_positive(mass) => Err(SceneError::Mass {
+            node,
+            value: mass.to_f64(),
+        }),
+        _ => Ok(()),
+    }
+}
+
+fn check_reservoir<S: Real>(reservoir: Reservoir, temperature: S) -> Result<(), SceneError> {
+    if is_positive(temperature) {
+        return Ok(());
+    }
+    Err(SceneError::ReservoirTemperature {
+        reservoir,
+        value: temperature.to_f64(),
+    })
+}
+
+fn check_element<S: Real>(
+    element: Element,
+    entry: &ElementEntry<S>,
+    shape: Shape,
+) -> Result<(), SceneError> {
+    for &(dashpot, stretch) in &entry.viscous_stretches {
+        if dashpot >= shape.dashpots {
+            return Err(SceneError::NoSuchDashpot {
+                element,
+                dashpot,
+                dashpots: shape.dashpots,
+            });
+        }
+        if !stretch.is_finite() {
+            let value = stretch.to_f64();
+            return Err(StateError::ViscousStretch { element, dashpot, value }.into());
+        }
+    }
+    match (entry.temperature, shape.thermal) {
+        (None, false) => Ok(()),
+        (None, true) => Err(SceneError::MissingTemperature { element }),
+        (Some(_), false) => Err(SceneError::NotThermal { element }),
+        (Some(temperature), true) if !is_positive(temperature) => {
+            let value = temperature.to_f64();
+            Err(StateError::Temperature { element, value }.into())
+        }
+        (Some(_), true) => Ok(()),
+    }
+}

@@ -1,0 +1,151 @@
+//! Time integration schemes: what one element does during one step.
+//!
+//! A scheme says where along the step the deformation is measured and turns old and new variables
+//! of an element into algorithmic quantities `f*`, `g*`, `θ*`, `Δs` with their exact tangent. It
+//! knows nothing of nodes, neighbours or solvers: a new scheme is one file here, and a row in
+//! [`Scheme`].
+
+mod eem_entropy;
+mod midpoint;
+mod point;
+mod trapezoidal;
+
+use crate::error::StateError;
+use crate::free_energy::FreeEnergy;
+use crate::handle::Element;
+use crate::inversion::InversionError;
+use crate::scalar::Real;
+
+pub(crate) use eem_entropy::{EemEntropy, temperature_at};
+pub(crate) use midpoint::Midpoint;
+pub(crate) use trapezoidal::Trapezoidal;
+
+/// The time integration schemes.
+///
+/// | scheme | first law | second law | momenta | order |
+/// |---|---|---|---|---|
+/// | `EemEntropy` | exact | exact | exact | 2 |
+/// | `Midpoint` | no | no | exact | 2 |
+/// | `Trapezoidal` | no | no | no | 2 |
+///
+/// "Exact" is to rounding, at every step and for any step size.
+///
+/// ```
+/// use eem_runtime::Scheme;
+///
+/// assert_eq!(Scheme::ALL.map(|scheme| scheme.name()).join(" "), "eem-entropy midpoint trapezoidal");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Scheme {
+    /// Energy–entropy–momentum scheme in entropy form (García Orden & Romero 2012, eqs. 25–28).
+    EemEntropy,
+    /// Implicit midpoint rule on positions, momenta, viscous stretches and entropies.
+    Midpoint,
+    /// Trapezoidal rule on positions, momenta, viscous stretches and entropies.
+    Trapezoidal,
+}
+
+impl Scheme {
+    /// All schemes.
+    pub const ALL: [Self; 3] = [Self::EemEntropy, Self::Midpoint, Self::Trapezoidal];
+
+    /// The name used on command lines and in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::EemEntropy => "eem-entropy",
+            Self::Midpoint => "midpoint",
+            Self::Trapezoidal => "trapezoidal",
+        }
+    }
+}
+
+/// Where along a step the measures and their gradient are taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Placement {
+    /// New measures; force along the mean-value gradient between both ends.
+    Ends,
+    /// Measures and gradient of the mean configuration.
+    Middle,
+    /// Measures and gradient of the new configuration.
+    End,
+}
+
+/// What an element does during one step.
+///
+/// Variables are `x = (π…, γ…, τ)` with a temperature τ > 0 that is the scheme's own local unknown:
+/// the new temperature for schemes that look at the ends, the mean one for those that look at the
+/// middle.
+pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static {
+    /// Where the measures are taken.
+    const PLACEMENT: Placement;
+
+    /// The part of forces and rates that is taken from the response; the rest, `1 − IMPLICIT`, is
+    /// that of the old state.
+    const IMPLICIT: f64;
+
+    /// What the scheme keeps of the old state.
+    type Old: Copy + Send + Sync;
+
+    /// Looks at the old variables, once per step.
+    fn old(model: &M, x0: &M::Variables) -> Self::Old;
+
+    /// The response `(f*…, g*…, θ*, Δs)` and its tangent by `x`.
+    ///
+    /// `corners` keeps temperatures from one call to the next as starting values.
+    fn respond(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        x: &M::Variables,
+        corners: &mut M::Corners,
+    ) -> Result<(M::Response, M::Tangent), Infeasible>;
+}
+
+/// The old state of an element as its scheme sees it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Start<S: Real, M: FreeEnergy<S>, Old> {
+    /// x⁰.
+    pub(crate) x0: M::Variables,
+    /// s⁰, J/K; zero without temperature.
+    pub(crate) entropy: S,
+    /// What the scheme keeps of the old state.
+    pub(crate) old: Old,
+}
+
+/// Why an element has no response.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Infeasible {
+    /// No temperature has this entropy.
+    Entropy { entropy: f64, source: InversionError },
+    /// The heat capacity is not positive at this temperature.
+    HeatCapacity { value: f64, temperature: f64 },
+}
+
+impl Infeasible {
+    /// The same, said of an element.
+    pub(crate) fn of(self, element: Element) -> StateError {
+        match self {
+            // The inversion starts from a state of the same element: an unstable start is a heat
+            // capacity that is not positive.
+            Self::Entropy {
+                source: InversionError::UnstableStart { start, heat_capacity },
+                ..
+            } => StateError::HeatCapacity {
+                element,
+                value: heat_capacity,
+                temperature: start,
+            },
+            Self::Entropy { entropy, source } => StateError::NoSuchTemperature {
+                element,
+                entropy,
+                source,
+            },
+            Self::HeatCapacity { value, temperature } => StateError::HeatCapacity {
+                element,
+                value,
+                temperature,
+            },
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! The energy–entropy–momentum scheme in entropy form.
+//!
+//! ```text
+//! f* = D_λ e,  g* = −D_γ e,  θ* = D_s e      of e(λ, γ, s) = ψ + θ̂ s,  θ̂(λ, γ, s): S(λ, γ, θ̂) = s
+//! ```
+//!
+//! with the symmetrised partitioned discrete derivatives of García Orden & Romero (2012), eq. (28).
+//! The sum `f*Δλ − g*Δγ + θ*Δs` is `Δe` exactly, hence the first law; `θ*` is a mean
+//! temperature, hence positive, hence the second.
+//!
+//! The local unknown is the new temperature. The temperatures of the mixed states on the way from
+//! old to new come from the Legendre inversion θ̂, by Newton's method, for any free energy.
+
+use super::{ElementScheme, Infeasible, Placement, Start};
+use crate::free_energy::{Array, FreeEnergy};
+use crate::inversion::invert;
+use crate::scalar::Real;
+
+/// See the module.
+#[derive(Debug)]
+pub(crate) enum EemEntropy {}
+
+impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for EemEntropy {
+    const PLACEMENT: Placement = Placement::Ends;
+    const IMPLICIT: f64 = 1.0;
+
+    type Old = M::EntropyFormOld;
+
+    fn old(model: &M, x0: &M::Variables) -> Self::Old {
+        model.entropy_form_old(x0)
+    }
+
+    fn respond(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        x: &M::Variables,
+        corners: &mut M::Corners,
+    ) -> Result<(M::Response, M::Tangent), Infeasible> {
+        if M::THERMAL {
+            find_corners(model, start, x, corners)?;
+        }
+        Ok(model.entropy_form(&start.old, x, corners))
+    }
+}
+
+/// The temperatures of the mixed states: first the ascending chain, where the first k variables
+/// are new and the entropy is old, then the descending one, the other way round.
+fn find_corners<S: Real, M: FreeEnergy<S>, Old>(
+    model: &M,
+    start: &Start<S, M, Old>,
+    x1: &M::Variables,
+    corners: &mut M::Corners,
+) -> Result<(), Infeasible> {
+    let steps = M::Variables::LEN - 1;
+    let (ascending, descending) = corners.as_mut().split_at_mut(steps);
+    let entropy1 = model.caloric(x1).entropy;
+    for k in 1..=steps {
+        let mut x = start.x0;
+        x.as_mut()[..k].copy_from_slice(&x1.as_ref()[..k]);
+        ascending[k - 1] = temperature_at(model, x, start.entropy, ascending[k - 1])?;
+        let mut x = *x1;
+        x.as_mut()[..k].copy_from_slice(&start.x0.as_ref()[..k]);
+        descending[k - 1] = temperature_at(model, x, entropy1, descending[k - 1])?;
+    }
+    Ok(())
+}
+
+/// θ̂ at the configuration of `x`, whose own temperature does not matter.
+pub(crate) fn temperature_at<S: Real, M: FreeEnergy<S>>(
+    model: &M,
+    mut x: M::Variables,
+    entropy: S,
+    guess: S,
+) -> Result<S, Infeasible> {
+    let last = M::Variables::LEN - 1;
+    let evaluate = |theta| {
+        x.as_mut()[last] = theta;
+        model.caloric(&x)
+    };
+    match invert(evaluate, entropy, guess) {
+        Ok(found) => Ok(found.temperature),
+        Err(source) => Err(Infeasible::Entropy {
+            entropy: entropy.to_f64(),
+            source,
+        }),
+    }
+}

@@ -1,0 +1,220 @@
+//! A scene in motion.
+
+mod inspect;
+
+use core::fmt;
+
+use crate::blueprint::Shape;
+use crate::compensated::Compensated;
+use crate::conduction::Conduction;
+use crate::error::{SceneError, StepError, StepFailure};
+use crate::group::{Group, Placed, StepView};
+use crate::handle::SceneId;
+use crate::layout::Layout;
+use crate::newton::{NewtonSettings, StepReport};
+use crate::scalar::Real;
+use crate::scene::{Scene, is_positive};
+use crate::scheme::Scheme;
+use crate::solver::Solver;
+use crate::state::State;
+
+/// A scene that is stepped through time by one scheme.
+///
+/// A step either succeeds, or returns an error and leaves everything as it was.
+pub struct Simulation<const D: usize, S: Real = f64> {
+    scene: SceneId,
+    scheme: Scheme,
+    step: S,
+    masses: Vec<Option<S>>,
+    /// The group and the place in it of each element.
+    places: Vec<(usize, usize)>,
+    shapes: Vec<Shape>,
+    groups: Vec<Box<dyn Group<S, D>>>,
+    layout: Layout,
+    conduction: Conduction<S>,
+    state: State<S>,
+    next: State<S>,
+    solver: Solver<S>,
+}
+
+impl<const D: usize, S: Real> fmt::Debug for Simulation<D, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Simulation")
+            .field("scheme", &self.scheme)
+            .field("step", &self.step)
+            .field("state", &self.state)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// Checks a scene and makes it ready to be stepped by `scheme` with the time step `step`, s.
+    ///
+    /// # Errors
+    ///
+    /// The first thing that is wrong with the scene, its initial state or the step.
+    pub fn new(scene: Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, SceneError> {
+        scene.check()?;
+        check_step(step)?;
+        let layout = Layout::new(&scene);
+        let conduction = Conduction::new(&scene, &layout);
+        let mut state = initial_state(&scene, &layout);
+        let places = scene.elements.iter().map(|entry| (entry.group, entry.place)).collect();
+        let shape = |group: usize| scene.groups[group].shape();
+        let shapes = scene.elements.iter().map(|entry| shape(entry.group)).collect();
+        let masses: Vec<_> = scene.nodes.iter().map(|node| node.mass).collect();
+        let placed = Placed {
+            nodes: &scene.elements,
+            layout: &layout,
+        };
+        let blueprints = scene.groups.into_iter();
+        let mut groups: Vec<_> =
+            blueprints.map(|blueprint| blueprint.build(scheme, placed)).collect();
+        for group in &mut groups {
+            group.initialize(&mut state)?;
+        }
+        let solver = Solver::new(masses.clone(), D, layout.coupled.len(), layout.unknowns);
+        Ok(Self {
+            scene: scene.id,
+            scheme,
+            step,
+            masses,
+            places,
+            shapes,
+            groups,
+            layout,
+            conduction,
+            next: state.clone(),
+            state,
+            solver,
+        })
+    }
+
+    /// One step of the present size.
+    ///
+    /// # Errors
+    ///
+    /// [`StepError`] if the scheme has no new state, or Newton's method does not find it. The
+    /// simulation is then as it was before.
+    pub fn step(&mut self) -> Result<StepReport<S>, StepError> {
+        let view = StepView {
+            step: self.step,
+            state: &self.state,
+            conduction: &self.conduction,
+            layout: &self.layout,
+        };
+        let done = self
+            .solver
+            .iterate(&mut self.groups, &view)
+            .and_then(|()| self.solver.close(&mut self.groups, &view, &mut self.next));
+        if let Err(failure) = done {
+            return Err(self.failed(failure));
+        }
+        core::mem::swap(&mut self.state, &mut self.next);
+        let last = |values: &[S]| values.last().copied().unwrap_or(S::zero());
+        Ok(StepReport {
+            time: self.time(),
+            step: self.step,
+            iterations: self.solver.updates.len(),
+            update: last(&self.solver.updates),
+            residual: last(&self.solver.residuals),
+        })
+    }
+
+    fn failed(&self, failure: StepFailure) -> StepError {
+        let numbers = |values: &[S]| values.iter().map(|value| value.to_f64()).collect();
+        StepError {
+            time: self.time().to_f64(),
+            step: self.step.to_f64(),
+            iterations: self.solver.updates.len(),
+            failure,
+            updates: numbers(&self.solver.updates),
+            residuals: numbers(&self.solver.residuals),
+        }
+    }
+
+    /// The time, s.
+    #[must_use]
+    pub fn time(&self) -> S {
+        self.state.time.values()[0]
+    }
+
+    /// The scheme.
+    #[must_use]
+    pub const fn scheme(&self) -> Scheme {
+        self.scheme
+    }
+
+    /// The size of the next steps, s.
+    #[must_use]
+    pub const fn step_size(&self) -> S {
+        self.step
+    }
+
+    /// Changes the size of the next steps, s. All laws hold step by step, so that it may change
+    /// at any time.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::Step`] if it is not positive and finite; the old size then stays.
+    pub fn set_step_size(&mut self, step: S) -> Result<(), SceneError> {
+        check_step(step)?;
+        self.step = step;
+        Ok(())
+    }
+
+    /// How hard a step tries.
+    #[must_use]
+    pub const fn newton_settings(&self) -> NewtonSettings<S> {
+        self.solver.settings
+    }
+
+    /// Changes how hard a step tries.
+    pub const fn set_newton_settings(&mut self, settings: NewtonSettings<S>) {
+        self.solver.settings = settings;
+    }
+
+    /// Number of unknowns of the global system of one Newton iteration.
+    #[must_use]
+    pub const fn unknowns(&self) -> usize {
+        self.layout.unknowns
+    }
+}
+
+fn check_step<S: Real>(step: S) -> Result<(), SceneError> {
+    if is_positive(step) {
+        Ok(())
+    } else {
+        let value = step.to_f64();
+        Err(SceneError::Step { value })
+    }
+}
+
+/// The state that the scene describes; its entropies are still to be found.
+fn initial_state<const D: usize, S: Real>(scene: &Scene<D, S>, layout: &Layout) -> State<S> {
+    let positions = scene.nodes.iter().flat_map(|node| node.position.iter().copied());
+    let momenta = scene.nodes.iter().flat_map(|node| {
+        let mass = node.mass.unwrap_or(S::zero());
+        node.velocity.iter().map(move |&velocity| mass * velocity)
+    });
+    let mut viscous = vec![S::zero(); layout.viscous];
+    let mut temperatures = vec![S::zero(); layout.coupled.len()];
+    for (entry, slots) in scene.elements.iter().zip(&layout.elements) {
+        for &(dashpot, stretch) in &entry.viscous_stretches {
+            viscous[slots.viscous + dashpot] = stretch;
+        }
+        if let (Some(slot), Some(temperature)) = (slots.thermal, entry.temperature) {
+            temperatures[slot] = temperature;
+        }
+    }
+    State {
+        time: Compensated::new(vec![S::zero()]),
+        positions: Compensated::new(positions.collect()),
+        momenta: Compensated::new(momenta.collect()),
+        viscous: Compensated::new(viscous),
+        entropies: Compensated::new(vec![S::zero(); temperatures.len()]),
+        temperatures,
+        reservoir_entropies: Compensated::new(vec![S::zero(); scene.reservoirs.len()]),
+        dissipated: Compensated::new(vec![S::zero()]),
+    }
+}

@@ -1,0 +1,168 @@
+//! What can be asked of a simulation at any time.
+
+use nalgebra::SVector;
+
+use super::Simulation;
+use crate::error::SceneError;
+use crate::group::ElementView;
+use crate::handle::{Element, Node, Reservoir, SceneId};
+use crate::ledger::Ledger;
+use crate::scalar::Real;
+
+/// # Looking at the state
+///
+/// Every question about a handle fails with [`SceneError::ForeignHandle`] if the handle is not of
+/// this scene.
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// The position of a node, m.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle.
+    pub fn position(&self, node: Node) -> Result<SVector<S, D>, SceneError> {
+        self.expect_own(node.scene, &node)?;
+        Ok(vector(self.state.positions.values(), node.index))
+    }
+
+    /// The momentum of a node, kg m/s; zero for an anchor.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle.
+    pub fn momentum(&self, node: Node) -> Result<SVector<S, D>, SceneError> {
+        self.expect_own(node.scene, &node)?;
+        Ok(vector(self.state.momenta.values(), node.index))
+    }
+
+    /// The velocity of a node, m/s; zero for an anchor.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle.
+    pub fn velocity(&self, node: Node) -> Result<SVector<S, D>, SceneError> {
+        let momentum = self.momentum(node)?;
+        Ok(match self.masses[node.index] {
+            Some(mass) => momentum.map(|component| component / mass),
+            None => momentum,
+        })
+    }
+
+    /// The stretch of an element, m.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle.
+    pub fn stretch(&self, element: Element) -> Result<S, SceneError> {
+        Ok(self.view(element)?.measure)
+    }
+
+    /// The force of an element, `∂ψ/∂λ`, N; positive in tension.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle.
+    pub fn force(&self, element: Element) -> Result<S, SceneError> {
+        Ok(self.view(element)?.force)
+    }
+
+    /// The internal energy of an element, `ψ + θ s`, J; ψ if it has no temperature.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle.
+    pub fn internal_energy(&self, element: Element) -> Result<S, SceneError> {
+        Ok(self.view(element)?.internal_energy)
+    }
+
+    /// The temperature of an element, K.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle; [`SceneError::NotThermal`] if the element has none.
+    pub fn temperature(&self, element: Element) -> Result<S, SceneError> {
+        Ok(self.state.temperatures[self.thermal_slot(element)?])
+    }
+
+    /// The entropy of an element, J/K.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle; [`SceneError::NotThermal`] if the element has none.
+    pub fn entropy(&self, element: Element) -> Result<S, SceneError> {
+        Ok(self.state.entropies.values()[self.thermal_slot(element)?])
+    }
+
+    /// The viscous stretch of a dashpot (from 0) of an element, m.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle; [`SceneError::NoSuchDashpot`].
+    pub fn viscous_stretch(&self, element: Element, dashpot: usize) -> Result<S, SceneError> {
+        self.expect_own(element.scene, &element)?;
+        let dashpots = self.shapes[element.index].dashpots;
+        if dashpot >= dashpots {
+            return Err(SceneError::NoSuchDashpot {
+                element,
+                dashpot,
+                dashpots,
+            });
+        }
+        let first = self.layout.elements[element.index].viscous;
+        Ok(self.state.viscous.values()[first + dashpot])
+    }
+
+    /// The entropy that a reservoir has received since the start, J/K.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle.
+    pub fn reservoir_entropy(&self, reservoir: Reservoir) -> Result<S, SceneError> {
+        self.expect_own(reservoir.scene, &reservoir)?;
+        Ok(self.state.reservoir_entropies.values()[reservoir.index])
+    }
+
+    /// The heat that a reservoir has received since the start, `θ_r σ_r`, J.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle.
+    pub fn reservoir_heat(&self, reservoir: Reservoir) -> Result<S, SceneError> {
+        let entropy = self.reservoir_entropy(reservoir)?;
+        Ok(self.conduction.reservoirs[reservoir.index] * entropy)
+    }
+
+    /// Energies, entropies and momenta, computed from the state by their definitions.
+    #[must_use]
+    pub fn ledger(&self) -> Ledger<S, D> {
+        Ledger::of(&self.state, &self.masses, &self.groups, &self.conduction.reservoirs)
+    }
+
+    fn view(&self, element: Element) -> Result<ElementView<S>, SceneError> {
+        self.expect_own(element.scene, &element)?;
+        let (group, place) = self.places[element.index];
+        Ok(self.groups[group].inspect(place, &self.state))
+    }
+
+    fn thermal_slot(&self, element: Element) -> Result<usize, SceneError> {
+        self.expect_own(element.scene, &element)?;
+        let slot = self.layout.elements[element.index].thermal;
+        slot.ok_or(SceneError::NotThermal { element })
+    }
+
+    fn expect_own(
+        &self,
+        scene: SceneId,
+        handle: &dyn core::fmt::Display,
+    ) -> Result<(), SceneError> {
+        if scene == self.scene {
+            return Ok(());
+        }
+        let handle = handle.to_string();
+        Err(SceneError::ForeignHandle { handle })
+    }
+}
+
+/// The coordinates of one node.
+fn vector<S: Real, const D: usize>(coordinates: &[S], node: usize) -> SVector<S, D> {
+    SVector::from_column_slice(&coordinates[node * D..(node + 1) * D])
+}

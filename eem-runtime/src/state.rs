@@ -1,0 +1,42 @@
+//! The state of a scene: everything a step changes, and nothing else.
+
+use crate::compensated::Compensated;
+use crate::scalar::Real;
+
+/// Positions, momenta, viscous stretches, entropies and what has been booked.
+///
+/// Coordinates are stored node after node; viscous stretches and thermal quantities only for the
+/// elements that have them.
+#[derive(Clone, Debug)]
+pub(crate) struct State<S> {
+    /// One sum: t, s.
+    pub(crate) time: Compensated<S>,
+    /// q, m.
+    pub(crate) positions: Compensated<S>,
+    /// p, kg m/s; zero for anchors.
+    pub(crate) momenta: Compensated<S>,
+    /// γ, m.
+    pub(crate) viscous: Compensated<S>,
+    /// s, J/K.
+    pub(crate) entropies: Compensated<S>,
+    /// θ with S(λ, γ, θ) = s, K.
+    pub(crate) temperatures: Vec<S>,
+    /// σ_r since the start, J/K.
+    pub(crate) reservoir_entropies: Compensated<S>,
+    /// One sum: heat that dashpots without temperature gave to nobody in the scene, J.
+    pub(crate) dissipated: Compensated<S>,
+}
+
+impl<S: Real> State<S> {
+    /// Takes over `other`, a state of the same scene, without allocation.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        self.time.copy_from(&other.time);
+        self.positions.copy_from(&other.positions);
+        self.momenta.copy_from(&other.momenta);
+        self.viscous.copy_from(&other.viscous);
+        self.entropies.copy_from(&other.entropies);
+        self.temperatures.copy_from_slice(&other.temperatures);
+        self.reservoir_entropies.copy_from(&other.reservoir_entropies);
+        self.dissipated.copy_from(&other.dissipated);
+    }
+}

@@ -1,0 +1,31 @@
+//! The discrete derivative of a free energy without temperature.
+
+use super::Step;
+use crate::node::ExprId;
+
+/// `[f*_a …, g*_k …]` and their tangent by rows.
+///
+/// ```text
+/// f* = D_λ ψ,  g* = −D_γ ψ
+/// ```
+pub(crate) fn elastic_form(step: &mut Step) -> Vec<ExprId> {
+    let count = step.mechanical;
+    let (old, new) = (step.old.clone(), step.new.clone());
+    let (mut response, mut tangent) = (Vec::new(), Vec::new());
+    for i in 0..count {
+        let ends = [old[i], new[i]];
+        let renewed = step.mixed(i, &new, &old);
+        let renewed = step.along(step.psi, i, ends, &renewed);
+        let reversed = step.mixed(i, &old, &new);
+        let reversed = step.along(step.psi, i, ends, &reversed);
+        let derivative = step.half(&[renewed, reversed]);
+        response.push(step.conjugate(i, derivative));
+        for &symbol in &new {
+            let partials = [step.partial(renewed, symbol), step.partial(reversed, symbol)];
+            let partial = step.half(&partials);
+            tangent.push(step.conjugate(i, partial));
+        }
+    }
+    response.extend(tangent);
+    response
+}

@@ -1,0 +1,136 @@
+//! The discrete derivatives of e(λ, γ, θ) and s(λ, γ, θ): temperature is the variable.
+//!
+//! ```text
+//! θ* = D_θ e / D_θ s
+//! f* = D_λ e − θ* D_λ s = ½ Σ ( ψ[λ⁰, λ¹; θ] + (θ − θ*) S[λ⁰, λ¹; θ] ),  θ = θ¹, θ⁰
+//! g* = −(D_γ e − θ* D_γ s)
+//! ```
+//!
+//! (Conde Martín, Betsch & García Orden 2016, eqs. 37–39.) Energy is written by ψ and S, so that
+//! nothing cancels between D e and θ* D s but the gap of two temperatures.
+
+use super::Step;
+use crate::node::ExprId;
+
+/// `[f*_a …, g*_k …, θ*, Δs]` and their tangent by rows.
+pub(crate) fn temperature_form(step: &mut Step) -> Vec<ExprId> {
+    let star = mean(step);
+    let (mut response, mut tangent) = (Vec::new(), Vec::new());
+    let mut jump = Vec::new();
+    for i in 0..step.mechanical {
+        let pair = Pair::new(step, i, star.value);
+        let derivative = pair.value(step);
+        response.push(step.conjugate(i, derivative));
+        for (j, &change) in star.partials.iter().enumerate() {
+            let partial = pair.partial(step, j, change);
+            tangent.push(step.conjugate(i, partial));
+        }
+        let increment = step.increment(i);
+        jump.push(step.graph.mul(pair.entropies, increment));
+    }
+    let last = step.mechanical;
+    let increment = step.increment(last);
+    jump.push(step.graph.mul(star.entropy, increment));
+    response.extend([star.value, step.half(&jump)]);
+    tangent.extend(star.partials);
+    let new = step.new.clone();
+    tangent.extend((0..=last).map(|j| step.slope_at(step.entropy, j, &new)));
+    response.extend(tangent);
+    response
+}
+
+/// θ*, 2 D_θ s, and the derivatives of θ* with respect to x¹.
+struct Star {
+    value: ExprId,
+    entropy: ExprId,
+    partials: Vec<ExprId>,
+}
+
+fn mean(step: &mut Step) -> Star {
+    let last = step.mechanical;
+    let ends = [step.old[last], step.new[last]];
+    let states = [step.old.clone(), step.new.clone()];
+    let energies = states.each_ref().map(|y| step.along(step.energy, last, ends, y));
+    let entropies = states.each_ref().map(|y| step.along(step.entropy, last, ends, y));
+    let energy = step.graph.sum(&energies);
+    let entropy = step.graph.sum(&entropies);
+    let entropy = step.name(entropy);
+    let energy = step.name(energy);
+    let value = step.graph.div(energy, entropy);
+    let value = step.name(value);
+    let reciprocal = step.graph.recip(entropy);
+    let reciprocal = step.name(reciprocal);
+    let mut partials = Vec::new();
+    for symbol in step.new.clone() {
+        let energy = energies.map(|energy| step.partial(energy, symbol));
+        let energy = step.graph.sum(&energy);
+        let entropy = entropies.map(|entropy| step.partial(entropy, symbol));
+        let entropy = step.graph.sum(&entropy);
+        let heat = step.graph.mul(value, entropy);
+        let change = step.graph.sub(energy, heat);
+        let partial = step.graph.mul(reciprocal, change);
+        partials.push(step.name(partial));
+    }
+    Star {
+        value,
+        entropy,
+        partials,
+    }
+}
+
+/// The two edges in y_i, one at θ¹ and one at θ⁰.
+struct Pair {
+    psi: [ExprId; 2],
+    entropy: [ExprId; 2],
+    /// θ − θ*.
+    gap: [ExprId; 2],
+    /// The sum of both entropy differences.
+    entropies: ExprId,
+}
+
+impl Pair {
+    fn new(step: &mut Step, i: usize, star: ExprId) -> Self {
+        let (old, new) = (step.old.clone(), step.new.clone());
+        let ends = [old[i], new[i]];
+        let states = [step.mixed(i, &old, &new), step.mixed(i, &new, &old)];
+        let psi = states.each_ref().map(|state| step.along(step.psi, i, ends, state));
+        let entropy = states.each_ref().map(|state| step.along(step.entropy, i, ends, state));
+        let gap = states.map(|state| {
+            let theta = step.graph.variable(state[step.mechanical]);
+            let gap = step.graph.sub(theta, star);
+            step.name(gap)
+        });
+        let entropies = step.graph.sum(&entropy);
+        let entropies = step.name(entropies);
+        Self {
+            psi,
+            entropy,
+            gap,
+            entropies,
+        }
+    }
+
+    fn value(&self, step: &mut Step) -> ExprId {
+        let latent = [0, 1].map(|at| step.graph.mul(self.gap[at], self.entropy[at]));
+        // In pairs, so that exchanging the states changes no bit.
+        let pairs = [self.psi, latent].map(|[a, b]| step.graph.pair_sum(a, b));
+        step.half(&pairs)
+    }
+
+    /// The derivative with respect to x_j¹, where θ* changes by `change`.
+    fn partial(&self, step: &mut Step, j: usize, change: ExprId) -> ExprId {
+        let symbol = step.new[j];
+        let mut terms = Vec::new();
+        for at in [0, 1] {
+            let entropy = step.partial(self.entropy[at], symbol);
+            terms.push(step.graph.mul(self.gap[at], entropy));
+            // ∂ψ[y_i⁰, y_i¹; θ¹]/∂θ¹ = −S[y_i⁰, y_i¹; θ¹] cancels the derivative of θ¹ itself.
+            if j < step.mechanical {
+                terms.push(step.partial(self.psi[at], symbol));
+            }
+        }
+        let shift = step.graph.mul(self.entropies, change);
+        terms.push(step.graph.neg(shift));
+        step.half(&terms)
+    }
+}

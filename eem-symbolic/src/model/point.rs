@@ -1,0 +1,157 @@
+//! Programs of one state: potentials, their derivatives, caloric quantities, viscosities.
+
+use super::Model;
+use crate::diff::diff;
+use crate::function::Function;
+use crate::graph::Graph;
+use crate::internal_energy::internal_energy;
+use crate::node::{ExprId, Node, Symbol};
+use crate::number::Number;
+use crate::program::{Input, Program, Stage};
+use crate::schedule::{Locals, Schedule};
+
+/// A model on a graph of its own.
+pub(super) struct PointPrograms<'m> {
+    model: &'m Model,
+    graph: Graph,
+    variables: Vec<Symbol>,
+}
+
+impl<'m> PointPrograms<'m> {
+    pub(super) fn new(model: &'m Model) -> Self {
+        Self {
+            model,
+            graph: model.graph.clone(),
+            variables: model.variables(),
+        }
+    }
+
+    pub(super) fn free_energy(&self) -> Program {
+        self.program(&self.variables, &[self.model.psi])
+    }
+
+    pub(super) fn gradient(&mut self) -> Program {
+        let gradient = self.slopes(self.model.psi);
+        self.program(&self.variables, &gradient)
+    }
+
+    pub(super) fn hessian(&mut self) -> Program {
+        let mut outputs = self.slopes(self.model.psi);
+        for force in outputs.clone() {
+            let row = self.slopes(force);
+            outputs.extend(row);
+        }
+        self.program(&self.variables, &outputs)
+    }
+
+    pub(super) fn internal_energy(&mut self) -> Program {
+        let energy = self.model.internal_energy(&mut self.graph);
+        self.program(&self.variables, &[energy])
+    }
+
+    pub(super) fn caloric(&mut self, theta: Symbol) -> Program {
+        let entropy = self.model.entropy(&mut self.graph, theta);
+        let capacity = heat_capacity(&mut self.graph, entropy, theta);
+        let magnitude = magnitude(&mut self.graph, entropy);
+        self.program(&self.variables, &[entropy, capacity, magnitude])
+    }
+
+    pub(super) fn viscosity(&mut self) -> Program {
+        let theta = self.model.temperature;
+        let mut outputs = self.model.viscosities.clone();
+        for &law in &self.model.viscosities {
+            outputs.push(match theta {
+                Some(theta) => diff(&mut self.graph, law, theta),
+                None => self.graph.integer(0),
+            });
+        }
+        self.program(theta.as_slice(), &outputs)
+    }
+
+    fn slopes(&mut self, e: ExprId) -> Vec<ExprId> {
+        let variables = self.variables.iter();
+        variables.map(|&x| diff(&mut self.graph, e, x)).collect()
+    }
+
+    fn program(&self, variables: &[Symbol], outputs: &[ExprId]) -> Program {
+        let parameters = self.model.parameters.iter().map(|&symbol| (symbol, Stage::Old));
+        let variables = variables.iter().map(|&symbol| (symbol, Stage::New));
+        let inputs = parameters.chain(variables).map(|(symbol, stage)| Input {
+            symbol,
+            name: self.graph.name(symbol).to_owned(),
+            stage,
+        });
+        let schedule = Schedule {
+            graph: &self.graph,
+            locals: &Locals::default(),
+            parameters: self.model.parameters.len(),
+        };
+        schedule.program(inputs.collect(), outputs)
+    }
+}
+
+impl Model {
+    /// s = −∂ψ/∂θ.
+    pub(crate) fn entropy(&self, graph: &mut Graph, theta: Symbol) -> ExprId {
+        let slope = diff(graph, self.psi, theta);
+        graph.neg(slope)
+    }
+
+    /// e = ψ + θ s, ψ itself without a temperature.
+    pub(crate) fn internal_energy(&self, graph: &mut Graph) -> ExprId {
+        match self.temperature {
+            Some(theta) => internal_energy(graph, self.psi, theta),
+            None => self.psi,
+        }
+    }
+}
+
+/// `θ ∂s/∂θ`, multiplied out term by term: the heat capacity of `c ln θ` is c.
+pub(super) fn heat_capacity(graph: &mut Graph, entropy: ExprId, theta: Symbol) -> ExprId {
+    let slope = diff(graph, entropy, theta);
+    let theta = graph.variable(theta);
+    let Node::Sum { constant, terms } = graph.node(slope).clone() else {
+        return graph.mul(theta, slope);
+    };
+    let mut products = vec![(constant, theta)];
+    for (coefficient, term) in terms {
+        products.push((coefficient, graph.mul(theta, term)));
+    }
+    graph.weighted_sum(Number::ZERO, &products)
+}
+
+/// The sum of the magnitudes of the terms of a sum: what its rounding error is proportional to.
+///
+/// Sums among the factors of a term count by their terms too.
+fn magnitude(graph: &mut Graph, e: ExprId) -> ExprId {
+    match graph.node(e).clone() {
+        Node::Sum { constant, terms } => {
+            let mut magnitudes = Vec::new();
+            for (coefficient, term) in terms {
+                magnitudes.push((coefficient.abs(), magnitude(graph, term)));
+            }
+            graph.weighted_sum(constant.abs(), &magnitudes)
+        }
+        Node::Product(factors) => {
+            let mut magnitudes = Vec::new();
+            for (factor, exponent) in factors {
+                let is_plain = exponent == crate::number::Rational::ONE;
+                let factor = if is_plain {
+                    magnitude(graph, factor)
+                } else {
+                    graph.apply(Function::Abs, factor)
+                };
+                magnitudes.push((factor, exponent));
+            }
+            graph.power_product(&magnitudes)
+        }
+        Node::Number(_)
+        | Node::Variable(_)
+        | Node::Power(..)
+        | Node::Apply(..)
+        | Node::PairSum(..)
+        | Node::DividedDifference(..)
+        | Node::SecondDividedDifference(..)
+        | Node::PowerDifference { .. } => graph.apply(Function::Abs, e),
+    }
+}

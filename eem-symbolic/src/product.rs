@@ -1,0 +1,154 @@
+//! Products in canonical form: one rational exponent per base, numeric factors in front.
+
+use std::collections::BTreeMap;
+
+use crate::graph::Graph;
+use crate::node::{ExprId, Node};
+use crate::number::{Number, Rational};
+use crate::order::compare;
+
+impl Graph {
+    /// `Π base ^ exponent`.
+    ///
+    /// Laws:
+    /// * `x^a · x^b = x^(a + b)`: keeps or extends the domain (`x·x⁻¹ = 1` also at 0,
+    ///   `√x·√x = x` also below 0), never shrinks it;
+    /// * `(x^a)^n = x^(a·n)` and `(x·y)^n = xⁿ·yⁿ` for integers n only: `√(x²)` is not x;
+    /// * numbers to integer powers move to the coefficient, except 0 to a negative one;
+    /// * square roots of rational squares are exact.
+    ///
+    /// Products are not distributed over sums.
+    pub fn power_product(&mut self, factors: &[(ExprId, Rational)]) -> ExprId {
+        let mut collected = Collected { coefficient: Number::ONE, exponents: BTreeMap::new() };
+        let mut pending = factors.to_vec();
+        while let Some((base, exponent)) = pending.pop() {
+            collected.multiply(self, base, exponent, &mut pending);
+            if pending.is_empty() {
+                pending = collected.take_expandable(self);
+            }
+        }
+        let Collected { coefficient, exponents } = collected;
+        if coefficient.is_zero() {
+            return self.number(Number::ZERO);
+        }
+        let mut factors: Vec<_> = exponents.into_iter().collect();
+        let product = match factors[..] {
+            [] => return self.number(coefficient),
+            [(base, Rational::ONE)] => base,
+            _ => {
+                factors.sort_by(|p, q| compare(self, p.0, q.0));
+                self.intern(Node::Product(factors))
+            }
+        };
+        self.scale(coefficient, product)
+    }
+
+    /// Coefficient and term of an expression that is `coefficient · term`.
+    pub(crate) fn as_scaled(&self, e: ExprId) -> Option<(Number, ExprId)> {
+        let Node::Sum { constant, terms } = self.node(e) else { return None };
+        if constant.is_zero() && terms.len() == 1 { Some(terms[0]) } else { None }
+    }
+}
+
+/// A product that is being collected; exponents are never 0.
+struct Collected {
+    coefficient: Number,
+    exponents: BTreeMap<ExprId, Rational>,
+}
+
+impl Collected {
+    /// Multiplies by `base ^ exponent`, or says in `pending` by what instead.
+    fn multiply(
+        &mut self,
+        graph: &mut Graph,
+        base: ExprId,
+        exponent: Rational,
+        pending: &mut Vec<(ExprId, Rational)>,
+    ) {
+        if exponent.is_zero() {
+            return;
+        }
+        if let Some(expansion) = expand(graph, base, exponent) {
+            self.coefficient = self.coefficient * expansion.coefficient;
+            pending.extend(expansion.factors);
+            return;
+        }
+        let present = self.exponents.get(&base).copied().unwrap_or(Rational::ZERO);
+        match present.checked_add(exponent) {
+            Some(Rational::ZERO) => {
+                self.exponents.remove(&base);
+            }
+            Some(sum) => {
+                self.exponents.insert(base, sum);
+            }
+            // Exponents beyond 128 bits: the factor keeps a float exponent of its own.
+            None => {
+                let exponent = graph.number(exponent.to_f64());
+                let power = graph.intern(Node::Power(base, exponent));
+                self.exponents.insert(power, Rational::ONE);
+            }
+        }
+    }
+
+    /// Takes out the factors that collecting has made expandable, such as `√(2x)·√(2x) = 2·x`.
+    fn take_expandable(&mut self, graph: &Graph) -> Vec<(ExprId, Rational)> {
+        let expandable = |(&base, &exponent): (&ExprId, &Rational)| {
+            expand(graph, base, exponent).is_some().then_some((base, exponent))
+        };
+        let taken: Vec<_> = self.exponents.iter().filter_map(expandable).collect();
+        for (base, _) in &taken {
+            self.exponents.remove(base);
+        }
+        taken
+    }
+}
+
+/// `coefficient · Π factors`.
+struct Expansion {
+    coefficient: Number,
+    factors: Vec<(ExprId, Rational)>,
+}
+
+/// Takes `base ^ exponent` apart where a law of [`Graph::power_product`] applies.
+fn expand(graph: &Graph, base: ExprId, exponent: Rational) -> Option<Expansion> {
+    match graph.node(base) {
+        Node::Number(number) => {
+            let coefficient = exact_power(*number, exponent)?;
+            Some(Expansion { coefficient, factors: Vec::new() })
+        }
+        Node::Sum { .. } => {
+            let (coefficient, term) = graph.as_scaled(base)?;
+            exponent.is_integer().then_some(())?;
+            let coefficient = exact_power(coefficient, exponent)?;
+            Some(Expansion { coefficient, factors: vec![(term, exponent)] })
+        }
+        Node::Product(factors) => {
+            exponent.is_integer().then_some(())?;
+            let powers = factors.iter().map(|&(b, r)| Some((b, r.checked_mul(exponent)?)));
+            Some(Expansion { coefficient: Number::ONE, factors: powers.collect::<Option<_>>()? })
+        }
+        Node::Variable(_)
+        | Node::Power(..)
+        | Node::Apply(..)
+        | Node::PairSum(..)
+        | Node::DividedDifference(..)
+        | Node::SecondDividedDifference(..)
+        | Node::PowerDifference { .. } => None,
+    }
+}
+
+/// `number ^ exponent` where it is a number: integer exponents and roots of squares.
+fn exact_power(number: Number, exponent: Rational) -> Option<Number> {
+    if number == Number::ONE {
+        return Some(Number::ONE);
+    }
+    if number.is_zero() {
+        return (!exponent.is_negative()).then_some(Number::ZERO);
+    }
+    if let Some(integer) = exponent.to_i32() {
+        return Some(number.powi(integer));
+    }
+    let root = number.exact()?.checked_sqrt()?;
+    let halves = exponent.checked_mul(Rational::TWO)?.to_i32()?;
+    Some(Number::Exact(root.checked_powi(halves)?))
+}

@@ -1,0 +1,202 @@
+//! Instructions as they are emitted: each numbered by what it computes, so that none comes twice.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::Schedule;
+use crate::function::Function;
+use crate::node::{ExprId, Kernel, Symbol};
+use crate::number::Number;
+use crate::program::{Input, Instruction, Operation, Program, ProgramKernel, Stage, Value};
+
+/// A result: an instruction, or a number that becomes a constant of the stage that uses it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Operand {
+    Value(Value),
+    Number(Number),
+}
+
+pub(super) struct Builder<'s> {
+    schedule: &'s Schedule<'s>,
+    inputs: Vec<Input>,
+    positions: BTreeMap<Symbol, usize>,
+    instructions: Vec<Instruction>,
+    /// Whether the value of the instruction depends on more than parameters.
+    of_state: Vec<bool>,
+    /// Looked up, never iterated.
+    numbering: HashMap<(Stage, Operation), Value>,
+    results: BTreeMap<ExprId, Operand>,
+}
+
+impl<'s> Builder<'s> {
+    pub(super) fn new(schedule: &'s Schedule<'s>, inputs: Vec<Input>) -> Self {
+        let positions = inputs.iter().enumerate().map(|(index, input)| (input.symbol, index));
+        Self {
+            schedule,
+            positions: positions.collect(),
+            inputs,
+            instructions: Vec::new(),
+            of_state: Vec::new(),
+            numbering: HashMap::new(),
+            results: BTreeMap::new(),
+        }
+    }
+
+    pub(super) fn finish(mut self, outputs: &[ExprId]) -> Program {
+        let outputs = outputs.iter().map(|&output| {
+            let operand = self.done(output);
+            self.value(operand, Stage::New)
+        });
+        let outputs = outputs.collect();
+        Program {
+            inputs: self.inputs,
+            instructions: self.instructions,
+            outputs,
+        }
+    }
+
+    /// The result of an expression, if it has been emitted.
+    pub(super) fn result(&self, e: ExprId) -> Option<Operand> {
+        self.results.get(&e).copied()
+    }
+
+    /// The result of an expression that comes earlier.
+    pub(super) fn done(&self, e: ExprId) -> Operand {
+        self.result(e).expect("operands are emitted before what uses them")
+    }
+
+    pub(super) fn set(&mut self, e: ExprId, operand: Operand) {
+        self.results.insert(e, operand);
+    }
+
+    pub(super) fn input(&mut self, symbol: Symbol) -> Operand {
+        let Some(&position) = self.positions.get(&symbol) else {
+            panic!("`{}` is not an input", self.schedule.graph.name(symbol));
+        };
+        let stage = self.inputs[position].stage;
+        let of_state = position >= self.schedule.parameters;
+        Operand::Value(self.insert(stage, Operation::Input(position), of_state))
+    }
+
+    pub(super) fn power(&mut self, base: ExprId, exponent: ExprId) -> Operand {
+        let operands = [self.done(base), self.done(exponent)];
+        self.emit(operands, |[a, b]| Operation::Power(a, b))
+    }
+
+    pub(super) fn apply(&mut self, function: Function, x: ExprId) -> Operand {
+        let x = self.done(x);
+        self.emit([x], |[x]| Operation::Apply(function, x))
+    }
+
+    pub(super) fn pair_sum(&mut self, a: ExprId, b: ExprId) -> Operand {
+        let (a, b) = (self.done(a), self.done(b));
+        self.add(a, b)
+    }
+
+    pub(super) fn divided_difference(&mut self, kernel: Kernel, a: ExprId, b: ExprId) -> Operand {
+        self.difference(kernel, a, b, Operation::DividedDifference)
+    }
+
+    pub(super) fn second_divided_difference(
+        &mut self,
+        kernel: Kernel,
+        a: ExprId,
+        b: ExprId,
+    ) -> Operand {
+        self.difference(kernel, a, b, Operation::SecondDividedDifference)
+    }
+
+    fn difference(
+        &mut self,
+        kernel: Kernel,
+        a: ExprId,
+        b: ExprId,
+        operation: fn(ProgramKernel, Value, Value) -> Operation,
+    ) -> Operand {
+        let [a, b] = [self.done(a), self.done(b)];
+        let plain = match kernel {
+            Kernel::Function(function) => ProgramKernel::Function(function),
+            Kernel::Sqrt => ProgramKernel::Sqrt,
+            Kernel::Recip => ProgramKernel::Powi(-1),
+            Kernel::Powi(n) => ProgramKernel::Powi(n),
+            Kernel::Powf(exponent) => {
+                let exponent = self.done(exponent);
+                return self.emit([exponent, a, b], |[exponent, a, b]| {
+                    operation(ProgramKernel::Powf(exponent), a, b)
+                });
+            }
+        };
+        self.emit([a, b], |[a, b]| operation(plain, a, b))
+    }
+
+    pub(super) fn power_difference(
+        &mut self,
+        values: [ExprId; 2],
+        logarithms: [ExprId; 2],
+    ) -> Operand {
+        let [value_a, value_b] = values.map(|value| self.done(value));
+        let [a, b] = logarithms.map(|logarithm| self.done(logarithm));
+        self.emit([value_a, value_b, a, b], |[value_a, value_b, a, b]| {
+            Operation::DividedDifference(ProgramKernel::Power(value_a, value_b), a, b)
+        })
+    }
+
+    pub(super) fn add(&mut self, a: Operand, b: Operand) -> Operand {
+        self.emit([a, b], |[a, b]| Operation::Add(a, b))
+    }
+
+    pub(super) fn mul(&mut self, a: Operand, b: Operand) -> Operand {
+        self.emit([a, b], |[a, b]| Operation::Mul(a, b))
+    }
+
+    /// Whether an operand depends on more than parameters.
+    pub(super) fn is_of_state(&self, operand: Operand) -> bool {
+        match operand {
+            Operand::Number(_) => false,
+            Operand::Value(value) => self.of_state[value.index()],
+        }
+    }
+
+    /// One instruction, at the latest stage of its operands.
+    pub(super) fn emit<const N: usize>(
+        &mut self,
+        operands: [Operand; N],
+        operation: impl FnOnce([Value; N]) -> Operation,
+    ) -> Operand {
+        let stages = operands.iter().map(|operand| match operand {
+            Operand::Number(_) => Stage::Old,
+            Operand::Value(value) => self.instructions[value.index()].stage,
+        });
+        let stage = stages.max().unwrap_or(Stage::Old);
+        let of_state = operands.iter().any(|&operand| self.is_of_state(operand));
+        let operands = operands.map(|operand| self.value(operand, stage));
+        Operand::Value(self.insert(stage, operation(operands), of_state))
+    }
+
+    fn value(&mut self, operand: Operand, stage: Stage) -> Value {
+        match operand {
+            Operand::Value(value) => value,
+            Operand::Number(number) => self.insert(stage, Operation::Constant(number), false),
+        }
+    }
+
+    fn insert(&mut self, stage: Stage, operation: Operation, of_state: bool) -> Value {
+        // Addition and multiplication commute, also in floating point.
+        let operation = match operation {
+            Operation::Add(a, b) if b < a => Operation::Add(b, a),
+            Operation::Mul(a, b) if b < a => Operation::Mul(b, a),
+            operation => operation,
+        };
+        let key = (stage, operation);
+        if let Some(&value) = self.numbering.get(&key) {
+            return value;
+        }
+        let value = Value::new(self.instructions.len());
+        self.instructions.push(Instruction {
+            operation: key.1.clone(),
+            stage,
+        });
+        self.of_state.push(of_state);
+        self.numbering.insert(key, value);
+        value
+    }
+}

@@ -1,0 +1,56 @@
+//! Named intermediate results: symbols that stand for an expression and are not looked through.
+//!
+//! The canonical form of the graph merges sums into sums and products into products. That is right
+//! for a formula, and wrong for a number that several formulas share: a mean temperature θ̄ = E/S
+//! would be divided out again in every product it meets. A local keeps it one value.
+
+use std::collections::BTreeMap;
+
+use crate::graph::Graph;
+use crate::node::{ExprId, Node, Symbol};
+
+/// Definitions of symbols, each by an expression of inputs and other locals.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Locals {
+    definitions: BTreeMap<Symbol, ExprId>,
+}
+
+impl Locals {
+    /// A variable that stands for `value`; `value` itself where naming it would hide that it is a
+    /// number or a variable.
+    pub(crate) fn name(&mut self, graph: &mut Graph, value: ExprId) -> ExprId {
+        match graph.node(value) {
+            Node::Number(_) | Node::Variable(_) => value,
+            Node::Sum { .. }
+            | Node::Product(_)
+            | Node::Power(..)
+            | Node::Apply(..)
+            | Node::PairSum(..)
+            | Node::PowerDifference { .. }
+            | Node::DividedDifference(..)
+            | Node::SecondDividedDifference(..) => {
+                // No identifier of a formula contains `#`.
+                let name = format!("#{}", self.definitions.len());
+                let symbol = graph.symbol(&name);
+                self.definitions.insert(symbol, value);
+                graph.variable(symbol)
+            }
+        }
+    }
+
+    /// The definition of a local, anything else as it is.
+    pub(crate) fn resolve(&self, graph: &Graph, value: ExprId) -> ExprId {
+        match graph.node(value) {
+            Node::Variable(symbol) => self.definitions.get(symbol).copied().unwrap_or(value),
+            Node::Number(_)
+            | Node::Sum { .. }
+            | Node::Product(_)
+            | Node::Power(..)
+            | Node::Apply(..)
+            | Node::PairSum(..)
+            | Node::PowerDifference { .. }
+            | Node::DividedDifference(..)
+            | Node::SecondDividedDifference(..) => value,
+        }
+    }
+}
