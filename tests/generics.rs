@@ -1,6 +1,9 @@
 //! The legal forms of a model: type parameters, lifetimes, constants, bounds, unused fields,
 //! scalars, blocks and shadowing.
 
+// The data are small integers: every result is exact.
+#![allow(clippy::float_cmp)]
+
 use std::marker::PhantomData;
 
 use eem::FreeEnergy;
@@ -89,18 +92,32 @@ where
 
 #[test]
 fn a_type_parameter_is_the_scalar() {
-    let double = Generic { stiffness: 3.0_f64, length: 1.0 };
+    let double = Generic {
+        stiffness: 3.0_f64,
+        length: 1.0,
+    };
     assert_eq!(double.free_energy(&[3.0]), 6.0);
-    let single = Generic { stiffness: 3.0_f32, length: 1.0 };
+    let single = Generic {
+        stiffness: 3.0_f32,
+        length: 1.0,
+    };
     assert_eq!(single.gradient(&[3.0]), [6.0_f32]);
 }
 
 #[test]
 fn floats_are_converted_to_the_scalar() {
     let seen = 1.0;
-    let mixed = Mixed { stiffness: 3.0, length: 1.0, scale: 0.5, history: [&seen; 2] };
+    let mixed = Mixed {
+        stiffness: 3.0,
+        length: 1.0,
+        scale: 0.5,
+        history: [&seen; 2],
+    };
     assert_eq!(energy(&mixed, [3.0]), 12.0);
-    assert_eq!(<Mixed<'_, f64, 2> as FreeEnergy<f64>>::PARAMETERS, ["stiffness", "length", "scale"]);
+    assert_eq!(
+        <Mixed<'_, f64, 2> as FreeEnergy<f64>>::PARAMETERS,
+        ["stiffness", "length", "scale"]
+    );
     let bare = Bare {};
     assert_eq!(bare.free_energy(&[3.0_f32]), 4.5_f32);
     assert_eq!(bare.free_energy(&[3.0_f64]), 4.5_f64);
@@ -108,14 +125,24 @@ fn floats_are_converted_to_the_scalar() {
 
 #[test]
 fn unused_fields_are_no_parameters() {
-    let labelled = Labelled::<str> { stiffness: 2.0, name: "spring", _label: PhantomData };
+    let labelled = Labelled::<str> {
+        stiffness: 2.0,
+        name: "spring",
+        _label: PhantomData,
+    };
     assert_eq!(energy(&labelled, [3.0]), 6.0);
-    assert_eq!(<Labelled<'_, str> as FreeEnergy<f64>>::PARAMETERS, ["stiffness"]);
+    assert_eq!(
+        <Labelled<'_, str> as FreeEnergy<f64>>::PARAMETERS,
+        ["stiffness"]
+    );
 }
 
 #[test]
 fn inner_names_hide_outer_names() {
-    let shadowed = Shadowed { k: 4.0, lambda: f64::NAN };
+    let shadowed = Shadowed {
+        k: 4.0,
+        lambda: f64::NAN,
+    };
     // (k/2)·(100 λ) + 2 λ at λ = 3
     assert_eq!(energy(&shadowed, [3.0]), 606.0);
     assert_eq!(<Shadowed as FreeEnergy<f64>>::PARAMETERS, ["k"]);
@@ -123,7 +150,10 @@ fn inner_names_hide_outer_names() {
 
 #[test]
 fn raw_identifiers_are_names() {
-    let raw = Raw { r#type: 2.0, k: 5.0 };
+    let raw = Raw {
+        r#type: 2.0,
+        k: 5.0,
+    };
     assert_eq!(energy(&raw, [3.0, 4.0]), 29.0);
     assert_eq!(<Raw as FreeEnergy<f64>>::PARAMETERS, ["type", "k"]);
 }
@@ -132,11 +162,13 @@ fn raw_identifiers_are_names() {
 fn the_state_is_measures_dashpots_temperature() {
     let order = Order {};
     // λ = 1, b = 2, a = 3, θ = 4: dashpots keep the order of the closure.
-    assert_eq!(energy(&order, [1.0, 2.0, 3.0, 4.0]), 1.0 + 200.0 + 30.0 + 16000.0);
+    assert_eq!(
+        energy(&order, [1.0, 2.0, 3.0, 4.0]),
+        1.0 + 200.0 + 30.0 + 16000.0
+    );
     let (eta, eta_theta) = order.viscosity(4.0_f64);
     assert_eq!((eta, eta_theta), ([8.0, 1.0], [2.0, 0.0]));
-    type Model = Order;
-    assert_eq!(<Model as FreeEnergy<f64>>::MEASURES, 1);
-    assert_eq!(<Model as FreeEnergy<f64>>::DASHPOTS, 2);
-    const { assert!(<Model as FreeEnergy<f64>>::THERMAL) };
+    assert_eq!(<Order as FreeEnergy<f64>>::MEASURES, 1);
+    assert_eq!(<Order as FreeEnergy<f64>>::DASHPOTS, 2);
+    const { assert!(<Order as FreeEnergy<f64>>::THERMAL) };
 }

@@ -3,6 +3,8 @@
 
 #![no_implicit_prelude]
 #![allow(non_camel_case_types, dead_code)]
+// The data are chosen so that every result is exact.
+#![allow(clippy::float_cmp)]
 
 extern crate eem as renamed;
 
@@ -32,8 +34,10 @@ mod facade {
 }
 
 mod no_prelude {
+    #[allow(unused_imports)]
     use crate::shadows::{
-        Array, Caloric, From, Option, Scalar, bool, core, diff, eem, kernel, ln, f64, std, str, usize,
+        Array, Caloric, From, Option, Scalar, bool, core, diff, eem, f64, kernel, ln, std, str,
+        usize,
     };
 
     #[derive(::eem::FreeEnergy)]
@@ -111,7 +115,12 @@ use ::std::prelude::rust_2024::test;
 
 #[test]
 fn models_work_without_the_prelude() {
-    let spring = no_prelude::Spring { length: 1.0, k: 2.0, c: 1.5, eta: 7.0 };
+    let spring = no_prelude::Spring {
+        length: 1.0,
+        k: 2.0,
+        c: 1.5,
+        eta: 7.0,
+    };
     let psi: f64 = ::eem::FreeEnergy::free_energy(&spring, &[1.0, 1.0, 300.0]);
     // ln 1 = 0, tanh 0 = 0; diff(ln(λ/L) θ, λ) = θ/λ = 300; −1.5·300·(−1) = 450.
     assert_eq!(psi, 750.0);

@@ -41,8 +41,18 @@ pub(crate) struct Parameter<'a> {
     /// Which field of the struct it is.
     pub(crate) field: usize,
     pub(crate) ident: &'a Ident,
-    /// The field is an `f64` or an `f32` and has to be converted to the scalar.
-    pub(crate) float: bool,
+    pub(crate) kind: ParameterKind,
+}
+
+/// How a field becomes a scalar.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ParameterKind {
+    /// `f64`: converted.
+    Double,
+    /// `f32`: widened and converted.
+    Single,
+    /// The type parameter that is the scalar.
+    Scalar,
 }
 
 /// An argument of the free energy.

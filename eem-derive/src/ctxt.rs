@@ -41,9 +41,7 @@ impl Ctxt {
         let errors = self.errors.take();
         match errors.into_iter().reduce(combined) {
             Some(error) => Err(error),
-            None => {
-                Ok(value.unwrap_or_else(|| unreachable!("a phase without a value says why")))
-            }
+            None => Ok(value.unwrap_or_else(|| unreachable!("a phase without a value says why"))),
         }
     }
 }

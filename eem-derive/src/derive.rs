@@ -16,11 +16,7 @@ pub(crate) fn derive(input: &DeriveInput) -> TokenStream {
         .unwrap_or_else(|error| fallback::expand(input, &attributes.krate, &error))
 }
 
-fn try_derive(
-    cx: &Ctxt,
-    input: &DeriveInput,
-    attributes: &Attributes,
-) -> syn::Result<TokenStream> {
+fn try_derive(cx: &Ctxt, input: &DeriveInput, attributes: &Attributes) -> syn::Result<TokenStream> {
     let parsed = cx.barrier(parse::input(cx, input, attributes))?;
     let checked = cx.barrier(check::check(cx, &parsed))?;
     let model = cx.barrier(model::lower(cx, &checked))?;

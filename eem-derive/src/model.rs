@@ -3,7 +3,7 @@
 //! A fold that calls one constructor of the graph per node. What can be wrong here shows only once
 //! the expressions exist: exponents, dependences and values of constants.
 
-use eem_symbolic::{ExprId, Graph, Model, Number, Symbol, diff};
+use eem_symbolic::{ExprId, F64, Graph, Model, Number, Symbol, diff, schedule};
 
 use crate::ast::{self, Operator, Role};
 use crate::checked::{Body, Checked, Expr, ExprKind};
@@ -14,9 +14,13 @@ use crate::message::expression as message;
 pub(crate) fn lower(cx: &Ctxt, checked: &Checked<'_>) -> Option<Model> {
     let mut graph = Graph::new();
     let variables = checked.variables.iter();
-    let variables: Vec<Symbol> = variables.map(|v| graph.symbol(&ast::name(v.ident))).collect();
+    let variables: Vec<Symbol> = variables
+        .map(|v| graph.symbol(&ast::name(v.ident)))
+        .collect();
     let parameters = checked.parameters.iter();
-    let parameters: Vec<Symbol> = parameters.map(|p| graph.symbol(&ast::name(p.ident))).collect();
+    let parameters: Vec<Symbol> = parameters
+        .map(|p| graph.symbol(&ast::name(p.ident)))
+        .collect();
     let mut lowering = Lowering {
         cx,
         checked,
@@ -69,13 +73,43 @@ impl Lowering<'_> {
 
     fn expr(&mut self, expr: &Expr<'_>) -> Option<ExprId> {
         let value = self.value(expr)?;
-        match self.graph.as_number(value) {
-            Some(Number::Float(float)) if !float.is_finite() => {
-                self.cx.error(expr.original, &message::not_finite());
-                None
-            }
-            _ => Some(value),
+        self.check_finite(expr, value)
+    }
+
+    /// A constant outside of the domain of a function has no value: `ln(-1)`, `1 / 0`.
+    fn check_finite(&self, expr: &Expr<'_>, value: ExprId) -> Option<ExprId> {
+        if self
+            .constant(value)
+            .is_some_and(|constant| !constant.is_finite())
+        {
+            self.cx.error(expr.original, &message::not_finite());
+            return None;
         }
+        Some(value)
+    }
+
+    fn check_divisor(&self, expr: &Expr<'_>, value: ExprId) -> Option<ExprId> {
+        if self
+            .constant(value)
+            .is_some_and(|constant| !constant.recip().is_finite())
+        {
+            self.cx.error(expr.original, &message::divisor_is_zero());
+            return None;
+        }
+        Some(value)
+    }
+
+    /// The value of an expression, if there are no symbols in it.
+    fn constant(&self, e: ExprId) -> Option<f64> {
+        if let Some(number) = self.graph.as_number(e) {
+            return Some(number.to_f64());
+        }
+        let mut symbols = self.variables.iter().chain(&self.parameters);
+        if symbols.any(|&symbol| self.graph.depends_on(e, symbol)) {
+            return None;
+        }
+        let program = schedule(&self.graph, Vec::new(), &[e]);
+        program.interpret(&F64, &[]).first().copied()
     }
 
     fn value(&mut self, expr: &Expr<'_>) -> Option<ExprId> {
@@ -119,8 +153,12 @@ impl Lowering<'_> {
     }
 
     fn binary(&mut self, operator: Operator, left: &Expr<'_>, right: &Expr<'_>) -> Option<ExprId> {
+        let divisor = right;
         let (left, right) = (self.expr(left), self.expr(right));
         let (left, right) = (left?, right?);
+        if operator == Operator::Divide {
+            self.check_divisor(divisor, right)?;
+        }
         Some(match operator {
             Operator::Add => self.graph.add(left, right),
             Operator::Subtract => self.graph.sub(left, right),

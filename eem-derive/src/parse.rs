@@ -45,6 +45,9 @@ fn laws<'a>(cx: &Ctxt, attributes: &'a Attributes) -> Vec<Law<'a>> {
             value: expr::expr(cx, value)?,
         })
     };
-    let pairs = attributes.laws.iter().map(|(dashpot, value)| (dashpot, value));
+    let pairs = attributes
+        .laws
+        .iter()
+        .map(|(dashpot, value)| (dashpot, value));
     pairs.filter_map(law).collect()
 }

@@ -34,9 +34,40 @@ fn spring() -> TokenStream {
     }
 }
 
+/// The thermo-visco-elastic pendulum of García Orden & Romero (2012), §4.1.
+fn pendulum() -> TokenStream {
+    quote! {
+        #[free_energy(|lambda: Stretch, gamma: Viscous, theta: Temperature| {
+            let strain = ln(lambda / length);
+            let k = k0 - k1 * (theta - theta_ref);
+            let mu = mu0 - mu1 * (theta - theta_ref);
+            let psi_e = 0.5 * k * strain.powi(2) - beta * (theta - theta_ref) * strain
+                + capacity * (theta - theta_ref - theta * ln(theta / theta_ref));
+            (1.0 + ratio) * psi_e + mu * gamma.powi(2) - ratio * gamma * diff(psi_e, lambda)
+        })]
+        #[viscosity(gamma = eta0 * exp(activation * (1.0 / theta - 1.0 / theta_ref)))]
+        struct Pendulum {
+            length: f64,
+            k0: f64,
+            k1: f64,
+            ratio: f64,
+            beta: f64,
+            capacity: f64,
+            mu0: f64,
+            mu1: f64,
+            eta0: f64,
+            activation: f64,
+            theta_ref: f64,
+        }
+    }
+}
+
 #[test]
 fn the_same_input_gives_the_same_code() {
-    assert_eq!(expand(spring()).to_string(), expand(spring()).to_string());
+    assert_eq!(
+        expand(pendulum()).to_string(),
+        expand(pendulum()).to_string()
+    );
 }
 
 #[test]

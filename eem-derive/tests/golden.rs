@@ -12,25 +12,15 @@ pub struct ElasticSpring {
 }
 include!("../src/tests/golden/elastic_spring.rs");
 
-pub struct MaxwellElement<T> {
-    pub stiffness: T,
-    pub eta: T,
-}
-include!("../src/tests/golden/maxwell_element.rs");
-
 #[test]
 fn elastic_spring() {
-    let spring = ElasticSpring { stiffness: 4.0, length: 1.0 };
+    let spring = ElasticSpring {
+        stiffness: 4.0,
+        length: 1.0,
+    };
     assert_eq!(spring.free_energy(&[3.0_f64]), 8.0);
     assert_eq!(spring.gradient(&[3.0_f64]), [8.0]);
     let old = spring.entropy_form_old(&[2.0_f64]);
     // (ψ(3) − ψ(2))/(3 − 2) and its derivative
     assert_eq!(spring.entropy_form(&old, &[3.0], &[]), ([6.0], [[2.0]]));
-}
-
-#[test]
-fn maxwell_element() {
-    let element = MaxwellElement { stiffness: 1.0, eta: 7.0 };
-    assert_eq!(element.gradient(&[3.0_f64, 1.0]), [4.0, -4.0]);
-    assert_eq!(element.viscosity(300.0), ([7.0], [0.0]));
 }

@@ -89,7 +89,11 @@ where
             let value = self.models[place].1.parameter(index);
             if !value.is_finite() {
                 let value = value.to_f64();
-                return Err(SceneError::Parameter { element, parameter, value });
+                return Err(SceneError::Parameter {
+                    element,
+                    parameter,
+                    value,
+                });
             }
         }
         Ok(())
@@ -117,5 +121,7 @@ where
     K: Kinematics<S>,
     C: crate::scheme::ElementScheme<S, M>,
 {
-    Box::new(ElementGroup::<S, M, K, C>::new::<D>(kinematics, models, placed))
+    Box::new(ElementGroup::<S, M, K, C>::new::<D>(
+        kinematics, models, placed,
+    ))
 }

@@ -1,11 +1,12 @@
 //! Sums that remember what rounding took from them.
 
+use crate::kernel::two_sum;
 use crate::scalar::Scalar;
 
 /// Accumulated quantities, each with the rounding error of all its additions so far.
 ///
 /// The value plus the carry is the sum to twice the precision, so that the state after a million
-/// steps carries the rounding of one (Kahan 1965; TwoSum, Knuth 1969).
+/// steps carries the rounding of one (Kahan 1965; `TwoSum`, Knuth 1969).
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Compensated<S> {
     values: Vec<S>,
@@ -42,14 +43,6 @@ impl<S: Scalar> Compensated<S> {
         self.values.copy_from_slice(&other.values);
         self.carries.copy_from_slice(&other.carries);
     }
-}
-
-/// `a + b` rounded, and what rounding took: the two add up to `a + b` exactly.
-pub(crate) fn two_sum<S: Scalar>(a: S, b: S) -> (S, S) {
-    let sum = a + b;
-    let b_part = sum - a;
-    let a_part = sum - b_part;
-    (sum, (a - a_part) + (b - b_part))
 }
 
 #[cfg(test)]

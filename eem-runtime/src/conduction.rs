@@ -29,7 +29,7 @@ pub(crate) struct Link<S> {
 pub(crate) struct Conduction<S> {
     links: Vec<Link<S>>,
     ranges: Vec<Range<usize>>,
-    /// θ_r, K.
+    /// `θ_r`, K.
     pub(crate) reservoirs: Vec<S>,
 }
 
@@ -49,10 +49,16 @@ impl<S: Real> Conduction<S> {
                 }
             };
             if let (Some(near), Some(partner)) = (near, partner) {
-                by_slot[near].push(Link { partner, conductance });
+                by_slot[near].push(Link {
+                    partner,
+                    conductance,
+                });
             }
             if let Some((far, partner)) = back {
-                by_slot[far].push(Link { partner, conductance });
+                by_slot[far].push(Link {
+                    partner,
+                    conductance,
+                });
             }
         }
         let mut links = Vec::new();

@@ -65,7 +65,9 @@ pub enum SceneError {
         value: f64,
     },
     /// A conductance is negative or not finite.
-    #[error("the conductance between {element} and {partner} is {value} W/K, it must be finite and not negative")]
+    #[error(
+        "the conductance between {element} and {partner} is {value} W/K, it must be finite and not negative"
+    )]
     Conductance {
         /// The element.
         element: Element,
@@ -126,7 +128,9 @@ pub enum StateError {
         value: f64,
     },
     /// A viscous stretch is not finite.
-    #[error("the viscous stretch of dashpot {dashpot} of {element} is {value} m, it must be finite")]
+    #[error(
+        "the viscous stretch of dashpot {dashpot} of {element} is {value} m, it must be finite"
+    )]
     ViscousStretch {
         /// The element.
         element: Element,
@@ -144,7 +148,9 @@ pub enum StateError {
         value: f64,
     },
     /// A heat capacity is not positive and finite.
-    #[error("the heat capacity of {element} is {value} J/K at {temperature} K, it must be positive and finite")]
+    #[error(
+        "the heat capacity of {element} is {value} J/K at {temperature} K, it must be positive and finite"
+    )]
     HeatCapacity {
         /// The element.
         element: Element,
@@ -154,7 +160,9 @@ pub enum StateError {
         temperature: f64,
     },
     /// A viscosity is not positive and finite.
-    #[error("the viscosity of dashpot {dashpot} of {element} is {value} N s/m at {temperature} K, it must be positive and finite")]
+    #[error(
+        "the viscosity of dashpot {dashpot} of {element} is {value} N s/m at {temperature} K, it must be positive and finite"
+    )]
     Viscosity {
         /// The element.
         element: Element,
@@ -210,19 +218,24 @@ pub enum StepFailure {
 
 /// A step that failed. The simulation is as it was before.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[error("step from t = {time} s by {step} s failed after {iterations} iterations: {failure}")]
+#[error("step from t = {time} s by {step} s failed after {} iterations: {failure}", history.len())]
 pub struct StepError {
     /// The time at which the step began, s.
     pub time: f64,
     /// The time step, s.
     pub step: f64,
-    /// How many Newton iterations were done.
-    pub iterations: usize,
     /// Why it failed.
     #[source]
     pub failure: StepFailure,
-    /// The largest scaled update of each iteration.
-    pub updates: Vec<f64>,
-    /// The largest residual of the momentum balances in each iteration, N s.
-    pub residuals: Vec<f64>,
+    /// What each iteration did.
+    pub history: Box<[NewtonIteration]>,
+}
+
+/// One iteration of Newton's method.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NewtonIteration {
+    /// The largest residual of the momentum balances before the update, N s.
+    pub residual: f64,
+    /// The largest update, in units of the longest stretch and of the temperatures.
+    pub update: f64,
 }

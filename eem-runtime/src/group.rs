@@ -158,12 +158,14 @@ where
         models: Vec<(Element, M)>,
         placed: Placed<'_>,
     ) -> Self {
-        let nodes = models.iter().flat_map(|(element, _)| placed.nodes.nodes_of(*element).to_vec());
+        let nodes = models
+            .iter()
+            .flat_map(|(element, _)| placed.nodes.nodes_of(*element).to_vec());
         let geometry = Geometry::new::<K, D>(nodes.collect(), models.len());
         let slots = |element: Element| placed.layout.elements[element.index];
-        let members = models.into_iter().map(|(element, model)| {
-            Member::new(element, model, slots(element))
-        });
+        let members = models
+            .into_iter()
+            .map(|(element, model)| Member::new(element, model, slots(element)));
         Self {
             kinematics,
             members: members.collect(),
@@ -228,7 +230,9 @@ where
 
     fn largest_measure(&self) -> S {
         let measures = self.geometry.old_measures.iter();
-        measures.fold(S::zero(), |largest, &measure| largest.maximum(measure.abs()))
+        measures.fold(S::zero(), |largest, &measure| {
+            largest.maximum(measure.abs())
+        })
     }
 
     fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {

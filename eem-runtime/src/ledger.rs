@@ -4,8 +4,8 @@
 
 use nalgebra::SVector;
 
-use crate::compensated::two_sum;
 use crate::group::Group;
+use crate::kernel::two_sum;
 use crate::scalar::Real;
 use crate::state::State;
 
@@ -97,7 +97,10 @@ fn angular_momentum<S: Real, const D: usize>(
         _ => None,
     };
     let mut sums = [Sum::new(), Sum::new(), Sum::new()];
-    for (q, p) in positions.chunks_exact(D).zip(state.momenta.values().chunks_exact(D)) {
+    for (q, p) in positions
+        .chunks_exact(D)
+        .zip(state.momenta.values().chunks_exact(D))
+    {
         let arm = |axis: usize| match (axis < D, anchor) {
             (false, _) => S::zero(),
             (true, None) => q[axis],

@@ -43,7 +43,7 @@ mod solver;
 mod state;
 mod system;
 
-pub use error::{SceneError, StateError, StepError, StepFailure};
+pub use error::{NewtonIteration, SceneError, StateError, StepError, StepFailure};
 pub use free_energy::{Array, Caloric, FreeEnergy};
 pub use handle::{Element, HeatPartner, Node, Reservoir};
 pub use inversion::{Inversion, InversionError, invert};

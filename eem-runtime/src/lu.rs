@@ -78,7 +78,7 @@ mod tests {
         let mut matrix = [0.0, 2.0, 1.0, 1.0, 1.0, 0.0, 3.0, 0.0, 1.0];
         let mut pivots = [0; 3];
         factor(&mut matrix, &mut pivots).unwrap();
-        let mut b = [7.0, 3.0, 6.0];
+        let mut b = [7.0_f64, 3.0, 6.0];
         solve(&matrix, &pivots, &mut b);
         for (found, exact) in b.iter().zip([1.0, 2.0, 3.0]) {
             assert!((found - exact).abs() <= 4.0 * f64::EPSILON * exact);

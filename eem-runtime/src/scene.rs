@@ -136,9 +136,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
         let group = self.group_of::<M>();
         let place = self.groups[group].len();
         let set = self.groups[group].as_any_mut().downcast_mut();
-        let set: &mut ModelSet<M, Stretch<D>> = set.unwrap_or_else(|| {
-            unreachable!("`group_of` returns a set of this model")
-        });
+        let set: &mut ModelSet<M, Stretch<D>> =
+            set.unwrap_or_else(|| unreachable!("`group_of` returns a set of this model"));
         set.push(model, element);
         self.elements.push(ElementEntry {
             nodes: nodes.iter().map(|node| node.index).collect(),
@@ -155,11 +154,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
     where
         M: FreeEnergy<S> + Send + Sync + 'static,
     {
-        let is_set = |group: &Box<dyn Blueprint<S, D>>| {
-            group.as_any().is::<ModelSet<M, Stretch<D>>>()
-        };
-        self.groups.iter().position(is_set).unwrap_or_else(|| {
-            self.groups.push(Box::new(ModelSet::<M, _>::new(Stretch::<D>)));
+        let mut groups = self.groups.iter();
+        let same = groups.position(|group| group.as_any().is::<ModelSet<M, Stretch<D>>>());
+        same.unwrap_or_else(|| {
+            self.groups
+                .push(Box::new(ModelSet::<M, _>::new(Stretch::<D>)));
             self.groups.len() - 1
         })
     }

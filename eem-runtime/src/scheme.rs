@@ -11,7 +11,7 @@ mod point;
 mod trapezoidal;
 
 use crate::error::StateError;
-use crate::free_energy::FreeEnergy;
+use crate::free_energy::{Array, FreeEnergy};
 use crate::handle::Element;
 use crate::inversion::InversionError;
 use crate::scalar::Real;
@@ -74,9 +74,9 @@ pub(crate) enum Placement {
 
 /// What an element does during one step.
 ///
-/// Variables are `x = (π…, γ…, τ)` with a temperature τ > 0 that is the scheme's own local unknown:
-/// the new temperature for schemes that look at the ends, the mean one for those that look at the
-/// middle.
+/// Variables are `x = (π…, γ…, τ)` with a temperature τ > 0 of the scheme's own: the new one for
+/// schemes that look at the ends, the mean one for those that look at the middle. Newton's method
+/// corrects τ, or the entropy change Δs if [`temperature`](Self::temperature) finds τ from it.
 pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static {
     /// Where the measures are taken.
     const PLACEMENT: Placement;
@@ -90,6 +90,18 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static
 
     /// Looks at the old variables, once per step.
     fn old(model: &M, x0: &M::Variables) -> Self::Old;
+
+    /// The temperature τ of the trial, given its other variables and Δs.
+    ///
+    /// The present τ unless the scheme takes the entropy for its unknown.
+    fn temperature(
+        _: &M,
+        _: &Start<S, M, Self::Old>,
+        x: &M::Variables,
+        _entropy_change: S,
+    ) -> Result<S, Infeasible> {
+        Ok(x.as_ref()[M::Variables::LEN - 1])
+    }
 
     /// The response `(f*…, g*…, θ*, Δs)` and its tangent by `x`.
     ///
@@ -117,7 +129,10 @@ pub(crate) struct Start<S: Real, M: FreeEnergy<S>, Old> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Infeasible {
     /// No temperature has this entropy.
-    Entropy { entropy: f64, source: InversionError },
+    Entropy {
+        entropy: f64,
+        source: InversionError,
+    },
     /// The heat capacity is not positive at this temperature.
     HeatCapacity { value: f64, temperature: f64 },
 }
@@ -129,7 +144,11 @@ impl Infeasible {
             // The inversion starts from a state of the same element: an unstable start is a heat
             // capacity that is not positive.
             Self::Entropy {
-                source: InversionError::UnstableStart { start, heat_capacity },
+                source:
+                    InversionError::UnstableStart {
+                        start,
+                        heat_capacity,
+                    },
                 ..
             } => StateError::HeatCapacity {
                 element,

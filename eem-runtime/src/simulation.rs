@@ -59,21 +59,30 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let layout = Layout::new(&scene);
         let conduction = Conduction::new(&scene, &layout);
         let mut state = initial_state(&scene, &layout);
-        let places = scene.elements.iter().map(|entry| (entry.group, entry.place)).collect();
+        let places = scene
+            .elements
+            .iter()
+            .map(|entry| (entry.group, entry.place))
+            .collect();
         let shape = |group: usize| scene.groups[group].shape();
-        let shapes = scene.elements.iter().map(|entry| shape(entry.group)).collect();
+        let shapes = scene
+            .elements
+            .iter()
+            .map(|entry| shape(entry.group))
+            .collect();
         let masses: Vec<_> = scene.nodes.iter().map(|node| node.mass).collect();
         let placed = Placed {
             nodes: &scene.elements,
             layout: &layout,
         };
         let blueprints = scene.groups.into_iter();
-        let mut groups: Vec<_> =
-            blueprints.map(|blueprint| blueprint.build(scheme, placed)).collect();
+        let mut groups: Vec<_> = blueprints
+            .map(|blueprint| blueprint.build(scheme, placed))
+            .collect();
         for group in &mut groups {
             group.initialize(&mut state)?;
         }
-        let solver = Solver::new(masses.clone(), D, layout.coupled.len(), layout.unknowns);
+        let solver = Solver::new(masses.clone(), D, &layout);
         Ok(Self {
             scene: scene.id,
             scheme,
@@ -111,25 +120,27 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             return Err(self.failed(failure));
         }
         core::mem::swap(&mut self.state, &mut self.next);
-        let last = |values: &[S]| values.last().copied().unwrap_or(S::zero());
+        let last = self.solver.history.last();
         Ok(StepReport {
             time: self.time(),
             step: self.step,
-            iterations: self.solver.updates.len(),
-            update: last(&self.solver.updates),
-            residual: last(&self.solver.residuals),
+            iterations: self.solver.history.len(),
+            update: last.map_or(S::zero(), |last| last.update),
+            residual: last.map_or(S::zero(), |last| last.residual),
         })
     }
 
     fn failed(&self, failure: StepFailure) -> StepError {
-        let numbers = |values: &[S]| values.iter().map(|value| value.to_f64()).collect();
         StepError {
             time: self.time().to_f64(),
             step: self.step.to_f64(),
-            iterations: self.solver.updates.len(),
             failure,
-            updates: numbers(&self.solver.updates),
-            residuals: numbers(&self.solver.residuals),
+            history: self
+                .solver
+                .history
+                .iter()
+                .map(|iteration| iteration.to_f64())
+                .collect(),
         }
     }
 
@@ -192,7 +203,10 @@ fn check_step<S: Real>(step: S) -> Result<(), SceneError> {
 
 /// The state that the scene describes; its entropies are still to be found.
 fn initial_state<const D: usize, S: Real>(scene: &Scene<D, S>, layout: &Layout) -> State<S> {
-    let positions = scene.nodes.iter().flat_map(|node| node.position.iter().copied());
+    let positions = scene
+        .nodes
+        .iter()
+        .flat_map(|node| node.position.iter().copied());
     let momenta = scene.nodes.iter().flat_map(|node| {
         let mass = node.mass.unwrap_or(S::zero());
         node.velocity.iter().map(move |&velocity| mass * velocity)

@@ -1,7 +1,8 @@
 //! One step of a whole scene: Newton's method, then the closing evaluation.
 
-use crate::error::StepFailure;
+use crate::error::{NewtonIteration, StepFailure};
 use crate::group::{Group, StepView, Trial};
+use crate::layout::Layout;
 use crate::newton::{NewtonSettings, is_last};
 use crate::scalar::Real;
 use crate::state::State;
@@ -25,21 +26,39 @@ pub(crate) struct Solver<S> {
     /// The part of the nodal forces that the old state decides, N.
     old_force: Vec<S>,
     impulse: Vec<S>,
-    /// The largest scaled update, and the largest momentum residual (N s), of each iteration.
-    pub(crate) updates: Vec<S>,
-    pub(crate) residuals: Vec<S>,
+    /// What each iteration did.
+    pub(crate) history: Vec<Iteration<S>>,
+}
+
+/// One iteration of Newton's method.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Iteration<S> {
+    /// The largest momentum residual before the update, N s.
+    pub(crate) residual: S,
+    /// The largest scaled update.
+    pub(crate) update: S,
+}
+
+impl<S: Real> Iteration<S> {
+    /// The same in double precision.
+    pub(crate) fn to_f64(self) -> NewtonIteration {
+        NewtonIteration {
+            residual: self.residual.to_f64(),
+            update: self.update.to_f64(),
+        }
+    }
 }
 
 impl<S: Real> Solver<S> {
-    pub(crate) fn new(masses: Vec<Option<S>>, dimension: usize, thermal: usize, unknowns: usize) -> Self {
+    pub(crate) fn new(masses: Vec<Option<S>>, dimension: usize, layout: &Layout) -> Self {
         let settings = NewtonSettings::default();
         let coordinates = vec![S::zero(); masses.len() * dimension];
-        let temperatures = vec![S::zero(); thermal];
+        let temperatures = vec![S::zero(); layout.coupled.len()];
         Self {
             settings,
             masses,
             dimension,
-            system: LinearSystem::new(unknowns),
+            system: LinearSystem::new(layout.unknowns),
             trial: Trial {
                 displacements: coordinates.clone(),
                 positions: coordinates.clone(),
@@ -50,8 +69,7 @@ impl<S: Real> Solver<S> {
             correction: [coordinates.clone(), temperatures],
             old_force: coordinates.clone(),
             impulse: coordinates,
-            updates: Vec::new(),
-            residuals: Vec::new(),
+            history: Vec::new(),
         }
     }
 
@@ -61,25 +79,31 @@ impl<S: Real> Solver<S> {
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
     ) -> Result<(), StepFailure> {
-        self.updates.clear();
-        self.residuals.clear();
+        self.history.clear();
+        self.history.reserve(self.settings.max_iterations);
         self.begin(groups, view)?;
         let mut share = self.advance(groups, view)?;
-        while self.updates.len() < self.settings.max_iterations {
-            self.assemble(groups, view);
-            self.system.solve().map_err(|_| StepFailure::SingularTangent)?;
-            let before = self.updates.last().copied().filter(|_| share == S::one());
+        while self.history.len() < self.settings.max_iterations {
+            let residual = self.assemble(groups, view);
+            self.system
+                .solve()
+                .map_err(|_| StepFailure::SingularTangent)?;
+            let before = self.history.last().filter(|_| share == S::one());
+            let before = before.map(|last| last.update);
             let update = self.correct(groups, view);
+            self.history.push(Iteration { residual, update });
             if !update.is_finite() {
                 break;
             }
-            self.updates.push(update);
             share = self.advance(groups, view)?;
             if share == S::one() && is_last(update, before, self.settings.tolerance) {
                 return Ok(());
             }
         }
-        let update = self.updates.last().map_or(f64::NAN, |update| update.to_f64());
+        let update = self
+            .history
+            .last()
+            .map_or(f64::NAN, |last| last.update.to_f64());
         Err(StepFailure::NotConverged { update })
     }
 
@@ -94,13 +118,19 @@ impl<S: Real> Solver<S> {
             group.begin(view, &mut self.old_force)?;
         }
         self.trial.displacements.fill(S::zero());
-        self.trial.seen_temperatures.copy_from_slice(&view.state.temperatures);
+        self.trial
+            .seen_temperatures
+            .copy_from_slice(&view.state.temperatures);
         self.remember();
         self.correction[1].fill(S::zero());
         let momenta = view.state.momenta.values();
         for (node, mass) in self.masses.iter().enumerate() {
-            for at in node * self.dimension..(node + 1) * self.dimension {
-                self.correction[0][at] = mass.map_or(S::zero(), |m| view.step * momenta[at] / m);
+            let own = node * self.dimension..(node + 1) * self.dimension;
+            for (change, &p) in self.correction[0][own.clone()]
+                .iter_mut()
+                .zip(&momenta[own])
+            {
+                *change = mass.map_or(S::zero(), |m| view.step * p / m);
             }
         }
         Ok(())
@@ -126,7 +156,10 @@ impl<S: Real> Solver<S> {
                 group.apply(share);
             }
             let trial = &mut self.trial;
-            match groups.iter_mut().try_for_each(|group| group.evaluate(view, trial)) {
+            match groups
+                .iter_mut()
+                .try_for_each(|group| group.evaluate(view, trial))
+            {
                 Ok(()) => return Ok(share),
                 Err(error) if halvings == HALVINGS => return Err(error.into()),
                 Err(_) => {
@@ -140,9 +173,9 @@ impl<S: Real> Solver<S> {
     fn apply(&mut self, share: S, view: &StepView<'_, S>) {
         let trial = &mut self.trial;
         let old = view.state.positions.values();
-        for at in 0..old.len() {
+        for (at, &old) in old.iter().enumerate() {
             trial.displacements[at] = self.previous[0][at] + share * self.correction[0][at];
-            trial.positions[at] = old[at] + trial.displacements[at];
+            trial.positions[at] = old + trial.displacements[at];
         }
         for slot in 0..trial.seen_temperatures.len() {
             trial.seen_temperatures[slot] =
@@ -156,12 +189,12 @@ impl<S: Real> Solver<S> {
     /// R = (2m/h)(q¹ − q⁰) − 2p⁰ + h F
     /// ```
     ///
-    /// and of `Θ − θ* = 0` for the temperatures that neighbours see.
+    /// and of `Θ − θ* = 0` for the temperatures that neighbours see. Returns the largest entry of R.
     fn assemble<const D: usize>(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
-    ) {
+    ) -> S {
         self.system.clear();
         for group in groups.iter_mut() {
             group.assemble(view, &self.trial, &mut self.system);
@@ -177,11 +210,12 @@ impl<S: Real> Solver<S> {
                 let (at, row) = (node * self.dimension + axis, first + axis);
                 let rest = momenta[at] + momenta[at] - view.step * self.old_force[at];
                 self.system.add(row, row, inertia);
-                self.system.add_right(row, rest - inertia * self.trial.displacements[at]);
+                self.system
+                    .add_right(row, rest - inertia * self.trial.displacements[at]);
                 largest = largest.maximum(self.system.right()[row].abs());
             }
         }
-        self.residuals.push(largest);
+        largest
     }
 
     /// Distributes the solution; the largest scaled update.
@@ -268,14 +302,17 @@ impl<S: Real> Solver<S> {
             };
             for axis in 0..self.dimension {
                 let momentum = momenta[node * self.dimension + axis];
-                self.system.add(first + axis, first + axis, (mass + mass) / view.step);
+                self.system
+                    .add(first + axis, first + axis, (mass + mass) / view.step);
                 self.system.add_right(first + axis, momentum + momentum);
             }
         }
         for unknown in view.layout.coupled.iter().flatten() {
             self.system.add(*unknown, *unknown, S::one());
         }
-        self.system.solve().map_err(|_| StepFailure::SingularTangent)?;
+        self.system
+            .solve()
+            .map_err(|_| StepFailure::SingularTangent)?;
         let solution = self.system.right();
         for (node, first) in view.layout.nodes.iter().enumerate() {
             let Some(first) = *first else { continue };

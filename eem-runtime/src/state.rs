@@ -21,7 +21,7 @@ pub(crate) struct State<S> {
     pub(crate) entropies: Compensated<S>,
     /// θ with S(λ, γ, θ) = s, K.
     pub(crate) temperatures: Vec<S>,
-    /// σ_r since the start, J/K.
+    /// `σ_r` since the start, J/K.
     pub(crate) reservoir_entropies: Compensated<S>,
     /// One sum: heat that dashpots without temperature gave to nobody in the scene, J.
     pub(crate) dissipated: Compensated<S>,
@@ -36,7 +36,8 @@ impl<S: Real> State<S> {
         self.viscous.copy_from(&other.viscous);
         self.entropies.copy_from(&other.entropies);
         self.temperatures.copy_from_slice(&other.temperatures);
-        self.reservoir_entropies.copy_from(&other.reservoir_entropies);
+        self.reservoir_entropies
+            .copy_from(&other.reservoir_entropies);
         self.dissipated.copy_from(&other.dissipated);
     }
 }

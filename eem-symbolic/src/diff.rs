@@ -58,7 +58,10 @@ impl Derivatives {
     pub(crate) fn of(graph: &mut Graph, e: ExprId, seeds: &[(Symbol, ExprId)]) -> Derivatives {
         let symbols: Vec<_> = seeds.iter().map(|&(symbol, _)| symbol).collect();
         let zero = graph.number(Number::ZERO);
-        let mut derivatives = Derivatives { zero, of: HashMap::new() };
+        let mut derivatives = Derivatives {
+            zero,
+            of: HashMap::new(),
+        };
         for id in graph.dependents(e, &symbols) {
             let derivative = if let Node::Variable(name) = *graph.node(id) {
                 let seed = seeds.iter().find(|(symbol, _)| *symbol == name);
@@ -98,18 +101,23 @@ impl Derivatives {
             Node::SecondDividedDifference(..) => {
                 let mut constant = true;
                 node.for_each_operand(|operand| constant &= self.get(operand) == self.zero);
-                if constant { self.zero } else { graph.number(f64::NAN) }
+                if constant {
+                    self.zero
+                } else {
+                    graph.number(f64::NAN)
+                }
             }
-            Node::PowerDifference { logarithms: [a, b], .. } => {
-                self.of_ends(graph, Kernel::Function(Function::Exp), a, b)
-            }
+            Node::PowerDifference {
+                logarithms: [a, b], ..
+            } => self.of_ends(graph, Kernel::Function(Function::Exp), a, b),
         }
     }
 
     /// `(Π gᵢ^rᵢ)′ = Σᵢ rᵢ gᵢ^(rᵢ − 1) gᵢ′ · Π_{j ≠ i} gⱼ^rⱼ`, constant factors in front.
     pub(crate) fn of_product(&self, graph: &mut Graph, factors: &[(ExprId, Rational)]) -> ExprId {
-        let (varying, mut result): (Vec<_>, Vec<_>) =
-            factors.iter().partition(|(base, _)| self.get(*base) != self.zero);
+        let (varying, mut result): (Vec<_>, Vec<_>) = factors
+            .iter()
+            .partition(|(base, _)| self.get(*base) != self.zero);
         let mut terms = Vec::with_capacity(varying.len());
         for &(base, exponent) in &varying {
             let mut term = varying.clone();
@@ -173,5 +181,8 @@ fn power_times_logarithm(graph: &mut Graph, p: ExprId, a: ExprId, b: ExprId) -> 
     let (ln_a, ln_b) = (graph.apply(Function::Ln, a), graph.apply(Function::Ln, b));
     let (powers, logarithms) = (graph.pair_sum(power_a, power_b), graph.pair_sum(ln_a, ln_b));
     let (first, second) = (graph.mul(power, logarithms), graph.mul(logarithm, powers));
-    graph.weighted_sum(Number::ZERO, &[(Number::HALF, first), (Number::HALF, second)])
+    graph.weighted_sum(
+        Number::ZERO,
+        &[(Number::HALF, first), (Number::HALF, second)],
+    )
 }

@@ -19,7 +19,11 @@ impl Graph {
         if kernel == Kernel::Function(Function::Abs) {
             return self.abs_difference(a, b);
         }
-        let (first, second) = if compare(self, a, b).is_le() { (a, b) } else { (b, a) };
+        let (first, second) = if compare(self, a, b).is_le() {
+            (a, b)
+        } else {
+            (b, a)
+        };
         self.intern(Node::DividedDifference(kernel, first, second))
     }
 
@@ -49,7 +53,12 @@ impl Graph {
     }
 
     /// `(base^exponent)[a, b]` for an exponent that is the same at both ends.
-    pub(crate) fn exponent_difference(&mut self, exponent: Rational, a: ExprId, b: ExprId) -> ExprId {
+    pub(crate) fn exponent_difference(
+        &mut self,
+        exponent: Rational,
+        a: ExprId,
+        b: ExprId,
+    ) -> ExprId {
         match (exponent, exponent.to_i32()) {
             (Rational::ZERO, _) => self.number(Number::ZERO),
             (Rational::ONE, _) => self.number(Number::ONE),

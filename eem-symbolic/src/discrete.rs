@@ -31,6 +31,14 @@ use crate::substitute::substitute;
 /// A state: one symbol per variable.
 pub(crate) type Point = Vec<Symbol>;
 
+/// Algorithmic quantities.
+pub(crate) struct Form {
+    /// `[f*_a …, g*_k …, θ*, Δs]`.
+    pub(crate) response: Vec<ExprId>,
+    /// Derivatives with respect to x¹, by rows.
+    pub(crate) tangent: Vec<ExprId>,
+}
+
 /// A model at two states: the graph with the symbols of both, and the thermodynamic potentials.
 pub(crate) struct Step {
     pub(crate) graph: Graph,
@@ -89,8 +97,16 @@ impl Step {
 
     /// Parameters, x⁰, x¹, corner temperatures.
     fn inputs(&self) -> Vec<Input> {
-        let old = self.parameters.iter().chain(&self.old).map(|&symbol| (symbol, Stage::Old));
-        let new = self.new.iter().chain(&self.corners).map(|&symbol| (symbol, Stage::New));
+        let old = self
+            .parameters
+            .iter()
+            .chain(&self.old)
+            .map(|&symbol| (symbol, Stage::Old));
+        let new = self
+            .new
+            .iter()
+            .chain(&self.corners)
+            .map(|&symbol| (symbol, Stage::New));
         let input = |(symbol, stage)| Input {
             symbol,
             name: self.graph.name(symbol).to_owned(),
@@ -100,13 +116,13 @@ impl Step {
     }
 
     /// Schedules a form.
-    pub(crate) fn program(&self, outputs: &[ExprId]) -> Program {
+    pub(crate) fn program(&self, form: &Form) -> Program {
         let schedule = Schedule {
             graph: &self.graph,
             locals: &self.locals,
             parameters: self.parameters.len(),
         };
-        schedule.program(self.inputs(), outputs)
+        schedule.program(self.inputs(), &form.response, &form.tangent)
     }
 
     /// `F` at a state.
@@ -133,6 +149,19 @@ impl Step {
         self.locals.name(&mut self.graph, value)
     }
 
+    /// `a / b` as a local. Common factors of products cancel: a constant heat capacity drops out.
+    fn quotient(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        let [a, b] = [a, b].map(|value| self.locals.resolve(&self.graph, value));
+        let quotient = self.graph.div(a, b);
+        self.name(quotient)
+    }
+
+    /// `1 / a` as a local.
+    fn reciprocal(&mut self, a: ExprId) -> ExprId {
+        let one = self.graph.integer(1);
+        self.quotient(one, a)
+    }
+
     /// `∂/∂symbol`, looking through the local of a divided difference.
     fn partial(&mut self, value: ExprId, symbol: Symbol) -> ExprId {
         let value = self.locals.resolve(&self.graph, value);
@@ -148,7 +177,9 @@ impl Step {
 
     /// `½ (a + b + …)`.
     fn half(&mut self, terms: &[ExprId]) -> ExprId {
-        if let [a, b] = terms && a == b {
+        if let [a, b] = terms
+            && a == b
+        {
             return *a;
         }
         let sum = self.graph.sum(terms);
@@ -158,7 +189,10 @@ impl Step {
 
     /// `x_i¹ − x_i⁰`.
     fn increment(&mut self, i: usize) -> ExprId {
-        let (old, new) = (self.graph.variable(self.old[i]), self.graph.variable(self.new[i]));
+        let (old, new) = (
+            self.graph.variable(self.old[i]),
+            self.graph.variable(self.new[i]),
+        );
         let increment = self.graph.sub(new, old);
         self.name(increment)
     }

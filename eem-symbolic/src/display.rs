@@ -52,7 +52,11 @@ pub fn format(graph: &Graph, e: ExprId) -> String {
         }
     }
     let formula = texts.remove(&e).map(|text| text.text).unwrap_or_default();
-    if definitions.is_empty() { formula } else { format!("{formula}\nwhere{definitions}") }
+    if definitions.is_empty() {
+        formula
+    } else {
+        format!("{formula}\nwhere{definitions}")
+    }
 }
 
 /// The subexpressions that get a name: none in a short formula, every repeated one in a long one.
@@ -71,5 +75,9 @@ fn repeated(graph: &Graph, e: ExprId, nodes: &[ExprId]) -> HashSet<ExprId> {
         return HashSet::new();
     }
     let leaf = |id: &ExprId| matches!(graph.node(*id), Node::Number(_) | Node::Variable(_));
-    nodes.iter().copied().filter(|id| uses.get(id).is_some_and(|&n| n > 1) && !leaf(id)).collect()
+    nodes
+        .iter()
+        .copied()
+        .filter(|id| uses.get(id).is_some_and(|&n| n > 1) && !leaf(id))
+        .collect()
 }

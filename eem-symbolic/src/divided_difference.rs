@@ -42,15 +42,12 @@ use crate::number::{Number, Rational};
 /// let secant = divided_difference(&mut graph, e, x, a, b);
 /// assert_eq!(format(&graph, secant), "recip[a, b] + 1");
 /// ```
-pub fn divided_difference(
-    graph: &mut Graph,
-    e: ExprId,
-    x: Symbol,
-    a: ExprId,
-    b: ExprId,
-) -> ExprId {
+pub fn divided_difference(graph: &mut Graph, e: ExprId, x: Symbol, a: ExprId, b: ExprId) -> ExprId {
     let (zero, one) = (graph.number(Number::ZERO), graph.number(Number::ONE));
-    let mut differences = Differences { zero, of: HashMap::new() };
+    let mut differences = Differences {
+        zero,
+        of: HashMap::new(),
+    };
     for id in graph.dependents(e, &[x]) {
         let difference = if let Node::Variable(_) = graph.node(id) {
             Difference { a, b, slope: one }
@@ -79,19 +76,24 @@ struct Differences {
 impl Differences {
     /// The difference of a subexpression that has been visited, or that does not contain `x`.
     fn get(&self, e: ExprId) -> Difference {
-        self.of.get(&e).copied().unwrap_or(Difference { a: e, b: e, slope: self.zero })
+        self.of.get(&e).copied().unwrap_or(Difference {
+            a: e,
+            b: e,
+            slope: self.zero,
+        })
     }
 
     fn of_node(&self, graph: &mut Graph, node: &Node) -> Difference {
         match *node {
             Node::Number(number) => self.get(graph.number(number)),
             Node::Variable(symbol) => self.get(graph.variable(symbol)),
-            Node::Sum { constant, ref terms } => self.of_sum(graph, constant, terms),
+            Node::Sum {
+                constant,
+                ref terms,
+            } => self.of_sum(graph, constant, terms),
             Node::Product(ref factors) => self.of_product(graph, factors),
             Node::Power(base, exponent) => self.of_power(graph, base, exponent),
-            Node::Apply(function, argument) => {
-                apply(graph, function, self.get(argument))
-            }
+            Node::Apply(function, argument) => apply(graph, function, self.get(argument)),
             Node::PairSum(first, second) => {
                 let (first, second) = (self.get(first), self.get(second));
                 Difference {
@@ -104,14 +106,26 @@ impl Differences {
             | Node::SecondDividedDifference(..)
             | Node::PowerDifference { .. } => {
                 let refused = graph.number(f64::NAN);
-                Difference { a: refused, b: refused, slope: refused }
+                Difference {
+                    a: refused,
+                    b: refused,
+                    slope: refused,
+                }
             }
         }
     }
 
-    fn of_sum(&self, graph: &mut Graph, constant: Number, terms: &[(Number, ExprId)]) -> Difference {
+    fn of_sum(
+        &self,
+        graph: &mut Graph,
+        constant: Number,
+        terms: &[(Number, ExprId)],
+    ) -> Difference {
         let mut part = |constant: Number, part: fn(Difference) -> ExprId| {
-            let terms: Vec<_> = terms.iter().map(|&(c, term)| (c, part(self.get(term)))).collect();
+            let terms: Vec<_> = terms
+                .iter()
+                .map(|&(c, term)| (c, part(self.get(term))))
+                .collect();
             graph.weighted_sum(constant, &terms)
         };
         Difference {
@@ -134,7 +148,11 @@ impl Differences {
             }
         }
         let constant = graph.power_product(&constant);
-        let constant = Difference { a: constant, b: constant, slope: self.zero };
+        let constant = Difference {
+            a: constant,
+            b: constant,
+            slope: self.zero,
+        };
         let varying = self.multiply_all(graph, &varying).unwrap_or(constant);
         self.multiply(graph, constant, varying)
     }
@@ -162,7 +180,11 @@ impl Differences {
             let sum = graph.pair_sum(first, second);
             graph.scale(Number::HALF, sum)
         };
-        Difference { a: graph.mul(f.a, g.a), b: graph.mul(f.b, g.b), slope }
+        Difference {
+            a: graph.mul(f.a, g.a),
+            b: graph.mul(f.b, g.b),
+            slope,
+        }
     }
 
     fn of_power(&self, graph: &mut Graph, base: ExprId, exponent: ExprId) -> Difference {

@@ -94,7 +94,10 @@ impl Function {
     /// The function whose [`name`](Function::name) is `name`.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Function> {
-        Function::ALL.iter().copied().find(|function| function.name() == name)
+        Function::ALL
+            .iter()
+            .copied()
+            .find(|function| function.name() == name)
     }
 
     /// The value where it is an exact number; everything else stays symbolic.

@@ -36,6 +36,8 @@ pub struct Graph {
 struct Entry {
     node: Node,
     shape: ExprId,
+    /// Length of the longest path down to a leaf.
+    height: u32,
     /// The symbols below the node, one bit each.
     symbols: Box<[u64]>,
 }
@@ -68,7 +70,11 @@ impl Graph {
     /// exists already, its symbol is returned as it is.
     pub fn version(&mut self, of: Symbol, name: &str) -> Symbol {
         let first = self.symbols[of.index()].first;
-        let versions = self.symbols.iter().filter(|entry| entry.first == first).count();
+        let versions = self
+            .symbols
+            .iter()
+            .filter(|entry| entry.first == first)
+            .count();
         self.insert_symbol(name, first, next_index(versions))
     }
 
@@ -77,7 +83,11 @@ impl Graph {
             return symbol;
         }
         let symbol = Symbol(next_index(self.symbols.len()));
-        self.symbols.push(SymbolEntry { name: name.to_owned(), first, version });
+        self.symbols.push(SymbolEntry {
+            name: name.to_owned(),
+            first,
+            version,
+        });
         self.names.insert(name.to_owned(), symbol);
         symbol
     }
@@ -105,7 +115,10 @@ impl Graph {
 
     /// `function(x)`; exact values such as `ln 1 = 0` are folded, others never.
     pub fn apply(&mut self, function: Function, x: ExprId) -> ExprId {
-        match self.as_number(x).and_then(|argument| function.exact_value(argument)) {
+        match self
+            .as_number(x)
+            .and_then(|argument| function.exact_value(argument))
+        {
             Some(value) => self.number(value),
             None => self.intern(Node::Apply(function, x)),
         }
@@ -120,14 +133,21 @@ impl Graph {
     /// The value of an expression that is a constant.
     #[must_use]
     pub fn as_number(&self, e: ExprId) -> Option<Number> {
-        if let Node::Number(number) = self.node(e) { Some(*number) } else { None }
+        if let Node::Number(number) = self.node(e) {
+            Some(*number)
+        } else {
+            None
+        }
     }
 
     /// Whether the symbol occurs in the expression.
     #[must_use]
     pub fn depends_on(&self, e: ExprId, symbol: Symbol) -> bool {
         let (word, bit) = position(symbol);
-        self.entries[e.index()].symbols.get(word).is_some_and(|bits| bits & bit != 0)
+        self.entries[e.index()]
+            .symbols
+            .get(word)
+            .is_some_and(|bits| bits & bit != 0)
     }
 
     /// Number of distinct nodes in the expression.
@@ -146,7 +166,8 @@ impl Graph {
         while let Some(id) = pending.pop() {
             if !std::mem::replace(&mut seen[id.index()], true) && keep(id) {
                 found.push(id);
-                self.node(id).for_each_operand(|operand| pending.push(operand));
+                self.node(id)
+                    .for_each_operand(|operand| pending.push(operand));
             }
         }
         found.sort_unstable();
@@ -155,12 +176,19 @@ impl Graph {
 
     /// The nodes of the expression in which one of the symbols occurs, operands before users.
     pub(crate) fn dependents(&self, e: ExprId, symbols: &[Symbol]) -> Vec<ExprId> {
-        self.reachable(e, |id| symbols.iter().any(|&symbol| self.depends_on(id, symbol)))
+        self.reachable(e, |id| {
+            symbols.iter().any(|&symbol| self.depends_on(id, symbol))
+        })
     }
 
     /// The shape of an expression: equal for expressions that differ in versions of symbols only.
     pub(crate) fn shape(&self, e: ExprId) -> ExprId {
         self.entries[e.index()].shape
+    }
+
+    /// Length of the longest path from the expression down to a leaf.
+    pub(crate) fn height(&self, e: ExprId) -> u32 {
+        self.entries[e.index()].height
     }
 
     /// Rank of a symbol in the structural order: first by quantity, then by version.
@@ -182,7 +210,14 @@ impl Graph {
         );
         let shape = *self.shapes.entry(shape).or_insert(fresh);
         let symbols = self.symbols_of(&node);
-        self.entries.push(Entry { node: node.clone(), shape, symbols });
+        let mut height = 0;
+        node.for_each_operand(|operand| height = height.max(self.height(operand) + 1));
+        self.entries.push(Entry {
+            node: node.clone(),
+            shape,
+            height,
+            symbols,
+        });
         self.ids.insert(node, id);
         id
     }
@@ -191,7 +226,9 @@ impl Graph {
         let mut bits = Vec::new();
         let mut unite = |words: &[u64]| {
             bits.resize(bits.len().max(words.len()), 0);
-            bits.iter_mut().zip(words).for_each(|(bit, word)| *bit |= word);
+            bits.iter_mut()
+                .zip(words)
+                .for_each(|(bit, word)| *bit |= word);
         };
         if let Node::Variable(symbol) = node {
             let (word, bit) = position(*symbol);
@@ -259,7 +296,10 @@ impl Graph {
 
     /// `Π factors`.
     pub fn product(&mut self, factors: &[ExprId]) -> ExprId {
-        let factors: Vec<_> = factors.iter().map(|&factor| (factor, Rational::ONE)).collect();
+        let factors: Vec<_> = factors
+            .iter()
+            .map(|&factor| (factor, Rational::ONE))
+            .collect();
         self.power_product(&factors)
     }
 }

@@ -31,7 +31,12 @@ use crate::number::{Number, Rational};
 pub fn internal_energy(graph: &mut Graph, psi: ExprId, theta: Symbol) -> ExprId {
     let (at, one) = (graph.variable(theta), graph.number(Number::ONE));
     let derivatives = Derivatives::of(graph, psi, &[(theta, one)]);
-    let mut operator = Operator { theta, at, derivatives, images: HashMap::new() };
+    let mut operator = Operator {
+        theta,
+        at,
+        derivatives,
+        images: HashMap::new(),
+    };
     for id in operator.distributed(graph, psi) {
         let image = operator.of_node(graph, id);
         operator.images.insert(id, image);
@@ -77,7 +82,9 @@ impl Operator {
 
     /// The only factor that depends on θ, if it is no power of something.
     fn single_factor(&self, graph: &Graph, factors: &[(ExprId, Rational)]) -> Option<ExprId> {
-        let mut varying = factors.iter().filter(|(base, _)| graph.depends_on(*base, self.theta));
+        let mut varying = factors
+            .iter()
+            .filter(|(base, _)| graph.depends_on(*base, self.theta));
         match (varying.next(), varying.next()) {
             (Some(&(base, Rational::ONE)), None) => Some(base),
             _ => None,
@@ -95,7 +102,10 @@ impl Operator {
             Node::Variable(symbol) if symbol == self.theta => graph.number(Number::ZERO),
             Node::Variable(_) => id,
             Node::Sum { constant, terms } => {
-                let images: Vec<_> = terms.iter().map(|&(c, term)| (c, self.image(term))).collect();
+                let images: Vec<_> = terms
+                    .iter()
+                    .map(|&(c, term)| (c, self.image(term)))
+                    .collect();
                 graph.weighted_sum(constant, &images)
             }
             Node::PairSum(a, b) => graph.pair_sum(self.image(a), self.image(b)),
@@ -104,7 +114,9 @@ impl Operator {
             Node::Apply(..)
             | Node::DividedDifference(..)
             | Node::SecondDividedDifference(..)
-            | Node::PowerDifference { .. } => self.of_rest(graph, Rational::ZERO, &[(id, Rational::ONE)]),
+            | Node::PowerDifference { .. } => {
+                self.of_rest(graph, Rational::ZERO, &[(id, Rational::ONE)])
+            }
         }
     }
 
@@ -142,7 +154,9 @@ impl Operator {
             };
             factors.push((self.at, power));
             let mut split = self.split(graph, &factors);
-            split.constant.push((self.of_rest(graph, split.power, &split.rest), Rational::ONE));
+            split
+                .constant
+                .push((self.of_rest(graph, split.power, &split.rest), Rational::ONE));
             images.push((coefficient, graph.power_product(&split.constant)));
         }
         graph.weighted_sum(Number::ZERO, &images)
@@ -158,12 +172,19 @@ impl Operator {
         let factors = [theta_to_p, (self.at, Rational::ONE), (slope, Rational::ONE)];
         let differentiated = graph.power_product(&factors);
         let coefficient = Number::ONE - Number::Exact(power);
-        let terms = [(coefficient, undifferentiated), (Number::MINUS_ONE, differentiated)];
+        let terms = [
+            (coefficient, undifferentiated),
+            (Number::MINUS_ONE, differentiated),
+        ];
         graph.weighted_sum(Number::ZERO, &terms)
     }
 
     fn split(&self, graph: &Graph, factors: &[(ExprId, Rational)]) -> Factors {
-        let mut split = Factors { constant: Vec::new(), power: Rational::ZERO, rest: Vec::new() };
+        let mut split = Factors {
+            constant: Vec::new(),
+            power: Rational::ZERO,
+            rest: Vec::new(),
+        };
         for &(base, exponent) in factors {
             if base == self.at {
                 // A second power of θ in the list always fits: both came from one product.

@@ -69,11 +69,7 @@ impl Program {
     /// assert_eq!(program.interpret(&F64, &[3.0]), [9.0]);
     /// ```
     #[must_use]
-    pub fn interpret<A: Arithmetic>(
-        &self,
-        arithmetic: &A,
-        inputs: &[A::Number],
-    ) -> Vec<A::Number> {
+    pub fn interpret<A: Arithmetic>(&self, arithmetic: &A, inputs: &[A::Number]) -> Vec<A::Number> {
         assert!(
             inputs.len() >= self.inputs.len(),
             "{} numbers for {} inputs",
@@ -86,7 +82,9 @@ impl Program {
             values.push(value);
         }
         let outputs = self.outputs.iter();
-        outputs.map(|output| values[output.index()].clone()).collect()
+        outputs
+            .map(|output| values[output.index()].clone())
+            .collect()
     }
 }
 

@@ -28,32 +28,32 @@
 #![forbid(unsafe_code)]
 
 // Expressions.
-mod number;
-mod function;
-mod node;
-mod graph;
-mod order;
-mod sum;
-mod product;
-mod power;
 mod difference;
+mod function;
+mod graph;
+mod node;
+mod number;
+mod order;
+mod power;
+mod product;
+mod sum;
 
 // Passes over expressions.
-mod substitute;
 mod diff;
+mod display;
 mod divided_difference;
 mod internal_energy;
-mod display;
+mod substitute;
 
 // Programs.
-mod program;
-mod schedule;
-mod verify;
+mod discrete;
 mod interpret;
+mod model;
+mod program;
 mod quadrature;
 mod running_error;
-mod discrete;
-mod model;
+mod schedule;
+mod verify;
 
 pub use diff::{diff, diff_total};
 pub use display::format;

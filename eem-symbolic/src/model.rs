@@ -99,17 +99,17 @@ impl Model {
 
     fn entropy_form(&self) -> Program {
         let mut step = Step::new(self, true);
-        let outputs = match self.temperature {
+        let form = match self.temperature {
             Some(_) => discrete::entropy_form(&mut step),
             None => discrete::elastic_form(&mut step),
         };
-        step.program(&outputs)
+        step.program(&form)
     }
 
     fn temperature_form(&self) -> Program {
         let mut step = Step::new(self, false);
-        let outputs = discrete::temperature_form(&mut step);
-        step.program(&outputs)
+        let form = discrete::temperature_form(&mut step);
+        step.program(&form)
     }
 
     /// All formulas of the law.
@@ -140,7 +140,11 @@ impl Model {
             forces,
             dashpot_forces,
             heat_capacity,
-            viscosities: self.viscosities.iter().map(|&law| format(&graph, law)).collect(),
+            viscosities: self
+                .viscosities
+                .iter()
+                .map(|&law| format(&graph, law))
+                .collect(),
         }
     }
 }

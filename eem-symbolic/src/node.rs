@@ -133,7 +133,10 @@ impl Node {
                 visit(*b);
             }
             Node::PowerDifference { values, logarithms } => {
-                values.iter().chain(logarithms).for_each(|&operand| visit(operand));
+                values
+                    .iter()
+                    .chain(logarithms)
+                    .for_each(|&operand| visit(operand));
             }
         }
     }
@@ -157,9 +160,12 @@ impl Node {
                 constant: *constant,
                 terms: terms.iter().map(|&(c, term)| (c, operand(term))).collect(),
             },
-            Node::Product(factors) => {
-                Node::Product(factors.iter().map(|&(base, r)| (operand(base), r)).collect())
-            }
+            Node::Product(factors) => Node::Product(
+                factors
+                    .iter()
+                    .map(|&(base, r)| (operand(base), r))
+                    .collect(),
+            ),
             Node::Power(base, exponent) => Node::Power(operand(*base), operand(*exponent)),
             Node::Apply(function, argument) => Node::Apply(*function, operand(*argument)),
             Node::PairSum(a, b) => Node::PairSum(operand(*a), operand(*b)),

@@ -45,9 +45,11 @@ impl Number {
     pub fn parse_decimal(text: &str) -> Option<Number> {
         match Rational::parse_decimal(text) {
             Some(exact) => Some(Number::Exact(exact)),
-            None if text.starts_with(|c: char| c.is_ascii_digit() || ".-+".contains(c)) => {
-                text.parse::<f64>().ok().filter(|value| value.is_finite()).map(Number::from)
-            }
+            None if text.starts_with(|c: char| c.is_ascii_digit() || ".-+".contains(c)) => text
+                .parse::<f64>()
+                .ok()
+                .filter(|value| value.is_finite())
+                .map(Number::from),
             None => None,
         }
     }
@@ -95,9 +97,10 @@ impl Number {
     #[must_use]
     pub fn powi(self, exponent: i32) -> Number {
         match self {
-            Number::Exact(exact) => exact
-                .checked_powi(exponent)
-                .map_or_else(|| Number::from(exact.to_f64().powi(exponent)), Number::Exact),
+            Number::Exact(exact) => exact.checked_powi(exponent).map_or_else(
+                || Number::from(exact.to_f64().powi(exponent)),
+                Number::Exact,
+            ),
             Number::Float(value) => Number::from(value.powi(exponent)),
         }
     }
@@ -112,7 +115,10 @@ impl Number {
         self.exact()
             .zip(other.exact())
             .and_then(|(a, b)| exact(a, b))
-            .map_or_else(|| Number::from(float(self.to_f64(), other.to_f64())), Number::Exact)
+            .map_or_else(
+                || Number::from(float(self.to_f64(), other.to_f64())),
+                Number::Exact,
+            )
     }
 }
 

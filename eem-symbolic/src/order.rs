@@ -10,7 +10,8 @@ use crate::graph::Graph;
 use crate::node::{ExprId, Kernel, Node};
 use crate::number::Number;
 
-/// Compares two expressions: numbers, variables, products, sums, powers, functions, differences.
+/// Compares two expressions: numbers, variables, products, sums, powers, functions, differences;
+/// those of one kind by height, then operand by operand.
 ///
 /// Descends along one path, because operands of equal shape are skipped: the first pair of operands
 /// that differ decides. The time is bounded by the height of the expressions times their width.
@@ -18,13 +19,21 @@ pub(crate) fn compare(graph: &Graph, a: ExprId, b: ExprId) -> Ordering {
     let (mut a, mut b) = (a, b);
     while a != b {
         let heads = compare_heads(graph, graph.node(a), graph.node(b));
+        let heads = heads.then(graph.height(a).cmp(&graph.height(b)));
         if heads.is_ne() {
             return heads;
         }
         let same_shape = graph.shape(a) == graph.shape(b);
-        let difference = operands(graph, a).into_iter().zip(operands(graph, b)).find(|&(p, q)| {
-            if same_shape { p != q } else { graph.shape(p) != graph.shape(q) }
-        });
+        let difference = operands(graph, a)
+            .into_iter()
+            .zip(operands(graph, b))
+            .find(|&(p, q)| {
+                if same_shape {
+                    p != q
+                } else {
+                    graph.shape(p) != graph.shape(q)
+                }
+            });
         match difference {
             Some((p, q)) => (a, b) = (p, q),
             None => return compare_details(graph, a, b),
@@ -65,15 +74,26 @@ fn compare_details(graph: &Graph, a: ExprId, b: ExprId) -> Ordering {
     match (graph.node(a), graph.node(b)) {
         (Node::Number(x), Node::Number(y)) => compare_numbers(*x, *y),
         (Node::Variable(x), Node::Variable(y)) => graph.rank(*x).cmp(&graph.rank(*y)),
-        (Node::Sum { constant: x, terms: p }, Node::Sum { constant: y, terms: q }) => p
+        (
+            Node::Sum {
+                constant: x,
+                terms: p,
+            },
+            Node::Sum {
+                constant: y,
+                terms: q,
+            },
+        ) => p
             .iter()
             .zip(q)
             .map(|(p, q)| compare_numbers(p.0, q.0))
             .fold(Ordering::Equal, Ordering::then)
             .then(compare_numbers(*x, *y)),
-        (Node::Product(p), Node::Product(q)) => {
-            p.iter().zip(q).map(|(p, q)| p.1.cmp(&q.1)).fold(Ordering::Equal, Ordering::then)
-        }
+        (Node::Product(p), Node::Product(q)) => p
+            .iter()
+            .zip(q)
+            .map(|(p, q)| p.1.cmp(&q.1))
+            .fold(Ordering::Equal, Ordering::then),
         // Other nodes consist of heads and operands alone, and equal nodes have equal ids.
         (first, second) => unreachable!("{first:?} and {second:?} have one id"),
     }
@@ -90,6 +110,8 @@ fn compare_numbers(a: Number, b: Number) -> Ordering {
 
 fn operands(graph: &Graph, e: ExprId) -> Vec<ExprId> {
     let mut operands = Vec::new();
-    graph.node(e).for_each_operand(|operand| operands.push(operand));
+    graph
+        .node(e)
+        .for_each_operand(|operand| operands.push(operand));
     operands
 }

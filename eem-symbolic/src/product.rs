@@ -19,7 +19,10 @@ impl Graph {
     ///
     /// Products are not distributed over sums.
     pub fn power_product(&mut self, factors: &[(ExprId, Rational)]) -> ExprId {
-        let mut collected = Collected { coefficient: Number::ONE, exponents: BTreeMap::new() };
+        let mut collected = Collected {
+            coefficient: Number::ONE,
+            exponents: BTreeMap::new(),
+        };
         let mut pending = factors.to_vec();
         while let Some((base, exponent)) = pending.pop() {
             collected.multiply(self, base, exponent, &mut pending);
@@ -27,7 +30,10 @@ impl Graph {
                 pending = collected.take_expandable(self);
             }
         }
-        let Collected { coefficient, exponents } = collected;
+        let Collected {
+            coefficient,
+            exponents,
+        } = collected;
         if coefficient.is_zero() {
             return self.number(Number::ZERO);
         }
@@ -45,8 +51,14 @@ impl Graph {
 
     /// Coefficient and term of an expression that is `coefficient · term`.
     pub(crate) fn as_scaled(&self, e: ExprId) -> Option<(Number, ExprId)> {
-        let Node::Sum { constant, terms } = self.node(e) else { return None };
-        if constant.is_zero() && terms.len() == 1 { Some(terms[0]) } else { None }
+        let Node::Sum { constant, terms } = self.node(e) else {
+            return None;
+        };
+        if constant.is_zero() && terms.len() == 1 {
+            Some(terms[0])
+        } else {
+            None
+        }
     }
 }
 
@@ -93,7 +105,9 @@ impl Collected {
     /// Takes out the factors that collecting has made expandable, such as `√(2x)·√(2x) = 2·x`.
     fn take_expandable(&mut self, graph: &Graph) -> Vec<(ExprId, Rational)> {
         let expandable = |(&base, &exponent): (&ExprId, &Rational)| {
-            expand(graph, base, exponent).is_some().then_some((base, exponent))
+            expand(graph, base, exponent)
+                .is_some()
+                .then_some((base, exponent))
         };
         let taken: Vec<_> = self.exponents.iter().filter_map(expandable).collect();
         for (base, _) in &taken {
@@ -114,18 +128,29 @@ fn expand(graph: &Graph, base: ExprId, exponent: Rational) -> Option<Expansion> 
     match graph.node(base) {
         Node::Number(number) => {
             let coefficient = exact_power(*number, exponent)?;
-            Some(Expansion { coefficient, factors: Vec::new() })
+            Some(Expansion {
+                coefficient,
+                factors: Vec::new(),
+            })
         }
         Node::Sum { .. } => {
             let (coefficient, term) = graph.as_scaled(base)?;
             exponent.is_integer().then_some(())?;
             let coefficient = exact_power(coefficient, exponent)?;
-            Some(Expansion { coefficient, factors: vec![(term, exponent)] })
+            Some(Expansion {
+                coefficient,
+                factors: vec![(term, exponent)],
+            })
         }
         Node::Product(factors) => {
             exponent.is_integer().then_some(())?;
-            let powers = factors.iter().map(|&(b, r)| Some((b, r.checked_mul(exponent)?)));
-            Some(Expansion { coefficient: Number::ONE, factors: powers.collect::<Option<_>>()? })
+            let powers = factors
+                .iter()
+                .map(|&(b, r)| Some((b, r.checked_mul(exponent)?)));
+            Some(Expansion {
+                coefficient: Number::ONE,
+                factors: powers.collect::<Option<_>>()?,
+            })
         }
         Node::Variable(_)
         | Node::Power(..)

@@ -183,7 +183,8 @@ impl Program {
             used[output.index()] = true;
         }
         let stages = self.instructions.iter().zip(used).enumerate();
-        let hoisted = stages.filter(|(_, (instruction, used))| *used && instruction.stage == Stage::Old);
+        let hoisted =
+            stages.filter(|(_, (instruction, used))| *used && instruction.stage == Stage::Old);
         hoisted.map(|(index, _)| Value::new(index)).collect()
     }
 

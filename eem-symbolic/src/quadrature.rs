@@ -63,7 +63,9 @@ impl ProgramKernel<f64> {
     fn at_signed_ends(self, a: f64, b: f64) -> Option<f64> {
         match self {
             Self::Function(Function::Abs) => Some((a + b) / (a.abs() + b.abs())),
-            Self::Function(_) | Self::Powi(_) | Self::Sqrt | Self::Powf(_) | Self::Power(..) => None,
+            Self::Function(_) | Self::Powi(_) | Self::Sqrt | Self::Powf(_) | Self::Power(..) => {
+                None
+            }
         }
     }
 

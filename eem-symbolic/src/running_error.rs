@@ -75,7 +75,10 @@ impl Arithmetic for RunningError {
     }
 
     fn neg(&self, a: &Bounded) -> Bounded {
-        Bounded { value: -a.value, ..*a }
+        Bounded {
+            value: -a.value,
+            ..*a
+        }
     }
 
     fn powi(&self, a: &Bounded, n: i32) -> Bounded {

@@ -4,6 +4,8 @@
 //!   beginnings of sums and products.
 //! * A product is a numerator over a denominator: one division. Whole powers are products, halves
 //!   square roots. Coefficients ±1 cost a sign, which a sum absorbs.
+//! * Of derivatives that serve Newton's method alone, a relative error of some roundings more is no
+//!   loss: what only they need multiplies by shared reciprocals instead of dividing.
 //! * Factors and terms of parameters alone come first, so that they are old-stage values. The others
 //!   stay in structural order whatever their stage is: an expression takes the same operations at
 //!   the old and at the new state, and what is symmetric in the two is symmetric bit by bit.
@@ -18,7 +20,7 @@ pub(crate) use locals::Locals;
 use crate::graph::Graph;
 use crate::node::{ExprId, Node};
 use crate::program::{Input, Program};
-use builder::{Builder, Operand};
+use builder::{Builder, Operand, Signed};
 
 /// Schedules expressions as the outputs of one program.
 ///
@@ -45,7 +47,7 @@ pub fn schedule(graph: &Graph, inputs: Vec<Input>, outputs: &[ExprId]) -> Progra
         locals: &Locals::default(),
         parameters: 0,
     };
-    schedule.program(inputs, outputs)
+    schedule.program(inputs, outputs, &[])
 }
 
 /// What a schedule is made from besides inputs and outputs.
@@ -57,12 +59,22 @@ pub(crate) struct Schedule<'g> {
 }
 
 impl Schedule<'_> {
-    pub(crate) fn program(&self, inputs: Vec<Input>, outputs: &[ExprId]) -> Program {
+    /// Outputs are the values and then their tangents, for which rounding matters less.
+    pub(crate) fn program(
+        &self,
+        inputs: Vec<Input>,
+        values: &[ExprId],
+        tangents: &[ExprId],
+    ) -> Program {
         let mut builder = Builder::new(self, inputs);
-        for &output in outputs {
-            self.visit(&mut builder, output);
+        for &value in values {
+            self.visit(&mut builder, value);
         }
-        let program = builder.finish(outputs);
+        builder.reciprocals = true;
+        for &tangent in tangents {
+            self.visit(&mut builder, tangent);
+        }
+        let program = builder.finish(&[values, tangents].concat());
         debug_assert_eq!(program.verify(), Ok(()));
         program
     }
@@ -71,12 +83,12 @@ impl Schedule<'_> {
     fn visit(&self, builder: &mut Builder<'_>, root: ExprId) {
         let mut pending = vec![(root, false)];
         while let Some((e, operands_done)) = pending.pop() {
-            if builder.result(e).is_some() {
+            if builder.has(e) {
                 continue;
             }
             if operands_done {
-                let operand = self.emit(builder, e);
-                builder.set(e, operand);
+                let result = self.emit(builder, e);
+                builder.set(e, result);
                 continue;
             }
             pending.push((e, true));
@@ -98,15 +110,15 @@ impl Schedule<'_> {
         (resolved != e).then_some(resolved)
     }
 
-    fn emit(&self, builder: &mut Builder<'_>, e: ExprId) -> Operand {
+    fn emit(&self, builder: &mut Builder<'_>, e: ExprId) -> Signed {
         if let Some(definition) = self.definition(e) {
-            return builder.done(definition);
+            return builder.signed(definition);
         }
         match self.graph.node(e) {
+            Node::Sum { constant, terms } => return builder.sum(*constant, terms),
+            Node::Product(factors) => return builder.product(factors),
             Node::Number(number) => Operand::Number(*number),
             Node::Variable(symbol) => builder.input(*symbol),
-            Node::Sum { constant, terms } => builder.sum(*constant, terms),
-            Node::Product(factors) => builder.product(factors),
             Node::Power(base, exponent) => builder.power(*base, *exponent),
             Node::Apply(function, x) => builder.apply(*function, *x),
             Node::PairSum(a, b) => builder.pair_sum(*a, *b),
@@ -118,5 +130,6 @@ impl Schedule<'_> {
                 builder.power_difference(*values, *logarithms)
             }
         }
+        .into()
     }
 }

@@ -37,7 +37,9 @@ pub(crate) fn substitute_all(
             let entry = replacements.iter().find(|(symbol, _)| symbol == name);
             entry.map_or(id, |&(_, replacement)| replacement)
         } else {
-            let mapped = graph.node(id).map(|symbol| symbol, |operand| image(&images, operand));
+            let mapped = graph
+                .node(id)
+                .map(|symbol| symbol, |operand| image(&images, operand));
             rebuild(graph, mapped)
         };
         images.insert(id, new);

@@ -16,14 +16,25 @@ impl Graph {
     ///   `c·(θ − θ_r)` loses digits when it is distributed;
     /// * `c·(d·t) = (c·d)·t`.
     pub fn weighted_sum(&mut self, constant: Number, terms: &[(Number, ExprId)]) -> ExprId {
-        let mut collected = Collected { constant, coefficients: BTreeMap::new() };
+        let mut collected = Collected {
+            constant,
+            coefficients: BTreeMap::new(),
+        };
         let mut pending = terms.to_vec();
         while !pending.is_empty() {
-            pending.drain(..).for_each(|(coefficient, term)| collected.add(self, coefficient, term));
+            pending
+                .drain(..)
+                .for_each(|(coefficient, term)| collected.add(self, coefficient, term));
             pending = collected.take_flattenable(self);
         }
-        let Collected { constant, coefficients } = collected;
-        let mut terms: Vec<_> = coefficients.into_iter().map(|(term, c)| (c, term)).collect();
+        let Collected {
+            constant,
+            coefficients,
+        } = collected;
+        let mut terms: Vec<_> = coefficients
+            .into_iter()
+            .map(|(term, c)| (c, term))
+            .collect();
         match terms[..] {
             [] => self.number(constant),
             [(c, term)] if c == Number::ONE && constant.is_zero() => term,
@@ -45,7 +56,11 @@ impl Graph {
         if self.as_number(a).is_some() || self.as_number(b).is_some() {
             return self.add(a, b);
         }
-        let (first, second) = if compare(self, a, b).is_le() { (a, b) } else { (b, a) };
+        let (first, second) = if compare(self, a, b).is_le() {
+            (a, b)
+        } else {
+            (b, a)
+        };
         self.intern(Node::PairSum(first, second))
     }
 }
@@ -70,7 +85,10 @@ impl Collected {
     }
 
     fn add_term(&mut self, coefficient: Number, term: ExprId) {
-        let sum = self.coefficients.get(&term).map_or(coefficient, |&c| c + coefficient);
+        let sum = self
+            .coefficients
+            .get(&term)
+            .map_or(coefficient, |&c| c + coefficient);
         if sum.is_zero() {
             self.coefficients.remove(&term);
         } else {
@@ -83,12 +101,22 @@ impl Collected {
         let mut parts = Vec::new();
         let constant = &mut self.constant;
         self.coefficients.retain(|&term, &mut coefficient| {
-            let Node::Sum { constant: inner, terms } = graph.node(term) else { return true };
+            let Node::Sum {
+                constant: inner,
+                terms,
+            } = graph.node(term)
+            else {
+                return true;
+            };
             if coefficient != Number::ONE && coefficient != Number::MINUS_ONE {
                 return true;
             }
             *constant = *constant + coefficient * *inner;
-            parts.extend(terms.iter().map(|&(c, inner_term)| (coefficient * c, inner_term)));
+            parts.extend(
+                terms
+                    .iter()
+                    .map(|&(c, inner_term)| (coefficient * c, inner_term)),
+            );
             false
         });
         parts

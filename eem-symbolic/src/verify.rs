@@ -96,7 +96,10 @@ impl Program {
         let operation = &self.instructions[instruction].operation;
         let mut operands = operation.operands().into_iter();
         if let Some(operand) = operands.find(|operand| operand.index() >= instruction) {
-            return Err(VerifyError::UseBeforeDefinition { instruction, operand });
+            return Err(VerifyError::UseBeforeDefinition {
+                instruction,
+                operand,
+            });
         }
         match *operation {
             Operation::Input(input) if input >= self.inputs.len() => {
@@ -113,10 +116,15 @@ impl Program {
             let earlier = &self.instructions[operand.index()];
             let constant = matches!(earlier.operation, Operation::Constant(_));
             if constant && earlier.stage != this.stage {
-                return Err(VerifyError::ConstantAcrossStages { instruction, operand });
+                return Err(VerifyError::ConstantAcrossStages {
+                    instruction,
+                    operand,
+                });
             }
         }
-        let stages = operands.iter().map(|operand| self.instructions[operand.index()].stage);
+        let stages = operands
+            .iter()
+            .map(|operand| self.instructions[operand.index()].stage);
         let expected = match this.operation {
             Operation::Input(input) => self.inputs[input].stage,
             Operation::Constant(_) => this.stage,
@@ -125,7 +133,10 @@ impl Program {
         if this.stage == expected {
             Ok(())
         } else {
-            Err(VerifyError::WrongStage { instruction, expected })
+            Err(VerifyError::WrongStage {
+                instruction,
+                expected,
+            })
         }
     }
 
@@ -134,12 +145,16 @@ impl Program {
             Operation::Constant(number) if !number.to_f64().is_finite() => {
                 Err(VerifyError::NonFiniteConstant { instruction })
             }
-            Operation::Powi(_, exponent) if exponent < 3 => {
-                Err(VerifyError::TrivialPower { instruction, exponent })
-            }
+            Operation::Powi(_, exponent) if exponent < 3 => Err(VerifyError::TrivialPower {
+                instruction,
+                exponent,
+            }),
             Operation::DividedDifference(ProgramKernel::Powi(exponent @ 0..=2), ..)
             | Operation::SecondDividedDifference(ProgramKernel::Powi(exponent @ 0..=2), ..) => {
-                Err(VerifyError::TrivialPower { instruction, exponent })
+                Err(VerifyError::TrivialPower {
+                    instruction,
+                    exponent,
+                })
             }
             _ => Ok(()),
         }
@@ -147,7 +162,11 @@ impl Program {
 
     fn check_outputs(&self) -> Result<(), VerifyError> {
         let count = self.instructions.len();
-        match self.outputs.iter().position(|output| output.index() >= count) {
+        match self
+            .outputs
+            .iter()
+            .position(|output| output.index() >= count)
+        {
             Some(output) => Err(VerifyError::UnknownOutput { output }),
             None => Ok(()),
         }
@@ -181,22 +200,40 @@ impl Program {
 impl fmt::Display for VerifyError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::UseBeforeDefinition { instruction, operand } => {
+            Self::UseBeforeDefinition {
+                instruction,
+                operand,
+            } => {
                 let operand = operand.index();
-                write!(f, "instruction {instruction} reads value {operand}, which is not there yet")
+                write!(
+                    f,
+                    "instruction {instruction} reads value {operand}, which is not there yet"
+                )
             }
             Self::UnknownOutput { output } => {
                 write!(f, "output {output} is the value of no instruction")
             }
             Self::UnknownInput { instruction, input } => {
-                write!(f, "instruction {instruction} reads input {input}, which does not exist")
+                write!(
+                    f,
+                    "instruction {instruction} reads input {input}, which does not exist"
+                )
             }
-            Self::WrongStage { instruction, expected } => {
+            Self::WrongStage {
+                instruction,
+                expected,
+            } => {
                 write!(f, "instruction {instruction} belongs to stage {expected:?}")
             }
-            Self::ConstantAcrossStages { instruction, operand } => {
+            Self::ConstantAcrossStages {
+                instruction,
+                operand,
+            } => {
                 let operand = operand.index();
-                write!(f, "instruction {instruction} uses constant {operand} of another stage")
+                write!(
+                    f,
+                    "instruction {instruction} uses constant {operand} of another stage"
+                )
             }
             Self::Unused { instruction } => {
                 write!(f, "the value of instruction {instruction} is never used")
@@ -204,8 +241,14 @@ impl fmt::Display for VerifyError {
             Self::Duplicate { first, second } => {
                 write!(f, "instructions {first} and {second} compute the same")
             }
-            Self::TrivialPower { instruction, exponent } => {
-                write!(f, "instruction {instruction} is a power with exponent {exponent}")
+            Self::TrivialPower {
+                instruction,
+                exponent,
+            } => {
+                write!(
+                    f,
+                    "instruction {instruction} is a power with exponent {exponent}"
+                )
             }
             Self::NonFiniteConstant { instruction } => {
                 write!(f, "the constant of instruction {instruction} is not finite")

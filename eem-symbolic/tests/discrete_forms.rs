@@ -3,7 +3,7 @@
 mod support;
 
 use astro_float::BigFloat;
-use eem_symbolic::{Arithmetic, F64};
+use eem_symbolic::{Arithmetic, F64, Function, Number, ProgramKernel};
 use support::corners::Evaluated;
 use support::laws;
 use support::precise::{error, to_f64};
@@ -20,7 +20,11 @@ const DIFFERENCE: f64 = 1e-50;
 /// x¹ for a relative increment, each variable by another amount.
 fn moved(state: &[f64], increment: f64) -> Vec<f64> {
     let factors = [1.0, -0.6, 0.8, 0.3].iter().cycle();
-    state.iter().zip(factors).map(|(x, factor)| x * (1.0 + factor * increment)).collect()
+    state
+        .iter()
+        .zip(factors)
+        .map(|(x, factor)| x * (1.0 + factor * increment))
+        .collect()
 }
 
 fn laws() -> Vec<Evaluated> {
@@ -31,7 +35,11 @@ fn laws() -> Vec<Evaluated> {
 fn relative(law: &Evaluated, a: &BigFloat, b: &BigFloat) -> f64 {
     let difference = to_f64(&law.precise.sub(a, b)).abs();
     let scale = to_f64(a).abs().max(to_f64(b).abs());
-    if difference == 0.0 { 0.0 } else { difference / scale }
+    if difference == 0.0 {
+        0.0
+    } else {
+        difference / scale
+    }
 }
 
 #[test]
@@ -43,12 +51,19 @@ fn responses_are_partitioned_quotients() {
             let entropy = (law.entropy_form(&x0, &x1), law.entropy_quotients(&x0, &x1));
             let mut forms = vec![entropy];
             if law.thermal() {
-                forms.push((law.temperature_form(&x0, &x1), law.temperature_quotients(&x0, &x1)));
+                forms.push((
+                    law.temperature_form(&x0, &x1),
+                    law.temperature_quotients(&x0, &x1),
+                ));
             }
             for (computed, defined) in forms {
                 for (i, expected) in defined.iter().enumerate() {
                     let error = relative(&law, &computed[i], expected);
-                    assert!(error < PRECISE, "{} {increment} [{i}]: {error:e}", law.law.name);
+                    assert!(
+                        error < PRECISE,
+                        "{} {increment} [{i}]: {error:e}",
+                        law.law.name
+                    );
                 }
             }
         }
@@ -69,7 +84,11 @@ fn energy_is_the_sum_of_forces_times_increments() {
         for response in forms {
             let mut work = p.from_f64(0.0);
             for i in 0..n {
-                let force = if i < measures { response[i].clone() } else { p.neg(&response[i]) };
+                let force = if i < measures {
+                    response[i].clone()
+                } else {
+                    p.neg(&response[i])
+                };
                 work = p.add(&work, &p.mul(&force, &p.sub(&x1[i], &x0[i])));
             }
             if law.thermal() {
@@ -117,7 +136,10 @@ fn check_tangent(law: &Evaluated, x0: &[BigFloat], x1: &[BigFloat], form: Form<'
             let error = to_f64(&p.sub(&computed[rows + i * columns + j], &difference)).abs();
             let scale = to_f64(&difference).abs().max(1.0);
             let name = law.law.name;
-            assert!(error < DIFFERENCE * scale, "{name} [{i}, {j}]: {error:e} of {scale:e}");
+            assert!(
+                error < DIFFERENCE * scale,
+                "{name} [{i}, {j}]: {error:e} of {scale:e}"
+            );
         }
     }
 }
@@ -140,11 +162,21 @@ fn in_double_precision(law: &Evaluated, entropy: bool, increment: f64) -> Worst 
         let computed = law.programs.entropy_form.interpret(&F64, &inputs);
         (computed, law.entropy_form(&p0, &p1))
     } else {
-        let program = law.programs.temperature_form.as_ref().expect("a thermal law");
-        (program.interpret(&F64, &inputs), law.temperature_form(&p0, &p1))
+        let program = law
+            .programs
+            .temperature_form
+            .as_ref()
+            .expect("a thermal law");
+        (
+            program.interpret(&F64, &inputs),
+            law.temperature_form(&p0, &p1),
+        )
     };
     let rows = law.responses();
-    let mut worst = Worst { response: 0.0, tangent: 0.0 };
+    let mut worst = Worst {
+        response: 0.0,
+        tangent: 0.0,
+    };
     for i in 0..rows {
         let scale = to_f64(&exact[i]).abs();
         let error_of_row = error(&law.precise, computed[i], &exact[i]);
@@ -153,7 +185,12 @@ fn in_double_precision(law: &Evaluated, entropy: bool, increment: f64) -> Worst 
         }
         // An entry counts by what it does to the row: ∂R/∂x_j times the size of x_j.
         let row = rows + i * x1.len()..rows + (i + 1) * x1.len();
-        let weights = || computed[row.clone()].iter().zip(&x1).map(|(d, x)| (d * x).abs());
+        let weights = || {
+            computed[row.clone()]
+                .iter()
+                .zip(&x1)
+                .map(|(d, x)| (d * x).abs())
+        };
         let size = weights().fold(0.0, f64::max);
         for (entry, x) in row.clone().zip(&x1) {
             let error = error(&law.precise, computed[entry], &exact[entry]) * x.abs();
@@ -184,6 +221,76 @@ fn double_precision_keeps_responses_and_tangents() {
                 assert!(worst.response < RESPONSE, "{name} {increment:e}");
                 assert!(worst.tangent < TANGENT, "{name} {increment:e}");
             }
+        }
+    }
+}
+
+/// Double precision with the ends of a difference in ascending order: symmetric, as kernels are.
+struct Symmetric;
+
+impl Arithmetic for Symmetric {
+    type Number = f64;
+
+    fn constant(&self, number: &Number) -> f64 {
+        number.to_f64()
+    }
+    fn add(&self, a: &f64, b: &f64) -> f64 {
+        a + b
+    }
+    fn sub(&self, a: &f64, b: &f64) -> f64 {
+        a - b
+    }
+    fn mul(&self, a: &f64, b: &f64) -> f64 {
+        a * b
+    }
+    fn div(&self, a: &f64, b: &f64) -> f64 {
+        a / b
+    }
+    fn neg(&self, a: &f64) -> f64 {
+        -a
+    }
+    fn powi(&self, a: &f64, n: i32) -> f64 {
+        a.powi(n)
+    }
+    fn sqrt(&self, a: &f64) -> f64 {
+        a.sqrt()
+    }
+    fn power(&self, a: &f64, b: &f64) -> f64 {
+        a.powf(*b)
+    }
+    fn apply(&self, function: Function, a: &f64) -> f64 {
+        F64.apply(function, a)
+    }
+    fn divided_difference(&self, kernel: ProgramKernel<&f64>, a: &f64, b: &f64) -> f64 {
+        F64.divided_difference(kernel, &a.min(*b), &a.max(*b))
+    }
+    fn second_divided_difference(&self, kernel: ProgramKernel<&f64>, a: &f64, b: &f64) -> f64 {
+        F64.second_divided_difference(kernel, a, b)
+    }
+}
+
+/// Exchanging the states changes no bit of f*, g*, θ*, and the sign of Δs: the scheme is
+/// self-adjoint in floating-point arithmetic.
+#[test]
+fn temperature_form_is_symmetric_bit_by_bit() {
+    for law in laws() {
+        let Some(program) = &law.programs.temperature_form else {
+            continue;
+        };
+        for increment in [1e-12, 1e-3, 0.1] {
+            let x0 = law.law.state.clone();
+            let x1 = moved(&x0, increment);
+            let inputs = |x0: &[f64], x1: &[f64]| [&law.law.parameters, x0, x1].concat();
+            let forward = program.interpret(&Symmetric, &inputs(&x0, &x1));
+            let backward = program.interpret(&Symmetric, &inputs(&x1, &x0));
+            let last = law.responses() - 1;
+            let name = law.law.name;
+            assert_eq!(forward[..last], backward[..last], "{name} {increment:e}");
+            assert_eq!(
+                forward[last].to_bits(),
+                (-backward[last]).to_bits(),
+                "{name}"
+            );
         }
     }
 }

@@ -3,9 +3,10 @@
 use std::error::Error;
 use std::path::Path;
 
+use eem::Scheme;
+
 use super::figures::{Curve, Figure};
 use super::record::{Outcome, Record};
-use super::scheme;
 use super::statistics::Statistics;
 
 /// What one picture shows of every run.
@@ -43,7 +44,7 @@ impl Comparison<'_> {
     }
 
     fn figure(&self, plot: &Plot) -> Figure {
-        let runs = self.runs.iter().map(|run| (scheme::look(&run.scheme), run));
+        let runs = self.runs.iter().map(|run| (look(&run.scheme), run));
         let curves = std::iter::once((0, self.reference)).chain(runs);
         Figure {
             title: plot.title.to_owned(),
@@ -64,7 +65,7 @@ impl Comparison<'_> {
 
 /// A run that reached its end and kept its energy decides what the axes show.
 fn is_sound(run: &Record) -> bool {
-    matches!(run.outcome, Outcome::Completed) && Statistics::of(run).breakdown.is_none()
+    run.completed() && Statistics::of(run).breakdown.is_none()
 }
 
 fn label(run: &Record) -> String {
@@ -72,4 +73,11 @@ fn label(run: &Record) -> String {
         Outcome::Completed => run.scheme.clone(),
         Outcome::Failed { time, .. } => format!("{} (fails at {time:.1} s)", run.scheme),
     }
+}
+
+/// A scheme looks the same in every picture, whatever else is drawn; 0 is the reference's look.
+fn look(name: &str) -> usize {
+    let mut schemes = Scheme::ALL.iter();
+    let known = schemes.position(|scheme| scheme.name() == name);
+    1 + known.unwrap_or(Scheme::ALL.len())
 }

@@ -69,7 +69,12 @@ impl Record {
         &self.rows
     }
 
-    /// Number of completed steps.
+    /// Whether the end time was reached.
+    pub(crate) fn completed(&self) -> bool {
+        matches!(self.outcome, Outcome::Completed)
+    }
+
+    /// Number of recorded steps.
     pub(crate) fn steps(&self) -> usize {
         self.rows.len().saturating_sub(1)
     }

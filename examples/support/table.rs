@@ -6,6 +6,7 @@ use comfy_table::{Table, presets};
 
 use super::record::{Outcome, Record};
 use super::statistics::{self, BREAKDOWN, Statistics};
+use super::terminal;
 
 /// Column heads, with units where there are any.
 const HEADS: [&str; 8] = [
@@ -19,6 +20,10 @@ const HEADS: [&str; 8] = [
     "error of q",
 ];
 
+/// What the heads mean.
+const LEGEND: &str = "Defects are max |X − X₀|/|X₀| over the run; the error of q is its root mean \
+                      square over the run, relative to the reference.";
+
 /// Prints a row per record and, below, the reasons of failed runs and what the heads mean.
 pub(crate) fn print(records: &[Record], reference: Option<&Record>) {
     let mut table = Table::new();
@@ -26,14 +31,11 @@ pub(crate) fn print(records: &[Record], reference: Option<&Record>) {
     for record in records {
         table.add_row(row(record, reference));
     }
-    println!("{table}\n");
+    terminal::say(format_args!("{table}\n"));
     for record in records {
         explain(record);
     }
-    println!(
-        "Defects are max |X − X₀|/|X₀| over the run; the error of q is relative, in the root \
-         mean square over the run."
-    );
+    terminal::say(LEGEND);
 }
 
 /// Says when and why a run broke down.
@@ -41,12 +43,14 @@ fn explain(record: &Record) {
     let scheme = &record.scheme;
     if let Some(time) = Statistics::of(record).breakdown {
         let percent = 100.0 * BREAKDOWN;
-        println!(
+        terminal::say(format_args!(
             "{scheme}: the energy is off by more than {percent} % for the first time at t = {time:.6} s."
-        );
+        ));
     }
     if let Outcome::Failed { time, reason } = &record.outcome {
-        println!("{scheme} failed after t = {time:.6} s: {reason}");
+        terminal::say(format_args!(
+            "{scheme} failed after t = {time:.6} s: {reason}"
+        ));
     }
 }
 

@@ -16,7 +16,7 @@ const FACTOR: f64 = 2.5;
 const TINY: f64 = 1e-300;
 
 /// The array with these elements.
-pub fn array<A: Array<f64>>(elements: &[f64]) -> A {
+pub(crate) fn array<A: Array<f64>>(elements: &[f64]) -> A {
     let mut array = A::filled(0.0);
     array.as_mut().copy_from_slice(elements);
     array
@@ -24,11 +24,17 @@ pub fn array<A: Array<f64>>(elements: &[f64]) -> A {
 
 /// The rows of a matrix one after the other.
 fn flat<R: Array<f64>, M: Array<R>>(matrix: &M) -> Vec<f64> {
-    matrix.as_ref().iter().flat_map(|row| row.as_ref().to_vec()).collect()
+    matrix
+        .as_ref()
+        .iter()
+        .flat_map(|row| row.as_ref().to_vec())
+        .collect()
 }
 
 fn parameters<L: Law>(law: &L) -> Vec<f64> {
-    (0..L::PARAMETERS.len()).map(|index| law.parameter(index)).collect()
+    (0..L::PARAMETERS.len())
+        .map(|index| law.parameter(index))
+        .collect()
 }
 
 fn check(program: &Program, inputs: &[f64], generated: &[f64]) {
@@ -48,16 +54,24 @@ fn check(program: &Program, inputs: &[f64], generated: &[f64]) {
 }
 
 /// The functions of one state.
-pub fn points<L: Law>() {
+pub(crate) fn points<L: Law>() {
     let (law, programs) = (L::example(), L::symbolic().programs());
     for (_, x) in steps::<L>() {
         let state: L::Variables = array(&x);
         let inputs = [parameters(&law), x.clone()].concat();
         check(&programs.free_energy, &inputs, &[law.free_energy(&state)]);
-        check(&programs.internal_energy, &inputs, &[law.internal_energy(&state)]);
+        check(
+            &programs.internal_energy,
+            &inputs,
+            &[law.internal_energy(&state)],
+        );
         check(&programs.gradient, &inputs, law.gradient(&state).as_ref());
         let (gradient, hessian) = law.hessian(&state);
-        check(&programs.hessian, &inputs, &[gradient.as_ref(), &flat(&hessian)].concat());
+        check(
+            &programs.hessian,
+            &inputs,
+            &[gradient.as_ref(), &flat(&hessian)].concat(),
+        );
         if let Some(caloric) = &programs.caloric {
             let found = law.caloric(&state);
             let found = [found.entropy, found.heat_capacity, found.magnitude];
@@ -67,13 +81,17 @@ pub fn points<L: Law>() {
             let theta = x.last().copied().unwrap_or_default();
             let (eta, eta_theta) = law.viscosity(theta);
             let inputs = [parameters(&law), vec![theta]].concat();
-            check(viscosity, &inputs, &[eta.as_ref(), eta_theta.as_ref()].concat());
+            check(
+                viscosity,
+                &inputs,
+                &[eta.as_ref(), eta_theta.as_ref()].concat(),
+            );
         }
     }
 }
 
 /// The algorithmic forms, from vanishing increments to large ones.
-pub fn forms<L: Law>() {
+pub(crate) fn forms<L: Law>() {
     let (law, programs) = (L::example(), L::symbolic().programs());
     for (x0, x1) in steps::<L>() {
         let corners = corners(&law, &x0, &x1);

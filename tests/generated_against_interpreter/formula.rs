@@ -11,10 +11,10 @@ thread_local! {
 
 /// An expression of the current graph.
 #[derive(Clone, Copy)]
-pub struct E(ExprId);
+pub(crate) struct E(ExprId);
 
 /// What an argument stands for.
-pub enum Role {
+pub(crate) enum Role {
     Stretch,
     Viscous,
     Temperature,
@@ -25,12 +25,12 @@ fn with(build: impl FnOnce(&mut Graph) -> ExprId) -> E {
 }
 
 /// Starts a new graph.
-pub fn begin() {
+pub(crate) fn begin() {
     GRAPH.with(|graph| *graph.borrow_mut() = Graph::new());
 }
 
 /// The variable of that name.
-pub fn variable(name: &str) -> E {
+pub(crate) fn variable(name: &str) -> E {
     with(|graph| {
         let symbol = graph.symbol(name);
         graph.variable(symbol)
@@ -45,7 +45,7 @@ fn symbol(e: E) -> Symbol {
 }
 
 /// The model of the current graph.
-pub fn model(arguments: &[(Role, E)], parameters: &[E], psi: E, viscosities: &[E]) -> Model {
+pub(crate) fn model(arguments: &[(Role, E)], parameters: &[E], psi: E, viscosities: &[E]) -> Model {
     let of_role = |wanted: fn(&Role) -> bool| {
         let arguments = arguments.iter().filter(move |(role, _)| wanted(role));
         arguments.map(|&(_, e)| symbol(e)).collect::<Vec<Symbol>>()
@@ -53,7 +53,9 @@ pub fn model(arguments: &[(Role, E)], parameters: &[E], psi: E, viscosities: &[E
     Model {
         measures: of_role(|role| matches!(role, Role::Stretch)),
         dashpots: of_role(|role| matches!(role, Role::Viscous)),
-        temperature: of_role(|role| matches!(role, Role::Temperature)).first().copied(),
+        temperature: of_role(|role| matches!(role, Role::Temperature))
+            .first()
+            .copied(),
         parameters: parameters.iter().map(|&e| symbol(e)).collect(),
         graph: GRAPH.with(|graph| graph.borrow().clone()),
         psi: psi.0,
@@ -70,26 +72,26 @@ impl From<f64> for E {
 }
 
 /// The partial derivative with respect to a variable.
-pub fn diff(e: E, x: E) -> E {
+pub(crate) fn diff(e: E, x: E) -> E {
     let x = symbol(x);
     with(|graph| eem_symbolic::diff(graph, e.0, x))
 }
 
 impl E {
-    pub fn powi(self, n: i32) -> E {
+    pub(crate) fn powi(self, n: i32) -> E {
         with(|graph| graph.powi(self.0, n))
     }
 
-    pub fn powf(self, exponent: impl Into<E>) -> E {
+    pub(crate) fn powf(self, exponent: impl Into<E>) -> E {
         let exponent = exponent.into();
         with(|graph| graph.power(self.0, exponent.0))
     }
 
-    pub fn recip(self) -> E {
+    pub(crate) fn recip(self) -> E {
         with(|graph| graph.recip(self.0))
     }
 
-    pub fn sqrt(self) -> E {
+    pub(crate) fn sqrt(self) -> E {
         with(|graph| graph.sqrt(self.0))
     }
 }
@@ -97,11 +99,13 @@ impl E {
 macro_rules! functions {
     ($($name:ident: $function:ident),* $(,)?) => {
         impl E {
-            $(pub fn $name(self) -> E {
+            $(pub(crate) fn $name(self) -> E {
                 with(|graph| graph.apply(Function::$function, self.0))
             })*
         }
-        $(pub fn $name(x: E) -> E {
+        // Not every law writes every function in both forms.
+        $(#[allow(dead_code)]
+        pub(crate) fn $name(x: E) -> E {
             x.$name()
         })*
     };

@@ -90,7 +90,10 @@ pub(super) fn call<'a>(
     }
     let resolved = arguments.iter().map(|argument| resolver.expr(argument));
     let resolved: Vec<Option<Expr<'a>>> = resolved.collect();
-    let mut resolved = resolved.into_iter().collect::<Option<Vec<_>>>()?.into_iter();
+    let mut resolved = resolved
+        .into_iter()
+        .collect::<Option<Vec<_>>>()?
+        .into_iter();
     match (callee, resolved.next(), resolved.next(), resolved.next()) {
         (Callee::Powi, Some(x), Some(n), None) => Some(ExprKind::Powi(x.into(), n.into())),
         (Callee::Powf, Some(x), Some(y), None) => Some(ExprKind::Powf(x.into(), y.into())),
@@ -99,9 +102,7 @@ pub(super) fn call<'a>(
         (Callee::Unary(Function::Abs), Some(x), None, None) => {
             Some(ExprKind::Abs(function, x.into()))
         }
-        (Callee::Unary(function), Some(x), None, None) => {
-            Some(ExprKind::Apply(function, x.into()))
-        }
+        (Callee::Unary(function), Some(x), None, None) => Some(ExprKind::Apply(function, x.into())),
         // The wrong number of arguments has been reported.
         _ => None,
     }
@@ -125,7 +126,11 @@ fn diff_variable<'a>(resolver: &Resolver<'_, 'a>, variable: &'a ast::Expr<'a>) -
         return None;
     };
     let refuse = |kind| {
-        let names: Vec<String> = resolver.variables.iter().map(|v| ast::name(v.ident)).collect();
+        let names: Vec<String> = resolver
+            .variables
+            .iter()
+            .map(|v| ast::name(v.ident))
+            .collect();
         let names = names.iter().map(String::as_str);
         cx.error(ident, &message::diff_variable(ident, kind, names));
     };

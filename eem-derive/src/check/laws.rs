@@ -81,7 +81,10 @@ pub(super) fn check_names(cx: &Ctxt, input: &Input<'_>) {
         let name = ast::name(dashpot);
         let same = |ident| ast::name(ident) == name;
         match input.arguments.iter().find(|a| same(a.ident)) {
-            Some(&Argument { role: Role::Viscous, .. }) => {}
+            Some(&Argument {
+                role: Role::Viscous,
+                ..
+            }) => {}
             Some(argument) => {
                 let message = message::viscosity_of_another_role(dashpot, argument.role);
                 cx.error(dashpot, &message);

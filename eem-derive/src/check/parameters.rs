@@ -6,7 +6,7 @@ use proc_macro2::Ident;
 use syn::Type;
 
 use crate::ast::{Field, Input};
-use crate::checked::{Parameter, Scalar};
+use crate::checked::{Parameter, ParameterKind, Scalar};
 use crate::ctxt::Ctxt;
 use crate::message::field as message;
 
@@ -36,7 +36,8 @@ impl Used {
 
 /// What the type of a field makes of it.
 enum Kind<'a> {
-    Float,
+    Double,
+    Single,
     TypeParameter(&'a Ident),
     Other,
 }
@@ -44,9 +45,10 @@ enum Kind<'a> {
 /// The fields that are used, in order of declaration; reports those whose type cannot be one.
 pub(super) fn parameters<'a>(cx: &Ctxt, input: &Input<'a>, used: &Used) -> Vec<Parameter<'a>> {
     let parameter = |(index, field): (usize, &Field<'a>)| {
-        let float = match kind(input, field.ty) {
-            Kind::Float => true,
-            Kind::TypeParameter(_) => false,
+        let kind = match kind(input, field.ty) {
+            Kind::Double => ParameterKind::Double,
+            Kind::Single => ParameterKind::Single,
+            Kind::TypeParameter(_) => ParameterKind::Scalar,
             Kind::Other => {
                 cx.error(field.ty, &message::not_a_parameter(field.ident));
                 return None;
@@ -55,7 +57,7 @@ pub(super) fn parameters<'a>(cx: &Ctxt, input: &Input<'a>, used: &Used) -> Vec<P
         Some(Parameter {
             field: index,
             ident: field.ident,
-            float,
+            kind,
         })
     };
     used.fields(input).filter_map(parameter).collect()
@@ -90,14 +92,16 @@ fn kind<'a>(input: &Input<'a>, ty: &Type) -> Kind<'a> {
         let segments: Vec<String> = path.segments.iter().map(|s| s.ident.to_string()).collect();
         let segments: Vec<&str> = segments.iter().map(String::as_str).collect();
         return match segments[..] {
-            ["core" | "std", "primitive", "f64" | "f32"] => Kind::Float,
+            ["core" | "std", "primitive", "f64"] => Kind::Double,
+            ["core" | "std", "primitive", "f32"] => Kind::Single,
             _ => Kind::Other,
         };
     };
     let mut parameters = input.original.generics.type_params();
     match parameters.find(|parameter| parameter.ident == *ident) {
         Some(parameter) => Kind::TypeParameter(&parameter.ident),
-        None if ident == "f64" || ident == "f32" => Kind::Float,
+        None if ident == "f64" => Kind::Double,
+        None if ident == "f32" => Kind::Single,
         None => Kind::Other,
     }
 }

@@ -44,16 +44,16 @@ pub(super) fn check_counts(cx: &Ctxt, input: &Input<'_>) {
 pub(super) fn check_distinct(cx: &Ctxt, input: &Input<'_>) {
     for (i, argument) in input.arguments.iter().enumerate() {
         let name = ast::name(argument.ident);
-        if input.arguments[..i].iter().any(|a| ast::name(a.ident) == name) {
+        if input.arguments[..i]
+            .iter()
+            .any(|a| ast::name(a.ident) == name)
+        {
             cx.error(argument.ident, &message::second_argument(argument.ident));
         }
     }
 }
 
-fn of_role<'i, 'a>(
-    input: &'i Input<'a>,
-    role: Role,
-) -> impl Iterator<Item = &'i Argument<'a>> {
+fn of_role<'i, 'a>(input: &'i Input<'a>, role: Role) -> impl Iterator<Item = &'i Argument<'a>> {
     let arguments = input.arguments.iter();
     arguments.filter(move |argument| argument.role == role)
 }

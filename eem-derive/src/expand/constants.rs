@@ -54,7 +54,10 @@ fn types(programs: &Programs, inputs: &Inputs) -> TokenStream {
     let corners = array(inputs.corners());
     let (response, tangent) = (array(inputs.responses()), matrix(inputs.responses()));
     let entropy = array(programs.entropy_form.hoisted().len());
-    let temperature = programs.temperature_form.as_ref().unwrap_or(&programs.entropy_form);
+    let temperature = programs
+        .temperature_form
+        .as_ref()
+        .unwrap_or(&programs.entropy_form);
     let temperature = array(temperature.hoisted().len());
     quote! {
         type Variables = #variables;

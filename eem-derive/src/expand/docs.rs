@@ -9,6 +9,8 @@ use crate::checked::Checked;
 
 /// Columns of a line in a formula block.
 const WIDTH: usize = 96;
+/// Columns by which the second line of a formula is indented.
+const INDENT: usize = 4;
 
 // Expands to:
 //
@@ -47,7 +49,10 @@ fn equations(checked: &Checked<'_>, formulas: &Formulas) -> Vec<(String, String)
     for (name, force) in names(Role::Stretch).zip(&formulas.forces) {
         equations.push((format!("f = ∂ψ/∂{name}"), force.clone()));
     }
-    for (k, (name, force)) in names(Role::Viscous).zip(&formulas.dashpot_forces).enumerate() {
+    for (k, (name, force)) in names(Role::Viscous)
+        .zip(&formulas.dashpot_forces)
+        .enumerate()
+    {
         let g = subscript("g", k, formulas.dashpot_forces.len());
         equations.push((format!("{g} = −∂ψ/∂{name}"), force.clone()));
     }
@@ -70,20 +75,44 @@ fn subscript(symbol: &str, index: usize, count: usize) -> String {
     }
 }
 
-/// Appends a formula, broken at blanks into lines of at most [`WIDTH`] columns where possible.
+/// Appends a formula, broken in front of operators into lines of at most [`WIDTH`] columns where
+/// possible: outside of parentheses rather than inside, late rather than early. What is deeper in
+/// parentheses is indented more.
 fn wrap(formula: &str, lines: &mut Vec<String>) {
-    let mut line = String::new();
-    for word in formula.split(' ') {
-        if line.is_empty() {
-            line.push_str(word);
-        } else if line.chars().count() + 1 + word.chars().count() <= WIDTH {
-            line.push(' ');
-            line.push_str(word);
-        } else {
-            lines.push(std::mem::replace(&mut line, format!("    {word}")));
+    let mut rest: Vec<char> = formula.chars().collect();
+    let (mut indent, mut depth) = (0, 0);
+    while rest.len() > WIDTH {
+        let Some((deeper, at)) = break_point(&rest, indent) else {
+            break;
+        };
+        depth += deeper;
+        indent = INDENT * usize::try_from(1 + depth).unwrap_or(1);
+        lines.push(rest[..at].iter().collect());
+        // The blank goes, the operator leads the next line.
+        rest = [vec![' '; indent], rest.split_off(at + 1)].concat();
+    }
+    lines.push(rest.into_iter().collect());
+}
+
+/// The best blank to break at, and how many more parentheses are open there than at the start.
+fn break_point(line: &[char], indent: usize) -> Option<(i32, usize)> {
+    let mut depth = 0;
+    let mut best: Option<(i32, usize)> = None;
+    for at in indent + 1..=WIDTH {
+        match line[at] {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            ' ' if matches!(line[at + 1..], ['+' | '-', ' ', ..]) => {
+                // In the first half only what is outside of everything.
+                let late = 2 * at > WIDTH;
+                if (late || depth <= 0) && best.is_none_or(|(best, _)| depth <= best) {
+                    best = Some((depth, at));
+                }
+            }
+            _ => {}
         }
     }
-    lines.push(line);
+    best
 }
 
 /// `purpose` and what one call costs.
@@ -127,7 +156,11 @@ fn operations(count: &StageCount) -> String {
     match parts.as_slice() {
         [] => "No operations.".to_owned(),
         [only] => format!("{only}."),
-        parts => format!("{}: {}.", plural(count.total(), "operation"), parts.join(", ")),
+        parts => format!(
+            "{}: {}.",
+            plural(count.total(), "operation"),
+            parts.join(", ")
+        ),
     }
 }
 
@@ -153,18 +186,24 @@ mod tests {
         count.divisions = 1;
         assert_eq!(operations(&count), "1 division.");
         count.kernels = 2;
-        assert_eq!(operations(&count), "3 operations: 1 division, 2 divided differences.");
+        assert_eq!(
+            operations(&count),
+            "3 operations: 1 division, 2 divided differences."
+        );
     }
 
     #[test]
-    fn long_formulas_are_broken_at_blanks() {
+    fn long_formulas_are_broken_at_operators() {
         let terms: Vec<String> = (0..60).map(|i| format!("term{i}")).collect();
         let formula = terms.join(" + ");
         let mut lines = Vec::new();
         wrap(&formula, &mut lines);
         assert!(lines.len() > 1);
         assert!(lines.iter().all(|line| line.chars().count() <= WIDTH));
-        let words: Vec<&str> = lines.iter().flat_map(|line| line.split_whitespace()).collect();
+        let words: Vec<&str> = lines
+            .iter()
+            .flat_map(|line| line.split_whitespace())
+            .collect();
         assert_eq!(words.join(" "), formula);
     }
 }

@@ -25,10 +25,14 @@ fn entropy_form(program: &Program, inputs: &Inputs) -> TokenStream {
     let (old, new) = (old_stage(program, inputs), new_stage(program, inputs));
     let old_docs = docs::old_stage("Entropy form: what the old state decides.", program);
     let new_docs = docs::new_stage(
-        "Entropy form: algorithmic quantities at the corner temperatures, and their tangent.",
+        "Entropy form: algorithmic quantities and their tangent.",
         program,
     );
-    let corners = if inputs.thermal { quote!(__corners) } else { quote!(_) };
+    let corners = if inputs.thermal {
+        quote!(__corners)
+    } else {
+        quote!(_)
+    };
     quote! {
         #old_docs
         fn entropy_form_old(&self, __x0: &Self::Variables) -> Self::EntropyFormOld { #old }
@@ -90,9 +94,15 @@ fn old_stage(program: &Program, inputs: &Inputs) -> TokenStream {
 fn new_stage(program: &Program, inputs: &Inputs) -> TokenStream {
     let hoisted = program.hoisted().into_iter().map(value);
     let lets = statements(program, inputs, Stage::New);
-    let outputs: Vec<_> = program.outputs.iter().map(|&output| value(output)).collect();
+    let outputs: Vec<_> = program
+        .outputs
+        .iter()
+        .map(|&output| value(output))
+        .collect();
     let (response, tangent) = outputs.split_at(inputs.responses());
-    let rows = tangent.chunks(inputs.variables).map(|row| quote!([#(#row),*]));
+    let rows = tangent
+        .chunks(inputs.variables)
+        .map(|row| quote!([#(#row),*]));
     quote! {
         let [#(#hoisted),*] = *__old;
         #lets

@@ -4,7 +4,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use crate::ast::Role;
-use crate::checked::{Checked, Parameter};
+use crate::checked::{Checked, Parameter, ParameterKind};
 
 /// The parameters and the shape of the state of one model.
 pub(super) struct Inputs {
@@ -41,7 +41,11 @@ impl Inputs {
 
     /// Number of corner temperatures of the entropy form, 2(N − 1) if there is a temperature.
     pub(super) fn corners(&self) -> usize {
-        if self.thermal { 2 * (self.variables - 1) } else { 0 }
+        if self.thermal {
+            2 * (self.variables - 1)
+        } else {
+            0
+        }
     }
 
     /// Number of algorithmic quantities: f* and g*, and with a temperature θ* and Δs.
@@ -69,11 +73,7 @@ impl Inputs {
         })
     }
 
-    fn parameter_or(
-        &self,
-        index: usize,
-        state: impl FnOnce(usize) -> TokenStream,
-    ) -> TokenStream {
+    fn parameter_or(&self, index: usize, state: impl FnOnce(usize) -> TokenStream) -> TokenStream {
         match self.parameters.get(index) {
             Some(parameter) => parameter.clone(),
             None => state(index - self.parameters.len()),
@@ -83,11 +83,13 @@ impl Inputs {
 
 fn parameter(parameter: &Parameter<'_>, scalar: &TokenStream) -> TokenStream {
     let ident = parameter.ident;
-    if parameter.float {
-        // `f32` widens, `f64` stays what it is.
-        quote!(<#scalar as __eem::Scalar>::from_f64(__eem::core::convert::From::from(self.#ident)))
-    } else {
-        quote!(self.#ident)
+    match parameter.kind {
+        ParameterKind::Double => quote!(<#scalar as __eem::Scalar>::from_f64(self.#ident)),
+        ParameterKind::Single => {
+            let double = quote!(__eem::core::convert::From::from(self.#ident));
+            quote!(<#scalar as __eem::Scalar>::from_f64(#double))
+        }
+        ParameterKind::Scalar => quote!(self.#ident),
     }
 }
 

@@ -57,9 +57,15 @@ fn gradient(program: &Program, inputs: &Inputs) -> TokenStream {
 // Expands to: `let __v0 = …; ([__v7, __v8], [[__v9, __v10], [__v10, __v11]])`.
 fn hessian(program: &Program, inputs: &Inputs) -> TokenStream {
     let lets = lets(program, inputs);
-    let outputs: Vec<_> = program.outputs.iter().map(|&output| value(output)).collect();
+    let outputs: Vec<_> = program
+        .outputs
+        .iter()
+        .map(|&output| value(output))
+        .collect();
     let (gradient, hessian) = outputs.split_at(inputs.variables);
-    let rows = hessian.chunks(inputs.variables).map(|row| quote!([#(#row),*]));
+    let rows = hessian
+        .chunks(inputs.variables)
+        .map(|row| quote!([#(#row),*]));
     let docs = docs::function("Gradient ∂ψ/∂x and Hessian ∂²ψ/∂x².", program);
     quote! {
         #docs
@@ -118,9 +124,17 @@ fn viscosity(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
         input: &|index| inputs.viscosity(index),
     }
     .lets(|_| true);
-    let outputs: Vec<_> = program.outputs.iter().map(|&output| value(output)).collect();
+    let outputs: Vec<_> = program
+        .outputs
+        .iter()
+        .map(|&output| value(output))
+        .collect();
     let (viscosities, derivatives) = outputs.split_at(inputs.dashpots);
-    let theta = if inputs.thermal { quote!(__theta) } else { quote!(_) };
+    let theta = if inputs.thermal {
+        quote!(__theta)
+    } else {
+        quote!(_)
+    };
     let docs = docs::function("Viscosities η and dη/dθ.", program);
     quote! {
         #docs

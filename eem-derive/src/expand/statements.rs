@@ -46,7 +46,9 @@ impl Statements<'_> {
             Operation::Sqrt(a) => self.method("sqrt", &[*a], None),
             Operation::Power(a, b) => self.method("powf", &[*a, *b], None),
             Operation::Apply(function, a) => self.method(function.name(), &[*a], None),
-            Operation::DividedDifference(kernel, a, b) => divided_difference("_dd", *kernel, *a, *b),
+            Operation::DividedDifference(kernel, a, b) => {
+                divided_difference("_dd", *kernel, *a, *b)
+            }
             Operation::SecondDividedDifference(kernel, a, b) => {
                 divided_difference("_dd2", *kernel, *a, *b)
             }

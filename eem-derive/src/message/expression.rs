@@ -103,7 +103,9 @@ pub(crate) fn diff_variable<'n>(
 ) -> Message {
     let name = ast::name(name);
     Message::new(
-        format!("`{name}` is a {kind}, and `diff` is with respect to an argument of the free energy"),
+        format!(
+            "`{name}` is a {kind}, and `diff` is with respect to an argument of the free energy"
+        ),
         format!("the arguments are {}", list(arguments)),
     )
 }
@@ -118,7 +120,10 @@ pub(crate) fn abs_of_state(argument: &str) -> Message {
 pub(crate) fn law_of_state(name: &Ident, role: Role) -> Message {
     let name = ast::name(name);
     Message::new(
-        format!("a viscosity depends on the temperature and the fields, and `{name}` is a `{}`", role.name()),
+        format!(
+            "a viscosity depends on the temperature and the fields, and `{name}` is a `{}`",
+            role.name()
+        ),
         format!("remove `{name}` from the law"),
     )
 }
@@ -141,7 +146,14 @@ pub(crate) fn number_out_of_range() -> Message {
 pub(crate) fn not_finite() -> Message {
     Message::new(
         "this constant is not a finite number",
-        "check the domain: `1 / 0`, `ln(0)` and `sqrt(-1)` have no value",
+        "check the domain: `ln(0)` and `sqrt(-1)` have no value",
+    )
+}
+
+pub(crate) fn divisor_is_zero() -> Message {
+    Message::new(
+        "this divisor is zero",
+        "check the constants in it; numbers are exact, `2 - 2` is nothing but zero",
     )
 }
 

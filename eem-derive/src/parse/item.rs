@@ -27,7 +27,10 @@ pub(super) fn fields<'a>(cx: &Ctxt, input: &'a DeriveInput) -> Option<Vec<Field<
                 .inspect(|field| check_attributes(cx, field))
                 .filter_map(|field| {
                     let ident = field.ident.as_ref()?;
-                    Some(Field { ident, ty: &field.ty })
+                    Some(Field {
+                        ident,
+                        ty: &field.ty,
+                    })
                 })
                 .collect(),
         ),

@@ -52,10 +52,9 @@ where
     ) {
         for i in 0..self.members.len() {
             self.assemble_momentum(view, trial, i, system);
-            if let Some(slot) = self.members[i].slots.thermal {
-                if let Some(unknown) = view.layout.coupled[slot] {
-                    self.assemble_temperature(view, trial, i, unknown, system);
-                }
+            let slot = self.members[i].slots.thermal;
+            if let Some(unknown) = slot.and_then(|slot| view.layout.coupled[slot]) {
+                self.assemble_temperature(view, trial, i, unknown, system);
             }
         }
     }
@@ -74,7 +73,8 @@ where
         self.geometry.gather(i, C::PLACEMENT, old, &trial.positions);
         let response = self.members[i].response;
         let forces = &response.as_ref()[..M::MEASURES];
-        self.geometry.curve(self.kinematics, i, C::PLACEMENT, forces);
+        self.geometry
+            .curve(self.kinematics, i, C::PLACEMENT, forces);
         for (a, &force) in forces.iter().enumerate() {
             let row = self.condensed_row(i, a);
             let direction = &self.geometry.direction(i)[a * width..(a + 1) * width];
@@ -113,7 +113,10 @@ where
     ) {
         let member = &self.members[i];
         let row = self.condensed_row(i, M::MEASURES + M::DASHPOTS);
-        let seen = member.slots.thermal.map_or(S::zero(), |slot| trial.seen_temperatures[slot]);
+        let seen = member
+            .slots
+            .thermal
+            .map_or(S::zero(), |slot| trial.seen_temperatures[slot]);
         system.add(unknown, unknown, S::one());
         system.add_right(unknown, member.temperature() + row.constant - seen);
         let sensitivity = self.stiffness_row(i, &row);
@@ -136,7 +139,9 @@ where
         let sensitivity = self.geometry.sensitivity(i);
         move |q| {
             let entries = row.by_measure.as_ref()[..M::MEASURES].iter().enumerate();
-            entries.fold(S::zero(), |sum, (b, &entry)| sum + entry * sensitivity[b * width + q])
+            entries.fold(S::zero(), |sum, (b, &entry)| {
+                sum + entry * sensitivity[b * width + q]
+            })
         }
     }
 
@@ -153,10 +158,10 @@ where
             return;
         };
         for link in view.conduction.links(slot) {
-            if let Partner::Slot(partner) = link.partner {
-                if let Some(column) = view.layout.coupled[partner] {
-                    system.add(row, column, factor * link.conductance);
-                }
+            if let Partner::Slot(partner) = link.partner
+                && let Some(column) = view.layout.coupled[partner]
+            {
+                system.add(row, column, factor * link.conductance);
             }
         }
     }
@@ -191,6 +196,14 @@ where
             let member = &mut self.members[i];
             member.previous = member.x;
             member.correction = correction;
+            if M::THERMAL {
+                member.previous_entropy_change = member.response.as_ref()[M::Variables::LEN];
+                let row = member.tangent.as_ref()[M::Variables::LEN].as_ref().iter();
+                let terms = row
+                    .zip(correction.as_ref())
+                    .map(|(&entry, &change)| entry * change);
+                member.entropy_correction = terms.fold(S::zero(), |sum, term| sum + term);
+            }
             for index in M::MEASURES..M::Variables::LEN {
                 let scale = if M::THERMAL && index == M::Variables::LEN - 1 {
                     member.x.as_ref()[index]
@@ -203,7 +216,7 @@ where
         largest
     }
 
-    /// `δu = −(constant + Σ_a by_measure_a δπ_a + by_heat δr_s)`.
+    /// The change of the measures, and `δu = −(constant + Σ_a by_measure_a δπ_a + by_heat δr_s)`.
     fn correction(&self, view: &StepView<'_, S>, i: usize, solution: &[S]) -> M::Variables {
         let member = &self.members[i];
         let condensed = &member.condensed;
@@ -218,10 +231,11 @@ where
             }
             heat *= self.heat_factor(view, i);
         }
+        let unknowns = M::MEASURES..M::Variables::LEN;
         let mut correction = M::Variables::filled(S::zero());
-        for u in 0..M::Variables::LEN - M::MEASURES {
+        for (u, at) in unknowns.clone().enumerate() {
             let constant = condensed.constant.as_ref()[u] + condensed.by_heat.as_ref()[u] * heat;
-            correction.as_mut()[M::MEASURES + u] = -constant;
+            correction.as_mut()[at] = -constant;
         }
         for a in 0..M::MEASURES {
             let sensitivity = &self.geometry.sensitivity(i)[a * width..(a + 1) * width];
@@ -229,9 +243,10 @@ where
             for (&entry, at) in sensitivity.iter().zip(self.unknowns(view, i)) {
                 change += entry * at.map_or(S::zero(), |at| solution[at]);
             }
+            correction.as_mut()[a] = change;
             let by_measure = &condensed.by_measure.as_ref()[a];
-            for u in 0..M::Variables::LEN - M::MEASURES {
-                correction.as_mut()[M::MEASURES + u] -= by_measure.as_ref()[u] * change;
+            for (u, at) in unknowns.clone().enumerate() {
+                correction.as_mut()[at] -= by_measure.as_ref()[u] * change;
             }
         }
         correction

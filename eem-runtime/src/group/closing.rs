@@ -27,7 +27,8 @@ where
     fn secant(&mut self, i: usize) -> bool {
         let response = self.members[i].response;
         let forces = &response.as_ref()[..M::MEASURES];
-        self.geometry.secant(self.kinematics, i, C::PLACEMENT, forces)
+        self.geometry
+            .secant(self.kinematics, i, C::PLACEMENT, forces)
     }
 
     /// See [`Group::add_secant`](super::Group::add_secant).
@@ -47,7 +48,9 @@ where
                 let Some(at) = at else { continue };
                 let row = &self.geometry.matrix[p * width..(p + 1) * width];
                 let coordinates = self.geometry.coordinates_of(i);
-                for ((&entry, to), coordinate) in row.iter().zip(self.unknowns(view, i)).zip(coordinates) {
+                for ((&entry, to), coordinate) in
+                    row.iter().zip(self.unknowns(view, i)).zip(coordinates)
+                {
                     system.add_right(at, -h * entry * old[coordinate]);
                     if let Some(to) = to {
                         system.add(at, to, half * h * entry);
@@ -93,7 +96,12 @@ where
     }
 
     /// See [`Group::close`](super::Group::close).
-    pub(super) fn close_all(&mut self, view: &StepView<'_, S>, trial: &Trial<S>, next: &mut State<S>) {
+    pub(super) fn close_all(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S>,
+        next: &mut State<S>,
+    ) {
         let share = S::from_f64(C::IMPLICIT);
         for member in &self.members {
             let forces = &member.response.as_ref()[M::MEASURES..M::MEASURES + M::DASHPOTS];
@@ -103,22 +111,28 @@ where
                 let rate = g / eta;
                 heat += g * rate;
                 let old_rate = member.old_rates.as_ref()[M::MEASURES + k];
-                next.viscous.add(member.slots.viscous + k, view.step * (share * rate + old_rate));
+                next.viscous.add(
+                    member.slots.viscous + k,
+                    view.step * (share * rate + old_rate),
+                );
             }
             let Some(slot) = member.slots.thermal else {
-                next.dissipated.add(0, view.step * (share * heat + member.old_dissipation()));
+                next.dissipated
+                    .add(0, view.step * (share * heat + member.old_dissipation()));
                 continue;
             };
             let theta = member.temperature();
             heat += view.conduction.heat_flow(slot, theta, &trial.temperatures);
             let old_rate = member.old_rates.as_ref()[M::MEASURES + M::DASHPOTS];
-            next.entropies.add(slot, view.step * (share * heat / theta + old_rate));
+            next.entropies
+                .add(slot, view.step * (share * heat / theta + old_rate));
             let seen = share * theta + (S::one() - share) * view.state.temperatures[slot];
             for link in view.conduction.links(slot) {
                 if let Partner::Reservoir(index) = link.partner {
                     let theta_r = view.conduction.reservoirs[index];
                     let flow = link.conductance * (seen - theta_r);
-                    next.reservoir_entropies.add(index, view.step * flow / theta_r);
+                    next.reservoir_entropies
+                        .add(index, view.step * flow / theta_r);
                 }
             }
         }
@@ -127,7 +141,8 @@ where
     /// See [`Group::settle`](super::Group::settle).
     pub(super) fn settle_all(&mut self, state: &mut State<S>) -> Result<(), StateError> {
         for i in 0..self.members.len() {
-            self.geometry.measure_at(self.kinematics, i, state.positions.values());
+            self.geometry
+                .measure_at(self.kinematics, i, state.positions.values());
             let measures = &self.geometry.old_measures[self.geometry.measures_range(i)];
             let member = &mut self.members[i];
             check_measures(self.kinematics, member.element, measures)?;

@@ -28,7 +28,10 @@ where
             let member = &mut self.members[i];
             let measures = &self.geometry.old_measures[self.geometry.measures_range(i)];
             let x0 = variables::<S, M>(measures, member.slots, view.state);
-            let entropy = member.slots.thermal.map(|slot| view.state.entropies.values()[slot]);
+            let entropy = member
+                .slots
+                .thermal
+                .map(|slot| view.state.entropies.values()[slot]);
             member.start = Some(Start {
                 x0,
                 entropy: entropy.unwrap_or(S::zero()),
@@ -37,6 +40,8 @@ where
             member.x = x0;
             member.previous = x0;
             member.correction = M::Variables::filled(S::zero());
+            member.previous_entropy_change = S::zero();
+            member.entropy_correction = S::zero();
             if M::THERMAL {
                 let theta = x0.as_ref()[M::Variables::LEN - 1];
                 member.corners = M::Corners::filled(theta);
@@ -105,12 +110,19 @@ where
             let Some(start) = &member.start else {
                 unreachable!("a step begins before it is evaluated");
             };
+            let element = member.element;
+            if M::THERMAL {
+                let theta = C::temperature(&member.model, start, &member.x, member.entropy_change);
+                member.x.as_mut()[M::Variables::LEN - 1] =
+                    theta.map_err(|infeasible| infeasible.of(element))?;
+            }
             let response = C::respond(&member.model, start, &member.x, &mut member.corners);
             (member.response, member.tangent) =
-                response.map_err(|infeasible| infeasible.of(member.element))?;
+                response.map_err(|infeasible| infeasible.of(element))?;
             check_response::<S, M>(member.element, &member.response)?;
             member.find_viscosities(member.temperature())?;
-            self.local.condense(view, &trial.seen_temperatures, member)?;
+            self.local
+                .condense(view, &trial.seen_temperatures, member)?;
             if let Some(slot) = member.slots.thermal {
                 trial.temperatures[slot] = member.temperature();
             }
@@ -125,7 +137,10 @@ pub(super) fn check_measures<S: Real, K: Kinematics<S>>(
     element: Element,
     measures: &[S],
 ) -> Result<(), StateError> {
-    match measures.iter().find(|&&measure| !kinematics.is_admissible(measure)) {
+    match measures
+        .iter()
+        .find(|&&measure| !kinematics.is_admissible(measure))
+    {
         None => Ok(()),
         Some(measure) => Err(StateError::Stretch {
             element,

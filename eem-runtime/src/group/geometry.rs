@@ -119,7 +119,13 @@ impl<S: Real> Geometry<S> {
     }
 
     /// The measures of element `i` at one set of positions, into `measures`.
-    pub(crate) fn measure_into<K: Kinematics<S>>(&self, kinematics: K, i: usize, q: &[S], measures: &mut [S]) {
+    pub(crate) fn measure_into<K: Kinematics<S>>(
+        &self,
+        kinematics: K,
+        i: usize,
+        q: &[S],
+        measures: &mut [S],
+    ) {
         let mut coordinates = [S::zero(); MOST_COORDINATES];
         for (own, global) in coordinates.iter_mut().zip(self.coordinates_of(i)) {
             *own = q[global];

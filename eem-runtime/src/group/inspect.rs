@@ -23,12 +23,16 @@ where
     /// See [`Group::initialize`](super::Group::initialize).
     pub(super) fn initialize_all(&mut self, state: &mut State<S>) -> Result<(), StateError> {
         for i in 0..self.members.len() {
-            self.geometry.measure_at(self.kinematics, i, state.positions.values());
+            self.geometry
+                .measure_at(self.kinematics, i, state.positions.values());
             let measures = &self.geometry.old_measures[self.geometry.measures_range(i)];
             let member = &mut self.members[i];
             check_measures(self.kinematics, member.element, measures)?;
             let x = variables::<S, M>(measures, member.slots, state);
-            let theta = member.slots.thermal.map_or(S::zero(), |slot| state.temperatures[slot]);
+            let theta = member
+                .slots
+                .thermal
+                .map_or(S::zero(), |slot| state.temperatures[slot]);
             member.find_viscosities(theta)?;
             let Some(slot) = member.slots.thermal else {
                 continue;
@@ -56,7 +60,8 @@ where
     /// The variables of element `i` in a state.
     fn variables_at(&self, i: usize, state: &State<S>) -> M::Variables {
         let mut measures = [S::zero(); MOST_MEASURES];
-        self.geometry.measure_into(self.kinematics, i, state.positions.values(), &mut measures);
+        self.geometry
+            .measure_into(self.kinematics, i, state.positions.values(), &mut measures);
         variables::<S, M>(&measures[..M::MEASURES], self.members[i].slots, state)
     }
 

@@ -132,7 +132,13 @@ impl<S: Real> LocalSolver<S> {
     }
 
     /// Stores `∂r_row/∂x_column`: measures in `by_measure`, a row per measure; local unknowns in `matrix`.
-    fn store<V: Array<S>, H: Array<V>>(&mut self, by_measure: &mut H, row: usize, column: usize, entry: S) {
+    fn store<V: Array<S>, H: Array<V>>(
+        &mut self,
+        by_measure: &mut H,
+        row: usize,
+        column: usize,
+        entry: S,
+    ) {
         let unknowns = self.pivots.len();
         let measures = V::LEN - unknowns;
         if column < measures {

@@ -19,6 +19,10 @@ pub(crate) struct Member<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>> {
     pub(crate) old_rates: M::Variables,
     /// The trial variables `(π, γ, τ)`.
     pub(crate) x: M::Variables,
+    /// The trial Δs, before the last correction, and the correction, J/K.
+    pub(crate) entropy_change: S,
+    pub(crate) previous_entropy_change: S,
+    pub(crate) entropy_correction: S,
     /// The trial variables before the last correction, and the correction.
     pub(crate) previous: M::Variables,
     pub(crate) correction: M::Variables,
@@ -26,7 +30,7 @@ pub(crate) struct Member<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>> {
     pub(crate) corners: M::Corners,
     pub(crate) response: M::Response,
     pub(crate) tangent: M::Tangent,
-    /// η_k and dη_k/dθ at θ*.
+    /// `η_k` and `dη_k/dθ` at θ*.
     pub(crate) viscosities: (M::Viscosities, M::Viscosities),
     /// Local unknowns as functions of the global ones.
     pub(crate) condensed: Condensed<S, M>,
@@ -52,6 +56,9 @@ impl<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>> Member<S, M, C> {
             start: None,
             old_rates: zeros,
             x: zeros,
+            entropy_change: S::zero(),
+            previous_entropy_change: S::zero(),
+            entropy_correction: S::zero(),
             previous: zeros,
             correction: zeros,
             corners: M::Corners::filled(S::zero()),
@@ -87,14 +94,21 @@ impl<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>> Member<S, M, C> {
         };
         let dashpots = M::MEASURES..M::MEASURES + M::DASHPOTS;
         let forces = self.model.gradient(&start.x0);
-        let pairs = forces.as_ref()[dashpots.clone()].iter().zip(&self.old_rates.as_ref()[dashpots]);
+        let pairs = forces.as_ref()[dashpots.clone()]
+            .iter()
+            .zip(&self.old_rates.as_ref()[dashpots]);
         pairs.fold(S::zero(), |sum, (&force, &rate)| sum - force * rate)
     }
 
     /// The viscosities at a temperature, all positive.
     pub(crate) fn find_viscosities(&mut self, theta: S) -> Result<(), StateError> {
         self.viscosities = self.model.viscosity(theta);
-        let bad = self.viscosities.0.as_ref().iter().position(|&eta| !is_positive(eta));
+        let bad = self
+            .viscosities
+            .0
+            .as_ref()
+            .iter()
+            .position(|&eta| !is_positive(eta));
         match bad {
             None => Ok(()),
             Some(dashpot) => Err(StateError::Viscosity {
@@ -118,6 +132,7 @@ impl<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>> Member<S, M, C> {
             let theta = self.previous.as_ref()[index];
             let change = share * self.correction.as_ref()[index] / theta;
             self.x.as_mut()[index] = theta * limited(change).exp();
+            self.entropy_change = self.previous_entropy_change + share * self.entropy_correction;
         }
     }
 }

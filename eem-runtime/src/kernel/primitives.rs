@@ -13,6 +13,9 @@ const EXPONENTIAL_TERMS: usize = 19;
 /// Number of terms of `Σ 2k(±x²)^(k−1)/(2k+1)!` for |x| < 1: 20/21! = 2⁻⁶¹.
 const SINC_TERMS: usize = 9;
 
+/// Splits 53 binary digits into halves: 2²⁷ + 1.
+const SPLIT: f64 = 134_217_729.0;
+
 /// `1/(k+2)!` for `k = 0, 1, …`: correctly rounded, as 20! < 2⁶².
 const EXPONENTIAL: [f64; EXPONENTIAL_TERMS] = exponential_coefficients();
 
@@ -201,9 +204,30 @@ pub(super) fn sinhc_tail_near<S: Scalar>(x: S) -> S {
 
 /// `a + b = sum + error` exactly (Knuth 1969, `TwoSum`).
 #[inline]
-pub(super) fn two_sum<S: Scalar>(a: S, b: S) -> (S, S) {
+pub(crate) fn two_sum<S: Scalar>(a: S, b: S) -> (S, S) {
     let sum = a + b;
     let tail = sum - a;
     let error = (a - (sum - tail)) + (b - tail);
     (sum, error)
+}
+
+/// `ab = product + error` exactly in double precision (Dekker 1971), short of overflow.
+///
+/// In single precision the splitting constant is too large and the error comes
+/// out as zero: the product is then the ordinary one.
+#[inline]
+pub(super) fn two_product<S: Scalar>(a: S, b: S) -> (S, S) {
+    let product = a * b;
+    let ((a_high, a_low), (b_high, b_low)) = (split(a), split(b));
+    let cross = a_high * b_low + a_low * b_high;
+    let error = ((a_high * b_high - product) + cross) + a_low * b_low;
+    (product, error)
+}
+
+/// The upper and the lower half of the digits (Veltkamp 1968).
+#[inline]
+fn split<S: Scalar>(x: S) -> (S, S) {
+    let shifted = S::from_f64(SPLIT) * x;
+    let high = shifted - (shifted - x);
+    (high, x - high)
 }

@@ -1,6 +1,6 @@
 //! Integer powers: sums of products of equal sign, for ends of any sign.
 
-use super::primitives::{ends, half, in_range_or, twice};
+use super::primitives::{ends, half, in_range_or, twice, two_product};
 use crate::scalar::{Scalar, natural_power};
 
 /// `f[a,b]` of an integer power, for any signs (negative `n`: `a, b ≠ 0`).
@@ -34,7 +34,7 @@ pub fn powi_dd<S: Scalar>(a: S, b: S, n: i32) -> S {
     })
 }
 
-/// `f[a,b,b]` of an integer power, for any signs (negative `n`: `a, b ≠ 0`).
+/// `f[a,b,b]` of an integer power, for any signs (negative `n`: `a, b` of one sign).
 ///
 /// ```text
 /// f = xⁿ:   f[a,b,b] = Qₙ(a,b) = Σ (i + 1) a^(n−2−i) b^i
@@ -64,12 +64,40 @@ pub fn powi_dd2<S: Scalar>(a: S, b: S, n: i32) -> S {
 
 /// `numerator/(aⁿbⁿ)`, the larger power first: what it divides is of nearly its size.
 fn over_powers<S: Scalar>(numerator: S, a: S, b: S, n: u32) -> S {
-    let (a_power, b_power) = (natural_power(a, n), natural_power(b, n));
+    let (a_power, b_power) = (compensated_power(a, n), compensated_power(b, n));
     S::branch(
         a_power.abs().less(b_power.abs()),
         || numerator / b_power / a_power,
         || numerator / a_power / b_power,
     )
+}
+
+/// `base^n` rounded nearly once: the rounding errors of the products are carried along.
+///
+/// Without this the two powers of a divisor would double the error of `Pₙ`.
+fn compensated_power<S: Scalar>(base: S, n: u32) -> S {
+    let mut remaining = n;
+    let mut square = (base, S::zero());
+    let mut power = if n.is_multiple_of(2) {
+        (S::one(), S::zero())
+    } else {
+        square
+    };
+    while remaining > 1 {
+        remaining /= 2;
+        square = compensated_product(square, square);
+        if !remaining.is_multiple_of(2) {
+            power = compensated_product(power, square);
+        }
+    }
+    power.0 + power.1
+}
+
+/// The product of two numbers with their errors, to first order in the errors.
+#[inline]
+fn compensated_product<S: Scalar>(a: (S, S), b: (S, S)) -> (S, S) {
+    let (product, error) = two_product(a.0, b.0);
+    (product, error + (a.0 * b.1 + a.1 * b.0))
 }
 
 /// `Pₙ(a,b)`, bitwise symmetric.

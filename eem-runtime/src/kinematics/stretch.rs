@@ -69,7 +69,9 @@ impl<S: Real, const D: usize> Kinematics<S> for Stretch<D> {
     #[inline]
     fn measure(&self, q: &[S], measures: &mut [S]) {
         let r: [S; D] = difference(q);
-        let square = r.iter().fold(S::zero(), |sum, &component| sum + component * component);
+        let square = r
+            .iter()
+            .fold(S::zero(), |sum, &component| sum + component * component);
         measures[0] = square.sqrt();
     }
 
@@ -93,7 +95,10 @@ impl<S: Real, const D: usize> Kinematics<S> for Stretch<D> {
     fn discrete_gradient(&self, ends: Ends<'_, S>, gradient: &mut [S]) {
         let (r0, r1): ([S; D], [S; D]) = (difference(ends.q0), difference(ends.q1));
         let sum = ends.measures0[0] + ends.measures1[0];
-        spread::<S, D>(core::array::from_fn(|axis| (r0[axis] + r1[axis]) / sum), gradient);
+        spread::<S, D>(
+            core::array::from_fn(|axis| (r0[axis] + r1[axis]) / sum),
+            gradient,
+        );
     }
 
     // ∂(f 2r_m/(λ⁰ + λ¹))/∂r¹ = f/(λ⁰ + λ¹) (1 − 2r_m/(λ⁰ + λ¹) n¹ᵀ)

@@ -18,15 +18,24 @@ impl<const D: usize, S: Real> Scene<D, S> {
             return Err(misuse.clone());
         }
         for (index, entry) in self.nodes.iter().enumerate() {
-            let node = Node { scene: self.id, index };
+            let node = Node {
+                scene: self.id,
+                index,
+            };
             check_node(node, entry)?;
         }
         for (index, &temperature) in self.reservoirs.iter().enumerate() {
-            let reservoir = Reservoir { scene: self.id, index };
+            let reservoir = Reservoir {
+                scene: self.id,
+                index,
+            };
             check_reservoir(reservoir, temperature)?;
         }
         for (index, entry) in self.elements.iter().enumerate() {
-            let element = Element { scene: self.id, index };
+            let element = Element {
+                scene: self.id,
+                index,
+            };
             let group = &self.groups[entry.group];
             group.check_parameters(entry.place, element)?;
             check_element(element, entry, group.shape())?;
@@ -115,17 +124,21 @@ fn check_element<S: Real>(
         }
         if !stretch.is_finite() {
             let value = stretch.to_f64();
-            return Err(StateError::ViscousStretch { element, dashpot, value }.into());
+            return Err(StateError::ViscousStretch {
+                element,
+                dashpot,
+                value,
+            }
+            .into());
         }
     }
     match (entry.temperature, shape.thermal) {
-        (None, false) => Ok(()),
         (None, true) => Err(SceneError::MissingTemperature { element }),
         (Some(_), false) => Err(SceneError::NotThermal { element }),
         (Some(temperature), true) if !is_positive(temperature) => {
             let value = temperature.to_f64();
             Err(StateError::Temperature { element, value }.into())
         }
-        (Some(_), true) => Ok(()),
+        (None, false) | (Some(_), true) => Ok(()),
     }
 }

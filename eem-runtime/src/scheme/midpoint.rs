@@ -4,8 +4,7 @@
 //! f* = ∂ψ/∂λ,  g* = −∂ψ/∂γ,  θ* = θ̂      at (λ(q_m), γ_m, s_m)
 //! ```
 //!
-//! It keeps the momenta exactly (Noether), energy and entropy only to second order. The local
-//! unknown is the temperature at the midpoint, so that no inversion is needed.
+//! It keeps the momenta exactly (Noether), energy and entropy only to second order.
 
 use super::{ElementScheme, Infeasible, Placement, Start, point};
 use crate::free_energy::FreeEnergy;
@@ -22,6 +21,15 @@ impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for 
     type Old = ();
 
     fn old(_: &M, _: &M::Variables) -> Self::Old {}
+
+    fn temperature(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        x: &M::Variables,
+        entropy_change: S,
+    ) -> Result<S, Infeasible> {
+        point::temperature(model, start, x, entropy_change, S::from_f64(0.5))
+    }
 
     fn respond(
         model: &M,

@@ -4,7 +4,7 @@
 //! z¹ − z⁰ = ½h (ż(z⁰) + ż(z¹)),      z = (q, p, γ, s)
 //! ```
 //!
-//! It keeps none of the laws. The local unknown is the new temperature.
+//! It keeps none of the laws.
 
 use super::{ElementScheme, Infeasible, Placement, Start, point};
 use crate::free_energy::FreeEnergy;
@@ -21,6 +21,15 @@ impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for 
     type Old = ();
 
     fn old(_: &M, _: &M::Variables) -> Self::Old {}
+
+    fn temperature(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        x: &M::Variables,
+        entropy_change: S,
+    ) -> Result<S, Infeasible> {
+        point::temperature(model, start, x, entropy_change, S::one())
+    }
 
     fn respond(
         model: &M,

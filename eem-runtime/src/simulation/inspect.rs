@@ -134,7 +134,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Energies, entropies and momenta, computed from the state by their definitions.
     #[must_use]
     pub fn ledger(&self) -> Ledger<S, D> {
-        Ledger::of(&self.state, &self.masses, &self.groups, &self.conduction.reservoirs)
+        Ledger::of(
+            &self.state,
+            &self.masses,
+            &self.groups,
+            &self.conduction.reservoirs,
+        )
     }
 
     fn view(&self, element: Element) -> Result<ElementView<S>, SceneError> {

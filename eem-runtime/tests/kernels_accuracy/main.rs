@@ -1,5 +1,5 @@
 //! Every kernel against 704 bits: at most 3 ulp for first differences (6 for the cube
-//! root, ½|n| + 1 for integer powers), some tens of ulp for second differences.
+//! root, ½|n| + 1 for integer powers), 16 ulp for second differences.
 //!
 //! One ulp is a relative error of 2⁻⁵². First differences are relative to their value, second
 //! differences to `∫₀¹ t|f″| dt`, which is their value unless `f″` changes sign.
@@ -18,8 +18,8 @@ const PAIRS: usize = 2000;
 /// The bound on first differences.
 const FIRST_LIMIT: f64 = 3.0;
 
-/// The bound on second differences: 1e-14.
-const SECOND_LIMIT: f64 = 45.0;
+/// The bound on second differences.
+const SECOND_LIMIT: f64 = 16.0;
 
 type Kernel = Box<dyn Fn(f64, f64) -> f64>;
 
@@ -30,7 +30,7 @@ enum Scale {
     /// `∫₀¹ t|f″| dt`, where `f″` changes sign at zero.
     OddCurvature,
     /// A given function of the ends.
-    Given(fn(f64, f64) -> f64),
+    Given(Kernel),
 }
 
 struct Case {
@@ -104,16 +104,18 @@ impl Case {
                 "{}[{a:e}, {b:e}] is not symmetric",
                 self.name
             );
-            let exact = oracle.first(&self.function, a, b);
+            let (exact, exact_second) = oracle.differences(&self.function, a, b);
             worst_first.note(ulps(computed, &exact, to_f64(&exact).abs()), a, b);
 
-            let exact = oracle.second(&self.function, a, b);
-            let scale = match self.scale {
-                Scale::Value => to_f64(&exact).abs(),
-                Scale::OddCurvature => oracle.second_magnitude(&self.function, a, b),
-                Scale::Given(scale) => scale(a, b).max(to_f64(&exact).abs()),
+            let value = to_f64(&exact_second).abs();
+            let scale = match &self.scale {
+                Scale::Value => value,
+                Scale::OddCurvature => {
+                    oracle.second_magnitude(&self.function, (a, b), &exact_second)
+                }
+                Scale::Given(scale) => scale(a, b).max(value),
             };
-            worst_second.note(ulps((self.second)(a, b), &exact, scale), a, b);
+            worst_second.note(ulps((self.second)(a, b), &exact_second, scale), a, b);
         }
         println!(
             "{:12} first {:6.2} ulp (rms {:.2})   second {:6.2} ulp (rms {:.2})",
@@ -175,18 +177,18 @@ fn reciprocal_and_roots() {
         .check();
     Case::new("cbrt", cbrt_dd, cbrt_dd2, |_, x| cbrt(x))
         .limit(6.0)
-        .scale(Scale::Given(|a, b| {
+        .scale(Scale::Given(Box::new(|a: f64, b: f64| {
             // −(x + 2y)/(3y²q²) without the cancellation in x + 2y.
             let (x, y) = (a.cbrt(), b.cbrt());
             let q = x * x + x * y + y * y;
             (x.abs() + 2.0 * y.abs()) / (3.0 * y * y * q * q)
-        }))
+        })))
         .check();
 }
 
 #[test]
 fn integer_powers() {
-    for n in [2, 3, 4, 5, 6, 7, 12, 20, -1, -2, -3, -5, -8] {
+    for n in [2, 3, 4, 5, 7, 12, 20, -1, -2, -3, -4, -5, -8, -13] {
         let order = usize::try_from(i32::abs(n)).unwrap();
         let limit = 0.5 * f64::from(n.abs()) + 1.0;
         let case = Case::new(
@@ -203,10 +205,11 @@ fn integer_powers() {
             },
         );
         case.limit(limit)
-            .scale(if n % 2 == 0 {
-                Scale::Value
-            } else {
-                Scale::OddCurvature
+            .scale(match n {
+                // Across the pole the terms of the sum differ in sign.
+                ..0 => Scale::Given(Box::new(move |a, b| powi_dd2(a.abs(), b.abs(), n))),
+                _ if n % 2 == 0 => Scale::Value,
+                _ => Scale::OddCurvature,
             })
             .check();
     }
@@ -214,20 +217,7 @@ fn integer_powers() {
 
 #[test]
 fn real_powers() {
-    for p in [
-        1.5,
-        1.0 / 3.0,
-        0.01,
-        -2.7,
-        9.3,
-        0.5,
-        0.999,
-        1.001,
-        1.4,
-        2.5,
-        1.6,
-        -0.3,
-    ] {
+    for p in [1.5, 1.0 / 3.0, 0.01, -2.7, 9.3, 0.999, 1.4, 1.6, -0.3] {
         Case::new(
             &format!("powf {p:.3}"),
             move |a, b| powf_dd(a, b, p),
@@ -289,9 +279,9 @@ fn weighted_mean(a: f64, b: f64, g: fn(f64) -> f64) -> f64 {
 fn trigonometric() {
     for case in [
         Case::new("sin", sin_dd, sin_dd2, big!(sin))
-            .scale(Scale::Given(|a, b| weighted_mean(a, b, f64::sin))),
+            .scale(Scale::Given(Box::new(|a, b| weighted_mean(a, b, f64::sin)))),
         Case::new("cos", cos_dd, cos_dd2, big!(cos))
-            .scale(Scale::Given(|a, b| weighted_mean(a, b, f64::cos))),
+            .scale(Scale::Given(Box::new(|a, b| weighted_mean(a, b, f64::cos)))),
     ] {
         case.exponents(-8.0, 4.0).check();
     }
@@ -373,9 +363,9 @@ fn general_power_loses_no_more_than_its_condition() {
         }
         let x = |x: f64| third * x * x.ln();
         // The difference of X exactly, so that only this kernel is measured.
-        let exact_inner = oracle.first(&inner, a, b);
+        let (exact_inner, _) = oracle.differences(&inner, a, b);
         let computed = power_dd(a.powf(third * a), b.powf(third * b), x(a), x(b));
-        let exact = div(&oracle.first(&function, a, b), &exact_inner);
+        let exact = div(&oracle.differences(&function, a, b).0, &exact_inner);
         let condition = x(a).abs().max(x(b).abs()).max(1.0);
         worst = worst.max(ulps(computed, &exact, to_f64(&exact).abs()) / condition);
     }

@@ -54,33 +54,32 @@ impl Oracle {
         )
     }
 
-    /// `f[a,b]`.
-    pub(crate) fn first(&mut self, f: &Function, a: f64, b: f64) -> BigFloat {
-        let (x, y) = (Self::number(a), Self::number(b));
-        if a.to_bits() == b.to_bits() {
-            self.slope(f, &x)
-        } else {
-            self.quotient(f, &x, &y)
-        }
-    }
-
-    /// `f[a,b,b]`.
-    pub(crate) fn second(&mut self, f: &Function, a: f64, b: f64) -> BigFloat {
+    /// `f[a,b]` and `f[a,b,b]`.
+    pub(crate) fn differences(&mut self, f: &Function, a: f64, b: f64) -> (BigFloat, BigFloat) {
         let y = Self::number(b);
-        let x = if a.to_bits() == b.to_bits() {
+        let slope = self.slope(f, &y);
+        let equal = a.to_bits() == b.to_bits();
+        let x = if equal {
             add(&y, &mul(&y, &Self::number(CONFLUENT_STEP)))
         } else {
             Self::number(a)
         };
-        let difference = sub(&self.slope(f, &y), &self.quotient(f, &x, &y));
-        div(&difference, &sub(&y, &x))
+        let quotient = self.quotient(f, &x, &y);
+        let second = div(&sub(&slope, &quotient), &sub(&y, &x));
+        (if equal { slope } else { quotient }, second)
     }
 
     /// `∫₀¹ t|f″(a + t(b − a))| dt` for an `f″` that changes sign at zero only.
-    pub(crate) fn second_magnitude(&mut self, f: &Function, a: f64, b: f64) -> f64 {
-        let total = self.second(f, a, b);
+    ///
+    /// `total` is `f[a,b,b]`.
+    pub(crate) fn second_magnitude(
+        &mut self,
+        f: &Function,
+        (a, b): (f64, f64),
+        total: &BigFloat,
+    ) -> f64 {
         if a * b >= 0.0 {
-            return to_f64(&total).abs();
+            return to_f64(total).abs();
         }
         // By parts on the side of b: ∫ t f″ dt = (f′(b) − t₀f′(0))/d − (f(b) − f(0))/d².
         let (x, y) = (Self::number(a), Self::number(b));
@@ -90,7 +89,7 @@ impl Oracle {
         let slopes = sub(&self.slope(f, &y), &mul(&start, &self.slope(f, &zero)));
         let values = sub(&f(self, &y), &f(self, &zero));
         let beside_b = sub(&div(&slopes, &d), &div(&div(&values, &d), &d));
-        let beside_a = sub(&total, &beside_b);
+        let beside_a = sub(total, &beside_b);
         to_f64(&beside_b).abs() + to_f64(&beside_a).abs()
     }
 

@@ -32,8 +32,7 @@ struct Mean {
 /// Edge in entropy at fixed y: θ̄.
 pub(super) fn thermal(step: &mut Step, a: &Point, b: &Point) -> Edge {
     let mean = mean(step, a, b);
-    let entropy = step.graph.recip(mean.entropy);
-    let reciprocal = step.name(entropy);
+    let reciprocal = step.reciprocal(mean.entropy);
     let mut partials = Vec::new();
     for symbol in step.moving(a, b) {
         let change = mean.change(step, symbol);
@@ -58,8 +57,7 @@ pub(super) fn mechanical(step: &mut Step, i: usize, a: &Point, b: &Point) -> Edg
     let gap = step.name(gap);
     let latent = step.graph.mul(gap, entropy);
     let value = step.graph.add(psi, latent);
-    let weight = step.graph.div(entropy, mean.entropy);
-    let weight = step.name(weight);
+    let weight = step.quotient(entropy, mean.entropy);
     let mut partials = Vec::new();
     for symbol in step.moving(a, b) {
         let change = mean.change(step, symbol);
@@ -87,8 +85,7 @@ fn mean(step: &mut Step, a: &Point, b: &Point) -> Mean {
     let ends = [a[last], b[last]];
     let energy = step.along(step.energy, last, ends, a);
     let entropy = step.along(step.entropy, last, ends, a);
-    let value = step.graph.div(energy, entropy);
-    let value = step.name(value);
+    let value = step.quotient(energy, entropy);
     Mean {
         energy,
         entropy,
@@ -111,6 +108,8 @@ impl Step {
     /// The symbols of two states that depend on the new state.
     fn moving(&self, a: &Point, b: &Point) -> BTreeSet<Symbol> {
         let symbols = a.iter().chain(b).copied();
-        symbols.filter(|symbol| !self.old.contains(symbol)).collect()
+        symbols
+            .filter(|symbol| !self.old.contains(symbol))
+            .collect()
     }
 }

@@ -1,6 +1,6 @@
 //! The discrete derivative of a free energy without temperature.
 
-use super::Step;
+use super::{Form, Step};
 use crate::node::ExprId;
 
 /// `[f*_a …, g*_k …]` and their tangent by rows.
@@ -8,7 +8,7 @@ use crate::node::ExprId;
 /// ```text
 /// f* = D_λ ψ,  g* = −D_γ ψ
 /// ```
-pub(crate) fn elastic_form(step: &mut Step) -> Vec<ExprId> {
+pub(crate) fn elastic_form(step: &mut Step) -> Form {
     let count = step.mechanical;
     let (old, new) = (step.old.clone(), step.new.clone());
     let (mut response, mut tangent) = (Vec::new(), Vec::new());
@@ -21,11 +21,13 @@ pub(crate) fn elastic_form(step: &mut Step) -> Vec<ExprId> {
         let derivative = step.half(&[renewed, reversed]);
         response.push(step.conjugate(i, derivative));
         for &symbol in &new {
-            let partials = [step.partial(renewed, symbol), step.partial(reversed, symbol)];
+            let partials = [
+                step.partial(renewed, symbol),
+                step.partial(reversed, symbol),
+            ];
             let partial = step.half(&partials);
             tangent.push(step.conjugate(i, partial));
         }
     }
-    response.extend(tangent);
-    response
+    Form { response, tangent }
 }

@@ -14,11 +14,11 @@
 //! ```
 
 use super::edge::{self, Edge};
-use super::{Point, Step};
+use super::{Form, Point, Step};
 use crate::node::{ExprId, Symbol};
 
 /// `[f*_a …, g*_k …, θ*, Δs]` and their tangent by rows.
-pub(crate) fn entropy_form(step: &mut Step) -> Vec<ExprId> {
+pub(crate) fn entropy_form(step: &mut Step) -> Form {
     let stairs = Stairs::new(step);
     let last = step.mechanical;
     let (mut response, mut tangent) = (Vec::new(), Vec::new());
@@ -26,16 +26,23 @@ pub(crate) fn entropy_form(step: &mut Step) -> Vec<ExprId> {
         let edges = stairs.edges(step, i);
         let values = edges.each_ref().map(|edge| edge.value);
         let derivative = step.half(&values);
-        response.push(if i < last { step.conjugate(i, derivative) } else { derivative });
+        response.push(if i < last {
+            step.conjugate(i, derivative)
+        } else {
+            derivative
+        });
         let row = stairs.total(step, &edges);
         for derivative in row {
-            tangent.push(if i < last { step.conjugate(i, derivative) } else { derivative });
+            tangent.push(if i < last {
+                step.conjugate(i, derivative)
+            } else {
+                derivative
+            });
         }
     }
     response.push(jump(step));
     tangent.extend(stairs.slopes);
-    response.extend(tangent);
-    response
+    Form { response, tangent }
 }
 
 /// S(x¹) − S(x⁰) as the sum of divided differences times increments, which keeps its relative
@@ -88,7 +95,9 @@ impl Stairs {
         for (k, point) in down.iter().enumerate().skip(1) {
             corners.push(Corner::new(step, point, k..n, true));
         }
-        let slopes = (0..=n).map(|j| step.slope_at(step.entropy, j, &new)).collect();
+        let slopes = (0..=n)
+            .map(|j| step.slope_at(step.entropy, j, &new))
+            .collect();
         up.push(new);
         down.push(old);
         Self {
@@ -147,14 +156,20 @@ impl Stairs {
 }
 
 impl Corner {
-    fn new(step: &mut Step, point: &Point, renewed: std::ops::Range<usize>, new_entropy: bool) -> Self {
+    fn new(
+        step: &mut Step,
+        point: &Point,
+        renewed: std::ops::Range<usize>,
+        new_entropy: bool,
+    ) -> Self {
         let capacity = step.slope_at(step.entropy, step.mechanical, point);
-        let reciprocal = step.graph.recip(capacity);
         Self {
             theta: point[step.mechanical],
             new_entropy,
-            reciprocal: step.name(reciprocal),
-            slopes: renewed.map(|j| (j, step.slope_at(step.entropy, j, point))).collect(),
+            reciprocal: step.reciprocal(capacity),
+            slopes: renewed
+                .map(|j| (j, step.slope_at(step.entropy, j, point)))
+                .collect(),
         }
     }
 }

@@ -9,11 +9,11 @@
 //! (Conde Martín, Betsch & García Orden 2016, eqs. 37–39.) Energy is written by ψ and S, so that
 //! nothing cancels between D e and θ* D s but the gap of two temperatures.
 
-use super::Step;
+use super::{Form, Step};
 use crate::node::ExprId;
 
 /// `[f*_a …, g*_k …, θ*, Δs]` and their tangent by rows.
-pub(crate) fn temperature_form(step: &mut Step) -> Vec<ExprId> {
+pub(crate) fn temperature_form(step: &mut Step) -> Form {
     let star = mean(step);
     let (mut response, mut tangent) = (Vec::new(), Vec::new());
     let mut jump = Vec::new();
@@ -35,8 +35,7 @@ pub(crate) fn temperature_form(step: &mut Step) -> Vec<ExprId> {
     tangent.extend(star.partials);
     let new = step.new.clone();
     tangent.extend((0..=last).map(|j| step.slope_at(step.entropy, j, &new)));
-    response.extend(tangent);
-    response
+    Form { response, tangent }
 }
 
 /// θ*, 2 D_θ s, and the derivatives of θ* with respect to x¹.
@@ -50,16 +49,18 @@ fn mean(step: &mut Step) -> Star {
     let last = step.mechanical;
     let ends = [step.old[last], step.new[last]];
     let states = [step.old.clone(), step.new.clone()];
-    let energies = states.each_ref().map(|y| step.along(step.energy, last, ends, y));
-    let entropies = states.each_ref().map(|y| step.along(step.entropy, last, ends, y));
+    let energies = states
+        .each_ref()
+        .map(|y| step.along(step.energy, last, ends, y));
+    let entropies = states
+        .each_ref()
+        .map(|y| step.along(step.entropy, last, ends, y));
     let energy = step.graph.sum(&energies);
     let entropy = step.graph.sum(&entropies);
     let entropy = step.name(entropy);
     let energy = step.name(energy);
-    let value = step.graph.div(energy, entropy);
-    let value = step.name(value);
-    let reciprocal = step.graph.recip(entropy);
-    let reciprocal = step.name(reciprocal);
+    let value = step.quotient(energy, entropy);
+    let reciprocal = step.reciprocal(entropy);
     let mut partials = Vec::new();
     for symbol in step.new.clone() {
         let energy = energies.map(|energy| step.partial(energy, symbol));
@@ -93,8 +94,12 @@ impl Pair {
         let (old, new) = (step.old.clone(), step.new.clone());
         let ends = [old[i], new[i]];
         let states = [step.mixed(i, &old, &new), step.mixed(i, &new, &old)];
-        let psi = states.each_ref().map(|state| step.along(step.psi, i, ends, state));
-        let entropy = states.each_ref().map(|state| step.along(step.entropy, i, ends, state));
+        let psi = states
+            .each_ref()
+            .map(|state| step.along(step.psi, i, ends, state));
+        let entropy = states
+            .each_ref()
+            .map(|state| step.along(step.entropy, i, ends, state));
         let gap = states.map(|state| {
             let theta = step.graph.variable(state[step.mechanical]);
             let gap = step.graph.sub(theta, star);

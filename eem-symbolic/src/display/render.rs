@@ -23,18 +23,28 @@ enum Binding {
 
 impl Text {
     pub(super) fn atom(text: String) -> Text {
-        Text { text, binding: Binding::Atom }
+        Text {
+            text,
+            binding: Binding::Atom,
+        }
     }
 
     /// The text where at least `binding` is needed.
     fn within(&self, binding: Binding) -> String {
-        if self.binding < binding { format!("({})", self.text) } else { self.text.clone() }
+        if self.binding < binding {
+            format!("({})", self.text)
+        } else {
+            self.text.clone()
+        }
     }
 }
 
 pub(super) fn render(graph: &Graph, id: ExprId, texts: &HashMap<ExprId, Text>) -> Text {
     let list = |operands: &[ExprId]| {
-        let texts: Vec<_> = operands.iter().map(|operand| texts[operand].text.as_str()).collect();
+        let texts: Vec<_> = operands
+            .iter()
+            .map(|operand| texts[operand].text.as_str())
+            .collect();
         texts.join(", ")
     };
     match graph.node(id) {
@@ -49,7 +59,10 @@ pub(super) fn render(graph: &Graph, id: ExprId, texts: &HashMap<ExprId, Text>) -
         Node::Power(base, exponent) => {
             let (base, exponent) = (&texts[base], &texts[exponent]);
             let exponent = exponent.within(Binding::Atom);
-            Text { text: format!("{}^{exponent}", base.within(Binding::Atom)), binding: Binding::Power }
+            Text {
+                text: format!("{}^{exponent}", base.within(Binding::Atom)),
+                binding: Binding::Power,
+            }
         }
         Node::Apply(function, argument) => {
             Text::atom(format!("{}({})", function.name(), texts[argument].text))
@@ -58,12 +71,16 @@ pub(super) fn render(graph: &Graph, id: ExprId, texts: &HashMap<ExprId, Text>) -
             let terms = [(Number::ONE, *a), (Number::ONE, *b)];
             render_sum(graph, Number::ZERO, &terms, texts)
         }
-        Node::DividedDifference(kernel, a, b) => {
-            Text::atom(format!("{}[{}]", kernel_name(*kernel, texts), list(&[*a, *b])))
-        }
-        Node::SecondDividedDifference(kernel, a, b) => {
-            Text::atom(format!("{}[{}]", kernel_name(*kernel, texts), list(&[*a, *b, *b])))
-        }
+        Node::DividedDifference(kernel, a, b) => Text::atom(format!(
+            "{}[{}]",
+            kernel_name(*kernel, texts),
+            list(&[*a, *b])
+        )),
+        Node::SecondDividedDifference(kernel, a, b) => Text::atom(format!(
+            "{}[{}]",
+            kernel_name(*kernel, texts),
+            list(&[*a, *b, *b])
+        )),
         Node::PowerDifference { logarithms, .. } => {
             Text::atom(format!("exp[{}]", list(logarithms)))
         }
@@ -113,7 +130,10 @@ fn render_sum(
     let mut parts: Vec<_> = terms
         .iter()
         .map(|&(coefficient, term)| {
-            (coefficient.is_negative(), render_term(graph, coefficient.abs(), term, texts))
+            (
+                coefficient.is_negative(),
+                render_term(graph, coefficient.abs(), term, texts),
+            )
         })
         .collect();
     if !constant.is_zero() {
@@ -130,7 +150,11 @@ fn render_sum(
             (_, false) => " + ",
             (_, true) => " - ",
         });
-        text.push_str(&part.within(if *negative { Binding::Product } else { Binding::Sum }));
+        text.push_str(&part.within(if *negative {
+            Binding::Product
+        } else {
+            Binding::Sum
+        }));
     }
     let binding = match &parts[..] {
         [(false, only)] => only.binding,
@@ -155,7 +179,9 @@ fn render_term(
         Node::Product(factors) if texts[&term].binding < Binding::Atom => {
             fraction.multiply(factors, texts);
         }
-        _ => fraction.numerators.push(texts[&term].within(Binding::Power)),
+        _ => fraction
+            .numerators
+            .push(texts[&term].within(Binding::Power)),
     }
     fraction.render()
 }
@@ -180,15 +206,24 @@ impl Fraction {
                 self.denominators.push(exact.denominator().to_string());
             }
             Number::Exact(_) | Number::Float(_) => {
-                self.numerators.push(render_number(coefficient).within(Binding::Power));
+                self.numerators
+                    .push(render_number(coefficient).within(Binding::Power));
             }
         }
     }
 
     fn multiply(&mut self, factors: &[(ExprId, Rational)], texts: &HashMap<ExprId, Text>) {
         for &(base, exponent) in factors {
-            let list = if exponent.is_negative() { &mut self.denominators } else { &mut self.numerators };
-            let magnitude = if exponent.is_negative() { -exponent } else { exponent };
+            let list = if exponent.is_negative() {
+                &mut self.denominators
+            } else {
+                &mut self.numerators
+            };
+            let magnitude = if exponent.is_negative() {
+                -exponent
+            } else {
+                exponent
+            };
             let power = render_power(&texts[&base], magnitude);
             list.push(power.within(Binding::Power));
             self.single = Some(power.binding.max(Binding::Power));
@@ -196,7 +231,11 @@ impl Fraction {
     }
 
     fn render(&self) -> Text {
-        let numerator = if self.numerators.is_empty() { "1".into() } else { self.numerators.join("*") };
+        let numerator = if self.numerators.is_empty() {
+            "1".into()
+        } else {
+            self.numerators.join("*")
+        };
         let text = match &self.denominators[..] {
             [] => numerator,
             [only] => format!("{numerator}/{only}"),
@@ -219,5 +258,8 @@ fn render_power(base: &Text, exponent: Rational) -> Text {
         return Text::atom(format!("sqrt({})", base.text));
     }
     let exponent = render_number(Number::Exact(exponent)).within(Binding::Atom);
-    Text { text: format!("{}^{exponent}", base.within(Binding::Atom)), binding: Binding::Power }
+    Text {
+        text: format!("{}^{exponent}", base.within(Binding::Atom)),
+        binding: Binding::Power,
+    }
 }

@@ -27,45 +27,45 @@ impl<'m> PointPrograms<'m> {
     }
 
     pub(super) fn free_energy(&self) -> Program {
-        self.program(&self.variables, &[self.model.psi])
+        self.program(&self.variables, &[self.model.psi], &[])
     }
 
     pub(super) fn gradient(&mut self) -> Program {
         let gradient = self.slopes(self.model.psi);
-        self.program(&self.variables, &gradient)
+        self.program(&self.variables, &gradient, &[])
     }
 
     pub(super) fn hessian(&mut self) -> Program {
-        let mut outputs = self.slopes(self.model.psi);
-        for force in outputs.clone() {
-            let row = self.slopes(force);
-            outputs.extend(row);
-        }
-        self.program(&self.variables, &outputs)
+        let gradient = self.slopes(self.model.psi);
+        let hessian = gradient
+            .iter()
+            .flat_map(|&force| self.slopes(force))
+            .collect::<Vec<_>>();
+        self.program(&self.variables, &gradient, &hessian)
     }
 
     pub(super) fn internal_energy(&mut self) -> Program {
         let energy = self.model.internal_energy(&mut self.graph);
-        self.program(&self.variables, &[energy])
+        self.program(&self.variables, &[energy], &[])
     }
 
     pub(super) fn caloric(&mut self, theta: Symbol) -> Program {
         let entropy = self.model.entropy(&mut self.graph, theta);
         let capacity = heat_capacity(&mut self.graph, entropy, theta);
         let magnitude = magnitude(&mut self.graph, entropy);
-        self.program(&self.variables, &[entropy, capacity, magnitude])
+        self.program(&self.variables, &[entropy, capacity, magnitude], &[])
     }
 
     pub(super) fn viscosity(&mut self) -> Program {
         let theta = self.model.temperature;
-        let mut outputs = self.model.viscosities.clone();
+        let mut slopes = Vec::new();
         for &law in &self.model.viscosities {
-            outputs.push(match theta {
+            slopes.push(match theta {
                 Some(theta) => diff(&mut self.graph, law, theta),
                 None => self.graph.integer(0),
             });
         }
-        self.program(theta.as_slice(), &outputs)
+        self.program(theta.as_slice(), &self.model.viscosities, &slopes)
     }
 
     fn slopes(&mut self, e: ExprId) -> Vec<ExprId> {
@@ -73,8 +73,12 @@ impl<'m> PointPrograms<'m> {
         variables.map(|&x| diff(&mut self.graph, e, x)).collect()
     }
 
-    fn program(&self, variables: &[Symbol], outputs: &[ExprId]) -> Program {
-        let parameters = self.model.parameters.iter().map(|&symbol| (symbol, Stage::Old));
+    fn program(&self, variables: &[Symbol], values: &[ExprId], tangents: &[ExprId]) -> Program {
+        let parameters = self
+            .model
+            .parameters
+            .iter()
+            .map(|&symbol| (symbol, Stage::Old));
         let variables = variables.iter().map(|&symbol| (symbol, Stage::New));
         let inputs = parameters.chain(variables).map(|(symbol, stage)| Input {
             symbol,
@@ -86,7 +90,7 @@ impl<'m> PointPrograms<'m> {
             locals: &Locals::default(),
             parameters: self.model.parameters.len(),
         };
-        schedule.program(inputs.collect(), outputs)
+        schedule.program(inputs.collect(), values, tangents)
     }
 }
 

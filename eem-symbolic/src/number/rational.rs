@@ -29,7 +29,10 @@ impl Rational {
     /// 2.
     pub const TWO: Rational = Rational::whole(2);
     /// ½.
-    pub const HALF: Rational = Rational { numerator: 1, denominator: 2 };
+    pub const HALF: Rational = Rational {
+        numerator: 1,
+        denominator: 2,
+    };
 
     /// `numerator/denominator` in lowest terms.
     ///
@@ -40,7 +43,10 @@ impl Rational {
             return None;
         }
         let divisor = greatest_common_divisor(numerator, denominator) * denominator.signum();
-        Some(Rational { numerator: numerator / divisor, denominator: denominator / divisor })
+        Some(Rational {
+            numerator: numerator / divisor,
+            denominator: denominator / divisor,
+        })
     }
 
     /// The integer `value`.
@@ -50,7 +56,10 @@ impl Rational {
     }
 
     const fn whole(numerator: i128) -> Rational {
-        Rational { numerator, denominator: 1 }
+        Rational {
+            numerator,
+            denominator: 1,
+        }
     }
 
     /// Reads a decimal literal: digits with an optional sign, point and exponent (`1.5e-3`).
@@ -72,7 +81,9 @@ impl Rational {
         }
         let mut value: i128 = 0;
         for digit in whole.chars().chain(fraction.trim_end_matches('0').chars()) {
-            value = value.checked_mul(10)?.checked_add(i128::from(digit.to_digit(10)?))?;
+            value = value
+                .checked_mul(10)?
+                .checked_add(i128::from(digit.to_digit(10)?))?;
         }
         let places = i32::try_from(fraction.trim_end_matches('0').len()).ok()?;
         let scale = Rational::integer(10).checked_powi(exponent.checked_sub(places)?)?;
@@ -113,7 +124,11 @@ impl Rational {
     /// The number as an `i32`, if it is one.
     #[must_use]
     pub fn to_i32(self) -> Option<i32> {
-        if self.is_integer() { i32::try_from(self.numerator).ok() } else { None }
+        if self.is_integer() {
+            i32::try_from(self.numerator).ok()
+        } else {
+            None
+        }
     }
 
     /// The nearest `f64`, ties to even.
@@ -121,7 +136,10 @@ impl Rational {
     pub fn to_f64(self) -> f64 {
         // Long division until the quotient has 65 bits, then one bit for the rest of them: the
         // conversion of that integer rounds as the exact quotient would.
-        let (dividend, divisor) = (self.numerator.unsigned_abs(), self.denominator.unsigned_abs());
+        let (dividend, divisor) = (
+            self.numerator.unsigned_abs(),
+            self.denominator.unsigned_abs(),
+        );
         if dividend == 0 {
             return 0.0;
         }
@@ -136,7 +154,11 @@ impl Rational {
         quotient |= u128::from(remainder != 0);
         #[allow(clippy::cast_precision_loss)] // Rounded to nearest, as explained above.
         let magnitude = quotient as f64 * 2.0_f64.powi(-shift);
-        if self.is_negative() { -magnitude } else { magnitude }
+        if self.is_negative() {
+            -magnitude
+        } else {
+            magnitude
+        }
     }
 
     /// `self + other` if it fits.
@@ -163,7 +185,10 @@ impl Rational {
         let left = greatest_common_divisor(self.numerator, other.denominator);
         let right = greatest_common_divisor(other.numerator, self.denominator);
         let numerator = (self.numerator / left).checked_mul(other.numerator / right)?;
-        Rational::new(numerator, (self.denominator / right).checked_mul(other.denominator / left)?)
+        Rational::new(
+            numerator,
+            (self.denominator / right).checked_mul(other.denominator / left)?,
+        )
     }
 
     /// `self / other` if it fits and `other` is not 0.
@@ -175,10 +200,17 @@ impl Rational {
     /// `selfⁿ` if it fits; `None` for a negative power of 0.
     #[must_use]
     pub fn checked_powi(self, exponent: i32) -> Option<Rational> {
-        let base = if exponent < 0 { Rational::ONE.checked_div(self)? } else { self };
+        let base = if exponent < 0 {
+            Rational::ONE.checked_div(self)?
+        } else {
+            self
+        };
         let exponent = exponent.unsigned_abs();
         // The powers of coprime numbers are coprime.
-        Rational::new(base.numerator.checked_pow(exponent)?, base.denominator.checked_pow(exponent)?)
+        Rational::new(
+            base.numerator.checked_pow(exponent)?,
+            base.denominator.checked_pow(exponent)?,
+        )
     }
 
     /// `√self` if it is rational.
@@ -207,7 +239,10 @@ impl Neg for Rational {
     type Output = Rational;
     fn neg(self) -> Rational {
         // Numerators are never −2¹²⁷.
-        Rational { numerator: -self.numerator, ..self }
+        Rational {
+            numerator: -self.numerator,
+            ..self
+        }
     }
 }
 
@@ -218,13 +253,22 @@ impl Ord for Rational {
         loop {
             let whole = a.numerator.div_euclid(a.denominator);
             let order = whole.cmp(&b.numerator.div_euclid(b.denominator));
-            let rests = (a.numerator.rem_euclid(a.denominator), b.numerator.rem_euclid(b.denominator));
+            let rests = (
+                a.numerator.rem_euclid(a.denominator),
+                b.numerator.rem_euclid(b.denominator),
+            );
             if order != Ordering::Equal || rests.0 == 0 || rests.1 == 0 {
                 return order.then(rests.0.signum().cmp(&rests.1.signum()));
             }
             (a, b) = (
-                Rational { numerator: b.denominator, denominator: rests.1 },
-                Rational { numerator: a.denominator, denominator: rests.0 },
+                Rational {
+                    numerator: b.denominator,
+                    denominator: rests.1,
+                },
+                Rational {
+                    numerator: a.denominator,
+                    denominator: rests.0,
+                },
             );
         }
     }

@@ -15,6 +15,20 @@ pub(super) enum Operand {
     Number(Number),
 }
 
+/// A result up to its sign, which the sum or product that uses it absorbs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Signed {
+    pub(super) negative: bool,
+    pub(super) operand: Operand,
+}
+
+impl From<Operand> for Signed {
+    fn from(operand: Operand) -> Self {
+        let negative = false;
+        Self { negative, operand }
+    }
+}
+
 pub(super) struct Builder<'s> {
     schedule: &'s Schedule<'s>,
     inputs: Vec<Input>,
@@ -24,12 +38,17 @@ pub(super) struct Builder<'s> {
     of_state: Vec<bool>,
     /// Looked up, never iterated.
     numbering: HashMap<(Stage, Operation), Value>,
-    results: BTreeMap<ExprId, Operand>,
+    results: BTreeMap<ExprId, Signed>,
+    /// Whether quotients are products with shared reciprocals.
+    pub(super) reciprocals: bool,
 }
 
 impl<'s> Builder<'s> {
     pub(super) fn new(schedule: &'s Schedule<'s>, inputs: Vec<Input>) -> Self {
-        let positions = inputs.iter().enumerate().map(|(index, input)| (input.symbol, index));
+        let positions = inputs
+            .iter()
+            .enumerate()
+            .map(|(index, input)| (input.symbol, index));
         Self {
             schedule,
             positions: positions.collect(),
@@ -38,6 +57,7 @@ impl<'s> Builder<'s> {
             of_state: Vec::new(),
             numbering: HashMap::new(),
             results: BTreeMap::new(),
+            reciprocals: false,
         }
     }
 
@@ -54,18 +74,29 @@ impl<'s> Builder<'s> {
         }
     }
 
-    /// The result of an expression, if it has been emitted.
-    pub(super) fn result(&self, e: ExprId) -> Option<Operand> {
-        self.results.get(&e).copied()
+    /// Whether an expression has been emitted.
+    pub(super) fn has(&self, e: ExprId) -> bool {
+        self.results.contains_key(&e)
+    }
+
+    /// The result of an expression that comes earlier, up to its sign.
+    pub(super) fn signed(&self, e: ExprId) -> Signed {
+        let result = self.results.get(&e).copied();
+        result.expect("operands are emitted before what uses them")
     }
 
     /// The result of an expression that comes earlier.
-    pub(super) fn done(&self, e: ExprId) -> Operand {
-        self.result(e).expect("operands are emitted before what uses them")
+    pub(super) fn done(&mut self, e: ExprId) -> Operand {
+        let Signed { negative, operand } = self.signed(e);
+        match operand {
+            _ if !negative => operand,
+            Operand::Number(number) => Operand::Number(-number),
+            Operand::Value(_) => self.emit([operand], |[a]| Operation::Neg(a)),
+        }
     }
 
-    pub(super) fn set(&mut self, e: ExprId, operand: Operand) {
-        self.results.insert(e, operand);
+    pub(super) fn set(&mut self, e: ExprId, result: Signed) {
+        self.results.insert(e, result);
     }
 
     pub(super) fn input(&mut self, symbol: Symbol) -> Operand {

@@ -1,9 +1,11 @@
 //! A product of powers as numerator over denominator.
 
-use super::builder::{Builder, Operand};
+use super::builder::{Builder, Operand, Signed};
 use crate::node::ExprId;
 use crate::number::{Number, Rational};
 use crate::program::Operation;
+
+const ONE: Operand = Operand::Number(Number::ONE);
 
 /// How a constant exponent r ≠ 0 is evaluated.
 enum Exponent {
@@ -14,33 +16,47 @@ enum Exponent {
 }
 
 impl Builder<'_> {
-    /// `Π base ^ exponent`.
-    pub(super) fn product(&mut self, factors: &[(ExprId, Rational)]) -> Operand {
+    /// `Π base ^ exponent`: one division, or products with reciprocals.
+    pub(super) fn product(&mut self, factors: &[(ExprId, Rational)]) -> Signed {
         let (mut numerator, mut denominator) = (Vec::new(), Vec::new());
+        let mut negative = false;
         for &(base, exponent) in factors {
-            let base = self.done(base);
             match classify(exponent) {
                 Exponent::Algebraic { whole, root } => {
-                    let power = self.algebraic(base, whole, root);
-                    let side = if exponent.is_negative() { &mut denominator } else { &mut numerator };
-                    side.push(power);
+                    let base = if root {
+                        self.done(base).into()
+                    } else {
+                        self.signed(base)
+                    };
+                    negative ^= base.negative && whole % 2 == 1;
+                    if !exponent.is_negative() {
+                        numerator.push(self.algebraic(base.operand, whole, root));
+                    } else if self.reciprocals {
+                        let inverse = self.reciprocal(base.operand);
+                        numerator.push(self.algebraic(inverse, whole, root));
+                    } else {
+                        denominator.push(self.algebraic(base.operand, whole, root));
+                    }
                 }
                 Exponent::General => {
+                    let base = self.done(base);
                     let exponent = Operand::Number(Number::Exact(exponent));
                     numerator.push(self.emit([base, exponent], |[a, b]| Operation::Power(a, b)));
                 }
             }
         }
         let numerator = self.multiply(numerator);
-        let denominator = self.multiply(denominator);
-        match (numerator, denominator) {
-            (Some(numerator), None) => numerator,
-            (None, None) => Operand::Number(Number::ONE),
-            (numerator, Some(denominator)) => {
-                let numerator = numerator.unwrap_or(Operand::Number(Number::ONE));
-                self.emit([numerator, denominator], |[a, b]| Operation::Div(a, b))
-            }
-        }
+        let operand = match self.multiply(denominator) {
+            Some(denominator) => self.emit([numerator.unwrap_or(ONE), denominator], |[a, b]| {
+                Operation::Div(a, b)
+            }),
+            None => numerator.unwrap_or(ONE),
+        };
+        Signed { negative, operand }
+    }
+
+    fn reciprocal(&mut self, x: Operand) -> Operand {
+        self.emit([ONE, x], |[a, b]| Operation::Div(a, b))
     }
 
     /// `xⁿ` or `xⁿ √x`, n ≥ 0.
@@ -53,7 +69,7 @@ impl Builder<'_> {
         };
         let root = root.then(|| self.emit([x], |[x]| Operation::Sqrt(x)));
         let factors = power.into_iter().chain(root).collect();
-        self.multiply(factors).unwrap_or(Operand::Number(Number::ONE))
+        self.multiply(factors).unwrap_or(ONE)
     }
 
     /// The product of factors; what depends on parameters alone comes first.

@@ -8,7 +8,11 @@ use eem_symbolic::{ExprId, Function, Graph, Number};
 pub fn read(graph: &mut Graph, text: &str) -> ExprId {
     let mut reader = Reader { graph, rest: text };
     let e = reader.sum();
-    assert!(reader.rest.trim().is_empty(), "`{}` is left of `{text}`", reader.rest);
+    assert!(
+        reader.rest.trim().is_empty(),
+        "`{}` is left of `{text}`",
+        reader.rest
+    );
     e
 }
 
@@ -125,7 +129,11 @@ impl<'a> Reader<'a> {
         };
         let letters = self.rest.chars().take_while(|&c| belongs(c));
         let length: usize = letters.map(char::len_utf8).sum();
-        assert!(length > 0, "a name or a number expected before `{}`", self.rest);
+        assert!(
+            length > 0,
+            "a name or a number expected before `{}`",
+            self.rest
+        );
         let (word, rest) = self.rest.split_at(length);
         self.rest = rest;
         word

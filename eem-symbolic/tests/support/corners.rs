@@ -20,7 +20,11 @@ pub type State = Vec<BigFloat>;
 impl Evaluated {
     pub fn new(law: Law) -> Self {
         let programs = law.model.programs();
-        Self { law, programs, precise: Precise::new() }
+        Self {
+            law,
+            programs,
+            precise: Precise::new(),
+        }
     }
 
     pub fn thermal(&self) -> bool {
@@ -64,7 +68,8 @@ impl Evaluated {
     }
 
     pub fn energy(&self, x: &[BigFloat]) -> BigFloat {
-        self.run(&self.programs.internal_energy, &[x]).swap_remove(0)
+        self.run(&self.programs.internal_energy, &[x])
+            .swap_remove(0)
     }
 
     /// Corner temperatures in the order of the inputs; none without a temperature.
@@ -94,7 +99,11 @@ impl Evaluated {
 
     /// Response and tangent of the temperature form.
     pub fn temperature_form(&self, x0: &[BigFloat], x1: &[BigFloat]) -> Vec<BigFloat> {
-        let program = self.programs.temperature_form.as_ref().expect("a thermal law");
+        let program = self
+            .programs
+            .temperature_form
+            .as_ref()
+            .expect("a thermal law");
         self.run(program, &[x0, x1])
     }
 

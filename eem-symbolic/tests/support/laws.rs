@@ -1,6 +1,6 @@
 //! Constitutive laws with data, built in the graph.
 
-use eem_symbolic::{ExprId, Function, Graph, Model, Symbol, diff};
+use eem_symbolic::{ExprId, Function, Graph, Model, Number, Symbol, diff};
 
 /// A model, its parameters and a state to start from.
 pub struct Law {
@@ -12,7 +12,13 @@ pub struct Law {
 
 /// All of them.
 pub fn all() -> Vec<Law> {
-    vec![pendulum(), logarithmic_stiffness(), two_dashpots(), einstein(), elastic()]
+    vec![
+        pendulum(),
+        logarithmic_stiffness(),
+        two_dashpots(),
+        einstein(),
+        elastic(),
+    ]
 }
 
 /// Collects symbols while a formula is written down.
@@ -24,7 +30,11 @@ struct Writer {
 
 impl Writer {
     fn new() -> Self {
-        Self { graph: Graph::new(), parameters: Vec::new(), values: Vec::new() }
+        Self {
+            graph: Graph::new(),
+            parameters: Vec::new(),
+            values: Vec::new(),
+        }
     }
 
     fn variable(&mut self, name: &str) -> (Symbol, ExprId) {
@@ -63,7 +73,7 @@ impl Writer {
     /// C/2 L² − β (θ − θr) L.
     fn strain_energy(&mut self, [c, beta]: [ExprId; 2], strain: ExprId, excess: ExprId) -> ExprId {
         let square = self.graph.powi(strain, 2);
-        let half = self.graph.number(0.5);
+        let half = self.graph.number(Number::HALF);
         let elastic = self.graph.product(&[half, c, square]);
         let thermal = self.graph.product(&[beta, excess, strain]);
         self.graph.sub(elastic, thermal)
@@ -93,11 +103,26 @@ fn thermo_visco_elastic(name: &'static str, dashpots: usize, state: Vec<f64>) ->
     let mut w = Writer::new();
     let (lambda, l) = w.variable("lambda");
     let names = ["gamma1", "gamma2"];
-    let gammas: Vec<_> = names[..dashpots].iter().map(|name| w.variable(name)).collect();
+    let gammas: Vec<_> = names[..dashpots]
+        .iter()
+        .map(|name| w.variable(name))
+        .collect();
     let (theta, t) = w.variable("theta");
-    let data = [("k0", 100.0), ("k1", 0.5), ("beta_c", 0.1), ("beta_t", 4.0), ("c", 1.0)];
+    let data = [
+        ("k0", 100.0),
+        ("k1", 0.5),
+        ("beta_c", 0.1),
+        ("beta_t", 4.0),
+        ("c", 1.0),
+    ];
     let [k0, k1, beta_c, beta_t, c] = data.map(|(name, value)| w.parameter(name, value));
-    let data = [("mu0", 5.0), ("mu1", 0.1), ("eta0", 100.0), ("a", 10.0), ("l0", 1.0)];
+    let data = [
+        ("mu0", 5.0),
+        ("mu1", 0.1),
+        ("eta0", 100.0),
+        ("a", 10.0),
+        ("l0", 1.0),
+    ];
     let [mu0, mu1, eta0, a, l0] = data.map(|(name, value)| w.parameter(name, value));
     let reference = w.parameter("theta_r", 300.0);
     let excess = w.graph.sub(t, reference);
@@ -128,7 +153,12 @@ fn thermo_visco_elastic(name: &'static str, dashpots: usize, state: Vec<f64>) ->
         psi,
         viscosities: vec![law; dashpots],
     };
-    Law { name, model, parameters: w.values, state }
+    Law {
+        name,
+        model,
+        parameters: w.values,
+        state,
+    }
 }
 
 /// Conde Martín, Betsch & García Orden 2016, eq. 43 with C(θ) = C⁰ − C¹ θr ln(θ/θr): no closed
@@ -137,7 +167,12 @@ pub fn logarithmic_stiffness() -> Law {
     let mut w = Writer::new();
     let (lambda, l) = w.variable("lambda");
     let (theta, t) = w.variable("theta");
-    let data = [("c0", 5000.0), ("c1", 50.0), ("beta", 20.0), ("capacity", 5000.0)];
+    let data = [
+        ("c0", 5000.0),
+        ("c1", 50.0),
+        ("beta", 20.0),
+        ("capacity", 5000.0),
+    ];
     let [c0, c1, beta, capacity] = data.map(|(name, value)| w.parameter(name, value));
     let [l0, reference] = [("l0", 2.0), ("theta_r", 300.0)].map(|(n, v)| w.parameter(n, v));
     let excess = w.graph.sub(t, reference);
@@ -158,7 +193,12 @@ pub fn logarithmic_stiffness() -> Law {
         viscosities: Vec::new(),
     };
     let name = "logarithmic stiffness";
-    Law { name, model, parameters: w.values, state: vec![2.6, 380.0] }
+    Law {
+        name,
+        model,
+        parameters: w.values,
+        state: vec![2.6, 380.0],
+    }
 }
 
 /// Two measures and a solid whose heat capacity freezes out: ψ = k/2 (λ₁² + λ₁λ₂²) θ^¼ + c θ ln(1 − e^(−Θ/θ)).
@@ -172,9 +212,9 @@ pub fn einstein() -> Law {
     let squares = [l1, l2].map(|l| w.graph.powi(l, 2));
     let mixed = w.graph.mul(l1, squares[1]);
     let strain = w.graph.add(squares[0], mixed);
-    let quarter = w.graph.number(-0.25);
+    let quarter = w.graph.number(Number::from(-1_i64) / Number::from(4_i64));
     let quarter = w.graph.power(t, quarter);
-    let half = w.graph.number(0.5);
+    let half = w.graph.number(Number::HALF);
     let elastic = w.graph.product(&[half, k, strain, quarter]);
     let ratio = w.graph.div(einstein, t);
     let exponent = w.graph.neg(ratio);
@@ -192,7 +232,12 @@ pub fn einstein() -> Law {
         psi,
         viscosities: Vec::new(),
     };
-    Law { name: "Einstein solid", model, parameters: w.values, state: vec![1.2, 0.7, 150.0] }
+    Law {
+        name: "Einstein solid",
+        model,
+        parameters: w.values,
+        state: vec![1.2, 0.7, 150.0],
+    }
 }
 
 /// No temperature: ψ = k/2 ln²(λ/λ0) + μ γ² − β k γ ln(λ/λ0)/λ.
@@ -200,11 +245,17 @@ pub fn elastic() -> Law {
     let mut w = Writer::new();
     let (lambda, l) = w.variable("lambda");
     let (gamma, g) = w.variable("gamma");
-    let data = [("k", 100.0), ("mu", 5.0), ("beta", 0.1), ("l0", 1.0), ("eta", 7.0)];
+    let data = [
+        ("k", 100.0),
+        ("mu", 5.0),
+        ("beta", 0.1),
+        ("l0", 1.0),
+        ("eta", 7.0),
+    ];
     let [k, mu, beta, l0, eta] = data.map(|(name, value)| w.parameter(name, value));
     let strain = w.log_ratio(l, l0);
     let squares = [strain, g].map(|x| w.graph.powi(x, 2));
-    let half = w.graph.number(0.5);
+    let half = w.graph.number(Number::HALF);
     let elastic = w.graph.product(&[half, k, squares[0]]);
     let viscous = w.graph.mul(mu, squares[1]);
     let quotient = w.graph.div(strain, l);
@@ -220,5 +271,10 @@ pub fn elastic() -> Law {
         psi,
         viscosities: vec![eta],
     };
-    Law { name: "elastic", model, parameters: w.values, state: vec![1.3, 0.45] }
+    Law {
+        name: "elastic",
+        model,
+        parameters: w.values,
+        state: vec![1.3, 0.45],
+    }
 }

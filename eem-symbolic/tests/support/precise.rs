@@ -57,7 +57,11 @@ impl Precise {
             ProgramKernel::Sqrt | ProgramKernel::Powf(_) => true,
             ProgramKernel::Power(..) => false,
         };
-        let scale = if relative { x.abs() } else { self.add(&x.abs(), &self.from_f64(1.0)) };
+        let scale = if relative {
+            x.abs()
+        } else {
+            self.add(&x.abs(), &self.from_f64(1.0))
+        };
         self.mul(&scale, &self.two_to(OFFSET))
     }
 
@@ -131,7 +135,11 @@ impl Arithmetic for Precise {
 
     fn powi(&self, a: &BigFloat, n: i32) -> BigFloat {
         let power = a.powi(n.unsigned_abs() as usize, BITS, ROUNDING);
-        if n < 0 { self.div(&self.from_f64(1.0), &power) } else { power }
+        if n < 0 {
+            self.div(&self.from_f64(1.0), &power)
+        } else {
+            power
+        }
     }
 
     fn sqrt(&self, a: &BigFloat) -> BigFloat {
@@ -207,7 +215,11 @@ pub fn to_f64(x: &BigFloat) -> f64 {
     let mantissa = words.iter().rev().take(2).rev();
     let mantissa = mantissa.fold(0.0, |rest, &word| (word as f64 + rest) * scale);
     let magnitude = mantissa * 2.0_f64.powi(exponent / 2) * 2.0_f64.powi(exponent - exponent / 2);
-    if x.is_negative() { -magnitude } else { magnitude }
+    if x.is_negative() {
+        -magnitude
+    } else {
+        magnitude
+    }
 }
 
 /// `|computed − exact|`.

@@ -53,7 +53,11 @@ pub fn expression(graph: &mut Graph, random: &mut Random, x: ExprId, depth: usiz
         }
         9 => {
             let exponent = [-3, -2, 2, 3, 4, 5][random.below(6)];
-            let base = if exponent < 0 { positive(graph, inner) } else { inner };
+            let base = if exponent < 0 {
+                positive(graph, inner)
+            } else {
+                inner
+            };
             graph.powi(base, exponent)
         }
         10 => {

@@ -2,6 +2,9 @@
 
 use std::ops::Range;
 
+/// The last one in so many points of an untrusted curve do not count: that is where it blows up.
+const ENDING: usize = 5;
+
 /// One in so many points of an untrusted curve may lie outside the range on either side.
 const OUTLIERS: usize = 20;
 
@@ -27,7 +30,8 @@ pub(super) fn axis(trusted: &[f64], others: &[Vec<f64>]) -> Range<f64> {
         (low - reach, high + reach)
     });
     for curve in others {
-        let Some((low, high)) = bulk(curve, |count| count / OUTLIERS) else {
+        let beginning = &curve[..curve.len() - curve.len() / ENDING];
+        let Some((low, high)) = bulk(beginning, |count| count / OUTLIERS) else {
             continue;
         };
         let (least, most) = allowed.unwrap_or((low, high));

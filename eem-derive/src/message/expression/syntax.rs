@@ -2,7 +2,8 @@
 
 use crate::message::Message;
 
-const SMOOTH: &str = "a free energy is one smooth formula; for a transition use a smooth function such as `tanh`";
+const SMOOTH: &str =
+    "a free energy is one smooth formula; for a transition use a smooth function such as `tanh`";
 
 pub(crate) fn caret() -> Message {
     Message::new(
@@ -19,7 +20,10 @@ pub(crate) fn remainder() -> Message {
 }
 
 pub(crate) fn comparison(operator: &str) -> Message {
-    Message::new(format!("`{operator}` compares, and nothing follows from it"), SMOOTH)
+    Message::new(
+        format!("`{operator}` compares, and nothing follows from it"),
+        SMOOTH,
+    )
 }
 
 pub(crate) fn bit_operator(operator: &str) -> Message {
@@ -124,11 +128,17 @@ pub(crate) fn path(path: &str, last: &str) -> Message {
 }
 
 pub(crate) fn generic_arguments() -> Message {
-    Message::new("functions of a free energy have no type arguments", "remove `::<…>`")
+    Message::new(
+        "functions of a free energy have no type arguments",
+        "remove `::<…>`",
+    )
 }
 
 pub(crate) fn callee() -> Message {
-    Message::new("only a named function can be called", "for a product write `*`")
+    Message::new(
+        "only a named function can be called",
+        "for a product write `*`",
+    )
 }
 
 pub(crate) fn literal(what: &str) -> Message {
@@ -188,7 +198,10 @@ pub(crate) fn let_pattern() -> Message {
 }
 
 pub(crate) fn let_type() -> Message {
-    Message::new("a `let` of a free energy has no type", "write `let name = value;`")
+    Message::new(
+        "a `let` of a free energy has no type",
+        "write `let name = value;`",
+    )
 }
 
 pub(crate) fn let_without_value() -> Message {

@@ -29,12 +29,8 @@ const _: () = {
         type TemperatureFormOld = [__S; 4];
         fn parameter(&self, __index: __eem::core::primitive::usize) -> __S {
             let __parameters: [__S; 2] = [
-                <__S as __eem::Scalar>::from_f64(
-                    __eem::core::convert::From::from(self.stiffness),
-                ),
-                <__S as __eem::Scalar>::from_f64(
-                    __eem::core::convert::From::from(self.length),
-                ),
+                <__S as __eem::Scalar>::from_f64(self.stiffness),
+                <__S as __eem::Scalar>::from_f64(self.length),
             ];
             __parameters[__index]
         }
@@ -42,13 +38,9 @@ const _: () = {
         ///
         /// 4 operations: 1 addition, 3 multiplications.
         fn free_energy(&self, __x: &Self::Variables) -> __S {
-            let __v0 = <__S as __eem::Scalar>::from_f64(
-                __eem::core::convert::From::from(self.stiffness),
-            );
+            let __v0 = <__S as __eem::Scalar>::from_f64(self.stiffness);
             let __v1 = __x[0];
-            let __v2 = <__S as __eem::Scalar>::from_f64(
-                __eem::core::convert::From::from(self.length),
-            );
+            let __v2 = <__S as __eem::Scalar>::from_f64(self.length);
             let __v3 = __v1 - __v2;
             let __v4 = __v3 * __v3;
             let __v5 = __v0 * __v4;
@@ -60,13 +52,9 @@ const _: () = {
         ///
         /// 4 operations: 1 addition, 3 multiplications.
         fn internal_energy(&self, __x: &Self::Variables) -> __S {
-            let __v0 = <__S as __eem::Scalar>::from_f64(
-                __eem::core::convert::From::from(self.stiffness),
-            );
+            let __v0 = <__S as __eem::Scalar>::from_f64(self.stiffness);
             let __v1 = __x[0];
-            let __v2 = <__S as __eem::Scalar>::from_f64(
-                __eem::core::convert::From::from(self.length),
-            );
+            let __v2 = <__S as __eem::Scalar>::from_f64(self.length);
             let __v3 = __v1 - __v2;
             let __v4 = __v3 * __v3;
             let __v5 = __v0 * __v4;
@@ -78,13 +66,9 @@ const _: () = {
         ///
         /// 2 operations: 1 addition, 1 multiplication.
         fn gradient(&self, __x: &Self::Variables) -> Self::Variables {
-            let __v0 = <__S as __eem::Scalar>::from_f64(
-                __eem::core::convert::From::from(self.stiffness),
-            );
+            let __v0 = <__S as __eem::Scalar>::from_f64(self.stiffness);
             let __v1 = __x[0];
-            let __v2 = <__S as __eem::Scalar>::from_f64(
-                __eem::core::convert::From::from(self.length),
-            );
+            let __v2 = <__S as __eem::Scalar>::from_f64(self.length);
             let __v3 = __v1 - __v2;
             let __v4 = __v0 * __v3;
             [__v4]
@@ -93,13 +77,9 @@ const _: () = {
         ///
         /// 2 operations: 1 addition, 1 multiplication.
         fn hessian(&self, __x: &Self::Variables) -> (Self::Variables, Self::Hessian) {
-            let __v0 = <__S as __eem::Scalar>::from_f64(
-                __eem::core::convert::From::from(self.stiffness),
-            );
+            let __v0 = <__S as __eem::Scalar>::from_f64(self.stiffness);
             let __v1 = __x[0];
-            let __v2 = <__S as __eem::Scalar>::from_f64(
-                __eem::core::convert::From::from(self.length),
-            );
+            let __v2 = <__S as __eem::Scalar>::from_f64(self.length);
             let __v3 = __v1 - __v2;
             let __v4 = __v0 * __v3;
             ([__v4], [[__v0]])
@@ -121,19 +101,15 @@ const _: () = {
         ///
         /// 2 operations: 1 addition, 1 multiplication.
         fn entropy_form_old(&self, __x0: &Self::Variables) -> Self::EntropyFormOld {
-            let __v0 = <__S as __eem::Scalar>::from_f64(
-                __eem::core::convert::From::from(self.stiffness),
-            );
+            let __v0 = <__S as __eem::Scalar>::from_f64(self.stiffness);
             let __v1 = __x0[0];
-            let __v2 = <__S as __eem::Scalar>::from_f64(
-                __eem::core::convert::From::from(self.length),
-            );
+            let __v2 = <__S as __eem::Scalar>::from_f64(self.length);
             let __v3 = __v1 - __v2;
             let __v12 = <__S as __eem::Scalar>::from_f64(0.5);
             let __v13 = __v0 * __v12;
             [__v0, __v2, __v3, __v13]
         }
-        /// Entropy form: algorithmic quantities at the corner temperatures, and their tangent.
+        /// Entropy form: algorithmic quantities and their tangent.
         ///
         /// 6 operations: 3 additions, 3 multiplications.
         fn entropy_form(

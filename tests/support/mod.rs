@@ -1,0 +1,173 @@
+//! The published cases, and reference data.
+
+#![allow(dead_code, reason = "every test file uses its own part of this module")]
+
+use eem::prelude::*;
+
+/// Thermo-visco-elastic element of García Orden & Romero (2012), §4.1.
+#[derive(Clone, Debug, FreeEnergy)]
+#[free_energy(|lambda: Stretch, gamma: Viscous, theta: Temperature| {
+    let strain = ln(lambda / natural_length);
+    let heating = theta - theta_ref;
+    let elastic = 0.5 * (k0 - k1 * heating) * strain.powi(2)
+        - coupling * heating * strain
+        + capacity * (heating - theta * ln(theta / theta_ref));
+    (1.0 + ratio) * elastic + (mu0 - mu1 * heating) * gamma.powi(2)
+        - ratio * gamma * diff(elastic, lambda)
+})]
+#[viscosity(gamma = eta0 * exp(a * (1.0 / theta - 1.0 / theta_ref)))]
+pub(crate) struct ThermoViscoElastic {
+    pub(crate) k0: f64,
+    pub(crate) k1: f64,
+    pub(crate) ratio: f64,
+    pub(crate) coupling: f64,
+    pub(crate) capacity: f64,
+    pub(crate) mu0: f64,
+    pub(crate) mu1: f64,
+    pub(crate) eta0: f64,
+    pub(crate) a: f64,
+    pub(crate) natural_length: f64,
+    pub(crate) theta_ref: f64,
+}
+
+impl ThermoViscoElastic {
+    /// The published data.
+    pub(crate) const PENDULUM: Self = Self {
+        k0: 100.0,
+        k1: 0.5,
+        ratio: 0.1,
+        coupling: 4.0,
+        capacity: 1.0,
+        mu0: 5.0,
+        mu1: 0.1,
+        eta0: 100.0,
+        a: 10.0,
+        natural_length: 1.0,
+        theta_ref: 300.0,
+    };
+}
+
+/// Thermoelastic spring with logarithmic stiffness, Conde Martín, Betsch & García Orden (2016), eq. (43).
+#[derive(Clone, Debug, FreeEnergy)]
+#[free_energy(|lambda: Stretch, theta: Temperature| {
+    let strain = ln(lambda / natural_length);
+    let modulus = stiffness - softening * theta_ref * ln(theta / theta_ref);
+    0.5 * modulus * strain.powi(2)
+        - coupling * (theta - theta_ref) * strain
+        + capacity * (theta - theta_ref - theta * ln(theta / theta_ref))
+})]
+pub(crate) struct LogarithmicStiffness {
+    pub(crate) stiffness: f64,
+    pub(crate) softening: f64,
+    pub(crate) coupling: f64,
+    pub(crate) capacity: f64,
+    pub(crate) natural_length: f64,
+    pub(crate) theta_ref: f64,
+}
+
+impl LogarithmicStiffness {
+    /// The first spring of the published double pendulum.
+    pub(crate) const FIRST: Self = Self {
+        stiffness: 5000.0,
+        softening: 50.0,
+        coupling: 20.0,
+        capacity: 5000.0,
+        natural_length: 2.0,
+        theta_ref: 300.0,
+    };
+}
+
+/// Hencky spring without temperature.
+#[derive(Clone, Debug, FreeEnergy)]
+#[free_energy(|lambda: Stretch| 0.5 * stiffness * ln(lambda / natural_length).powi(2))]
+pub(crate) struct Hencky {
+    pub(crate) stiffness: f64,
+    pub(crate) natural_length: f64,
+}
+
+/// A run with the handles of what is in it.
+#[derive(Debug)]
+pub(crate) struct Pendulum {
+    pub(crate) run: Simulation<2>,
+    pub(crate) bob: Node,
+    pub(crate) spring: Element,
+    pub(crate) air: Reservoir,
+}
+
+/// The single pendulum of García Orden & Romero (2012), §4.1.
+pub(crate) fn single_pendulum(scheme: Scheme, step: f64) -> Pendulum {
+    let mut scene = Scene::<2>::new();
+    let pivot = scene.anchor([0.0, 0.0]);
+    let bob = scene.mass(1.0, [3.0, 0.0], [0.0, 1.0]);
+    let spring = scene.spring(ThermoViscoElastic::PENDULUM, [pivot, bob]);
+    scene.set_temperature(spring, 380.0);
+    let air = scene.reservoir(300.0);
+    scene.conduct(spring, air, 10.0);
+    let run = Simulation::new(scene, scheme, step).unwrap();
+    Pendulum {
+        run,
+        bob,
+        spring,
+        air,
+    }
+}
+
+impl Pendulum {
+    /// q, p, θ, γ and σ in the order of the reference data.
+    pub(crate) fn row(&self) -> [f64; 7] {
+        let q = self.run.position(self.bob).unwrap();
+        let p = self.run.momentum(self.bob).unwrap();
+        let theta = self.run.temperature(self.spring).unwrap();
+        let gamma = self.run.viscous_stretch(self.spring, 0).unwrap();
+        let sigma = self.run.reservoir_entropy(self.air).unwrap();
+        [q.x, q.y, p.x, p.y, theta, gamma, sigma]
+    }
+}
+
+/// Largest violations of the laws along a run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Laws {
+    first: [f64; 2],
+    entropy: f64,
+    /// max |E − E₀|/E₀.
+    pub(crate) energy: f64,
+    /// max |J − J₀|/|J₀|.
+    pub(crate) angular_momentum: f64,
+    /// The smallest ΔS of a step, in ulp of S.
+    pub(crate) entropy_ulps: f64,
+}
+
+impl Laws {
+    /// Starts watching.
+    pub(crate) fn new<const D: usize>(run: &Simulation<D>) -> Self {
+        let ledger = run.ledger();
+        Self {
+            first: [ledger.energy, ledger.angular_momentum.norm()],
+            entropy: ledger.entropy,
+            energy: 0.0,
+            angular_momentum: 0.0,
+            entropy_ulps: f64::INFINITY,
+        }
+    }
+
+    /// Looks at the state after a step. Angular momentum is compared by its norm.
+    pub(crate) fn watch<const D: usize>(&mut self, run: &Simulation<D>) {
+        let ledger = run.ledger();
+        let [energy, momentum] = self.first;
+        let defect = |value: f64, first: f64| (value - first).abs() / first.abs();
+        self.energy = self.energy.max(defect(ledger.energy, energy));
+        let angular = defect(ledger.angular_momentum.norm(), momentum);
+        self.angular_momentum = self.angular_momentum.max(angular);
+        let ulp = f64::EPSILON * ledger.entropy.abs();
+        self.entropy_ulps = self.entropy_ulps.min((ledger.entropy - self.entropy) / ulp);
+        self.entropy = ledger.entropy;
+    }
+}
+
+/// The rows of a reference file, without its header.
+pub(crate) fn reference(name: &str) -> Vec<Vec<f64>> {
+    let path = format!("{}/tests/data/{name}", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
+    let row = |line: &str| line.split(',').map(|cell| cell.parse().unwrap()).collect();
+    text.lines().skip(1).map(row).collect()
+}
