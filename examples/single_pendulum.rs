@@ -48,6 +48,7 @@ use support::statistics::Statistics;
 use support::time_grid::TimeGrid;
 use support::{output, table, terminal};
 
+const HINT: &str = "Add --out DIR for the states as CSV and figures 2 to 8 of the paper.";
 const ABOUT: &str =
     "A thermo-visco-elastic pendulum, the laws of thermodynamics, and three schemes";
 
@@ -156,9 +157,7 @@ fn run(command_line: &CommandLine) -> Result<Claims, Box<dyn Error>> {
     table::print(&runs, Some(&reference));
     match directory {
         Some(directory) => write(directory, &reference, &runs)?,
-        None => {
-            terminal::say("Add --out DIR for the states as CSV and figures 2 to 8 of the paper.")
-        }
+        None => terminal::say(HINT),
     }
     Ok(check(&runs))
 }

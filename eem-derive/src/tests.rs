@@ -136,3 +136,51 @@ fn items_without_syntax_errors_only_are_seen() {
     let expansion = crate::derive::derive(&input).to_string();
     assert!(expansion.contains("tuple struct"));
 }
+#[test]
+fn zz_tmp() {
+    let log = quote! {
+        #[free_energy(|lambda: Stretch, theta: Temperature| {
+            let strain = ln(lambda / length);
+            let stiffness = c0 - c1 * theta_ref * ln(theta / theta_ref);
+            0.5 * stiffness * strain.powi(2) - beta * (theta - theta_ref) * strain
+                + capacity * (theta - theta_ref - theta * ln(theta / theta_ref))
+        })]
+        struct Log { c0: f64, c1: f64, length: f64, beta: f64, capacity: f64, theta_ref: f64 }
+    };
+    for item in [pendulum(), log] {
+        let t = std::time::Instant::now();
+        let e = expand(item);
+        let t = t.elapsed();
+        let p = pretty(e);
+        eprintln!("== {} lines, {} bytes, {:?}", p.lines().count(), p.len(), t);
+        let mut f = String::new();
+        for l in p.lines().map(str::trim) {
+            if l.contains("operation") || l.starts_with("/// 1 ") { f = l.to_owned(); }
+            if l.starts_with("fn ") { eprintln!("{l} {f}"); f.clear(); }
+            if l.starts_with("type ") { eprintln!("{l}"); }
+        }
+    }
+    // growth
+    for n in [10, 20, 40, 80, 160] {
+        let terms = (1..=n).map(|i| { let c = proc_macro2::Literal::u32_unsuffixed(i); quote!(k * ln(lambda + #c) * (theta + #c).powi(3)) });
+        let item = quote! { #[free_energy(|lambda: Stretch, theta: Temperature| { #(#terms)+* })] struct S { k: f64 } };
+        let t = std::time::Instant::now();
+        let e = expand(item);
+        eprintln!("{n} terms {:?} {}", t.elapsed(), e.to_string().len());
+    }
+    for n in [2, 4, 8, 16, 32] {
+        let factors = (1..=n).map(|i| { let c = proc_macro2::Literal::u32_unsuffixed(i); quote!(ln(lambda + theta + #c)) });
+        let item = quote! { #[free_energy(|lambda: Stretch, theta: Temperature| { #(#factors)** })] struct S { } };
+        let t = std::time::Instant::now();
+        let e = expand(item);
+        eprintln!("{n} factors {:?} {}", t.elapsed(), e.to_string().len());
+    }
+    for n in [2, 4, 8, 16, 32] {
+        let mut inner = quote!(lambda * theta);
+        for _ in 0..n { inner = quote!(ln(1 + exp(#inner))); }
+        let item = quote! { #[free_energy(|lambda: Stretch, theta: Temperature| { #inner })] struct S { } };
+        let t = std::time::Instant::now();
+        let e = expand(item);
+        eprintln!("{n} nested {:?} {}", t.elapsed(), e.to_string().len());
+    }
+}

@@ -98,9 +98,8 @@ impl Operator {
     fn of_node(&self, graph: &mut Graph, id: ExprId) -> ExprId {
         let node = graph.node(id).clone();
         match node {
-            Node::Number(_) => id,
             Node::Variable(symbol) if symbol == self.theta => graph.number(Number::ZERO),
-            Node::Variable(_) => id,
+            Node::Number(_) | Node::Variable(_) => id,
             Node::Sum { constant, terms } => {
                 let images: Vec<_> = terms
                     .iter()

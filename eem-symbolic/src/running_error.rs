@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! a + b :  e = e_a + e_b + u|a + b|         a b :  e = |b| e_a + |a| e_b + u|a b|
-//! f(a)  :  e = |f′(a)| e_a + u_f |f(a)|     f[a, b] :  e = |f[b, a, a]| e_a + |f[a, b, b]| e_b + u_f |f[a, b]|
+//! f(a)  :  e = |f′(a)| e_a + u_f |f(a)|     f[a, b] :  e = |f[b, a, a]| e_a + |f[a, b, b]| e_b + u_f ∫(|f′| + |x f″|)
 //! ```
 //!
 //! Nowhere does 1/|b − a| appear: the bound is what a divided difference is worth at any increment.
@@ -12,14 +12,16 @@ use crate::function::Function;
 use crate::interpret::{Arithmetic, F64};
 use crate::number::Number;
 use crate::program::ProgramKernel;
+use crate::quadrature::rounding_scale;
 
 /// Unit roundoff of `f64`, the bound of the relative error of one operation.
 const UNIT: f64 = f64::EPSILON / 2.0;
 /// Bound of the relative error of an elementary function of the platform, in units of roundoff.
 const FUNCTION: f64 = 2.0;
-/// Bound of the relative error of a first divided difference, in units of roundoff.
-const FIRST: f64 = 12.0;
-/// Bound of the relative error of a second divided difference, in units of roundoff.
+/// Bound of the error of a first divided difference by quadrature, in units of roundoff of
+/// ∫(|f′| + |x f″|).
+const FIRST: f64 = 4.0;
+/// Bound of the relative error of a second divided difference by quadrature, in units of roundoff.
 const SECOND: f64 = 40.0;
 
 /// Evaluates in double precision and bounds the error.
@@ -116,7 +118,9 @@ impl Arithmetic for RunningError {
         let to_a = F64.second_divided_difference(mirrored(values), &b.value, &a.value);
         let to_b = F64.second_divided_difference(values, &a.value, &b.value);
         let ends = to_a.abs() * a.error + to_b.abs() * b.error;
-        Bounded::rounded(value, ends + of_kernel(kernel, value, a, b), FIRST)
+        let scale = rounding_scale(values.map(|value| *value), a.value, b.value);
+        let error = ends + of_kernel(kernel, value, a, b) + FIRST * UNIT * scale;
+        Bounded { value, error }
     }
 
     fn second_divided_difference(

@@ -7,7 +7,10 @@ use eem::Scheme;
 
 use super::figures::{Curve, Figure};
 use super::record::{Outcome, Record};
-use super::statistics::Statistics;
+use super::statistics::{self, BREAKDOWN};
+
+/// Relative energy defect from which on a run shows nothing but its own collapse.
+const LOST: f64 = 0.05;
 
 /// What one picture shows of every run.
 #[derive(Clone, Copy, Debug)]
@@ -57,6 +60,7 @@ impl Comparison<'_> {
                     points: (plot.points)(run),
                     look,
                     trusted: is_sound(run),
+                    decisive: lost(run).unwrap_or(usize::MAX),
                 })
                 .collect(),
         }
@@ -65,13 +69,22 @@ impl Comparison<'_> {
 
 /// A run that reached its end and kept its energy decides what the axes show.
 fn is_sound(run: &Record) -> bool {
-    run.completed() && Statistics::of(run).breakdown.is_none()
+    run.completed() && statistics::first_energy_beyond(run, BREAKDOWN).is_none()
+}
+
+/// The row in which the energy is plainly wrong: what follows shall not decide the axes.
+fn lost(run: &Record) -> Option<usize> {
+    statistics::first_energy_beyond(run, LOST)
 }
 
 fn label(run: &Record) -> String {
-    match run.outcome {
-        Outcome::Completed => run.scheme.clone(),
-        Outcome::Failed { time, .. } => format!("{} (fails at {time:.1} s)", run.scheme),
+    let scheme = &run.scheme;
+    match (&run.outcome, lost(run)) {
+        (Outcome::Failed { time, .. }, _) => format!("{scheme} (fails at {time:.1} s)"),
+        (Outcome::Completed, Some(row)) => {
+            format!("{scheme} (energy lost at {:.1} s)", run.time(row))
+        }
+        (Outcome::Completed, None) => scheme.clone(),
     }
 }
 

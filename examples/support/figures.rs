@@ -39,6 +39,8 @@ pub(crate) struct Curve {
     pub(crate) look: usize,
     /// Whether the axes must show the curve as a whole.
     pub(crate) trusted: bool,
+    /// How many of the first points have a say in the axes' ranges.
+    pub(crate) decisive: usize,
 }
 
 impl Figure {

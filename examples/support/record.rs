@@ -39,7 +39,7 @@ pub(crate) struct Row {
 }
 
 impl Record {
-    /// An empty record; `columns` are named as in the CSV file, in its order.
+    /// An empty record; `columns` are named as in the CSV file, in its order, `time` first.
     pub(crate) fn new(scheme: impl Into<String>, columns: Vec<String>) -> Self {
         Self {
             scheme: scheme.into(),
@@ -77,6 +77,11 @@ impl Record {
     /// Number of recorded steps.
     pub(crate) fn steps(&self) -> usize {
         self.rows.len().saturating_sub(1)
+    }
+
+    /// Time (s) of a state; the columns begin with it.
+    pub(crate) fn time(&self, row: usize) -> f64 {
+        self.rows[row].values[0]
     }
 
     /// The values of one column; `None` when the scene has no such quantity.

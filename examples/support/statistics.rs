@@ -36,7 +36,7 @@ impl Statistics {
         let iterations = rows.iter().map(|row| row.newton_iterations).sum();
         let energy = record.vectors(|name| name == "energy");
         Self {
-            breakdown: breakdown(record, &energy),
+            breakdown: first_energy_beyond(record, BREAKDOWN).map(|row| record.time(row)),
             energy_defect: largest(defects(&energy)),
             entropy_increment: smallest_increment(record.column("entropy").as_deref()),
             angular_momentum_defect: largest(defects(&record.vectors(angular_momentum))),
@@ -46,6 +46,12 @@ impl Statistics {
                 .and_then(|steps| record.elapsed.checked_div(steps)),
         }
     }
+}
+
+/// The first row whose energy is off by more than the share `defect` of the initial energy.
+pub(crate) fn first_energy_beyond(record: &Record, defect: f64) -> Option<usize> {
+    let energy = record.vectors(|name| name == "energy");
+    defects(&energy).position(|own| own.is_nan() || own > defect)
 }
 
 /// Root mean square of |q − q*| over the common times, divided by that of |q*|,
@@ -67,11 +73,6 @@ pub(crate) fn position_error(record: &Record, exact: &Record) -> Option<f64> {
         }
     }
     (size > 0.0).then(|| (difference / size).sqrt())
-}
-
-fn breakdown(record: &Record, energy: &[Vec<f64>]) -> Option<f64> {
-    let index = defects(energy).position(|defect| defect.is_nan() || defect > BREAKDOWN)?;
-    record.column("time")?.get(index).copied()
 }
 
 /// |v − v₀| / |v₀| for every v; nothing without components or where v₀ vanishes.

@@ -8,17 +8,17 @@ use super::laws::Law;
 use super::precise::{Precise, to_f64};
 
 /// A law that can be evaluated.
-pub struct Evaluated {
-    pub law: Law,
-    pub programs: Programs,
-    pub precise: Precise,
+pub(crate) struct Evaluated {
+    pub(crate) law: Law,
+    pub(crate) programs: Programs,
+    pub(crate) precise: Precise,
 }
 
 /// A state in high precision.
-pub type State = Vec<BigFloat>;
+pub(crate) type State = Vec<BigFloat>;
 
 impl Evaluated {
-    pub fn new(law: Law) -> Self {
+    pub(crate) fn new(law: Law) -> Self {
         let programs = law.model.programs();
         Self {
             law,
@@ -27,24 +27,24 @@ impl Evaluated {
         }
     }
 
-    pub fn thermal(&self) -> bool {
+    pub(crate) fn thermal(&self) -> bool {
         self.law.model.temperature.is_some()
     }
 
     /// Number of variables without the temperature.
-    pub fn mechanical(&self) -> usize {
+    pub(crate) fn mechanical(&self) -> usize {
         self.law.state.len() - usize::from(self.thermal())
     }
 
     /// Outputs of a program at parameters followed by `inputs`.
-    pub fn run(&self, program: &Program, inputs: &[&[BigFloat]]) -> Vec<BigFloat> {
+    pub(crate) fn run(&self, program: &Program, inputs: &[&[BigFloat]]) -> Vec<BigFloat> {
         let mut all = self.precise.all(&self.law.parameters);
         inputs.iter().for_each(|part| all.extend_from_slice(part));
         program.interpret(&self.precise, &all)
     }
 
     /// θ with S(y, θ) = s, from a start nearby.
-    pub fn temperature(&self, y: &[BigFloat], s: &BigFloat, start: &BigFloat) -> BigFloat {
+    pub(crate) fn temperature(&self, y: &[BigFloat], s: &BigFloat, start: &BigFloat) -> BigFloat {
         let program = self.programs.caloric.as_ref().expect("a thermal law");
         let p = &self.precise;
         let mut point = y.to_vec();
@@ -62,18 +62,18 @@ impl Evaluated {
         point.pop().expect("θ")
     }
 
-    pub fn entropy(&self, x: &[BigFloat]) -> BigFloat {
+    pub(crate) fn entropy(&self, x: &[BigFloat]) -> BigFloat {
         let program = self.programs.caloric.as_ref().expect("a thermal law");
         self.run(program, &[x]).swap_remove(0)
     }
 
-    pub fn energy(&self, x: &[BigFloat]) -> BigFloat {
+    pub(crate) fn energy(&self, x: &[BigFloat]) -> BigFloat {
         self.run(&self.programs.internal_energy, &[x])
             .swap_remove(0)
     }
 
     /// Corner temperatures in the order of the inputs; none without a temperature.
-    pub fn corners(&self, x0: &[BigFloat], x1: &[BigFloat]) -> State {
+    pub(crate) fn corners(&self, x0: &[BigFloat], x1: &[BigFloat]) -> State {
         if !self.thermal() {
             return State::new();
         }
@@ -92,13 +92,13 @@ impl Evaluated {
     }
 
     /// Response and tangent of the entropy form.
-    pub fn entropy_form(&self, x0: &[BigFloat], x1: &[BigFloat]) -> Vec<BigFloat> {
+    pub(crate) fn entropy_form(&self, x0: &[BigFloat], x1: &[BigFloat]) -> Vec<BigFloat> {
         let corners = self.corners(x0, x1);
         self.run(&self.programs.entropy_form, &[x0, x1, &corners])
     }
 
     /// Response and tangent of the temperature form.
-    pub fn temperature_form(&self, x0: &[BigFloat], x1: &[BigFloat]) -> Vec<BigFloat> {
+    pub(crate) fn temperature_form(&self, x0: &[BigFloat], x1: &[BigFloat]) -> Vec<BigFloat> {
         let program = self
             .programs
             .temperature_form
@@ -108,12 +108,12 @@ impl Evaluated {
     }
 
     /// Number of response entries.
-    pub fn responses(&self) -> usize {
+    pub(crate) fn responses(&self) -> usize {
         self.law.state.len() + usize::from(self.thermal())
     }
 
     /// D_i F for all i, by quotients; every increment must be other than zero.
-    pub fn partitioned(
+    pub(crate) fn partitioned(
         &self,
         f: &dyn Fn(&[BigFloat]) -> BigFloat,
         v0: &[BigFloat],
@@ -133,7 +133,7 @@ impl Evaluated {
     }
 
     /// The response of the entropy form from its definition.
-    pub fn entropy_quotients(&self, x0: &[BigFloat], x1: &[BigFloat]) -> Vec<BigFloat> {
+    pub(crate) fn entropy_quotients(&self, x0: &[BigFloat], x1: &[BigFloat]) -> Vec<BigFloat> {
         let n = self.mechanical();
         if !self.thermal() {
             let derivatives = self.partitioned(&|x| self.energy(x), x0, x1);
@@ -157,7 +157,7 @@ impl Evaluated {
     }
 
     /// The response of the temperature form from its definition.
-    pub fn temperature_quotients(&self, x0: &[BigFloat], x1: &[BigFloat]) -> Vec<BigFloat> {
+    pub(crate) fn temperature_quotients(&self, x0: &[BigFloat], x1: &[BigFloat]) -> Vec<BigFloat> {
         let (p, n) = (&self.precise, self.mechanical());
         let energy = self.partitioned(&|x| self.energy(x), x0, x1);
         let entropy = self.partitioned(&|x| self.entropy(x), x0, x1);

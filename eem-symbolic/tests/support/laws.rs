@@ -3,15 +3,15 @@
 use eem_symbolic::{ExprId, Function, Graph, Model, Number, Symbol, diff};
 
 /// A model, its parameters and a state to start from.
-pub struct Law {
-    pub name: &'static str,
-    pub model: Model,
-    pub parameters: Vec<f64>,
-    pub state: Vec<f64>,
+pub(crate) struct Law {
+    pub(crate) name: &'static str,
+    pub(crate) model: Model,
+    pub(crate) parameters: Vec<f64>,
+    pub(crate) state: Vec<f64>,
 }
 
 /// All of them.
-pub fn all() -> Vec<Law> {
+pub(crate) fn all() -> Vec<Law> {
     vec![
         pendulum(),
         logarithmic_stiffness(),
@@ -90,12 +90,12 @@ impl Writer {
 }
 
 /// García Orden & Romero 2012, §4.1.
-pub fn pendulum() -> Law {
+pub(crate) fn pendulum() -> Law {
     thermo_visco_elastic("pendulum", 1, vec![1.3, 0.2, 380.0])
 }
 
 /// The same with two dashpots.
-pub fn two_dashpots() -> Law {
+pub(crate) fn two_dashpots() -> Law {
     thermo_visco_elastic("two dashpots", 2, vec![1.3, 0.2, -0.1, 380.0])
 }
 
@@ -163,7 +163,7 @@ fn thermo_visco_elastic(name: &'static str, dashpots: usize, state: Vec<f64>) ->
 
 /// Conde Martín, Betsch & García Orden 2016, eq. 43 with C(θ) = C⁰ − C¹ θr ln(θ/θr): no closed
 /// inverse of s(θ).
-pub fn logarithmic_stiffness() -> Law {
+pub(crate) fn logarithmic_stiffness() -> Law {
     let mut w = Writer::new();
     let (lambda, l) = w.variable("lambda");
     let (theta, t) = w.variable("theta");
@@ -202,7 +202,7 @@ pub fn logarithmic_stiffness() -> Law {
 }
 
 /// Two measures and a solid whose heat capacity freezes out: ψ = k/2 (λ₁² + λ₁λ₂²) θ^¼ + c θ ln(1 − e^(−Θ/θ)).
-pub fn einstein() -> Law {
+pub(crate) fn einstein() -> Law {
     let mut w = Writer::new();
     let (first, l1) = w.variable("lambda1");
     let (second, l2) = w.variable("lambda2");
@@ -241,7 +241,7 @@ pub fn einstein() -> Law {
 }
 
 /// No temperature: ψ = k/2 ln²(λ/λ0) + μ γ² − β k γ ln(λ/λ0)/λ.
-pub fn elastic() -> Law {
+pub(crate) fn elastic() -> Law {
     let mut w = Writer::new();
     let (lambda, l) = w.variable("lambda");
     let (gamma, g) = w.variable("gamma");

@@ -1,7 +1,7 @@
 //! High precision, laws and random expressions for the tests of programs.
 #![allow(dead_code)] // Every test file uses another part.
 
-pub mod corners;
-pub mod laws;
-pub mod precise;
-pub mod random;
+pub(crate) mod corners;
+pub(crate) mod laws;
+pub(crate) mod precise;
+pub(crate) mod random;

@@ -14,26 +14,26 @@ const SAME: i32 = -200;
 const ROUNDING: RoundingMode = RoundingMode::None;
 
 /// Numbers of 512 bits.
-pub struct Precise {
+pub(crate) struct Precise {
     constants: RefCell<Consts>,
 }
 
 impl Precise {
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         let constants = RefCell::new(Consts::new().expect("memory for constants"));
         Self { constants }
     }
 
-    pub fn from_f64(&self, value: f64) -> BigFloat {
+    pub(crate) fn from_f64(&self, value: f64) -> BigFloat {
         BigFloat::from_f64(value, BITS)
     }
 
-    pub fn all(&self, values: &[f64]) -> Vec<BigFloat> {
+    pub(crate) fn all(&self, values: &[f64]) -> Vec<BigFloat> {
         values.iter().map(|&value| self.from_f64(value)).collect()
     }
 
     /// `2ⁿ`.
-    pub fn two_to(&self, n: i32) -> BigFloat {
+    pub(crate) fn two_to(&self, n: i32) -> BigFloat {
         let mut power = BigFloat::from_f64(1.0, BITS);
         power.set_exponent(n + 1);
         power
@@ -204,7 +204,7 @@ impl Arithmetic for Precise {
 }
 
 /// The nearest `f64`, to a unit in the last place.
-pub fn to_f64(x: &BigFloat) -> f64 {
+pub(crate) fn to_f64(x: &BigFloat) -> f64 {
     if x.is_zero() {
         return 0.0;
     }
@@ -223,6 +223,6 @@ pub fn to_f64(x: &BigFloat) -> f64 {
 }
 
 /// `|computed − exact|`.
-pub fn error(precise: &Precise, computed: f64, exact: &BigFloat) -> f64 {
+pub(crate) fn error(precise: &Precise, computed: f64, exact: &BigFloat) -> f64 {
     to_f64(&precise.sub(&precise.from_f64(computed), exact)).abs()
 }

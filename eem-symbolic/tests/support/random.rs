@@ -3,32 +3,37 @@
 use eem_symbolic::{ExprId, Function, Graph, Number};
 
 /// xorshift64*, Vigna 2016.
-pub struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
-    pub fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
     }
 
-    pub fn next(&mut self) -> u64 {
+    pub(crate) fn next(&mut self) -> u64 {
         self.0 ^= self.0 >> 12;
         self.0 ^= self.0 << 25;
         self.0 ^= self.0 >> 27;
         self.0.wrapping_mul(0x2545_f491_4f6c_dd1d)
     }
 
-    pub fn below(&mut self, bound: usize) -> usize {
+    pub(crate) fn below(&mut self, bound: usize) -> usize {
         ((self.next() >> 33) as usize) % bound
     }
 
     /// Uniform in \[0, 1).
-    pub fn unit(&mut self) -> f64 {
+    pub(crate) fn unit(&mut self) -> f64 {
         (self.next() >> 11) as f64 * 2.0_f64.powi(-53)
     }
 }
 
 /// A random expression of x with all functions of the table but |x|, defined for every x > 0.
-pub fn expression(graph: &mut Graph, random: &mut Random, x: ExprId, depth: usize) -> ExprId {
+pub(crate) fn expression(
+    graph: &mut Graph,
+    random: &mut Random,
+    x: ExprId,
+    depth: usize,
+) -> ExprId {
     if depth == 0 || random.below(12) == 0 {
         return leaf(graph, random, x);
     }
@@ -62,8 +67,7 @@ pub fn expression(graph: &mut Graph, random: &mut Random, x: ExprId, depth: usiz
         }
         10 => {
             let base = positive(graph, inner);
-            let exponent = [0.5, 1.5, 0.3, -0.7, 2.5][random.below(5)];
-            let exponent = graph.number(exponent);
+            let exponent = decimal(graph, ["0.5", "1.5", "0.3", "-0.7", "2.5"][random.below(5)]);
             graph.power(base, exponent)
         }
         11 => {
@@ -81,7 +85,11 @@ fn leaf(graph: &mut Graph, random: &mut Random, x: ExprId) -> ExprId {
         return x;
     }
     let decimals = ["0.1", "0.7", "1.3", "2", "3.25"];
-    let number = Number::parse_decimal(decimals[random.below(5)]).expect("a decimal number");
+    decimal(graph, decimals[random.below(5)])
+}
+
+fn decimal(graph: &mut Graph, text: &str) -> ExprId {
+    let number = Number::parse_decimal(text).expect("a decimal number");
     graph.number(number)
 }
 

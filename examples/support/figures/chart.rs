@@ -66,7 +66,10 @@ pub(super) fn draw(figure: &Figure, path: &Path) -> Result<(), Box<dyn Error>> {
 /// The axes' ranges for a plotting area `aspect` times as wide as high.
 fn window(figure: &Figure, aspect: f64) -> Window {
     let along = |coordinate: fn(&(f64, f64)) -> f64| {
-        let values = |curve: &Curve| curve.points.iter().map(coordinate).collect::<Vec<_>>();
+        let values = |curve: &Curve| {
+            let decisive = curve.points.iter().take(curve.decisive);
+            decisive.map(coordinate).collect::<Vec<_>>()
+        };
         let (trusted, others): (Vec<_>, Vec<_>) = figure.curves.iter().partition(|c| c.trusted);
         let trusted: Vec<f64> = trusted.into_iter().flat_map(values).collect();
         let others: Vec<Vec<f64>> = others.into_iter().map(values).collect();

@@ -2,9 +2,6 @@
 
 use std::ops::Range;
 
-/// The last one in so many points of an untrusted curve do not count: that is where it blows up.
-const ENDING: usize = 5;
-
 /// One in so many points of an untrusted curve may lie outside the range on either side.
 const OUTLIERS: usize = 20;
 
@@ -30,8 +27,7 @@ pub(super) fn axis(trusted: &[f64], others: &[Vec<f64>]) -> Range<f64> {
         (low - reach, high + reach)
     });
     for curve in others {
-        let beginning = &curve[..curve.len() - curve.len() / ENDING];
-        let Some((low, high)) = bulk(beginning, |count| count / OUTLIERS) else {
+        let Some((low, high)) = bulk(curve, |count| count / OUTLIERS) else {
             continue;
         };
         let (least, most) = allowed.unwrap_or((low, high));
