@@ -2,8 +2,8 @@
 
 mod support;
 
-use eem::StateError;
 use eem::prelude::*;
+use eem::{StateError, StepFailure};
 use support::{Laws, LogarithmicStiffness};
 
 const ENERGY_TOLERANCE: f64 = 4e-15;
@@ -67,4 +67,38 @@ fn a_state_beyond_the_spinodal_is_refused() {
     assert_eq!(element, spring);
     assert!(value < 0.0);
     approx::assert_relative_eq!(temperature, 10.0);
+}
+
+// C = c − C¹ θ_r L²/2θ vanishes at θ_c = C¹ θ_r L²/2c ≈ 150 K here; the air is colder than that.
+#[test]
+fn a_run_that_cools_to_the_spinodal_ends_there() {
+    let mut scene = Scene::<3>::new();
+    let model = LogarithmicStiffness {
+        capacity: 50.0,
+        natural_length: 1.0,
+        ..LogarithmicStiffness::FIRST
+    };
+    // The masses are too heavy to move much: the strain stays ln e = 1.
+    let ends = [0.0, std::f64::consts::E].map(|x| scene.mass(1e6, [x, 0.0, 0.0], [0.0; 3]));
+    let spring = scene.spring(model, ends);
+    scene.set_temperature(spring, 300.0);
+    let air = scene.reservoir(100.0);
+    scene.conduct(spring, air, 20.0);
+    let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.01).unwrap();
+    let mut laws = Laws::new(&run);
+    let error = loop {
+        match run.step() {
+            Ok(_) => laws.watch(&run),
+            Err(error) => break error,
+        }
+        assert!(run.time() < 100.0, "the spring cools below 150 K");
+    };
+    let theta = run.temperature(spring).unwrap();
+    println!("{theta} K: {error}");
+    assert!((149.0..170.0).contains(&theta));
+    assert!(matches!(
+        error.failure,
+        StepFailure::State(StateError::NoSuchTemperature { .. } | StateError::HeatCapacity { .. })
+    ));
+    assert!(laws.entropy_ulps >= ENTROPY_TOLERANCE);
 }

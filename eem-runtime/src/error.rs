@@ -211,6 +211,14 @@ pub enum StepFailure {
     /// The tangent is singular.
     #[error("the tangent matrix is singular")]
     SingularTangent,
+    /// A trial state has the wrong number of unknowns.
+    #[error("{given} unknowns were given, the scene has {expected}")]
+    Unknowns {
+        /// How many were given.
+        given: usize,
+        /// How many there are.
+        expected: usize,
+    },
     /// An element has no admissible state where Newton's method leads.
     #[error(transparent)]
     State(#[from] StateError),

@@ -52,4 +52,4 @@ pub use newton::{NewtonSettings, StepReport};
 pub use scalar::{Real, Scalar};
 pub use scene::Scene;
 pub use scheme::Scheme;
-pub use simulation::Simulation;
+pub use simulation::{Simulation, StepTangent};

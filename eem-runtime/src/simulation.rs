@@ -1,6 +1,7 @@
 //! A scene in motion.
 
 mod inspect;
+mod linearize;
 
 use core::fmt;
 
@@ -17,6 +18,8 @@ use crate::scene::{Scene, is_positive};
 use crate::scheme::Scheme;
 use crate::solver::Solver;
 use crate::state::State;
+
+pub use linearize::StepTangent;
 
 /// A scene that is stepped through time by one scheme.
 ///

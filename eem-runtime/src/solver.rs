@@ -1,6 +1,6 @@
 //! One step of a whole scene: Newton's method, then the closing evaluation.
 
-use crate::error::{NewtonIteration, StepFailure};
+use crate::error::{NewtonIteration, StateError, StepFailure};
 use crate::group::{Group, StepView, Trial};
 use crate::layout::Layout;
 use crate::newton::{NewtonSettings, is_last};
@@ -26,6 +26,8 @@ pub(crate) struct Solver<S> {
     /// The part of the nodal forces that the old state decides, N.
     old_force: Vec<S>,
     impulse: Vec<S>,
+    /// What kept the last update from being applied in full.
+    obstacle: Option<StateError>,
     /// What each iteration did.
     pub(crate) history: Vec<Iteration<S>>,
 }
@@ -69,6 +71,7 @@ impl<S: Real> Solver<S> {
             correction: [coordinates.clone(), temperatures],
             old_force: coordinates.clone(),
             impulse: coordinates,
+            obstacle: None,
             history: Vec::new(),
         }
     }
@@ -104,7 +107,61 @@ impl<S: Real> Solver<S> {
             .history
             .last()
             .map_or(f64::NAN, |last| last.update.to_f64());
-        Err(StepFailure::NotConverged { update })
+        Err(match self.obstacle.take() {
+            Some(obstacle) => obstacle.into(),
+            None => StepFailure::NotConverged { update },
+        })
+    }
+
+    /// Residual and tangent at given global unknowns, with the local ones solved for.
+    pub(crate) fn linearize<const D: usize>(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        unknowns: &[S],
+    ) -> Result<(Vec<S>, Vec<S>), StepFailure> {
+        self.history.clear();
+        self.begin(groups, view)?;
+        self.distribute(view, unknowns);
+        for (slot, unknown) in view.layout.coupled.iter().enumerate() {
+            let change = unknown.map_or(S::zero(), |at| unknowns[at] - self.previous[1][slot]);
+            self.correction[1][slot] = change;
+        }
+        let no_change = vec![S::zero(); unknowns.len()];
+        let mut before = None;
+        loop {
+            self.advance(groups, view)?;
+            let residual = self.assemble(groups, view);
+            if before.is_some_and(|update| update <= S::EPSILON) {
+                break;
+            }
+            self.remember();
+            self.distribute(view, &no_change);
+            self.correction[1].fill(S::zero());
+            let update = correct_locally(groups, view, &no_change);
+            self.history.push(Iteration { residual, update });
+            let stagnated = before.is_some_and(|before| update >= before);
+            if !update.is_finite() || self.history.len() > self.settings.max_iterations {
+                let update = update.to_f64();
+                return Err(StepFailure::NotConverged { update });
+            }
+            if stagnated && update <= self.settings.tolerance {
+                break;
+            }
+            before = Some(update);
+        }
+        let residual = self.system.right().iter().map(|&entry| -entry).collect();
+        Ok((residual, self.system.matrix().to_vec()))
+    }
+
+    /// Writes the displacements among global unknowns to the correction.
+    fn distribute(&mut self, view: &StepView<'_, S>, unknowns: &[S]) {
+        for (node, first) in view.layout.nodes.iter().enumerate() {
+            let own = node * self.dimension..(node + 1) * self.dimension;
+            for (axis, change) in self.correction[0][own].iter_mut().enumerate() {
+                *change = first.map_or(S::zero(), |first| unknowns[first + axis]);
+            }
+        }
     }
 
     /// Starts at the old state, with free flight as the first correction.
@@ -150,6 +207,7 @@ impl<S: Real> Solver<S> {
     ) -> Result<S, StepFailure> {
         let mut share = S::one();
         let mut halvings = 0;
+        self.obstacle = None;
         loop {
             self.apply(share, view);
             for group in groups.iter_mut() {
@@ -162,7 +220,8 @@ impl<S: Real> Solver<S> {
             {
                 Ok(()) => return Ok(share),
                 Err(error) if halvings == HALVINGS => return Err(error.into()),
-                Err(_) => {
+                Err(error) => {
+                    self.obstacle = Some(error);
                     share *= S::from_f64(0.5);
                     halvings += 1;
                 }
@@ -226,8 +285,7 @@ impl<S: Real> Solver<S> {
     ) -> S {
         self.remember();
         let solution = self.system.right();
-        let measures = groups.iter().map(|group| group.largest_measure());
-        let length = measures.fold(S::zero(), S::maximum);
+        let length = longest(groups);
         let mut largest = S::zero();
         for (node, first) in view.layout.nodes.iter().enumerate() {
             let Some(first) = *first else { continue };
@@ -242,10 +300,7 @@ impl<S: Real> Solver<S> {
             self.correction[1][slot] = change;
             largest = largest.maximum((change / self.trial.seen_temperatures[slot]).abs());
         }
-        for group in groups.iter_mut() {
-            largest = largest.maximum(group.correct(view, solution, length));
-        }
-        largest
+        largest.maximum(correct_locally(groups, view, solution))
     }
 
     /// Writes the new state to `next`, from the forces, temperatures and rates that were found.
@@ -322,4 +377,23 @@ impl<S: Real> Solver<S> {
         }
         Ok(())
     }
+}
+
+/// The longest measure of the old state, the unit of lengths.
+fn longest<S: Real, const D: usize>(groups: &[Box<dyn Group<S, D>>]) -> S {
+    let measures = groups.iter().map(|group| group.largest_measure());
+    measures.fold(S::zero(), S::maximum)
+}
+
+/// Corrects the local unknowns for given global corrections; the largest scaled update.
+fn correct_locally<S: Real, const D: usize>(
+    groups: &mut [Box<dyn Group<S, D>>],
+    view: &StepView<'_, S>,
+    solution: &[S],
+) -> S {
+    let length = longest(groups);
+    let updates = groups
+        .iter_mut()
+        .map(|group| group.correct(view, solution, length));
+    updates.fold(S::zero(), S::maximum)
 }

@@ -44,6 +44,11 @@ impl<S: Real> LinearSystem<S> {
         &self.right
     }
 
+    /// A, row-major.
+    pub(crate) fn matrix(&self) -> &[S] {
+        &self.matrix
+    }
+
     /// Replaces A by its factors and b by the solution.
     pub(crate) fn solve(&mut self) -> Result<(), Singular> {
         lu::factor(&mut self.matrix, &mut self.pivots)?;

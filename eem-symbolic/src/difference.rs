@@ -13,6 +13,13 @@ impl Graph {
     /// f[a, b] = (f(b) − f(a))/(b − a) = ∫₀¹ f′(a + t(b − a)) dt
     /// ```
     pub fn kernel_difference(&mut self, kernel: Kernel, a: ExprId, b: ExprId) -> ExprId {
+        let kernel = match self.exponent(kernel) {
+            Some(Rational::ZERO) => return self.number(Number::ZERO),
+            Some(Rational::ONE) => return self.number(Number::ONE),
+            Some(Rational::TWO) => return self.pair_sum(a, b),
+            Some(exponent) => self.power_kernel(exponent),
+            None => kernel,
+        };
         if a == b {
             return self.kernel_derivative(kernel, a);
         }
@@ -33,6 +40,12 @@ impl Graph {
     /// f[a, b, b] = (f′(b) − f[a, b])/(b − a) = ∫₀¹ t f″(a + t(b − a)) dt
     /// ```
     pub fn second_kernel_difference(&mut self, kernel: Kernel, a: ExprId, b: ExprId) -> ExprId {
+        let kernel = match self.exponent(kernel) {
+            Some(Rational::ZERO | Rational::ONE) => return self.number(Number::ZERO),
+            Some(Rational::TWO) => return self.number(Number::ONE),
+            Some(exponent) => self.power_kernel(exponent),
+            None => kernel,
+        };
         self.intern(Node::SecondDividedDifference(kernel, a, b))
     }
 
@@ -52,24 +65,24 @@ impl Graph {
         })
     }
 
-    /// `(base^exponent)[a, b]` for an exponent that is the same at both ends.
-    pub(crate) fn exponent_difference(
-        &mut self,
-        exponent: Rational,
-        a: ExprId,
-        b: ExprId,
-    ) -> ExprId {
+    /// The kernel of `x^exponent`.
+    pub(crate) fn power_kernel(&mut self, exponent: Rational) -> Kernel {
         match (exponent, exponent.to_i32()) {
-            (Rational::ZERO, _) => self.number(Number::ZERO),
-            (Rational::ONE, _) => self.number(Number::ONE),
-            (Rational::TWO, _) => self.pair_sum(a, b),
-            (Rational::MINUS_ONE, _) => self.kernel_difference(Kernel::Recip, a, b),
-            (Rational::HALF, _) => self.kernel_difference(Kernel::Sqrt, a, b),
-            (_, Some(integer)) => self.kernel_difference(Kernel::Powi(integer), a, b),
-            (_, None) => {
-                let exponent = self.number(exponent);
-                self.kernel_difference(Kernel::Powf(exponent), a, b)
-            }
+            (Rational::MINUS_ONE, _) => Kernel::Recip,
+            (Rational::HALF, _) => Kernel::Sqrt,
+            (_, Some(integer)) => Kernel::Powi(integer),
+            (_, None) => Kernel::Powf(self.number(exponent)),
+        }
+    }
+
+    /// The exponent of a kernel that is a power with a rational one.
+    fn exponent(&self, kernel: Kernel) -> Option<Rational> {
+        match kernel {
+            Kernel::Function(_) => None,
+            Kernel::Sqrt => Some(Rational::HALF),
+            Kernel::Recip => Some(Rational::MINUS_ONE),
+            Kernel::Powi(exponent) => Some(Rational::integer(i64::from(exponent))),
+            Kernel::Powf(exponent) => self.as_number(exponent)?.exact(),
         }
     }
 

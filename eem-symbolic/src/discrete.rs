@@ -197,7 +197,7 @@ impl Step {
         self.name(increment)
     }
 
-    /// D_λ e of a measure is f*, −D_γ e of a dashpot is g*.
+    /// `D_λ e` of a measure is f*, `−D_γ e` of a dashpot is g*.
     fn conjugate(&mut self, i: usize, derivative: ExprId) -> ExprId {
         if i < self.measures {
             derivative
@@ -205,11 +205,11 @@ impl Step {
             self.graph.neg(derivative)
         }
     }
+}
 
-    /// The first `i` variables of `before` and the others of `after`.
-    fn mixed(&self, i: usize, before: &[Symbol], after: &[Symbol]) -> Point {
-        before[..i].iter().chain(&after[i..]).copied().collect()
-    }
+/// The first `i` variables of `before` and the others of `after`.
+fn mixed(i: usize, before: &[Symbol], after: &[Symbol]) -> Point {
+    before[..i].iter().chain(&after[i..]).copied().collect()
 }
 
 /// First the corners that variables become new at, then those that they become old at.

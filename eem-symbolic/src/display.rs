@@ -1,13 +1,16 @@
 //! Expressions as text: names as the user wrote them, `*` never omitted, parentheses only where needed.
 
+mod fraction;
 mod render;
+mod text;
 
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
 
 use crate::graph::Graph;
 use crate::node::{ExprId, Node};
-use render::{Text, render};
+use render::render;
+use text::Text;
 
 /// Expressions of more operations than this, repetitions counted, are abbreviated: about a screen.
 const SPELLED_OUT: u64 = 500;

@@ -215,7 +215,8 @@ fn apply(graph: &mut Graph, function: Function, g: Difference) -> Difference {
 
 /// The same for `f(x) = x^r`.
 fn rational_power(graph: &mut Graph, g: Difference, exponent: Rational) -> Difference {
-    let outer = graph.exponent_difference(exponent, g.a, g.b);
+    let kernel = graph.power_kernel(exponent);
+    let outer = graph.kernel_difference(kernel, g.a, g.b);
     Difference {
         a: graph.power_product(&[(g.a, exponent)]),
         b: graph.power_product(&[(g.b, exponent)]),

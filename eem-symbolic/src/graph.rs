@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::function::Function;
 use crate::node::{ExprId, Node, Symbol};
-use crate::number::{Number, Rational};
+use crate::number::Number;
 
 /// Expressions that share their subexpressions.
 ///
@@ -238,69 +238,6 @@ impl Graph {
         }
         node.for_each_operand(|operand| unite(&self.entries[operand.index()].symbols));
         bits.into_boxed_slice()
-    }
-}
-
-/// Constructors that are combinations of others.
-impl Graph {
-    /// `a + b`.
-    pub fn add(&mut self, a: ExprId, b: ExprId) -> ExprId {
-        self.sum(&[a, b])
-    }
-
-    /// `a − b`.
-    pub fn sub(&mut self, a: ExprId, b: ExprId) -> ExprId {
-        self.weighted_sum(Number::ZERO, &[(Number::ONE, a), (Number::MINUS_ONE, b)])
-    }
-
-    /// `−a`.
-    pub fn neg(&mut self, a: ExprId) -> ExprId {
-        self.scale(Number::MINUS_ONE, a)
-    }
-
-    /// `coefficient · a`.
-    pub fn scale(&mut self, coefficient: Number, a: ExprId) -> ExprId {
-        self.weighted_sum(Number::ZERO, &[(coefficient, a)])
-    }
-
-    /// `Σ terms`.
-    pub fn sum(&mut self, terms: &[ExprId]) -> ExprId {
-        let terms: Vec<_> = terms.iter().map(|&term| (Number::ONE, term)).collect();
-        self.weighted_sum(Number::ZERO, &terms)
-    }
-
-    /// `a · b`.
-    pub fn mul(&mut self, a: ExprId, b: ExprId) -> ExprId {
-        self.product(&[a, b])
-    }
-
-    /// `a / b`.
-    pub fn div(&mut self, a: ExprId, b: ExprId) -> ExprId {
-        self.power_product(&[(a, Rational::ONE), (b, Rational::MINUS_ONE)])
-    }
-
-    /// `1/x`.
-    pub fn recip(&mut self, x: ExprId) -> ExprId {
-        self.power_product(&[(x, Rational::MINUS_ONE)])
-    }
-
-    /// `√x`.
-    pub fn sqrt(&mut self, x: ExprId) -> ExprId {
-        self.power_product(&[(x, Rational::HALF)])
-    }
-
-    /// `xⁿ`.
-    pub fn powi(&mut self, x: ExprId, exponent: i32) -> ExprId {
-        self.power_product(&[(x, Rational::integer(i64::from(exponent)))])
-    }
-
-    /// `Π factors`.
-    pub fn product(&mut self, factors: &[ExprId]) -> ExprId {
-        let factors: Vec<_> = factors
-            .iter()
-            .map(|&factor| (factor, Rational::ONE))
-            .collect();
-        self.power_product(&factors)
     }
 }
 

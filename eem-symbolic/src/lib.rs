@@ -73,3 +73,8 @@ pub use program::{
 pub use running_error::{Bounded, RunningError};
 pub use schedule::schedule;
 pub use verify::VerifyError;
+
+/// The example of the readme.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -15,9 +15,9 @@ use point::{PointPrograms, heat_capacity};
 pub struct Model {
     /// The graph that holds all expressions.
     pub graph: Graph,
-    /// Kinematic measures λ_a, a = 1 … M.
+    /// Kinematic measures `λ_a`, a = 1 … M.
     pub measures: Vec<Symbol>,
-    /// Viscous stretches γ_k, k = 1 … K.
+    /// Viscous stretches `γ_k`, k = 1 … K.
     pub dashpots: Vec<Symbol>,
     /// Absolute temperature θ, if the model has one.
     pub temperature: Option<Symbol>,
@@ -25,7 +25,7 @@ pub struct Model {
     pub parameters: Vec<Symbol>,
     /// Free energy ψ.
     pub psi: ExprId,
-    /// One viscosity η_k per dashpot, a function of the parameters and θ.
+    /// One viscosity `η_k` per dashpot, a function of the parameters and θ.
     pub viscosities: Vec<ExprId>,
 }
 
@@ -63,13 +63,13 @@ pub struct Formulas {
     pub entropy: Option<String>,
     /// e = ψ + θ s.
     pub internal_energy: String,
-    /// f_a = ∂ψ/∂λ_a.
+    /// `f_a = ∂ψ/∂λ_a`.
     pub forces: Vec<String>,
-    /// g_k = −∂ψ/∂γ_k.
+    /// `g_k = −∂ψ/∂γ_k`.
     pub dashpot_forces: Vec<String>,
     /// c = θ ∂s/∂θ.
     pub heat_capacity: Option<String>,
-    /// η_k.
+    /// `η_k`.
     pub viscosities: Vec<String>,
 }
 

@@ -1,5 +1,6 @@
 //! Numbers of expressions: exact as long as they fit, so that `1 − 1` and `3·⅓` are decided and not rounded.
 
+mod conversion;
 mod rational;
 
 use std::fmt;

@@ -69,33 +69,34 @@ fn rank_of(kernel: Kernel) -> (i32, i32) {
     }
 }
 
-/// Compares what is left when heads and operands agree: versions, constants, coefficients, exponents.
+/// Compares what is left when heads and operands agree.
 fn compare_details(graph: &Graph, a: ExprId, b: ExprId) -> Ordering {
-    match (graph.node(a), graph.node(b)) {
-        (Node::Number(x), Node::Number(y)) => compare_numbers(*x, *y),
-        (Node::Variable(x), Node::Variable(y)) => graph.rank(*x).cmp(&graph.rank(*y)),
-        (
-            Node::Sum {
-                constant: x,
-                terms: p,
-            },
-            Node::Sum {
-                constant: y,
-                terms: q,
-            },
-        ) => p
+    let (left, right) = (details(graph, a), details(graph, b));
+    let orders = left
+        .iter()
+        .zip(&right)
+        .map(|(&p, &q)| compare_numbers(p, q));
+    orders.fold(Ordering::Equal, Ordering::then).then(a.cmp(&b))
+}
+
+/// Version, coefficients and exponents of a node as numbers.
+fn details(graph: &Graph, e: ExprId) -> Vec<Number> {
+    match graph.node(e) {
+        Node::Number(number) => vec![*number],
+        Node::Variable(symbol) => vec![Number::from(i64::from(graph.rank(*symbol).1))],
+        Node::Sum { constant, terms } => {
+            terms.iter().map(|term| term.0).chain([*constant]).collect()
+        }
+        Node::Product(factors) => factors
             .iter()
-            .zip(q)
-            .map(|(p, q)| compare_numbers(p.0, q.0))
-            .fold(Ordering::Equal, Ordering::then)
-            .then(compare_numbers(*x, *y)),
-        (Node::Product(p), Node::Product(q)) => p
-            .iter()
-            .zip(q)
-            .map(|(p, q)| p.1.cmp(&q.1))
-            .fold(Ordering::Equal, Ordering::then),
-        // Other nodes consist of heads and operands alone, and equal nodes have equal ids.
-        (first, second) => unreachable!("{first:?} and {second:?} have one id"),
+            .map(|&(_, exponent)| Number::Exact(exponent))
+            .collect(),
+        Node::Power(..)
+        | Node::Apply(..)
+        | Node::PairSum(..)
+        | Node::DividedDifference(..)
+        | Node::SecondDividedDifference(..)
+        | Node::PowerDifference { .. } => Vec::new(),
     }
 }
 

@@ -49,6 +49,40 @@ impl Graph {
         self.scale(coefficient, product)
     }
 
+    /// `a · b`.
+    pub fn mul(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.product(&[a, b])
+    }
+
+    /// `a / b`.
+    pub fn div(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.power_product(&[(a, Rational::ONE), (b, Rational::MINUS_ONE)])
+    }
+
+    /// `1/x`.
+    pub fn recip(&mut self, x: ExprId) -> ExprId {
+        self.power_product(&[(x, Rational::MINUS_ONE)])
+    }
+
+    /// `√x`.
+    pub fn sqrt(&mut self, x: ExprId) -> ExprId {
+        self.power_product(&[(x, Rational::HALF)])
+    }
+
+    /// `xⁿ`.
+    pub fn powi(&mut self, x: ExprId, exponent: i32) -> ExprId {
+        self.power_product(&[(x, Rational::integer(i64::from(exponent)))])
+    }
+
+    /// `Π factors`.
+    pub fn product(&mut self, factors: &[ExprId]) -> ExprId {
+        let factors: Vec<_> = factors
+            .iter()
+            .map(|&factor| (factor, Rational::ONE))
+            .collect();
+        self.power_product(&factors)
+    }
+
     /// Coefficient and term of an expression that is `coefficient · term`.
     pub(crate) fn as_scaled(&self, e: ExprId) -> Option<(Number, ExprId)> {
         let Node::Sum { constant, terms } = self.node(e) else {

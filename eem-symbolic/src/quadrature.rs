@@ -59,10 +59,10 @@ fn integral(a: f64, b: f64, g: impl Fn(f64, f64) -> f64) -> f64 {
     let rising = |t: f64| g(t, (1.0 - t) * a + t * b);
     let falling = |t: f64| g(1.0 - t, t * a + (1.0 - t) * b);
     let smallest = 0.5_f64.powi(HALVINGS);
-    let mut sum = panel(&rising, 0.0, smallest) + panel(&falling, 0.0, smallest);
+    let mut sum = panel(rising, 0.0, smallest) + panel(falling, 0.0, smallest);
     for k in (1..HALVINGS).rev() {
         let low = 0.5_f64.powi(k + 1);
-        sum += panel(&rising, low, 2.0 * low) + panel(&falling, low, 2.0 * low);
+        sum += panel(rising, low, 2.0 * low) + panel(falling, low, 2.0 * low);
     }
     sum
 }
@@ -70,9 +70,8 @@ fn integral(a: f64, b: f64, g: impl Fn(f64, f64) -> f64) -> f64 {
 /// The integral of g from `low` to `high`.
 fn panel(g: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     let (centre, half) = (0.5 * (low + high), 0.5 * (high - low));
-    let pair = |&(node, weight): &(f64, f64)| {
-        weight * (g(centre - half * node) + g(centre + half * node))
-    };
+    let pair =
+        |&(node, weight): &(f64, f64)| weight * (g(centre - half * node) + g(centre + half * node));
     half * NODES.iter().rev().map(pair).sum::<f64>()
 }
 

@@ -3,8 +3,7 @@
 use std::collections::HashMap;
 
 use crate::graph::Graph;
-use crate::node::{ExprId, Kernel, Node, Symbol};
-use crate::number::Rational;
+use crate::node::{ExprId, Node, Symbol};
 
 /// The expression with every symbol of the list replaced, all at once.
 ///
@@ -62,16 +61,8 @@ fn rebuild(graph: &mut Graph, node: Node) -> ExprId {
         Node::Power(base, exponent) => graph.power(base, exponent),
         Node::Apply(function, argument) => graph.apply(function, argument),
         Node::PairSum(a, b) => graph.pair_sum(a, b),
-        Node::DividedDifference(kernel, a, b) => match exponent_of(graph, kernel) {
-            Some(exponent) => graph.exponent_difference(exponent, a, b),
-            None => graph.kernel_difference(kernel, a, b),
-        },
+        Node::DividedDifference(kernel, a, b) => graph.kernel_difference(kernel, a, b),
         Node::SecondDividedDifference(kernel, a, b) => graph.second_kernel_difference(kernel, a, b),
         Node::PowerDifference { values, logarithms } => graph.power_difference(values, logarithms),
     }
-}
-
-/// The rational exponent of a power kernel whose exponent has become a number.
-fn exponent_of(graph: &Graph, kernel: Kernel) -> Option<Rational> {
-    graph.as_number(kernel.operand()?)?.exact()
 }

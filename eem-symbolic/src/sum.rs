@@ -63,6 +63,32 @@ impl Graph {
         };
         self.intern(Node::PairSum(first, second))
     }
+
+    /// `a + b`.
+    pub fn add(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.sum(&[a, b])
+    }
+
+    /// `a − b`.
+    pub fn sub(&mut self, a: ExprId, b: ExprId) -> ExprId {
+        self.weighted_sum(Number::ZERO, &[(Number::ONE, a), (Number::MINUS_ONE, b)])
+    }
+
+    /// `−a`.
+    pub fn neg(&mut self, a: ExprId) -> ExprId {
+        self.scale(Number::MINUS_ONE, a)
+    }
+
+    /// `coefficient · a`.
+    pub fn scale(&mut self, coefficient: Number, a: ExprId) -> ExprId {
+        self.weighted_sum(Number::ZERO, &[(coefficient, a)])
+    }
+
+    /// `Σ terms`.
+    pub fn sum(&mut self, terms: &[ExprId]) -> ExprId {
+        let terms: Vec<_> = terms.iter().map(|&term| (Number::ONE, term)).collect();
+        self.weighted_sum(Number::ZERO, &terms)
+    }
 }
 
 /// A sum that is being collected; coefficients are never 0.

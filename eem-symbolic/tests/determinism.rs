@@ -30,7 +30,7 @@ fn spring(reversed: bool) -> Model {
     let symbols = names.map(|name| graph.symbol(name));
     let variables = symbols.map(|symbol| graph.variable(symbol));
     let [lambda, theta, k, beta, c, lambda0] = variables;
-    let mut product = |graph: &mut Graph, factors: &[ExprId]| {
+    let product = |graph: &mut Graph, factors: &[ExprId]| {
         let mut factors = factors.to_vec();
         if reversed {
             factors.reverse();

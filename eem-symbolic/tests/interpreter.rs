@@ -29,7 +29,9 @@ fn quadrature_is_an_oracle_at_every_increment() {
     let precise = Precise::new();
     let mut worst = 0.0_f64;
     for (kernel, a) in kernels() {
-        for increment in [0.0, 1e-17, 1e-15, 1e-12, 1e-8, 1e-4, 1e-2, 0.5, 1.0, -0.3, -0.99] {
+        for increment in [
+            0.0, 1e-17, 1e-15, 1e-12, 1e-8, 1e-4, 1e-2, 0.5, 1.0, -0.3, -0.99,
+        ] {
             let b = a * (1.0 + increment);
             let ends = [a, b].map(|end| precise.from_f64(end));
             let first = F64.divided_difference(by_reference(&kernel), &a, &b);

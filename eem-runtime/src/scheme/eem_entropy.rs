@@ -15,6 +15,7 @@ use super::{ElementScheme, Infeasible, Placement, Start};
 use crate::free_energy::{Array, FreeEnergy};
 use crate::inversion::invert;
 use crate::scalar::Real;
+use crate::scene::is_positive;
 
 /// See the module.
 #[derive(Debug)]
@@ -45,6 +46,8 @@ impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for 
 
 /// The temperatures of the mixed states: first the ascending chain, where the first k variables
 /// are new and the entropy is old, then the descending one, the other way round.
+///
+/// A trial beyond a spinodal is refused, so that all corners lie on the stable branch.
 fn find_corners<S: Real, M: FreeEnergy<S>, Old>(
     model: &M,
     start: &Start<S, M, Old>,
@@ -53,14 +56,20 @@ fn find_corners<S: Real, M: FreeEnergy<S>, Old>(
 ) -> Result<(), Infeasible> {
     let steps = M::Variables::LEN - 1;
     let (ascending, descending) = corners.as_mut().split_at_mut(steps);
-    let entropy1 = model.caloric(x1).entropy;
+    let caloric1 = model.caloric(x1);
+    if !is_positive(caloric1.heat_capacity) {
+        return Err(Infeasible::HeatCapacity {
+            value: caloric1.heat_capacity.to_f64(),
+            temperature: x1.as_ref()[steps].to_f64(),
+        });
+    }
     for k in 1..=steps {
         let mut x = start.x0;
         x.as_mut()[..k].copy_from_slice(&x1.as_ref()[..k]);
         ascending[k - 1] = temperature_at(model, x, start.entropy, ascending[k - 1])?;
         let mut x = *x1;
         x.as_mut()[..k].copy_from_slice(&start.x0.as_ref()[..k]);
-        descending[k - 1] = temperature_at(model, x, entropy1, descending[k - 1])?;
+        descending[k - 1] = temperature_at(model, x, caloric1.entropy, descending[k - 1])?;
     }
     Ok(())
 }

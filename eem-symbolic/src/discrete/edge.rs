@@ -5,9 +5,9 @@
 //! e[y_i⁰, y_i¹]  = ψ[y_i⁰, y_i¹; θ_b] + (θ_b − θ̄) S[y_i⁰, y_i¹; θ_b],  θ̄ at y_i⁰      at fixed s
 //! ```
 //!
-//! The second identity splits E(y¹, θ_b) − E(y⁰, θ_a) at (y⁰, θ_b) and eliminates θ_b − θ_a with
-//! S(y¹, θ_b) = S(y⁰, θ_a). It contains no difference of energies, and θ̄ lies between θ_a and θ_b
-//! wherever the heat capacity is positive.
+//! The second identity splits `E(y¹, θ_b) − E(y⁰, θ_a)` at `(y⁰, θ_b)` and eliminates `θ_b − θ_a`
+//! with `S(y¹, θ_b) = S(y⁰, θ_a)`. It contains no difference of energies, and θ̄ lies between `θ_a`
+//! and `θ_b` wherever the heat capacity is positive.
 
 use std::collections::BTreeSet;
 
@@ -23,7 +23,7 @@ pub(super) struct Edge {
 
 /// The mean temperature between two states that differ in temperature only.
 struct Mean {
-    /// E\[θ_a, θ_b\] and S\[θ_a, θ_b\].
+    /// `E[θ_a, θ_b]` and `S[θ_a, θ_b]`.
     energy: ExprId,
     entropy: ExprId,
     value: ExprId,
@@ -45,7 +45,7 @@ pub(super) fn thermal(step: &mut Step, a: &Point, b: &Point) -> Edge {
     }
 }
 
-/// Edge in y_i at fixed entropy, from `a` with the old y_i to `b` with the new.
+/// Edge in `y_i` at fixed entropy, from `a` with the old `y_i` to `b` with the new.
 pub(super) fn mechanical(step: &mut Step, i: usize, a: &Point, b: &Point) -> Edge {
     let mean = mean(step, a, b);
     let ends = [step.old[i], step.new[i]];

@@ -1,7 +1,6 @@
 //! The discrete derivative of a free energy without temperature.
 
-use super::{Form, Step};
-use crate::node::ExprId;
+use super::{Form, Step, mixed};
 
 /// `[f*_a …, g*_k …]` and their tangent by rows.
 ///
@@ -14,9 +13,9 @@ pub(crate) fn elastic_form(step: &mut Step) -> Form {
     let (mut response, mut tangent) = (Vec::new(), Vec::new());
     for i in 0..count {
         let ends = [old[i], new[i]];
-        let renewed = step.mixed(i, &new, &old);
+        let renewed = mixed(i, &new, &old);
         let renewed = step.along(step.psi, i, ends, &renewed);
-        let reversed = step.mixed(i, &old, &new);
+        let reversed = mixed(i, &old, &new);
         let reversed = step.along(step.psi, i, ends, &reversed);
         let derivative = step.half(&[renewed, reversed]);
         response.push(step.conjugate(i, derivative));

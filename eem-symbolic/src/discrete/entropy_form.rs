@@ -7,14 +7,14 @@
 //! ```
 //!
 //! (García Orden & Romero 2012, eqs. 25–28), n variables y and the entropy renewed last. The
-//! temperature θ_c of a corner c is an input and solves S(y_c, θ_c) = s_c; it moves with x¹ by
+//! temperature `θ_c` of a corner c is an input and solves `S(y_c, θ_c) = s_c`; it moves with x¹ by
 //!
 //! ```text
 //! S_θ(c) dθ_c = ds_c − Σ_{j new in c} S_j(c) dx_j¹,   ds⁰ = 0,  ds¹ = Σ_j S_j(x¹) dx_j¹
 //! ```
 
 use super::edge::{self, Edge};
-use super::{Form, Point, Step};
+use super::{Form, Point, Step, mixed};
 use crate::node::{ExprId, Symbol};
 
 /// `[f*_a …, g*_k …, θ*, Δs]` and their tangent by rows.
@@ -51,7 +51,7 @@ fn jump(step: &mut Step) -> ExprId {
     let (old, new) = (step.old.clone(), step.new.clone());
     let mut terms = Vec::new();
     for i in 0..=step.mechanical {
-        let state = step.mixed(i, &old, &new);
+        let state = mixed(i, &old, &new);
         let slope = step.along(step.entropy, i, [old[i], new[i]], &state);
         let increment = step.increment(i);
         terms.push(step.graph.mul(slope, increment));
@@ -64,7 +64,7 @@ struct Stairs {
     up: Vec<Point>,
     down: Vec<Point>,
     corners: Vec<Corner>,
-    /// S_j(x¹), the derivatives of s¹.
+    /// `S_j(x¹)`, the derivatives of s¹.
     slopes: Vec<ExprId>,
 }
 
@@ -73,9 +73,9 @@ struct Corner {
     theta: Symbol,
     /// Whether the entropy of the corner is s¹.
     new_entropy: bool,
-    /// 1 / S_θ(c).
+    /// `1 / S_θ(c)`.
     reciprocal: ExprId,
-    /// S_j(c) of the variables that are new in c.
+    /// `S_j(c)` of the variables that are new in c.
     slopes: Vec<(usize, ExprId)>,
 }
 
@@ -177,7 +177,7 @@ impl Corner {
 impl Step {
     /// The first `k` variables of `before`, the others of `after`, and a corner temperature.
     fn corner(&self, k: usize, input: usize, before: &Point, after: &Point) -> Point {
-        let mut point = self.mixed(k, before, after);
+        let mut point = mixed(k, before, after);
         point[self.mechanical] = self.corners[input];
         point
     }

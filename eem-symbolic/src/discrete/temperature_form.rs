@@ -9,7 +9,7 @@
 //! (Conde Martín, Betsch & García Orden 2016, eqs. 37–39.) Energy is written by ψ and S, so that
 //! nothing cancels between D e and θ* D s but the gap of two temperatures.
 
-use super::{Form, Step};
+use super::{Form, Step, mixed};
 use crate::node::ExprId;
 
 /// `[f*_a …, g*_k …, θ*, Δs]` and their tangent by rows.
@@ -38,7 +38,7 @@ pub(crate) fn temperature_form(step: &mut Step) -> Form {
     Form { response, tangent }
 }
 
-/// θ*, 2 D_θ s, and the derivatives of θ* with respect to x¹.
+/// θ*, `2 D_θ s`, and the derivatives of θ* with respect to x¹.
 struct Star {
     value: ExprId,
     entropy: ExprId,
@@ -79,7 +79,7 @@ fn mean(step: &mut Step) -> Star {
     }
 }
 
-/// The two edges in y_i, one at θ¹ and one at θ⁰.
+/// The two edges in `y_i`, one at θ¹ and one at θ⁰.
 struct Pair {
     psi: [ExprId; 2],
     entropy: [ExprId; 2],
@@ -93,7 +93,7 @@ impl Pair {
     fn new(step: &mut Step, i: usize, star: ExprId) -> Self {
         let (old, new) = (step.old.clone(), step.new.clone());
         let ends = [old[i], new[i]];
-        let states = [step.mixed(i, &old, &new), step.mixed(i, &new, &old)];
+        let states = [mixed(i, &old, &new), mixed(i, &new, &old)];
         let psi = states
             .each_ref()
             .map(|state| step.along(step.psi, i, ends, state));
@@ -122,7 +122,7 @@ impl Pair {
         step.half(&pairs)
     }
 
-    /// The derivative with respect to x_j¹, where θ* changes by `change`.
+    /// The derivative with respect to `x_j¹`, where θ* changes by `change`.
     fn partial(&self, step: &mut Step, j: usize, change: ExprId) -> ExprId {
         let symbol = step.new[j];
         let mut terms = Vec::new();

@@ -3,12 +3,14 @@
 #![allow(dead_code)] // Every test file is a crate of its own and uses a part.
 
 use astro_float::BigFloat;
-use eem_symbolic::{Arithmetic, ExprId, Graph, Input, Stage, schedule};
+use eem_symbolic::{
+    Arithmetic, ExprId, F64, Function, Graph, Input, Number, ProgramKernel, Stage, schedule,
+};
 
 use crate::support::precise::{Precise, to_f64};
 
 /// The value of an expression at given values of its symbols.
-pub fn value<A: Arithmetic>(
+pub(crate) fn value<A: Arithmetic>(
     arithmetic: &A,
     graph: &mut Graph,
     e: ExprId,
@@ -27,7 +29,7 @@ pub fn value<A: Arithmetic>(
 }
 
 /// Whether two values agree to 60 digits of the larger one.
-pub fn assert_agree(precise: &Precise, computed: &BigFloat, exact: &BigFloat, what: &str) {
+pub(crate) fn assert_agree(precise: &Precise, computed: &BigFloat, exact: &BigFloat, what: &str) {
     const DIGITS: f64 = 1e-60;
     let difference = to_f64(&precise.sub(computed, exact)).abs();
     let scale = to_f64(computed).abs().max(to_f64(exact).abs());
@@ -37,4 +39,58 @@ pub fn assert_agree(precise: &Precise, computed: &BigFloat, exact: &BigFloat, wh
         to_f64(computed),
         to_f64(exact)
     );
+}
+
+/// `f64` with quotients for kernels: inaccurate, but symmetric by construction, as kernels are.
+pub(crate) struct SymmetricKernels;
+
+impl Arithmetic for SymmetricKernels {
+    type Number = f64;
+
+    fn constant(&self, number: &Number) -> f64 {
+        F64.constant(number)
+    }
+    fn add(&self, a: &f64, b: &f64) -> f64 {
+        F64.add(a, b)
+    }
+    fn sub(&self, a: &f64, b: &f64) -> f64 {
+        F64.sub(a, b)
+    }
+    fn mul(&self, a: &f64, b: &f64) -> f64 {
+        F64.mul(a, b)
+    }
+    fn div(&self, a: &f64, b: &f64) -> f64 {
+        F64.div(a, b)
+    }
+    fn neg(&self, a: &f64) -> f64 {
+        F64.neg(a)
+    }
+    fn powi(&self, a: &f64, n: i32) -> f64 {
+        F64.powi(a, n)
+    }
+    fn sqrt(&self, a: &f64) -> f64 {
+        F64.sqrt(a)
+    }
+    fn power(&self, a: &f64, b: &f64) -> f64 {
+        F64.power(a, b)
+    }
+    fn apply(&self, function: Function, a: &f64) -> f64 {
+        F64.apply(function, a)
+    }
+    fn divided_difference(&self, kernel: ProgramKernel<&f64>, a: &f64, b: &f64) -> f64 {
+        (kernel_value(kernel, *b) - kernel_value(kernel, *a)) / (b - a)
+    }
+    fn second_divided_difference(&self, kernel: ProgramKernel<&f64>, a: &f64, b: &f64) -> f64 {
+        F64.second_divided_difference(kernel, a, b)
+    }
+}
+
+fn kernel_value(kernel: ProgramKernel<&f64>, x: f64) -> f64 {
+    match kernel {
+        ProgramKernel::Function(function) => F64.apply(function, &x),
+        ProgramKernel::Sqrt => x.sqrt(),
+        ProgramKernel::Powi(n) => x.powi(n),
+        ProgramKernel::Powf(p) => x.powf(*p),
+        ProgramKernel::Power(..) => x.exp(),
+    }
 }

@@ -5,7 +5,7 @@
 use eem_symbolic::{ExprId, Function, Graph, Number};
 
 /// Reads a formula into the graph; names become symbols.
-pub fn read(graph: &mut Graph, text: &str) -> ExprId {
+pub(crate) fn read(graph: &mut Graph, text: &str) -> ExprId {
     let mut reader = Reader { graph, rest: text };
     let e = reader.sum();
     assert!(
@@ -17,7 +17,7 @@ pub fn read(graph: &mut Graph, text: &str) -> ExprId {
 }
 
 /// Whether two formulas are one expression.
-pub fn same(left: &str, right: &str) {
+pub(crate) fn same(left: &str, right: &str) {
     let mut graph = Graph::new();
     let (a, b) = (read(&mut graph, left), read(&mut graph, right));
     let texts = [a, b].map(|e| eem_symbolic::format(&graph, e));
@@ -25,7 +25,7 @@ pub fn same(left: &str, right: &str) {
 }
 
 /// Whether two formulas stay two expressions.
-pub fn different(left: &str, right: &str) {
+pub(crate) fn different(left: &str, right: &str) {
     let mut graph = Graph::new();
     let (a, b) = (read(&mut graph, left), read(&mut graph, right));
     assert_ne!(a, b, "{left} has become {right}");

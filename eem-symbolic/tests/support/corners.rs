@@ -39,7 +39,9 @@ impl Evaluated {
     /// Outputs of a program at parameters followed by `inputs`.
     pub(crate) fn run(&self, program: &Program, inputs: &[&[BigFloat]]) -> Vec<BigFloat> {
         let mut all = self.precise.all(&self.law.parameters);
-        inputs.iter().for_each(|part| all.extend_from_slice(part));
+        for part in inputs {
+            all.extend_from_slice(part);
+        }
         program.interpret(&self.precise, &all)
     }
 
@@ -112,7 +114,7 @@ impl Evaluated {
         self.law.state.len() + usize::from(self.thermal())
     }
 
-    /// D_i F for all i, by quotients; every increment must be other than zero.
+    /// `D_i F` for all i, by quotients; every increment must be other than zero.
     pub(crate) fn partitioned(
         &self,
         f: &dyn Fn(&[BigFloat]) -> BigFloat,
@@ -170,7 +172,7 @@ impl Evaluated {
         response
     }
 
-    /// f* = D_λ e, g* = −D_γ e.
+    /// `f* = D_λ e`, `g* = −D_γ e`.
     fn signed(&self, mut derivatives: State) -> State {
         let measures = self.law.model.measures.len();
         let dashpots = self.law.model.dashpots.len();

@@ -18,6 +18,8 @@ pub(crate) struct Precise {
     constants: RefCell<Consts>,
 }
 
+// Every number has the precision of the arithmetic that makes it.
+#[allow(clippy::unused_self, clippy::wrong_self_convention)]
 impl Precise {
     pub(crate) fn new() -> Self {
         let constants = RefCell::new(Consts::new().expect("memory for constants"));
@@ -208,12 +210,14 @@ pub(crate) fn to_f64(x: &BigFloat) -> f64 {
     if x.is_zero() {
         return 0.0;
     }
+    #[allow(clippy::cast_precision_loss)] // 53 of 64 bits are what is asked for.
+    let as_f64 = |word: u64| word as f64;
     let (Some(words), Some(exponent)) = (x.mantissa_digits(), x.exponent()) else {
         return f64::NAN;
     };
     let scale = 2.0_f64.powi(-64);
     let mantissa = words.iter().rev().take(2).rev();
-    let mantissa = mantissa.fold(0.0, |rest, &word| (word as f64 + rest) * scale);
+    let mantissa = mantissa.fold(0.0, |rest, &word| (as_f64(word) + rest) * scale);
     let magnitude = mantissa * 2.0_f64.powi(exponent / 2) * 2.0_f64.powi(exponent - exponent / 2);
     if x.is_negative() {
         -magnitude

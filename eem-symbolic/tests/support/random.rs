@@ -23,7 +23,9 @@ impl Random {
 
     /// Uniform in \[0, 1).
     pub(crate) fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 * 2.0_f64.powi(-53)
+        #[allow(clippy::cast_precision_loss)] // An integer of 53 bits.
+        let mantissa = (self.next() >> 11) as f64;
+        mantissa * 2.0_f64.powi(-53)
     }
 }
 

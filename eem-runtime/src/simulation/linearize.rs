@@ -1,0 +1,53 @@
+//! The system that Newton's method solves, for those who want to look at it.
+
+use super::Simulation;
+use crate::error::{StepError, StepFailure};
+use crate::group::StepView;
+use crate::scalar::Real;
+
+/// Residual and tangent of a step at a trial state.
+///
+/// Internal variables are eliminated: they take the values that their own equations give them at
+/// the trial state, and the tangent is the total derivative.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepTangent<S> {
+    /// `R(u)`: momentum balances in N s, then `Θ − θ*` in K for elements that conduct heat to
+    /// other elements.
+    pub residual: Vec<S>,
+    /// `∂R/∂u`, row-major, square.
+    pub tangent: Vec<S>,
+}
+
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// Residual and tangent of the next step at given unknowns.
+    ///
+    /// ```text
+    /// R = (2m/h)(q¹ − q⁰) − 2p⁰ + h F(u),      u = (q¹ − q⁰ of the masses, Θ of elements in contact)
+    /// ```
+    ///
+    /// in the order of creation, [`unknowns`](Self::unknowns) of them. The tangent is exact to
+    /// rounding: it does not come from differences.
+    ///
+    /// # Errors
+    ///
+    /// [`StepError`] if an element has no admissible state there, or the number of unknowns is
+    /// another one ([`StepFailure::Unknowns`]).
+    pub fn linearize(&mut self, unknowns: &[S]) -> Result<StepTangent<S>, StepError> {
+        if unknowns.len() != self.layout.unknowns {
+            return Err(self.failed(StepFailure::Unknowns {
+                given: unknowns.len(),
+                expected: self.layout.unknowns,
+            }));
+        }
+        let view = StepView {
+            step: self.step,
+            state: &self.state,
+            conduction: &self.conduction,
+            layout: &self.layout,
+        };
+        match self.solver.linearize(&mut self.groups, &view, unknowns) {
+            Ok((residual, tangent)) => Ok(StepTangent { residual, tangent }),
+            Err(failure) => Err(self.failed(failure)),
+        }
+    }
+}
