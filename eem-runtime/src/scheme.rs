@@ -11,10 +11,11 @@ mod point;
 mod trapezoidal;
 
 use crate::error::StateError;
-use crate::free_energy::{Array, FreeEnergy};
+use crate::free_energy::{Array, Caloric, FreeEnergy};
 use crate::handle::Element;
 use crate::inversion::InversionError;
 use crate::scalar::Real;
+use crate::scene::is_positive;
 
 pub(crate) use eem_entropy::{EemEntropy, temperature_at};
 pub(crate) use midpoint::Midpoint;
@@ -138,6 +139,17 @@ pub(crate) enum Infeasible {
 }
 
 impl Infeasible {
+    /// An error unless the heat capacity is positive and finite.
+    pub(crate) fn unless_stable<S: Real>(caloric: &Caloric<S>, theta: S) -> Result<(), Self> {
+        if is_positive(caloric.heat_capacity) {
+            return Ok(());
+        }
+        Err(Self::HeatCapacity {
+            value: caloric.heat_capacity.to_f64(),
+            temperature: theta.to_f64(),
+        })
+    }
+
     /// The same, said of an element.
     pub(crate) fn of(self, element: Element) -> StateError {
         match self {

@@ -147,10 +147,10 @@ impl Operator {
         };
         let mut images = vec![(constant, self.of_rest(graph, power, &[]))];
         for (coefficient, term) in terms {
-            let mut factors = match graph.node(term) {
-                Node::Product(factors) => factors.clone(),
-                _ => vec![(term, Rational::ONE)],
-            };
+            let mut factors = vec![(term, Rational::ONE)];
+            if let Node::Product(inner) = graph.node(term) {
+                factors.clone_from(inner);
+            }
             factors.push((self.at, power));
             let mut split = self.split(graph, &factors);
             split

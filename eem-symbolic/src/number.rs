@@ -106,6 +106,15 @@ impl Number {
         }
     }
 
+    /// `self · other`, unless it leaves the range of floats while both numbers are within.
+    pub(crate) fn product_in_range(self, other: Number) -> Option<Number> {
+        let product = self * other;
+        let vanishes = product.is_zero() && !self.is_zero() && !other.is_zero();
+        let finite = |number: Number| number.to_f64().is_finite();
+        let overflows = !finite(product) && finite(self) && finite(other);
+        (!vanishes && !overflows).then_some(product)
+    }
+
     /// The exact result if both numbers are exact and it fits, otherwise that of `f64`.
     fn combine(
         self,

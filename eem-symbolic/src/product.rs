@@ -21,6 +21,7 @@ impl Graph {
     pub fn power_product(&mut self, factors: &[(ExprId, Rational)]) -> ExprId {
         let mut collected = Collected {
             coefficient: Number::ONE,
+            numbers: Vec::new(),
             exponents: BTreeMap::new(),
         };
         let mut pending = factors.to_vec();
@@ -30,14 +31,15 @@ impl Graph {
                 pending = collected.take_expandable(self);
             }
         }
-        let Collected {
-            coefficient,
-            exponents,
-        } = collected;
+        let coefficient = collected.coefficient;
         if coefficient.is_zero() {
             return self.number(Number::ZERO);
         }
-        let mut factors: Vec<_> = exponents.into_iter().collect();
+        for number in collected.numbers {
+            let powers = collected.exponents.entry(number).or_insert(Rational::ZERO);
+            *powers = powers.checked_add(Rational::ONE).unwrap_or(*powers);
+        }
+        let mut factors: Vec<_> = collected.exponents.into_iter().collect();
         let product = match factors[..] {
             [] => return self.number(coefficient),
             [(base, Rational::ONE)] => base,
@@ -99,6 +101,8 @@ impl Graph {
 /// A product that is being collected; exponents are never 0.
 struct Collected {
     coefficient: Number,
+    /// Numbers whose product with the coefficient is not within the range of floats.
+    numbers: Vec<ExprId>,
     exponents: BTreeMap<ExprId, Rational>,
 }
 
@@ -115,7 +119,10 @@ impl Collected {
             return;
         }
         if let Some(expansion) = expand(graph, base, exponent) {
-            self.coefficient = self.coefficient * expansion.coefficient;
+            match self.coefficient.product_in_range(expansion.coefficient) {
+                Some(product) => self.coefficient = product,
+                None => self.numbers.push(graph.number(expansion.coefficient)),
+            }
             pending.extend(expansion.factors);
             return;
         }
@@ -196,7 +203,8 @@ fn expand(graph: &Graph, base: ExprId, exponent: Rational) -> Option<Expansion> 
     }
 }
 
-/// `number ^ exponent` where it is a number: integer exponents and roots of squares.
+/// `number ^ exponent` where it is a number: integer exponents and roots of squares, as long as
+/// the result is within the range of floats.
 fn exact_power(number: Number, exponent: Rational) -> Option<Number> {
     if number == Number::ONE {
         return Some(Number::ONE);
@@ -205,7 +213,9 @@ fn exact_power(number: Number, exponent: Rational) -> Option<Number> {
         return (!exponent.is_negative()).then_some(Number::ZERO);
     }
     if let Some(integer) = exponent.to_i32() {
-        return Some(number.powi(integer));
+        let power = number.powi(integer);
+        let in_range = power.to_f64().is_finite() && !power.is_zero();
+        return (in_range || !number.to_f64().is_finite()).then_some(power);
     }
     let root = number.exact()?.checked_sqrt()?;
     let halves = exponent.checked_mul(Rational::TWO)?.to_i32()?;

@@ -214,7 +214,7 @@ pub struct OperationCount {
 /// Operations of one stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StageCount {
-    /// Sums, differences and changes of sign.
+    /// Sums, differences, changes of sign and magnitudes.
     pub additions: usize,
     /// Products, those of integer powers included.
     pub multiplications: usize,
@@ -236,7 +236,10 @@ impl StageCount {
     fn add(&mut self, operation: &Operation) {
         match operation {
             Operation::Input(_) | Operation::Constant(_) => {}
-            Operation::Add(..) | Operation::Sub(..) | Operation::Neg(_) => self.additions += 1,
+            Operation::Add(..)
+            | Operation::Sub(..)
+            | Operation::Neg(_)
+            | Operation::Apply(Function::Abs, _) => self.additions += 1,
             Operation::Mul(..) => self.multiplications += 1,
             Operation::Div(..) => self.divisions += 1,
             Operation::Powi(_, n) => {

@@ -106,8 +106,11 @@ impl Collected {
             self.constant = self.constant + coefficient * number;
             return;
         }
-        let (inner, term) = graph.as_scaled(term).unwrap_or((Number::ONE, term));
-        self.add_term(coefficient * inner, term);
+        let scaled = graph.as_scaled(term).and_then(|(inner, inner_term)| {
+            Some((coefficient.product_in_range(inner)?, inner_term))
+        });
+        let (coefficient, term) = scaled.unwrap_or((coefficient, term));
+        self.add_term(coefficient, term);
     }
 
     fn add_term(&mut self, coefficient: Number, term: ExprId) {

@@ -128,6 +128,20 @@ fn numbers_that_do_not_fit_become_floats() {
 }
 
 #[test]
+fn coefficients_neither_vanish_nor_overflow() {
+    different("1e-200*x*(1e-200*y)", "0");
+    different("1e-200*(1e-200*x)", "0");
+    same("1e-200*x*(1e-200*y)*1e300", "1e-200*(1e-200*x*y)*1e300");
+    same(
+        "1e-200*x*(1e-200*y*(1e-200*z))",
+        "1e-200*(1e-200*(1e-200*x*y*z))",
+    );
+    different("1e-200*x*(1e-200*y*(1e-200*z))", "1e-200*x*(1e-200*y*z)");
+    different("1e-200^2*x", "0");
+    different("1e200*x*(1e200*y)", "1e200*x*(1e201*y)");
+}
+
+#[test]
 fn rationals_convert_to_the_nearest_float() {
     let literals = [
         "0.1",

@@ -3,8 +3,8 @@
 mod support;
 
 use eem_symbolic::{
-    Graph, Input, Instruction, Number, Operation, Program, ProgramKernel, Programs, Stage, Value,
-    VerifyError, schedule,
+    F64, Graph, Input, Instruction, Number, Operation, Program, ProgramKernel, Programs, Stage,
+    Value, VerifyError, schedule,
 };
 use support::laws;
 
@@ -95,13 +95,15 @@ fn old_stage_depends_on_parameters_and_old_state_alone() {
 #[test]
 fn operation_counts_stay_small() {
     let bounds = [
-        (laws::pendulum(), [79, 349, 224]),
-        (laws::logarithmic_stiffness(), [42, 289, 154]),
+        (laws::pendulum(), [46, 79, 349, 224]),
+        (laws::logarithmic_stiffness(), [24, 42, 289, 154]),
     ];
-    for (law, [hessian, entropy, temperature]) in bounds {
+    for (law, [caloric, hessian, entropy, temperature]) in bounds {
         let programs = law.model.programs();
         let temperature_form = programs.temperature_form.as_ref().expect("a thermal law");
+        let caloric_program = programs.caloric.as_ref().expect("a thermal law");
         let bounds = [
+            ("caloric", caloric_program, caloric),
             ("Hessian", &programs.hessian, hessian),
             ("entropy form", &programs.entropy_form, entropy),
             ("temperature form", temperature_form, temperature),
@@ -282,4 +284,23 @@ fn constants_belong_to_the_stage_that_uses_them() {
             operand
         })
     );
+}
+
+/// Σ |terms of s| of the logarithmic stiffness, ½ c₁ θr L²/θ + β |L| + c |ln(θ/θr)|.
+#[test]
+fn magnitude_is_the_sum_of_magnitudes() {
+    let law = laws::logarithmic_stiffness();
+    let program = law.model.programs().caloric.expect("a thermal law");
+    let (lambda, theta) = (1.7, 250.0);
+    let inputs = [&law.parameters[..], &[lambda, theta]].concat();
+    let [entropy, capacity, magnitude] = program.interpret(&F64, &inputs)[..] else {
+        panic!("three outputs");
+    };
+    let strain = (lambda / 2.0_f64).ln();
+    let elastic = 0.5 * 50.0 * 300.0 * strain * strain / theta;
+    let caloric = 5000.0 * (theta / 300.0_f64).ln();
+    let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-14;
+    assert!(close(entropy, elastic + 20.0 * strain + caloric));
+    assert!(close(magnitude, elastic - 20.0 * strain - caloric));
+    assert!(close(capacity, 5000.0 - elastic));
 }

@@ -27,7 +27,10 @@ pub(super) fn formulas(checked: &Checked<'_>, model: &Model) -> TokenStream {
         "```text".to_owned(),
     ];
     for (left, right) in equations(checked, &model.formulas()) {
-        wrap(&format!("{left} = {right}"), &mut lines);
+        // A long formula comes with a list of definitions, one per line.
+        for line in format!("{left} = {right}").lines() {
+            wrap(line, &mut lines);
+        }
     }
     lines.push("```".to_owned());
     doc(lines)

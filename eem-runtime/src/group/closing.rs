@@ -11,7 +11,6 @@ use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
-use crate::scene::is_positive;
 use crate::scheme::{ElementScheme, Infeasible, temperature_at};
 use crate::state::State;
 use crate::system::LinearSystem;
@@ -165,14 +164,8 @@ where
                 .map_err(|infeasible| infeasible.of(member.element))?;
             state.temperatures[slot] = theta;
             let x = variables::<S, M>(measures, member.slots, state);
-            let capacity = member.model.caloric(&x).heat_capacity;
-            if !is_positive(capacity) {
-                let infeasible = Infeasible::HeatCapacity {
-                    value: capacity.to_f64(),
-                    temperature: theta.to_f64(),
-                };
-                return Err(infeasible.of(member.element));
-            }
+            Infeasible::unless_stable(&member.model.caloric(&x), theta)
+                .map_err(|infeasible| infeasible.of(member.element))?;
         }
         Ok(())
     }

@@ -6,7 +6,6 @@ use crate::error::StateError;
 use crate::free_energy::FreeEnergy;
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
-use crate::scene::is_positive;
 use crate::scheme::{ElementScheme, Infeasible};
 use crate::state::State;
 
@@ -38,13 +37,8 @@ where
                 continue;
             };
             let caloric = member.model.caloric(&x);
-            if !is_positive(caloric.heat_capacity) {
-                let infeasible = Infeasible::HeatCapacity {
-                    value: caloric.heat_capacity.to_f64(),
-                    temperature: theta.to_f64(),
-                };
-                return Err(infeasible.of(member.element));
-            }
+            Infeasible::unless_stable(&caloric, theta)
+                .map_err(|infeasible| infeasible.of(member.element))?;
             if !caloric.entropy.is_finite() {
                 return Err(StateError::NotFinite {
                     element: member.element,

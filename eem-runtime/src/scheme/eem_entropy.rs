@@ -15,7 +15,6 @@ use super::{ElementScheme, Infeasible, Placement, Start};
 use crate::free_energy::{Array, FreeEnergy};
 use crate::inversion::invert;
 use crate::scalar::Real;
-use crate::scene::is_positive;
 
 /// See the module.
 #[derive(Debug)]
@@ -57,12 +56,7 @@ fn find_corners<S: Real, M: FreeEnergy<S>, Old>(
     let steps = M::Variables::LEN - 1;
     let (ascending, descending) = corners.as_mut().split_at_mut(steps);
     let caloric1 = model.caloric(x1);
-    if !is_positive(caloric1.heat_capacity) {
-        return Err(Infeasible::HeatCapacity {
-            value: caloric1.heat_capacity.to_f64(),
-            temperature: x1.as_ref()[steps].to_f64(),
-        });
-    }
+    Infeasible::unless_stable(&caloric1, x1.as_ref()[steps])?;
     for k in 1..=steps {
         let mut x = start.x0;
         x.as_mut()[..k].copy_from_slice(&x1.as_ref()[..k]);

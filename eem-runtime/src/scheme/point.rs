@@ -3,9 +3,55 @@
 //! These are the ordinary rules, solved the ordinary way: by Newton's method in the variables that
 //! they integrate, hence with the entropy as unknown.
 
-use super::{Infeasible, Start, temperature_at};
+use super::{ElementScheme, Infeasible, Placement, Start, temperature_at};
 use crate::free_energy::{Array, FreeEnergy};
 use crate::scalar::Real;
+
+/// An ordinary rule that looks at one point of the step.
+pub(crate) trait PointRule: Send + Sync + 'static {
+    /// Where the measures are taken.
+    const PLACEMENT: Placement;
+    /// The part of forces and rates that is taken at the point; the rest is that of the old state.
+    const IMPLICIT: f64;
+    /// The share c of the step after which the point lies.
+    const AT: f64;
+}
+
+impl<R, S, M> ElementScheme<S, M> for R
+where
+    R: PointRule,
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+{
+    const PLACEMENT: Placement = R::PLACEMENT;
+    const IMPLICIT: f64 = R::IMPLICIT;
+
+    type Old = ();
+
+    fn old(_: &M, _: &M::Variables) -> Self::Old {}
+
+    // The entropy at the point is s⁰ + c Δs.
+    fn temperature(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        x: &M::Variables,
+        entropy_change: S,
+    ) -> Result<S, Infeasible> {
+        let c = S::from_f64(R::AT);
+        let guess = x.as_ref()[M::Variables::LEN - 1];
+        let entropy = start.entropy + c * entropy_change;
+        temperature_at(model, point(start, x, c), entropy, guess)
+    }
+
+    fn respond(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        x: &M::Variables,
+        _: &mut M::Corners,
+    ) -> Result<(M::Response, M::Tangent), Infeasible> {
+        Ok(respond(model, start, x, S::from_f64(R::AT)))
+    }
+}
 
 /// `(π, γ⁰ + c (γ − γ⁰), τ)` for `x = (π, γ, τ)`.
 fn point<S: Real, M: FreeEnergy<S>, Old>(
@@ -21,19 +67,6 @@ fn point<S: Real, M: FreeEnergy<S>, Old>(
     point
 }
 
-/// The temperature at that point where the entropy there is `s⁰ + c Δs`.
-pub(super) fn temperature<S: Real, M: FreeEnergy<S>, Old>(
-    model: &M,
-    start: &Start<S, M, Old>,
-    x: &M::Variables,
-    entropy_change: S,
-    c: S,
-) -> Result<S, Infeasible> {
-    let entropy = start.entropy + c * entropy_change;
-    let guess = x.as_ref()[M::Variables::LEN - 1];
-    temperature_at(model, point(start, x, c), entropy, guess)
-}
-
 /// The response at `x_c = (π, γ⁰ + c (γ − γ⁰), τ)`, where `x = (π, γ, τ)`.
 ///
 /// ```text
@@ -41,7 +74,7 @@ pub(super) fn temperature<S: Real, M: FreeEnergy<S>, Old>(
 /// ```
 ///
 /// `c = ½` is the midpoint, where `s_m = s⁰ + ½Δs`; `c = 1` the end of the step.
-pub(super) fn respond<S: Real, M: FreeEnergy<S>, Old>(
+fn respond<S: Real, M: FreeEnergy<S>, Old>(
     model: &M,
     start: &Start<S, M, Old>,
     x: &M::Variables,

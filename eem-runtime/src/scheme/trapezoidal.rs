@@ -6,37 +6,15 @@
 //!
 //! It keeps none of the laws.
 
-use super::{ElementScheme, Infeasible, Placement, Start, point};
-use crate::free_energy::FreeEnergy;
-use crate::scalar::Real;
+use super::Placement;
+use super::point::PointRule;
 
 /// See the module.
 #[derive(Debug)]
 pub(crate) enum Trapezoidal {}
 
-impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for Trapezoidal {
+impl PointRule for Trapezoidal {
     const PLACEMENT: Placement = Placement::End;
     const IMPLICIT: f64 = 0.5;
-
-    type Old = ();
-
-    fn old(_: &M, _: &M::Variables) -> Self::Old {}
-
-    fn temperature(
-        model: &M,
-        start: &Start<S, M, Self::Old>,
-        x: &M::Variables,
-        entropy_change: S,
-    ) -> Result<S, Infeasible> {
-        point::temperature(model, start, x, entropy_change, S::one())
-    }
-
-    fn respond(
-        model: &M,
-        start: &Start<S, M, Self::Old>,
-        x: &M::Variables,
-        _: &mut M::Corners,
-    ) -> Result<(M::Response, M::Tangent), Infeasible> {
-        Ok(point::respond(model, start, x, S::one()))
-    }
+    const AT: f64 = 1.0;
 }

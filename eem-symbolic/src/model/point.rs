@@ -1,12 +1,14 @@
 //! Programs of one state: potentials, their derivatives, caloric quantities, viscosities.
 
+use std::collections::BTreeMap;
+
 use super::Model;
 use crate::diff::diff;
 use crate::function::Function;
 use crate::graph::Graph;
 use crate::internal_energy::internal_energy;
 use crate::node::{ExprId, Node, Symbol};
-use crate::number::Number;
+use crate::number::{Number, Rational};
 use crate::program::{Input, Program, Stage};
 use crate::schedule::{Locals, Schedule};
 
@@ -52,7 +54,7 @@ impl<'m> PointPrograms<'m> {
     pub(super) fn caloric(&mut self, theta: Symbol) -> Program {
         let entropy = self.model.entropy(&mut self.graph, theta);
         let capacity = heat_capacity(&mut self.graph, entropy, theta);
-        let magnitude = magnitude(&mut self.graph, entropy);
+        let magnitude = magnitude(&mut self.graph, entropy, theta);
         self.program(&self.variables, &[entropy, capacity, magnitude], &[])
     }
 
@@ -126,36 +128,49 @@ pub(super) fn heat_capacity(graph: &mut Graph, entropy: ExprId, theta: Symbol) -
 
 /// The sum of the magnitudes of the terms of a sum: what its rounding error is proportional to.
 ///
-/// Sums among the factors of a term count by their terms too.
-fn magnitude(graph: &mut Graph, e: ExprId) -> ExprId {
-    match graph.node(e).clone() {
-        Node::Sum { constant, terms } => {
-            let mut magnitudes = Vec::new();
-            for (coefficient, term) in terms {
-                magnitudes.push((coefficient.abs(), magnitude(graph, term)));
+/// Sums among the factors of a term count by their terms too. The temperature is positive.
+fn magnitude(graph: &mut Graph, e: ExprId, theta: Symbol) -> ExprId {
+    let theta = graph.variable(theta);
+    let composed = |graph: &Graph, e| matches!(graph.node(e), Node::Sum { .. } | Node::Product(_));
+    let mut magnitudes = BTreeMap::from([(theta, theta)]);
+    for id in graph.reachable(e, |id| composed(graph, id)) {
+        let magnitude = match graph.node(id).clone() {
+            Node::Sum { constant, terms } => {
+                let terms = terms.into_iter().map(|(coefficient, term)| {
+                    (coefficient.abs(), known(graph, &magnitudes, term))
+                });
+                let terms: Vec<_> = terms.collect();
+                graph.weighted_sum(constant.abs(), &terms)
             }
-            graph.weighted_sum(constant.abs(), &magnitudes)
-        }
-        Node::Product(factors) => {
-            let mut magnitudes = Vec::new();
-            for (factor, exponent) in factors {
-                let is_plain = exponent == crate::number::Rational::ONE;
-                let factor = if is_plain {
-                    magnitude(graph, factor)
-                } else {
-                    graph.apply(Function::Abs, factor)
-                };
-                magnitudes.push((factor, exponent));
+            Node::Product(factors) => {
+                let factors = factors.into_iter().map(|(base, exponent)| {
+                    let plain = exponent == Rational::ONE;
+                    let even = exponent.to_i32().is_some_and(|n| n % 2 == 0);
+                    let magnitude = match base {
+                        base if even || base == theta => base,
+                        base if plain => known(graph, &magnitudes, base),
+                        base => graph.apply(Function::Abs, base),
+                    };
+                    (magnitude, exponent)
+                });
+                let factors: Vec<_> = factors.collect();
+                graph.power_product(&factors)
             }
-            graph.power_product(&magnitudes)
-        }
-        Node::Number(_)
-        | Node::Variable(_)
-        | Node::Power(..)
-        | Node::Apply(..)
-        | Node::PairSum(..)
-        | Node::DividedDifference(..)
-        | Node::SecondDividedDifference(..)
-        | Node::PowerDifference { .. } => graph.apply(Function::Abs, e),
+            Node::Number(_)
+            | Node::Variable(_)
+            | Node::Power(..)
+            | Node::Apply(..)
+            | Node::PairSum(..)
+            | Node::DividedDifference(..)
+            | Node::SecondDividedDifference(..)
+            | Node::PowerDifference { .. } => unreachable!("only sums and products are composed"),
+        };
+        magnitudes.insert(id, magnitude);
     }
+    known(graph, &magnitudes, e)
+}
+
+fn known(graph: &mut Graph, magnitudes: &BTreeMap<ExprId, ExprId>, e: ExprId) -> ExprId {
+    let magnitude = magnitudes.get(&e).copied();
+    magnitude.unwrap_or_else(|| graph.apply(Function::Abs, e))
 }

@@ -1,0 +1,84 @@
+//! The end of a step: the new state from the found forces, temperatures and rates.
+
+use super::Solver;
+use crate::error::StepFailure;
+use crate::group::{Group, StepView};
+use crate::scalar::Real;
+use crate::state::State;
+
+impl<S: Real> Solver<S> {
+    /// Writes the new state to `next`, from the forces, temperatures and rates that were found.
+    ///
+    /// Where the nodal forces are `A q_m`, the displacements come from them by one linear solve,
+    ///
+    /// ```text
+    /// (2m/h + ½h A) Δq = 2p⁰ − h A q⁰,      Δp = −h A (q⁰ + ½Δq)
+    /// ```
+    pub(crate) fn close<const D: usize>(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        next: &mut State<S>,
+    ) -> Result<(), StepFailure> {
+        self.system.clear();
+        let mut has_secant = true;
+        for group in groups.iter_mut() {
+            has_secant &= group.add_secant(view, &mut self.system);
+        }
+        if has_secant {
+            self.solve_secant(view)?;
+        }
+        for (impulse, &force) in self.impulse.iter_mut().zip(&self.old_force) {
+            *impulse = -view.step * force;
+        }
+        for group in groups.iter_mut() {
+            group.add_impulse(view, &self.trial, &mut self.impulse);
+        }
+        next.copy_from(view.state);
+        next.time.add(0, view.step);
+        for (node, mass) in self.masses.iter().enumerate() {
+            if mass.is_some() {
+                for at in node * self.dimension..(node + 1) * self.dimension {
+                    next.positions.add(at, self.trial.displacements[at]);
+                    next.momenta.add(at, self.impulse[at]);
+                }
+            }
+        }
+        for group in groups.iter_mut() {
+            group.close(view, &self.trial, next);
+        }
+        for group in groups.iter_mut() {
+            group.settle(next)?;
+        }
+        Ok(())
+    }
+
+    fn solve_secant(&mut self, view: &StepView<'_, S>) -> Result<(), StepFailure> {
+        let momenta = view.state.momenta.values();
+        for (node, mass) in self.masses.iter().enumerate() {
+            let (Some(mass), Some(first)) = (*mass, view.layout.nodes[node]) else {
+                continue;
+            };
+            for axis in 0..self.dimension {
+                let momentum = momenta[node * self.dimension + axis];
+                self.system
+                    .add(first + axis, first + axis, (mass + mass) / view.step);
+                self.system.add_right(first + axis, momentum + momentum);
+            }
+        }
+        for unknown in view.layout.coupled.iter().flatten() {
+            self.system.add(*unknown, *unknown, S::one());
+        }
+        self.system
+            .solve()
+            .map_err(|_| StepFailure::SingularTangent)?;
+        let solution = self.system.right();
+        for (node, first) in view.layout.nodes.iter().enumerate() {
+            let Some(first) = *first else { continue };
+            for axis in 0..self.dimension {
+                self.trial.displacements[node * self.dimension + axis] = solution[first + axis];
+            }
+        }
+        Ok(())
+    }
+}
