@@ -62,6 +62,19 @@ impl Scheme {
     }
 }
 
+impl Scheme {
+    /// Whether Newton's method starts from free flight, `q¹ = q⁰ + h p⁰/m`, which saves most of an
+    /// iteration. The ordinary rules start at the old state, as ordinary codes do: beyond
+    /// their stable steps it depends on the start which state is found, if any, and so they
+    /// break down where the literature says.
+    pub(crate) const fn starts_in_free_flight(self) -> bool {
+        match self {
+            Self::EemEntropy => true,
+            Self::Midpoint | Self::Trapezoidal => false,
+        }
+    }
+}
+
 /// Where along a step the measures and their gradient are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Placement {

@@ -85,7 +85,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         for group in &mut groups {
             group.initialize(&mut state)?;
         }
-        let solver = Solver::new(masses.clone(), D, &layout);
+        let solver = Solver::new(scheme, masses.clone(), D, &layout);
         Ok(Self {
             scene: scene.id,
             scheme,

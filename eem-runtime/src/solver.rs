@@ -9,6 +9,7 @@ use crate::group::{Group, StepView, Trial};
 use crate::layout::Layout;
 use crate::newton::{NewtonSettings, is_last};
 use crate::scalar::Real;
+use crate::scheme::Scheme;
 use crate::system::LinearSystem;
 
 /// How often an update is halved to bring all elements back to admissible states.
@@ -21,6 +22,7 @@ pub(crate) struct Solver<S> {
     /// m per node; `None` for anchors.
     masses: Vec<Option<S>>,
     dimension: usize,
+    starts_in_free_flight: bool,
     system: LinearSystem<S>,
     trial: Trial<S>,
     /// Displacements and seen temperatures before the last update, and the update.
@@ -55,7 +57,12 @@ impl<S: Real> Iteration<S> {
 }
 
 impl<S: Real> Solver<S> {
-    pub(crate) fn new(masses: Vec<Option<S>>, dimension: usize, layout: &Layout) -> Self {
+    pub(crate) fn new(
+        scheme: Scheme,
+        masses: Vec<Option<S>>,
+        dimension: usize,
+        layout: &Layout,
+    ) -> Self {
         let settings = NewtonSettings::default();
         let coordinates = vec![S::zero(); masses.len() * dimension];
         let temperatures = vec![S::zero(); layout.coupled.len()];
@@ -63,6 +70,7 @@ impl<S: Real> Solver<S> {
             settings,
             masses,
             dimension,
+            starts_in_free_flight: scheme.starts_in_free_flight(),
             system: LinearSystem::new(layout.unknowns),
             trial: Trial {
                 displacements: coordinates.clone(),
@@ -116,7 +124,7 @@ impl<S: Real> Solver<S> {
         })
     }
 
-    /// Starts at the old state, with free flight as the first correction.
+    /// Starts at the old state, with free flight as the first correction if the scheme wants it.
     fn begin<const D: usize>(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
@@ -131,7 +139,11 @@ impl<S: Real> Solver<S> {
             .seen_temperatures
             .copy_from_slice(&view.state.temperatures);
         self.remember();
+        self.correction[0].fill(S::zero());
         self.correction[1].fill(S::zero());
+        if !self.starts_in_free_flight {
+            return Ok(());
+        }
         let momenta = view.state.momenta.values();
         for (node, mass) in self.masses.iter().enumerate() {
             let own = node * self.dimension..(node + 1) * self.dimension;

@@ -4,8 +4,8 @@ mod support;
 
 use astro_float::BigFloat;
 use eem_symbolic::{
-    Arithmetic, Bounded, ExprId, F64, Graph, Input, Operation, Program, RunningError, Stage,
-    Symbol, Value, diff, divided_difference, schedule,
+    Arithmetic, Bounded, ExprId, F64, Graph, Input, Instruction, Operation, Program, RunningError,
+    Stage, Symbol, Value, diff, divided_difference, schedule,
 };
 use support::precise::{Precise, error, to_f64};
 use support::random::{Random, expression};
@@ -62,33 +62,23 @@ fn ends(seed: u64, increment: f64) -> [f64; 2] {
     [a, a * (1.0 + increment)]
 }
 
-/// Whether the arguments of all divided differences are below [`OSCILLATING`].
-fn resolved(program: &Program, ends: [f64; 2]) -> bool {
-    let mut all = program.clone();
-    all.outputs = (0..program.instructions.len()).map(Value::new).collect();
-    let values = all.interpret(&F64, &ends);
-    program
-        .instructions
-        .iter()
-        .all(|instruction| match &instruction.operation {
-            Operation::DividedDifference(_, a, b) => [a, b]
-                .iter()
-                .all(|end| values[end.index()].abs() < OSCILLATING),
-            _ => true,
-        })
-}
-
-/// Whether all quantities are of moderate size at these ends.
+/// Whether all quantities are of moderate size at these ends, and the arguments of all divided
+/// differences below [`OSCILLATING`].
 fn moderate(secant: &Secant, ends: [f64; 2]) -> bool {
+    let mut all = secant.difference.clone();
+    all.outputs = (0..all.instructions.len()).map(Value::new).collect();
+    let values = all.interpret(&F64, &ends);
+    let resolved = |instruction: &Instruction| match &instruction.operation {
+        Operation::DividedDifference(_, a, b) => {
+            let ends = [a, b].map(|end| values[end.index()]);
+            ends.iter().all(|end| end.abs() < OSCILLATING)
+        }
+        _ => true,
+    };
+    let difference = values[secant.difference.outputs[0].index()];
     let values = ends.map(|x| run(&secant.value, &F64, &[x]));
-    let slope = run(&secant.slope, &F64, &ends);
-    let sizes = [
-        values[0],
-        values[1],
-        run(&secant.difference, &F64, &ends),
-        slope,
-    ];
-    sizes.iter().all(|size| size.abs() < LARGE) && resolved(&secant.difference, ends)
+    let sizes = [values[0], values[1], difference];
+    sizes.iter().all(|size| size.abs() < LARGE) && all.instructions.iter().all(resolved)
 }
 
 #[test]
