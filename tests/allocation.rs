@@ -1,5 +1,7 @@
 //! A step allocates nothing after the first.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod support;
 
 use eem::prelude::*;

@@ -1,5 +1,7 @@
 //! Wrong input is an error that names the thing, the value and the time; nothing panics.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod support;
 
 use eem::prelude::*;
@@ -239,7 +241,7 @@ fn a_hopeless_step_fails_and_the_run_goes_on_with_a_smaller_one() {
     let before = pendulum.row();
     if let Err(error) = pendulum.run.step() {
         println!("{error}");
-        assert_eq!(before, pendulum.row());
+        assert_eq!(before.map(f64::to_bits), pendulum.row().map(f64::to_bits));
     }
     pendulum.run.set_step_size(0.01).unwrap();
     pendulum.run.step().unwrap();

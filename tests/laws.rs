@@ -1,5 +1,7 @@
 //! Both laws and the momentum balance, at every step and for any step size.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod support;
 
 use eem::prelude::*;

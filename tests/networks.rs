@@ -1,5 +1,7 @@
 //! Several models, dimensions and paths of heat in one scene.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod support;
 
 use eem::prelude::*;

@@ -1,5 +1,7 @@
 //! The schemes converge with their order to the solution of the continuous equations.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod support;
 
 use eem::prelude::*;

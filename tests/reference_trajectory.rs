@@ -1,5 +1,7 @@
 //! The discrete scheme is the published one: it follows the 40-digit solution to rounding.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod support;
 
 use eem::prelude::*;
