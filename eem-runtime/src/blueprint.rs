@@ -9,7 +9,9 @@ use crate::group::{ElementGroup, Group, Placed};
 use crate::handle::Element;
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
-use crate::scheme::{EemEntropy, Midpoint, Scheme, Trapezoidal};
+use crate::scheme::{
+    EemEntropy, EemTemperature, ElementScheme, Midpoint, Scheme, Trapezoidal, Variational,
+};
 
 /// What a model has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -103,6 +105,10 @@ where
         let Self { kinematics, models } = *self;
         match scheme {
             Scheme::EemEntropy => boxed::<S, M, K, EemEntropy, D>(kinematics, models, placed),
+            Scheme::EemTemperature => {
+                boxed::<S, M, K, EemTemperature, D>(kinematics, models, placed)
+            }
+            Scheme::Variational => boxed::<S, M, K, Variational, D>(kinematics, models, placed),
             Scheme::Midpoint => boxed::<S, M, K, Midpoint, D>(kinematics, models, placed),
             Scheme::Trapezoidal => boxed::<S, M, K, Trapezoidal, D>(kinematics, models, placed),
         }
@@ -119,7 +125,7 @@ where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S>,
-    C: crate::scheme::ElementScheme<S, M>,
+    C: ElementScheme<S, M>,
 {
     Box::new(ElementGroup::<S, M, K, C>::new::<D>(
         kinematics, models, placed,

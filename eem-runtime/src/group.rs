@@ -94,9 +94,12 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     /// Applies the fraction `share` of the last local corrections.
     fn apply(&mut self, share: S);
 
-    /// Adds `h Σ A` and `−h Σ A q⁰`, where `A q_m` is the nodal force at the found response;
-    /// `false` if the scheme has no such form.
-    fn add_secant(&mut self, view: &StepView<'_, S>, system: &mut LinearSystem<S>) -> bool;
+    /// Adds `½h Σ A` and `−h Σ A q⁰`, where `A q_m` is the nodal force at the found response, if the
+    /// scheme has that form.
+    fn add_secant(&mut self, view: &StepView<'_, S>, system: &mut LinearSystem<S>);
+
+    /// From here on, nodal forces act along the gradient of the trial configuration.
+    fn aim(&mut self, trial: &Trial<S>);
 
     /// Adds the nodal impulse `−h F` of the found response to `impulse`, N s.
     fn add_impulse(&mut self, view: &StepView<'_, S>, trial: &Trial<S>, impulse: &mut [S]);
@@ -204,8 +207,14 @@ where
         }
     }
 
-    fn add_secant(&mut self, view: &StepView<'_, S>, system: &mut LinearSystem<S>) -> bool {
-        self.add_secant_all(view, system)
+    fn add_secant(&mut self, view: &StepView<'_, S>, system: &mut LinearSystem<S>) {
+        self.add_secant_all(view, system);
+    }
+
+    fn aim(&mut self, trial: &Trial<S>) {
+        for i in 0..self.members.len() {
+            self.geometry.aim(self.kinematics, i, &trial.positions);
+        }
     }
 
     fn add_impulse(&mut self, view: &StepView<'_, S>, trial: &Trial<S>, impulse: &mut [S]) {

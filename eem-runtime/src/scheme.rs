@@ -6,9 +6,11 @@
 //! [`Scheme`].
 
 mod eem_entropy;
+mod eem_temperature;
 mod midpoint;
 mod point;
 mod trapezoidal;
+mod variational;
 
 use crate::error::StateError;
 use crate::free_energy::{Array, Caloric, FreeEnergy};
@@ -18,14 +20,18 @@ use crate::scalar::Real;
 use crate::scene::is_positive;
 
 pub(crate) use eem_entropy::{EemEntropy, temperature_at};
+pub(crate) use eem_temperature::EemTemperature;
 pub(crate) use midpoint::Midpoint;
 pub(crate) use trapezoidal::Trapezoidal;
+pub(crate) use variational::Variational;
 
 /// The time integration schemes.
 ///
 /// | scheme | first law | second law | momenta | order |
 /// |---|---|---|---|---|
 /// | `EemEntropy` | exact | exact | exact | 2 |
+/// | `EemTemperature` | exact | exact | exact | 2 |
+/// | `Variational` | bounded | in practice | exact | 2 |
 /// | `Midpoint` | no | no | exact | 2 |
 /// | `Trapezoidal` | no | no | no | 2 |
 ///
@@ -34,13 +40,20 @@ pub(crate) use trapezoidal::Trapezoidal;
 /// ```
 /// use eem_runtime::Scheme;
 ///
-/// assert_eq!(Scheme::ALL.map(|scheme| scheme.name()).join(" "), "eem-entropy midpoint trapezoidal");
+/// assert_eq!(Scheme::EemEntropy.name(), "eem-entropy");
+/// assert!(Scheme::ALL.iter().all(|scheme| Scheme::from_name(scheme.name()) == Some(*scheme)));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Scheme {
     /// Energy–entropy–momentum scheme in entropy form (García Orden & Romero 2012, eqs. 25–28).
     EemEntropy,
+    /// Energy–entropy–momentum scheme in temperature form (Conde Martín, Betsch & García Orden
+    /// 2016, eqs. 37–39).
+    EemTemperature,
+    /// Variational integrator with thermacies (Kern, Romero, Conde Martín & García Orden 2021,
+    /// §III.A).
+    Variational,
     /// Implicit midpoint rule on positions, momenta, viscous stretches and entropies.
     Midpoint,
     /// Trapezoidal rule on positions, momenta, viscous stretches and entropies.
@@ -49,16 +62,30 @@ pub enum Scheme {
 
 impl Scheme {
     /// All schemes.
-    pub const ALL: [Self; 3] = [Self::EemEntropy, Self::Midpoint, Self::Trapezoidal];
+    pub const ALL: [Self; 5] = [
+        Self::EemEntropy,
+        Self::EemTemperature,
+        Self::Variational,
+        Self::Midpoint,
+        Self::Trapezoidal,
+    ];
 
     /// The name used on command lines and in files.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::EemEntropy => "eem-entropy",
+            Self::EemTemperature => "eem-temperature",
+            Self::Variational => "variational",
             Self::Midpoint => "midpoint",
             Self::Trapezoidal => "trapezoidal",
         }
+    }
+
+    /// The scheme of this name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|scheme| scheme.name() == name)
     }
 }
 
@@ -69,7 +96,7 @@ impl Scheme {
     /// break down where the literature says.
     pub(crate) const fn starts_in_free_flight(self) -> bool {
         match self {
-            Self::EemEntropy => true,
+            Self::EemEntropy | Self::EemTemperature | Self::Variational => true,
             Self::Midpoint | Self::Trapezoidal => false,
         }
     }
@@ -84,6 +111,31 @@ pub(crate) enum Placement {
     Middle,
     /// Measures and gradient of the new configuration.
     End,
+    /// Means of the old and new measures; force along the gradient of the old configuration, and
+    /// then along that of the new one.
+    Start,
+}
+
+/// How the end of a step follows from its forces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Closing {
+    /// The nodal force is `A q_m`: displacements come from one linear solve.
+    Secant,
+    /// The force at the start gives the displacements, the force at the end the momenta.
+    Start,
+    /// Displacements stay as Newton's method left them.
+    Open,
+}
+
+impl Scheme {
+    /// How the end of a step follows from its forces.
+    pub(crate) const fn closing(self) -> Closing {
+        match self {
+            Self::EemEntropy | Self::EemTemperature | Self::Midpoint => Closing::Secant,
+            Self::Variational => Closing::Start,
+            Self::Trapezoidal => Closing::Open,
+        }
+    }
 }
 
 /// What an element does during one step.

@@ -22,7 +22,7 @@ pub(crate) struct Solver<S> {
     /// m per node; `None` for anchors.
     masses: Vec<Option<S>>,
     dimension: usize,
-    starts_in_free_flight: bool,
+    scheme: Scheme,
     system: LinearSystem<S>,
     trial: Trial<S>,
     /// Displacements and seen temperatures before the last update, and the update.
@@ -70,7 +70,7 @@ impl<S: Real> Solver<S> {
             settings,
             masses,
             dimension,
-            starts_in_free_flight: scheme.starts_in_free_flight(),
+            scheme,
             system: LinearSystem::new(layout.unknowns),
             trial: Trial {
                 displacements: coordinates.clone(),
@@ -141,7 +141,7 @@ impl<S: Real> Solver<S> {
         self.remember();
         self.correction[0].fill(S::zero());
         self.correction[1].fill(S::zero());
-        if !self.starts_in_free_flight {
+        if !self.scheme.starts_in_free_flight() {
             return Ok(());
         }
         let momenta = view.state.momenta.values();

@@ -31,17 +31,13 @@ where
     }
 
     /// See [`Group::add_secant`](super::Group::add_secant).
-    pub(super) fn add_secant_all(
-        &mut self,
-        view: &StepView<'_, S>,
-        system: &mut LinearSystem<S>,
-    ) -> bool {
+    pub(super) fn add_secant_all(&mut self, view: &StepView<'_, S>, system: &mut LinearSystem<S>) {
         let (width, h) = (self.geometry.width(), view.step);
         let half = S::from_f64(0.5);
         let old = view.state.positions.values();
         for i in 0..self.members.len() {
             if !self.secant(i) {
-                return false;
+                return;
             }
             for (p, at) in self.unknowns(view, i).enumerate() {
                 let Some(at) = at else { continue };
@@ -57,7 +53,6 @@ where
                 }
             }
         }
-        true
     }
 
     /// See [`Group::add_impulse`](super::Group::add_impulse).

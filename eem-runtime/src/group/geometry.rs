@@ -156,12 +156,23 @@ impl<S: Real> Geometry<S> {
             Placement::End => direction.copy_from_slice(sensitivity),
             Placement::Middle => {
                 direction.copy_from_slice(sensitivity);
-                let half = S::from_f64(0.5);
-                for entry in sensitivity {
-                    *entry *= half;
+                halve(sensitivity);
+            }
+            Placement::Start => {
+                let old = &self.old_measures[own];
+                kinematics.gradient(q0, old, direction);
+                for (measure, &old) in measures.iter_mut().zip(old) {
+                    *measure = S::from_f64(0.5) * (old + *measure);
                 }
+                halve(sensitivity);
             }
         }
+    }
+
+    /// The direction of element `i` at one set of positions.
+    pub(crate) fn aim<K: Kinematics<S>>(&mut self, kinematics: K, i: usize, q: &[S]) {
+        self.gather(i, Placement::End, q, q);
+        self.place(kinematics, i, Placement::End);
     }
 
     /// `Σ_a f_a ∂(direction_a)/∂q¹` of element `i` into `matrix`; from the gathered
@@ -193,11 +204,9 @@ impl<S: Real> Geometry<S> {
             }
             Placement::Middle => {
                 kinematics.add_curvature(q1, measures, force, &mut self.matrix);
-                let half = S::from_f64(0.5);
-                for entry in &mut self.matrix {
-                    *entry *= half;
-                }
+                halve(&mut self.matrix);
             }
+            Placement::Start => {}
         }
     }
 
@@ -215,9 +224,16 @@ impl<S: Real> Geometry<S> {
         let old = match at {
             Placement::Ends => &self.old_measures[own],
             Placement::Middle => measures,
-            Placement::End => return false,
+            Placement::End | Placement::Start => return false,
         };
         kinematics.add_secant(old, measures, force, &mut self.matrix);
         true
+    }
+}
+
+/// Multiplies everything by ½, exactly.
+fn halve<S: Real>(values: &mut [S]) {
+    for value in values {
+        *value *= S::from_f64(0.5);
     }
 }

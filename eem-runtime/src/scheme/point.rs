@@ -1,13 +1,13 @@
 //! The response of schemes that evaluate the free energy at one point of the step.
 //!
-//! These are the ordinary rules, solved the ordinary way: by Newton's method in the variables that
-//! they integrate, hence with the entropy as unknown.
+//! They are solved by Newton's method in the variables that they integrate, hence with the entropy
+//! as unknown.
 
 use super::{ElementScheme, Infeasible, Placement, Start, temperature_at};
 use crate::free_energy::{Array, FreeEnergy};
 use crate::scalar::Real;
 
-/// An ordinary rule that looks at one point of the step.
+/// A rule that looks at one point of the step.
 pub(crate) trait PointRule: Send + Sync + 'static {
     /// Where the measures are taken.
     const PLACEMENT: Placement;

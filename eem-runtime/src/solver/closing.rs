@@ -4,6 +4,7 @@ use super::Solver;
 use crate::error::StepFailure;
 use crate::group::{Group, StepView};
 use crate::scalar::Real;
+use crate::scheme::Closing;
 use crate::state::State;
 
 impl<S: Real> Solver<S> {
@@ -20,19 +21,20 @@ impl<S: Real> Solver<S> {
         view: &StepView<'_, S>,
         next: &mut State<S>,
     ) -> Result<(), StepFailure> {
-        self.system.clear();
-        let mut has_secant = true;
-        for group in groups.iter_mut() {
-            has_secant &= group.add_secant(view, &mut self.system);
-        }
-        if has_secant {
-            self.solve_secant(view)?;
-        }
-        for (impulse, &force) in self.impulse.iter_mut().zip(&self.old_force) {
-            *impulse = -view.step * force;
-        }
-        for group in groups.iter_mut() {
-            group.add_impulse(view, &self.trial, &mut self.impulse);
+        match self.scheme.closing() {
+            Closing::Secant => {
+                self.system.clear();
+                for group in groups.iter_mut() {
+                    group.add_secant(view, &mut self.system);
+                }
+                self.solve_secant(view)?;
+                self.find_impulse(groups, view);
+            }
+            Closing::Start => {
+                self.find_impulse(groups, view);
+                self.move_from_start(groups, view);
+            }
+            Closing::Open => self.find_impulse(groups, view),
         }
         next.copy_from(view.state);
         next.time.add(0, view.step);
@@ -51,6 +53,45 @@ impl<S: Real> Solver<S> {
             group.settle(next)?;
         }
         Ok(())
+    }
+
+    /// `−h F` of the found forces.
+    fn find_impulse<const D: usize>(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+    ) {
+        for (impulse, &force) in self.impulse.iter_mut().zip(&self.old_force) {
+            *impulse = -view.step * force;
+        }
+        for group in groups.iter_mut() {
+            group.add_impulse(view, &self.trial, &mut self.impulse);
+        }
+    }
+
+    /// `Δq = (h/m)(p⁰ − ½h F⁰)`, `Δp = −½h (F⁰ + F¹)`, where F¹ acts along the gradient at q¹.
+    fn move_from_start<const D: usize>(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+    ) {
+        let half = S::from_f64(0.5);
+        let (q0, p0) = (view.state.positions.values(), view.state.momenta.values());
+        for (node, mass) in self.masses.iter().enumerate() {
+            let Some(mass) = *mass else { continue };
+            for at in node * self.dimension..(node + 1) * self.dimension {
+                let displacement = view.step / mass * (p0[at] + half * self.impulse[at]);
+                self.trial.displacements[at] = displacement;
+                self.trial.positions[at] = q0[at] + displacement;
+            }
+        }
+        for group in groups.iter_mut() {
+            group.aim(&self.trial);
+            group.add_impulse(view, &self.trial, &mut self.impulse);
+        }
+        for impulse in &mut self.impulse {
+            *impulse *= half;
+        }
     }
 
     fn solve_secant(&mut self, view: &StepView<'_, S>) -> Result<(), StepFailure> {

@@ -1,0 +1,42 @@
+//! The energy–entropy–momentum scheme in temperature form.
+//!
+//! ```text
+//! θ* = D_θ e / D_θ s,   f* = D_λ e − θ* D_λ s,   g* = −(D_γ e − θ* D_γ s)
+//! ```
+//!
+//! with partitioned discrete derivatives of e(λ, γ, θ) and s(λ, γ, θ) (Conde Martín, Betsch & García
+//! Orden 2016, eqs. 37–39). `f*Δλ − g*Δγ + θ*Δs = Δe` exactly, hence the first law; `θ*` is
+//! a mean of temperatures weighted with the heat capacity, hence positive, hence the second. No
+//! inversion is needed: the new temperature is the unknown.
+
+use super::{ElementScheme, Infeasible, Placement, Start};
+use crate::free_energy::{Array, FreeEnergy};
+use crate::scalar::Real;
+
+/// See the module.
+#[derive(Debug)]
+pub(crate) enum EemTemperature {}
+
+impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for EemTemperature {
+    const PLACEMENT: Placement = Placement::Ends;
+    const IMPLICIT: f64 = 1.0;
+
+    type Old = M::TemperatureFormOld;
+
+    fn old(model: &M, x0: &M::Variables) -> Self::Old {
+        model.temperature_form_old(x0)
+    }
+
+    fn respond(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        x: &M::Variables,
+        _: &mut M::Corners,
+    ) -> Result<(M::Response, M::Tangent), Infeasible> {
+        if M::THERMAL {
+            let theta = x.as_ref()[M::Variables::LEN - 1];
+            Infeasible::unless_stable(&model.caloric(x), theta)?;
+        }
+        Ok(model.temperature_form(&start.old, x))
+    }
+}
