@@ -80,21 +80,29 @@ impl<S: Real> Conduction<S> {
         &self.links[self.ranges[slot].clone()]
     }
 
-    /// `Σ κ` of a slot, W/K.
-    pub(crate) fn conductance(&self, slot: usize) -> S {
-        let conductances = self.links(slot).iter().map(|link| link.conductance);
-        conductances.fold(S::zero(), |sum, conductance| sum + conductance)
+    /// `Σ κ` from a slot to reservoirs, W/K.
+    pub(crate) fn reservoir_conductance(&self, slot: usize) -> S {
+        let mut sum = S::zero();
+        for link in self.links(slot) {
+            if matches!(link.partner, Partner::Reservoir(_)) {
+                sum += link.conductance;
+            }
+        }
+        sum
     }
 
-    /// `Σ κ (θ_partner − θ)`, the heat flow into a slot at temperature θ, W; `temperatures` are
-    /// those of the other slots.
-    pub(crate) fn heat_flow(&self, slot: usize, theta: S, temperatures: &[S]) -> S {
+    /// The heat flow into a slot, `Σ κ (Θ_partner − Θ) + Σ κ (θ_r − θ)`, W.
+    ///
+    /// Flows between elements are computed from `seen` temperatures Θ at both ends, so that one end
+    /// receives exactly what the other gives, whatever rounding does to a large κ; flows
+    /// from reservoirs from the temperature θ of the slot.
+    pub(crate) fn heat_flow(&self, slot: usize, theta: S, seen: &[S]) -> S {
         self.links(slot).iter().fold(S::zero(), |sum, link| {
-            let partner = match link.partner {
-                Partner::Slot(slot) => temperatures[slot],
-                Partner::Reservoir(index) => self.reservoirs[index],
+            let difference = match link.partner {
+                Partner::Slot(partner) => seen[partner] - seen[slot],
+                Partner::Reservoir(index) => self.reservoirs[index] - theta,
             };
-            sum + link.conductance * (partner - theta)
+            sum + link.conductance * difference
         })
     }
 }

@@ -52,10 +52,9 @@ pub(crate) struct Trial<S> {
     pub(crate) displacements: Vec<S>,
     /// q¹ of all nodes, m.
     pub(crate) positions: Vec<S>,
-    /// θ* that neighbours see, per thermal slot, K; an unknown where the slot is coupled.
+    /// θ* as elements in contact see it, Θ, per thermal slot, K; an unknown where the slot is
+    /// coupled.
     pub(crate) seen_temperatures: Vec<S>,
-    /// θ* that the elements compute, per thermal slot, K.
-    pub(crate) temperatures: Vec<S>,
 }
 
 /// Internal energy (J) and entropy (J/K) of a group.
@@ -82,7 +81,7 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     fn begin(&mut self, view: &StepView<'_, S>, old_force: &mut [S]) -> Result<(), StateError>;
 
     /// Computes everything that depends on the trial state, element by element.
-    fn evaluate(&mut self, view: &StepView<'_, S>, trial: &mut Trial<S>) -> Result<(), StateError>;
+    fn evaluate(&mut self, view: &StepView<'_, S>, trial: &Trial<S>) -> Result<(), StateError>;
 
     /// Adds residual and tangent of the elements, local unknowns condensed.
     fn assemble(&mut self, view: &StepView<'_, S>, trial: &Trial<S>, system: &mut LinearSystem<S>);
@@ -93,6 +92,9 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
 
     /// Applies the fraction `share` of the last local corrections.
     fn apply(&mut self, share: S);
+
+    /// The present trial is where the next correction starts; no local correction.
+    fn hold(&mut self);
 
     /// Adds `½h Σ A` and `−h Σ A q⁰`, where `A q_m` is the nodal force at the found response, if the
     /// scheme has that form.
@@ -189,7 +191,7 @@ where
         self.begin_step(view, old_force)
     }
 
-    fn evaluate(&mut self, view: &StepView<'_, S>, trial: &mut Trial<S>) -> Result<(), StateError> {
+    fn evaluate(&mut self, view: &StepView<'_, S>, trial: &Trial<S>) -> Result<(), StateError> {
         self.evaluate_trial(view, trial)
     }
 
@@ -204,6 +206,12 @@ where
     fn apply(&mut self, share: S) {
         for member in &mut self.members {
             member.apply(share);
+        }
+    }
+
+    fn hold(&mut self) {
+        for member in &mut self.members {
+            member.hold();
         }
     }
 

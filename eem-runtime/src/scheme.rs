@@ -95,9 +95,19 @@ impl Scheme {
     /// their stable steps it depends on the start which state is found, if any, and so they
     /// break down where the literature says.
     pub(crate) const fn starts_in_free_flight(self) -> bool {
+        !self.is_ordinary()
+    }
+
+    /// Whether a solution that is not found at once is followed from a small step on. Not for the
+    /// ordinary rules, for the same reason.
+    pub(crate) const fn follows_its_solution(self) -> bool {
+        !self.is_ordinary()
+    }
+
+    const fn is_ordinary(self) -> bool {
         match self {
-            Self::EemEntropy | Self::EemTemperature | Self::Variational => true,
-            Self::Midpoint | Self::Trapezoidal => false,
+            Self::EemEntropy | Self::EemTemperature | Self::Variational => false,
+            Self::Midpoint | Self::Trapezoidal => true,
         }
     }
 }

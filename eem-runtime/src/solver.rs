@@ -15,6 +15,9 @@ use crate::system::LinearSystem;
 /// How often an update is halved to bring all elements back to admissible states.
 const HALVINGS: u32 = 30;
 
+/// Parts of a step through which a solution is followed when it is not found at once.
+const STAGES: u8 = 8;
+
 /// Working memory of a step; nothing in it outlives the step.
 #[derive(Clone, Debug)]
 pub(crate) struct Solver<S> {
@@ -76,7 +79,6 @@ impl<S: Real> Solver<S> {
                 displacements: coordinates.clone(),
                 positions: coordinates.clone(),
                 seen_temperatures: temperatures.clone(),
-                temperatures: temperatures.clone(),
             },
             previous: [coordinates.clone(), temperatures.clone()],
             correction: [coordinates.clone(), temperatures],
@@ -88,39 +90,103 @@ impl<S: Real> Solver<S> {
     }
 
     /// Finds the trial state whose forces move the scene to it.
+    ///
+    /// If that fails from the start of the scheme, an EEM scheme follows its solution from a small
+    /// step to the full one.
     pub(crate) fn iterate<const D: usize>(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
     ) -> Result<(), StepFailure> {
         self.history.clear();
-        self.history.reserve(self.settings.max_iterations);
+        self.history
+            .reserve(self.settings.max_iterations * usize::from(STAGES + 1));
+        let failure = match self.start_and_converge(groups, view) {
+            Err(StepFailure::NotConverged { update }) if self.scheme.follows_its_solution() => {
+                StepFailure::NotConverged { update }
+            }
+            done => return done,
+        };
+        self.follow(groups, view).map_err(|_| failure)
+    }
+
+    fn start_and_converge<const D: usize>(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+    ) -> Result<(), StepFailure> {
         self.begin(groups, view)?;
-        let mut share = self.advance(groups, view)?;
-        while self.history.len() < self.settings.max_iterations {
+        let share = self.advance(groups, view)?;
+        self.converge(groups, view, share)
+    }
+
+    /// The solution for growing parts of the step, each starting from the one before.
+    fn follow<const D: usize>(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+    ) -> Result<(), StepFailure> {
+        let number = |stage: u8| S::from_f64(f64::from(stage));
+        let mut before = None;
+        for stage in (1..=STAGES).map(number) {
+            let part = StepView {
+                step: view.step * stage / number(STAGES),
+                ..*view
+            };
+            match before {
+                None => self.start_and_converge(groups, &part)?,
+                Some(before) => {
+                    self.extrapolate(groups, stage / before);
+                    let share = self.advance(groups, &part)?;
+                    self.converge(groups, &part, share)?;
+                }
+            }
+            before = Some(stage);
+        }
+        Ok(())
+    }
+
+    /// Makes displacements larger by a factor and leaves everything else.
+    fn extrapolate<const D: usize>(&mut self, groups: &mut [Box<dyn Group<S, D>>], factor: S) {
+        self.remember();
+        for (change, &displacement) in self.correction[0].iter_mut().zip(&self.previous[0]) {
+            *change = (factor - S::one()) * displacement;
+        }
+        self.correction[1].fill(S::zero());
+        for group in groups {
+            group.hold();
+        }
+    }
+
+    /// Newton's method from the trial state, which was reached by the given share of a correction.
+    fn converge<const D: usize>(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        mut share: S,
+    ) -> Result<(), StepFailure> {
+        let mut before = None;
+        for _ in 0..self.settings.max_iterations {
             let residual = self.assemble(groups, view);
-            self.system
-                .solve()
-                .map_err(|_| StepFailure::SingularTangent)?;
-            let before = self.history.last().filter(|_| share == S::one());
-            let before = before.map(|last| last.update);
+            let solved = self.system.solve();
+            solved.map_err(|_| StepFailure::SingularTangent)?;
             let update = self.correct(groups, view);
             self.history.push(Iteration { residual, update });
             if !update.is_finite() {
                 break;
             }
+            let full = share == S::one();
             share = self.advance(groups, view)?;
+            let before = before.replace(update).filter(|_| full);
             if share == S::one() && is_last(update, before, self.settings.tolerance) {
                 return Ok(());
             }
         }
-        let update = self
-            .history
-            .last()
-            .map_or(f64::NAN, |last| last.update.to_f64());
         Err(match self.obstacle.take() {
             Some(obstacle) => obstacle.into(),
-            None => StepFailure::NotConverged { update },
+            None => StepFailure::NotConverged {
+                update: before.map_or(f64::NAN, Real::to_f64),
+            },
         })
     }
 
@@ -177,7 +243,7 @@ impl<S: Real> Solver<S> {
             for group in groups.iter_mut() {
                 group.apply(share);
             }
-            let trial = &mut self.trial;
+            let trial = &self.trial;
             match groups
                 .iter_mut()
                 .try_for_each(|group| group.evaluate(view, trial))

@@ -44,6 +44,11 @@ impl<S: Real> LinearSystem<S> {
         &self.right
     }
 
+    /// The same, to be written.
+    pub(crate) fn right_mut(&mut self) -> &mut [S] {
+        &mut self.right
+    }
+
     /// A, row-major.
     pub(crate) fn matrix(&self) -> &[S] {
         &self.matrix

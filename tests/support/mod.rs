@@ -124,6 +124,129 @@ impl Pendulum {
     }
 }
 
+/// A double pendulum of Conde Martín, Betsch & García Orden (2016): origin – spring – mass – spring –
+/// mass, in space, the springs in thermal contact.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DoublePendulum {
+    pub(crate) name: &'static str,
+    pub(crate) stiffness: [f64; 2],
+    pub(crate) softening: [f64; 2],
+    pub(crate) masses: [f64; 2],
+    pub(crate) coupling: f64,
+    pub(crate) capacity: [f64; 2],
+    pub(crate) conductance: f64,
+    pub(crate) positions: [[f64; 3]; 2],
+    pub(crate) momenta: [[f64; 3]; 2],
+    pub(crate) temperatures: [f64; 2],
+    pub(crate) duration: f64,
+    pub(crate) step: f64,
+    /// E, S and |J| at the start, as published.
+    pub(crate) start: [f64; 3],
+}
+
+impl DoublePendulum {
+    pub(crate) const ROMERO: Self = Self {
+        name: "romero",
+        stiffness: [0.1, 1.0],
+        softening: [0.0, 0.0],
+        masses: [1.0, 2.0],
+        coupling: 0.2,
+        capacity: [5.0, 5.0],
+        conductance: 300.0,
+        positions: [[1.0, 0.0, 0.0], [2.2, 0.0, 0.0]],
+        momenta: [[0.0, 2.0, 0.0], [1.0, 0.0, 0.0]],
+        temperatures: [380.0, 310.0],
+        duration: 25.0,
+        step: 0.3,
+        start: [421.641_105_799_8, 1.243_727_879_7, 2.0],
+    };
+
+    pub(crate) const KRUEGER: Self = Self {
+        name: "kruger",
+        stiffness: [100.0, 100.0],
+        capacity: [1000.0, 1000.0],
+        conductance: 10.0,
+        momenta: [[0.0, 1.0, 0.0], [0.0, 4.4, 0.0]],
+        duration: 500.0,
+        step: 0.1,
+        start: [90_000.375_170_773_5, 269.076_435_762_5, 10.68],
+        ..Self::ROMERO
+    };
+
+    pub(crate) const LOGARITHMIC: Self = Self {
+        name: "log",
+        stiffness: [5000.0, 10_000.0],
+        softening: [50.0, 60.0],
+        masses: [10.0, 20.0],
+        coupling: 20.0,
+        capacity: [5000.0, 2000.0],
+        conductance: 300.0,
+        positions: [[3.0, 0.0, 0.5], [3.0, 1.0, 1.0]],
+        momenta: [[0.0, 10.0, 0.0], [0.0, 0.0, -20.0]],
+        temperatures: [380.0, 298.0],
+        duration: 25.0,
+        step: 0.1,
+        start: [400_819.933_391_345, 1_183.024_338_221_3, 71.5891],
+    };
+
+    pub(crate) const ALL: [Self; 3] = [Self::ROMERO, Self::KRUEGER, Self::LOGARITHMIC];
+
+    /// Ready to run, with its masses and springs.
+    pub(crate) fn simulation(&self, scheme: Scheme, step: f64) -> DoubleRun {
+        let mut scene = Scene::<3>::new();
+        let pivot = scene.anchor([0.0; 3]);
+        let masses = [0, 1].map(|i| {
+            let velocity = self.momenta[i].map(|p| p / self.masses[i]);
+            scene.mass(self.masses[i], self.positions[i], velocity)
+        });
+        let ends = [[pivot, masses[0]], [masses[0], masses[1]]];
+        let springs = [0, 1].map(|i| {
+            let model = LogarithmicStiffness {
+                stiffness: self.stiffness[i],
+                softening: self.softening[i],
+                coupling: self.coupling,
+                capacity: self.capacity[i],
+                natural_length: [2.0, 1.0][i],
+                theta_ref: 300.0,
+            };
+            let spring = scene.spring(model, ends[i]);
+            scene.set_temperature(spring, self.temperatures[i]);
+            spring
+        });
+        scene.conduct(springs[0], springs[1], self.conductance);
+        let run = Simulation::new(scene, scheme, step).unwrap();
+        DoubleRun {
+            run,
+            masses,
+            springs,
+        }
+    }
+}
+
+/// A double pendulum in motion.
+#[derive(Debug)]
+pub(crate) struct DoubleRun {
+    pub(crate) run: Simulation<3>,
+    pub(crate) masses: [Node; 2],
+    pub(crate) springs: [Element; 2],
+}
+
+impl DoubleRun {
+    /// q, p and θ in the order of the reference data.
+    pub(crate) fn row(&self) -> Vec<f64> {
+        let positions = self.masses.map(|mass| self.run.position(mass).unwrap());
+        let momenta = self.masses.map(|mass| self.run.momentum(mass).unwrap());
+        let temperatures = self
+            .springs
+            .map(|spring| self.run.temperature(spring).unwrap());
+        let vectors = positions.iter().chain(&momenta);
+        vectors
+            .flat_map(|vector| vector.iter().copied())
+            .chain(temperatures)
+            .collect()
+    }
+}
+
 /// Largest violations of the laws along a run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Laws {

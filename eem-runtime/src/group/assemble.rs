@@ -15,8 +15,8 @@ where
     K: Kinematics<S>,
     C: ElementScheme<S, M>,
 {
-    /// The factor by which the temperature of a partner enters the entropy balance of element `i`:
-    /// `∂r_s/∂θ_partner = −h w κ/θ*`, without κ.
+    /// The factor by which heat from other elements enters the entropy balance of element `i`:
+    /// `∂r_s/∂Q = −h w/θ*`.
     fn heat_factor(&self, view: &StepView<'_, S>, i: usize) -> S {
         -view.step * S::from_f64(C::IMPLICIT) / self.members[i].temperature()
     }
@@ -145,7 +145,7 @@ where
         }
     }
 
-    /// Adds `factor κ` at the temperatures of the partners of element `i`.
+    /// Adds the derivatives of `factor Σ κ (Θ_partner − Θ)` of element `i`.
     fn add_partners(
         &self,
         view: &StepView<'_, S>,
@@ -158,10 +158,13 @@ where
             return;
         };
         for link in view.conduction.links(slot) {
-            if let Partner::Slot(partner) = link.partner
-                && let Some(column) = view.layout.coupled[partner]
-            {
-                system.add(row, column, factor * link.conductance);
+            if let Partner::Slot(partner) = link.partner {
+                let entry = factor * link.conductance;
+                for (slot, entry) in [(partner, entry), (slot, -entry)] {
+                    if let Some(column) = view.layout.coupled[slot] {
+                        system.add(row, column, entry);
+                    }
+                }
             }
         }
     }
@@ -225,8 +228,10 @@ where
         if let Some(slot) = member.slots.thermal {
             for link in view.conduction.links(slot) {
                 if let Partner::Slot(partner) = link.partner {
-                    let unknown = view.layout.coupled[partner];
-                    heat += link.conductance * unknown.map_or(S::zero(), |at| solution[at]);
+                    let change = |slot: usize| {
+                        view.layout.coupled[slot].map_or(S::zero(), |at| solution[at])
+                    };
+                    heat += link.conductance * (change(partner) - change(slot));
                 }
             }
             heat *= self.heat_factor(view, i);

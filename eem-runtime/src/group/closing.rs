@@ -116,7 +116,9 @@ where
                 continue;
             };
             let theta = member.temperature();
-            heat += view.conduction.heat_flow(slot, theta, &trial.temperatures);
+            heat += view
+                .conduction
+                .heat_flow(slot, theta, &trial.seen_temperatures);
             let old_rate = member.old_rates.as_ref()[M::MEASURES + M::DASHPOTS];
             next.entropies
                 .add(slot, view.step * (share * heat / theta + old_rate));

@@ -38,10 +38,8 @@ where
                 old: C::old(&member.model, &x0),
             });
             member.x = x0;
-            member.previous = x0;
-            member.correction = M::Variables::filled(S::zero());
-            member.previous_entropy_change = S::zero();
-            member.entropy_correction = S::zero();
+            member.entropy_change = S::zero();
+            member.hold();
             if M::THERMAL {
                 let theta = x0.as_ref()[M::Variables::LEN - 1];
                 member.corners = M::Corners::filled(theta);
@@ -96,7 +94,7 @@ where
     pub(super) fn evaluate_trial(
         &mut self,
         view: &StepView<'_, S>,
-        trial: &mut Trial<S>,
+        trial: &Trial<S>,
     ) -> Result<(), StateError> {
         let old = view.state.positions.values();
         for i in 0..self.members.len() {
@@ -123,9 +121,6 @@ where
             member.find_viscosities(member.temperature())?;
             self.local
                 .condense(view, &trial.seen_temperatures, member)?;
-            if let Some(slot) = member.slots.thermal {
-                trial.temperatures[slot] = member.temperature();
-            }
         }
         Ok(())
     }

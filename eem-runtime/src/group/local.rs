@@ -2,12 +2,12 @@
 //!
 //! ```text
 //! r_γk = γ_k − γ_k⁰ − h (w g*_k/η_k + c_k)                       k = 1 … K
-//! r_s  = Δs − h (w (Σ g*²/η + Q)/θ* + c_s),   Q = Σ κ (θ_partner − θ*)
+//! r_s  = Δs − h (w (Σ g*²/η + Q)/θ* + c_s),   Q = Σ κ (Θ_partner − Θ) + Σ κ (θ_r − θ*)
 //! ```
 //!
 //! where `w` is the implicit share of the scheme and `c` what the old state contributes. The
-//! unknowns `u = (γ…, τ)` occur in no other element, except that neighbours see θ*; so
-//! their corrections are eliminated here and the global system never knows of them.
+//! unknowns `u = (γ…, τ)` occur in no other element: what elements in contact see of each other is
+//! the global unknown Θ = θ*. So their corrections are eliminated here.
 
 use super::StepView;
 use super::member::Member;
@@ -116,7 +116,7 @@ impl<S: Real> LocalSolver<S> {
         };
         let theta = response[heat_row];
         heat += view.conduction.heat_flow(slot, theta, seen_temperatures);
-        let conductance = view.conduction.conductance(slot);
+        let conductance = view.conduction.reservoir_conductance(slot);
         let rate = (dissipation + heat) / theta;
         let old_rate = member.old_rates.as_ref()[heat_row];
         let row = unknowns - 1;

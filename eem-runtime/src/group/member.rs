@@ -120,6 +120,14 @@ impl<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>> Member<S, M, C> {
         }
     }
 
+    /// Starts the next correction from the present trial, with none.
+    pub(crate) fn hold(&mut self) {
+        self.previous = self.x;
+        self.correction = M::Variables::filled(S::zero());
+        self.previous_entropy_change = self.entropy_change;
+        self.entropy_correction = S::zero();
+    }
+
     /// Applies the fraction `share` of the correction: viscous stretches linearly, the temperature
     /// in its logarithm, so that it stays positive.
     pub(crate) fn apply(&mut self, share: S) {

@@ -40,6 +40,24 @@ impl<S: Real> Solver<S> {
         largest
     }
 
+    /// Makes the corrections of Θ those that rounding to `Θ + δΘ` leaves of them.
+    ///
+    /// With a large conductance a rounding of Θ is a large heat; the local unknowns
+    /// must answer to the Θ that will be used.
+    fn round_seen_temperatures(&mut self, view: &StepView<'_, S>) {
+        let solution = self.system.right_mut();
+        for (unknown, &seen) in view
+            .layout
+            .coupled
+            .iter()
+            .zip(&self.trial.seen_temperatures)
+        {
+            if let Some(at) = *unknown {
+                solution[at] = (seen + solution[at]) - seen;
+            }
+        }
+    }
+
     /// Distributes the solution; the largest scaled update.
     pub(super) fn correct<const D: usize>(
         &mut self,
@@ -47,6 +65,7 @@ impl<S: Real> Solver<S> {
         view: &StepView<'_, S>,
     ) -> S {
         self.remember();
+        self.round_seen_temperatures(view);
         let solution = self.system.right();
         let length = longest(groups);
         let mut largest = S::zero();
