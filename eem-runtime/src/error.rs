@@ -28,6 +28,24 @@ pub enum SceneError {
         /// The coordinate, m.
         value: f64,
     },
+    /// An anchor was given what only a mass can have, or the other way round.
+    #[error("{node} cannot be given {quantity}: it is {kind}")]
+    WrongKind {
+        /// The node.
+        node: Node,
+        /// What it was given.
+        quantity: &'static str,
+        /// What it is.
+        kind: &'static str,
+    },
+    /// The acceleration of gravity is not finite.
+    #[error("component {axis} of gravity is {value} m/s², it must be finite")]
+    Gravity {
+        /// The axis, from 0.
+        axis: usize,
+        /// The component, m/s².
+        value: f64,
+    },
     /// A velocity is not finite.
     #[error("component {axis} of the velocity of {node} is {value} m/s, it must be finite")]
     Velocity {
@@ -211,6 +229,46 @@ pub enum StepFailure {
     /// The tangent is singular.
     #[error("the tangent matrix is singular")]
     SingularTangent,
+    /// A load is not finite.
+    #[error(
+        "component {axis} of the load on {node} is {value} N at t = {time} s, it must be finite"
+    )]
+    Load {
+        /// The node.
+        node: Node,
+        /// The axis, from 0.
+        axis: usize,
+        /// The component, N.
+        value: f64,
+        /// The time, s.
+        time: f64,
+    },
+    /// The prescribed position of an anchor is not finite.
+    #[error(
+        "coordinate {axis} of the motion of {node} is {value} m at t = {time} s, it must be finite"
+    )]
+    Motion {
+        /// The node.
+        node: Node,
+        /// The axis, from 0.
+        axis: usize,
+        /// The coordinate, m.
+        value: f64,
+        /// The time, s.
+        time: f64,
+    },
+    /// A prescribed temperature is not positive and finite.
+    #[error(
+        "the temperature prescribed on {element} is {value} K at t = {time} s, it must be positive and finite"
+    )]
+    PrescribedTemperature {
+        /// The element.
+        element: Element,
+        /// The temperature, K.
+        value: f64,
+        /// The time, s.
+        time: f64,
+    },
     /// A trial state has the wrong number of unknowns.
     #[error("{given} unknowns were given, the scene has {expected}")]
     Unknowns {

@@ -25,9 +25,10 @@ use crate::free_energy::{Array, FreeEnergy};
 use crate::handle::Element;
 use crate::kinematics::Kinematics;
 use crate::layout::{Layout, Slots};
+use crate::loads::StepLoads;
 use crate::scalar::Real;
 use crate::scene::ElementEntry;
-use crate::scheme::ElementScheme;
+use crate::scheme::{ElementScheme, Placement};
 use crate::state::State;
 use crate::system::LinearSystem;
 use geometry::Geometry;
@@ -43,6 +44,18 @@ pub(crate) struct StepView<'a, S> {
     pub(crate) state: &'a State<S>,
     pub(crate) conduction: &'a Conduction<S>,
     pub(crate) layout: &'a Layout,
+    pub(crate) loads: &'a StepLoads<S>,
+}
+
+impl<S: Real> StepView<'_, S> {
+    /// The temperature prescribed on a thermal slot, as a scheme with this placement sees it.
+    fn prescribed(&self, slot: Option<usize>, at: Placement) -> Option<S> {
+        let prescribed = self.loads.prescribed[slot?]?;
+        Some(match at {
+            Placement::Ends | Placement::End => prescribed.end,
+            Placement::Middle | Placement::Start => prescribed.middle,
+        })
+    }
 }
 
 /// The global part of the new state that Newton's method tries.
@@ -97,8 +110,13 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     fn hold(&mut self);
 
     /// Adds `½h Σ A` and `−h Σ A q⁰`, where `A q_m` is the nodal force at the found response, if the
-    /// scheme has that form.
-    fn add_secant(&mut self, view: &StepView<'_, S>, system: &mut LinearSystem<S>);
+    /// scheme has that form; moved anchors are taken from the trial.
+    fn add_secant(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S>,
+        system: &mut LinearSystem<S>,
+    );
 
     /// From here on, nodal forces act along the gradient of the trial configuration.
     fn aim(&mut self, trial: &Trial<S>);
@@ -113,7 +131,7 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     fn initialize(&mut self, state: &mut State<S>) -> Result<(), StateError>;
 
     /// Temperatures of a new state whose entropies are given, and all that must be true of a state.
-    fn settle(&mut self, state: &mut State<S>) -> Result<(), StateError>;
+    fn settle(&mut self, view: &StepView<'_, S>, next: &mut State<S>) -> Result<(), StateError>;
 
     /// Energy and entropy, from their definitions.
     fn totals(&self, state: &State<S>) -> GroupTotals<S>;
@@ -215,8 +233,13 @@ where
         }
     }
 
-    fn add_secant(&mut self, view: &StepView<'_, S>, system: &mut LinearSystem<S>) {
-        self.add_secant_all(view, system);
+    fn add_secant(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S>,
+        system: &mut LinearSystem<S>,
+    ) {
+        self.add_secant_all(view, trial, system);
     }
 
     fn aim(&mut self, trial: &Trial<S>) {
@@ -237,8 +260,8 @@ where
         self.initialize_all(state)
     }
 
-    fn settle(&mut self, state: &mut State<S>) -> Result<(), StateError> {
-        self.settle_all(state)
+    fn settle(&mut self, view: &StepView<'_, S>, next: &mut State<S>) -> Result<(), StateError> {
+        self.settle_all(view, next)
     }
 
     fn totals(&self, state: &State<S>) -> GroupTotals<S> {

@@ -12,25 +12,37 @@ use crate::state::State;
 /// The balance sheet of a scene.
 ///
 /// ```text
-/// E = Σ p²/2m + Σ (ψ + θ s) + Σ θ_r σ_r + heat lost
-/// S = Σ s + Σ σ_r
+/// E = Σ p²/2m − Σ m g·q + Σ (ψ + θ s) + Σ θ_r σ_r + heat lost
+/// S = Σ s + Σ σ_r + entropy of the thermostats
+/// E − work − heat = const
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ledger<S: Real, const D: usize> {
     /// `Σ p²/2m`, J.
     pub kinetic_energy: S,
+    /// `−Σ m g·q`, J.
+    pub potential_energy: S,
     /// `Σ (ψ + θ s)` of the elements, J.
     pub internal_energy: S,
     /// Heat that the reservoirs received since the start, `Σ θ_r σ_r`, J.
     pub reservoir_heat: S,
     /// Heat that dashpots of elements without temperature gave away since the start, J.
     pub lost_heat: S,
-    /// The sum of all energies, E, J. Constant by the first law.
+    /// The sum of all energies, E, J. Constant by the first law unless loads do work or
+    /// thermostats give heat.
     pub energy: S,
+    /// Work that loads and moved anchors have done since the start, J.
+    pub work: S,
+    /// Heat that thermostats have given since the start, J.
+    pub heat: S,
+    /// `E − work − heat`, J. Constant by the first law.
+    pub balance: S,
     /// `Σ s` of the elements, J/K.
     pub element_entropy: S,
     /// `Σ σ_r`, entropy that the reservoirs received since the start, J/K.
     pub reservoir_entropy: S,
+    /// Entropy that thermostats have received since the start, J/K.
+    pub thermostat_entropy: S,
     /// The sum of all entropies, S, J/K. Never decreasing by the second law.
     pub entropy: S,
     /// `Σ p`, kg m/s.
@@ -47,7 +59,9 @@ impl<S: Real, const D: usize> Ledger<S, D> {
         masses: &[Option<S>],
         groups: &[Box<dyn Group<S, D>>],
         reservoirs: &[S],
+        gravity: &SVector<S, D>,
     ) -> Self {
+        let mut potential = Sum::new();
         let (mut kinetic, mut internal, mut heat) = (Sum::new(), Sum::new(), Sum::new());
         let (mut element_entropy, mut reservoir_entropy) = (Sum::new(), Sum::new());
         let momenta = state.momenta.values();
@@ -66,17 +80,44 @@ impl<S: Real, const D: usize> Ledger<S, D> {
             heat.add(theta * entropy);
             reservoir_entropy.add(entropy);
         }
-        let lost_heat = state.dissipated.values()[0];
-        let energy = [kinetic.value(), internal.value(), heat.value(), lost_heat];
-        let entropy = [element_entropy.value(), reservoir_entropy.value()];
+        for (q, mass) in state.positions.values().chunks_exact(D).zip(masses) {
+            let Some(mass) = *mass else { continue };
+            for (&coordinate, &component) in q.iter().zip(gravity.iter()) {
+                potential.add(-mass * component * coordinate);
+            }
+        }
+        let [lost_heat, work, given_heat, thermostat_entropy] = [
+            &state.dissipated,
+            &state.work,
+            &state.heat,
+            &state.thermostat_entropy,
+        ]
+        .map(|booked| booked.values()[0]);
+        let energy = [
+            kinetic.value(),
+            potential.value(),
+            internal.value(),
+            heat.value(),
+            lost_heat,
+        ];
+        let entropy = [
+            element_entropy.value(),
+            reservoir_entropy.value(),
+            thermostat_entropy,
+        ];
         Self {
             kinetic_energy: kinetic.value(),
+            potential_energy: potential.value(),
             internal_energy: internal.value(),
             reservoir_heat: heat.value(),
             lost_heat,
             energy: Sum::of(energy),
+            work,
+            heat: given_heat,
+            balance: Sum::of(energy.into_iter().chain([-work, -given_heat])),
             element_entropy: element_entropy.value(),
             reservoir_entropy: reservoir_entropy.value(),
+            thermostat_entropy,
             entropy: Sum::of(entropy),
             linear_momentum: SVector::from_fn(|axis, _| {
                 Sum::of(momenta.chunks_exact(D).map(|p| p[axis]))

@@ -33,6 +33,7 @@ mod handle;
 mod inversion;
 mod layout;
 mod ledger;
+mod loads;
 mod lu;
 mod newton;
 mod scalar;

@@ -2,6 +2,7 @@
 //!
 //! Describing never fails; [`Simulation::new`](crate::Simulation::new) checks all of it and says what is wrong.
 
+mod act;
 mod check;
 
 use nalgebra::SVector;
@@ -11,6 +12,7 @@ use crate::error::SceneError;
 use crate::free_energy::FreeEnergy;
 use crate::handle::{Element, HeatPartner, Node, Reservoir, SceneId};
 use crate::kinematics::Stretch;
+use crate::loads::Loads;
 use crate::scalar::Real;
 
 pub(crate) use check::is_positive;
@@ -22,6 +24,8 @@ pub(crate) struct NodeEntry<S, const D: usize> {
     pub(crate) mass: Option<S>,
     pub(crate) position: SVector<S, D>,
     pub(crate) velocity: SVector<S, D>,
+    /// Given instead of the velocity.
+    pub(crate) momentum: Option<SVector<S, D>>,
 }
 
 /// What the scene knows of an element apart from its model.
@@ -65,6 +69,7 @@ pub struct Scene<const D: usize, S: Real = f64> {
     pub(crate) reservoirs: Vec<S>,
     pub(crate) conductors: Vec<Conductor<S>>,
     pub(crate) groups: Vec<Box<dyn Blueprint<S, D>>>,
+    pub(crate) loads: Loads<S, D>,
     /// What was asked for in vain, reported with everything else.
     pub(crate) misuse: Vec<SceneError>,
 }
@@ -86,6 +91,7 @@ impl<const D: usize, S: Real> Default for Scene<D, S> {
             reservoirs: Vec::new(),
             conductors: Vec::new(),
             groups: Vec::new(),
+            loads: Loads::none(),
             misuse: Vec::new(),
         }
     }
@@ -107,6 +113,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             mass,
             position: position.into(),
             velocity: velocity.into(),
+            momentum: None,
         });
         Node {
             scene: self.id,

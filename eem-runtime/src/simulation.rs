@@ -12,6 +12,7 @@ use crate::error::{SceneError, StepError, StepFailure};
 use crate::group::{Group, Placed, StepView};
 use crate::handle::SceneId;
 use crate::layout::Layout;
+use crate::loads::{Loads, StepLoads};
 use crate::newton::{NewtonSettings, StepReport};
 use crate::scalar::Real;
 use crate::scene::{Scene, is_positive};
@@ -20,6 +21,20 @@ use crate::solver::Solver;
 use crate::state::State;
 
 pub use linearize::StepTangent;
+
+/// What the elements share during the next step; borrows only the fields that it names.
+macro_rules! view {
+    ($simulation:ident) => {
+        StepView {
+            step: $simulation.step,
+            state: &$simulation.state,
+            conduction: &$simulation.conduction,
+            layout: &$simulation.layout,
+            loads: &$simulation.step_loads,
+        }
+    };
+}
+use view;
 
 /// A scene that is stepped through time by one scheme.
 ///
@@ -35,6 +50,8 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     groups: Vec<Box<dyn Group<S, D>>>,
     layout: Layout,
     conduction: Conduction<S>,
+    loads: Loads<S, D>,
+    step_loads: StepLoads<S>,
     state: State<S>,
     next: State<S>,
     solver: Solver<S>,
@@ -86,6 +103,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             group.initialize(&mut state)?;
         }
         let solver = Solver::new(scheme, masses.clone(), D, &layout);
+        let step_loads = StepLoads::new(masses.len() * D, &layout);
         Ok(Self {
             scene: scene.id,
             scheme,
@@ -96,6 +114,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             groups,
             layout,
             conduction,
+            loads: scene.loads,
+            step_loads,
             next: state.clone(),
             state,
             solver,
@@ -109,16 +129,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// [`StepError`] if the scheme has no new state, or Newton's method does not find it. The
     /// simulation is then as it was before.
     pub fn step(&mut self) -> Result<StepReport<S>, StepError> {
-        let view = StepView {
-            step: self.step,
-            state: &self.state,
-            conduction: &self.conduction,
-            layout: &self.layout,
-        };
-        let done = self
-            .solver
-            .iterate(&mut self.groups, &view)
-            .and_then(|()| self.solver.close(&mut self.groups, &view, &mut self.next));
+        let done = self.evaluate_loads().and_then(|()| {
+            let view = view!(self);
+            self.solver.iterate(&mut self.groups, &view)?;
+            self.solver.close(&mut self.groups, &view, &mut self.next)
+        });
         if let Err(failure) = done {
             return Err(self.failed(failure));
         }
@@ -131,6 +146,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             update: last.map_or(S::zero(), |last| last.update),
             residual: last.map_or(S::zero(), |last| last.residual),
         })
+    }
+
+    /// The loads of the next step.
+    fn evaluate_loads(&mut self) -> Result<(), StepFailure> {
+        let span = [self.time(), self.step];
+        let (masses, layout) = (&self.masses, &self.layout);
+        let positions = self.state.positions.values();
+        self.step_loads
+            .evaluate(&self.loads, masses, layout, self.scheme, span, positions)
     }
 
     fn failed(&self, failure: StepFailure) -> StepError {
@@ -212,7 +236,10 @@ fn initial_state<const D: usize, S: Real>(scene: &Scene<D, S>, layout: &Layout) 
         .flat_map(|node| node.position.iter().copied());
     let momenta = scene.nodes.iter().flat_map(|node| {
         let mass = node.mass.unwrap_or(S::zero());
-        node.velocity.iter().map(move |&velocity| mass * velocity)
+        let momentum = node
+            .momentum
+            .unwrap_or(node.velocity.map(|velocity| mass * velocity));
+        (0..D).map(move |axis| momentum[axis])
     });
     let mut viscous = vec![S::zero(); layout.viscous];
     let mut temperatures = vec![S::zero(); layout.coupled.len()];
@@ -232,6 +259,9 @@ fn initial_state<const D: usize, S: Real>(scene: &Scene<D, S>, layout: &Layout) 
         entropies: Compensated::new(vec![S::zero(); temperatures.len()]),
         temperatures,
         reservoir_entropies: Compensated::new(vec![S::zero(); scene.reservoirs.len()]),
+        work: Compensated::new(vec![S::zero()]),
+        heat: Compensated::new(vec![S::zero()]),
+        thermostat_entropy: Compensated::new(vec![S::zero()]),
         dissipated: Compensated::new(vec![S::zero()]),
     }
 }

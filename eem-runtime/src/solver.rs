@@ -149,8 +149,11 @@ impl<S: Real> Solver<S> {
     /// Makes displacements larger by a factor and leaves everything else.
     fn extrapolate<const D: usize>(&mut self, groups: &mut [Box<dyn Group<S, D>>], factor: S) {
         self.remember();
-        for (change, &displacement) in self.correction[0].iter_mut().zip(&self.previous[0]) {
-            *change = (factor - S::one()) * displacement;
+        for (node, mass) in self.masses.iter().enumerate() {
+            let growth = mass.map_or(S::zero(), |_| factor - S::one());
+            for at in node * self.dimension..(node + 1) * self.dimension {
+                self.correction[0][at] = growth * self.previous[0][at];
+            }
         }
         self.correction[1].fill(S::zero());
         for group in groups {
@@ -196,11 +199,13 @@ impl<S: Real> Solver<S> {
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
     ) -> Result<(), StepFailure> {
-        self.old_force.fill(S::zero());
+        for (old, &load) in self.old_force.iter_mut().zip(&view.loads.total_force) {
+            *old = -load;
+        }
         for group in groups.iter_mut() {
             group.begin(view, &mut self.old_force)?;
         }
-        self.trial.displacements.fill(S::zero());
+        self.trial.displacements.copy_from_slice(&view.loads.motion);
         self.trial
             .seen_temperatures
             .copy_from_slice(&view.state.temperatures);

@@ -23,6 +23,12 @@ pub(crate) struct State<S> {
     pub(crate) temperatures: Vec<S>,
     /// `σ_r` since the start, J/K.
     pub(crate) reservoir_entropies: Compensated<S>,
+    /// One sum: work that loads and moved anchors have done, J.
+    pub(crate) work: Compensated<S>,
+    /// One sum: heat that thermostats have given, J.
+    pub(crate) heat: Compensated<S>,
+    /// One sum: entropy that thermostats have received, J/K.
+    pub(crate) thermostat_entropy: Compensated<S>,
     /// One sum: heat that dashpots without temperature gave to nobody in the scene, J.
     pub(crate) dissipated: Compensated<S>,
 }
@@ -38,6 +44,9 @@ impl<S: Real> State<S> {
         self.temperatures.copy_from_slice(&other.temperatures);
         self.reservoir_entropies
             .copy_from(&other.reservoir_entropies);
+        self.work.copy_from(&other.work);
+        self.heat.copy_from(&other.heat);
+        self.thermostat_entropy.copy_from(&other.thermostat_entropy);
         self.dissipated.copy_from(&other.dissipated);
     }
 }

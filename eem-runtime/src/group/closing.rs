@@ -31,7 +31,12 @@ where
     }
 
     /// See [`Group::add_secant`](super::Group::add_secant).
-    pub(super) fn add_secant_all(&mut self, view: &StepView<'_, S>, system: &mut LinearSystem<S>) {
+    pub(super) fn add_secant_all(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S>,
+        system: &mut LinearSystem<S>,
+    ) {
         let (width, h) = (self.geometry.width(), view.step);
         let half = S::from_f64(0.5);
         let old = view.state.positions.values();
@@ -47,8 +52,10 @@ where
                     row.iter().zip(self.unknowns(view, i)).zip(coordinates)
                 {
                     system.add_right(at, -h * entry * old[coordinate]);
-                    if let Some(to) = to {
-                        system.add(at, to, half * h * entry);
+                    let entry = half * h * entry;
+                    match to {
+                        Some(to) => system.add(at, to, entry),
+                        None => system.add_right(at, -entry * trial.displacements[coordinate]),
                     }
                 }
             }
@@ -97,7 +104,7 @@ where
         next: &mut State<S>,
     ) {
         let share = S::from_f64(C::IMPLICIT);
-        for member in &self.members {
+        for member in &mut self.members {
             let forces = &member.response.as_ref()[M::MEASURES..M::MEASURES + M::DASHPOTS];
             let viscosities = member.viscosities.0.as_ref();
             let mut heat = S::zero();
@@ -120,8 +127,8 @@ where
                 .conduction
                 .heat_flow(slot, theta, &trial.seen_temperatures);
             let old_rate = member.old_rates.as_ref()[M::MEASURES + M::DASHPOTS];
-            next.entropies
-                .add(slot, view.step * (share * heat / theta + old_rate));
+            member.entropy_received = view.step * (share * heat / theta + old_rate);
+            next.entropies.add(slot, member.entropy_received);
             let seen = share * theta + (S::one() - share) * view.state.temperatures[slot];
             for link in view.conduction.links(slot) {
                 if let Partner::Reservoir(index) = link.partner {
@@ -135,7 +142,11 @@ where
     }
 
     /// See [`Group::settle`](super::Group::settle).
-    pub(super) fn settle_all(&mut self, state: &mut State<S>) -> Result<(), StateError> {
+    pub(super) fn settle_all(
+        &mut self,
+        view: &StepView<'_, S>,
+        state: &mut State<S>,
+    ) -> Result<(), StateError> {
         for i in 0..self.members.len() {
             self.geometry
                 .measure_at(self.kinematics, i, state.positions.values());
@@ -155,14 +166,26 @@ where
             let Some(slot) = member.slots.thermal else {
                 continue;
             };
-            let entropy = state.entropies.values()[slot];
-            let guess = member.x.as_ref()[M::Variables::LEN - 1];
-            let theta = temperature_at(&member.model, x, entropy, guess)
-                .map_err(|infeasible| infeasible.of(member.element))?;
-            state.temperatures[slot] = theta;
+            let prescribed = view.loads.prescribed[slot];
+            state.temperatures[slot] = if let Some(prescribed) = prescribed {
+                prescribed.end
+            } else {
+                let entropy = state.entropies.values()[slot];
+                let guess = member.x.as_ref()[M::Variables::LEN - 1];
+                temperature_at(&member.model, x, entropy, guess)
+                    .map_err(|infeasible| infeasible.of(member.element))?
+            };
             let x = variables::<S, M>(measures, member.slots, state);
-            Infeasible::unless_stable(&member.model.caloric(&x), theta)
+            let caloric = member.model.caloric(&x);
+            Infeasible::unless_stable(&caloric, state.temperatures[slot])
                 .map_err(|infeasible| infeasible.of(member.element))?;
+            if prescribed.is_some() {
+                let change = caloric.entropy - view.state.entropies.values()[slot];
+                let given = change - member.entropy_received;
+                state.entropies.set(slot, caloric.entropy);
+                state.heat.add(0, member.temperature() * given);
+                state.thermostat_entropy.add(0, -given);
+            }
         }
         Ok(())
     }

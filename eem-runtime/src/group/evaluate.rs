@@ -39,11 +39,13 @@ where
             });
             member.x = x0;
             member.entropy_change = S::zero();
-            member.hold();
             if M::THERMAL {
                 let theta = x0.as_ref()[M::Variables::LEN - 1];
                 member.corners = M::Corners::filled(theta);
+                let prescribed = view.prescribed(member.slots.thermal, C::PLACEMENT);
+                member.x.as_mut()[M::Variables::LEN - 1] = prescribed.unwrap_or(theta);
             }
+            member.hold();
             if C::IMPLICIT < 1.0 {
                 self.old_share(view, i, old_force)?;
             }
@@ -60,7 +62,10 @@ where
     ) -> Result<(), StateError> {
         let share = S::one() - S::from_f64(C::IMPLICIT);
         let member = &mut self.members[i];
-        let x0 = member.x;
+        let Some(start) = &member.start else {
+            unreachable!("a step begins before its old state is used");
+        };
+        let x0 = start.x0;
         let theta = x0.as_ref()[M::Variables::LEN - 1];
         member.find_viscosities(theta)?;
         let gradient = member.model.gradient(&x0);
@@ -109,7 +114,11 @@ where
                 unreachable!("a step begins before it is evaluated");
             };
             let element = member.element;
-            if M::THERMAL {
+            if M::THERMAL
+                && view
+                    .prescribed(member.slots.thermal, C::PLACEMENT)
+                    .is_none()
+            {
                 let theta = C::temperature(&member.model, start, &member.x, member.entropy_change);
                 member.x.as_mut()[M::Variables::LEN - 1] =
                     theta.map_err(|infeasible| infeasible.of(element))?;

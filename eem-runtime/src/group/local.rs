@@ -59,8 +59,9 @@ impl<S: Real> LocalSolver<S> {
         for row in &mut condensed.by_measure.as_mut()[..M::MEASURES] {
             self.solve(row.as_mut());
         }
-        if M::THERMAL {
-            condensed.by_heat = M::Variables::filled(S::zero());
+        condensed.by_heat = M::Variables::filled(S::zero());
+        let prescribed = view.prescribed(member.slots.thermal, C::PLACEMENT);
+        if M::THERMAL && prescribed.is_none() {
             condensed.by_heat.as_mut()[unknowns - 1] = S::one();
             self.solve(condensed.by_heat.as_mut());
         }
@@ -114,6 +115,10 @@ impl<S: Real> LocalSolver<S> {
         let Some(slot) = member.slots.thermal else {
             return;
         };
+        if view.prescribed(Some(slot), C::PLACEMENT).is_some() {
+            self.hold_temperature(member);
+            return;
+        }
         let theta = response[heat_row];
         heat += view.conduction.heat_flow(slot, theta, seen_temperatures);
         let conductance = view.conduction.reservoir_conductance(slot);
@@ -127,6 +132,20 @@ impl<S: Real> LocalSolver<S> {
             let power_by = dissipation_by.as_ref()[column] - conductance * theta_by;
             let rate_by = (power_by - rate * theta_by) / theta;
             let entry = tangent[heat_row + 1].as_ref()[column] - h * share * rate_by;
+            self.store(&mut member.condensed.by_measure, row, column, entry);
+        }
+    }
+
+    /// `r_s = τ − τ_prescribed`, which is zero from the start.
+    fn hold_temperature<M: FreeEnergy<S>, C: ElementScheme<S, M>>(
+        &mut self,
+        member: &mut Member<S, M, C>,
+    ) {
+        let row = self.pivots.len() - 1;
+        member.condensed.constant.as_mut()[row] = S::zero();
+        for column in 0..M::Variables::LEN {
+            let own = column == M::Variables::LEN - 1;
+            let entry = if own { S::one() } else { S::zero() };
             self.store(&mut member.condensed.by_measure, row, column, entry);
         }
     }

@@ -32,6 +32,8 @@ pub(crate) struct Member<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>> {
     pub(crate) tangent: M::Tangent,
     /// `η_k` and `dη_k/dθ` at θ*.
     pub(crate) viscosities: (M::Viscosities, M::Viscosities),
+    /// The entropy that dashpots and conduction gave it in the step, J/K.
+    pub(crate) entropy_received: S,
     /// Local unknowns as functions of the global ones.
     pub(crate) condensed: Condensed<S, M>,
 }
@@ -65,6 +67,7 @@ impl<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>> Member<S, M, C> {
             response: M::Response::filled(S::zero()),
             tangent: M::Tangent::filled(zeros),
             viscosities: (viscosities, viscosities),
+            entropy_received: S::zero(),
             condensed: Condensed {
                 constant: zeros,
                 by_measure: M::Hessian::filled(zeros),

@@ -40,7 +40,18 @@ impl<const D: usize, S: Real> Scene<D, S> {
             group.check_parameters(entry.place, element)?;
             check_element(element, entry, group.shape())?;
         }
+        self.check_loads()?;
         self.check_conductors()
+    }
+
+    fn check_loads(&self) -> Result<(), SceneError> {
+        let gravity = &self.loads.gravity;
+        if let Some(axis) = (0..D).find(|&axis| !gravity[axis].is_finite()) {
+            let value = gravity[axis].to_f64();
+            return Err(SceneError::Gravity { axis, value });
+        }
+        let mut prescribed = self.loads.temperatures.iter();
+        prescribed.try_for_each(|(element, _)| self.check_thermal(*element))
     }
 
     fn check_conductors(&self) -> Result<(), SceneError> {
@@ -80,7 +91,8 @@ fn check_node<S: Real, const D: usize>(
     entry: &NodeEntry<S, D>,
 ) -> Result<(), SceneError> {
     for axis in 0..D {
-        let (position, velocity) = (entry.position[axis], entry.velocity[axis]);
+        let position = entry.position[axis];
+        let velocity = entry.momentum.unwrap_or(entry.velocity)[axis];
         if !position.is_finite() {
             let value = position.to_f64();
             return Err(SceneError::Position { node, axis, value });

@@ -139,6 +139,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             &self.masses,
             &self.groups,
             &self.conduction.reservoirs,
+            &self.loads.gravity,
         )
     }
 

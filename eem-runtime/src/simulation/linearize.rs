@@ -1,6 +1,6 @@
 //! The system that Newton's method solves, for those who want to look at it.
 
-use super::Simulation;
+use super::{Simulation, view};
 use crate::error::{StepError, StepFailure};
 use crate::group::StepView;
 use crate::scalar::Real;
@@ -39,12 +39,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 expected: self.layout.unknowns,
             }));
         }
-        let view = StepView {
-            step: self.step,
-            state: &self.state,
-            conduction: &self.conduction,
-            layout: &self.layout,
-        };
+        if let Err(failure) = self.evaluate_loads() {
+            return Err(self.failed(failure));
+        }
+        let view = view!(self);
         match self.solver.linearize(&mut self.groups, &view, unknowns) {
             Ok((residual, tangent)) => Ok(StepTangent { residual, tangent }),
             Err(failure) => Err(self.failed(failure)),

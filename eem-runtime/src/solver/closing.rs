@@ -25,7 +25,7 @@ impl<S: Real> Solver<S> {
             Closing::Secant => {
                 self.system.clear();
                 for group in groups.iter_mut() {
-                    group.add_secant(view, &mut self.system);
+                    group.add_secant(view, &self.trial, &mut self.system);
                 }
                 self.solve_secant(view)?;
                 self.find_impulse(groups, view);
@@ -39,10 +39,16 @@ impl<S: Real> Solver<S> {
         next.copy_from(view.state);
         next.time.add(0, view.step);
         for (node, mass) in self.masses.iter().enumerate() {
-            if mass.is_some() {
-                for at in node * self.dimension..(node + 1) * self.dimension {
-                    next.positions.add(at, self.trial.displacements[at]);
+            for at in node * self.dimension..(node + 1) * self.dimension {
+                let displacement = self.trial.displacements[at];
+                next.positions.add(at, displacement);
+                if mass.is_some() {
                     next.momenta.add(at, self.impulse[at]);
+                    next.work.add(0, view.loads.force[at] * displacement);
+                } else {
+                    // The support bears the impulse of the springs.
+                    let support = -self.impulse[at] / view.step;
+                    next.work.add(0, support * displacement);
                 }
             }
         }
@@ -50,7 +56,7 @@ impl<S: Real> Solver<S> {
             group.close(view, &self.trial, next);
         }
         for group in groups.iter_mut() {
-            group.settle(next)?;
+            group.settle(view, next)?;
         }
         Ok(())
     }
@@ -89,8 +95,8 @@ impl<S: Real> Solver<S> {
             group.aim(&self.trial);
             group.add_impulse(view, &self.trial, &mut self.impulse);
         }
-        for impulse in &mut self.impulse {
-            *impulse *= half;
+        for (impulse, &force) in self.impulse.iter_mut().zip(&self.old_force) {
+            *impulse = half * (*impulse - view.step * force);
         }
     }
 
@@ -101,10 +107,11 @@ impl<S: Real> Solver<S> {
                 continue;
             };
             for axis in 0..self.dimension {
-                let momentum = momenta[node * self.dimension + axis];
+                let at = node * self.dimension + axis;
+                let rest = momenta[at] + momenta[at] - view.step * self.old_force[at];
                 self.system
                     .add(first + axis, first + axis, (mass + mass) / view.step);
-                self.system.add_right(first + axis, momentum + momentum);
+                self.system.add_right(first + axis, rest);
             }
         }
         for unknown in view.layout.coupled.iter().flatten() {

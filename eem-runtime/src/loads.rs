@@ -1,0 +1,159 @@
+//! What acts on a scene from outside: forces, moved anchors, prescribed temperatures.
+//!
+//! The forces of a step are constant over it, so that their work `F·Δq` is exact; a moved anchor
+//! does the work of the force it needs; a thermostat gives the heat that its element needs.
+
+use nalgebra::SVector;
+
+use crate::error::StepFailure;
+use crate::handle::{Element, Node};
+use crate::layout::Layout;
+use crate::scalar::Real;
+use crate::scene::is_positive;
+use crate::scheme::{Closing, Scheme};
+
+/// A vector (force in N, position in m) as a function of time in s.
+pub(crate) type OfTime<S, const D: usize> = Box<dyn Fn(S) -> SVector<S, D> + Send + Sync>;
+
+/// A temperature in K as a function of time in s.
+pub(crate) type TemperatureOfTime<S> = Box<dyn Fn(S) -> S + Send + Sync>;
+
+/// Everything that acts on a scene, as the user gave it.
+pub(crate) struct Loads<S: Real, const D: usize> {
+    /// Acceleration of free fall, m/s².
+    pub(crate) gravity: SVector<S, D>,
+    pub(crate) forces: Vec<(Node, OfTime<S, D>)>,
+    pub(crate) motions: Vec<(Node, OfTime<S, D>)>,
+    pub(crate) temperatures: Vec<(Element, TemperatureOfTime<S>)>,
+}
+
+impl<S: Real, const D: usize> Loads<S, D> {
+    /// Nothing acts.
+    pub(crate) fn none() -> Self {
+        Self {
+            gravity: SVector::from_element(S::zero()),
+            forces: Vec::new(),
+            motions: Vec::new(),
+            temperatures: Vec::new(),
+        }
+    }
+}
+
+impl<S: Real, const D: usize> core::fmt::Debug for Loads<S, D> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Loads")
+            .field("gravity", &self.gravity)
+            .field("forces", &self.forces.len())
+            .field("motions", &self.motions.len())
+            .field("temperatures", &self.temperatures.len())
+            .finish()
+    }
+}
+
+/// A prescribed temperature during one step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Prescribed<S> {
+    /// In the middle of the step, K.
+    pub(crate) middle: S,
+    /// At its end, K.
+    pub(crate) end: S,
+}
+
+/// What acts during one step.
+#[derive(Clone, Debug)]
+pub(crate) struct StepLoads<S> {
+    /// Loads that do work, per coordinate, N.
+    pub(crate) force: Vec<S>,
+    /// Loads and weight, per coordinate, N.
+    pub(crate) total_force: Vec<S>,
+    /// Displacements of moved anchors, per coordinate, m.
+    pub(crate) motion: Vec<S>,
+    /// Per thermal slot.
+    pub(crate) prescribed: Vec<Option<Prescribed<S>>>,
+}
+
+impl<S: Real> StepLoads<S> {
+    /// Memory for a scene.
+    pub(crate) fn new(coordinates: usize, layout: &Layout) -> Self {
+        let zeros = vec![S::zero(); coordinates];
+        Self {
+            force: zeros.clone(),
+            total_force: zeros.clone(),
+            motion: zeros,
+            prescribed: vec![None; layout.coupled.len()],
+        }
+    }
+
+    /// Evaluates the loads of the step from `time` by `step` at the positions `q0`.
+    ///
+    /// A force of time is taken in the middle of the step; the trapezoidal rule takes the mean of both ends.
+    pub(crate) fn evaluate<const D: usize>(
+        &mut self,
+        loads: &Loads<S, D>,
+        masses: &[Option<S>],
+        layout: &Layout,
+        scheme: Scheme,
+        [time, step]: [S; 2],
+        q0: &[S],
+    ) -> Result<(), StepFailure> {
+        let half = S::from_f64(0.5);
+        let (middle, end) = (time + half * step, time + step);
+        self.force.fill(S::zero());
+        for (node, force) in &loads.forces {
+            let value = match scheme.closing() {
+                Closing::Open => (force(time) + force(end)).map(|component| half * component),
+                Closing::Secant | Closing::Start => force(middle),
+            };
+            for axis in 0..D {
+                if !value[axis].is_finite() {
+                    return Err(StepFailure::Load {
+                        node: *node,
+                        axis,
+                        value: value[axis].to_f64(),
+                        time: middle.to_f64(),
+                    });
+                }
+                self.force[node.index * D + axis] += value[axis];
+            }
+        }
+        for (node, mass) in masses.iter().enumerate() {
+            for axis in 0..D {
+                let weight = mass.map_or(S::zero(), |mass| mass * loads.gravity[axis]);
+                let at = node * D + axis;
+                self.total_force[at] = self.force[at] + weight;
+            }
+        }
+        for (node, motion) in &loads.motions {
+            let position = motion(end);
+            for axis in 0..D {
+                let at = node.index * D + axis;
+                self.motion[at] = position[axis] - q0[at];
+                if !self.motion[at].is_finite() {
+                    return Err(StepFailure::Motion {
+                        node: *node,
+                        axis,
+                        value: position[axis].to_f64(),
+                        time: end.to_f64(),
+                    });
+                }
+            }
+        }
+        for (element, temperature) in &loads.temperatures {
+            let at = |time: S| match temperature(time) {
+                value if is_positive(value) => Ok(value),
+                value => Err(StepFailure::PrescribedTemperature {
+                    element: *element,
+                    value: value.to_f64(),
+                    time: time.to_f64(),
+                }),
+            };
+            if let Some(slot) = layout.elements[element.index].thermal {
+                self.prescribed[slot] = Some(Prescribed {
+                    middle: at(middle)?,
+                    end: at(end)?,
+                });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,87 @@
+//! What acts on a scene from outside.
+
+use nalgebra::SVector;
+
+use super::Scene;
+use crate::error::SceneError;
+use crate::handle::{Element, Node};
+use crate::scalar::Real;
+
+/// # Loads and prescribed quantities
+impl<const D: usize, S: Real> Scene<D, S> {
+    /// The acceleration of free fall that all masses feel, m/s²; zero unless set. Its potential
+    /// energy `−Σ m g·q` enters the ledger.
+    pub fn set_gravity(&mut self, gravity: [S; D]) {
+        self.loads.gravity = gravity.into();
+    }
+
+    /// A constant force on a mass, N. Its work is booked.
+    pub fn dead_load(&mut self, node: Node, force: [S; D]) {
+        self.force(node, move |_| force);
+    }
+
+    /// A force on a mass as a function of time, N of s. Its work is booked.
+    ///
+    /// Several forces on one mass add up. Over a step the force is that in the middle of the
+    /// step; the trapezoidal rule takes the mean of both ends.
+    pub fn force(&mut self, node: Node, force: impl Fn(S) -> [S; D] + Send + Sync + 'static) {
+        if self.expect_kind(node, true, "a force") {
+            let force = move |time| SVector::from(force(time));
+            self.loads.forces.push((node, Box::new(force)));
+        }
+    }
+
+    /// The position of an anchor as a function of time, m of s: a road, a shaking table. The work
+    /// of the support is booked. At t = 0 the anchor is where it was created.
+    pub fn move_anchor(
+        &mut self,
+        anchor: Node,
+        position: impl Fn(S) -> [S; D] + Send + Sync + 'static,
+    ) {
+        if self.expect_kind(anchor, false, "a prescribed motion") {
+            let position = move |time| SVector::from(position(time));
+            self.loads.motions.push((anchor, Box::new(position)));
+        }
+    }
+
+    /// Replaces the initial velocity of a mass by its momentum, kg m/s.
+    pub fn set_momentum(&mut self, node: Node, momentum: [S; D]) {
+        if self.expect_kind(node, true, "a momentum") {
+            self.nodes[node.index].momentum = Some(momentum.into());
+        }
+    }
+
+    /// The temperature of an element as a function of time, K of s, kept by a thermostat. The heat
+    /// and the entropy that it gives are booked.
+    ///
+    /// The initial temperature still has to be set; it should be the prescribed one at t = 0.
+    pub fn prescribe_temperature(
+        &mut self,
+        element: Element,
+        temperature: impl Fn(S) -> S + Send + Sync + 'static,
+    ) {
+        if self.expect_own(element.scene, &element) {
+            self.loads
+                .temperatures
+                .push((element, Box::new(temperature)));
+        }
+    }
+
+    /// Whether a node is of this scene and a mass or an anchor; if not, that is noted as misuse.
+    fn expect_kind(&mut self, node: Node, mass: bool, quantity: &'static str) -> bool {
+        if !self.expect_own(node.scene, &node) {
+            return false;
+        }
+        let is_mass = self.nodes[node.index].mass.is_some();
+        if is_mass != mass {
+            let kind = if is_mass { "a mass" } else { "an anchor" };
+            let misuse = SceneError::WrongKind {
+                node,
+                quantity,
+                kind,
+            };
+            self.misuse.push(misuse);
+        }
+        is_mass == mass
+    }
+}
