@@ -221,7 +221,7 @@ pub enum StepFailure {
     #[error("the time step must be positive and finite")]
     Step,
     /// Newton's method used up its iterations.
-    #[error("Newton's method did not converge, its last scaled update was {update:e}")]
+    #[error("Newton's method did not converge, its last scaled update was {update:.1e}")]
     NotConverged {
         /// The largest scaled update of the last iteration.
         update: f64,
