@@ -41,24 +41,40 @@ fn initial_state_is_the_published_one() {
     approx::assert_relative_eq!(ledger.angular_momentum[2], 3.0, max_relative = f64::EPSILON);
 }
 
+/// The schemes that keep all laws.
+const STRUCTURE_PRESERVING: [Scheme; 3] = [
+    Scheme::EemEntropy,
+    Scheme::EemTemperature,
+    Scheme::Staggered,
+];
+
 #[test]
-fn hold_at_every_step_for_each_step_size() {
-    for step in [0.2, 0.1, 0.05] {
-        let Pendulum { mut run, .. } = single_pendulum(Scheme::EemEntropy, step);
+fn hold_at_every_step_for_each_scheme_and_step_size() {
+    for (scheme, step) in STRUCTURE_PRESERVING
+        .into_iter()
+        .flat_map(|scheme| [0.2, 0.1, 0.05].map(|step| (scheme, step)))
+    {
+        let Pendulum { mut run, .. } = single_pendulum(scheme, step);
         let mut laws = Laws::new(&run);
         let mut iterations = 0;
         while run.time() < DURATION {
             iterations += run.step().unwrap().iterations;
             laws.watch(&run);
         }
-        println!("h = {step}: {iterations} iterations");
-        assert_laws(&laws, &format!("h = {step}"));
+        let what = format!("{}, h = {step}, {iterations} iterations", scheme.name());
+        assert_laws(&laws, &what);
     }
 }
 
 #[test]
 fn hold_for_random_step_sizes() {
-    let Pendulum { mut run, .. } = single_pendulum(Scheme::EemEntropy, 0.1);
+    for scheme in STRUCTURE_PRESERVING {
+        hold_for_random_steps_of(scheme);
+    }
+}
+
+fn hold_for_random_steps_of(scheme: Scheme) {
+    let Pendulum { mut run, .. } = single_pendulum(scheme, 0.1);
     let mut laws = Laws::new(&run);
     // Steps of 10⁻⁶ … 0.2 s, uniform in the logarithm, from a fixed sequence (Knuth's LCG).
     let mut seed = 1_u64;
@@ -73,7 +89,7 @@ fn hold_for_random_step_sizes() {
         laws.watch(&run);
     }
     println!("t = {} s", run.time());
-    assert_laws(&laws, "random steps");
+    assert_laws(&laws, &format!("{}, random steps", scheme.name()));
 }
 
 /// When a run is no longer one: the time at which Newton's method finds no state, and the first time

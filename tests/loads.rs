@@ -12,7 +12,11 @@ use support::{DoublePendulum, Hencky, LogarithmicStiffness, ThermoViscoElastic};
 const BALANCE_TOLERANCE: f64 = 4e-15;
 const ENTROPY_TOLERANCE: f64 = -2.0;
 
-const EEM: [Scheme; 2] = [Scheme::EemEntropy, Scheme::EemTemperature];
+const EEM: [Scheme; 3] = [
+    Scheme::EemEntropy,
+    Scheme::EemTemperature,
+    Scheme::Staggered,
+];
 
 /// The sum of the magnitudes that enter the balance, whose roundings its defect is made of.
 fn magnitude<const D: usize>(ledger: &Ledger<f64, D>) -> f64 {

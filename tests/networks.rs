@@ -54,7 +54,17 @@ fn tetrahedron(scheme: Scheme, step: f64) -> Simulation<3> {
 
 #[test]
 fn a_free_body_of_three_models_keeps_all_laws() {
-    let mut run = tetrahedron(Scheme::EemEntropy, 0.02);
+    for scheme in [
+        Scheme::EemEntropy,
+        Scheme::EemTemperature,
+        Scheme::Staggered,
+    ] {
+        keeps_all_laws(scheme);
+    }
+}
+
+fn keeps_all_laws(scheme: Scheme) {
+    let mut run = tetrahedron(scheme, 0.02);
     // 4 masses in space and the temperatures that 4 elements in contact see; nothing for Hencky.
     assert_eq!(run.unknowns(), 12 + 4);
     let first = run.ledger();
@@ -85,19 +95,24 @@ fn conduction_converges_quadratically_too() {
 
 #[test]
 fn schemes_agree_for_small_steps() {
-    let [eem, others @ ..] = Scheme::ALL.map(|scheme| {
+    let [(_, eem), others @ ..] = Scheme::ALL.map(|scheme| {
         let mut run = tetrahedron(scheme, 1e-4);
         for _ in 0..100 {
             run.step().unwrap();
         }
-        run.ledger()
+        (scheme, run.ledger())
     });
-    // Second order, h²: 1e-8 times derivatives of the motion.
-    for other in others {
+    for (scheme, other) in others {
+        // h² or h = 1e-4, times derivatives of the motion.
+        let kinetic = if scheme == Scheme::Staggered {
+            1e-3
+        } else {
+            1e-5
+        };
         approx::assert_relative_eq!(
             other.kinetic_energy,
             eem.kinetic_energy,
-            max_relative = 1e-5
+            max_relative = kinetic
         );
         approx::assert_relative_eq!(other.energy, eem.energy, max_relative = 1e-7);
         approx::assert_relative_eq!(other.entropy, eem.entropy, max_relative = 1e-7);

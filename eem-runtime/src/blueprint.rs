@@ -104,7 +104,9 @@ where
     fn build(self: Box<Self>, scheme: Scheme, placed: Placed<'_>) -> Box<dyn Group<S, D>> {
         let Self { kinematics, models } = *self;
         match scheme {
-            Scheme::EemEntropy => boxed::<S, M, K, EemEntropy, D>(kinematics, models, placed),
+            Scheme::EemEntropy | Scheme::Staggered => {
+                boxed::<S, M, K, EemEntropy, D>(kinematics, models, placed)
+            }
             Scheme::EemTemperature => {
                 boxed::<S, M, K, EemTemperature, D>(kinematics, models, placed)
             }

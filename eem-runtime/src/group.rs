@@ -28,7 +28,7 @@ use crate::layout::{Layout, Slots};
 use crate::loads::StepLoads;
 use crate::scalar::Real;
 use crate::scene::ElementEntry;
-use crate::scheme::{ElementScheme, Placement};
+use crate::scheme::{ElementScheme, Phase, Placement};
 use crate::state::State;
 use crate::system::LinearSystem;
 use geometry::Geometry;
@@ -38,6 +38,8 @@ use member::Member;
 /// What all elements share during one step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StepView<'a, S> {
+    /// What changes.
+    pub(crate) phase: Phase,
     /// h, s.
     pub(crate) step: S,
     /// The old state.
@@ -48,8 +50,20 @@ pub(crate) struct StepView<'a, S> {
 }
 
 impl<S: Real> StepView<'_, S> {
+    /// The time during which internal variables evolve, s.
+    fn thermal_step(&self) -> S {
+        if self.phase.heats() {
+            self.step
+        } else {
+            S::zero()
+        }
+    }
+
     /// The temperature prescribed on a thermal slot, as a scheme with this placement sees it.
     fn prescribed(&self, slot: Option<usize>, at: Placement) -> Option<S> {
+        if !self.phase.heats() {
+            return None;
+        }
         let prescribed = self.loads.prescribed[slot?]?;
         Some(match at {
             Placement::Ends | Placement::End => prescribed.end,

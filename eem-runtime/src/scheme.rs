@@ -9,6 +9,7 @@ mod eem_entropy;
 mod eem_temperature;
 mod midpoint;
 mod point;
+mod staggered;
 mod trapezoidal;
 mod variational;
 
@@ -22,6 +23,7 @@ use crate::scene::is_positive;
 pub(crate) use eem_entropy::{EemEntropy, temperature_at};
 pub(crate) use eem_temperature::EemTemperature;
 pub(crate) use midpoint::Midpoint;
+pub(crate) use staggered::Phase;
 pub(crate) use trapezoidal::Trapezoidal;
 pub(crate) use variational::Variational;
 
@@ -32,6 +34,7 @@ pub(crate) use variational::Variational;
 /// | `EemEntropy` | exact | exact | exact | 2 |
 /// | `EemTemperature` | exact | exact | exact | 2 |
 /// | `Variational` | bounded | in practice | exact | 2 |
+/// | `Staggered` | exact | exact | exact | 1 |
 /// | `Midpoint` | no | no | exact | 2 |
 /// | `Trapezoidal` | no | no | no | 2 |
 ///
@@ -54,6 +57,8 @@ pub enum Scheme {
     /// Variational integrator with thermacies (Kern, Romero, Conde Martín & García Orden 2021,
     /// §III.A).
     Variational,
+    /// Fractional step, mechanics and then heat (Romero 2010, part II).
+    Staggered,
     /// Implicit midpoint rule on positions, momenta, viscous stretches and entropies.
     Midpoint,
     /// Trapezoidal rule on positions, momenta, viscous stretches and entropies.
@@ -62,10 +67,11 @@ pub enum Scheme {
 
 impl Scheme {
     /// All schemes.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::EemEntropy,
         Self::EemTemperature,
         Self::Variational,
+        Self::Staggered,
         Self::Midpoint,
         Self::Trapezoidal,
     ];
@@ -77,6 +83,7 @@ impl Scheme {
             Self::EemEntropy => "eem-entropy",
             Self::EemTemperature => "eem-temperature",
             Self::Variational => "variational",
+            Self::Staggered => "staggered",
             Self::Midpoint => "midpoint",
             Self::Trapezoidal => "trapezoidal",
         }
@@ -106,7 +113,7 @@ impl Scheme {
 
     const fn is_ordinary(self) -> bool {
         match self {
-            Self::EemEntropy | Self::EemTemperature | Self::Variational => false,
+            Self::EemEntropy | Self::EemTemperature | Self::Variational | Self::Staggered => false,
             Self::Midpoint | Self::Trapezoidal => true,
         }
     }
@@ -141,7 +148,9 @@ impl Scheme {
     /// How the end of a step follows from its forces.
     pub(crate) const fn closing(self) -> Closing {
         match self {
-            Self::EemEntropy | Self::EemTemperature | Self::Midpoint => Closing::Secant,
+            Self::EemEntropy | Self::EemTemperature | Self::Staggered | Self::Midpoint => {
+                Closing::Secant
+            }
             Self::Variational => Closing::Start,
             Self::Trapezoidal => Closing::Open,
         }

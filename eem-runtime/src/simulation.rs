@@ -16,7 +16,7 @@ use crate::loads::{Loads, StepLoads};
 use crate::newton::{NewtonSettings, StepReport};
 use crate::scalar::Real;
 use crate::scene::{Scene, is_positive};
-use crate::scheme::Scheme;
+use crate::scheme::{Phase, Scheme};
 use crate::solver::Solver;
 use crate::state::State;
 
@@ -24,10 +24,11 @@ pub use linearize::StepTangent;
 
 /// What the elements share during the next step; borrows only the fields that it names.
 macro_rules! view {
-    ($simulation:ident) => {
+    ($simulation:ident, $phase:expr, $state:expr) => {
         StepView {
+            phase: $phase,
             step: $simulation.step,
-            state: &$simulation.state,
+            state: $state,
             conduction: &$simulation.conduction,
             layout: &$simulation.layout,
             loads: &$simulation.step_loads,
@@ -53,7 +54,10 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     loads: Loads<S, D>,
     step_loads: StepLoads<S>,
     state: State<S>,
+    /// Where the next state is written.
     next: State<S>,
+    /// The state between the two parts of a staggered step.
+    between: State<S>,
     solver: Solver<S>,
 }
 
@@ -117,6 +121,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             loads: scene.loads,
             step_loads,
             next: state.clone(),
+            between: state.clone(),
             state,
             solver,
         })
@@ -129,10 +134,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// [`StepError`] if the scheme has no new state, or Newton's method does not find it. The
     /// simulation is then as it was before.
     pub fn step(&mut self) -> Result<StepReport<S>, StepError> {
+        self.solver.restart();
         let done = self.evaluate_loads().and_then(|()| {
-            let view = view!(self);
-            self.solver.iterate(&mut self.groups, &view)?;
-            self.solver.close(&mut self.groups, &view, &mut self.next)
+            if self.scheme != Scheme::Staggered {
+                let view = view!(self, Phase::Whole, &self.state);
+                return self.solver.solve(&mut self.groups, &view, &mut self.next);
+            }
+            let view = view!(self, Phase::Mechanics, &self.state);
+            self.solver
+                .solve(&mut self.groups, &view, &mut self.between)?;
+            let view = view!(self, Phase::Heat, &self.between);
+            self.solver.solve(&mut self.groups, &view, &mut self.next)
         });
         if let Err(failure) = done {
             return Err(self.failed(failure));

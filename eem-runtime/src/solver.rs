@@ -10,6 +10,7 @@ use crate::layout::Layout;
 use crate::newton::{NewtonSettings, is_last};
 use crate::scalar::Real;
 use crate::scheme::Scheme;
+use crate::state::State;
 use crate::system::LinearSystem;
 
 /// How often an update is halved to bring all elements back to admissible states.
@@ -89,18 +90,34 @@ impl<S: Real> Solver<S> {
         }
     }
 
+    /// Forgets the last step.
+    pub(crate) fn restart(&mut self) {
+        // Two parts of a staggered step, each followed through all stages at worst.
+        let most = 2 * self.settings.max_iterations * usize::from(STAGES + 1);
+        self.history.clear();
+        self.history.reserve(most);
+    }
+
+    /// The state after the step, or after the part of it that the view names.
+    pub(crate) fn solve<const D: usize>(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        next: &mut State<S>,
+    ) -> Result<(), StepFailure> {
+        self.iterate(groups, view)?;
+        self.close(groups, view, next)
+    }
+
     /// Finds the trial state whose forces move the scene to it.
     ///
     /// If that fails from the start of the scheme, an EEM scheme follows its solution from a small
     /// step to the full one.
-    pub(crate) fn iterate<const D: usize>(
+    fn iterate<const D: usize>(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
     ) -> Result<(), StepFailure> {
-        self.history.clear();
-        self.history
-            .reserve(self.settings.max_iterations * usize::from(STAGES + 1));
         let failure = match self.start_and_converge(groups, view) {
             Err(StepFailure::NotConverged { update }) if self.scheme.follows_its_solution() => {
                 StepFailure::NotConverged { update }
@@ -205,14 +222,18 @@ impl<S: Real> Solver<S> {
         for group in groups.iter_mut() {
             group.begin(view, &mut self.old_force)?;
         }
-        self.trial.displacements.copy_from_slice(&view.loads.motion);
+        if view.phase.moves() {
+            self.trial.displacements.copy_from_slice(&view.loads.motion);
+        } else {
+            self.trial.displacements.fill(S::zero());
+        }
         self.trial
             .seen_temperatures
             .copy_from_slice(&view.state.temperatures);
         self.remember();
         self.correction[0].fill(S::zero());
         self.correction[1].fill(S::zero());
-        if !self.scheme.starts_in_free_flight() {
+        if !(view.phase.moves() && self.scheme.starts_in_free_flight()) {
             return Ok(());
         }
         let momenta = view.state.momenta.values();

@@ -18,7 +18,7 @@ where
     /// The factor by which heat from other elements enters the entropy balance of element `i`:
     /// `∂r_s/∂Q = −h w/θ*`.
     fn heat_factor(&self, view: &StepView<'_, S>, i: usize) -> S {
-        -view.step * S::from_f64(C::IMPLICIT) / self.members[i].temperature()
+        -view.thermal_step() * S::from_f64(C::IMPLICIT) / self.members[i].temperature()
     }
 
     /// A row of the tangent with the internal variables eliminated: response `row` of element `i`
@@ -51,7 +51,9 @@ where
         system: &mut LinearSystem<S>,
     ) {
         for i in 0..self.members.len() {
-            self.assemble_momentum(view, trial, i, system);
+            if view.phase.moves() {
+                self.assemble_momentum(view, trial, i, system);
+            }
             let slot = self.members[i].slots.thermal;
             if let Some(unknown) = slot.and_then(|slot| view.layout.coupled[slot]) {
                 self.assemble_temperature(view, trial, i, unknown, system);

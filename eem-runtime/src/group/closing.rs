@@ -11,7 +11,7 @@ use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
-use crate::scheme::{ElementScheme, Infeasible, temperature_at};
+use crate::scheme::{ElementScheme, Infeasible, Placement, temperature_at};
 use crate::state::State;
 use crate::system::LinearSystem;
 
@@ -114,12 +114,14 @@ where
                 let old_rate = member.old_rates.as_ref()[M::MEASURES + k];
                 next.viscous.add(
                     member.slots.viscous + k,
-                    view.step * (share * rate + old_rate),
+                    view.thermal_step() * (share * rate + old_rate),
                 );
             }
             let Some(slot) = member.slots.thermal else {
-                next.dissipated
-                    .add(0, view.step * (share * heat + member.old_dissipation()));
+                next.dissipated.add(
+                    0,
+                    view.thermal_step() * (share * heat + member.old_dissipation()),
+                );
                 continue;
             };
             let theta = member.temperature();
@@ -127,7 +129,7 @@ where
                 .conduction
                 .heat_flow(slot, theta, &trial.seen_temperatures);
             let old_rate = member.old_rates.as_ref()[M::MEASURES + M::DASHPOTS];
-            member.entropy_received = view.step * (share * heat / theta + old_rate);
+            member.entropy_received = view.thermal_step() * (share * heat / theta + old_rate);
             next.entropies.add(slot, member.entropy_received);
             let seen = share * theta + (S::one() - share) * view.state.temperatures[slot];
             for link in view.conduction.links(slot) {
@@ -135,7 +137,7 @@ where
                     let theta_r = view.conduction.reservoirs[index];
                     let flow = link.conductance * (seen - theta_r);
                     next.reservoir_entropies
-                        .add(index, view.step * flow / theta_r);
+                        .add(index, view.thermal_step() * flow / theta_r);
                 }
             }
         }
@@ -166,9 +168,9 @@ where
             let Some(slot) = member.slots.thermal else {
                 continue;
             };
-            let prescribed = view.loads.prescribed[slot];
-            state.temperatures[slot] = if let Some(prescribed) = prescribed {
-                prescribed.end
+            let prescribed = view.prescribed(Some(slot), Placement::End);
+            state.temperatures[slot] = if let Some(theta) = prescribed {
+                theta
             } else {
                 let entropy = state.entropies.values()[slot];
                 let guess = member.x.as_ref()[M::Variables::LEN - 1];

@@ -80,7 +80,7 @@ impl<S: Real> LocalSolver<S> {
         seen_temperatures: &[S],
         member: &mut Member<S, M, C>,
     ) {
-        let (unknowns, h) = (self.pivots.len(), view.step);
+        let (unknowns, h) = (self.pivots.len(), view.thermal_step());
         let share = S::from_f64(C::IMPLICIT);
         let response = member.response.as_ref();
         let tangent = member.tangent.as_ref();

@@ -4,6 +4,7 @@ use super::{Simulation, view};
 use crate::error::{StepError, StepFailure};
 use crate::group::StepView;
 use crate::scalar::Real;
+use crate::scheme::Phase;
 
 /// Residual and tangent of a step at a trial state.
 ///
@@ -33,6 +34,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// [`StepError`] if an element has no admissible state there, or the number of unknowns is
     /// another one ([`StepFailure::Unknowns`]).
     pub fn linearize(&mut self, unknowns: &[S]) -> Result<StepTangent<S>, StepError> {
+        self.solver.restart();
         if unknowns.len() != self.layout.unknowns {
             return Err(self.failed(StepFailure::Unknowns {
                 given: unknowns.len(),
@@ -42,7 +44,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         if let Err(failure) = self.evaluate_loads() {
             return Err(self.failed(failure));
         }
-        let view = view!(self);
+        let view = view!(self, Phase::Whole, &self.state);
         match self.solver.linearize(&mut self.groups, &view, unknowns) {
             Ok((residual, tangent)) => Ok(StepTangent { residual, tangent }),
             Err(failure) => Err(self.failed(failure)),

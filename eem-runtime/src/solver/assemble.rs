@@ -28,6 +28,12 @@ impl<S: Real> Solver<S> {
                 continue;
             };
             let inertia = (mass + mass) / view.step;
+            if !view.phase.moves() {
+                for row in first..first + self.dimension {
+                    self.system.add(row, row, S::one());
+                }
+                continue;
+            }
             for axis in 0..self.dimension {
                 let (at, row) = (node * self.dimension + axis, first + axis);
                 let rest = momenta[at] + momenta[at] - view.step * self.old_force[at];

@@ -15,13 +15,17 @@ impl<S: Real> Solver<S> {
     /// ```text
     /// (2m/h + ½h A) Δq = 2p⁰ − h A q⁰,      Δp = −h A (q⁰ + ½Δq)
     /// ```
-    pub(crate) fn close<const D: usize>(
+    pub(super) fn close<const D: usize>(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
         next: &mut State<S>,
     ) -> Result<(), StepFailure> {
         match self.scheme.closing() {
+            _ if !view.phase.moves() => {
+                self.trial.displacements.fill(S::zero());
+                self.impulse.fill(S::zero());
+            }
             Closing::Secant => {
                 self.system.clear();
                 for group in groups.iter_mut() {
@@ -37,7 +41,9 @@ impl<S: Real> Solver<S> {
             Closing::Open => self.find_impulse(groups, view),
         }
         next.copy_from(view.state);
-        next.time.add(0, view.step);
+        if view.phase.heats() {
+            next.time.add(0, view.step);
+        }
         for (node, mass) in self.masses.iter().enumerate() {
             for at in node * self.dimension..(node + 1) * self.dimension {
                 let displacement = self.trial.displacements[at];

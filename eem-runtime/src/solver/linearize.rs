@@ -14,7 +14,6 @@ impl<S: Real> Solver<S> {
         view: &StepView<'_, S>,
         unknowns: &[S],
     ) -> Result<(Vec<S>, Vec<S>), StepFailure> {
-        self.history.clear();
         self.begin(groups, view)?;
         self.distribute(view, unknowns);
         for (slot, unknown) in view.layout.coupled.iter().enumerate() {
