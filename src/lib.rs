@@ -13,9 +13,11 @@ pub use eem_runtime::*;
 /// assert_eq!(pivot.to_string(), "node 0");
 /// ```
 pub mod prelude {
+    pub use core::ops::ControlFlow;
+
     pub use crate::{
-        Element, FreeEnergy, Ledger, NewtonSettings, Node, Reservoir, Scene, SceneError, Scheme,
-        Simulation, StepError, StepReport,
+        Checkpoint, Element, FreeEnergy, Ledger, NewtonSettings, Node, Quantity, Recorder,
+        Reservoir, RunEnd, Scene, SceneError, Scheme, Simulation, StepError, StepReport,
     };
 }
 

@@ -75,3 +75,38 @@ fn the_variational_scheme_stays_near_its_energy() {
     assert!(laws.energy <= 3e-4);
     assert!(laws.angular_momentum <= 1e-12);
 }
+
+/// When an ordinary rule is no longer a solution, because Newton's method finds no state or the
+/// energy is off by more than 1 %, and its largest defects over the run.
+fn attempt(case: &DoublePendulum, scheme: Scheme, step: f64) -> (f64, Laws) {
+    let mut run = case.simulation(scheme, step).run;
+    let (mut laws, mut broken) = (Laws::new(&run), f64::INFINITY);
+    while run.time() < case.duration {
+        if run.step().is_err() {
+            broken = broken.min(run.time());
+            break;
+        }
+        laws.watch(&run);
+        if laws.energy > 0.01 {
+            broken = broken.min(run.time());
+        }
+    }
+    let (name, time) = (scheme.name(), run.time());
+    println!("{name} h = {step}: broken at {broken} s, ends at {time} s, {laws:?}");
+    (broken, laws)
+}
+
+// Conde Martín, Betsch & García Orden (2016), figures 12–17, and the same in entropy variables.
+#[test]
+fn ordinary_rules_lose_the_laws_in_the_logarithmic_case() {
+    let case = DoublePendulum::LOGARITHMIC;
+    let (broken, laws) = attempt(&case, Scheme::MidpointTemperature, 0.1);
+    assert!(broken < 12.0);
+    assert!(laws.energy > 0.1 && laws.angular_momentum < 1e-12);
+    let (_, laws) = attempt(&case, Scheme::Midpoint, 0.1);
+    assert!(laws.energy > 0.01 && laws.angular_momentum < 1e-12);
+    let (_, laws) = attempt(&case, Scheme::TrapezoidalTemperature, 0.1);
+    assert!(laws.energy > 0.1 && laws.angular_momentum > 1.0);
+    let (_, laws) = attempt(&case, Scheme::Trapezoidal, 0.1);
+    assert!(laws.energy > 0.01 && laws.angular_momentum > 0.1);
+}

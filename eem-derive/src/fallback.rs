@@ -43,6 +43,7 @@ fn body(scalar: &TokenStream) -> TokenStream {
         fn gradient(&self, _: &Self::Variables) -> Self::Variables { #never }
         fn hessian(&self, _: &Self::Variables) -> (Self::Variables, Self::Hessian) { #never }
         fn caloric(&self, _: &Self::Variables) -> __eem::Caloric<#scalar> { #never }
+        fn entropy_hessian(&self, _: &Self::Variables) -> Self::Hessian { #never }
         fn viscosity(&self, _: #scalar) -> (Self::Viscosities, Self::Viscosities) { #never }
         fn entropy_form_old(&self, _: &Self::Variables) -> Self::EntropyFormOld { #never }
         fn entropy_form(

@@ -10,7 +10,8 @@ use crate::handle::Element;
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
 use crate::scheme::{
-    EemEntropy, EemTemperature, ElementScheme, Midpoint, Scheme, Trapezoidal, Variational,
+    EemEntropy, EemTemperature, ElementScheme, Midpoint, MidpointTemperature, Scheme, Trapezoidal,
+    TrapezoidalTemperature, Variational,
 };
 
 /// What a model has.
@@ -111,6 +112,12 @@ where
                 boxed::<S, M, K, EemTemperature, D>(kinematics, models, placed)
             }
             Scheme::Variational => boxed::<S, M, K, Variational, D>(kinematics, models, placed),
+            Scheme::MidpointTemperature => {
+                boxed::<S, M, K, MidpointTemperature, D>(kinematics, models, placed)
+            }
+            Scheme::TrapezoidalTemperature => {
+                boxed::<S, M, K, TrapezoidalTemperature, D>(kinematics, models, placed)
+            }
             Scheme::Midpoint => boxed::<S, M, K, Midpoint, D>(kinematics, models, placed),
             Scheme::Trapezoidal => boxed::<S, M, K, Trapezoidal, D>(kinematics, models, placed),
         }

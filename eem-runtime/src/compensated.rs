@@ -25,6 +25,12 @@ impl<S: Scalar> Compensated<S> {
         &self.values
     }
 
+    /// Every sum and what is still missing of it.
+    pub(crate) fn sums(&self) -> impl Iterator<Item = (S, S)> + '_ {
+        let carries = self.carries.iter().copied();
+        self.values.iter().copied().zip(carries)
+    }
+
     /// Restarts one sum at `value`.
     pub(crate) fn set(&mut self, index: usize, value: S) {
         self.values[index] = value;
@@ -42,6 +48,23 @@ impl<S: Scalar> Compensated<S> {
     pub(crate) fn copy_from(&mut self, other: &Self) {
         self.values.copy_from_slice(&other.values);
         self.carries.copy_from_slice(&other.carries);
+    }
+}
+
+/// In a file, pairs: each sum with what is still missing of it.
+#[cfg(feature = "serde")]
+impl<S: serde::Serialize> serde::Serialize for Compensated<S> {
+    fn serialize<T: serde::Serializer>(&self, serializer: T) -> Result<T::Ok, T::Error> {
+        serializer.collect_seq(self.values.iter().zip(&self.carries))
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<'de, S: serde::Deserialize<'de>> serde::Deserialize<'de> for Compensated<S> {
+    fn deserialize<T: serde::Deserializer<'de>>(deserializer: T) -> Result<Self, T::Error> {
+        let pairs = Vec::<(S, S)>::deserialize(deserializer)?;
+        let (values, carries) = pairs.into_iter().unzip();
+        Ok(Self { values, carries })
     }
 }
 

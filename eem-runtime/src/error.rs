@@ -269,6 +269,21 @@ pub enum StepFailure {
         /// The time, s.
         time: f64,
     },
+    /// A run cannot end then.
+    #[error("the end time is {end} s, it must be a number and not lie before the present time")]
+    End {
+        /// The end time, s.
+        end: f64,
+    },
+    /// An event cannot be located so sharply.
+    #[error("the tolerance of the event is {value} s, it must not be negative")]
+    EventTolerance {
+        /// The tolerance, s.
+        value: f64,
+    },
+    /// The function whose change of sign is an event has no sign.
+    #[error("the function of the event is not a number")]
+    EventFunction,
     /// A trial state has the wrong number of unknowns.
     #[error("{given} unknowns were given, the scene has {expected}")]
     Unknowns {

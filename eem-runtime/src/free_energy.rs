@@ -111,6 +111,10 @@ pub trait FreeEnergy<S: Scalar> {
     /// Entropy and heat capacity; zero without temperature.
     fn caloric(&self, x: &Self::Variables) -> Caloric<S>;
 
+    /// `∂²s/∂x²`, what the ordinary rules in temperature variables need for their tangent; zero
+    /// without temperature.
+    fn entropy_hessian(&self, x: &Self::Variables) -> Self::Hessian;
+
     /// `η_k(θ)` and `dη_k/dθ`, N s/m and N s/(m K).
     fn viscosity(&self, theta: S) -> (Self::Viscosities, Self::Viscosities);
 

@@ -14,6 +14,7 @@
 mod assemble;
 mod closing;
 mod evaluate;
+mod generic;
 mod geometry;
 mod inspect;
 mod local;
@@ -31,6 +32,7 @@ use crate::scene::ElementEntry;
 use crate::scheme::{ElementScheme, Phase, Placement};
 use crate::state::State;
 use crate::system::LinearSystem;
+pub(crate) use generic::ElementGeneric;
 use geometry::Geometry;
 use local::LocalSolver;
 use member::Member;
@@ -47,9 +49,19 @@ pub(crate) struct StepView<'a, S> {
     pub(crate) conduction: &'a Conduction<S>,
     pub(crate) layout: &'a Layout,
     pub(crate) loads: &'a StepLoads<S>,
+    /// m per node, kg; `None` for anchors.
+    pub(crate) masses: &'a [Option<S>],
 }
 
 impl<S: Real> StepView<'_, S> {
+    /// The old velocity of a coordinate; that of an anchor is its mean over the step, m/s.
+    fn old_velocity(&self, coordinate: usize, dimension: usize) -> S {
+        match self.masses[coordinate / dimension] {
+            Some(mass) => self.state.momenta.values()[coordinate] / mass,
+            None => self.loads.motion[coordinate] / self.step,
+        }
+    }
+
     /// The time during which internal variables evolve, s.
     fn thermal_step(&self) -> S {
         if self.phase.heats() {
@@ -152,6 +164,12 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
 
     /// The largest measure at the beginning of the step.
     fn largest_measure(&self) -> S;
+
+    /// What the elements contribute to the GENERIC form in a state.
+    fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>>;
+
+    /// What they contributed to the discrete GENERIC form of the last step.
+    fn generic_of_step(&self) -> Vec<ElementGeneric<S>>;
 
     /// The element at `place` in a state.
     fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S>;
@@ -287,6 +305,14 @@ where
         measures.fold(S::zero(), |largest, &measure| {
             largest.maximum(measure.abs())
         })
+    }
+
+    fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>> {
+        self.generic_in_all(state)
+    }
+
+    fn generic_of_step(&self) -> Vec<ElementGeneric<S>> {
+        self.generic_of_step_all()
     }
 
     fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {

@@ -15,6 +15,11 @@ use crate::scalar::Real;
 /// assert!((settings.tolerance - 1.5e-8).abs() < 1e-9);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct NewtonSettings<S> {
     /// Iterations after which a step is given up. Default 50. More only helps steps that are far
     /// too large.

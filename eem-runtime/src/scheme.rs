@@ -8,9 +8,11 @@
 mod eem_entropy;
 mod eem_temperature;
 mod midpoint;
+mod midpoint_temperature;
 mod point;
 mod staggered;
 mod trapezoidal;
+mod trapezoidal_temperature;
 mod variational;
 
 use crate::error::StateError;
@@ -23,8 +25,10 @@ use crate::scene::is_positive;
 pub(crate) use eem_entropy::{EemEntropy, temperature_at};
 pub(crate) use eem_temperature::EemTemperature;
 pub(crate) use midpoint::Midpoint;
+pub(crate) use midpoint_temperature::MidpointTemperature;
 pub(crate) use staggered::Phase;
 pub(crate) use trapezoidal::Trapezoidal;
+pub(crate) use trapezoidal_temperature::TrapezoidalTemperature;
 pub(crate) use variational::Variational;
 
 /// The time integration schemes.
@@ -36,7 +40,8 @@ pub(crate) use variational::Variational;
 /// | `Variational` | bounded | in practice | exact | 2 |
 /// | `Staggered` | exact | exact | exact | 1 |
 /// | `Midpoint` | no | no | exact | 2 |
-/// | `Trapezoidal` | no | no | no | 2 |
+/// | `MidpointTemperature` | no | no | exact | 2 |
+/// | `Trapezoidal`, `TrapezoidalTemperature` | no | no | no | 2 |
 ///
 /// "Exact" is to rounding, at every step and for any step size.
 ///
@@ -61,19 +66,25 @@ pub enum Scheme {
     Staggered,
     /// Implicit midpoint rule on positions, momenta, viscous stretches and entropies.
     Midpoint,
+    /// Implicit midpoint rule on positions, momenta, viscous stretches and temperatures.
+    MidpointTemperature,
     /// Trapezoidal rule on positions, momenta, viscous stretches and entropies.
     Trapezoidal,
+    /// Trapezoidal rule on positions, momenta, viscous stretches and temperatures.
+    TrapezoidalTemperature,
 }
 
 impl Scheme {
     /// All schemes.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 8] = [
         Self::EemEntropy,
         Self::EemTemperature,
         Self::Variational,
         Self::Staggered,
         Self::Midpoint,
+        Self::MidpointTemperature,
         Self::Trapezoidal,
+        Self::TrapezoidalTemperature,
     ];
 
     /// The name used on command lines and in files.
@@ -85,7 +96,9 @@ impl Scheme {
             Self::Variational => "variational",
             Self::Staggered => "staggered",
             Self::Midpoint => "midpoint",
+            Self::MidpointTemperature => "midpoint-temperature",
             Self::Trapezoidal => "trapezoidal",
+            Self::TrapezoidalTemperature => "trapezoidal-temperature",
         }
     }
 
@@ -114,7 +127,10 @@ impl Scheme {
     const fn is_ordinary(self) -> bool {
         match self {
             Self::EemEntropy | Self::EemTemperature | Self::Variational | Self::Staggered => false,
-            Self::Midpoint | Self::Trapezoidal => true,
+            Self::Midpoint
+            | Self::MidpointTemperature
+            | Self::Trapezoidal
+            | Self::TrapezoidalTemperature => true,
         }
     }
 }
@@ -148,11 +164,13 @@ impl Scheme {
     /// How the end of a step follows from its forces.
     pub(crate) const fn closing(self) -> Closing {
         match self {
-            Self::EemEntropy | Self::EemTemperature | Self::Staggered | Self::Midpoint => {
-                Closing::Secant
-            }
+            Self::EemEntropy
+            | Self::EemTemperature
+            | Self::Staggered
+            | Self::Midpoint
+            | Self::MidpointTemperature => Closing::Secant,
             Self::Variational => Closing::Start,
-            Self::Trapezoidal => Closing::Open,
+            Self::Trapezoidal | Self::TrapezoidalTemperature => Closing::Open,
         }
     }
 }
@@ -169,6 +187,9 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static
     /// The part of forces and rates that is taken from the response; the rest, `1 − IMPLICIT`, is
     /// that of the old state.
     const IMPLICIT: f64;
+
+    /// Whether the temperature is the state that the scheme integrates, and not the entropy.
+    const IN_TEMPERATURE: bool = false;
 
     /// What the scheme keeps of the old state.
     type Old: Copy + Send + Sync;
@@ -188,15 +209,15 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static
         Ok(x.as_ref()[M::Variables::LEN - 1])
     }
 
-    /// The response `(f*…, g*…, θ*, Δs)` and its tangent by `x`.
+    /// The response `(f*…, g*…, θ*, Δs)` and its tangent.
     ///
     /// `corners` keeps temperatures from one call to the next as starting values.
     fn respond(
         model: &M,
         start: &Start<S, M, Self::Old>,
-        x: &M::Variables,
+        trial: &ElementTrial<S, M>,
         corners: &mut M::Corners,
-    ) -> Result<(M::Response, M::Tangent), Infeasible>;
+    ) -> Result<Answer<S, M>, Infeasible>;
 }
 
 /// The old state of an element as its scheme sees it.
@@ -208,6 +229,37 @@ pub(crate) struct Start<S: Real, M: FreeEnergy<S>, Old> {
     pub(crate) entropy: S,
     /// What the scheme keeps of the old state.
     pub(crate) old: Old,
+}
+
+/// What a scheme is asked about.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ElementTrial<S: Real, M: FreeEnergy<S>> {
+    /// `(π…, γ…, τ)`.
+    pub(crate) x: M::Variables,
+    /// For a scheme in temperature: by how much the rates along the step change measures, viscous
+    /// stretches and temperature, apart from what the old state contributes.
+    pub(crate) increments: M::Variables,
+}
+
+/// What a scheme answers.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Answer<S: Real, M: FreeEnergy<S>> {
+    pub(crate) response: M::Response,
+    /// The derivative of the response by `x`.
+    pub(crate) tangent: M::Tangent,
+    /// For a scheme in temperature: the derivative of Δs by the increments of the measures.
+    pub(crate) by_increment: M::Variables,
+}
+
+impl<S: Real, M: FreeEnergy<S>> Answer<S, M> {
+    /// The answer of a scheme that does not look at increments.
+    fn new((response, tangent): (M::Response, M::Tangent)) -> Self {
+        Self {
+            response,
+            tangent,
+            by_increment: M::Variables::filled(S::zero()),
+        }
+    }
 }
 
 /// Why an element has no response.

@@ -1,7 +1,11 @@
 //! A scene in motion.
 
+mod event;
+mod generic;
 mod inspect;
 mod linearize;
+mod resume;
+mod run;
 
 use core::fmt;
 
@@ -20,7 +24,9 @@ use crate::scheme::{Phase, Scheme};
 use crate::solver::Solver;
 use crate::state::State;
 
+pub use generic::Generic;
 pub use linearize::StepTangent;
+pub use run::RunEnd;
 
 /// What the elements share during the next step; borrows only the fields that it names.
 macro_rules! view {
@@ -32,6 +38,7 @@ macro_rules! view {
             conduction: &$simulation.conduction,
             layout: &$simulation.layout,
             loads: &$simulation.step_loads,
+            masses: &$simulation.masses,
         }
     };
 }
@@ -54,6 +61,8 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     loads: Loads<S, D>,
     step_loads: StepLoads<S>,
     state: State<S>,
+    /// The last step succeeded, and the elements still know what they did in it.
+    has_stepped: bool,
     /// Where the next state is written.
     next: State<S>,
     /// The state between the two parts of a staggered step.
@@ -120,6 +129,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             conduction,
             loads: scene.loads,
             step_loads,
+            has_stepped: false,
             next: state.clone(),
             between: state.clone(),
             state,
@@ -134,6 +144,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// [`StepError`] if the scheme has no new state, or Newton's method does not find it. The
     /// simulation is then as it was before.
     pub fn step(&mut self) -> Result<StepReport<S>, StepError> {
+        self.has_stepped = false;
         self.solver.restart();
         let done = self.evaluate_loads().and_then(|()| {
             if self.scheme != Scheme::Staggered {
@@ -150,6 +161,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             return Err(self.failed(failure));
         }
         core::mem::swap(&mut self.state, &mut self.next);
+        self.has_stepped = true;
         let last = self.solver.history.last();
         Ok(StepReport {
             time: self.time(),

@@ -7,7 +7,12 @@ use crate::scalar::Real;
 ///
 /// Coordinates are stored node after node; viscous stretches and thermal quantities only for the
 /// elements that have them.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub(crate) struct State<S> {
     /// One sum: t, s.
     pub(crate) time: Compensated<S>,

@@ -46,6 +46,8 @@ pub struct Programs {
     pub internal_energy: Program,
     /// `[s, θ ∂s/∂θ, Σ |terms of s|]`; none without a temperature.
     pub caloric: Option<Program>,
+    /// `[∂²s/∂x_i∂x_j …]` by rows; none without a temperature.
+    pub entropy_hessian: Option<Program>,
     /// `[η_k …, dη_k/dθ …]`, inputs parameters and θ (if there is one); none without dashpots.
     pub viscosity: Option<Program>,
     /// `[f*_a …, g*_k …, θ*, Δs]` followed by the R×N tangent by rows, in entropy form.
@@ -91,6 +93,7 @@ impl Model {
             hessian: point.hessian(),
             internal_energy: point.internal_energy(),
             caloric: self.temperature.map(|theta| point.caloric(theta)),
+            entropy_hessian: self.temperature.map(|theta| point.entropy_hessian(theta)),
             viscosity: (!self.dashpots.is_empty()).then(|| point.viscosity()),
             entropy_form: self.entropy_form(),
             temperature_form: self.temperature.map(|_| self.temperature_form()),

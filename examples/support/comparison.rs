@@ -82,7 +82,7 @@ fn label(run: &Record) -> String {
     match (&run.outcome, lost(run)) {
         (Outcome::Failed { time, .. }, _) => format!("{scheme} (fails at {time:.1} s)"),
         (Outcome::Completed, Some(row)) => {
-            format!("{scheme} (energy lost at {:.1} s)", run.time(row))
+            format!("{scheme} (energy off by 5 % at {:.1} s)", run.time(row))
         }
         (Outcome::Completed, None) => scheme.clone(),
     }

@@ -1,6 +1,8 @@
 //! What all examples share, so that each example's file is about its physics:
 //! command line, record of a run, table, CSV files, figures, progress bar and claims.
 
+#![allow(dead_code, reason = "every example uses its own part of this module")]
+
 pub(crate) mod claims;
 pub(crate) mod command_line;
 pub(crate) mod comparison;

@@ -34,7 +34,28 @@ pub(crate) fn record<const D: usize>(
     watched: &Watched,
     grid: TimeGrid,
 ) -> Result<Record, SceneError> {
-    let (names, values): (Vec<_>, Vec<_>) = state(simulation, watched)?.into_iter().unzip();
+    record_with(name, simulation, watched, grid, |_| Ok(Vec::new()))
+}
+
+/// The same, with further columns of the example's own.
+///
+/// # Errors
+///
+/// When a handle does not belong to the scene.
+pub(crate) fn record_with<const D: usize>(
+    name: &str,
+    simulation: &mut Simulation<D>,
+    watched: &Watched,
+    grid: TimeGrid,
+    further: impl Fn(&Simulation<D>) -> Result<Vec<(&'static str, f64)>, SceneError>,
+) -> Result<Record, SceneError> {
+    let state = |simulation: &Simulation<D>| -> Result<_, SceneError> {
+        let mut columns: Vec<(String, f64)> = state(simulation, watched)?;
+        let own = further(simulation)?.into_iter();
+        columns.extend(own.map(|(name, value)| (name.to_owned(), value)));
+        Ok(columns)
+    };
+    let (names, values): (Vec<_>, Vec<_>) = state(simulation)?.into_iter().unzip();
     let mut record = Record::new(name, names);
     record.push(values, 0);
     let mut progress = Progress::new(name, grid.steps);
@@ -52,9 +73,7 @@ pub(crate) fn record<const D: usize>(
         }
         progress.advance(step);
         if step.is_multiple_of(grid.stride) {
-            let values = state(simulation, watched)?
-                .into_iter()
-                .map(|column| column.1);
+            let values = state(simulation)?.into_iter().map(|column| column.1);
             record.push(values.collect(), std::mem::take(&mut iterations));
         }
     }
@@ -89,7 +108,7 @@ fn state<const D: usize>(
     let momentum = ledger.angular_momentum;
     if D == 2 {
         columns.push(("angular_momentum".to_owned(), momentum[2]));
-    } else {
+    } else if D == 3 {
         let named = AXES.iter().zip(momentum.iter());
         columns.extend(named.map(|(axis, &value)| (format!("angular_momentum_{axis}"), value)));
     }

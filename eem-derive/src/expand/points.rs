@@ -21,6 +21,7 @@ pub(super) fn points(programs: &Programs, inputs: &Inputs) -> TokenStream {
     let gradient = gradient(&programs.gradient, inputs);
     let hessian = hessian(&programs.hessian, inputs);
     let caloric = caloric(programs.caloric.as_ref(), inputs);
+    let entropy_hessian = entropy_hessian(programs.entropy_hessian.as_ref(), inputs);
     let viscosity = viscosity(programs.viscosity.as_ref(), inputs);
     quote! {
         #free_energy_docs
@@ -30,6 +31,7 @@ pub(super) fn points(programs: &Programs, inputs: &Inputs) -> TokenStream {
         #gradient
         #hessian
         #caloric
+        #entropy_hessian
         #viscosity
     }
 }
@@ -103,6 +105,37 @@ fn caloric(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
                 heat_capacity: #heat_capacity,
                 magnitude: #magnitude,
             }
+        }
+    }
+}
+
+// Expands to: `let __v0 = …; [[__v9, __v10], [__v10, __v11]]`.
+fn entropy_hessian(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
+    let scalar = &inputs.scalar;
+    let Some(program) = program else {
+        return quote! {
+            /// There is no temperature: zero.
+            fn entropy_hessian(&self, _: &Self::Variables) -> Self::Hessian {
+                let __row = __eem::Array::filled(<#scalar as __eem::Scalar>::zero());
+                __eem::Array::filled(__row)
+            }
+        };
+    };
+    let lets = lets(program, inputs);
+    let outputs: Vec<_> = program
+        .outputs
+        .iter()
+        .map(|&output| value(output))
+        .collect();
+    let rows = outputs
+        .chunks(inputs.variables)
+        .map(|row| quote!([#(#row),*]));
+    let docs = docs::function("Hessian of the entropy, ∂²s/∂x².", program);
+    quote! {
+        #docs
+        fn entropy_hessian(&self, __x: &Self::Variables) -> Self::Hessian {
+            #lets
+            [#(#rows),*]
         }
     }
 }

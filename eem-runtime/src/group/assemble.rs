@@ -139,11 +139,18 @@ where
     ) -> impl Fn(usize) -> S + 'a {
         let width = self.geometry.width();
         let sensitivity = self.geometry.sensitivity(i);
+        let increments = self.geometry.increment_sensitivity(i);
+        let by_increment = &self.members[i].by_increment;
         move |q| {
-            let entries = row.by_measure.as_ref()[..M::MEASURES].iter().enumerate();
-            entries.fold(S::zero(), |sum, (b, &entry)| {
-                sum + entry * sensitivity[b * width + q]
-            })
+            let mut sum = S::zero();
+            for (b, &entry) in row.by_measure.as_ref()[..M::MEASURES].iter().enumerate() {
+                sum += entry * sensitivity[b * width + q];
+                if C::IN_TEMPERATURE {
+                    let entry = row.by_heat * by_increment.as_ref()[b];
+                    sum += entry * increments[b * width + q];
+                }
+            }
+            sum
         }
     }
 
@@ -237,6 +244,14 @@ where
                 }
             }
             heat *= self.heat_factor(view, i);
+        }
+        if C::IN_TEMPERATURE {
+            let rows = self.geometry.increment_sensitivity(i).chunks_exact(width);
+            for (row, &slope) in rows.zip(member.by_increment.as_ref()) {
+                for (&entry, at) in row.iter().zip(self.unknowns(view, i)) {
+                    heat += slope * entry * at.map_or(S::zero(), |at| solution[at]);
+                }
+            }
         }
         let unknowns = M::MEASURES..M::Variables::LEN;
         let mut correction = M::Variables::filled(S::zero());

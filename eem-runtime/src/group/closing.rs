@@ -4,7 +4,7 @@
 //! evaluating the remaining relations explicitly from them makes the balances of momentum and
 //! entropy hold to rounding whatever that error is, and leaves the energy with its square.
 
-use super::evaluate::check_measures;
+use super::evaluate::{check_measures, check_temperature};
 use super::{ElementGroup, StepView, Trial, variables};
 use crate::conduction::Partner;
 use crate::error::StateError;
@@ -171,6 +171,8 @@ where
             let prescribed = view.prescribed(Some(slot), Placement::End);
             state.temperatures[slot] = if let Some(theta) = prescribed {
                 theta
+            } else if C::IN_TEMPERATURE {
+                member.new_temperature(view.state.temperatures[slot])
             } else {
                 let entropy = state.entropies.values()[slot];
                 let guess = member.x.as_ref()[M::Variables::LEN - 1];
@@ -178,7 +180,11 @@ where
                     .map_err(|infeasible| infeasible.of(member.element))?
             };
             let x = variables::<S, M>(measures, member.slots, state);
+            check_temperature(member.element, state.temperatures[slot])?;
             let caloric = member.model.caloric(&x);
+            if C::IN_TEMPERATURE {
+                state.entropies.set(slot, caloric.entropy);
+            }
             Infeasible::unless_stable(&caloric, state.temperatures[slot])
                 .map_err(|infeasible| infeasible.of(member.element))?;
             if prescribed.is_some() {

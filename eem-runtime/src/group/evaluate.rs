@@ -1,5 +1,6 @@
 //! Old state and trial state of the elements: responses, viscosities, condensed local systems.
 
+use super::member::Member;
 use super::{ElementGroup, StepView, Trial, variables};
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
@@ -7,7 +8,7 @@ use crate::handle::Element;
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
 use crate::scene::is_positive;
-use crate::scheme::{ElementScheme, Start};
+use crate::scheme::{ElementScheme, ElementTrial, Placement, Start};
 
 impl<S, M, K, C> ElementGroup<S, M, K, C>
 where
@@ -82,6 +83,9 @@ where
             heat += view.conduction.heat_flow(slot, theta, temperatures);
             member.old_rates.as_mut()[M::Variables::LEN - 1] = share * heat / theta;
         }
+        if M::THERMAL && C::IN_TEMPERATURE {
+            self.old_heating(view, i, heat / theta);
+        }
         let positions = view.state.positions.values();
         self.geometry.gather(i, C::PLACEMENT, positions, positions);
         self.geometry.place(self.kinematics, i, C::PLACEMENT);
@@ -95,6 +99,49 @@ where
         Ok(())
     }
 
+    /// `(1 − w) θ̇⁰` of a scheme in temperature, which takes the place of `(1 − w) ṡ⁰`.
+    fn old_heating(&mut self, view: &StepView<'_, S>, i: usize, entropy_rate: S) {
+        let positions = view.state.positions.values();
+        self.geometry
+            .gather(i, Placement::End, positions, positions);
+        self.geometry.place(self.kinematics, i, Placement::End);
+        let dimension = self.geometry.dimension();
+        let velocity = |coordinate| view.old_velocity(coordinate, dimension);
+        self.geometry
+            .increase(self.kinematics, i, Placement::End, velocity);
+        let own = self.geometry.measures_range(i);
+        let share = S::one() - S::from_f64(C::IMPLICIT);
+        let member = &mut self.members[i];
+        let Some(start) = &member.start else {
+            unreachable!("a step begins before its old state is used");
+        };
+        let last = M::Variables::LEN - 1;
+        let (_, hessian) = member.model.hessian(&start.x0);
+        // ∂s/∂x = −∂²ψ/∂θ∂x
+        let slope = |index: usize| -hessian.as_ref()[last].as_ref()[index];
+        let mut rest = share * entropy_rate;
+        for (a, &rate) in self.geometry.increments[own].iter().enumerate() {
+            rest -= slope(a) * share * rate;
+        }
+        for index in M::MEASURES..last {
+            rest -= slope(index) * member.old_rates.as_ref()[index];
+        }
+        member.old_heating = rest / slope(last);
+        member.old_rates.as_mut()[last] = S::zero();
+    }
+
+    /// The increments of the measures of element `i`: those of `q¹ − q⁰ − (1 − w) h q̇⁰`.
+    fn increase(&mut self, view: &StepView<'_, S>, trial: &Trial<S>, i: usize) {
+        let rest = (S::one() - S::from_f64(C::IMPLICIT)) * view.step;
+        let dimension = self.geometry.dimension();
+        let motion = |coordinate: usize| {
+            let old = rest * view.old_velocity(coordinate, dimension);
+            trial.displacements[coordinate] - old
+        };
+        self.geometry
+            .increase(self.kinematics, i, C::PLACEMENT, motion);
+    }
+
     /// See [`Group::evaluate`](super::Group::evaluate).
     pub(super) fn evaluate_trial(
         &mut self,
@@ -105,7 +152,11 @@ where
         for i in 0..self.members.len() {
             self.geometry.gather(i, C::PLACEMENT, old, &trial.positions);
             self.geometry.place(self.kinematics, i, C::PLACEMENT);
+            if C::IN_TEMPERATURE {
+                self.increase(view, trial, i);
+            }
             let own = self.geometry.measures_range(i);
+            let own_increments = own.clone();
             let measures = &self.geometry.measures[own];
             let member = &mut self.members[i];
             check_measures(self.kinematics, member.element, measures)?;
@@ -123,9 +174,19 @@ where
                 member.x.as_mut()[M::Variables::LEN - 1] =
                     theta.map_err(|infeasible| infeasible.of(element))?;
             }
-            let response = C::respond(&member.model, start, &member.x, &mut member.corners);
-            (member.response, member.tangent) =
-                response.map_err(|infeasible| infeasible.of(element))?;
+            let trial_variables = ElementTrial {
+                x: member.x,
+                increments: if C::IN_TEMPERATURE {
+                    increments(member, &self.geometry.increments[own_increments], view.step)
+                } else {
+                    M::Variables::filled(S::zero())
+                },
+            };
+            let answer = C::respond(&member.model, start, &trial_variables, &mut member.corners);
+            let answer = answer.map_err(|infeasible| infeasible.of(element))?;
+            member.response = answer.response;
+            member.tangent = answer.tangent;
+            member.by_increment = answer.by_increment;
             check_response::<S, M>(member.element, &member.response)?;
             member.find_viscosities(member.temperature())?;
             self.local
@@ -133,6 +194,26 @@ where
         }
         Ok(())
     }
+}
+
+/// The increments of measures, viscous stretches and temperature, less what the old state
+/// contributes.
+fn increments<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>>(
+    member: &Member<S, M, C>,
+    measures: &[S],
+    step: S,
+) -> M::Variables {
+    let mut increments = M::Variables::filled(S::zero());
+    increments.as_mut()[..M::MEASURES].copy_from_slice(measures);
+    let old = member.start.as_ref().map_or(member.x, |start| start.x0);
+    let last = M::Variables::LEN - 1;
+    for index in M::MEASURES..last {
+        let change = member.x.as_ref()[index] - old.as_ref()[index];
+        increments.as_mut()[index] = change - step * member.old_rates.as_ref()[index];
+    }
+    let change = member.new_temperature(old.as_ref()[last]) - old.as_ref()[last];
+    increments.as_mut()[last] = change - step * member.old_heating;
+    increments
 }
 
 /// The deformation is one that the element can have.
@@ -160,10 +241,7 @@ fn check_response<S: Real, M: FreeEnergy<S>>(
     let response = response.as_ref();
     if M::THERMAL {
         let theta = response[M::MEASURES + M::DASHPOTS];
-        if !is_positive(theta) {
-            let value = theta.to_f64();
-            return Err(StateError::Temperature { element, value });
-        }
+        check_temperature(element, theta)?;
     }
     match response.iter().find(|value| !value.is_finite()) {
         None => Ok(()),
@@ -173,4 +251,13 @@ fn check_response<S: Real, M: FreeEnergy<S>>(
             value: value.to_f64(),
         }),
     }
+}
+
+/// A temperature is positive and finite.
+pub(super) fn check_temperature<S: Real>(element: Element, theta: S) -> Result<(), StateError> {
+    if is_positive(theta) {
+        return Ok(());
+    }
+    let value = theta.to_f64();
+    Err(StateError::Temperature { element, value })
 }

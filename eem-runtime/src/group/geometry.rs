@@ -9,6 +9,9 @@ use crate::scheme::Placement;
 /// The most coordinates that an element can have: those of a hexahedron.
 const MOST_COORDINATES: usize = 24;
 
+/// The most measures that an element can have: the strains of a solid.
+pub(crate) const MOST_MEASURES: usize = 6;
+
 /// Node lists, measures and gradients of all elements of a group.
 ///
 /// For element `i`, `measures` are those that its scheme looks at, `direction` the gradient along
@@ -24,6 +27,10 @@ pub(crate) struct Geometry<S> {
     pub(crate) measures: Vec<S>,
     direction: Vec<S>,
     sensitivity: Vec<S>,
+    /// For schemes in temperature: by how much the motion of the step changes the measures, and the
+    /// derivative of that by the new coordinates.
+    pub(crate) increments: Vec<S>,
+    increment_sensitivity: Vec<S>,
     /// Coordinates of one element: old, new.
     coordinates: [Vec<S>; 2],
     /// A square matrix over the coordinates of one element.
@@ -44,6 +51,8 @@ impl<S: Real> Geometry<S> {
             measures: zeros(count * K::MEASURES),
             direction: zeros(count * K::MEASURES * width),
             sensitivity: zeros(count * K::MEASURES * width),
+            increments: zeros(count * K::MEASURES),
+            increment_sensitivity: zeros(count * K::MEASURES * width),
             coordinates: [zeros(width), zeros(width)],
             matrix: zeros(width * width),
         }
@@ -90,6 +99,45 @@ impl<S: Real> Geometry<S> {
     /// The derivative of the measures of element `i` by its new coordinates, a row per measure.
     pub(crate) fn sensitivity(&self, i: usize) -> &[S] {
         &self.sensitivity[self.gradient_range(i)]
+    }
+
+    /// The derivative of the increments of element `i` by its new coordinates, a row per measure.
+    pub(crate) fn increment_sensitivity(&self, i: usize) -> &[S] {
+        &self.increment_sensitivity[self.gradient_range(i)]
+    }
+
+    /// The increments `Λ_a = direction_a · w` of element `i` for a motion `w` of its coordinates
+    /// that changes one to one with them, and their derivatives.
+    pub(crate) fn increase<K: Kinematics<S>>(
+        &mut self,
+        kinematics: K,
+        i: usize,
+        at: Placement,
+        motion: impl Fn(usize) -> S,
+    ) {
+        let width = self.width();
+        let (own, rows) = (self.measures_range(i), self.gradient_range(i));
+        let mut w = [S::zero(); MOST_COORDINATES];
+        for (entry, coordinate) in w.iter_mut().zip(self.coordinates_of(i)) {
+            *entry = motion(coordinate);
+        }
+        for a in 0..K::MEASURES {
+            let mut unit = [S::zero(); MOST_MEASURES];
+            unit[a] = S::one();
+            self.curve(kinematics, i, at, &unit[..K::MEASURES]);
+            let mut sum = S::zero();
+            for q in 0..width {
+                let direction = self.direction[rows.start + a * width + q];
+                sum += direction * w[q];
+                let curvature = &self.matrix[q * width..(q + 1) * width];
+                let turn = curvature
+                    .iter()
+                    .zip(&w)
+                    .fold(S::zero(), |t, (&k, &w)| t + k * w);
+                self.increment_sensitivity[rows.start + a * width + q] = direction + turn;
+            }
+            self.increments[own.start + a] = sum;
+        }
     }
 
     /// Coordinates of element `i` in the old and in the new positions; where the scheme looks at

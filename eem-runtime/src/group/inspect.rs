@@ -1,6 +1,7 @@
 //! What the elements are in a state, from the definitions and not from what a step computed.
 
 use super::evaluate::check_measures;
+use super::geometry::MOST_MEASURES;
 use super::{ElementGroup, ElementView, GroupTotals, variables};
 use crate::error::StateError;
 use crate::free_energy::FreeEnergy;
@@ -8,9 +9,6 @@ use crate::kinematics::Kinematics;
 use crate::scalar::Real;
 use crate::scheme::{ElementScheme, Infeasible};
 use crate::state::State;
-
-/// The most measures that an element can have: the strains of a solid.
-const MOST_MEASURES: usize = 6;
 
 impl<S, M, K, C> ElementGroup<S, M, K, C>
 where

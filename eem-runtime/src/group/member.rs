@@ -6,7 +6,7 @@ use crate::handle::Element;
 use crate::layout::Slots;
 use crate::scalar::Real;
 use crate::scene::is_positive;
-use crate::scheme::{ElementScheme, Start};
+use crate::scheme::{ElementScheme, Placement, Start};
 
 /// An element, with everything that one step of the scheme `C` needs to remember of it.
 pub(crate) struct Member<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>> {
@@ -30,6 +30,10 @@ pub(crate) struct Member<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>> {
     pub(crate) corners: M::Corners,
     pub(crate) response: M::Response,
     pub(crate) tangent: M::Tangent,
+    /// For a scheme in temperature: the derivative of Δs by the increments of the measures.
+    pub(crate) by_increment: M::Variables,
+    /// For a scheme in temperature: what the old state contributes to θ̇, K/s.
+    pub(crate) old_heating: S,
     /// `η_k` and `dη_k/dθ` at θ*.
     pub(crate) viscosities: (M::Viscosities, M::Viscosities),
     /// The entropy that dashpots and conduction gave it in the step, J/K.
@@ -66,6 +70,8 @@ impl<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>> Member<S, M, C> {
             corners: M::Corners::filled(S::zero()),
             response: M::Response::filled(S::zero()),
             tangent: M::Tangent::filled(zeros),
+            by_increment: zeros,
+            old_heating: S::zero(),
             viscosities: (viscosities, viscosities),
             entropy_received: S::zero(),
             condensed: Condensed {
@@ -79,6 +85,15 @@ impl<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>> Member<S, M, C> {
     /// The index of the temperature among the variables, and of θ* in the response.
     pub(crate) const fn temperature_index() -> usize {
         M::MEASURES + M::DASHPOTS
+    }
+
+    /// The new temperature that τ stands for, given the old one, K.
+    pub(crate) fn new_temperature(&self, old: S) -> S {
+        let theta = self.x.as_ref()[M::Variables::LEN - 1];
+        match C::PLACEMENT {
+            Placement::Ends | Placement::End => theta,
+            Placement::Middle | Placement::Start => theta + theta - old,
+        }
     }
 
     /// The algorithmic temperature θ*, K; zero without temperature.

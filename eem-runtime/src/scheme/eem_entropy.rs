@@ -11,7 +11,7 @@
 //! The local unknown is the new temperature. The temperatures of the mixed states on the way from
 //! old to new come from the Legendre inversion θ̂, by Newton's method, for any free energy.
 
-use super::{ElementScheme, Infeasible, Placement, Start};
+use super::{Answer, ElementScheme, ElementTrial, Infeasible, Placement, Start};
 use crate::free_energy::{Array, FreeEnergy};
 use crate::inversion::invert;
 use crate::scalar::Real;
@@ -33,13 +33,14 @@ impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for 
     fn respond(
         model: &M,
         start: &Start<S, M, Self::Old>,
-        x: &M::Variables,
+        trial: &ElementTrial<S, M>,
         corners: &mut M::Corners,
-    ) -> Result<(M::Response, M::Tangent), Infeasible> {
+    ) -> Result<Answer<S, M>, Infeasible> {
         if M::THERMAL {
-            find_corners(model, start, x, corners)?;
+            find_corners(model, start, &trial.x, corners)?;
         }
-        Ok(model.entropy_form(&start.old, x, corners))
+        let form = model.entropy_form(&start.old, &trial.x, corners);
+        Ok(Answer::new(form))
     }
 }
 

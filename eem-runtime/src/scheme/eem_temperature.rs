@@ -9,7 +9,7 @@
 //! a mean of temperatures weighted with the heat capacity, hence positive, hence the second. No
 //! inversion is needed: the new temperature is the unknown.
 
-use super::{ElementScheme, Infeasible, Placement, Start};
+use super::{Answer, ElementScheme, ElementTrial, Infeasible, Placement, Start};
 use crate::free_energy::{Array, FreeEnergy};
 use crate::scalar::Real;
 
@@ -30,13 +30,14 @@ impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for 
     fn respond(
         model: &M,
         start: &Start<S, M, Self::Old>,
-        x: &M::Variables,
+        trial: &ElementTrial<S, M>,
         _: &mut M::Corners,
-    ) -> Result<(M::Response, M::Tangent), Infeasible> {
+    ) -> Result<Answer<S, M>, Infeasible> {
         if M::THERMAL {
-            let theta = x.as_ref()[M::Variables::LEN - 1];
-            Infeasible::unless_stable(&model.caloric(x), theta)?;
+            let theta = trial.x.as_ref()[M::Variables::LEN - 1];
+            Infeasible::unless_stable(&model.caloric(&trial.x), theta)?;
         }
-        Ok(model.temperature_form(&start.old, x))
+        let form = model.temperature_form(&start.old, &trial.x);
+        Ok(Answer::new(form))
     }
 }

@@ -3,7 +3,7 @@
 //! They are solved by Newton's method in the variables that they integrate, hence with the entropy
 //! as unknown.
 
-use super::{ElementScheme, Infeasible, Placement, Start, temperature_at};
+use super::{Answer, ElementScheme, ElementTrial, Infeasible, Placement, Start, temperature_at};
 use crate::free_energy::{Array, FreeEnergy};
 use crate::scalar::Real;
 
@@ -15,6 +15,8 @@ pub(crate) trait PointRule: Send + Sync + 'static {
     const IMPLICIT: f64;
     /// The share c of the step after which the point lies.
     const AT: f64;
+    /// Whether the temperature is the state that the rule integrates.
+    const IN_TEMPERATURE: bool = false;
 }
 
 impl<R, S, M> ElementScheme<S, M> for R
@@ -25,6 +27,7 @@ where
 {
     const PLACEMENT: Placement = R::PLACEMENT;
     const IMPLICIT: f64 = R::IMPLICIT;
+    const IN_TEMPERATURE: bool = R::IN_TEMPERATURE;
 
     type Old = ();
 
@@ -37,6 +40,9 @@ where
         x: &M::Variables,
         entropy_change: S,
     ) -> Result<S, Infeasible> {
+        if R::IN_TEMPERATURE {
+            return Ok(x.as_ref()[M::Variables::LEN - 1]);
+        }
         let c = S::from_f64(R::AT);
         let guess = x.as_ref()[M::Variables::LEN - 1];
         let entropy = start.entropy + c * entropy_change;
@@ -46,10 +52,16 @@ where
     fn respond(
         model: &M,
         start: &Start<S, M, Self::Old>,
-        x: &M::Variables,
+        trial: &ElementTrial<S, M>,
         _: &mut M::Corners,
-    ) -> Result<(M::Response, M::Tangent), Infeasible> {
-        Ok(respond(model, start, x, S::from_f64(R::AT)))
+    ) -> Result<Answer<S, M>, Infeasible> {
+        let c = S::from_f64(R::AT);
+        let mut answer = Answer::new(respond(model, start, &trial.x, c));
+        if M::THERMAL && R::IN_TEMPERATURE {
+            let point = point(start, &trial.x, c);
+            change_entropy_at_rates(model, &point, &trial.increments, c, &mut answer);
+        }
+        Ok(answer)
     }
 }
 
@@ -116,4 +128,45 @@ fn respond<S: Real, M: FreeEnergy<S>, Old>(
         }
     }
     (response, tangent)
+}
+
+/// Replaces the Δs of entropies by that of rates, `Δs = Σ_i (∂s/∂x_i) δ_i` at the point, with the
+/// increments `δ` of measures, viscous stretches and temperature along the step.
+///
+/// With `θ ṡ = Σ g²/η + Q` written as `θ (s_λ λ̇ + s_γ γ̇ + s_θ θ̇)` this is the rule for θ̇.
+fn change_entropy_at_rates<S: Real, M: FreeEnergy<S>>(
+    model: &M,
+    point: &M::Variables,
+    increments: &M::Variables,
+    c: S,
+    answer: &mut Answer<S, M>,
+) {
+    let (variables, last) = (M::Variables::LEN, M::Variables::LEN - 1);
+    let (_, hessian) = model.hessian(point);
+    let entropy_hessian = model.entropy_hessian(point);
+    // ∂s/∂x = −∂²ψ/∂θ∂x
+    let slope = |i: usize| -hessian.as_ref()[last].as_ref()[i];
+    let mut change = S::zero();
+    for (i, &increment) in increments.as_ref().iter().enumerate() {
+        change += slope(i) * increment;
+    }
+    answer.response.as_mut()[variables] = change;
+    for column in 0..variables {
+        let mut entry = S::zero();
+        for (i, &increment) in increments.as_ref().iter().enumerate() {
+            entry += entropy_hessian.as_ref()[i].as_ref()[column] * increment;
+        }
+        // dγ_c/dγ = c and dδ_γ/dγ = 1; dδ_θ/dτ = 1/c; measures enter through their increments.
+        let entry = if column < M::MEASURES {
+            entry
+        } else if column < last {
+            c * entry + slope(column)
+        } else {
+            entry + slope(column) / c
+        };
+        answer.tangent.as_mut()[variables].as_mut()[column] = entry;
+    }
+    for a in 0..M::MEASURES {
+        answer.by_increment.as_mut()[a] = slope(a);
+    }
 }

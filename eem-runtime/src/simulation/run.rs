@@ -56,10 +56,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// assert_eq!(sizes[..3], [0.3; 3]);
     /// assert!((sizes[3] - 0.1_f64).abs() < 1e-15);
     ///
-    /// let late = |run: &Simulation<2>| run.time() > 1.5;
-    /// let end = run.run_until(f64::INFINITY, |run, _| match late(run) {
-    ///     true => ControlFlow::Break(()),
-    ///     false => ControlFlow::Continue(()),
+    /// let end = run.run_until(f64::INFINITY, |run, _| {
+    ///     if run.time() > 1.5 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     /// })?;
     /// assert_eq!((end, run.time()), (RunEnd::Stopped, 1.6));
     /// # Ok::<(), Box<dyn std::error::Error>>(())

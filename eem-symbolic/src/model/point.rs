@@ -58,6 +58,16 @@ impl<'m> PointPrograms<'m> {
         self.program(&self.variables, &[entropy, capacity, magnitude], &[])
     }
 
+    pub(super) fn entropy_hessian(&mut self, theta: Symbol) -> Program {
+        let entropy = self.model.entropy(&mut self.graph, theta);
+        let gradient = self.slopes(entropy);
+        let hessian = gradient
+            .iter()
+            .flat_map(|&slope| self.slopes(slope))
+            .collect::<Vec<_>>();
+        self.program(&self.variables, &[], &hessian)
+    }
+
     pub(super) fn viscosity(&mut self) -> Program {
         let theta = self.model.temperature;
         let mut slopes = Vec::new();

@@ -93,6 +93,11 @@ const _: () = {
                 magnitude: __zero,
             }
         }
+        /// There is no temperature: zero.
+        fn entropy_hessian(&self, _: &Self::Variables) -> Self::Hessian {
+            let __row = __eem::Array::filled(<__S as __eem::Scalar>::zero());
+            __eem::Array::filled(__row)
+        }
         /// There is no dashpot: nothing.
         fn viscosity(&self, _: __S) -> (Self::Viscosities, Self::Viscosities) {
             ([], [])

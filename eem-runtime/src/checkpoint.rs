@@ -1,0 +1,143 @@
+//! A saved state: everything that the next steps depend on, bit for bit.
+
+mod error;
+mod outline;
+#[cfg(feature = "serde")]
+mod scheme_name;
+
+use crate::compensated::Compensated;
+use crate::newton::NewtonSettings;
+use crate::scalar::Real;
+use crate::scene::is_positive;
+use crate::scheme::Scheme;
+use crate::state::State;
+
+pub use error::RestoreError;
+pub(crate) use outline::Outline;
+
+/// A state of a [`Simulation`](crate::Simulation) to go on from later: values, what rounding took
+/// from them, time, step size and Newton settings.
+///
+/// A run that is resumed from a checkpoint has the same bits as one that was never interrupted. The
+/// scene itself is not part of it: models, masses, conductances and loads come from the
+/// program that builds the scene again. Functions of time must then depend on nothing else.
+///
+/// With the feature `serde` it can be written to a file and read back. The text must give back
+/// every bit of a float; for `serde_json` that is its feature `float_roundtrip`.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
+pub struct Checkpoint<S = f64> {
+    #[cfg_attr(feature = "serde", serde(with = "scheme_name"))]
+    pub(crate) scheme: Scheme,
+    pub(crate) outline: Outline,
+    pub(crate) step: S,
+    pub(crate) newton: NewtonSettings<S>,
+    pub(crate) state: State<S>,
+}
+
+impl<S: Copy> Checkpoint<S> {
+    /// The scheme of the saved simulation.
+    #[must_use]
+    pub const fn scheme(&self) -> Scheme {
+        self.scheme
+    }
+
+    /// The step size of the saved simulation, s.
+    #[must_use]
+    pub const fn step_size(&self) -> S {
+        self.step
+    }
+}
+
+impl<S: Real> Checkpoint<S> {
+    /// An error unless it is one of a simulation of this scheme, outline and state.
+    pub(crate) fn check(
+        &self,
+        scheme: Scheme,
+        outline: &Outline,
+        state: &State<S>,
+    ) -> Result<(), RestoreError> {
+        if self.scheme != scheme {
+            return Err(RestoreError::Scheme {
+                checkpoint: self.scheme,
+                simulation: scheme,
+            });
+        }
+        self.outline.compare(outline)?;
+        let (own, other) = (sums(&self.state), sums(state));
+        for ((quantity, own), (_, other)) in own.into_iter().zip(other) {
+            expect_count(quantity, own.values().len(), other.values().len())?;
+            let numbers = own.sums().flat_map(|(value, carry)| [value, carry]);
+            expect_all("finite", quantity, numbers, Real::is_finite)?;
+        }
+        let (own, other) = (&self.state.temperatures, &state.temperatures);
+        expect_count("temperatures", own.len(), other.len())?;
+        let positive = "positive and finite";
+        expect_all(positive, "temperatures", own.iter().copied(), is_positive)?;
+        expect_all(positive, "step size", [self.step].into_iter(), is_positive)
+    }
+}
+
+/// All sums of a state with their names. The pattern makes a new one impossible to forget.
+fn sums<S>(state: &State<S>) -> [(&'static str, &Compensated<S>); 10] {
+    let State {
+        time,
+        positions,
+        momenta,
+        viscous,
+        entropies,
+        temperatures: _,
+        reservoir_entropies,
+        work,
+        heat,
+        thermostat_entropy,
+        dissipated,
+    } = state;
+    [
+        ("time", time),
+        ("coordinates", positions),
+        ("momenta", momenta),
+        ("viscous stretches", viscous),
+        ("entropies", entropies),
+        ("reservoir entropies", reservoir_entropies),
+        ("work", work),
+        ("heat", heat),
+        ("thermostat entropy", thermostat_entropy),
+        ("lost heat", dissipated),
+    ]
+}
+
+fn expect_count(
+    quantity: &'static str,
+    checkpoint: usize,
+    simulation: usize,
+) -> Result<(), RestoreError> {
+    if checkpoint == simulation {
+        return Ok(());
+    }
+    Err(RestoreError::Count {
+        quantity,
+        checkpoint,
+        simulation,
+    })
+}
+
+fn expect_all<S: Real>(
+    required: &'static str,
+    quantity: &'static str,
+    mut values: impl Iterator<Item = S>,
+    is_met: fn(S) -> bool,
+) -> Result<(), RestoreError> {
+    match values.find(|&value| !is_met(value)) {
+        None => Ok(()),
+        Some(value) => Err(RestoreError::Value {
+            quantity,
+            value: value.to_f64(),
+            required,
+        }),
+    }
+}

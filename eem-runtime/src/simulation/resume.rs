@@ -1,0 +1,56 @@
+//! Saving a state and going on from it.
+
+use super::Simulation;
+use crate::checkpoint::{Checkpoint, Outline, RestoreError};
+use crate::scalar::Real;
+
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// The present state, with all that the next steps depend on.
+    ///
+    /// ```
+    /// use eem_runtime::{Scene, Scheme, Simulation};
+    ///
+    /// let mut scene = Scene::<2>::new();
+    /// scene.anchor([0.0, 0.0]);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// run.step()?;
+    /// let saved = run.checkpoint();
+    /// run.set_step_size(0.5)?;
+    /// run.step()?;
+    /// assert_eq!((run.time(), run.step_size()), (0.6, 0.5));
+    /// run.restore(&saved)?;
+    /// assert_eq!((run.time(), run.step_size()), (0.1, 0.1));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn checkpoint(&self) -> Checkpoint<S> {
+        Checkpoint {
+            scheme: self.scheme,
+            outline: self.outline(),
+            step: self.step,
+            newton: self.newton_settings(),
+            state: self.state.clone(),
+        }
+    }
+
+    /// Goes back, or on, to a saved state, of this simulation or of one of the same scene in another
+    /// process: nodes, elements and reservoirs must have been created in the same order.
+    ///
+    /// # Errors
+    ///
+    /// [`RestoreError`] if the checkpoint is one of another scheme or of a scene of another shape, or
+    /// has values that no simulation has. The simulation is then as it was before.
+    pub fn restore(&mut self, checkpoint: &Checkpoint<S>) -> Result<(), RestoreError> {
+        checkpoint.check(self.scheme, &self.outline(), &self.state)?;
+        self.has_stepped = false;
+        self.state.copy_from(&checkpoint.state);
+        self.step = checkpoint.step;
+        self.set_newton_settings(checkpoint.newton);
+        Ok(())
+    }
+
+    fn outline(&self) -> Outline {
+        let reservoirs = self.conduction.reservoirs.len();
+        Outline::new(D, &self.masses, &self.shapes, reservoirs)
+    }
+}

@@ -1,0 +1,102 @@
+//! The ledger: what the road gave and what became of it, and the laws that it must keep.
+
+use comfy_table::{Table, presets};
+
+use super::support::claims::Claims;
+use super::support::record::{Outcome, Record};
+use super::support::statistics::Statistics;
+use super::support::terminal;
+use super::{DAMPER, TRACK, TYRE};
+
+/// What rounding may do to E − work − heat, relative to the largest term in it, c θ. The state is
+/// kept to twice the working precision and energy is closed in every step, so that the defect does
+/// not grow with their number; evaluating E from θ costs a few roundings of ε/2.
+const BALANCE_DEFECT: f64 = 2.0 * f64::EPSILON;
+
+/// What rounding may take from S in a step, J/K: two units in the last place, |S| < 128 J/K.
+const ENTROPY_LOSS: f64 = 2.0 * 64.0 * f64::EPSILON;
+
+/// What was given and what became of it, a row per scheme.
+pub(crate) fn print(runs: &[Record]) {
+    let mut table = Table::new();
+    table.load_style(presets::ASCII_MARKDOWN).set_header([
+        "scheme",
+        "work of the road (J)",
+        "heat to the air (J)",
+        "balance defect (J)",
+        "least ΔS (J/K)",
+        "Newton/step",
+        "µs/step",
+    ]);
+    for run in runs {
+        let figures = Statistics::of(run);
+        let last = |name| run.column(name).and_then(|values| values.last().copied());
+        let cell = |value: Option<f64>, format: fn(f64) -> String| value.map_or("–".into(), format);
+        let time = figures.time_per_step.map(|time| time.as_secs_f64());
+        table.add_row([
+            run.scheme.clone(),
+            cell(last("work"), |work| format!("{work:.3}")),
+            cell(last("reservoir_heat"), |heat| format!("{heat:.3}")),
+            cell(balance_defect(run), |defect| format!("{defect:.1e}")),
+            cell(figures.entropy_increment, |least| format!("{least:.1e}")),
+            cell(figures.newton_iterations, |mean| format!("{mean:.2}")),
+            cell(time, |time| format!("{:.1}", 1e6 * time)),
+        ]);
+    }
+    terminal::say(format_args!("{table}\n"));
+    for run in runs {
+        if let Outcome::Failed { time, reason } = &run.outcome {
+            let scheme = &run.scheme;
+            terminal::say(format_args!(
+                "{scheme} failed after t = {time:.6} s: {reason}"
+            ));
+        }
+    }
+    terminal::say("Balance: B = E − work − heat; its defect is max |B − B₀| over the drive.");
+    let has_settled =
+        |power: &f64| power.is_finite() && runs[0].steps() > 0 && lasts_a_lap(&runs[0]);
+    if let Some(power) = mean_power(&runs[0]).filter(has_settled) {
+        let expected = TRACK.power(TYRE);
+        terminal::say(format_args!(
+            "The road gives {power:.0} W, a road of all wavelengths {expected:.0} W, thick oil or thin."
+        ));
+    }
+}
+
+/// max |B − B₀|, J.
+fn balance_defect(run: &Record) -> Option<f64> {
+    let balance = run.column("balance")?;
+    let defects = balance.iter().map(|value| (value - balance[0]).abs());
+    defects.reduce(|a, b| if a.is_nan() || a > b { a } else { b })
+}
+
+/// The two laws of thermodynamics, for the schemes that promise them.
+pub(crate) fn check(run: &Record, claims: &mut Claims) {
+    let scheme = &run.scheme;
+    if !scheme.starts_with("eem-") {
+        return;
+    }
+    claims.holds(
+        run.completed(),
+        format!("{scheme} does not reach the end time"),
+    );
+    let temperatures = run.column("theta_1").unwrap_or_default();
+    let heat = DAMPER.capacity * temperatures.into_iter().fold(0.0, f64::max);
+    claims.at_most(
+        &format!("{scheme}: the defect of the balance (J)"),
+        balance_defect(run),
+        BALANCE_DEFECT * heat,
+    );
+    claims.at_least(
+        &format!("{scheme}: the smallest entropy increment (J/K)"),
+        Statistics::of(run).entropy_increment,
+        -ENTROPY_LOSS,
+    );
+}
+
+/// Mean power of the road, W; `None` before the first lap is full, while the car still gathers
+/// energy.
+pub(crate) fn mean_power(run: &Record) -> Option<f64> {
+    let (time, work) = (*run.column("time")?.last()?, *run.column("work")?.last()?);
+    (time >= TRACK.lap_time()).then_some(work / time)
+}
