@@ -45,10 +45,10 @@
 //!
 //! What the example claims, and fails without: with every energy–entropy–momentum scheme and any
 //! step that sees the road, energy minus work minus heat is constant to rounding and no step loses
-//! entropy; the damper warms by
-//! more than 20 K in a minute, which shakes the body at least 10 % less and moves the suspension
-//! at least 10 % more than a damper of constant viscosity; the wheel stays on the road, which
-//! does within 10 % the work that a road of all wavelengths does, `π² G₀ n₀² v k_t`.
+//! entropy; the damper warms by more than 20 K in a minute, which shakes the body at least 10 %
+//! less and moves the suspension at least 10 % more than a damper of constant viscosity; the wheel
+//! stays on the road, which does within 10 % the work that a road of all wavelengths does,
+//! `π² G₀ n₀² v k_t`.
 
 use std::error::Error;
 use std::path::Path;

@@ -42,6 +42,7 @@ mod support;
 use support::claims::{self, Claims};
 use support::command_line::CommandLine;
 use support::comparison::{Comparison, Plot};
+use support::figures::Axes;
 use support::record::Record;
 use support::simulate::{self, Watched};
 use support::statistics::Statistics;
@@ -207,6 +208,7 @@ fn write(directory: &Path, reference: &Record, runs: &[Record]) -> Result<(), Bo
     for run in runs {
         output::write_csv(directory, run)?;
     }
+    let reference = Some(reference);
     Comparison { reference, runs }.write(directory, &PLOTS)?;
     terminal::say(format_args!("States and figures: {}", directory.display()));
     Ok(())
@@ -220,62 +222,45 @@ const PLOTS: [Plot; 7] = [
         x_label: "x (m)",
         y_label: "y (m)",
         points: |run| run.points("q1_x", "q1_y"),
-        is_map: true,
+        axes: Axes::Map,
     },
-    history(
+    Plot::history(
         "figure_3_length",
         "Length of the spring",
         "length λ (m)",
         lengths,
     ),
-    history(
+    Plot::history(
         "figure_4_viscous_stretch",
         "Viscous stretch",
         "viscous stretch γ (m)",
         |run| run.points("time", "gamma_1"),
     ),
-    history(
+    Plot::history(
         "figure_5_temperature",
         "Temperature of the spring",
         "temperature θ (K)",
         |run| run.points("time", "theta_1"),
     ),
-    history(
+    Plot::history(
         "figure_6_angular_momentum",
         "Angular momentum",
         "angular momentum J (kg m²/s)",
         |run| run.points("time", "angular_momentum"),
     ),
-    history(
+    Plot::history(
         "figure_7_energy",
         "Total energy",
         "total energy E (J)",
         |run| run.points("time", "energy"),
     ),
-    history(
+    Plot::history(
         "figure_8_entropy",
         "Total entropy",
         "total entropy S (J/K)",
         |run| run.points("time", "entropy"),
     ),
 ];
-
-/// A quantity over time.
-const fn history(
-    file: &'static str,
-    title: &'static str,
-    y_label: &'static str,
-    points: fn(&Record) -> Vec<(f64, f64)>,
-) -> Plot {
-    Plot {
-        file,
-        title,
-        x_label: "time (s)",
-        y_label,
-        points,
-        is_map: false,
-    }
-}
 
 /// λ = |q| over time.
 fn lengths(run: &Record) -> Vec<(f64, f64)> {

@@ -239,3 +239,24 @@ fn bad_loads_are_typed_errors() {
     let road = falling(0.0, 300.0, f64::INFINITY);
     assert!(matches!(road, Err(StepFailure::Motion { .. })), "{road:?}");
 }
+
+#[test]
+fn a_mass_without_springs_falls_freely() {
+    for scheme in Scheme::ALL {
+        let mut scene = Scene::<2>::new();
+        let stone = scene.mass(2.0, [0.0, 10.0], [3.0, 0.0]);
+        scene.set_gravity([0.0, -9.81]);
+        let mut run = Simulation::new(scene, scheme, 0.1).unwrap();
+        for _ in 0..10 {
+            run.step().unwrap();
+        }
+        let position = run.position(stone).unwrap();
+        approx::assert_relative_eq!(position.x, 3.0, max_relative = 1e-14);
+        approx::assert_relative_eq!(position.y, 10.0 - 0.5 * 9.81, max_relative = 1e-14);
+        approx::assert_relative_eq!(
+            run.ledger().energy,
+            2.0 * 9.81 * 10.0 + 9.0,
+            max_relative = 1e-14
+        );
+    }
+}

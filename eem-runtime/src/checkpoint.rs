@@ -24,6 +24,28 @@ pub(crate) use outline::Outline;
 ///
 /// With the feature `serde` it can be written to a file and read back. The text must give back
 /// every bit of a float; for `serde_json` that is its feature `float_roundtrip`.
+///
+/// ```
+/// use eem_runtime::{Scene, Scheme, Simulation};
+///
+/// let build = |scheme, step| {
+///     let mut scene = Scene::<2>::new();
+///     scene.anchor([0.0, 0.0]);
+///     Simulation::new(scene, scheme, step)
+/// };
+/// let mut run = build(Scheme::EemEntropy, 0.1)?;
+/// run.step()?;
+/// let saved = run.checkpoint();
+///
+/// let mut later = build(saved.scheme(), 1.0)?;
+/// later.restore(&saved)?;
+/// later.step()?;
+/// assert_eq!((later.time(), later.step_size()), (0.2, 0.1));
+///
+/// let mut other = build(Scheme::Midpoint, 0.1)?;
+/// assert!(other.restore(&saved).is_err());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",

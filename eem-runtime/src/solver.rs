@@ -19,6 +19,9 @@ const HALVINGS: u32 = 30;
 /// Parts of a step through which a solution is followed when it is not found at once.
 const STAGES: u8 = 8;
 
+/// Iterations for which memory is kept; settings that ask for more allocate when they get there.
+const LONGEST_HISTORY: usize = 4096;
+
 /// Working memory of a step; nothing in it outlives the step.
 #[derive(Clone, Debug)]
 pub(crate) struct Solver<S> {
@@ -93,9 +96,10 @@ impl<S: Real> Solver<S> {
     /// Forgets the last step.
     pub(crate) fn restart(&mut self) {
         // Two parts of a staggered step, each followed through all stages at worst.
-        let most = 2 * self.settings.max_iterations * usize::from(STAGES + 1);
+        let parts = 2 * usize::from(STAGES + 1);
+        let most = self.settings.max_iterations.saturating_mul(parts);
         self.history.clear();
-        self.history.reserve(most);
+        self.history.reserve(most.min(LONGEST_HISTORY));
     }
 
     /// The state after the step, or after the part of it that the view names.

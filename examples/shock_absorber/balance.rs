@@ -53,9 +53,7 @@ pub(crate) fn print(runs: &[Record]) {
         }
     }
     terminal::say("Balance: B = E − work − heat; its defect is max |B − B₀| over the drive.");
-    let has_settled =
-        |power: &f64| power.is_finite() && runs[0].steps() > 0 && lasts_a_lap(&runs[0]);
-    if let Some(power) = mean_power(&runs[0]).filter(has_settled) {
+    if let Some(power) = mean_power(&runs[0]) {
         let expected = TRACK.power(TYRE);
         terminal::say(format_args!(
             "The road gives {power:.0} W, a road of all wavelengths {expected:.0} W, thick oil or thin."

@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::Path;
 
 use super::ride::Lap;
-use super::support::figures::{Curve, Figure};
+use super::support::figures::{Axes, Curve, Figure};
 use super::support::record::Record;
 use super::{CELSIUS, CLEARANCE, RADIUS, TRACK};
 
@@ -142,7 +142,7 @@ fn figure(title: &str, [x_label, y_label]: [&str; 2], curves: Vec<(&str, Points)
         x_label: x_label.to_owned(),
         y_label: y_label.to_owned(),
         curves: curves.into_iter().enumerate().map(curve).collect(),
-        is_map: false,
+        axes: Axes::Even,
     }
 }
 

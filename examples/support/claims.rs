@@ -3,6 +3,8 @@
 use std::error::Error;
 use std::process::ExitCode;
 
+use super::record::Record;
+use super::statistics::Statistics;
 use super::terminal;
 
 /// What `main` returns: 0 when the example ran and all its claims hold, otherwise 1 and why.
@@ -14,6 +16,17 @@ pub(crate) fn verdict(outcome: Result<Claims, Box<dyn Error>>) -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// What rounding may do to the laws over a run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Laws {
+    /// To the energy, relative to itself.
+    pub(crate) energy: f64,
+    /// To the angular momentum, relative to itself.
+    pub(crate) angular_momentum: f64,
+    /// To the entropy in one step, in units in its last place.
+    pub(crate) entropy: f64,
 }
 
 /// The claims checked so far, and those that do not hold.
@@ -39,6 +52,32 @@ impl Claims {
         self.holds(
             value >= bound,
             format!("{what} is {value:e}, claimed is at least {bound:e}"),
+        );
+    }
+
+    /// Claims that a run reaches its end and keeps the laws to rounding: energy and angular momentum
+    /// to the given shares of themselves, and entropy never less by more than `entropy` units in the
+    /// last place.
+    pub(crate) fn keeps_the_laws(&mut self, run: &Record, laws: &Laws) {
+        let (scheme, figures) = (&run.scheme, Statistics::of(run));
+        self.holds(
+            run.completed(),
+            format!("{scheme} does not reach the end time"),
+        );
+        self.at_most(
+            &format!("{scheme}: the relative energy defect"),
+            figures.energy_defect,
+            laws.energy,
+        );
+        self.at_most(
+            &format!("{scheme}: the relative angular momentum defect"),
+            figures.angular_momentum_defect,
+            laws.angular_momentum,
+        );
+        self.at_least(
+            &format!("{scheme}: the smallest entropy increment (units in the last place)"),
+            figures.entropy_increment_ulps,
+            -laws.entropy,
         );
     }
 

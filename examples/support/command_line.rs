@@ -32,8 +32,7 @@ pub(crate) struct CommandLine {
 impl CommandLine {
     /// Reads the process's arguments; prints help or the error and exits when there is no run.
     pub(crate) fn read(about: &'static str) -> Self {
-        let matches = Self::command().about(about).get_matches();
-        Self::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+        read(about)
     }
 
     /// The schemes asked for.
@@ -53,6 +52,13 @@ impl CommandLine {
                 .exit()
         })
     }
+}
+
+/// Reads the process's arguments for an example that has options of its own, in which it flattens
+/// [`CommandLine`]; prints help or the error and exits when there is no run.
+pub(crate) fn read<T: CommandFactory + FromArgMatches>(about: &'static str) -> T {
+    let matches = T::command().about(about).get_matches();
+    T::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
 }
 
 /// Accepts the names of the schemes and `all`.

@@ -5,9 +5,13 @@ use std::path::Path;
 
 use eem::Scheme;
 
-use super::figures::{Curve, Figure};
+use super::figures::{Axes, Curve, Figure};
 use super::record::{Outcome, Record};
 use super::statistics::{self, BREAKDOWN};
+
+/// Defects on a logarithmic axis are drawn between a quarter of a rounding error, which stands for
+/// none at all, and a value beyond which it does not matter how large they are.
+const DRAWN_DEFECTS: [f64; 2] = [0.25 * f64::EPSILON, 100.0];
 
 /// Relative energy defect from which on a run shows nothing but its own collapse.
 const LOST: f64 = 0.05;
@@ -25,14 +29,65 @@ pub(crate) struct Plot {
     pub(crate) y_label: &'static str,
     /// The points of a run's curve.
     pub(crate) points: fn(&Record) -> Vec<(f64, f64)>,
-    /// Whether a unit is as long on both axes, as in a map.
-    pub(crate) is_map: bool,
+    /// How the axes are divided.
+    pub(crate) axes: Axes,
 }
 
-/// The runs that are compared: the reference, drawn first, and a run per scheme.
+impl Plot {
+    /// A quantity over time.
+    pub(crate) const fn history(
+        file: &'static str,
+        title: &'static str,
+        y_label: &'static str,
+        points: fn(&Record) -> Vec<(f64, f64)>,
+    ) -> Self {
+        Self {
+            file,
+            title,
+            x_label: "time (s)",
+            y_label,
+            points,
+            axes: Axes::Even,
+        }
+    }
+
+    /// A relative defect over time, by powers of ten.
+    pub(crate) const fn defect(
+        file: &'static str,
+        title: &'static str,
+        y_label: &'static str,
+        points: fn(&Record) -> Vec<(f64, f64)>,
+    ) -> Self {
+        Self {
+            axes: Axes::Logarithmic,
+            ..Self::history(file, title, y_label, points)
+        }
+    }
+
+    /// The curve of a run.
+    fn curve(&self, look: usize, run: &Record) -> Curve {
+        let is_logarithmic = self.axes == Axes::Logarithmic;
+        let mut points = (self.points)(run);
+        if is_logarithmic {
+            let [least, most] = DRAWN_DEFECTS;
+            for (_, defect) in &mut points {
+                *defect = defect.clamp(least, most);
+            }
+        }
+        Curve {
+            label: label(run, is_logarithmic),
+            points,
+            look,
+            trusted: is_logarithmic || is_sound(run),
+            decisive: lost(run).filter(|_| !is_logarithmic).unwrap_or(usize::MAX),
+        }
+    }
+}
+
+/// The runs that are compared: the reference, drawn first if there is one, and a run per scheme.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Comparison<'a> {
-    pub(crate) reference: &'a Record,
+    pub(crate) reference: Option<&'a Record>,
     pub(crate) runs: &'a [Record],
 }
 
@@ -48,21 +103,13 @@ impl Comparison<'_> {
 
     fn figure(&self, plot: &Plot) -> Figure {
         let runs = self.runs.iter().map(|run| (look(&run.scheme), run));
-        let curves = std::iter::once((0, self.reference)).chain(runs);
+        let curves = self.reference.into_iter().map(|run| (0, run)).chain(runs);
         Figure {
             title: plot.title.to_owned(),
             x_label: plot.x_label.to_owned(),
             y_label: plot.y_label.to_owned(),
-            is_map: plot.is_map,
-            curves: curves
-                .map(|(look, run)| Curve {
-                    label: label(run),
-                    points: (plot.points)(run),
-                    look,
-                    trusted: is_sound(run),
-                    decisive: lost(run).unwrap_or(usize::MAX),
-                })
-                .collect(),
+            axes: plot.axes,
+            curves: curves.map(|(look, run)| plot.curve(look, run)).collect(),
         }
     }
 }
@@ -77,9 +124,10 @@ fn lost(run: &Record) -> Option<usize> {
     statistics::first_energy_beyond(run, LOST)
 }
 
-fn label(run: &Record) -> String {
+/// The scheme, and what went wrong unless the curve `shows_it`.
+fn label(run: &Record, shows_it: bool) -> String {
     let scheme = &run.scheme;
-    match (&run.outcome, lost(run)) {
+    match (&run.outcome, lost(run).filter(|_| !shows_it)) {
         (Outcome::Failed { time, .. }, _) => format!("{scheme} (fails at {time:.1} s)"),
         (Outcome::Completed, Some(row)) => {
             format!("{scheme} (energy off by 5 % at {:.1} s)", run.time(row))
@@ -89,7 +137,7 @@ fn label(run: &Record) -> String {
 }
 
 /// A scheme looks the same in every picture, whatever else is drawn; 0 is the reference's look.
-fn look(name: &str) -> usize {
+pub(crate) fn look(name: &str) -> usize {
     let mut schemes = Scheme::ALL.iter();
     let known = schemes.position(|scheme| scheme.name() == name);
     1 + known.unwrap_or(Scheme::ALL.len())

@@ -3,6 +3,7 @@
 //! A run that blows up does not destroy the picture: the axes follow the trusted curves, the
 //! others may widen them within reason and are clipped beyond.
 
+mod axis;
 mod chart;
 mod clip;
 mod legend;
@@ -24,8 +25,21 @@ pub(crate) struct Figure {
     pub(crate) y_label: String,
     /// The curves, drawn in this order: later ones lie on top.
     pub(crate) curves: Vec<Curve>,
-    /// Whether a unit is as long on both axes, as in a map: for trajectories.
-    pub(crate) is_map: bool,
+    /// How the axes are divided.
+    pub(crate) axes: Axes,
+}
+
+/// How the axes of a picture are divided.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Axes {
+    /// Both evenly.
+    Even,
+    /// Both evenly, and a unit is as long on both, as in a map: for trajectories.
+    Map,
+    /// The vertical axis by powers of ten: for errors over time.
+    Logarithmic,
+    /// Both by powers of ten: for errors over step sizes.
+    DoublyLogarithmic,
 }
 
 /// One curve of a picture.

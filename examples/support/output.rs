@@ -19,6 +19,26 @@ pub(crate) fn write_csv(directory: &Path, record: &Record) -> io::Result<PathBuf
     Ok(path)
 }
 
+/// Writes `NAME.csv` with these column heads and rows of numbers, not a number where one is missing.
+pub(crate) fn write_numbers(
+    directory: &Path,
+    name: &str,
+    heads: &[&str],
+    rows: &[Vec<f64>],
+) -> io::Result<PathBuf> {
+    let path = directory.join(format!("{name}.csv"));
+    let write = || {
+        let mut writer = csv::Writer::from_path(&path)?;
+        writer.write_record(heads)?;
+        for row in rows {
+            writer.write_record(row.iter().map(|value| format!("{value:.16e}")))?;
+        }
+        writer.flush()
+    };
+    write().map_err(|error| naming(&path, &error))?;
+    Ok(path)
+}
+
 fn write_rows(path: &Path, record: &Record) -> io::Result<()> {
     let mut writer = csv::Writer::from_path(path)?;
     let names = record.columns().iter().map(String::as_str);

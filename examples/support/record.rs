@@ -84,6 +84,24 @@ impl Record {
         self.rows[row].values[0]
     }
 
+    /// The part of the run up to `time` (s), without the outcome of what follows.
+    pub(crate) fn until(&self, time: f64) -> Self {
+        let is_early = |row: &&Row| row.values[0] <= time;
+        let rows: Vec<Row> = self.rows.iter().take_while(is_early).cloned().collect();
+        let outcome = if rows.len() < self.rows.len() {
+            Outcome::Completed
+        } else {
+            self.outcome.clone()
+        };
+        Self {
+            scheme: self.scheme.clone(),
+            outcome,
+            elapsed: self.elapsed,
+            columns: self.columns.clone(),
+            rows,
+        }
+    }
+
     /// The values of one column; `None` when the scene has no such quantity.
     pub(crate) fn column(&self, name: &str) -> Option<Vec<f64>> {
         let index = self.columns.iter().position(|column| column == name)?;
@@ -99,6 +117,29 @@ impl Record {
             .iter()
             .map(|row| chosen.iter().map(|&index| row.values[index]).collect())
             .collect()
+    }
+
+    /// |v| over time, where the columns that begin with `v` are the components of v.
+    pub(crate) fn norms(&self, v: &str) -> Vec<(f64, f64)> {
+        let lengths = self.vectors(|column| column.starts_with(v));
+        let norm = |vector: &Vec<f64>| vector.iter().map(|value| value * value).sum::<f64>().sqrt();
+        self.over_time(lengths.iter().map(norm))
+    }
+
+    /// |v − u| over time, where the columns that begin with `u` and `v` are the components.
+    pub(crate) fn distances(&self, u: &str, v: &str) -> Vec<(f64, f64)> {
+        let [from, to] = [u, v].map(|name| self.vectors(|column| column.starts_with(name)));
+        let distance = |(u, v): (&Vec<f64>, &Vec<f64>)| {
+            let squares = u.iter().zip(v).map(|(u, v)| (v - u) * (v - u));
+            squares.sum::<f64>().sqrt()
+        };
+        self.over_time(from.iter().zip(&to).map(distance))
+    }
+
+    /// A value per state, with the time of the state.
+    pub(crate) fn over_time(&self, values: impl Iterator<Item = f64>) -> Vec<(f64, f64)> {
+        let times = self.rows.iter().map(|row| row.values[0]);
+        times.zip(values).collect()
     }
 
     /// The points (x, y) of two columns, for a figure; empty when one of them is missing.

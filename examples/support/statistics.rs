@@ -5,7 +5,7 @@ use std::time::Duration;
 use super::record::Record;
 
 /// Two recorded times closer than this (s) are the same time; accumulated steps differ by rounding.
-const TIME_TOLERANCE: f64 = 1e-9;
+pub(crate) const TIME_TOLERANCE: f64 = 1e-9;
 
 /// Relative energy defect beyond which a run has broken down, whether or not it goes on.
 pub(crate) const BREAKDOWN: f64 = 0.01;
@@ -19,6 +19,8 @@ pub(crate) struct Statistics {
     pub(crate) energy_defect: Option<f64>,
     /// min (Sₙ₊₁ − Sₙ) in J/K; the second law asks for ≥ 0.
     pub(crate) entropy_increment: Option<f64>,
+    /// The same in units in the last place of S.
+    pub(crate) entropy_increment_ulps: Option<f64>,
     /// max |J − J₀| / |J₀|, in the Euclidean norm when J has components.
     pub(crate) angular_momentum_defect: Option<f64>,
     /// Mean Newton iterations of a completed step.
@@ -30,16 +32,16 @@ pub(crate) struct Statistics {
 impl Statistics {
     /// The figures of `record`.
     pub(crate) fn of(record: &Record) -> Self {
-        let angular_momentum =
-            |name: &str| name == "angular_momentum" || name.starts_with("angular_momentum_");
         let rows = record.rows();
         let iterations = rows.iter().map(|row| row.newton_iterations).sum();
         let energy = record.vectors(|name| name == "energy");
+        let entropy = record.column("entropy");
         Self {
             breakdown: first_energy_beyond(record, BREAKDOWN).map(|row| record.time(row)),
             energy_defect: largest(defects(&energy)),
-            entropy_increment: smallest_increment(record.column("entropy").as_deref()),
-            angular_momentum_defect: largest(defects(&record.vectors(angular_momentum))),
+            entropy_increment: smallest_increment(entropy.as_deref(), |_| 1.0),
+            entropy_increment_ulps: smallest_increment(entropy.as_deref(), ulp),
+            angular_momentum_defect: largest(defects(&record.vectors(is_angular_momentum))),
             newton_iterations: ratio(iterations, record.steps()),
             time_per_step: u32::try_from(record.steps())
                 .ok()
@@ -75,6 +77,29 @@ pub(crate) fn position_error(record: &Record, exact: &Record) -> Option<f64> {
     (size > 0.0).then(|| (difference / size).sqrt())
 }
 
+/// The largest |E − E₀| / |E₀| so far, over time from the first step on.
+pub(crate) fn energy_defects(record: &Record) -> Vec<(f64, f64)> {
+    largest_so_far(record, &record.vectors(|name| name == "energy"))
+}
+
+/// The largest |J − J₀| / |J₀| so far, in the Euclidean norm when J has components, over time from
+/// the first step on.
+pub(crate) fn angular_momentum_defects(record: &Record) -> Vec<(f64, f64)> {
+    largest_so_far(record, &record.vectors(is_angular_momentum))
+}
+
+fn largest_so_far(record: &Record, vectors: &[Vec<f64>]) -> Vec<(f64, f64)> {
+    let so_far = defects(vectors).scan(0.0_f64, |largest, defect| {
+        *largest = largest.max(defect);
+        Some(*largest)
+    });
+    record.over_time(so_far).split_off(1)
+}
+
+fn is_angular_momentum(column: &str) -> bool {
+    column == "angular_momentum" || column.starts_with("angular_momentum_")
+}
+
 /// |v − v₀| / |v₀| for every v; nothing without components or where v₀ vanishes.
 fn defects(vectors: &[Vec<f64>]) -> impl Iterator<Item = f64> {
     let first = vectors.first().filter(|first| norm(first) > 0.0);
@@ -96,9 +121,15 @@ fn ratio(count: usize, total: usize) -> Option<f64> {
     (total > 0).then(|| f64::from(count) / f64::from(total))
 }
 
-fn smallest_increment(values: Option<&[f64]>) -> Option<f64> {
-    let decrements = values?.windows(2).map(|pair| pair[0] - pair[1]);
-    largest(decrements).map(|decrement| -decrement)
+/// The smallest increment from one value to the next, in units of `unit` of the old one.
+fn smallest_increment(values: Option<&[f64]>, unit: fn(f64) -> f64) -> Option<f64> {
+    let decrement = |pair: &[f64]| (pair[0] - pair[1]) / unit(pair[0]);
+    largest(values?.windows(2).map(decrement)).map(|decrement| 0.0 - decrement)
+}
+
+/// The distance from |value| to the next larger double.
+fn ulp(value: f64) -> f64 {
+    value.abs().next_up() - value.abs()
 }
 
 fn norm(vector: &[f64]) -> f64 {

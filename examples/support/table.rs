@@ -5,10 +5,10 @@ use std::time::Duration;
 use comfy_table::{Table, presets};
 
 use super::record::{Outcome, Record};
-use super::statistics::{self, BREAKDOWN, Statistics};
+use super::statistics::{self, BREAKDOWN, Statistics, TIME_TOLERANCE};
 use super::terminal;
 
-/// Column heads, with units where there are any.
+/// Column heads, with units where there are any; the last needs a reference.
 const HEADS: [&str; 8] = [
     "scheme",
     "outcome",
@@ -21,23 +21,46 @@ const HEADS: [&str; 8] = [
 ];
 
 /// What the heads mean.
-const LEGEND: &str = "Defects are max |X − X₀|/|X₀| over the run; the error of q is its root mean \
-                      square over the run, relative to the reference.";
+const DEFECTS: &str = "Defects are max |X − X₀|/|X₀| over the run";
+const ERRORS: &str = "the error of q is its root mean square over";
 
-/// Prints a row per record and, below, the reasons of failed runs and what the heads mean.
+/// Prints a row per record and, below, the reasons of failed runs and what the heads mean. Positions
+/// are compared as long as the reference runs.
 pub(crate) fn print(records: &[Record], reference: Option<&Record>) {
+    let columns = HEADS.len() - usize::from(reference.is_none());
     let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_header(HEADS);
+    table
+        .load_style(presets::ASCII_MARKDOWN)
+        .set_header(&HEADS[..columns]);
     for record in records {
-        table.add_row(row(record, reference));
+        table.add_row(row(record, reference).into_iter().take(columns));
     }
     terminal::say(format_args!("{table}\n"));
     for record in records {
         explain(record);
     }
-    terminal::say(LEGEND);
+    match reference {
+        Some(reference) => {
+            let times = compared(records, reference);
+            terminal::say(format_args!(
+                "{DEFECTS}; {ERRORS} {times}, relative to the reference."
+            ));
+        }
+        None => terminal::say(format_args!("{DEFECTS}.")),
+    }
 }
 
+/// The times over which positions are compared.
+fn compared(records: &[Record], reference: &Record) -> String {
+    let end = |record: &Record| record.rows().last().map_or(0.0, |row| row.values[0]);
+    let longest = records.iter().map(end).fold(0.0, f64::max);
+    let end = end(reference);
+    if end < longest - TIME_TOLERANCE {
+        format!("the first {end:.1} s")
+    } else {
+        "the run".to_owned()
+    }
+}
 /// Says when and why a run broke down.
 fn explain(record: &Record) {
     let scheme = &record.scheme;

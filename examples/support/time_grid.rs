@@ -40,6 +40,22 @@ impl TimeGrid {
         })
     }
 
+    /// The time (s) that the last step reaches.
+    pub(crate) fn end(self) -> f64 {
+        self.step * as_real(self.steps)
+    }
+
+    /// The same end time with steps `2^halvings` times smaller; only the end is recorded.
+    pub(crate) fn halved(self, halvings: u32) -> Self {
+        let parts = 2_usize.pow(halvings);
+        let steps = self.steps * parts;
+        Self {
+            step: self.step / as_real(parts),
+            steps,
+            stride: steps,
+        }
+    }
+
     /// The same times with steps of at most `longest`, recorded at least every `sampling` seconds
     /// and at every time of this grid.
     pub(crate) fn refined(self, longest: f64, sampling: f64) -> Self {
@@ -51,6 +67,14 @@ impl TimeGrid {
             stride: count(stride),
         }
     }
+}
+
+#[expect(
+    clippy::cast_precision_loss,
+    reason = "at most MOST_STEPS times a few thousand"
+)]
+fn as_real(count: usize) -> f64 {
+    count as f64
 }
 
 #[expect(

@@ -92,10 +92,15 @@ impl<S: Real> Solver<S> {
     }
 }
 
-/// The longest measure of the old state, the unit of lengths.
+/// The unit of lengths: the longest measure of the old state, 1 m for masses without springs.
 fn longest<S: Real, const D: usize>(groups: &[Box<dyn Group<S, D>>]) -> S {
     let measures = groups.iter().map(|group| group.largest_measure());
-    measures.fold(S::zero(), S::maximum)
+    let longest = measures.fold(S::zero(), S::maximum);
+    if longest > S::zero() {
+        longest
+    } else {
+        S::one()
+    }
 }
 
 /// Corrects the local unknowns for given global corrections; the largest scaled update.

@@ -4,14 +4,14 @@ use std::error::Error;
 use std::path::Path;
 
 use plotters::coord::Shift;
-use plotters::coord::types::RangedCoordf64;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::axis::{Axis, Scale};
 use super::clip::Window;
 use super::look::{Dash, Look};
-use super::{Curve, Figure, legend, range, ticks};
+use super::{Axes, Curve, Figure, legend, range};
 
 /// Size of a picture in pixels, and of one with equal scales; a reader scales them.
 const SIZE: (u32, u32) = (1600, 1000);
@@ -34,11 +34,12 @@ const RIGHT: i32 = 50;
 const MOST_MARKERS: usize = 34;
 
 type Canvas<'a> = DrawingArea<SVGBackend<'a>, Shift>;
-type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Axis, Axis>>;
 
 /// Draws `figure` into the file `path`.
 pub(super) fn draw(figure: &Figure, path: &Path) -> Result<(), Box<dyn Error>> {
-    let size = if figure.is_map { MAP_SIZE } else { SIZE };
+    let is_map = figure.axes == Axes::Map;
+    let size = if is_map { MAP_SIZE } else { SIZE };
     let (width, height) = (size.0.cast_signed(), size.1.cast_signed());
     let canvas = SVGBackend::new(path, size).into_drawing_area();
     canvas.fill(&WHITE)?;
@@ -46,7 +47,9 @@ pub(super) fn draw(figure: &Figure, path: &Path) -> Result<(), Box<dyn Error>> {
     canvas.draw_text(&figure.title, &title, (width / 2, TITLE_HEIGHT / 2))?;
     let top = TITLE_HEIGHT + draw_legend(&canvas, &figure.curves, width)?;
     let aspect = f64::from(width - EDGE - LEFT - RIGHT) / f64::from(height - top - BOTTOM - EDGE);
-    let window = window(figure, aspect);
+    let scales = Scale::of(figure.axes);
+    let curves = placed(&figure.curves, scales);
+    let window = window(&curves, is_map.then_some(aspect));
     let mut chart = ChartBuilder::on(&canvas)
         .margin_top(top)
         .margin_right(RIGHT)
@@ -54,42 +57,49 @@ pub(super) fn draw(figure: &Figure, path: &Path) -> Result<(), Box<dyn Error>> {
         .margin_left(EDGE)
         .x_label_area_size(BOTTOM)
         .y_label_area_size(LEFT)
-        .build_cartesian_2d(window.x.clone(), window.y.clone())?;
-    draw_axes(&mut chart, figure, &window)?;
-    for curve in &figure.curves {
+        .build_cartesian_2d(
+            Axis::new(scales[0], window.x.clone()),
+            Axis::new(scales[1], window.y.clone()),
+        )?;
+    draw_axes(&mut chart, figure)?;
+    for curve in &curves {
         draw_curve(&mut chart, curve, &window)?;
     }
     canvas.present()?;
     Ok(())
 }
 
-/// The axes' ranges for a plotting area `aspect` times as wide as high.
-fn window(figure: &Figure, aspect: f64) -> Window {
+/// The curves with the places of their points along the axes.
+fn placed(curves: &[Curve], [x, y]: [Scale; 2]) -> Vec<Curve> {
+    let place = |point: &(f64, f64)| (x.place(point.0), y.place(point.1));
+    let placed = |curve: &Curve| Curve {
+        points: curve.points.iter().map(place).collect(),
+        ..curve.clone()
+    };
+    curves.iter().map(placed).collect()
+}
+
+/// The axes' ranges; with equal scales for a plotting area `map` times as wide as high.
+fn window(curves: &[Curve], map: Option<f64>) -> Window {
     let along = |coordinate: fn(&(f64, f64)) -> f64| {
         let values = |curve: &Curve| {
             let decisive = curve.points.iter().take(curve.decisive);
             decisive.map(coordinate).collect::<Vec<_>>()
         };
-        let (trusted, others): (Vec<_>, Vec<_>) = figure.curves.iter().partition(|c| c.trusted);
+        let (trusted, others): (Vec<_>, Vec<_>) = curves.iter().partition(|c| c.trusted);
         let trusted: Vec<f64> = trusted.into_iter().flat_map(values).collect();
         let others: Vec<Vec<f64>> = others.into_iter().map(values).collect();
         range::axis(&trusted, &others)
     };
     let (x, y) = (along(|point| point.0), along(|point| point.1));
-    let (x, y) = if figure.is_map {
-        range::equal_scales(&x, &y, aspect)
-    } else {
-        (x, y)
+    let (x, y) = match map {
+        Some(aspect) => range::equal_scales(&x, &y, aspect),
+        None => (x, y),
     };
     Window { x, y }
 }
 
-fn draw_axes(
-    chart: &mut Chart<'_, '_>,
-    figure: &Figure,
-    window: &Window,
-) -> Result<(), Box<dyn Error>> {
-    let (x_ticks, y_ticks) = (ticks::formatter(&window.x), ticks::formatter(&window.y));
+fn draw_axes(chart: &mut Chart<'_, '_>, figure: &Figure) -> Result<(), Box<dyn Error>> {
     chart
         .configure_mesh()
         .light_line_style(TRANSPARENT)
@@ -97,8 +107,6 @@ fn draw_axes(
         .axis_style(BLACK.stroke_width(2))
         .x_labels(11)
         .y_labels(9)
-        .x_label_formatter(&x_ticks)
-        .y_label_formatter(&y_ticks)
         .label_style(font(TICK_FONT))
         .axis_desc_style(font(AXIS_FONT))
         .x_desc(&figure.x_label)

@@ -29,7 +29,7 @@ pub(super) fn places(labels: &[&str], width: i32) -> Vec<(i32, i32)> {
     let mut rest = widths.as_slice();
     let mut y = 0;
     while !rest.is_empty() {
-        let (row, row_width) = first_row(rest, width);
+        let (row, row_width) = first_row(rest, width - 2 * BETWEEN);
         let mut x = (width - row_width) / 2;
         for entry in &rest[..row] {
             places.push((x, y));
