@@ -239,11 +239,79 @@ fn a_viscosity_that_vanishes_on_the_way_ends_the_run_with_its_name() {
 fn a_hopeless_step_fails_and_the_run_goes_on_with_a_smaller_one() {
     let mut pendulum = single_pendulum(Scheme::EemEntropy, 1e6);
     let before = pendulum.row();
-    if let Err(error) = pendulum.run.step() {
-        println!("{error}");
-        assert_eq!(before.map(f64::to_bits), pendulum.row().map(f64::to_bits));
-    }
+    let error = pendulum.run.step().unwrap_err();
+    println!("{error}");
+    assert_eq!(before.map(f64::to_bits), pendulum.row().map(f64::to_bits));
     pendulum.run.set_step_size(0.01).unwrap();
     pendulum.run.step().unwrap();
     assert!(pendulum.row().iter().all(|value| value.is_finite()));
+}
+
+/// ψ is not a number below the offset.
+#[derive(FreeEnergy)]
+#[free_energy(|lambda: Stretch| stiffness * (lambda - offset * ln(lambda / natural_length)))]
+struct Broken {
+    stiffness: f64,
+    offset: f64,
+    natural_length: f64,
+}
+
+#[test]
+fn an_energy_that_is_not_a_number_is_refused() {
+    let mut scene = Scene::<2>::new();
+    let pivot = scene.anchor([0.0, 0.0]);
+    let bob = scene.mass(1.0, [1.0, 0.0], [0.0, 0.0]);
+    let model = Broken {
+        stiffness: 1.0,
+        offset: 1.0,
+        natural_length: -1.0,
+    };
+    scene.spring(model, [pivot, bob]);
+    let error = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap_err();
+    let text = "at t = 0 s: the free energy of element 0 is NaN, it must be finite";
+    assert_eq!(error.to_string(), text);
+}
+
+#[test]
+fn what_is_prescribed_twice_and_wild_settings_are_refused() {
+    let mut scene = Scene::<1>::new();
+    let road = scene.anchor([0.0]);
+    scene.move_anchor(road, |t| [t]);
+    scene.move_anchor(road, |t| [2.0 * t]);
+    let error = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "the motion of node 0 is prescribed twice"
+    );
+
+    let mut run = single_pendulum(Scheme::EemEntropy, 0.1).run;
+    let good = run.newton_settings();
+    for bad in [
+        NewtonSettings {
+            max_iterations: 0,
+            ..good
+        },
+        NewtonSettings {
+            tolerance: NAN,
+            ..good
+        },
+        NewtonSettings {
+            tolerance: 0.0,
+            ..good
+        },
+        NewtonSettings {
+            tolerance: f64::INFINITY,
+            ..good
+        },
+    ] {
+        let refused = run.set_newton_settings(bad);
+        assert!(matches!(refused, Err(SceneError::NewtonSettings { .. })));
+    }
+    assert_eq!(run.newton_settings(), good);
+    let endless = NewtonSettings {
+        max_iterations: usize::MAX,
+        ..good
+    };
+    run.set_newton_settings(endless).unwrap();
+    run.step().unwrap();
 }

@@ -163,3 +163,59 @@ fn an_elastic_spring_has_no_thermal_unknown_and_keeps_its_energy() {
     approx::assert_relative_eq!(last.energy, first.energy, max_relative = ENERGY_TOLERANCE);
     assert!(last.entropy.abs() <= 0.0);
 }
+
+#[test]
+fn lengths_of_very_different_size_do_not_loosen_the_laws() {
+    for length in [1.0, 1e3, 1e6, 1e9] {
+        let mut scene = Scene::<2>::new();
+        let pivot = scene.anchor([0.0, 0.0]);
+        let bob = scene.mass(1.0, [1.5, 0.0], [0.0, 1.0]);
+        let spring = scene.spring(ThermoViscoElastic::PENDULUM, [pivot, bob]);
+        scene.set_temperature(spring, 320.0);
+        let far = scene.mass(1.0, [0.0, length], [0.0, 0.0]);
+        let hencky = Hencky {
+            stiffness: 100.0,
+            natural_length: length,
+        };
+        scene.spring(hencky, [pivot, far]);
+        let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.05).unwrap();
+        let mut laws = Laws::new(&run);
+        for _ in 0..200 {
+            run.step().unwrap();
+            laws.watch(&run);
+        }
+        println!("{length:e} m: {laws:?}");
+        assert!(laws.energy <= ENERGY_TOLERANCE);
+    }
+}
+
+// κh/c = 10² … 10⁵ with c = 1.1 J/K: heat equalises many times over within a step.
+#[test]
+fn stiff_conduction_converges_and_keeps_the_laws() {
+    for conductance in [1e3, 1e4, 1e5, 1e6] {
+        let mut scene = Scene::<2>::new();
+        let pivot = scene.anchor([0.0, 0.0]);
+        let nodes = [
+            scene.mass(1.0, [1.2, 0.0], [0.0, 1.0]),
+            scene.mass(1.0, [2.3, 0.3], [0.0, 0.0]),
+        ];
+        let ends = [[pivot, nodes[0]], [nodes[0], nodes[1]]];
+        let springs = ends.map(|ends| scene.spring(ThermoViscoElastic::PENDULUM, ends));
+        scene.set_temperature(springs[0], 380.0);
+        scene.set_temperature(springs[1], 300.0);
+        scene.conduct(springs[0], springs[1], conductance);
+        let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap();
+        let mut laws = Laws::new(&run);
+        let iterations: usize = (0..100)
+            .map(|_| {
+                let report = run.step().unwrap();
+                laws.watch(&run);
+                report.iterations
+            })
+            .sum();
+        println!("{conductance:e} W/K: {iterations} iterations, {laws:?}");
+        assert!(iterations <= 800);
+        assert!(laws.energy <= ENERGY_TOLERANCE);
+        assert!(laws.entropy_ulps >= ENTROPY_TOLERANCE);
+    }
+}

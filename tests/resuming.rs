@@ -59,7 +59,7 @@ fn assert_resumes<const D: usize>(build: impl Fn() -> Simulation<D>) {
         tolerance: 1e-9,
         ..whole.newton_settings()
     };
-    whole.set_newton_settings(settings);
+    whole.set_newton_settings(settings).unwrap();
     trace(&mut whole, 20);
     whole.set_step_size(0.7 * whole.step_size()).unwrap();
     trace(&mut whole, 3);

@@ -102,7 +102,8 @@ fn a_failed_step_ends_a_run_where_it_was() {
     run.set_newton_settings(NewtonSettings {
         max_iterations: 1,
         ..settings
-    });
+    })
+    .unwrap();
     let before = bits(&run);
     let error = run.run_until(2.05, watch).unwrap_err();
     assert!(matches!(error.failure, StepFailure::NotConverged { .. }));

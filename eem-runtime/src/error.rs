@@ -128,6 +128,34 @@ pub enum SceneError {
         /// The step, s.
         value: f64,
     },
+    /// Settings with which no step can succeed, or every step would.
+    #[error(
+        "{max_iterations} iterations to a tolerance of {tolerance}: at least one iteration and a tolerance between 0 and 1 are needed"
+    )]
+    NewtonSettings {
+        /// The number of iterations.
+        max_iterations: usize,
+        /// The tolerance.
+        tolerance: f64,
+    },
+    /// The momentum of a mass is not finite.
+    #[error("component {axis} of the momentum of {node} is {value} kg m/s, it must be finite")]
+    Momentum {
+        /// The node.
+        node: Node,
+        /// The axis, from 0.
+        axis: usize,
+        /// The component, kg m/s.
+        value: f64,
+    },
+    /// The same thing is prescribed twice.
+    #[error("{quantity} of {handle} is prescribed twice")]
+    PrescribedTwice {
+        /// The handle as text.
+        handle: String,
+        /// What is prescribed.
+        quantity: &'static str,
+    },
     /// The initial state of an element is outside the domain of its model.
     #[error("at t = 0 s: {0}")]
     State(#[from] StateError),
@@ -179,7 +207,8 @@ pub enum StateError {
     },
     /// A viscosity is not positive and finite.
     #[error(
-        "the viscosity of dashpot {dashpot} of {element} is {value} N s/m at {temperature} K, it must be positive and finite"
+        "the viscosity of dashpot {dashpot} of {element} is {value} N s/m{}, it must be positive and finite",
+        temperature.map_or_else(String::new, |theta| format!(" at {theta} K"))
     )]
     Viscosity {
         /// The element.
@@ -188,8 +217,8 @@ pub enum StateError {
         dashpot: usize,
         /// The viscosity, N s/m.
         value: f64,
-        /// The temperature, K; NaN for a model without temperature.
-        temperature: f64,
+        /// The temperature, K, if the model has one.
+        temperature: Option<f64>,
     },
     /// No temperature has the entropy that the element must have.
     #[error("no temperature of {element} has the entropy {entropy} J/K: {source}")]
@@ -217,9 +246,18 @@ pub enum StateError {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StepFailure {
-    /// The time step is not positive and finite.
-    #[error("the time step must be positive and finite")]
-    Step,
+    /// The motion of a mass is not finite.
+    #[error("coordinate {axis} of the new {quantity} of node {node} is {value}, it must be finite")]
+    Unbounded {
+        /// The index of the node.
+        node: usize,
+        /// The axis, from 0.
+        axis: usize,
+        /// Position or momentum.
+        quantity: &'static str,
+        /// The value, m or kg m/s.
+        value: f64,
+    },
     /// Newton's method used up its iterations.
     #[error("Newton's method did not converge, its last scaled update was {update:.1e}")]
     NotConverged {

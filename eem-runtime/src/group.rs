@@ -125,9 +125,9 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     /// Adds residual and tangent of the elements, local unknowns condensed.
     fn assemble(&mut self, view: &StepView<'_, S>, trial: &Trial<S>, system: &mut LinearSystem<S>);
 
-    /// Local corrections that go with the global ones; the largest, in units of `length` (viscous
+    /// Local corrections that go with the global ones; the largest, in units of the measure (viscous
     /// stretches) and of the temperature.
-    fn correct(&mut self, view: &StepView<'_, S>, solution: &[S], length: S) -> S;
+    fn correct(&mut self, view: &StepView<'_, S>, solution: &[S]) -> S;
 
     /// Applies the fraction `share` of the last local corrections.
     fn apply(&mut self, share: S);
@@ -162,8 +162,8 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     /// Energy and entropy, from their definitions.
     fn totals(&self, state: &State<S>) -> GroupTotals<S>;
 
-    /// The largest measure at the beginning of the step.
-    fn largest_measure(&self) -> S;
+    /// Reduces the unit of length of each node to the shortest measure of the old state.
+    fn shorten(&self, lengths: &mut [S]);
 
     /// What the elements contribute to the GENERIC form in a state.
     fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>>;
@@ -249,8 +249,8 @@ where
         self.assemble_all(view, trial, system);
     }
 
-    fn correct(&mut self, view: &StepView<'_, S>, solution: &[S], length: S) -> S {
-        self.correct_all(view, solution, length)
+    fn correct(&mut self, view: &StepView<'_, S>, solution: &[S]) -> S {
+        self.correct_all(view, solution)
     }
 
     fn apply(&mut self, share: S) {
@@ -300,11 +300,15 @@ where
         self.sum(state)
     }
 
-    fn largest_measure(&self) -> S {
-        let measures = self.geometry.old_measures.iter();
-        measures.fold(S::zero(), |largest, &measure| {
-            largest.maximum(measure.abs())
-        })
+    fn shorten(&self, lengths: &mut [S]) {
+        for i in 0..self.members.len() {
+            let own = &self.geometry.old_measures[self.geometry.measures_range(i)];
+            for &node in self.geometry.nodes_of(i) {
+                lengths[node] = own
+                    .iter()
+                    .fold(lengths[node], |least, &own| least.minimum(own));
+            }
+        }
     }
 
     fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>> {

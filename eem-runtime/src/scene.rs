@@ -84,6 +84,9 @@ impl<const D: usize> Scene<D> {
 
 impl<const D: usize, S: Real> Default for Scene<D, S> {
     fn default() -> Self {
+        const {
+            assert!(D >= 1, "a scene has at least one dimension");
+        }
         Self {
             id: SceneId::unique(),
             nodes: Vec::new(),

@@ -232,8 +232,24 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Changes how hard a step tries.
-    pub const fn set_newton_settings(&mut self, settings: NewtonSettings<S>) {
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::NewtonSettings`] unless there is at least one iteration and the tolerance lies
+    /// between 0 and 1; the old settings then stay.
+    pub fn set_newton_settings(&mut self, settings: NewtonSettings<S>) -> Result<(), SceneError> {
+        let NewtonSettings {
+            max_iterations,
+            tolerance,
+        } = settings;
+        if max_iterations == 0 || !is_positive(tolerance) || tolerance >= S::one() {
+            return Err(SceneError::NewtonSettings {
+                max_iterations,
+                tolerance: tolerance.to_f64(),
+            });
+        }
         self.solver.settings = settings;
+        Ok(())
     }
 
     /// Number of unknowns of the global system of one Newton iteration.

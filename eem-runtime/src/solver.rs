@@ -38,6 +38,8 @@ pub(crate) struct Solver<S> {
     /// The part of the nodal forces that the old state decides, N.
     old_force: Vec<S>,
     impulse: Vec<S>,
+    /// The unit of length of each node: its shortest element in the old state; 1 m without.
+    lengths: Vec<S>,
     /// What kept the last update from being applied in full.
     obstacle: Option<StateError>,
     /// What each iteration did.
@@ -71,6 +73,7 @@ impl<S: Real> Solver<S> {
         layout: &Layout,
     ) -> Self {
         let settings = NewtonSettings::default();
+        let lengths = vec![S::one(); masses.len()];
         let coordinates = vec![S::zero(); masses.len() * dimension];
         let temperatures = vec![S::zero(); layout.coupled.len()];
         Self {
@@ -88,6 +91,7 @@ impl<S: Real> Solver<S> {
             correction: [coordinates.clone(), temperatures],
             old_force: coordinates.clone(),
             impulse: coordinates,
+            lengths,
             obstacle: None,
             history: Vec::new(),
         }
@@ -123,9 +127,7 @@ impl<S: Real> Solver<S> {
         view: &StepView<'_, S>,
     ) -> Result<(), StepFailure> {
         let failure = match self.start_and_converge(groups, view) {
-            Err(StepFailure::NotConverged { update }) if self.scheme.follows_its_solution() => {
-                StepFailure::NotConverged { update }
-            }
+            Err(failure) if self.scheme.follows_its_solution() => failure,
             done => return done,
         };
         self.follow(groups, view).map_err(|_| failure)
@@ -225,6 +227,15 @@ impl<S: Real> Solver<S> {
         }
         for group in groups.iter_mut() {
             group.begin(view, &mut self.old_force)?;
+        }
+        self.lengths.fill(S::MAX);
+        for group in groups.iter() {
+            group.shorten(&mut self.lengths);
+        }
+        for length in &mut self.lengths {
+            if *length == S::MAX {
+                *length = S::one();
+            }
         }
         if view.phase.moves() {
             self.trial.displacements.copy_from_slice(&view.loads.motion);

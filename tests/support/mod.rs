@@ -247,12 +247,13 @@ impl DoubleRun {
     }
 }
 
-/// Largest violations of the laws along a run.
+/// Largest violations of the laws along a run. A NaN anywhere stays a NaN, which no bound admits.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Laws {
-    first: [f64; 2],
+    first_energy: f64,
+    first_momentum: [f64; 3],
     entropy: f64,
-    /// max |E − E₀|/E₀.
+    /// max |E − E₀|/|E₀|.
     pub(crate) energy: f64,
     /// max |J − J₀|/|J₀|.
     pub(crate) angular_momentum: f64,
@@ -265,7 +266,8 @@ impl Laws {
     pub(crate) fn new<const D: usize>(run: &Simulation<D>) -> Self {
         let ledger = run.ledger();
         Self {
-            first: [ledger.energy, ledger.angular_momentum.norm()],
+            first_energy: ledger.energy,
+            first_momentum: ledger.angular_momentum.into(),
             entropy: ledger.entropy,
             energy: 0.0,
             angular_momentum: 0.0,
@@ -273,17 +275,33 @@ impl Laws {
         }
     }
 
-    /// Looks at the state after a step. Angular momentum is compared by its norm.
+    /// Looks at the state after a step.
     pub(crate) fn watch<const D: usize>(&mut self, run: &Simulation<D>) {
         let ledger = run.ledger();
-        let [energy, momentum] = self.first;
-        let defect = |value: f64, first: f64| (value - first).abs() / first.abs();
-        self.energy = self.energy.max(defect(ledger.energy, energy));
-        let angular = defect(ledger.angular_momentum.norm(), momentum);
-        self.angular_momentum = self.angular_momentum.max(angular);
+        let energy = (ledger.energy - self.first_energy).abs() / self.first_energy.abs();
+        self.energy = worse(self.energy, energy, energy > self.energy);
+        let norm = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let momentum: [f64; 3] = ledger.angular_momentum.into();
+        let change = [0, 1, 2].map(|axis| momentum[axis] - self.first_momentum[axis]);
+        let defect = norm(change) / norm(self.first_momentum);
+        self.angular_momentum = worse(
+            self.angular_momentum,
+            defect,
+            defect > self.angular_momentum,
+        );
         let ulp = f64::EPSILON * ledger.entropy.abs();
-        self.entropy_ulps = self.entropy_ulps.min((ledger.entropy - self.entropy) / ulp);
+        let ulps = (ledger.entropy - self.entropy) / ulp;
+        self.entropy_ulps = worse(self.entropy_ulps, ulps, ulps < self.entropy_ulps);
         self.entropy = ledger.entropy;
+    }
+}
+
+/// The old or the new value, and NaN if either is.
+fn worse(old: f64, new: f64, is_worse: bool) -> f64 {
+    if old.is_nan() || (!is_worse && !new.is_nan()) {
+        old
+    } else {
+        new
     }
 }
 

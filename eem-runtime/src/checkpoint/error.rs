@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::error::SceneError;
 use crate::scheme::Scheme;
 
 /// What differs between a checkpoint and the simulation that should go on from it, or is wrong
@@ -61,6 +62,9 @@ pub enum RestoreError {
         /// Whether it has one in the checkpoint.
         in_checkpoint: bool,
     },
+    /// The Newton settings of the checkpoint are none that a simulation can have.
+    #[error(transparent)]
+    Settings(#[from] SceneError),
     /// A value in the checkpoint is none that a simulation can have.
     #[error("the checkpoint has {value} among its values of {quantity}, they must be {required}")]
     Value {

@@ -201,10 +201,11 @@ where
     }
 
     /// See [`Group::correct`](super::Group::correct).
-    pub(super) fn correct_all(&mut self, view: &StepView<'_, S>, solution: &[S], length: S) -> S {
+    pub(super) fn correct_all(&mut self, view: &StepView<'_, S>, solution: &[S]) -> S {
         let mut largest = S::zero();
         for i in 0..self.members.len() {
             let correction = self.correction(view, i, solution);
+            let length = self.geometry.old_measures[self.geometry.measures_range(i).start];
             let member = &mut self.members[i];
             member.previous = member.x;
             member.correction = correction;

@@ -166,6 +166,7 @@ where
                 }
             }
             let Some(slot) = member.slots.thermal else {
+                member.check_energy(&x)?;
                 continue;
             };
             let prescribed = view.prescribed(Some(slot), Placement::End);
@@ -181,6 +182,7 @@ where
             };
             let x = variables::<S, M>(measures, member.slots, state);
             check_temperature(member.element, state.temperatures[slot])?;
+            member.check_energy(&x)?;
             let caloric = member.model.caloric(&x);
             if C::IN_TEMPERATURE {
                 state.entropies.set(slot, caloric.entropy);

@@ -5,6 +5,7 @@ use super::geometry::MOST_MEASURES;
 use super::{ElementGroup, ElementView, GroupTotals, variables};
 use crate::error::StateError;
 use crate::free_energy::FreeEnergy;
+use crate::handle::Element;
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
 use crate::scheme::{ElementScheme, Infeasible};
@@ -31,19 +32,14 @@ where
                 .thermal
                 .map_or(S::zero(), |slot| state.temperatures[slot]);
             member.find_viscosities(theta)?;
+            member.check_energy(&x)?;
+            check_gradient::<S, M>(member.element, &member.model.gradient(&x))?;
             let Some(slot) = member.slots.thermal else {
                 continue;
             };
             let caloric = member.model.caloric(&x);
             Infeasible::unless_stable(&caloric, theta)
                 .map_err(|infeasible| infeasible.of(member.element))?;
-            if !caloric.entropy.is_finite() {
-                return Err(StateError::NotFinite {
-                    element: member.element,
-                    quantity: "entropy",
-                    value: caloric.entropy.to_f64(),
-                });
-            }
             state.entropies.set(slot, caloric.entropy);
         }
         Ok(())
@@ -87,5 +83,30 @@ where
             force: self.members[place].model.gradient(&x).as_ref()[0],
             internal_energy: self.internal_energy(place, &x, state),
         }
+    }
+}
+
+/// Forces and entropy of an initial state are finite; in later states they are part of a response.
+fn check_gradient<S: Real, M: FreeEnergy<S>>(
+    element: Element,
+    gradient: &M::Variables,
+) -> Result<(), StateError> {
+    match gradient
+        .as_ref()
+        .iter()
+        .position(|slope| !slope.is_finite())
+    {
+        None => Ok(()),
+        Some(index) => Err(StateError::NotFinite {
+            element,
+            quantity: if index < M::MEASURES {
+                "force"
+            } else if index < M::MEASURES + M::DASHPOTS {
+                "dashpot force"
+            } else {
+                "entropy"
+            },
+            value: gradient.as_ref()[index].to_f64(),
+        }),
     }
 }

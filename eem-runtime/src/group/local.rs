@@ -132,6 +132,9 @@ impl<S: Real> LocalSolver<S> {
             let power_by = dissipation_by.as_ref()[column] - conductance * theta_by;
             let rate_by = (power_by - rate * theta_by) / theta;
             let entry = tangent[heat_row + 1].as_ref()[column] - h * share * rate_by;
+            // Newton's method on θ* r_s, which is far less curved than r_s where conduction is
+            // stiff, and the same where r_s = 0.
+            let entry = entry + theta_by * member.condensed.constant.as_ref()[row] / theta;
             self.store(&mut member.condensed.by_measure, row, column, entry);
         }
     }

@@ -118,6 +118,19 @@ impl<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>> Member<S, M, C> {
         pairs.fold(S::zero(), |sum, (&force, &rate)| sum - force * rate)
     }
 
+    /// The free energy is finite.
+    pub(crate) fn check_energy(&self, x: &M::Variables) -> Result<(), StateError> {
+        let psi = self.model.free_energy(x);
+        if psi.is_finite() {
+            return Ok(());
+        }
+        Err(StateError::NotFinite {
+            element: self.element,
+            quantity: "free energy",
+            value: psi.to_f64(),
+        })
+    }
+
     /// The viscosities at a temperature, all positive.
     pub(crate) fn find_viscosities(&mut self, theta: S) -> Result<(), StateError> {
         self.viscosities = self.model.viscosity(theta);
@@ -133,7 +146,7 @@ impl<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>> Member<S, M, C> {
                 element: self.element,
                 dashpot,
                 value: self.viscosities.0.as_ref()[dashpot].to_f64(),
-                temperature: if M::THERMAL { theta.to_f64() } else { f64::NAN },
+                temperature: M::THERMAL.then(|| theta.to_f64()),
             }),
         }
     }

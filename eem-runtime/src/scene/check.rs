@@ -50,8 +50,30 @@ impl<const D: usize, S: Real> Scene<D, S> {
             let value = gravity[axis].to_f64();
             return Err(SceneError::Gravity { axis, value });
         }
-        let mut prescribed = self.loads.temperatures.iter();
-        prescribed.try_for_each(|(element, _)| self.check_thermal(*element))
+        let elements: Vec<_> = self
+            .loads
+            .temperatures
+            .iter()
+            .map(|(element, _)| *element)
+            .collect();
+        for (at, element) in elements.iter().enumerate() {
+            self.check_thermal(*element)?;
+            if elements[..at].contains(element) {
+                return Err(prescribed_twice(element, "the temperature"));
+            }
+        }
+        let anchors: Vec<_> = self
+            .loads
+            .motions
+            .iter()
+            .map(|(anchor, _)| *anchor)
+            .collect();
+        for (at, anchor) in anchors.iter().enumerate() {
+            if anchors[..at].contains(anchor) {
+                return Err(prescribed_twice(anchor, "the motion"));
+            }
+        }
+        Ok(())
     }
 
     fn check_conductors(&self) -> Result<(), SceneError> {
@@ -86,6 +108,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
     }
 }
 
+fn prescribed_twice(handle: &dyn core::fmt::Display, quantity: &'static str) -> SceneError {
+    let handle = handle.to_string();
+    SceneError::PrescribedTwice { handle, quantity }
+}
+
 fn check_node<S: Real, const D: usize>(
     node: Node,
     entry: &NodeEntry<S, D>,
@@ -100,6 +127,13 @@ fn check_node<S: Real, const D: usize>(
         if !velocity.is_finite() {
             let value = velocity.to_f64();
             return Err(SceneError::Velocity { node, axis, value });
+        }
+    }
+    if let Some(mass) = entry.mass.filter(|&mass| is_positive(mass)) {
+        let momentum = entry.momentum.unwrap_or(entry.velocity.map(|v| mass * v));
+        if let Some(axis) = (0..D).find(|&axis| !momentum[axis].is_finite()) {
+            let value = momentum[axis].to_f64();
+            return Err(SceneError::Momentum { node, axis, value });
         }
     }
     match entry.mass {

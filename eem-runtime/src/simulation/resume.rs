@@ -42,10 +42,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// has values that no simulation has. The simulation is then as it was before.
     pub fn restore(&mut self, checkpoint: &Checkpoint<S>) -> Result<(), RestoreError> {
         checkpoint.check(self.scheme, &self.outline(), &self.state)?;
+        self.set_newton_settings(checkpoint.newton)?;
         self.has_stepped = false;
         self.state.copy_from(&checkpoint.state);
         self.step = checkpoint.step;
-        self.set_newton_settings(checkpoint.newton);
         Ok(())
     }
 

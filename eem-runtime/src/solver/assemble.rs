@@ -73,14 +73,13 @@ impl<S: Real> Solver<S> {
         self.remember();
         self.round_seen_temperatures(view);
         let solution = self.system.right();
-        let length = longest(groups);
         let mut largest = S::zero();
         for (node, first) in view.layout.nodes.iter().enumerate() {
             let Some(first) = *first else { continue };
             for axis in 0..self.dimension {
                 let change = solution[first + axis];
                 self.correction[0][node * self.dimension + axis] = change;
-                largest = largest.maximum((change / length).abs());
+                largest = largest.maximum((change / self.lengths[node]).abs());
             }
         }
         for (slot, unknown) in view.layout.coupled.iter().enumerate() {
@@ -92,26 +91,12 @@ impl<S: Real> Solver<S> {
     }
 }
 
-/// The unit of lengths: the longest measure of the old state, 1 m for masses without springs.
-fn longest<S: Real, const D: usize>(groups: &[Box<dyn Group<S, D>>]) -> S {
-    let measures = groups.iter().map(|group| group.largest_measure());
-    let longest = measures.fold(S::zero(), S::maximum);
-    if longest > S::zero() {
-        longest
-    } else {
-        S::one()
-    }
-}
-
 /// Corrects the local unknowns for given global corrections; the largest scaled update.
 pub(super) fn correct_locally<S: Real, const D: usize>(
     groups: &mut [Box<dyn Group<S, D>>],
     view: &StepView<'_, S>,
     solution: &[S],
 ) -> S {
-    let length = longest(groups);
-    let updates = groups
-        .iter_mut()
-        .map(|group| group.correct(view, solution, length));
+    let updates = groups.iter_mut().map(|group| group.correct(view, solution));
     updates.fold(S::zero(), S::maximum)
 }
