@@ -188,6 +188,10 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static
     /// that of the old state.
     const IMPLICIT: f64;
 
+    /// Whether Newton's method works on `θ* r_s` instead of `r_s`, which converges for stiff
+    /// conduction too. The ordinary rules are solved the ordinary way.
+    const SCALES_HEAT: bool = true;
+
     /// Whether the temperature is the state that the scheme integrates, and not the entropy.
     const IN_TEMPERATURE: bool = false;
 

@@ -134,7 +134,11 @@ impl<S: Real> LocalSolver<S> {
             let entry = tangent[heat_row + 1].as_ref()[column] - h * share * rate_by;
             // Newton's method on θ* r_s, which is far less curved than r_s where conduction is
             // stiff, and the same where r_s = 0.
-            let entry = entry + theta_by * member.condensed.constant.as_ref()[row] / theta;
+            let entry = if C::SCALES_HEAT {
+                entry + theta_by * member.condensed.constant.as_ref()[row] / theta
+            } else {
+                entry
+            };
             self.store(&mut member.condensed.by_measure, row, column, entry);
         }
     }

@@ -28,6 +28,7 @@ where
     const PLACEMENT: Placement = R::PLACEMENT;
     const IMPLICIT: f64 = R::IMPLICIT;
     const IN_TEMPERATURE: bool = R::IN_TEMPERATURE;
+    const SCALES_HEAT: bool = false;
 
     type Old = ();
 
