@@ -59,8 +59,10 @@ impl TimeGrid {
     /// The same times with steps of at most `longest`, recorded at least every `sampling` seconds
     /// and at every time of this grid.
     pub(crate) fn refined(self, longest: f64, sampling: f64) -> Self {
-        let samples = (self.step / sampling).ceil().max(1.0);
-        let stride = (self.step / samples / longest).ceil().max(1.0);
+        let most = (MOST_STEPS / as_real(self.steps)).floor().max(1.0);
+        let samples = (self.step / sampling).ceil().clamp(1.0, most);
+        let stride = (self.step / samples / longest).ceil();
+        let stride = stride.clamp(1.0, (most / samples).floor().max(1.0));
         Self {
             step: self.step / (samples * stride),
             steps: self.steps * count(samples * stride),
