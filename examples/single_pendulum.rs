@@ -51,7 +51,7 @@ use support::{output, table, terminal};
 
 const HINT: &str = "Add --out DIR for the states as CSV and figures 2 to 8 of the paper.";
 const ABOUT: &str =
-    "A thermo-visco-elastic pendulum, the laws of thermodynamics, and three schemes";
+    "A thermo-visco-elastic pendulum, the laws of thermodynamics, and how schemes keep them";
 
 /// Step and end time of the paper, s.
 const STEP: f64 = 0.2;
