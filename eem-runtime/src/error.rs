@@ -221,7 +221,7 @@ pub enum StateError {
         temperature: Option<f64>,
     },
     /// No temperature has the entropy that the element must have.
-    #[error("no temperature of {element} has the entropy {entropy} J/K: {source}")]
+    #[error("{element}: {source}")]
     NoSuchTemperature {
         /// The element.
         element: Element,
