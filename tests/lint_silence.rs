@@ -16,6 +16,10 @@
     variant_size_differences
 )]
 #![deny(clippy::all, clippy::pedantic, clippy::nursery, clippy::cargo)]
+#![allow(
+    clippy::cargo_common_metadata,
+    reason = "it is about the packages, not about what the derive generates"
+)]
 // Versions of dependencies of dependencies are not ours to choose.
 #![allow(clippy::multiple_crate_versions)]
 
