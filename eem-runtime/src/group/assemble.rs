@@ -16,8 +16,11 @@ where
     C: ElementScheme<S, M>,
 {
     /// The factor by which heat from other elements enters the entropy balance of element `i`:
-    /// `∂r_s/∂Q = −h w/θ*`.
+    /// `∂r_s/∂Q = −h w/θ*`; zero without temperature.
     fn heat_factor(&self, view: &StepView<'_, S>, i: usize) -> S {
+        if !M::THERMAL {
+            return S::zero();
+        }
         -view.thermal_step() * S::from_f64(C::IMPLICIT) / self.members[i].temperature()
     }
 
@@ -90,7 +93,7 @@ where
                         system.add(at, to, along * stiffness(q));
                     }
                 }
-                let heat = along * row.by_heat * self.heat_factor_or_zero(view, i);
+                let heat = along * row.by_heat * self.heat_factor(view, i);
                 self.add_partners(view, i, at, heat, system);
             }
         }
@@ -175,14 +178,6 @@ where
                     }
                 }
             }
-        }
-    }
-
-    fn heat_factor_or_zero(&self, view: &StepView<'_, S>, i: usize) -> S {
-        if M::THERMAL {
-            self.heat_factor(view, i)
-        } else {
-            S::zero()
         }
     }
 

@@ -4,8 +4,8 @@
 //! evaluating the remaining relations explicitly from them makes the balances of momentum and
 //! entropy hold to rounding whatever that error is, and leaves the energy with its square.
 
-use super::evaluate::{check_measures, check_temperature};
-use super::{ElementGroup, StepView, Trial, variables};
+use super::evaluate::check_temperature;
+use super::{ElementGroup, StepView, Trial};
 use crate::conduction::Partner;
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
@@ -150,12 +150,8 @@ where
         state: &mut State<S>,
     ) -> Result<(), StateError> {
         for i in 0..self.members.len() {
-            self.geometry
-                .measure_at(self.kinematics, i, state.positions.values());
-            let measures = &self.geometry.old_measures[self.geometry.measures_range(i)];
+            let mut x = self.locate(i, state)?;
             let member = &mut self.members[i];
-            check_measures(self.kinematics, member.element, measures)?;
-            let x = variables::<S, M>(measures, member.slots, state);
             for (dashpot, &stretch) in x.as_ref()[M::MEASURES..][..M::DASHPOTS].iter().enumerate() {
                 if !stretch.is_finite() {
                     return Err(StateError::ViscousStretch {
@@ -180,7 +176,7 @@ where
                 temperature_at(&member.model, x, entropy, guess)
                     .map_err(|infeasible| infeasible.of(member.element))?
             };
-            let x = variables::<S, M>(measures, member.slots, state);
+            x.as_mut()[M::Variables::LEN - 1] = state.temperatures[slot];
             check_temperature(member.element, state.temperatures[slot])?;
             member.check_energy(&x)?;
             let caloric = member.model.caloric(&x);

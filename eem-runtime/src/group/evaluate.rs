@@ -63,10 +63,7 @@ where
     ) -> Result<(), StateError> {
         let share = S::one() - S::from_f64(C::IMPLICIT);
         let member = &mut self.members[i];
-        let Some(start) = &member.start else {
-            unreachable!("a step begins before its old state is used");
-        };
-        let x0 = start.x0;
+        let x0 = member.old_variables();
         let theta = x0.as_ref()[M::Variables::LEN - 1];
         member.find_viscosities(theta)?;
         let gradient = member.model.gradient(&x0);
@@ -112,11 +109,8 @@ where
         let own = self.geometry.measures_range(i);
         let share = S::one() - S::from_f64(C::IMPLICIT);
         let member = &mut self.members[i];
-        let Some(start) = &member.start else {
-            unreachable!("a step begins before its old state is used");
-        };
         let last = M::Variables::LEN - 1;
-        let (_, hessian) = member.model.hessian(&start.x0);
+        let (_, hessian) = member.model.hessian(&member.old_variables());
         // ∂s/∂x = −∂²ψ/∂θ∂x
         let slope = |index: usize| -hessian.as_ref()[last].as_ref()[index];
         let mut rest = share * entropy_rate;
@@ -205,7 +199,7 @@ fn increments<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>>(
 ) -> M::Variables {
     let mut increments = M::Variables::filled(S::zero());
     increments.as_mut()[..M::MEASURES].copy_from_slice(measures);
-    let old = member.start.as_ref().map_or(member.x, |start| start.x0);
+    let old = member.old_variables();
     let last = M::Variables::LEN - 1;
     for index in M::MEASURES..last {
         let change = member.x.as_ref()[index] - old.as_ref()[index];

@@ -21,12 +21,8 @@ where
     /// See [`Group::initialize`](super::Group::initialize).
     pub(super) fn initialize_all(&mut self, state: &mut State<S>) -> Result<(), StateError> {
         for i in 0..self.members.len() {
-            self.geometry
-                .measure_at(self.kinematics, i, state.positions.values());
-            let measures = &self.geometry.old_measures[self.geometry.measures_range(i)];
+            let x = self.locate(i, state)?;
             let member = &mut self.members[i];
-            check_measures(self.kinematics, member.element, measures)?;
-            let x = variables::<S, M>(measures, member.slots, state);
             let theta = member
                 .slots
                 .thermal
@@ -43,6 +39,14 @@ where
             state.entropies.set(slot, caloric.entropy);
         }
         Ok(())
+    }
+
+    /// The variables of element `i` in a state, if it can have its deformation.
+    pub(super) fn locate(&self, i: usize, state: &State<S>) -> Result<M::Variables, StateError> {
+        let x = self.variables_at(i, state);
+        let measures = &x.as_ref()[..M::MEASURES];
+        check_measures(self.kinematics, self.members[i].element, measures)?;
+        Ok(x)
     }
 
     /// The variables of element `i` in a state.

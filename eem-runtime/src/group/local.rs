@@ -89,7 +89,7 @@ impl<S: Real> LocalSolver<S> {
         let (mut dissipation, mut heat) = (S::zero(), S::zero());
         // ∂(Σ g²/η)/∂x
         let mut dissipation_by = M::Variables::filled(S::zero());
-        let old = member.start.as_ref().map_or(member.x, |start| start.x0);
+        let old = member.old_variables();
         for k in 0..M::DASHPOTS {
             let index = M::MEASURES + k;
             let (g, eta, slope) = (response[index], viscosities.as_ref()[k], slopes.as_ref()[k]);

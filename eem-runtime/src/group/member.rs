@@ -82,6 +82,14 @@ impl<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>> Member<S, M, C> {
         }
     }
 
+    /// The old variables x⁰.
+    pub(crate) fn old_variables(&self) -> M::Variables {
+        let Some(start) = &self.start else {
+            unreachable!("a step begins before its old state is used");
+        };
+        start.x0
+    }
+
     /// The index of the temperature among the variables, and of θ* in the response.
     pub(crate) const fn temperature_index() -> usize {
         M::MEASURES + M::DASHPOTS

@@ -143,10 +143,17 @@ fn change_entropy_at_rates<S: Real, M: FreeEnergy<S>>(
     answer: &mut Answer<S, M>,
 ) {
     let (variables, last) = (M::Variables::LEN, M::Variables::LEN - 1);
-    let (_, hessian) = model.hessian(point);
     let entropy_hessian = model.entropy_hessian(point);
-    // ∂s/∂x = −∂²ψ/∂θ∂x
-    let slope = |i: usize| -hessian.as_ref()[last].as_ref()[i];
+    // ∂s/∂x, of which the tangent of Δs = (S − s⁰)/c is made: for γ with dγ_c/dγ = c.
+    let slopes = answer.tangent.as_ref()[variables];
+    let slope = |i: usize| {
+        let entry = slopes.as_ref()[i];
+        if (M::MEASURES..last).contains(&i) {
+            entry
+        } else {
+            c * entry
+        }
+    };
     let mut change = S::zero();
     for (i, &increment) in increments.as_ref().iter().enumerate() {
         change += slope(i) * increment;
