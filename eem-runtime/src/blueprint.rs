@@ -66,7 +66,7 @@ impl<S, M, K, const D: usize> Blueprint<S, D> for ModelSet<M, K>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S>,
+    K: Kinematics<S, D>,
 {
     fn as_any(&self) -> &dyn Any {
         self
@@ -133,10 +133,10 @@ fn boxed<S, M, K, C, const D: usize>(
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S>,
+    K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    Box::new(ElementGroup::<S, M, K, C>::new::<D>(
+    Box::new(ElementGroup::<S, M, K, C, D>::new(
         kinematics, models, placed,
     ))
 }

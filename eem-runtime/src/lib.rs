@@ -37,6 +37,7 @@ mod ledger;
 mod loads;
 mod lu;
 mod newton;
+mod pattern;
 mod recorder;
 mod scalar;
 mod scene;
@@ -48,7 +49,7 @@ mod system;
 
 pub use checkpoint::{Checkpoint, RestoreError};
 pub use error::{NewtonIteration, SceneError, StateError, StepError, StepFailure};
-pub use free_energy::{Array, Caloric, FreeEnergy};
+pub use free_energy::{Array, Caloric, Entry, FreeEnergy};
 pub use handle::{Element, HeatPartner, Node, Reservoir};
 pub use inversion::{Inversion, InversionError, invert};
 pub use ledger::Ledger;

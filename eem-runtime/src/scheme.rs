@@ -16,7 +16,7 @@ mod trapezoidal_temperature;
 mod variational;
 
 use crate::error::StateError;
-use crate::free_energy::{Array, Caloric, FreeEnergy};
+use crate::free_energy::{Array, FreeEnergy};
 use crate::handle::Element;
 use crate::inversion::InversionError;
 use crate::scalar::Real;
@@ -195,6 +195,9 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static
     /// Whether the temperature is the state that the scheme integrates, and not the entropy.
     const IN_TEMPERATURE: bool = false;
 
+    /// Whether the scheme takes the entropy for its unknown and finds τ from it.
+    const FINDS_TEMPERATURE: bool = false;
+
     /// What the scheme keeps of the old state.
     type Old: Copy + Send + Sync;
 
@@ -280,12 +283,12 @@ pub(crate) enum Infeasible {
 
 impl Infeasible {
     /// An error unless the heat capacity is positive and finite.
-    pub(crate) fn unless_stable<S: Real>(caloric: &Caloric<S>, theta: S) -> Result<(), Self> {
-        if is_positive(caloric.heat_capacity) {
+    pub(crate) fn unless_stable<S: Real>(heat_capacity: S, theta: S) -> Result<(), Self> {
+        if is_positive(heat_capacity) {
             return Ok(());
         }
         Err(Self::HeatCapacity {
-            value: caloric.heat_capacity.to_f64(),
+            value: heat_capacity.to_f64(),
             temperature: theta.to_f64(),
         })
     }

@@ -10,7 +10,7 @@ mod run;
 use core::fmt;
 
 use crate::blueprint::Shape;
-use crate::compensated::Compensated;
+use crate::compensated::{Compensated, Sum};
 use crate::conduction::Conduction;
 use crate::error::{SceneError, StepError, StepFailure};
 use crate::group::{Group, Placed, StepView};
@@ -36,7 +36,6 @@ macro_rules! view {
             step: $simulation.step,
             state: $state,
             conduction: &$simulation.conduction,
-            layout: &$simulation.layout,
             loads: &$simulation.step_loads,
             masses: &$simulation.masses,
         }
@@ -67,7 +66,7 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     next: State<S>,
     /// The state between the two parts of a staggered step.
     between: State<S>,
-    solver: Solver<S>,
+    solver: Solver<S, D>,
 }
 
 impl<const D: usize, S: Real> fmt::Debug for Simulation<D, S> {
@@ -115,8 +114,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         for group in &mut groups {
             group.initialize(&mut state)?;
         }
-        let solver = Solver::new(scheme, masses.clone(), D, &layout);
-        let step_loads = StepLoads::new(masses.len() * D, &layout);
+        let elements = &scene.elements;
+        let solver = Solver::new(scheme, &masses, elements, &layout, &conduction);
+        for group in &mut groups {
+            group.connect(&solver.sites(&layout, &conduction));
+        }
+        let step_loads = StepLoads::new(masses.len() * D, &layout, &scene.loads);
         Ok(Self {
             scene: scene.id,
             scheme,
@@ -198,7 +201,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// The time, s.
     #[must_use]
     pub fn time(&self) -> S {
-        self.state.time.values()[0]
+        self.state.time.value
     }
 
     /// The scheme.
@@ -292,16 +295,16 @@ fn initial_state<const D: usize, S: Real>(scene: &Scene<D, S>, layout: &Layout) 
         }
     }
     State {
-        time: Compensated::new(vec![S::zero()]),
+        time: Sum::new(S::zero()),
         positions: Compensated::new(positions.collect()),
         momenta: Compensated::new(momenta.collect()),
         viscous: Compensated::new(viscous),
         entropies: Compensated::new(vec![S::zero(); temperatures.len()]),
         temperatures,
         reservoir_entropies: Compensated::new(vec![S::zero(); scene.reservoirs.len()]),
-        work: Compensated::new(vec![S::zero()]),
-        heat: Compensated::new(vec![S::zero()]),
-        thermostat_entropy: Compensated::new(vec![S::zero()]),
-        dissipated: Compensated::new(vec![S::zero()]),
+        work: Sum::new(S::zero()),
+        heat: Sum::new(S::zero()),
+        thermostat_entropy: Sum::new(S::zero()),
+        dissipated: Sum::new(S::zero()),
     }
 }

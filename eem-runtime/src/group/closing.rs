@@ -4,59 +4,55 @@
 //! evaluating the remaining relations explicitly from them makes the balances of momentum and
 //! entropy hold to rounding whatever that error is, and leaves the energy with its square.
 
-use super::evaluate::check_temperature;
-use super::{ElementGroup, StepView, Trial};
+use super::member::Member;
+use super::pose::{Pose, gather, points};
+use super::{Along, ElementGroup, StepView, Trial};
 use crate::conduction::Partner;
-use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Kinematics, Measures, Points, Weights};
 use crate::scalar::Real;
-use crate::scheme::{ElementScheme, Infeasible, Placement, temperature_at};
+use crate::scheme::{ElementScheme, Placement};
 use crate::state::State;
 use crate::system::LinearSystem;
 
-impl<S, M, K, C> ElementGroup<S, M, K, C>
+impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S>,
+    K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    /// A of the nodal force `A q_m` of element `i`, into the matrix of the geometry.
-    fn secant(&mut self, i: usize) -> bool {
-        let response = self.members[i].response;
-        let forces = &response.as_ref()[..M::MEASURES];
-        self.geometry
-            .secant(self.kinematics, i, C::PLACEMENT, forces)
-    }
-
     /// See [`Group::add_secant`](super::Group::add_secant).
     pub(super) fn add_secant_all(
         &mut self,
         view: &StepView<'_, S>,
-        trial: &Trial<S>,
-        system: &mut LinearSystem<S>,
+        trial: &Trial<S, D>,
+        system: &mut LinearSystem<S, D>,
     ) {
-        let (width, h) = (self.geometry.width(), view.step);
+        let h = view.step;
         let half = S::from_f64(0.5);
-        let old = view.state.positions.values();
-        for i in 0..self.members.len() {
-            if !self.secant(i) {
-                return;
-            }
-            for (p, at) in self.unknowns(view, i).enumerate() {
-                let Some(at) = at else { continue };
-                let row = &self.geometry.matrix[p * width..(p + 1) * width];
-                let coordinates = self.geometry.coordinates_of(i);
-                for ((&entry, to), coordinate) in
-                    row.iter().zip(self.unknowns(view, i)).zip(coordinates)
-                {
-                    system.add_right(at, -h * entry * old[coordinate]);
-                    let entry = half * h * entry;
-                    match to {
-                        Some(to) => system.add(at, to, entry),
-                        None => system.add_right(at, -entry * trial.displacements[coordinate]),
+        let old = points(view.state.positions.values());
+        let (values, right) = system.parts();
+        for member in &mut self.members {
+            let site = &member.site;
+            // q⁰ of masses, q_m of anchors.
+            let mut known = gather::<K, S, D>(&site.nodes, old);
+            for (i, known) in known.as_mut().iter_mut().enumerate() {
+                if !site.is_mass[i] {
+                    let displacement = &trial.displacements[site.nodes[i]];
+                    for (known, &change) in known.iter_mut().zip(displacement) {
+                        *known += half * change;
                     }
+                }
+            }
+            let weights = member.secant(self.kinematics);
+            let force = pull::<K, S, D>(&weights, &known);
+            for (i, force) in force.as_ref().iter().enumerate() {
+                for (right, &force) in right[site.secant_rows[i]].iter_mut().zip(force) {
+                    *right -= h * force;
+                }
+                for (j, &weight) in weights[i].as_ref().iter().enumerate() {
+                    values[site.secant[i][j]] += half * h * weight;
                 }
             }
         }
@@ -66,133 +62,151 @@ where
     pub(super) fn add_impulse_all(
         &mut self,
         view: &StepView<'_, S>,
-        trial: &Trial<S>,
-        impulse: &mut [S],
+        trial: &Trial<S, D>,
+        along: Along,
+        impulse: &mut [[S; D]],
     ) {
-        let (width, h) = (self.geometry.width(), view.step);
-        let half = S::from_f64(0.5);
-        let old = view.state.positions.values();
-        for i in 0..self.members.len() {
-            if self.secant(i) {
-                for (p, at) in self.geometry.coordinates_of(i).enumerate() {
-                    let row = &self.geometry.matrix[p * width..(p + 1) * width];
-                    let pairs = row.iter().zip(self.geometry.coordinates_of(i));
-                    let force = pairs.fold(S::zero(), |sum, (&entry, coordinate)| {
-                        let mean = old[coordinate] + half * trial.displacements[coordinate];
-                        sum + entry * mean
-                    });
-                    impulse[at] -= h * force;
-                }
-            } else {
-                let share = h * S::from_f64(C::IMPLICIT);
-                let rows = self.geometry.direction(i).chunks_exact(width);
-                let forces = &self.members[i].response.as_ref()[..M::MEASURES];
-                for (row, &force) in rows.zip(forces) {
-                    for (&entry, at) in row.iter().zip(self.geometry.coordinates_of(i)) {
-                        impulse[at] -= share * force * entry;
+        let old = points(view.state.positions.values());
+        for member in &self.members {
+            let nodes = &member.site.nodes;
+            let q0 = gather::<K, S, D>(nodes, old);
+            let (h, force) = if along == Along::Secant {
+                let mut mean = gather::<K, S, D>(nodes, &trial.displacements);
+                for (mean, old) in mean.as_mut().iter_mut().zip(q0.as_ref()) {
+                    for (mean, &old) in mean.iter_mut().zip(old) {
+                        *mean = old + S::from_f64(0.5) * *mean;
                     }
                 }
+                let weights = member.secant(self.kinematics);
+                (view.step, pull::<K, S, D>(&weights, &mean))
+            } else {
+                let q1 = gather::<K, S, D>(nodes, &trial.positions);
+                let at = match along {
+                    Along::Gradient => Placement::End,
+                    Along::Secant | Along::Scheme => C::PLACEMENT,
+                };
+                let share = view.step * S::from_f64(C::IMPLICIT);
+                (share, member.force(self.kinematics, at, [&q0, &q1]))
+            };
+            for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
+                for (impulse, &force) in impulse[node].iter_mut().zip(force) {
+                    *impulse -= h * force;
+                }
             }
         }
     }
+}
 
-    /// See [`Group::close`](super::Group::close).
-    pub(super) fn close_all(
+/// `A q` with `Σ_j A_ij = 0`: `Σ_j A_ij (q_j − q_i)`, which sums to zero over the nodes exactly as
+/// far as A is symmetric, and does not depend on where the origin is.
+#[inline]
+fn pull<K: Kinematics<S, D>, S: Real, const D: usize>(
+    weights: &Weights<K, S, D>,
+    q: &Points<K, S, D>,
+) -> Points<K, S, D> {
+    let mut force = Points::<K, S, D>::filled([S::zero(); D]);
+    for (i, force) in force.as_mut().iter_mut().enumerate() {
+        for (j, other) in q.as_ref().iter().enumerate() {
+            if j == i {
+                continue;
+            }
+            let weight = weights[i][j];
+            for (axis, force) in force.iter_mut().enumerate() {
+                *force += weight * (other[axis] - q[i][axis]);
+            }
+        }
+    }
+    force
+}
+
+impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// Numbers per measure, from the first of an array.
+    #[inline]
+    pub(super) fn measures_in<A: Array<S>>(values: &A) -> Measures<K, S, D> {
+        let mut measures = Measures::<K, S, D>::filled(S::zero());
+        for (a, measure) in measures.as_mut().iter_mut().enumerate() {
+            *measure = values[a];
+        }
+        measures
+    }
+
+    /// A of the nodal force `A q_m` at the found response.
+    #[inline]
+    fn secant(&self, kinematics: K) -> Weights<K, S, D> {
+        let measures = Self::measures_in(&self.x);
+        let old = match C::PLACEMENT {
+            Placement::Middle => measures,
+            Placement::Ends | Placement::End | Placement::Start => {
+                Self::measures_in(&self.start.x0)
+            }
+        };
+        kinematics.secant(&old, &measures, &Self::measures_in(&self.response))
+    }
+
+    /// The nodal forces of the found response along the gradient between two configurations, N.
+    pub(super) fn force(
+        &self,
+        kinematics: K,
+        at: Placement,
+        ends: [&Points<K, S, D>; 2],
+    ) -> Points<K, S, D> {
+        let measures0 = Self::measures_in(&self.start.x0);
+        let pose = Pose::new(kinematics, at, ends, measures0);
+        let mut force = Points::<K, S, D>::filled([S::zero(); D]);
+        for (a, row) in pose.direction.as_ref().iter().enumerate() {
+            for (force, entry) in force.as_mut().iter_mut().zip(row.as_ref()) {
+                for (force, &entry) in force.iter_mut().zip(entry) {
+                    *force += self.response[a] * entry;
+                }
+            }
+        }
+        force
+    }
+
+    /// The increments of the internal variables and of the reservoirs' entropies.
+    #[inline]
+    pub(super) fn close(
         &mut self,
         view: &StepView<'_, S>,
-        trial: &Trial<S>,
+        seen_temperatures: &[S],
         next: &mut State<S>,
     ) {
-        let share = S::from_f64(C::IMPLICIT);
-        for member in &mut self.members {
-            let forces = &member.response.as_ref()[M::MEASURES..M::MEASURES + M::DASHPOTS];
-            let viscosities = member.viscosities.0.as_ref();
-            let mut heat = S::zero();
-            for (k, (&g, &eta)) in forces.iter().zip(viscosities).enumerate() {
-                let rate = g / eta;
-                heat += g * rate;
-                let old_rate = member.old_rates.as_ref()[M::MEASURES + k];
-                next.viscous.add(
-                    member.slots.viscous + k,
-                    view.thermal_step() * (share * rate + old_rate),
-                );
+        let (h, share) = (view.thermal_step(), S::from_f64(C::IMPLICIT));
+        let mut heat = S::zero();
+        for k in 0..M::DASHPOTS {
+            let g = self.response[M::MEASURES + k];
+            let rate = g / self.viscosities.0[k];
+            heat += g * rate;
+            let old_rate = self.old_rates[M::MEASURES + k];
+            let (at, change) = (self.slots.viscous + k, h * (share * rate + old_rate));
+            next.viscous.advance(at, &view.state.viscous, change);
+        }
+        let Some(slot) = self.slots.thermal else {
+            if M::DASHPOTS > 0 {
+                let lost = h * (share * heat + self.old_dissipation());
+                next.dissipated.add(lost);
             }
-            let Some(slot) = member.slots.thermal else {
-                next.dissipated.add(
-                    0,
-                    view.thermal_step() * (share * heat + member.old_dissipation()),
-                );
-                continue;
-            };
-            let theta = member.temperature();
-            heat += view
-                .conduction
-                .heat_flow(slot, theta, &trial.seen_temperatures);
-            let old_rate = member.old_rates.as_ref()[M::MEASURES + M::DASHPOTS];
-            member.entropy_received = view.thermal_step() * (share * heat / theta + old_rate);
-            next.entropies.add(slot, member.entropy_received);
-            let seen = share * theta + (S::one() - share) * view.state.temperatures[slot];
-            for link in view.conduction.links(slot) {
-                if let Partner::Reservoir(index) = link.partner {
-                    let theta_r = view.conduction.reservoirs[index];
-                    let flow = link.conductance * (seen - theta_r);
-                    next.reservoir_entropies
-                        .add(index, view.thermal_step() * flow / theta_r);
-                }
+            return;
+        };
+        let theta = self.temperature();
+        heat += view.conduction.heat_flow(slot, theta, seen_temperatures);
+        let old_rate = self.old_rates[Self::TEMPERATURE];
+        self.entropy_received = h * (share * heat / theta + old_rate);
+        let entropies = &view.state.entropies;
+        next.entropies.advance(slot, entropies, self.entropy_received);
+        for link in view.conduction.links(slot) {
+            if let Partner::Reservoir(index) = link.partner {
+                let theta_r = view.conduction.reservoirs[index];
+                let seen = share * theta + (S::one() - share) * view.state.temperatures[slot];
+                let flow = link.conductance * (seen - theta_r);
+                next.reservoir_entropies.add(index, h * flow / theta_r);
             }
         }
-    }
-
-    /// See [`Group::settle`](super::Group::settle).
-    pub(super) fn settle_all(
-        &mut self,
-        view: &StepView<'_, S>,
-        state: &mut State<S>,
-    ) -> Result<(), StateError> {
-        for i in 0..self.members.len() {
-            let mut x = self.locate(i, state)?;
-            let member = &mut self.members[i];
-            for (dashpot, &stretch) in x.as_ref()[M::MEASURES..][..M::DASHPOTS].iter().enumerate() {
-                if !stretch.is_finite() {
-                    return Err(StateError::ViscousStretch {
-                        element: member.element,
-                        dashpot,
-                        value: stretch.to_f64(),
-                    });
-                }
-            }
-            let Some(slot) = member.slots.thermal else {
-                member.check_energy(&x)?;
-                continue;
-            };
-            let prescribed = view.prescribed(Some(slot), Placement::End);
-            state.temperatures[slot] = if let Some(theta) = prescribed {
-                theta
-            } else if C::IN_TEMPERATURE {
-                member.new_temperature(view.state.temperatures[slot])
-            } else {
-                let entropy = state.entropies.values()[slot];
-                let guess = member.x.as_ref()[M::Variables::LEN - 1];
-                temperature_at(&member.model, x, entropy, guess)
-                    .map_err(|infeasible| infeasible.of(member.element))?
-            };
-            x.as_mut()[M::Variables::LEN - 1] = state.temperatures[slot];
-            check_temperature(member.element, state.temperatures[slot])?;
-            member.check_energy(&x)?;
-            let caloric = member.model.caloric(&x);
-            if C::IN_TEMPERATURE {
-                state.entropies.set(slot, caloric.entropy);
-            }
-            Infeasible::unless_stable(&caloric, state.temperatures[slot])
-                .map_err(|infeasible| infeasible.of(member.element))?;
-            if prescribed.is_some() {
-                let change = caloric.entropy - view.state.entropies.values()[slot];
-                let given = change - member.entropy_received;
-                state.entropies.set(slot, caloric.entropy);
-                state.heat.add(0, member.temperature() * given);
-                state.thermostat_entropy.add(0, -given);
-            }
-        }
-        Ok(())
     }
 }

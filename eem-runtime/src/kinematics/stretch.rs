@@ -1,6 +1,9 @@
 //! The distance of two nodes.
 
+use core::array;
+
 use super::{Ends, Kinematics};
+use crate::free_energy::Entry;
 use crate::scalar::{Real, Scalar};
 
 /// The stretch `λ = |r|`, `r = q_j − q_i`, of two nodes in `D` dimensions, m.
@@ -16,109 +19,100 @@ use crate::scalar::{Real, Scalar};
 /// ```
 /// use eem_runtime::kinematics::{Kinematics, Stretch};
 ///
-/// let mut stretch = [0.0];
-/// Kinematics::<f64>::measure(&Stretch::<2>, &[1.0, 1.0, 4.0, 5.0], &mut stretch);
+/// let stretch = Stretch::<2>.measure(&[[1.0, 1.0], [4.0, 5.0]]);
 /// assert_eq!(stretch, [5.0]);
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Stretch<const D: usize>;
 
-/// `q_j − q_i` of coordinates `[q_i, q_j]`.
+/// `r = q_j − q_i`.
 #[inline]
-fn difference<S: Scalar, const D: usize>(q: &[S]) -> [S; D] {
-    core::array::from_fn(|axis| q[D + axis] - q[axis])
+fn difference<S: Scalar, const D: usize>(q: &[[S; D]; 2]) -> [S; D] {
+    array::from_fn(|axis| q[1][axis] - q[0][axis])
 }
 
-/// Writes `[−v, v]`, the derivative along `r` as a derivative along `[q_i, q_j]`.
+/// `[−v, v]`, the derivative along `r` as a derivative along `[q_i, q_j]`.
 #[inline]
-fn spread<S: Scalar, const D: usize>(v: [S; D], gradient: &mut [S]) {
-    for (axis, &component) in v.iter().enumerate() {
-        gradient[axis] = -component;
-        gradient[D + axis] = component;
-    }
+fn spread<S: Scalar, const D: usize>(v: [S; D]) -> [[S; D]; 2] {
+    [v.map(|component| -component), v]
 }
 
-/// Adds `[K, −K; −K, K]`.
+/// `[K, −K; −K, K]` with `K = t (1 − a bᵀ)`.
 #[inline]
-fn add_blocks<S: Scalar, const D: usize>(k: impl Fn(usize, usize) -> S, matrix: &mut [S]) {
-    let width = 2 * D;
-    for row in 0..D {
-        for column in 0..D {
-            let entry = k(row, column);
-            matrix[row * width + column] += entry;
-            matrix[row * width + D + column] -= entry;
-            matrix[(D + row) * width + column] -= entry;
-            matrix[(D + row) * width + D + column] += entry;
-        }
-    }
+fn blocks<S: Scalar, const D: usize>(t: S, a: [S; D], b: [S; D]) -> [[[[S; D]; D]; 2]; 2] {
+    let entry = |row: usize, column: usize| {
+        let identity = if row == column { S::one() } else { S::zero() };
+        t * (identity - a[row] * b[column])
+    };
+    let k: [[S; D]; D] = array::from_fn(|row| array::from_fn(|column| entry(row, column)));
+    let minus = k.map(|row| row.map(|entry| -entry));
+    [[k, minus], [minus, k]]
 }
 
-#[inline]
-fn identity<S: Scalar>(row: usize, column: usize) -> S {
-    if row == column { S::one() } else { S::zero() }
-}
+impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
+    type PerNode<T: Entry> = [T; 2];
+    type PerMeasure<T: Entry> = [T; 1];
 
-impl<S: Real, const D: usize> Kinematics<S> for Stretch<D> {
-    const NODES: usize = 2;
-    const MEASURES: usize = 1;
-
+    #[inline]
     fn is_admissible(&self, measure: S) -> bool {
         measure.is_finite() && measure > S::zero()
     }
 
     #[inline]
-    fn measure(&self, q: &[S], measures: &mut [S]) {
-        let r: [S; D] = difference(q);
+    fn measure(&self, q: &[[S; D]; 2]) -> [S; 1] {
+        let r = difference(q);
         let square = r
             .iter()
             .fold(S::zero(), |sum, &component| sum + component * component);
-        measures[0] = square.sqrt();
+        [square.sqrt()]
     }
 
     #[inline]
-    fn gradient(&self, q: &[S], measures: &[S], gradient: &mut [S]) {
-        let r: [S; D] = difference(q);
-        spread(r.map(|component| component / measures[0]), gradient);
+    fn gradient(&self, q: &[[S; D]; 2], &[lambda]: &[S; 1]) -> [[[S; D]; 2]; 1] {
+        let shrink = lambda.recip();
+        [spread(difference(q).map(|component| component * shrink))]
     }
 
     #[inline]
-    fn add_curvature(&self, q: &[S], measures: &[S], force: &[S], matrix: &mut [S]) {
-        let n = difference::<S, D>(q).map(|component| component / measures[0]);
-        let tension = force[0] / measures[0];
-        add_blocks::<S, D>(
-            |row, column| tension * (identity::<S>(row, column) - n[row] * n[column]),
-            matrix,
-        );
+    fn curvature(
+        &self,
+        q: &[[S; D]; 2],
+        &[lambda]: &[S; 1],
+        &[force]: &[S; 1],
+    ) -> [[[[S; D]; D]; 2]; 2] {
+        let n = difference(q).map(|component| component / lambda);
+        blocks(force / lambda, n, n)
     }
 
     #[inline]
-    fn discrete_gradient(&self, ends: Ends<'_, S>, gradient: &mut [S]) {
-        let (r0, r1): ([S; D], [S; D]) = (difference(ends.q0), difference(ends.q1));
-        let sum = ends.measures0[0] + ends.measures1[0];
-        spread::<S, D>(
-            core::array::from_fn(|axis| (r0[axis] + r1[axis]) / sum),
-            gradient,
-        );
+    fn discrete_gradient(&self, ends: &Ends<Self, S, D>) -> [[[S; D]; 2]; 1] {
+        [spread(mean_direction(ends))]
     }
 
     // ∂(f 2r_m/(λ⁰ + λ¹))/∂r¹ = f/(λ⁰ + λ¹) (1 − 2r_m/(λ⁰ + λ¹) n¹ᵀ)
     #[inline]
-    fn add_discrete_curvature(&self, ends: Ends<'_, S>, force: &[S], matrix: &mut [S]) {
-        let (r0, r1): ([S; D], [S; D]) = (difference(ends.q0), difference(ends.q1));
-        let sum = ends.measures0[0] + ends.measures1[0];
-        let n1 = r1.map(|component| component / ends.measures1[0]);
-        let mean: [S; D] = core::array::from_fn(|axis| (r0[axis] + r1[axis]) / sum);
-        let tension = force[0] / sum;
-        add_blocks::<S, D>(
-            |row, column| tension * (identity::<S>(row, column) - mean[row] * n1[column]),
-            matrix,
-        );
+    fn discrete_curvature(
+        &self,
+        ends: &Ends<Self, S, D>,
+        &[force]: &[S; 1],
+    ) -> [[[[S; D]; D]; 2]; 2] {
+        let ([lambda0], [lambda1]) = (ends.measures0, ends.measures1);
+        let shrink = lambda1.recip();
+        let n1 = difference(&ends.q1).map(|component| component * shrink);
+        blocks(force / (lambda0 + lambda1), mean_direction(ends), n1)
     }
 
     #[inline]
-    fn add_secant(&self, measures0: &[S], measures1: &[S], force: &[S], matrix: &mut [S]) {
-        let sum = measures0[0] + measures1[0];
-        let tension = (force[0] + force[0]) / sum;
-        add_blocks::<S, D>(|row, column| tension * identity::<S>(row, column), matrix);
+    fn secant(&self, &[lambda0]: &[S; 1], &[lambda1]: &[S; 1], &[force]: &[S; 1]) -> [[S; 2]; 2] {
+        let tension = (force + force) / (lambda0 + lambda1);
+        [[tension, -tension], [-tension, tension]]
     }
+}
+
+/// `2 r_m/(λ⁰ + λ¹)`.
+#[inline]
+fn mean_direction<S: Real, const D: usize>(ends: &Ends<Stretch<D>, S, D>) -> [S; D] {
+    let (r0, r1) = (difference(&ends.q0), difference(&ends.q1));
+    let shrink = (ends.measures0[0] + ends.measures1[0]).recip();
+    array::from_fn(|axis| (r0[axis] + r1[axis]) * shrink)
 }

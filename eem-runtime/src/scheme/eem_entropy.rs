@@ -57,7 +57,7 @@ fn find_corners<S: Real, M: FreeEnergy<S>, Old>(
     let steps = M::Variables::LEN - 1;
     let (ascending, descending) = corners.as_mut().split_at_mut(steps);
     let caloric1 = model.caloric(x1);
-    Infeasible::unless_stable(&caloric1, x1.as_ref()[steps])?;
+    Infeasible::unless_stable(caloric1.heat_capacity, x1[steps])?;
     for k in 1..=steps {
         let mut x = start.x0;
         x.as_mut()[..k].copy_from_slice(&x1.as_ref()[..k]);

@@ -1,0 +1,142 @@
+//! The new state of each element: its temperature, and all that must be true of a state.
+
+use super::evaluate::{check_measures, check_temperature};
+use super::member::Member;
+use super::pose::{gather, points};
+use super::{ElementGroup, StepView, Trial, variables};
+use crate::error::StateError;
+use crate::free_energy::{Caloric, FreeEnergy};
+use crate::kinematics::Kinematics;
+use crate::scalar::Real;
+use crate::scene::is_positive;
+use crate::scheme::{ElementScheme, Infeasible, Placement, temperature_at};
+use crate::state::State;
+
+/// The largest correction of ln θ, in units of √ε, after which the entropy need not be evaluated
+/// again. Newton's method in ln θ leaves half the square of the correction, times the slope
+/// of ln C over ln θ: ε/32 for C ∝ θ, and ε/8 of the expansion of eˣ.
+const LAST_CORRECTION: f64 = 0.25;
+
+impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// See [`Group::close`](super::Group::close).
+    pub(super) fn close_all(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        next: &mut State<S>,
+    ) -> Result<(), StateError> {
+        for member in &mut self.members {
+            member.close(view, &trial.seen_temperatures, next);
+            member.settle(self.kinematics, view, next)?;
+        }
+        Ok(())
+    }
+}
+
+impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// The variables in a state, if the element can have its deformation.
+    #[inline]
+    pub(super) fn locate(
+        &self,
+        kinematics: K,
+        state: &State<S>,
+    ) -> Result<M::Variables, StateError> {
+        let q = gather::<K, S, D>(&self.site.nodes, points(state.positions.values()));
+        let measures = kinematics.measure(&q);
+        check_measures::<K, S, D>(kinematics, self.element, &measures)?;
+        Ok(variables::<S, M>(measures.as_ref(), self.slots, state))
+    }
+
+    /// The new temperature from the new entropy, or the other way round where the scheme
+    /// integrates the temperature or it is prescribed.
+    #[inline]
+    fn settle(
+        &mut self,
+        kinematics: K,
+        view: &StepView<'_, S>,
+        state: &mut State<S>,
+    ) -> Result<(), StateError> {
+        let mut x = self.locate(kinematics, state)?;
+        self.check_viscous(&x)?;
+        let Some(slot) = self.slots.thermal else {
+            return self.check_energy(&x);
+        };
+        let prescribed = view.prescribed(Some(slot), Placement::End);
+        if let (false, None) = (C::IN_TEMPERATURE, prescribed) {
+            x[Self::TEMPERATURE] = self.x[Self::TEMPERATURE];
+            let theta = self.temperature_of(x, state.entropies.values()[slot])?;
+            check_temperature(self.element, theta)?;
+            state.temperatures[slot] = theta;
+            x[Self::TEMPERATURE] = theta;
+            return self.check_energy(&x);
+        }
+        let old = view.state.temperatures[slot];
+        let theta = prescribed.unwrap_or_else(|| self.new_temperature(old));
+        state.temperatures[slot] = theta;
+        x[Self::TEMPERATURE] = theta;
+        check_temperature(self.element, theta)?;
+        self.check_energy(&x)?;
+        let caloric = self.model.caloric(&x);
+        self.check_stable(&caloric, theta)?;
+        state.entropies.set(slot, caloric.entropy);
+        if prescribed.is_some() {
+            let change = caloric.entropy - view.state.entropies.values()[slot];
+            let given = change - self.entropy_received;
+            state.heat.add(self.temperature() * given);
+            state.thermostat_entropy.add(-given);
+        }
+        Ok(())
+    }
+
+    /// The stable temperature with an entropy, from that of the trial in `x`.
+    ///
+    /// Newton's method leaves so little that one evaluation is enough, as a rule.
+    #[inline]
+    fn temperature_of(&self, x: M::Variables, entropy: S) -> Result<S, StateError> {
+        let theta = x[Self::TEMPERATURE];
+        let caloric = self.model.caloric(&x);
+        let correction = (entropy - caloric.entropy) / caloric.heat_capacity;
+        let last = S::from_f64(LAST_CORRECTION) * S::EPSILON.sqrt();
+        if is_positive(caloric.heat_capacity) && correction.abs() <= last {
+            return Ok(theta + theta * correction);
+        }
+        let found = temperature_at(&self.model, x, entropy, theta)
+            .map_err(|infeasible| infeasible.of(self.element))?;
+        let mut at = x;
+        at[Self::TEMPERATURE] = found;
+        self.check_stable(&self.model.caloric(&at), found)?;
+        Ok(found)
+    }
+
+    fn check_stable(&self, caloric: &Caloric<S>, theta: S) -> Result<(), StateError> {
+        Infeasible::unless_stable(caloric.heat_capacity, theta)
+            .map_err(|infeasible| infeasible.of(self.element))
+    }
+
+    #[inline]
+    fn check_viscous(&self, x: &M::Variables) -> Result<(), StateError> {
+        for dashpot in 0..M::DASHPOTS {
+            let stretch = x[M::MEASURES + dashpot];
+            if !stretch.is_finite() {
+                return Err(StateError::ViscousStretch {
+                    element: self.element,
+                    dashpot,
+                    value: stretch.to_f64(),
+                });
+            }
+        }
+        Ok(())
+    }
+}
