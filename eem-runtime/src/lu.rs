@@ -84,35 +84,38 @@ pub(crate) fn solve_fixed<S: Real, const N: usize, const W: usize>(
     };
     let mut inverse = [S::zero(); N];
     for column in 0..N {
-        let mut pivot = column;
-        for row in column + 1..N {
-            if a[row][column].abs() > a[pivot][column].abs() {
-                pivot = row;
+        let (mut pivot, mut size) = (column, a[column][column].abs());
+        for (row, entries) in a.iter().enumerate().skip(column + 1) {
+            if entries[column].abs() > size {
+                (pivot, size) = (row, entries[column].abs());
             }
         }
-        let value = a[pivot][column];
-        if !value.is_finite() || value == S::zero() {
+        if !(size.is_finite() && size > S::zero()) {
             return Err(Singular);
         }
         if pivot != column {
             a.swap(pivot, column);
             b.swap(pivot, column);
         }
-        inverse[column] = value.recip();
-        let (pivot_row, pivot_b) = (a[column], b[column]);
-        for row in column + 1..N {
-            let factor = a[row][column] * inverse[column];
-            // Whole rows: the entries before the column are not read again.
-            subtract(&mut a[row], factor, &pivot_row);
-            subtract(&mut b[row], factor, &pivot_b);
+        let (above, below) = a.split_at_mut(column + 1);
+        let (above_b, below_b) = b.split_at_mut(column + 1);
+        let (pivot_row, pivot_b) = (&above[column], &above_b[column]);
+        inverse[column] = pivot_row[column].recip();
+        for (row, b) in below.iter_mut().zip(below_b) {
+            let factor = row[column] * inverse[column];
+            // Whole rows, which is faster: the entries before the column are not read again.
+            subtract(row, factor, pivot_row);
+            subtract(b, factor, pivot_b);
         }
     }
     for row in (0..N).rev() {
-        for column in row + 1..N {
-            let known = b[column];
-            subtract(&mut b[row], a[row][column], &known);
+        let (head, known) = b.split_at_mut(row + 1);
+        for (known, &factor) in known.iter().zip(&a[row][row + 1..]) {
+            subtract(&mut head[row], factor, known);
         }
-        b[row] = b[row].map(|entry| entry * inverse[row]);
+        for entry in &mut head[row] {
+            *entry *= inverse[row];
+        }
     }
     Ok(())
 }
@@ -149,7 +152,9 @@ mod tests {
     fn a_singular_matrix_is_reported() {
         let mut matrix = [1.0, 2.0, 2.0, 4.0];
         assert_eq!(factor(&mut matrix, &mut [0; 2]), Err(Singular));
-        assert_eq!(solve_fixed::<f64, 2, 1>(&mut matrix, &mut [[1.0]; 2]), Err(Singular));
+        let mut matrix = [1.0, 2.0, 2.0, 4.0];
+        let solved = solve_fixed::<f64, 2, 1>(&mut matrix, &mut [[1.0]; 2]);
+        assert_eq!(solved, Err(Singular));
         let mut matrix = [f64::NAN];
         assert_eq!(factor(&mut matrix, &mut [0; 1]), Err(Singular));
     }

@@ -26,15 +26,12 @@ where
         system: Option<&mut LinearSystem<S, 1>>,
     ) -> Result<(), StateError> {
         let kinematics = self.kinematics;
-        let Some(system) = system else {
-            for member in &mut self.members {
-                member.respond(kinematics, view, trial)?;
-            }
-            return Ok(());
-        };
-        let (values, right) = system.parts();
+        let mut parts = system.map(LinearSystem::parts);
         for member in &mut self.members {
             let pose = member.respond(kinematics, view, trial)?;
+            let Some((values, right)) = &mut parts else {
+                continue;
+            };
             member.condense(view, &trial.seen_temperatures)?;
             let contact = member.site.contact.map(|at| &self.contacts[at]);
             let mut target = Target {

@@ -195,7 +195,8 @@ where
             return;
         };
         let theta = self.temperature();
-        heat += view.conduction.heat_flow(slot, theta, seen_temperatures);
+        let flow = view.conduction.heat_flow(slot, theta, seen_temperatures);
+        heat += flow.heat;
         let old_rate = self.old_rates[Self::TEMPERATURE];
         self.entropy_received = h * (share * heat / theta + old_rate);
         let entropies = &view.state.entropies;

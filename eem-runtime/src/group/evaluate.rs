@@ -93,7 +93,7 @@ where
         }
         if let Some(slot) = self.slots.thermal {
             let temperatures = &view.state.temperatures;
-            heat += view.conduction.heat_flow(slot, theta, temperatures);
+            heat += view.conduction.heat_flow(slot, theta, temperatures).heat;
             self.old_rates[Self::TEMPERATURE] = share * heat / theta;
         }
         let mut measures0 = Measures::<K, S, D>::filled(S::zero());

@@ -107,8 +107,9 @@ where
         let per_theta = theta.recip();
         let (mut heat, mut conductance) = (dissipation.power, S::zero());
         if let Some(slot) = self.slots.thermal {
-            heat += view.conduction.heat_flow(slot, theta, seen_temperatures);
-            conductance = view.conduction.reservoir_conductance(slot);
+            let flow = view.conduction.heat_flow(slot, theta, seen_temperatures);
+            heat += flow.heat;
+            conductance = flow.conductance;
         }
         let rate = heat * per_theta;
         let old_rate = self.old_rates[Self::TEMPERATURE];

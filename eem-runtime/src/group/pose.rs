@@ -167,7 +167,9 @@ fn halved<K: Kinematics<S, D>, S: Real, const D: usize>(
 ) -> Gradient<K, S, D> {
     for row in gradient.as_mut() {
         for point in row.as_mut() {
-            *point = point.map(|entry| S::from_f64(0.5) * entry);
+            for entry in point {
+                *entry *= S::from_f64(0.5);
+            }
         }
     }
     gradient

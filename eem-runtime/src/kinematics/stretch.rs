@@ -40,12 +40,14 @@ fn spread<S: Scalar, const D: usize>(v: [S; D]) -> [[S; D]; 2] {
 /// `[K, −K; −K, K]` with `K = t (1 − a bᵀ)`.
 #[inline]
 fn blocks<S: Scalar, const D: usize>(t: S, a: [S; D], b: [S; D]) -> [[[[S; D]; D]; 2]; 2] {
-    let entry = |row: usize, column: usize| {
-        let identity = if row == column { S::one() } else { S::zero() };
-        t * (identity - a[row] * b[column])
-    };
-    let k: [[S; D]; D] = array::from_fn(|row| array::from_fn(|column| entry(row, column)));
-    let minus = k.map(|row| row.map(|entry| -entry));
+    let (mut k, mut minus) = ([[S::zero(); D]; D], [[S::zero(); D]; D]);
+    for row in 0..D {
+        for column in 0..D {
+            let identity = if row == column { S::one() } else { S::zero() };
+            let entry = t * (identity - a[row] * b[column]);
+            (k[row][column], minus[row][column]) = (entry, -entry);
+        }
+    }
     [[k, minus], [minus, k]]
 }
 
