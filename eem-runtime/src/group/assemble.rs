@@ -1,12 +1,12 @@
 //! From the elements to the global system, and back.
 
 use super::member::Member;
-use super::pose::{Pose, along};
+use super::pose::{Pose, along, spread};
 use super::site::Contact;
 use super::{ElementGroup, StepView, Trial};
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
-use crate::kinematics::{Kinematics, Measures, Points};
+use crate::kinematics::{Arms, Kinematics, Measures};
 use crate::scalar::Real;
 use crate::scheme::ElementScheme;
 use crate::system::LinearSystem;
@@ -113,10 +113,10 @@ where
         condensed
     }
 
-    /// The derivative of a condensed response by the new positions.
+    /// The derivative of a condensed response by the new arms.
     #[inline]
-    fn by_position(&self, row: &CondensedRow<K, S, D>, pose: &Pose<K, S, D>) -> Points<K, S, D> {
-        let mut sum = Points::<K, S, D>::filled([S::zero(); D]);
+    fn by_arm(&self, row: &CondensedRow<K, S, D>, pose: &Pose<K, S, D>) -> Arms<K, S, D> {
+        let mut sum = Arms::<K, S, D>::filled([S::zero(); D]);
         for a in 0..M::MEASURES {
             for (sum, entry) in sum.as_mut().iter_mut().zip(pose.sensitivity[a].as_ref()) {
                 for (sum, &entry) in sum.iter_mut().zip(entry) {
@@ -152,31 +152,51 @@ where
         let mut blocks = pose.curvature(kinematics, C::PLACEMENT, &forces);
         for a in 0..M::MEASURES {
             let row = self.condensed_row(a);
-            let by_position = self.by_position(&row, pose);
+            let by_arm = self.by_arm(&row, pose);
             let change = forces[a] + impulse * row.constant;
-            for (i, direction) in pose.direction[a].as_ref().iter().enumerate() {
-                let at = self.site.rows[i];
+            let direction = spread::<K, S, D>(&pose.direction[a]);
+            for (&at, direction) in self.site.rows.as_ref().iter().zip(direction.as_ref()) {
                 for (axis, &entry) in direction.iter().enumerate() {
                     target.right[at + axis][0] -= entry * change;
                 }
-                for (j, by) in by_position.as_ref().iter().enumerate() {
+            }
+            for (i, direction) in pose.direction[a].as_ref().iter().enumerate() {
+                for (j, by) in by_arm.as_ref().iter().enumerate() {
                     for (entries, &entry) in blocks[i][j].iter_mut().zip(direction) {
+                        let along = impulse * entry;
                         for (block, &by) in entries.iter_mut().zip(by) {
-                            *block += (impulse * entry) * by;
+                            *block += along * by;
                         }
                     }
                 }
             }
             if let Some(contact) = target.contact {
                 let heat = impulse * row.by_heat * self.heat_factor(view);
-                contact.add_partners(heat, &pose.direction[a], target.values);
+                contact.add_partners(heat, &direction, target.values);
             }
         }
-        for (row, places) in blocks.as_ref().iter().zip(self.site.blocks.as_ref()) {
-            for (block, places) in row.as_ref().iter().zip(places.as_ref()) {
-                for (entries, &place) in block.iter().zip(places) {
-                    add::<S, D>(target.values, place, entries);
-                }
+        for (i, row) in blocks.as_ref().iter().enumerate() {
+            for (j, block) in row.as_ref().iter().enumerate() {
+                self.add_block([i + 1, j + 1], block, target.values);
+            }
+        }
+    }
+
+    /// Adds the block of the arms to two nodes: to the rows and columns of the nodes, and with the
+    /// other sign to those of the first node.
+    #[inline]
+    fn add_block(&self, [i, j]: [usize; 2], block: &[[S; D]; D], values: &mut [S]) {
+        let site = &self.site;
+        if site.is_mass[i] && site.is_mass[j] {
+            add_rows(values, &site.blocks[i][j], block);
+        }
+        if site.is_mass[0] {
+            add_rows(values, &site.blocks[0][0], block);
+            if site.is_mass[i] {
+                subtract_rows(values, &site.blocks[i][0], block);
+            }
+            if site.is_mass[j] {
+                subtract_rows(values, &site.blocks[0][j], block);
             }
         }
     }
@@ -196,9 +216,9 @@ where
         let row = self.condensed_row(Self::TEMPERATURE);
         let seen = trial.seen_temperatures[slot];
         target.right[contact.unknown][0] += self.temperature() + row.constant - seen;
-        let by_position = self.by_position(&row, pose);
-        for (by, &place) in by_position.as_ref().iter().zip(contact.row.as_ref()) {
-            add::<S, D>(target.values, place, &by.map(|entry| -entry));
+        let by_node = spread::<K, S, D>(&self.by_arm(&row, pose));
+        for (by, &place) in by_node.as_ref().iter().zip(contact.row.as_ref()) {
+            subtract(target.values, place, by);
         }
         let heat = -row.by_heat * self.heat_factor(view);
         let mut diagonal = S::one();
@@ -256,13 +276,16 @@ where
         largest
     }
 
-    /// The corrections of the positions of the nodes; zero for anchors.
+    /// The corrections of the arms.
     #[inline]
-    fn motion_in(&self, solution: &[[S; 1]]) -> Points<K, S, D> {
-        let mut motion = Points::<K, S, D>::filled([S::zero(); D]);
-        for (motion, &row) in motion.as_mut().iter_mut().zip(self.site.rows.as_ref()) {
-            for (axis, motion) in motion.iter_mut().enumerate() {
-                *motion = solution[row + axis][0];
+    fn motion_in(&self, solution: &[[S; 1]]) -> Arms<K, S, D> {
+        let mut motion = Arms::<K, S, D>::filled([S::zero(); D]);
+        let rows = self.site.rows.as_ref();
+        let first = &solution[rows[0]..][..D];
+        for (arm, &row) in motion.as_mut().iter_mut().zip(&rows[1..]) {
+            let other = &solution[row..][..D];
+            for axis in 0..D {
+                arm[axis] = other[axis][0] - first[axis][0];
             }
         }
         motion
@@ -273,7 +296,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
     /// Adds the derivatives of `factor Σ κ (Θ_partner − Θ)` to the rows of the nodes, each with its
     /// direction.
     #[inline]
-    fn add_partners(&self, factor: S, direction: &Points<K, S, D>, values: &mut [S]) {
+    fn add_partners(&self, factor: S, direction: &K::PerNode<[S; D]>, values: &mut [S]) {
         let mut own = S::zero();
         for partner in &self.partners {
             let entry = factor * partner.conductance;
@@ -293,11 +316,33 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
     }
 }
 
-/// Adds to consecutive entries.
+/// Adds a block, row by row.
 #[inline]
-fn add<S: Real, const D: usize>(values: &mut [S], place: usize, entries: &[S; D]) {
+fn add_rows<S: Real, const D: usize>(values: &mut [S], places: &[usize; D], block: &[[S; D]; D]) {
+    for (entries, &place) in block.iter().zip(places) {
+        for (value, &entry) in values[place..place + D].iter_mut().zip(entries) {
+            *value += entry;
+        }
+    }
+}
+
+/// Subtracts a block, row by row.
+#[inline]
+fn subtract_rows<S: Real, const D: usize>(
+    values: &mut [S],
+    places: &[usize; D],
+    block: &[[S; D]; D],
+) {
+    for (entries, &place) in block.iter().zip(places) {
+        subtract(values, place, entries);
+    }
+}
+
+/// Subtracts from consecutive entries.
+#[inline]
+fn subtract<S: Real, const D: usize>(values: &mut [S], place: usize, entries: &[S; D]) {
     for (value, &entry) in values[place..place + D].iter_mut().zip(entries) {
-        *value += entry;
+        *value -= entry;
     }
 }
 
@@ -307,7 +352,7 @@ fn add_column<K: Kinematics<S, D>, S: Real, const D: usize>(
     values: &mut [S],
     column: &super::site::Column<K, S, D>,
     factor: S,
-    direction: &Points<K, S, D>,
+    direction: &K::PerNode<[S; D]>,
 ) {
     for (places, direction) in column.as_ref().iter().zip(direction.as_ref()) {
         for (&place, &entry) in places.iter().zip(direction) {

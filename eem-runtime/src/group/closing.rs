@@ -5,11 +5,11 @@
 //! entropy hold to rounding whatever that error is, and leaves the energy with its square.
 
 use super::member::Member;
-use super::pose::{Pose, gather, points};
+use super::pose::{Pose, arms, points, spread};
 use super::{Along, ElementGroup, StepView, Trial};
 use crate::conduction::Partner;
 use crate::free_energy::{Array, FreeEnergy};
-use crate::kinematics::{Kinematics, Measures, Points, Weights};
+use crate::kinematics::{Arms, Kinematics, Measures, Weights};
 use crate::scalar::Real;
 use crate::scheme::{ElementScheme, Placement};
 use crate::state::State;
@@ -35,24 +35,31 @@ where
         let (values, right) = system.parts();
         for member in &mut self.members {
             let site = &member.site;
-            // q⁰ of masses, q_m of anchors.
-            let mut known = gather::<K, S, D>(&site.nodes, old);
+            // r⁰, with the mean positions of anchors.
+            let mut known = arms::<K, S, D>(&site.nodes, old);
             for (i, known) in known.as_mut().iter_mut().enumerate() {
-                if !site.is_mass[i] {
-                    let displacement = &trial.displacements[site.nodes[i]];
-                    for (known, &change) in known.iter_mut().zip(displacement) {
-                        *known += half * change;
-                    }
+                for (axis, known) in known.iter_mut().enumerate() {
+                    let shift = |i: usize| {
+                        let moved = trial.displacements[site.nodes[i]][axis];
+                        if site.is_mass[i] { S::zero() } else { moved }
+                    };
+                    *known += half * (shift(i + 1) - shift(0));
                 }
             }
             let weights = member.secant(self.kinematics);
             let force = pull::<K, S, D>(&weights, &known);
-            for (i, force) in force.as_ref().iter().enumerate() {
-                for (right, &force) in right[site.secant_rows[i]].iter_mut().zip(force) {
+            for (&row, force) in site.secant_rows.as_ref().iter().zip(force.as_ref()) {
+                for (right, &force) in right[row].iter_mut().zip(force) {
                     *right -= h * force;
                 }
-                for (j, &weight) in weights[i].as_ref().iter().enumerate() {
-                    values[site.secant[i][j]] += half * h * weight;
+            }
+            for (i, row) in weights.as_ref().iter().enumerate() {
+                for (j, &weight) in row.as_ref().iter().enumerate() {
+                    let entry = half * h * weight;
+                    values[site.secant[i + 1][j + 1]] += entry;
+                    values[site.secant[i + 1][0]] -= entry;
+                    values[site.secant[0][j + 1]] -= entry;
+                    values[site.secant[0][0]] += entry;
                 }
             }
         }
@@ -69,10 +76,10 @@ where
         let old = points(view.state.positions.values());
         for member in &self.members {
             let nodes = &member.site.nodes;
-            let q0 = gather::<K, S, D>(nodes, old);
+            let r0 = arms::<K, S, D>(nodes, old);
             let (h, force) = if along == Along::Secant {
-                let mut mean = gather::<K, S, D>(nodes, &trial.displacements);
-                for (mean, old) in mean.as_mut().iter_mut().zip(q0.as_ref()) {
+                let mut mean = arms::<K, S, D>(nodes, &trial.displacements);
+                for (mean, old) in mean.as_mut().iter_mut().zip(r0.as_ref()) {
                     for (mean, &old) in mean.iter_mut().zip(old) {
                         *mean = old + S::from_f64(0.5) * *mean;
                     }
@@ -80,13 +87,13 @@ where
                 let weights = member.secant(self.kinematics);
                 (view.step, pull::<K, S, D>(&weights, &mean))
             } else {
-                let q1 = gather::<K, S, D>(nodes, &trial.positions);
+                let r1 = arms::<K, S, D>(nodes, &trial.positions);
                 let at = match along {
                     Along::Gradient => Placement::End,
                     Along::Secant | Along::Scheme => C::PLACEMENT,
                 };
                 let share = view.step * S::from_f64(C::IMPLICIT);
-                (share, member.force(self.kinematics, at, [&q0, &q1]))
+                (share, member.force(self.kinematics, at, [&r0, &r1]))
             };
             for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
                 for (impulse, &force) in impulse[node].iter_mut().zip(force) {
@@ -97,26 +104,21 @@ where
     }
 }
 
-/// `A q` with `Σ_j A_ij = 0`: `Σ_j A_ij (q_j − q_i)`, which sums to zero over the nodes exactly as
-/// far as A is symmetric, and does not depend on where the origin is.
+/// The nodal forces `A r`, which sum to zero exactly and do not depend on where the origin is.
 #[inline]
 fn pull<K: Kinematics<S, D>, S: Real, const D: usize>(
     weights: &Weights<K, S, D>,
-    q: &Points<K, S, D>,
-) -> Points<K, S, D> {
-    let mut force = Points::<K, S, D>::filled([S::zero(); D]);
-    for (i, force) in force.as_mut().iter_mut().enumerate() {
-        for (j, other) in q.as_ref().iter().enumerate() {
-            if j == i {
-                continue;
-            }
-            let weight = weights[i][j];
-            for (axis, force) in force.iter_mut().enumerate() {
-                *force += weight * (other[axis] - q[i][axis]);
+    r: &Arms<K, S, D>,
+) -> K::PerNode<[S; D]> {
+    let mut force = Arms::<K, S, D>::filled([S::zero(); D]);
+    for (force, row) in force.as_mut().iter_mut().zip(weights.as_ref()) {
+        for (&weight, arm) in row.as_ref().iter().zip(r.as_ref()) {
+            for axis in 0..D {
+                force[axis] += weight * arm[axis];
             }
         }
     }
-    force
+    spread::<K, S, D>(&force)
 }
 
 impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
@@ -136,7 +138,7 @@ where
         measures
     }
 
-    /// A of the nodal force `A q_m` at the found response.
+    /// A of the force `A r_m` at the found response.
     #[inline]
     fn secant(&self, kinematics: K) -> Weights<K, S, D> {
         let measures = Self::measures_in(&self.x);
@@ -154,11 +156,11 @@ where
         &self,
         kinematics: K,
         at: Placement,
-        ends: [&Points<K, S, D>; 2],
-    ) -> Points<K, S, D> {
+        ends: [&Arms<K, S, D>; 2],
+    ) -> K::PerNode<[S; D]> {
         let measures0 = Self::measures_in(&self.start.x0);
         let pose = Pose::new(kinematics, at, ends, measures0);
-        let mut force = Points::<K, S, D>::filled([S::zero(); D]);
+        let mut force = Arms::<K, S, D>::filled([S::zero(); D]);
         for (a, row) in pose.direction.as_ref().iter().enumerate() {
             for (force, entry) in force.as_mut().iter_mut().zip(row.as_ref()) {
                 for (force, &entry) in force.iter_mut().zip(entry) {
@@ -166,7 +168,7 @@ where
                 }
             }
         }
-        force
+        spread::<K, S, D>(&force)
     }
 
     /// The increments of the internal variables and of the reservoirs' entropies.

@@ -1,12 +1,12 @@
 //! Old state and trial state of the elements: responses, viscosities, condensed local systems.
 
 use super::member::Member;
-use super::pose::{Pose, along, gather, points};
+use super::pose::{Pose, along, arms, points, spread};
 use super::{ElementGroup, Old, StepView, Trial, variables};
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
 use crate::handle::Element;
-use crate::kinematics::{Kinematics, Measures, Points};
+use crate::kinematics::{Arms, Kinematics, Measures};
 use crate::scalar::Real;
 use crate::scene::is_positive;
 use crate::scheme::{ElementScheme, ElementTrial, Placement, Start};
@@ -26,11 +26,11 @@ where
     ) -> Result<(), StateError> {
         let positions = points(view.state.positions.values());
         for member in &mut self.members {
-            let q0 = gather::<K, S, D>(&member.site.nodes, positions);
-            let measures = self.kinematics.measure(&q0);
+            let r0 = arms::<K, S, D>(&member.site.nodes, positions);
+            let measures = self.kinematics.measure(&r0);
             member.begin(view, &measures);
             if C::IMPLICIT < 1.0 {
-                member.old_share(self.kinematics, view, &q0, old.force)?;
+                member.old_share(self.kinematics, view, &r0, old.force)?;
             }
             for &node in member.site.nodes.as_ref() {
                 let shortest = &mut old.lengths[node];
@@ -75,7 +75,7 @@ where
         &mut self,
         kinematics: K,
         view: &StepView<'_, S>,
-        q0: &Points<K, S, D>,
+        r0: &Arms<K, S, D>,
         old_force: &mut [[S; D]],
     ) -> Result<(), StateError> {
         let share = S::one() - S::from_f64(C::IMPLICIT);
@@ -100,13 +100,14 @@ where
         measures0
             .as_mut()
             .copy_from_slice(&x0.as_ref()[..M::MEASURES]);
-        let pose = Pose::new(kinematics, C::PLACEMENT, [q0, q0], measures0);
+        let pose = Pose::new(kinematics, C::PLACEMENT, [r0, r0], measures0);
         if M::THERMAL && C::IN_TEMPERATURE {
-            let at_rest = Pose::new(kinematics, Placement::End, [q0, q0], measures0);
+            let at_rest = Pose::new(kinematics, Placement::End, [r0, r0], measures0);
             self.find_old_heating(view, &at_rest, heat / theta);
         }
         for (a, row) in pose.direction.as_ref().iter().enumerate() {
-            for (entry, &node) in row.as_ref().iter().zip(self.site.nodes.as_ref()) {
+            let by_node = spread::<K, S, D>(row);
+            for (entry, &node) in by_node.as_ref().iter().zip(self.site.nodes.as_ref()) {
                 for (force, &entry) in old_force[node].iter_mut().zip(entry) {
                     *force += share * gradient[a] * entry;
                 }
@@ -140,25 +141,28 @@ where
         self.old_rates[last] = S::zero();
     }
 
-    /// The old velocities of the nodes; those of anchors are means over the step, m/s.
-    fn old_velocities(&self, view: &StepView<'_, S>) -> Points<K, S, D> {
+    /// The old velocities of the arms; those of anchors are means over the step, m/s.
+    fn old_velocities(&self, view: &StepView<'_, S>) -> Arms<K, S, D> {
         let momenta = points::<S, D>(view.state.momenta.values());
         let motion = points::<S, D>(&view.loads.motion);
-        let mut velocities = Points::<K, S, D>::filled([S::zero(); D]);
-        let pairs = velocities.as_mut().iter_mut().zip(self.site.nodes.as_ref());
-        for (velocity, &node) in pairs {
-            *velocity = match view.masses[node] {
-                Some(mass) => momenta[node].map(|p| p / mass),
-                None => motion[node].map(|distance| distance / view.step),
-            };
+        let velocity = |node: usize, axis: usize| match view.masses[node] {
+            Some(mass) => momenta[node][axis] / mass,
+            None => motion[node][axis] / view.step,
+        };
+        let nodes = self.site.nodes.as_ref();
+        let mut velocities = Arms::<K, S, D>::filled([S::zero(); D]);
+        for (arm, &node) in velocities.as_mut().iter_mut().zip(&nodes[1..]) {
+            for (axis, component) in arm.iter_mut().enumerate() {
+                *component = velocity(node, axis) - velocity(nodes[0], axis);
+            }
         }
         velocities
     }
 
-    /// The motion `q¹ − q⁰ − (1 − w) h q̇⁰` of the nodes.
-    fn motion(&self, view: &StepView<'_, S>, trial: &Trial<S, D>) -> Points<K, S, D> {
+    /// The motion `r¹ − r⁰ − (1 − w) h ṙ⁰` of the arms.
+    fn motion(&self, view: &StepView<'_, S>, trial: &Trial<S, D>) -> Arms<K, S, D> {
         let rest = (S::one() - S::from_f64(C::IMPLICIT)) * view.step;
-        let mut motion = gather::<K, S, D>(&self.site.nodes, &trial.displacements);
+        let mut motion = arms::<K, S, D>(&self.site.nodes, &trial.displacements);
         let velocities = self.old_velocities(view);
         for (motion, velocity) in motion.as_mut().iter_mut().zip(velocities.as_ref()) {
             for (motion, &velocity) in motion.iter_mut().zip(velocity) {
@@ -177,13 +181,13 @@ where
         trial: &Trial<S, D>,
     ) -> Result<Pose<K, S, D>, StateError> {
         let old = points(view.state.positions.values());
-        let q0 = gather::<K, S, D>(&self.site.nodes, old);
-        let q1 = gather::<K, S, D>(&self.site.nodes, &trial.positions);
+        let r0 = arms::<K, S, D>(&self.site.nodes, old);
+        let r1 = arms::<K, S, D>(&self.site.nodes, &trial.positions);
         let mut measures0 = Measures::<K, S, D>::filled(S::zero());
         for (a, measure) in measures0.as_mut().iter_mut().enumerate() {
             *measure = self.start.x0[a];
         }
-        let pose = Pose::new(kinematics, C::PLACEMENT, [&q0, &q1], measures0);
+        let pose = Pose::new(kinematics, C::PLACEMENT, [&r0, &r1], measures0);
         let element = self.element;
         check_measures::<K, S, D>(kinematics, element, &pose.measures)?;
         for (a, &measure) in pose.measures.as_ref().iter().enumerate() {
@@ -196,12 +200,12 @@ where
             self.x[Self::TEMPERATURE] = theta.map_err(|infeasible| infeasible.of(element))?;
         }
         let mut increments = M::Variables::filled(S::zero());
-        let mut by_position = self.sensitivity;
+        let mut by_arm = self.sensitivity;
         if C::IN_TEMPERATURE {
             let motion = self.motion(view, trial);
             let (own, by) = pose.increase(kinematics, C::PLACEMENT, &motion);
             increments = self.increments(&own, view.step);
-            by_position = by;
+            by_arm = by;
         }
         let asked = ElementTrial {
             x: self.x,
@@ -213,7 +217,7 @@ where
         self.tangent = answer.tangent;
         if C::IN_TEMPERATURE {
             self.by_increment =
-                combined::<K, S, M, D>(&answer.by_increment, by_position.as_ref());
+                combined::<K, S, M, D>(&answer.by_increment, by_arm.as_ref());
         }
         check_response::<S, M>(element, &self.response)?;
         self.find_viscosities(self.temperature())?;
@@ -240,13 +244,13 @@ where
     }
 }
 
-/// `Σ_a slope_a ∂Λ_a/∂q¹`.
+/// `Σ_a slope_a ∂Λ_a/∂r¹`.
 fn combined<K: Kinematics<S, D>, S: Real, M: FreeEnergy<S>, const D: usize>(
     slopes: &M::Variables,
-    by_position: &[Points<K, S, D>],
-) -> Points<K, S, D> {
-    let mut sum = Points::<K, S, D>::filled([S::zero(); D]);
-    for (&slope, row) in slopes.as_ref().iter().zip(by_position) {
+    by_arm: &[Arms<K, S, D>],
+) -> Arms<K, S, D> {
+    let mut sum = Arms::<K, S, D>::filled([S::zero(); D]);
+    for (&slope, row) in slopes.as_ref().iter().zip(by_arm) {
         for (sum, entry) in sum.as_mut().iter_mut().zip(row.as_ref()) {
             for (sum, &entry) in sum.iter_mut().zip(entry) {
                 *sum += slope * entry;

@@ -1,10 +1,10 @@
 //! What one element contributes to the GENERIC form of the equations.
 
 use super::member::Member;
-use super::pose::{gather, points};
+use super::pose::{arms, points};
 use super::{ElementGroup, variables};
 use crate::free_energy::{Array, FreeEnergy};
-use crate::kinematics::{Kinematics, Points};
+use crate::kinematics::Kinematics;
 use crate::scalar::Real;
 use crate::scheme::{ElementScheme, Placement};
 use crate::state::State;
@@ -32,8 +32,8 @@ where
         let positions = points(state.positions.values());
         let mut elements = Vec::with_capacity(self.members.len());
         for member in &mut self.members {
-            let q = gather::<K, S, D>(&member.site.nodes, positions);
-            let measures = self.kinematics.measure(&q);
+            let r = arms::<K, S, D>(&member.site.nodes, positions);
+            let measures = self.kinematics.measure(&r);
             let x = variables::<S, M>(measures.as_ref(), member.slots, state);
             let gradient = member.model.gradient(&x);
             let theta = x[M::Variables::LEN - 1];
@@ -47,7 +47,7 @@ where
             if M::THERMAL {
                 member.response[M::MEASURES + M::DASHPOTS] = theta;
             }
-            let force = member.force(self.kinematics, Placement::End, [&q, &q]);
+            let force = member.force(self.kinematics, Placement::End, [&r, &r]);
             elements.push(member.generic(&force));
         }
         elements
@@ -57,8 +57,8 @@ where
     pub(super) fn generic_of_step_all(&self, ends: [&State<S>; 2]) -> Vec<ElementGeneric<S>> {
         let positions = ends.map(|state| points(state.positions.values()));
         let members = self.members.iter().map(|member| {
-            let [q0, q1] = positions.map(|of| gather::<K, S, D>(&member.site.nodes, of));
-            member.generic(&member.force(self.kinematics, C::PLACEMENT, [&q0, &q1]))
+            let [r0, r1] = positions.map(|of| arms::<K, S, D>(&member.site.nodes, of));
+            member.generic(&member.force(self.kinematics, C::PLACEMENT, [&r0, &r1]))
         });
         members.collect()
     }
@@ -72,7 +72,7 @@ where
     C: ElementScheme<S, M>,
 {
     /// The present response, with these forces on the nodes.
-    fn generic(&self, force: &Points<K, S, D>) -> ElementGeneric<S> {
+    fn generic(&self, force: &K::PerNode<[S; D]>) -> ElementGeneric<S> {
         let nodes = self.site.nodes.as_ref().iter().zip(force.as_ref());
         let forces = nodes.flat_map(|(&node, force)| {
             let axes = force.iter().enumerate();

@@ -1,7 +1,7 @@
 //! What the elements are in a state, from the definitions and not from what a step computed.
 
 use super::member::Member;
-use super::pose::{gather, points};
+use super::pose::{arms, points};
 use super::{ElementGroup, ElementView, GroupTotals, variables};
 use crate::error::StateError;
 use crate::free_energy::FreeEnergy;
@@ -72,8 +72,8 @@ where
 {
     /// The variables in a state.
     fn variables_in(&self, kinematics: K, state: &State<S>) -> M::Variables {
-        let q = gather::<K, S, D>(&self.site.nodes, points(state.positions.values()));
-        variables::<S, M>(kinematics.measure(&q).as_ref(), self.slots, state)
+        let r = arms::<K, S, D>(&self.site.nodes, points(state.positions.values()));
+        variables::<S, M>(kinematics.measure(&r).as_ref(), self.slots, state)
     }
 
     /// `ψ + θ s`, with the entropy that is the state, J.

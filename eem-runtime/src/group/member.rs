@@ -4,7 +4,7 @@ use super::site::Site;
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
 use crate::handle::Element;
-use crate::kinematics::{Gradient, Kinematics, Points};
+use crate::kinematics::{Arms, Gradient, Kinematics};
 use crate::layout::Slots;
 use crate::scalar::Real;
 use crate::scene::is_positive;
@@ -43,11 +43,11 @@ where
     pub(super) tangent: M::Tangent,
     /// `η_k` and `dη_k/dθ` at θ*.
     pub(super) viscosities: (M::Viscosities, M::Viscosities),
-    /// The derivative of the measures by the new positions.
+    /// The derivative of the measures by the new arms.
     pub(super) sensitivity: Gradient<K, S, D>,
-    /// For a scheme in temperature: the derivative of Δs by the new positions through the increments
+    /// For a scheme in temperature: the derivative of Δs by the new arms through the increments
     /// of the measures.
-    pub(super) by_increment: Points<K, S, D>,
+    pub(super) by_increment: Arms<K, S, D>,
     /// Local unknowns as functions of the global ones.
     pub(super) condensed: Condensed<S, M>,
     /// The entropy that dashpots and conduction gave it in the step, J/K.
@@ -85,7 +85,7 @@ where
     pub(super) fn new(element: Element, model: M, slots: Slots, nodes: &[usize]) -> Self {
         let zeros = M::Variables::filled(S::zero());
         let viscosities = M::Viscosities::filled(S::zero());
-        let nowhere = Points::<K, S, D>::filled([S::zero(); D]);
+        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
         let old = C::old(&model, &zeros);
         Self {
             element,

@@ -2,7 +2,7 @@
 
 use super::evaluate::{check_measures, check_temperature};
 use super::member::Member;
-use super::pose::{gather, points};
+use super::pose::{arms, points};
 use super::{ElementGroup, StepView, Trial, variables};
 use crate::error::StateError;
 use crate::free_energy::{Caloric, FreeEnergy};
@@ -53,8 +53,8 @@ where
         kinematics: K,
         state: &State<S>,
     ) -> Result<M::Variables, StateError> {
-        let q = gather::<K, S, D>(&self.site.nodes, points(state.positions.values()));
-        let measures = kinematics.measure(&q);
+        let r = arms::<K, S, D>(&self.site.nodes, points(state.positions.values()));
+        let measures = kinematics.measure(&r);
         check_measures::<K, S, D>(kinematics, self.element, &measures)?;
         Ok(variables::<S, M>(measures.as_ref(), self.slots, state))
     }

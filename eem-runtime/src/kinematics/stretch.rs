@@ -19,40 +19,29 @@ use crate::scalar::{Real, Scalar};
 /// ```
 /// use eem_runtime::kinematics::{Kinematics, Stretch};
 ///
-/// let stretch = Stretch::<2>.measure(&[[1.0, 1.0], [4.0, 5.0]]);
+/// let stretch = Stretch::<2>.measure(&[[3.0, 4.0]]);
 /// assert_eq!(stretch, [5.0]);
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Stretch<const D: usize>;
 
-/// `r = q_j − q_i`.
+/// `t (1 − a bᵀ)`.
 #[inline]
-fn difference<S: Scalar, const D: usize>(q: &[[S; D]; 2]) -> [S; D] {
-    array::from_fn(|axis| q[1][axis] - q[0][axis])
-}
-
-/// `[−v, v]`, the derivative along `r` as a derivative along `[q_i, q_j]`.
-#[inline]
-fn spread<S: Scalar, const D: usize>(v: [S; D]) -> [[S; D]; 2] {
-    [v.map(|component| -component), v]
-}
-
-/// `[K, −K; −K, K]` with `K = t (1 − a bᵀ)`.
-#[inline]
-fn blocks<S: Scalar, const D: usize>(t: S, a: [S; D], b: [S; D]) -> [[[[S; D]; D]; 2]; 2] {
-    let (mut k, mut minus) = ([[S::zero(); D]; D], [[S::zero(); D]; D]);
+fn block<S: Scalar, const D: usize>(t: S, a: [S; D], b: [S; D]) -> [[S; D]; D] {
+    let mut block = [[S::zero(); D]; D];
     for row in 0..D {
+        let along = t * a[row];
         for column in 0..D {
-            let identity = if row == column { S::one() } else { S::zero() };
-            let entry = t * (identity - a[row] * b[column]);
-            (k[row][column], minus[row][column]) = (entry, -entry);
+            block[row][column] = -(along * b[column]);
         }
+        block[row][row] += t;
     }
-    [[k, minus], [minus, k]]
+    block
 }
 
 impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
     type PerNode<T: Entry> = [T; 2];
+    type PerArm<T: Entry> = [T; 1];
     type PerMeasure<T: Entry> = [T; 1];
 
     #[inline]
@@ -61,8 +50,7 @@ impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
     }
 
     #[inline]
-    fn measure(&self, q: &[[S; D]; 2]) -> [S; 1] {
-        let r = difference(q);
+    fn measure(&self, [r]: &[[S; D]; 1]) -> [S; 1] {
         let square = r
             .iter()
             .fold(S::zero(), |sum, &component| sum + component * component);
@@ -70,25 +58,25 @@ impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
     }
 
     #[inline]
-    fn gradient(&self, q: &[[S; D]; 2], &[lambda]: &[S; 1]) -> [[[S; D]; 2]; 1] {
-        let shrink = lambda.recip();
-        [spread(difference(q).map(|component| component * shrink))]
+    fn gradient(&self, [r]: &[[S; D]; 1], &[lambda]: &[S; 1]) -> [[[S; D]; 1]; 1] {
+        [[scaled(r, lambda.recip())]]
     }
 
     #[inline]
     fn curvature(
         &self,
-        q: &[[S; D]; 2],
+        [r]: &[[S; D]; 1],
         &[lambda]: &[S; 1],
         &[force]: &[S; 1],
-    ) -> [[[[S; D]; D]; 2]; 2] {
-        let n = difference(q).map(|component| component / lambda);
-        blocks(force / lambda, n, n)
+    ) -> [[[[S; D]; D]; 1]; 1] {
+        let shrink = lambda.recip();
+        let n = scaled(r, shrink);
+        [[block(force * shrink, n, n)]]
     }
 
     #[inline]
-    fn discrete_gradient(&self, ends: &Ends<Self, S, D>) -> [[[S; D]; 2]; 1] {
-        [spread(mean_direction(ends))]
+    fn discrete_gradient(&self, ends: &Ends<Self, S, D>) -> [[[S; D]; 1]; 1] {
+        [[mean_direction(ends)]]
     }
 
     // ∂(f 2r_m/(λ⁰ + λ¹))/∂r¹ = f/(λ⁰ + λ¹) (1 − 2r_m/(λ⁰ + λ¹) n¹ᵀ)
@@ -97,24 +85,29 @@ impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
         &self,
         ends: &Ends<Self, S, D>,
         &[force]: &[S; 1],
-    ) -> [[[[S; D]; D]; 2]; 2] {
+    ) -> [[[[S; D]; D]; 1]; 1] {
         let ([lambda0], [lambda1]) = (ends.measures0, ends.measures1);
-        let shrink = lambda1.recip();
-        let n1 = difference(&ends.q1).map(|component| component * shrink);
-        blocks(force / (lambda0 + lambda1), mean_direction(ends), n1)
+        let n1 = scaled(&ends.r1[0], lambda1.recip());
+        let tension = force * (lambda0 + lambda1).recip();
+        [[block(tension, mean_direction(ends), n1)]]
     }
 
     #[inline]
-    fn secant(&self, &[lambda0]: &[S; 1], &[lambda1]: &[S; 1], &[force]: &[S; 1]) -> [[S; 2]; 2] {
-        let tension = (force + force) / (lambda0 + lambda1);
-        [[tension, -tension], [-tension, tension]]
+    fn secant(&self, &[lambda0]: &[S; 1], &[lambda1]: &[S; 1], &[force]: &[S; 1]) -> [[S; 1]; 1] {
+        [[(force + force) / (lambda0 + lambda1)]]
     }
 }
 
 /// `2 r_m/(λ⁰ + λ¹)`.
 #[inline]
 fn mean_direction<S: Real, const D: usize>(ends: &Ends<Stretch<D>, S, D>) -> [S; D] {
-    let (r0, r1) = (difference(&ends.q0), difference(&ends.q1));
+    let (r0, r1) = (&ends.r0[0], &ends.r1[0]);
     let shrink = (ends.measures0[0] + ends.measures1[0]).recip();
     array::from_fn(|axis| (r0[axis] + r1[axis]) * shrink)
+}
+
+/// `factor r`.
+#[inline]
+fn scaled<S: Scalar, const D: usize>(r: &[S; D], factor: S) -> [S; D] {
+    array::from_fn(|axis| r[axis] * factor)
 }
