@@ -96,6 +96,12 @@ impl<S: Real> Checkpoint<S> {
             let numbers = own.sums().flat_map(|(value, carry)| [value, carry]);
             expect_all("finite", quantity, numbers, Real::is_finite)?;
         }
+        for (own, other) in self.state.past.forces.iter().zip(&state.past.forces) {
+            expect_count("forces", own.len(), other.len())?;
+            expect_all("finite", "forces", own.iter().copied(), Real::is_finite)?;
+        }
+        let errors = self.state.past.errors.into_iter();
+        expect_all("finite", "forces", errors, Real::is_finite)?;
         for (quantity, sum) in single_sums(&self.state) {
             expect_all("finite", quantity, [sum.value, sum.carry].into_iter(), Real::is_finite)?;
         }
@@ -132,6 +138,7 @@ fn single_sums<S: Copy>(state: &State<S>) -> [(&'static str, Sum<S>); 5] {
         heat,
         thermostat_entropy,
         dissipated,
+        past: _,
     } = state;
     [
         ("time", *time),

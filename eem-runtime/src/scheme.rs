@@ -110,11 +110,11 @@ impl Scheme {
 }
 
 impl Scheme {
-    /// Whether Newton's method starts from free flight, `q¹ = q⁰ + h p⁰/m`, which saves most of an
+    /// Whether Newton's method starts from a motion under foretold forces, which saves most of an
     /// iteration. The ordinary rules start at the old state, as ordinary codes do: beyond
     /// their stable steps it depends on the start which state is found, if any, and so they
     /// break down where the literature says.
-    pub(crate) const fn starts_in_free_flight(self) -> bool {
+    pub(crate) const fn foretells_its_start(self) -> bool {
         !self.is_ordinary()
     }
 

@@ -22,7 +22,7 @@ use crate::scalar::Real;
 use crate::scene::{Scene, is_positive};
 use crate::scheme::{Phase, Scheme};
 use crate::solver::Solver;
-use crate::state::State;
+use crate::state::{Past, State};
 
 pub use generic::Generic;
 pub use linearize::StepTangent;
@@ -306,5 +306,6 @@ fn initial_state<const D: usize, S: Real>(scene: &Scene<D, S>, layout: &Layout) 
         heat: Sum::new(S::zero()),
         thermostat_entropy: Sum::new(S::zero()),
         dissipated: Sum::new(S::zero()),
+        past: Past::none(scene.nodes.len() * D),
     }
 }

@@ -1,12 +1,20 @@
 //! Where Newton's method starts.
+//!
+//! ```text
+//! q¹ = q⁰ + (h/m)(p⁰ + ½h F)      F: the mean force of the step, foretold from those of the last ones
+//! ```
 
 use super::Solver;
 use crate::error::StepFailure;
 use crate::group::{Group, Old, StepView, points};
 use crate::scalar::Real;
+use crate::state::{Forecast, Past};
+
+/// What is left of the error of a forecast one step later. Any memory of some steps will do.
+const MEMORY: f64 = 0.875;
 
 impl<S: Real, const D: usize> Solver<S, D> {
-    /// Starts at the old state, with free flight as the first correction if the scheme wants it.
+    /// Starts at the old state, with a foretold motion as the first correction if the scheme wants it.
     pub(super) fn begin(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
@@ -48,16 +56,51 @@ impl<S: Real, const D: usize> Solver<S, D> {
             .seen_temperatures
             .copy_from_slice(&view.state.temperatures);
         self.remember();
-        let flies = moves && self.scheme.starts_in_free_flight();
-        let momenta = points::<S, D>(view.state.momenta.values());
+        let is_foretold = moves && self.scheme.foretells_its_start();
+        let half_step = S::from_f64(0.5) * view.step;
+        let momenta = view.state.momenta.values();
+        let past = &view.state.past;
+        let forecast = past.best();
         for mass in &self.masses {
-            self.correction.0[mass.node] = if flies {
-                let mobility = view.step / mass.mass;
-                momenta[mass.node].map(|p| mobility * p)
-            } else {
-                [S::zero(); D]
-            };
+            let mobility = view.step / mass.mass;
+            for (axis, change) in self.correction.0[mass.node].iter_mut().enumerate() {
+                let at = mass.node * D + axis;
+                let force = forecast.of(past.forces[0][at], past.forces[1][at]);
+                *change = if is_foretold {
+                    mobility * (momenta[at] + half_step * force)
+                } else {
+                    S::zero()
+                };
+            }
         }
         self.correction.1.fill(S::zero());
+    }
+
+    /// Remembers the force of a step in `next`, and how well it would have been foretold.
+    pub(super) fn remember_force(&self, view: &StepView<'_, S>, next: &mut Past<S>) {
+        if !self.scheme.foretells_its_start() {
+            return;
+        }
+        let past = &view.state.past;
+        if !view.phase.moves() {
+            next.copy_from(past);
+            return;
+        }
+        let mut errors = past.errors.map(|error| S::from_f64(MEMORY) * error);
+        let per_step = view.step.recip();
+        for mass in &self.masses {
+            for (axis, &impulse) in self.impulse[mass.node].iter().enumerate() {
+                let at = mass.node * D + axis;
+                let force = impulse * per_step;
+                let (last, before) = (past.forces[0][at], past.forces[1][at]);
+                for (error, forecast) in errors.iter_mut().zip(Forecast::ALL) {
+                    let miss = (force - forecast.of(last, before)) / mass.mass;
+                    *error += miss * miss;
+                }
+                next.forces[0][at] = force;
+                next.forces[1][at] = last;
+            }
+        }
+        next.errors = errors;
     }
 }

@@ -44,6 +44,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         self.move_masses(view, next)?;
         self.move_anchors(view, next);
+        self.remember_force(view, &mut next.past);
         for group in groups.iter_mut() {
             group.close(view, &self.trial, next)?;
         }
