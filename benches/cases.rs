@@ -39,7 +39,8 @@ fn main() {
 
 fn report<const D: usize>(name: &str, mut run: Simulation<D>, steps: usize) {
     let iterations: usize = (0..steps).map(|_| run.step().unwrap().iterations).sum();
-    let mean = f64::from(u32::try_from(iterations).unwrap()) / f64::from(u32::try_from(steps).unwrap());
+    let mean =
+        f64::from(u32::try_from(iterations).unwrap()) / f64::from(u32::try_from(steps).unwrap());
     println!("{:16} {name:16} {mean:.2}", run.scheme().name());
 }
 
@@ -62,7 +63,11 @@ fn whole(steps: f64) -> usize {
 }
 
 /// A sample is a whole run: the time is a mean over fast and slow phases.
-fn bench<const D: usize>(bencher: Bencher<'_, '_>, steps: usize, start: impl Fn() -> Simulation<D>) {
+fn bench<const D: usize>(
+    bencher: Bencher<'_, '_>,
+    steps: usize,
+    start: impl Fn() -> Simulation<D>,
+) {
     let mut run = start();
     let mut left = steps;
     bencher.bench_local(move || {
@@ -78,7 +83,9 @@ fn bench<const D: usize>(bencher: Bencher<'_, '_>, steps: usize, start: impl Fn(
 /// The single pendulum of García Orden & Romero (2012), §4.1, with the published step.
 #[divan::bench(args = SCHEMES, sample_size = 100, sample_count = RUNS)]
 fn single(bencher: Bencher<'_, '_>, scheme: Scheme) {
-    bench(bencher, pendulum_steps(), || single_pendulum(scheme, PENDULUM_STEP).run);
+    bench(bencher, pendulum_steps(), || {
+        single_pendulum(scheme, PENDULUM_STEP).run
+    });
 }
 
 /// The double pendulums of Conde Martín, Betsch & García Orden (2016), with the published steps.
@@ -87,7 +94,9 @@ mod double {
     use super::{Bencher, DoublePendulum, SCHEMES, Scheme, bench, steps};
 
     fn case(bencher: Bencher<'_, '_>, case: DoublePendulum, scheme: Scheme) {
-        bench(bencher, steps(&case), || case.simulation(scheme, case.step).run);
+        bench(bencher, steps(&case), || {
+            case.simulation(scheme, case.step).run
+        });
     }
 
     #[divan::bench(args = SCHEMES, sample_size = 83)]
@@ -149,7 +158,9 @@ mod features {
     }
 
     fn run(bencher: Bencher<'_, '_>, scheme: Scheme, scene: impl Fn() -> Scene<2>) {
-        bench(bencher, STEPS, || Simulation::new(scene(), scheme, STEP).unwrap());
+        bench(bencher, STEPS, || {
+            Simulation::new(scene(), scheme, STEP).unwrap()
+        });
     }
 
     #[divan::bench(args = SCHEMES)]
@@ -164,7 +175,9 @@ mod features {
 
     #[divan::bench(args = SCHEMES)]
     fn thermoelastic_conducting(bencher: Bencher<'_, '_>, scheme: Scheme) {
-        run(bencher, scheme, || scene(THERMOELASTIC, Some(380.0), Some(0.1)));
+        run(bencher, scheme, || {
+            scene(THERMOELASTIC, Some(380.0), Some(0.1))
+        });
     }
 
     #[divan::bench(args = SCHEMES)]

@@ -103,7 +103,12 @@ impl<S: Real> Checkpoint<S> {
         let errors = self.state.past.errors.into_iter();
         expect_all("finite", "forces", errors, Real::is_finite)?;
         for (quantity, sum) in single_sums(&self.state) {
-            expect_all("finite", quantity, [sum.value, sum.carry].into_iter(), Real::is_finite)?;
+            expect_all(
+                "finite",
+                quantity,
+                [sum.value, sum.carry].into_iter(),
+                Real::is_finite,
+            )?;
         }
         let (own, other) = (&self.state.temperatures, &state.temperatures);
         expect_count("temperatures", own.len(), other.len())?;

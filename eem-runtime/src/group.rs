@@ -132,11 +132,7 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     fn connect(&mut self, sites: &Sites<'_, S, D>);
 
     /// Looks at the old state, adds to what it gives to the nodes, and starts the trial there.
-    fn begin(
-        &mut self,
-        view: &StepView<'_, S>,
-        old: &mut Old<'_, S, D>,
-    ) -> Result<(), StateError>;
+    fn begin(&mut self, view: &StepView<'_, S>, old: &mut Old<'_, S, D>) -> Result<(), StateError>;
 
     /// Applies the fraction `share` of the last local corrections.
     fn apply(&mut self, share: S);
@@ -284,11 +280,7 @@ where
         }
     }
 
-    fn begin(
-        &mut self,
-        view: &StepView<'_, S>,
-        old: &mut Old<'_, S, D>,
-    ) -> Result<(), StateError> {
+    fn begin(&mut self, view: &StepView<'_, S>, old: &mut Old<'_, S, D>) -> Result<(), StateError> {
         self.begin_all(view, old)
     }
 

@@ -61,7 +61,9 @@ pub struct Ends<K: Kinematics<S, D>, S: Real, const D: usize> {
 }
 
 /// The measures of one element as functions of its arms in `D` dimensions.
-pub trait Kinematics<S: Real, const D: usize>: Copy + Send + Sync + core::fmt::Debug + 'static {
+pub trait Kinematics<S: Real, const D: usize>:
+    Copy + Send + Sync + core::fmt::Debug + 'static
+{
     /// `[T; number of nodes]`.
     type PerNode<T: Entry>: Array<T>;
     /// `[T; number of nodes − 1]`.

@@ -52,9 +52,7 @@ impl Pattern {
         let mut pairs = Vec::new();
         for (entry, slots) in elements.iter().zip(&layout.elements) {
             let nodes = entry.nodes.iter().filter_map(|&node| layout.nodes[node]);
-            let mut own: Vec<_> = nodes
-                .flat_map(|first| first..first + dimension)
-                .collect();
+            let mut own: Vec<_> = nodes.flat_map(|first| first..first + dimension).collect();
             let slot = slots.thermal;
             own.extend(slot.and_then(|slot| layout.coupled[slot]));
             let links = slot.map_or(&[][..], |slot| conduction.links(slot));
@@ -96,7 +94,10 @@ impl Pattern {
     }
 
     /// The columns of a row, ascending.
-    #[cfg_attr(not(test), expect(dead_code, reason = "what a sparse factorisation asks for"))]
+    #[cfg_attr(
+        not(test),
+        expect(dead_code, reason = "what a sparse factorisation asks for")
+    )]
     pub(crate) fn row(&self, row: usize) -> &[usize] {
         &self.columns[self.starts[row]..self.starts[row + 1]]
     }

@@ -29,8 +29,9 @@ const STAGES: u8 = 8;
 const LONGEST_HISTORY: usize = 4096;
 
 /// An update whose square is below this many ε leaves nothing to correct: it is applied to the
-/// forces through the tangent, which is of second order.
-const NEGLIGIBLE: f64 = 0.125;
+/// forces through the tangent. What that leaves out, the square times a curvature of the order of
+/// one, is small beside the roundings of a force.
+const NEGLIGIBLE: f64 = 1.0 / 1024.0;
 
 /// Working memory of a step; nothing in it outlives the step.
 #[derive(Clone, Debug)]

@@ -118,8 +118,7 @@ impl<S: Real> State<S> {
         self.heat = old.heat;
         self.thermostat_entropy = old.thermostat_entropy;
         self.dissipated = old.dissipated;
-        self.reservoir_entropies
-            .copy_from(&old.reservoir_entropies);
+        self.reservoir_entropies.copy_from(&old.reservoir_entropies);
     }
 
     /// Takes over `other`, a state of the same scene, without allocation.

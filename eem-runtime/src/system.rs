@@ -207,7 +207,10 @@ mod tests {
         for (row, found) in system.right()[..unknowns].iter().enumerate() {
             for (found, exact) in found.iter().zip(exact(row)) {
                 // Condition number at most 4, entries at most 14, and n roundings.
-                assert!((found - exact).abs() <= 1e3 * f64::EPSILON, "{unknowns} unknowns");
+                assert!(
+                    (found - exact).abs() <= 1e3 * f64::EPSILON,
+                    "{unknowns} unknowns"
+                );
             }
         }
     }

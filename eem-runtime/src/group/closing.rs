@@ -202,7 +202,8 @@ where
         let old_rate = self.old_rates[Self::TEMPERATURE];
         self.entropy_received = h * (share * heat / theta + old_rate);
         let entropies = &view.state.entropies;
-        next.entropies.advance(slot, entropies, self.entropy_received);
+        next.entropies
+            .advance(slot, entropies, self.entropy_received);
         for link in view.conduction.links(slot) {
             if let Partner::Reservoir(index) = link.partner {
                 let theta_r = view.conduction.reservoirs[index];

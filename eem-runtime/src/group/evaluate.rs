@@ -34,7 +34,10 @@ where
             }
             for &node in member.site.nodes.as_ref() {
                 let shortest = &mut old.lengths[node];
-                *shortest = measures.as_ref().iter().fold(*shortest, |s, &m| s.minimum(m));
+                *shortest = measures
+                    .as_ref()
+                    .iter()
+                    .fold(*shortest, |s, &m| s.minimum(m));
             }
         }
         Ok(())
@@ -117,12 +120,7 @@ where
     }
 
     /// `(1 − w) θ̇⁰` of a scheme in temperature, which takes the place of `(1 − w) ṡ⁰`.
-    fn find_old_heating(
-        &mut self,
-        view: &StepView<'_, S>,
-        pose: &Pose<K, S, D>,
-        entropy_rate: S,
-    ) {
+    fn find_old_heating(&mut self, view: &StepView<'_, S>, pose: &Pose<K, S, D>, entropy_rate: S) {
         let share = S::one() - S::from_f64(C::IMPLICIT);
         let last = Self::TEMPERATURE;
         let (_, hessian) = self.model.hessian(&self.start.x0);
@@ -216,8 +214,7 @@ where
         self.response = answer.response;
         self.tangent = answer.tangent;
         if C::IN_TEMPERATURE {
-            self.by_increment =
-                combined::<K, S, M, D>(&answer.by_increment, by_arm.as_ref());
+            self.by_increment = combined::<K, S, M, D>(&answer.by_increment, by_arm.as_ref());
         }
         check_response::<S, M>(element, &self.response)?;
         self.find_viscosities(self.temperature())?;

@@ -61,7 +61,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
             );
             for axis in 0..D {
                 let at = mass.node * D + axis;
-                next.positions.advance(at, &old.positions, displacement[axis]);
+                next.positions
+                    .advance(at, &old.positions, displacement[axis]);
                 next.momenta.advance(at, &old.momenta, impulse[axis]);
                 let force = view.loads.force[at];
                 if force != S::zero() {
