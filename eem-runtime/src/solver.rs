@@ -53,8 +53,9 @@ pub(crate) struct Solver<S, const D: usize> {
     /// The part of the nodal forces that the old state decides, N.
     old_force: Vec<[S; D]>,
     impulse: Vec<[S; D]>,
-    /// The unit of length of each node: its shortest element in the old state; 1 m without.
-    lengths: Vec<S>,
+    /// The reciprocal of the unit of length of each node: its shortest element in the old state;
+    /// 1 m without.
+    per_length: Vec<S>,
     /// What kept the last update from being applied in full.
     obstacle: Option<StateError>,
     /// What each iteration did.
@@ -132,7 +133,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             correction: (points.clone(), temperatures),
             old_force: points.clone(),
             impulse: points,
-            lengths: vec![S::one(); masses.len()],
+            per_length: vec![S::one(); masses.len()],
             obstacle: None,
             history: Vec::new(),
         }

@@ -165,14 +165,16 @@ fn eliminate<S: Real, M: FreeEnergy<S>>(system: &mut Condensed<S, M>) -> Result<
             by_heat.as_mut().swap(pivot, k);
         }
         let inverse = value.recip();
-        for column in 0..M::Variables::LEN {
+        // Columns that have been eliminated are not read again.
+        let live = || (0..M::MEASURES).chain(at + 1..M::Variables::LEN);
+        for column in live() {
             rows[k][column] *= inverse;
         }
         constant[k] *= inverse;
         by_heat[k] *= inverse;
         for row in (0..unknowns).filter(|&row| row != k) {
             let factor = rows[row][at];
-            for column in 0..M::Variables::LEN {
+            for column in live() {
                 let entry = rows[k][column];
                 rows[row][column] -= factor * entry;
             }

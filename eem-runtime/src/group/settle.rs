@@ -8,14 +8,8 @@ use crate::error::StateError;
 use crate::free_energy::{Caloric, FreeEnergy};
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
-use crate::scene::is_positive;
 use crate::scheme::{ElementScheme, Infeasible, Placement, temperature_at};
 use crate::state::State;
-
-/// The largest correction of ln θ, in units of √ε, after which the entropy need not be evaluated
-/// again. Newton's method in ln θ leaves half the square of the correction, times the slope
-/// of ln C over ln θ: ε/32 for C ∝ θ, and ε/8 of the expansion of eˣ.
-const LAST_CORRECTION: f64 = 0.25;
 
 impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
 where
@@ -75,8 +69,11 @@ where
         };
         let prescribed = view.prescribed(Some(slot), Placement::End);
         if let (false, None) = (C::IN_TEMPERATURE, prescribed) {
-            x[Self::TEMPERATURE] = self.x[Self::TEMPERATURE];
-            let theta = self.temperature_of(x, state.entropies.values()[slot])?;
+            // The trial is nearly right: one evaluation is enough, as a rule.
+            let trial = self.x[Self::TEMPERATURE];
+            let entropy = state.entropies.values()[slot];
+            let theta = temperature_at(&self.model, x, entropy, trial)
+                .map_err(|infeasible| infeasible.of(self.element))?;
             check_temperature(self.element, theta)?;
             state.temperatures[slot] = theta;
             x[Self::TEMPERATURE] = theta;
@@ -98,26 +95,6 @@ where
             state.thermostat_entropy.add(-given);
         }
         Ok(())
-    }
-
-    /// The stable temperature with an entropy, from that of the trial in `x`.
-    ///
-    /// Newton's method leaves so little that one evaluation is enough, as a rule.
-    #[inline]
-    fn temperature_of(&self, x: M::Variables, entropy: S) -> Result<S, StateError> {
-        let theta = x[Self::TEMPERATURE];
-        let caloric = self.model.caloric(&x);
-        let correction = (entropy - caloric.entropy) / caloric.heat_capacity;
-        let last = S::from_f64(LAST_CORRECTION) * S::EPSILON.sqrt();
-        if is_positive(caloric.heat_capacity) && correction.abs() <= last {
-            return Ok(theta + theta * correction);
-        }
-        let found = temperature_at(&self.model, x, entropy, theta)
-            .map_err(|infeasible| infeasible.of(self.element))?;
-        let mut at = x;
-        at[Self::TEMPERATURE] = found;
-        self.check_stable(&self.model.caloric(&at), found)?;
-        Ok(found)
     }
 
     fn check_stable(&self, caloric: &Caloric<S>, theta: S) -> Result<(), StateError> {

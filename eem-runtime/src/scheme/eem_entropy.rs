@@ -11,9 +11,8 @@
 //! The local unknown is the new temperature. The temperatures of the mixed states on the way from
 //! old to new come from the Legendre inversion θ̂, by Newton's method, for any free energy.
 
-use super::{Answer, ElementScheme, ElementTrial, Infeasible, Placement, Start};
+use super::{Answer, ElementScheme, ElementTrial, Infeasible, Placement, Start, temperature_at};
 use crate::free_energy::{Array, FreeEnergy};
-use crate::inversion::invert;
 use crate::scalar::Real;
 
 /// See the module.
@@ -67,25 +66,4 @@ fn find_corners<S: Real, M: FreeEnergy<S>, Old>(
         descending[k - 1] = temperature_at(model, x, caloric1.entropy, descending[k - 1])?;
     }
     Ok(())
-}
-
-/// θ̂ at the configuration of `x`, whose own temperature does not matter.
-pub(crate) fn temperature_at<S: Real, M: FreeEnergy<S>>(
-    model: &M,
-    mut x: M::Variables,
-    entropy: S,
-    guess: S,
-) -> Result<S, Infeasible> {
-    let last = M::Variables::LEN - 1;
-    let evaluate = |theta| {
-        x.as_mut()[last] = theta;
-        model.caloric(&x)
-    };
-    match invert(evaluate, entropy, guess) {
-        Ok(found) => Ok(found.temperature),
-        Err(source) => Err(Infeasible::Entropy {
-            entropy: entropy.to_f64(),
-            source,
-        }),
-    }
 }

@@ -24,18 +24,20 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for (force, load) in self.old_force.iter_mut().zip(loads) {
             *force = load.map(|load| -load);
         }
-        self.lengths.fill(S::MAX);
+        self.per_length.fill(S::MAX);
         let mut old = Old {
             force: &mut self.old_force,
-            lengths: &mut self.lengths,
+            lengths: &mut self.per_length,
         };
         for group in groups.iter_mut() {
             group.begin(view, &mut old)?;
         }
-        for length in &mut self.lengths {
-            if *length == S::MAX {
-                *length = S::one();
-            }
+        for length in &mut self.per_length {
+            *length = if *length == S::MAX {
+                S::one()
+            } else {
+                length.recip()
+            };
         }
         self.start(view);
         Ok(())

@@ -47,11 +47,11 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let solution = self.tangent.right_mut();
         let mut largest = S::zero();
         for mass in &self.masses {
-            let length = self.lengths[mass.node];
+            let per_length = self.per_length[mass.node];
             for axis in 0..D {
                 let change = solution[mass.row + axis][0];
                 self.correction.0[mass.node][axis] = change;
-                largest = largest.maximum((change / length).abs());
+                largest = largest.maximum((change * per_length).abs());
             }
         }
         for seen in &self.seen {
