@@ -39,7 +39,7 @@ pub(crate) struct Solver<S, const D: usize> {
     pub(crate) settings: NewtonSettings<S>,
     scheme: Scheme,
     /// The nodes that move.
-    masses: Vec<Mass<S, D>>,
+    masses: Vec<MovingNode<S, D>>,
     /// The rows of the temperatures that neighbours see, and their thermal slots.
     seen: Vec<Seen>,
     /// The system of an iteration.
@@ -64,7 +64,7 @@ pub(crate) struct Solver<S, const D: usize> {
 
 /// A node that moves.
 #[derive(Clone, Copy, Debug)]
-struct Mass<S, const D: usize> {
+struct MovingNode<S, const D: usize> {
     node: usize,
     /// m, kg.
     mass: S,
@@ -369,12 +369,12 @@ fn moving<S: Real, const D: usize>(
     layout: &Layout,
     tangent: &LinearSystem<S, 1>,
     secant: &LinearSystem<S, D>,
-) -> Vec<Mass<S, D>> {
+) -> Vec<MovingNode<S, D>> {
     let nodes = masses.iter().zip(&layout.nodes).enumerate();
     let moving = nodes.filter_map(|(node, (mass, row))| Some((node, (*mass)?, (*row)?)));
     let moving = moving.map(|(node, mass, row)| {
         let own = Some(row / D);
-        Mass {
+        MovingNode {
             node,
             mass,
             row,

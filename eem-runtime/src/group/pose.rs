@@ -151,9 +151,9 @@ pub(super) fn spread<K: Kinematics<S, D>, S: Real, const D: usize>(
 ) -> K::PerNode<[S; D]> {
     let mut by_node = K::PerNode::filled([S::zero(); D]);
     for (i, by) in by_arm.as_ref().iter().enumerate() {
-        for axis in 0..D {
-            by_node[0][axis] -= by[axis];
-            by_node[i + 1][axis] = by[axis];
+        by_node[i + 1] = *by;
+        for (sum, &entry) in by_node[0].iter_mut().zip(by) {
+            *sum -= entry;
         }
     }
     by_node

@@ -15,6 +15,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     pub(super) fn balance(&mut self, view: &StepView<'_, S>) -> S {
         let (values, right) = self.tangent.parts();
         let mut largest = S::zero();
+        let per_step = view.step.recip();
         let momenta = points::<S, D>(view.state.momenta.values());
         for mass in &self.masses {
             if !view.phase.moves() {
@@ -23,7 +24,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 }
                 continue;
             }
-            let inertia = (mass.mass + mass.mass) / view.step;
+            let inertia = (mass.mass + mass.mass) * per_step;
             let (momentum, force) = (&momenta[mass.node], &self.old_force[mass.node]);
             let displacement = &self.trial.displacements[mass.node];
             for (axis, &place) in mass.diagonal.iter().enumerate() {
@@ -43,14 +44,14 @@ impl<S: Real, const D: usize> Solver<S, D> {
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
     ) -> S {
-        self.remember();
         let solution = self.tangent.right_mut();
         let mut largest = S::zero();
         for mass in &self.masses {
             let per_length = self.per_length[mass.node];
-            for axis in 0..D {
-                let change = solution[mass.row + axis][0];
-                self.correction.0[mass.node][axis] = change;
+            self.previous.0[mass.node] = self.trial.displacements[mass.node];
+            let correction = &mut self.correction.0[mass.node];
+            for (correction, &[change]) in correction.iter_mut().zip(&solution[mass.row..]) {
+                *correction = change;
                 largest = largest.maximum((change * per_length).abs());
             }
         }
@@ -60,6 +61,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let theta = self.trial.seen_temperatures[seen.slot];
             let change = (theta + solution[seen.row][0]) - theta;
             solution[seen.row][0] = change;
+            self.previous.1[seen.slot] = theta;
             self.correction.1[seen.slot] = change;
             largest = largest.maximum((change / theta).abs());
         }
