@@ -182,13 +182,15 @@ mod features {
 
     #[divan::bench(args = SCHEMES)]
     fn thermo_visco_elastic(bencher: Bencher<'_, '_>, scheme: Scheme) {
-        let model = ThermoViscoElastic::PENDULUM;
-        run(bencher, scheme, || scene(model, Some(380.0), None));
+        run(bencher, scheme, || {
+            scene(ThermoViscoElastic::PENDULUM, Some(380.0), None)
+        });
     }
 
     #[divan::bench(args = SCHEMES)]
     fn thermo_visco_elastic_conducting(bencher: Bencher<'_, '_>, scheme: Scheme) {
-        let model = ThermoViscoElastic::PENDULUM;
-        run(bencher, scheme, || scene(model, Some(380.0), Some(10.0)));
+        run(bencher, scheme, || {
+            scene(ThermoViscoElastic::PENDULUM, Some(380.0), Some(10.0))
+        });
     }
 }
