@@ -4,8 +4,7 @@ mod begin;
 mod closing;
 mod iteration;
 mod linearize;
-
-use core::array;
+mod places;
 
 use crate::conduction::Conduction;
 use crate::error::{NewtonIteration, StateError, StepFailure};
@@ -18,6 +17,7 @@ use crate::scene::ElementEntry;
 use crate::scheme::Scheme;
 use crate::state::State;
 use crate::system::LinearSystem;
+use places::{MovingNode, Seen, moving, seen};
 
 /// How often an update is halved to bring all elements back to admissible states.
 const HALVINGS: u32 = 30;
@@ -62,27 +62,6 @@ pub(crate) struct Solver<S, const D: usize> {
     pub(crate) history: Vec<Iteration<S>>,
 }
 
-/// A node that moves.
-#[derive(Clone, Copy, Debug)]
-struct MovingNode<S, const D: usize> {
-    node: usize,
-    /// m, kg.
-    mass: S,
-    /// Its first row in the tangent, and its diagonal entries there.
-    row: usize,
-    diagonal: [usize; D],
-    /// Its row and its diagonal entry in the secant matrix.
-    secant_row: usize,
-    secant_diagonal: usize,
-}
-
-/// A temperature that neighbours see.
-#[derive(Clone, Copy, Debug)]
-struct Seen {
-    slot: usize,
-    row: usize,
-}
-
 /// One iteration of Newton's method.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Iteration<S> {
@@ -113,15 +92,13 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let pattern = Pattern::of_tangent(elements, layout, conduction, D);
         let tangent = LinearSystem::new(&pattern, D);
         let secant = LinearSystem::new(&Pattern::of_secant(elements, layout, D), 1);
-        let seen = layout.coupled.iter().enumerate();
-        let seen = seen.filter_map(|(slot, row)| row.map(|row| Seen { slot, row }));
         let points = vec![[S::zero(); D]; masses.len()];
         let temperatures = vec![S::zero(); layout.coupled.len()];
         Self {
             settings: NewtonSettings::default(),
             scheme,
             masses: moving(masses, layout, &tangent, &secant),
-            seen: seen.collect(),
+            seen: seen(layout),
             tangent,
             secant,
             trial: Trial {
@@ -361,27 +338,4 @@ enum Look {
     On,
     /// Closing the step.
     Back,
-}
-
-/// The nodes with a mass, and where they write.
-fn moving<S: Real, const D: usize>(
-    masses: &[Option<S>],
-    layout: &Layout,
-    tangent: &LinearSystem<S, 1>,
-    secant: &LinearSystem<S, D>,
-) -> Vec<MovingNode<S, D>> {
-    let nodes = masses.iter().zip(&layout.nodes).enumerate();
-    let moving = nodes.filter_map(|(node, (mass, row))| Some((node, (*mass)?, (*row)?)));
-    let moving = moving.map(|(node, mass, row)| {
-        let own = Some(row / D);
-        MovingNode {
-            node,
-            mass,
-            row,
-            diagonal: array::from_fn(|axis| tangent.place(Some(row + axis), Some(row + axis))),
-            secant_row: row / D,
-            secant_diagonal: secant.place(own, own),
-        }
-    });
-    moving.collect()
 }
