@@ -44,6 +44,8 @@ mod scene;
 mod scheme;
 mod simulation;
 mod solver;
+#[cfg(feature = "sparse")]
+mod sparse_lu;
 mod state;
 mod system;
 

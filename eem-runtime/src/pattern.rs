@@ -17,25 +17,59 @@ use crate::scene::ElementEntry;
 pub(crate) struct Pattern {
     /// Row r has the columns `columns[starts[r]..starts[r + 1]]`.
     starts: Vec<usize>,
-    columns: Vec<usize>,
+    columns: Vec<u32>,
 }
 
 impl Pattern {
-    /// The pattern with the whole diagonal, the pairs and their mirror images.
-    pub(crate) fn new(unknowns: usize, pairs: impl IntoIterator<Item = (usize, usize)>) -> Self {
-        let diagonal = (0..unknowns).map(|row| (row, row));
-        let mirrored = pairs.into_iter().flat_map(|(a, b)| [(a, b), (b, a)]);
-        let mut entries: Vec<_> = diagonal.chain(mirrored).collect();
-        entries.sort_unstable();
-        entries.dedup();
-        let mut starts = vec![0; unknowns + 1];
-        for &(row, _) in &entries {
-            starts[row + 1] += 1;
+    /// The pattern with the whole diagonal, the pairs that `visit` names, any number of times, and
+    /// their mirror images.
+    ///
+    /// `visit` is called twice: to count, and to write. So the only memory is that of the pattern.
+    pub(crate) fn new(unknowns: usize, visit: impl Fn(&mut dyn FnMut(usize, usize))) -> Self {
+        let mut ends = vec![0; unknowns + 1];
+        for end in &mut ends[1..] {
+            *end = 1;
         }
+        visit(&mut |a, b| {
+            ends[a + 1] += 1;
+            ends[b + 1] += 1;
+        });
         for row in 0..unknowns {
-            starts[row + 1] += starts[row];
+            ends[row + 1] += ends[row];
         }
-        let columns = entries.into_iter().map(|(_, column)| column).collect();
+        let mut columns = vec![0; ends[unknowns]];
+        let mut next = ends.clone();
+        let mut write = |row: usize, column: usize| {
+            columns[next[row]] = index(column);
+            next[row] += 1;
+        };
+        (0..unknowns).for_each(|row| write(row, row));
+        visit(&mut |a, b| {
+            write(a, b);
+            write(b, a);
+        });
+        Self::sorted(&ends, columns)
+    }
+
+    /// Sorts rows that end where the next begins, and drops what they have twice.
+    fn sorted(ends: &[usize], mut columns: Vec<u32>) -> Self {
+        let mut starts = Vec::with_capacity(ends.len());
+        let mut length = 0;
+        for row in ends.windows(2) {
+            starts.push(length);
+            columns[row[0]..row[1]].sort_unstable();
+            let first = length;
+            for at in row[0]..row[1] {
+                let column = columns[at];
+                if length == first || columns[length - 1] != column {
+                    columns[length] = column;
+                    length += 1;
+                }
+            }
+        }
+        starts.push(length);
+        columns.truncate(length);
+        columns.shrink_to_fit();
         Self { starts, columns }
     }
 
@@ -49,23 +83,29 @@ impl Pattern {
         conduction: &Conduction<S>,
         dimension: usize,
     ) -> Self {
-        let mut pairs = Vec::new();
-        for (entry, slots) in elements.iter().zip(&layout.elements) {
-            let nodes = entry.nodes.iter().filter_map(|&node| layout.nodes[node]);
-            let mut own: Vec<_> = nodes.flat_map(|first| first..first + dimension).collect();
-            let slot = slots.thermal;
-            own.extend(slot.and_then(|slot| layout.coupled[slot]));
-            let links = slot.map_or(&[][..], |slot| conduction.links(slot));
-            let partners = links.iter().filter_map(|link| match link.partner {
-                Partner::Slot(partner) => layout.coupled[partner],
-                Partner::Reservoir(_) => None,
-            });
-            let all: Vec<_> = own.iter().copied().chain(partners).collect();
-            for &row in &own {
-                pairs.extend(all.iter().map(|&column| (row, column)));
+        Self::new(layout.unknowns, |pair| {
+            for (entry, slots) in elements.iter().zip(&layout.elements) {
+                let slot = slots.thermal;
+                let own = || {
+                    let nodes = entry.nodes.iter().filter_map(|&node| layout.nodes[node]);
+                    let positions = nodes.flat_map(|first| first..first + dimension);
+                    positions.chain(slot.and_then(|slot| layout.coupled[slot]))
+                };
+                let links = slot.map_or(&[][..], |slot| conduction.links(slot));
+                for row in own() {
+                    own()
+                        .filter(|&column| column < row)
+                        .for_each(|column| pair(row, column));
+                    for link in links {
+                        if let Partner::Slot(partner) = link.partner
+                            && let Some(column) = layout.coupled[partner]
+                        {
+                            pair(row, column);
+                        }
+                    }
+                }
             }
-        }
-        Self::new(layout.unknowns, pairs)
+        })
     }
 
     /// The pattern of the secant matrix.
@@ -74,18 +114,20 @@ impl Pattern {
         layout: &Layout,
         dimension: usize,
     ) -> Self {
-        let mut pairs = Vec::new();
-        for entry in elements {
-            let masses = || {
-                let nodes = entry.nodes.iter().filter_map(|&node| layout.nodes[node]);
-                nodes.map(|first| first / dimension)
-            };
-            for row in masses() {
-                pairs.extend(masses().map(|column| (row, column)));
-            }
-        }
         let masses = layout.nodes.iter().flatten().count();
-        Self::new(masses, pairs)
+        Self::new(masses, |pair| {
+            for entry in elements {
+                let masses = || {
+                    let nodes = entry.nodes.iter().filter_map(|&node| layout.nodes[node]);
+                    nodes.map(|first| first / dimension)
+                };
+                for row in masses() {
+                    masses()
+                        .filter(|&column| column < row)
+                        .for_each(|column| pair(row, column));
+                }
+            }
+        })
     }
 
     /// Number of rows and of columns.
@@ -93,13 +135,36 @@ impl Pattern {
         self.starts.len() - 1
     }
 
+    /// Number of entries.
+    #[cfg(any(feature = "sparse", test))]
+    pub(crate) fn entries(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// Where each row starts among the entries, and where the last one ends.
+    #[cfg(feature = "sparse")]
+    pub(crate) fn starts(&self) -> &[usize] {
+        &self.starts
+    }
+
+    /// The columns of all rows, one row after the other.
+    #[cfg(feature = "sparse")]
+    pub(crate) fn columns(&self) -> &[u32] {
+        &self.columns
+    }
+
     /// The columns of a row, ascending.
-    #[cfg_attr(
-        not(test),
-        expect(dead_code, reason = "what a sparse factorisation asks for")
-    )]
-    pub(crate) fn row(&self, row: usize) -> &[usize] {
+    #[cfg(any(feature = "sparse", test))]
+    pub(crate) fn row(&self, row: usize) -> &[u32] {
         &self.columns[self.starts[row]..self.starts[row + 1]]
+    }
+}
+
+/// An index in half the memory; more unknowns than it can count would need terabytes.
+fn index(unknown: usize) -> u32 {
+    match u32::try_from(unknown) {
+        Ok(index) => index,
+        Err(_) => unreachable!("a matrix with 2³² rows does not fit any memory"),
     }
 }
 
@@ -109,8 +174,12 @@ mod tests {
 
     #[test]
     fn patterns_are_symmetric_and_sorted() {
-        let pattern = Pattern::new(3, [(2, 0), (2, 0), (0, 1)]);
-        assert_eq!(pattern.unknowns(), 3);
+        let pattern = Pattern::new(3, |pair| {
+            pair(2, 0);
+            pair(2, 0);
+            pair(0, 1);
+        });
+        assert_eq!((pattern.unknowns(), pattern.entries()), (3, 7));
         assert_eq!(pattern.row(0), [0, 1, 2]);
         assert_eq!(pattern.row(1), [0, 1]);
         assert_eq!(pattern.row(2), [0, 2]);

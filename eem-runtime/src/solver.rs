@@ -34,7 +34,7 @@ const LONGEST_HISTORY: usize = 4096;
 const NEGLIGIBLE: f64 = 1.0 / 1024.0;
 
 /// Working memory of a step; nothing in it outlives the step.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct Solver<S, const D: usize> {
     pub(crate) settings: NewtonSettings<S>,
     scheme: Scheme,

@@ -12,18 +12,27 @@
 //!
 //! How entries are laid out and what solves with them is the business of the [`Storage`] alone: another
 //! one is another variant there, with its answers to `new` (from the pattern), `entries`, `position`
-//! and `solve`. A storage that factors numerically at each `solve` and symbolically in `new` fits as
-//! it is.
+//! and `solve`.
 
 use crate::lu::{self, Singular};
 use crate::pattern::Pattern;
 use crate::scalar::Real;
+#[cfg(feature = "sparse")]
+use crate::sparse_lu::SparseLu;
 
 /// The most unknowns for which the elimination is compiled with their number.
 const MOST_FIXED: usize = 12;
 
+/// The most unknowns whose elimination is dense whatever the pattern.
+#[cfg(feature = "sparse")]
+const MOST_DENSE: usize = 24;
+
+/// The largest share of entries, one in this many, that is worth looking for.
+#[cfg(feature = "sparse")]
+const SPARSITY: usize = 4;
+
 /// `A X = B` with `W` right-hand sides, in memory that is reused.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub(crate) struct LinearSystem<S, const W: usize> {
     unknowns: usize,
     storage: Storage,
@@ -34,40 +43,54 @@ pub(crate) struct LinearSystem<S, const W: usize> {
 }
 
 /// Where the entries of A are, and how the system is solved.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 enum Storage {
     /// All entries, row by row; at most [`MOST_FIXED`] unknowns.
     Fixed { unknowns: usize },
     /// All entries, row by row.
     Dense { pivots: Vec<usize> },
+    /// The entries of the pattern.
+    #[cfg(feature = "sparse")]
+    Sparse(Box<SparseLu>),
 }
 
 impl Storage {
-    fn new(pattern: &Pattern) -> Self {
+    /// What suits the pattern, for this many right-hand sides.
+    #[cfg_attr(not(feature = "sparse"), expect(unused_variables, reason = "dense"))]
+    fn new(pattern: &Pattern, columns: usize) -> Self {
         let unknowns = pattern.unknowns();
         if unknowns <= MOST_FIXED {
-            Self::Fixed { unknowns }
-        } else {
-            let pivots = vec![0; unknowns];
-            Self::Dense { pivots }
+            return Self::Fixed { unknowns };
         }
-    }
-
-    fn unknowns(&self) -> usize {
-        match self {
-            Self::Fixed { unknowns } => *unknowns,
-            Self::Dense { pivots } => pivots.len(),
+        #[cfg(feature = "sparse")]
+        if unknowns > MOST_DENSE
+            && pattern.entries() < unknowns * unknowns / SPARSITY
+            && let Some(sparse) = SparseLu::new(pattern, columns)
+        {
+            return Self::Sparse(Box::new(sparse));
         }
+        let pivots = vec![0; unknowns];
+        Self::Dense { pivots }
     }
 
     /// How many values are stored.
     fn entries(&self) -> usize {
-        self.unknowns() * self.unknowns()
+        match self {
+            Self::Fixed { unknowns } => unknowns * unknowns,
+            Self::Dense { pivots } => pivots.len() * pivots.len(),
+            #[cfg(feature = "sparse")]
+            Self::Sparse(sparse) => sparse.entries(),
+        }
     }
 
-    /// Where an entry of the pattern is among the values.
-    fn position(&self, row: usize, column: usize) -> usize {
-        row * self.unknowns() + column
+    /// Where an entry is among the values, if the pattern has it.
+    fn position(&self, row: usize, column: usize) -> Option<usize> {
+        match self {
+            Self::Fixed { unknowns } => Some(row * unknowns + column),
+            Self::Dense { pivots } => Some(row * pivots.len() + column),
+            #[cfg(feature = "sparse")]
+            Self::Sparse(sparse) => sparse.position(row, column),
+        }
     }
 
     /// Overwrites the right-hand sides with the solutions, and the values with what it likes.
@@ -83,6 +106,8 @@ impl Storage {
                 lu::solve(values, pivots, right);
                 Ok(())
             }
+            #[cfg(feature = "sparse")]
+            Self::Sparse(sparse) => sparse.solve(values, right),
         }
     }
 }
@@ -113,7 +138,7 @@ fn solve_fixed<S: Real, const W: usize>(
 impl<S: Real, const W: usize> LinearSystem<S, W> {
     /// A system whose unknowns come in runs of `run` for each node.
     pub(crate) fn new(pattern: &Pattern, run: usize) -> Self {
-        let storage = Storage::new(pattern);
+        let storage = Storage::new(pattern, W);
         Self {
             unknowns: pattern.unknowns(),
             values: vec![S::zero(); storage.entries() + run],
@@ -130,10 +155,12 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
     /// The place of an entry of A, which the pattern must have; without one of the unknowns, the
     /// place that nobody reads.
     pub(crate) fn place(&self, row: Option<usize>, column: Option<usize>) -> usize {
-        match row.zip(column) {
-            Some((row, column)) => self.storage.position(row, column),
-            None => self.storage.entries(),
-        }
+        let position = row.zip(column).map(|(row, column)| {
+            let position = self.storage.position(row, column);
+            debug_assert!(position.is_some(), "the pattern has no {row}, {column}");
+            position
+        });
+        position.flatten().unwrap_or(self.storage.entries())
     }
 
     /// Makes everything zero.
@@ -161,7 +188,10 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
     pub(crate) fn dense(&self) -> Vec<S> {
         let rows = 0..self.unknowns;
         rows.flat_map(|row| {
-            (0..self.unknowns).map(move |column| self.values[self.storage.position(row, column)])
+            (0..self.unknowns).map(move |column| {
+                let position = self.storage.position(row, column);
+                position.map_or(S::zero(), |position| self.values[position])
+            })
         })
         .collect()
     }
@@ -179,10 +209,15 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
 mod tests {
     use super::*;
 
-    /// Diagonally dominant, not symmetric, of any size.
-    fn solves(unknowns: usize) {
-        let pairs = (0..unknowns).flat_map(|row| (0..row).map(move |column| (row, column)));
-        let pattern = Pattern::new(unknowns, pairs);
+    /// Diagonally dominant, not symmetric, of any size and width of its band.
+    fn solves(unknowns: usize, band: usize) {
+        let pattern = Pattern::new(unknowns, |pair| {
+            for row in 0..unknowns {
+                (0..row)
+                    .filter(|column| row - column <= band)
+                    .for_each(|column| pair(row, column));
+            }
+        });
         let mut system = LinearSystem::<f64, 2>::new(&pattern, 1);
         let entry = |row: usize, column: usize| {
             let off = f64::from(u8::try_from((3 * row + 5 * column) % 7).unwrap()) - 3.0;
@@ -193,7 +228,7 @@ mod tests {
             [1.0 + x, 2.0 - x]
         };
         for row in 0..unknowns {
-            for column in 0..unknowns {
+            for column in (0..unknowns).filter(|&column| row.abs_diff(column) <= band) {
                 let place = system.place(Some(row), Some(column));
                 let x = exact(column);
                 let (values, right) = system.parts();
@@ -217,12 +252,13 @@ mod tests {
 
     #[test]
     fn systems_of_every_size_are_solved() {
-        (0..=MOST_FIXED + 2).for_each(solves);
+        (0..=MOST_FIXED + 2).for_each(|unknowns| solves(unknowns, unknowns));
+        solves(60, 2);
     }
 
     #[test]
     fn what_belongs_to_an_anchor_is_read_by_nobody() {
-        let mut system = LinearSystem::<f64, 1>::new(&Pattern::new(1, []), 1);
+        let mut system = LinearSystem::<f64, 1>::new(&Pattern::new(1, |_| {}), 1);
         let (own, nobody) = (system.place(Some(0), Some(0)), system.place(Some(0), None));
         let (values, right) = system.parts();
         (values[own], values[nobody]) = (2.0, 9.0);
