@@ -154,7 +154,7 @@ impl Pattern {
     }
 
     /// The columns of a row, ascending.
-    #[cfg(any(feature = "sparse", test))]
+    #[cfg(test)]
     pub(crate) fn row(&self, row: usize) -> &[u32] {
         &self.columns[self.starts[row]..self.starts[row + 1]]
     }

@@ -241,7 +241,7 @@ mod tests {
         system.solve().unwrap();
         for (row, found) in system.right()[..unknowns].iter().enumerate() {
             for (found, exact) in found.iter().zip(exact(row)) {
-                // Condition number at most 4, entries at most 14, and n roundings.
+                // Condition number at most 4, numbers up to 61, and a rounding per entry of a row.
                 assert!(
                     (found - exact).abs() <= 1e3 * f64::EPSILON,
                     "{unknowns} unknowns"

@@ -1,0 +1,44 @@
+//! What a spring of a long chain takes, in bytes.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod support;
+
+use eem::prelude::*;
+use support::LogarithmicStiffness;
+
+/// Springs of the chain: what does not grow with them is then a thousandth.
+const SPRINGS: u32 = 10_000;
+
+fn chain() -> Scene<2> {
+    let mut scene = Scene::new();
+    let mut last = scene.anchor([0.0, 0.0]);
+    for index in 1..=SPRINGS {
+        let next = scene.mass(1.0, [2.0 * f64::from(index), 0.0], [0.0, 1.0]);
+        let spring = scene.spring(LogarithmicStiffness::FIRST, [last, next]);
+        scene.set_temperature(spring, 300.0);
+        last = next;
+    }
+    scene
+}
+
+/// Of a thermoelastic spring in the plane with its node: 0.8 kB of the element and its part of the
+/// trial state, 0.4 kB of states and loads, 0.3 kB of the solver's vectors, the rest matrix and
+/// factors, with the reserve of vectors that grow.
+const BYTES: i64 = 2_560;
+
+#[test]
+fn a_spring_of_a_chain_takes_what_is_said() {
+    let mut kept = None;
+    let counted = allocation_counter::measure(|| {
+        let mut run = Simulation::new(chain(), Scheme::EemTemperature, 0.01).unwrap();
+        run.step().unwrap();
+        kept = Some(run);
+    });
+    let per_spring = counted.bytes_current / i64::from(SPRINGS);
+    println!(
+        "{per_spring} bytes per spring, {} at most",
+        counted.bytes_max / u64::from(SPRINGS)
+    );
+    assert!(per_spring <= BYTES, "{per_spring} bytes per spring");
+}
