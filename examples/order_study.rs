@@ -277,7 +277,7 @@ fn write(directory: &Path, studies: &[Study]) -> Result<(), Box<dyn Error>> {
     let rows: Vec<Vec<f64>> = (0..=HALVINGS as usize).map(row).collect();
     output::write_numbers(directory, "order_study", &heads, &rows)?;
     let figure = Figure {
-        title: "Error at the end over the step, and fitted slopes".to_owned(),
+        title: "Conde Martín et al. (2016), figure 2: errors, with fitted slopes".to_owned(),
         x_label: "step h (s)".to_owned(),
         y_label: "relative error".to_owned(),
         curves: guides(studies)

@@ -136,6 +136,14 @@ impl Record {
         self.over_time(from.iter().zip(&to).map(distance))
     }
 
+    /// E − E₀ (J) over time.
+    pub(crate) fn energy_changes(&self) -> Vec<(f64, f64)> {
+        let energies = self.points("time", "energy");
+        let first = energies.first().map_or(0.0, |&(_, energy)| energy);
+        let change = |(time, energy)| (time, energy - first);
+        energies.into_iter().map(change).collect()
+    }
+
     /// A value per state, with the time of the state.
     pub(crate) fn over_time(&self, values: impl Iterator<Item = f64>) -> Vec<(f64, f64)> {
         let times = self.rows.iter().map(|row| row.values[0]);

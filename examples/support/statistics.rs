@@ -77,6 +77,17 @@ pub(crate) fn position_error(record: &Record, exact: &Record) -> Option<f64> {
     (size > 0.0).then(|| (difference / size).sqrt())
 }
 
+/// The points of a curve over time minus those of the exact curve at the same times; a point whose
+/// time the exact curve does not have is left out.
+pub(crate) fn deviations(curve: &[(f64, f64)], exact: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let deviation = |&(time, value): &(f64, f64)| {
+        let later = exact.partition_point(|(exact, _)| *exact < time - TIME_TOLERANCE);
+        let &(same, exact) = exact.get(later)?;
+        ((same - time).abs() <= TIME_TOLERANCE).then_some((time, value - exact))
+    };
+    curve.iter().filter_map(deviation).collect()
+}
+
 /// The largest |E − E₀| / |E₀| so far, over time from the first step on.
 pub(crate) fn energy_defects(record: &Record) -> Vec<(f64, f64)> {
     largest_so_far(record, &record.vectors(|name| name == "energy"))
