@@ -43,7 +43,7 @@ mod figures;
 mod scene;
 mod support;
 
-use scene::pendulum;
+use scene::{CONDUCTANCE, pendulum};
 use support::claims::{self, Claims};
 use support::command_line::CommandLine;
 use support::comparison::Comparison;
@@ -89,7 +89,7 @@ fn run(command_line: &CommandLine) -> Result<Claims, Box<dyn Error>> {
     let reference = reference(grid)?;
     let mut runs = Vec::new();
     for scheme in command_line.schemes() {
-        let (mut simulation, watched) = pendulum(scheme, grid.step)?;
+        let (mut simulation, watched) = pendulum(scheme, grid.step, CONDUCTANCE)?;
         runs.push(simulate::record(
             scheme.name(),
             &mut simulation,
@@ -109,7 +109,7 @@ fn run(command_line: &CommandLine) -> Result<Claims, Box<dyn Error>> {
 fn reference(grid: TimeGrid) -> Result<Record, SceneError> {
     let longest = REFERENCE_STEP.min(REFERENCE_SHARE * grid.step);
     let grid = grid.refined(longest, REFERENCE_SAMPLING);
-    let (mut simulation, watched) = pendulum(Scheme::EemEntropy, grid.step)?;
+    let (mut simulation, watched) = pendulum(Scheme::EemEntropy, grid.step, CONDUCTANCE)?;
     simulate::record("reference", &mut simulation, &watched, grid)
 }
 

@@ -52,15 +52,22 @@ pub(crate) const SPRING: CreepingSpring = CreepingSpring {
     a: 10.0,
 };
 
-/// The pendulum at t = 0, and what to record of it.
-pub(crate) fn pendulum(scheme: Scheme, step: f64) -> Result<(Simulation<2>, Watched), SceneError> {
+/// Heat conductance to the surroundings, W/K.
+pub(crate) const CONDUCTANCE: f64 = 10.0;
+
+/// The pendulum at t = 0, and what to record of it; `conductance` in W/K.
+pub(crate) fn pendulum(
+    scheme: Scheme,
+    step: f64,
+    conductance: f64,
+) -> Result<(Simulation<2>, Watched), SceneError> {
     let mut scene = Scene::<2>::new();
     let pivot = scene.anchor([0.0, 0.0]);
     let bob = scene.mass(1.0, [3.0, 0.0], [0.0, 1.0]);
     let spring = scene.spring(SPRING, [pivot, bob]);
     scene.set_temperature(spring, 380.0);
     let surroundings = scene.reservoir(300.0);
-    scene.conduct(spring, surroundings, 10.0);
+    scene.conduct(spring, surroundings, conductance);
     let watched = Watched {
         masses: vec![bob],
         elements: vec![spring],

@@ -26,12 +26,24 @@ pub(crate) fn write_numbers(
     heads: &[&str],
     rows: &[Vec<f64>],
 ) -> io::Result<PathBuf> {
+    let text = |row: &Vec<f64>| row.iter().map(|value| format!("{value:.16e}")).collect();
+    let rows: Vec<Vec<String>> = rows.iter().map(text).collect();
+    write_texts(directory, name, heads, &rows)
+}
+
+/// Writes `NAME.csv` with these column heads and rows of cells.
+pub(crate) fn write_texts(
+    directory: &Path,
+    name: &str,
+    heads: &[&str],
+    rows: &[Vec<String>],
+) -> io::Result<PathBuf> {
     let path = directory.join(format!("{name}.csv"));
     let write = || {
         let mut writer = csv::Writer::from_path(&path)?;
         writer.write_record(heads)?;
         for row in rows {
-            writer.write_record(row.iter().map(|value| format!("{value:.16e}")))?;
+            writer.write_record(row)?;
         }
         writer.flush()
     };

@@ -87,4 +87,13 @@ impl Look {
         }
         LOOKS[1 + (index - 1) % (LOOKS.len() - 1)]
     }
+
+    /// The same colour without dash and marker.
+    pub(super) const fn plain(self) -> Self {
+        Self {
+            dash: Dash::Solid,
+            marker: Marker::None,
+            ..self
+        }
+    }
 }
