@@ -53,18 +53,8 @@ fn tetrahedron(scheme: Scheme, step: f64) -> Simulation<3> {
 }
 
 #[test]
-fn a_free_body_of_three_models_keeps_all_laws() {
-    for scheme in [
-        Scheme::EemEntropy,
-        Scheme::EemTemperature,
-        Scheme::Staggered,
-    ] {
-        keeps_all_laws(scheme);
-    }
-}
-
-fn keeps_all_laws(scheme: Scheme) {
-    let mut run = tetrahedron(scheme, 0.02);
+fn a_free_body_of_three_models_keeps_all_laws_in_staggered_steps() {
+    let mut run = tetrahedron(Scheme::Staggered, 0.02);
     // 4 masses in space and the temperatures that 4 elements in contact see; nothing for Hencky.
     assert_eq!(run.unknowns(), 12 + 4);
     let first = run.ledger();

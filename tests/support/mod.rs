@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "every test file uses its own part of this module")]
 
+pub(crate) mod dashpots;
+
 use eem::prelude::*;
 
 /// Thermo-visco-elastic element of García Orden & Romero (2012), §4.1.
