@@ -2,7 +2,7 @@
 //! entropy variables; with the mean of both lengths it is another scheme of second order.
 //!
 //! Kern, Romero, Conde Martín & García Orden (2021), §III.A, leave open how λ is discretised. Here
-//! the discrete Lagrangian takes `λ_m = |q_m|`, `q_m = ½(q⁰ + q¹)`, so that ∂λ_m/∂q⁰ = ½ n with
+//! the discrete Lagrangian takes `λ_m = |q_m|`, `q_m = ½(q⁰ + q¹)`, so that `∂λ_m/∂q⁰ = ½ n` with
 //! `n = q_m/|q_m|`:
 //!
 //! ```text
@@ -59,7 +59,7 @@ impl State {
         }
     }
 
-    /// The midpoint for the unknowns (q¹ − q⁰, γ¹ − γ⁰, θ_m).
+    /// The midpoint for the unknowns `(q¹ − q⁰, γ¹ − γ⁰, θ_m)`.
     fn midpoint(&self, unknowns: &Vector4<f64>, h: f64) -> Midpoint {
         let change = Vector2::new(unknowns[0], unknowns[1]);
         let (mean, theta) = (self.q + 0.5 * change, unknowns[3]);
