@@ -174,7 +174,7 @@ fn run(command_line: &CommandLine) -> Result<Claims, Box<dyn Error>> {
 }
 
 /// The state at the end; only the initial one when the run fails.
-fn end_state(scheme: Scheme, grid: TimeGrid) -> Result<Record, SceneError> {
+fn end_state(scheme: Scheme, grid: TimeGrid) -> Result<Record, Box<dyn Error>> {
     let (mut simulation, watched) = pendulum(scheme, grid.step)?;
     let name = format!("{}, h = {:.2e} s", scheme.name(), grid.step);
     simulate::record(&name, &mut simulation, &watched, grid)

@@ -106,7 +106,7 @@ fn run(command_line: &CommandLine) -> Result<Claims, Box<dyn Error>> {
 }
 
 /// The same motion in steps so small that the scheme no longer matters.
-fn reference(grid: TimeGrid) -> Result<Record, SceneError> {
+fn reference(grid: TimeGrid) -> Result<Record, Box<dyn Error>> {
     let longest = REFERENCE_STEP.min(REFERENCE_SHARE * grid.step);
     let grid = grid.refined(longest, REFERENCE_SAMPLING);
     let (mut simulation, watched) = pendulum(Scheme::EemEntropy, grid.step, CONDUCTANCE)?;

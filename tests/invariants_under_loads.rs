@@ -109,7 +109,7 @@ fn both(mut check: impl FnMut(Scheme, bool)) {
     }
 }
 
-/// Gravity alone has no torque about the vertical through the pivot: J_z stays.
+/// Gravity alone has no torque about the vertical through the pivot: `J_z` stays.
 fn assert_vertical_momentum(run: &Simulation<3>, first: f64) {
     let ledger = run.ledger();
     // J is a sum of products q p, about 50 times as large here, and so are their roundings.

@@ -7,6 +7,8 @@
     reason = "examples that share this file use some of the cases"
 )]
 
+use std::error::Error;
+
 use eem::prelude::*;
 
 use super::support::record::Record;
@@ -186,7 +188,7 @@ impl Case {
 
     /// The same motion in steps so small that the scheme no longer matters while positions are
     /// comparable.
-    pub(crate) fn reference(&self, grid: TimeGrid) -> Result<Record, SceneError> {
+    pub(crate) fn reference(&self, grid: TimeGrid) -> Result<Record, Box<dyn Error>> {
         let longest = self.reference_step.min(REFERENCE_SHARE * grid.step);
         let grid = grid.refined(longest, REFERENCE_SAMPLING);
         let (mut simulation, watched) = self.pendulum(Scheme::EemTemperature, grid.step)?;

@@ -105,7 +105,7 @@ impl Example {
     }
 
     /// Runs the schemes of the command line and the reference.
-    pub(crate) fn run(self, command_line: &CommandLine) -> Result<Runs, SceneError> {
+    pub(crate) fn run(self, command_line: &CommandLine) -> Result<Runs, Box<dyn Error>> {
         let grid = command_line.time_grid(self.step, self.end);
         let fine = grid.refined(REFERENCE_STEP.min(grid.step), grid.step);
         let name = format!("example {}, reference", self.number);
@@ -123,7 +123,7 @@ impl Example {
         })
     }
 
-    fn record(&self, name: &str, scheme: Scheme, grid: TimeGrid) -> Result<Record, SceneError> {
+    fn record(&self, name: &str, scheme: Scheme, grid: TimeGrid) -> Result<Record, Box<dyn Error>> {
         if self.number == 1 {
             let conductance = single_pendulum::CONDUCTANCE;
             let (mut run, watched) = single_pendulum::pendulum(scheme, grid.step, conductance)?;

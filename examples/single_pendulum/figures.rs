@@ -22,7 +22,7 @@ pub(super) const ALL_SCHEMES: [Plot; 7] = [
         "garcia_orden_2012_figure_03_length",
         "García Orden & Romero (2012), figure 3: length of the spring",
         "length λ (m)",
-        lengths,
+        |run| run.norms("q1_"),
     ),
     Plot::history(
         "garcia_orden_2012_figure_04_viscous_stretch",
@@ -55,17 +55,6 @@ pub(super) const ALL_SCHEMES: [Plot; 7] = [
         |run| run.points("time", "entropy"),
     ),
 ];
-
-/// λ = |q| over time.
-fn lengths(run: &Record) -> Vec<(f64, f64)> {
-    let times = run.column("time").unwrap_or_default();
-    let positions = run.points("q1_x", "q1_y");
-    times
-        .into_iter()
-        .zip(positions)
-        .map(|(t, (x, y))| (t, x.hypot(y)))
-        .collect()
-}
 
 /// Figures 3 and 4 of Kern et al. (2021).
 pub(super) const KERN: [Published; 2] = [
