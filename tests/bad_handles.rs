@@ -135,7 +135,7 @@ fn an_element_without_temperature_has_none_to_set_hold_or_conduct() {
     type Spoil = fn(&mut Parts, &Parts);
     let misuses: [(&str, Spoil); 4] = [
         ("set", |own, _| {
-            own.scene.set_temperature(own.elastic, 300.0)
+            own.scene.set_temperature(own.elastic, 300.0);
         }),
         ("held", |own, _| {
             own.scene.prescribe_temperature(own.elastic, |_| 300.0);
