@@ -31,7 +31,9 @@
 //! Source: Conde Martín, Betsch & García Orden, Commun. Nonlinear Sci. Numer. Simul. 32 (2016),
 //! §4, eqs. 43 and 47, figures 3 to 17; the cases are named after Romero (2009) and Krüger, Groß &
 //! Betsch (2011), who set the first two, and after the logarithmic stiffness of the third. The
-//! third is also example 2 of Kern, Romero, Conde Martín & García Orden (2021).
+//! third is also example 2 of Kern, Romero, Conde Martín & García Orden (2021), figures 6 to 9. The
+//! figures are drawn under their numbers, with the schemes that the papers show, and once more with
+//! all schemes; figure 2 is the example `order_study`.
 //!
 //! What the example claims, and fails without: every energy–entropy–momentum scheme reaches the
 //! end, keeps energy and angular momentum to rounding, and loses no entropy in any step.

@@ -286,7 +286,7 @@ fn write(directory: &Path, studies: &[Study]) -> Result<(), Box<dyn Error>> {
             .collect(),
         axes: Axes::DoublyLogarithmic,
     };
-    figure.write_svg(&directory.join("order_study.svg"))?;
+    figure.write_svg(&directory.join("conde_martin_2016_figure_02_errors.svg"))?;
     terminal::say(format_args!("Errors and picture: {}", directory.display()));
     Ok(())
 }

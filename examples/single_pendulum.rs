@@ -26,7 +26,9 @@
 //! | κ | heat conductance | 10 W/K |
 //!
 //! Source: García Orden & Romero, Eur. J. Mech. A/Solids 32 (2012), §4.1: 20 s in steps of 0.2 s,
-//! more than two periods of the fastest oscillation per step.
+//! more than two periods of the fastest oscillation per step. It is also example 1 of Kern, Romero,
+//! Conde Martín & García Orden (2021), §IV.A. Figures 2 to 8 of the former and 3 and 4 of the latter
+//! are drawn under their numbers; the example `paper_tables` compares the numbers.
 //!
 //! What the example claims, and fails without: every energy–entropy–momentum scheme reaches the
 //! end, keeps energy and angular momentum to rounding, and loses no entropy in any step.
