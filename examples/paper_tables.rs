@@ -105,7 +105,8 @@ as it comes. \"–\": not in the paper.
   is what their Newton tolerance left, as far as we can tell.
 - Example 1, VI, entropy: not reproduced; ours is as large as Gs's, and it occurs in the first second.
 - Example 2, entropy: not reproduced, ours is smaller; the motion is chaotic, and what the reference
-  was integrated with is not said. Ours for GT would be the listed number if that were in %.
+  was integrated with is not said. Ours for GT would be the listed number if that were in %; and
+  with ours it is GT, not the VI as in figure 8, that is closer to the reference.
 - The VI is that with the mean of both lengths; with the length of the mean configuration it would
   be the row \"midpoint\".
 - In the paper's (40) the conduction term has the wrong sign: heat leaves a hot element.
