@@ -146,15 +146,15 @@ where
         let Some(slot) = self.elements.members[i].slots.thermal else {
             return;
         };
-        // Q_0 depends on the Θ_0 of partners, Q_m on the means of their Θ_0 and Θ_1.
+        // Q_0 depends on Θ_0 of both ends of a path, Q_m on their Θ_m.
         let [start, middle] = [0, 1].map(|heat| factor * by[2 * M::MEASURES + heat]);
-        let half = S::from_f64(0.5) * middle;
         for link in view.conduction.links(slot) {
             let Partner::Slot(partner) = link.partner else {
                 continue;
             };
             for (slot, conductance) in [(partner, link.conductance), (slot, -link.conductance)] {
                 if let Some(to) = view.layout.coupled[slot] {
+                    let half = mean_share(view, slot) * middle;
                     system.add(row, to, conductance * (start + half));
                     system.add(row, unknowns + to, conductance * half);
                 }
@@ -208,20 +208,29 @@ where
         let (Some(slot), [start, middle]) = (self.elements.members[i].slots.thermal, heat) else {
             return;
         };
-        let change = |slot: usize, half: usize| {
-            let at = view.layout.coupled[slot];
-            at.map_or(S::zero(), |at| solution[half * unknowns + at])
+        let change = |slot: usize| {
+            let of = |half: usize| {
+                let at = view.layout.coupled[slot];
+                at.map_or(S::zero(), |at| solution[half * unknowns + at])
+            };
+            [of(0), mean_share(view, slot) * (of(0) + of(1))]
         };
-        let mut flows = [S::zero(); 2];
+        (*start, *middle) = (S::zero(), S::zero());
         for link in view.conduction.links(slot) {
             if let Partner::Slot(partner) = link.partner {
-                for (half, flow) in flows.iter_mut().enumerate() {
-                    *flow += link.conductance * (change(partner, half) - change(slot, half));
-                }
+                let (far, near) = (change(partner), change(slot));
+                *start += link.conductance * (far[0] - near[0]);
+                *middle += link.conductance * (far[1] - near[1]);
             }
         }
-        *start = flows[0];
-        *middle = S::from_f64(0.5) * (flows[0] + flows[1]);
+    }
+}
+
+/// The share of `Θ_0` and of `Θ_1` in `Θ_m`, which a thermostat gives directly.
+fn mean_share<S: Real>(view: &StageView<'_, S>, slot: usize) -> S {
+    match view.prescribed(slot) {
+        None => S::from_f64(0.5),
+        Some(_) => S::zero(),
     }
 }
 
