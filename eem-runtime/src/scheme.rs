@@ -45,7 +45,8 @@ pub(crate) use variational::Variational;
 /// | `MidpointTemperature` | no | no | exact | 2 |
 /// | `Trapezoidal`, `TrapezoidalTemperature` | no | no | no | 2 |
 ///
-/// "Exact" is to rounding, at every step and for any step size.
+/// "Exact" is to rounding, at every step and for any step size. `Variational4` is stable where vibrations
+/// are resolved, `ωh < √8`; it solves for twice as many unknowns.
 ///
 /// ```
 /// use eem_runtime::Scheme;

@@ -35,7 +35,9 @@
 //! kept there: for `g = −kγ` and `x = hk/η` their matrix has the trace `(8 + 2x²)/(4 + x)` and the determinant
 //! `(4 − x)/(4 + x)`, and beside the root `e^{−x}` one that grows like `e^{x/2}`.
 //!
-//! Momenta are kept exactly, the energy stays near its value. Total entropy never decreases: it grows by
+//! Momenta are kept exactly, the energy stays near its value while steps resolve the motion: vibrations of
+//! frequency ω are stable for `ωh < √8`, as with the pair, and not for any step as with the midpoint
+//! rule. Conduction and dashpots are stable for any step. Total entropy never decreases: it grows by
 //! `(h/6)(P_0 + 4P_m + P_1)` with the production `P ≥ 0` of each stage.
 
 /// Simpson's rule: weights of the stages over the step.

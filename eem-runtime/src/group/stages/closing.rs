@@ -4,6 +4,7 @@
 //! and evaluating the remaining relations explicitly from them makes the balances of momentum and
 //! entropy hold to rounding whatever that error is.
 
+use super::point::Point;
 use super::{END, MIDDLE, StageTrial, StageView, ThreeStageGroup};
 use crate::conduction::Partner;
 use crate::error::StateError;
@@ -156,7 +157,7 @@ where
     fn book_thermostat(&self, h: S, i: usize, new_entropy: S, next: &mut State<S>) {
         let stages = &self.members[i];
         let last = M::Variables::LEN - 1;
-        let [start, middle, end] = stages.points.each_ref().map(|point| point.entropy());
+        let [start, middle, end] = stages.points.each_ref().map(Point::entropy);
         let received = |stage: usize| {
             let rate = stages.points[stage].rates.as_ref()[last];
             h * S::from_f64(variational_4::STEP[stage]) * rate

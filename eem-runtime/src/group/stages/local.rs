@@ -12,6 +12,7 @@
 //! `δu = −(constant + Σ_j by_j δy_j)`.
 
 use super::member::StageMember;
+use super::point::Point;
 use super::{END, MIDDLE, ThreeStageGroup};
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
@@ -97,8 +98,8 @@ impl<S: Real> LocalStages<S> {
     fn warm<M: FreeEnergy<S>>(&mut self, h: S, stages: &mut StageMember<S, M>) {
         let (unknowns, last) = (self.pivots.len(), M::Variables::LEN - 1);
         let (start, end) = (unknowns - 2, unknowns - 1);
-        let entropies = stages.points.each_ref().map(|point| point.entropy());
-        let slopes = stages.points.each_ref().map(|point| point.entropy_by());
+        let entropies = stages.points.each_ref().map(Point::entropy);
+        let slopes = stages.points.each_ref().map(Point::entropy_by);
         let [rate, middle_rate] = [0, MIDDLE].map(|i| stages.points[i].rates.as_ref()[last]);
         let [rate_by, middle_rate_by] =
             [0, MIDDLE].map(|i| stages.points[i].rates_by.as_ref()[last]);

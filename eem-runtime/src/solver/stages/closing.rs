@@ -125,13 +125,10 @@ impl<S: Real> StageSolver<S> {
         let momenta = view.state.momenta.values();
         let [start, middle] =
             variational_4::MIDDLE_AND_END[1].map(|weight| view.step * S::from_f64(weight));
-        for node in 0..self.masses.len() {
-            let Some(mass) = self.masses[node] else {
-                continue;
-            };
-            for at in node * self.dimension..(node + 1) * self.dimension {
+        for (at, &momentum) in momenta.iter().enumerate() {
+            if let Some(mass) = self.masses[at / self.dimension] {
                 let impulse = start * self.forces[0][at] + middle * self.forces[1][at];
-                self.place(view, 1, at, view.step / mass * (momenta[at] + impulse));
+                self.place(view, 1, at, view.step / mass * (momentum + impulse));
             }
         }
     }
