@@ -1,7 +1,7 @@
 //! One step of a whole scene through three stages: Newton's method, then the closing evaluation.
 //!
 //! What [`Solver`](super::Solver) is to the schemes with one set of forces per step this is to
-//! [`Scheme::Variational4`](crate::Scheme::Variational4); they start, converge, follow a solution and give up alike.
+//! [`Scheme::Variational4`]; they start, converge, follow a solution and give up alike.
 
 mod assemble;
 mod closing;
