@@ -3,8 +3,8 @@
 //! The double pendulum of the example `double_pendulum --case romero`, soft springs that exchange
 //! heat fast, is run to the end time in steps h, h/2, h/4, …, and compared there with a solution in
 //! far smaller steps. On logarithmic axes the errors of a scheme of order n lie on a line of
-//! slope n; two is the order of all schemes here but the staggered one, whose is one, and the variational
-//! integrator of fourth order.
+//! slope n; two is the order of all schemes here but the staggered one, whose is one, and the
+//! variational integrator of fourth order.
 //!
 //! ```text
 //! error(h) = max over x ∈ {q, p, θ} of ‖x_h − x*‖/‖x*‖ at the end

@@ -35,10 +35,11 @@
 //! kept there: for `g = −kγ` and `x = hk/η` their matrix has the trace `(8 + 2x²)/(4 + x)` and the determinant
 //! `(4 − x)/(4 + x)`, and beside the root `e^{−x}` one that grows like `e^{x/2}`.
 //!
-//! Momenta are kept exactly, the energy stays near its value while steps resolve the motion: vibrations of
-//! frequency ω are stable for `ωh < √8`, as with the pair, and not for any step as with the midpoint
-//! rule. Conduction and dashpots are stable for any step. Total entropy never decreases: it grows by
-//! `(h/6)(P_0 + 4P_m + P_1)` with the production `P ≥ 0` of each stage.
+//! Momenta are kept exactly. The energy stays near its value while steps resolve the motion:
+//! vibrations of frequency ω are stable for `ωh < √8`, as with the pair, and not for any step as with
+//! the midpoint rule. Dashpots and conduction are stable for any step; a rate z/h decays by the
+//! Padé approximation `(1 − z/2 + z²/12)/(1 + z/2 + z²/12)` of `e^{−z}`. Total entropy never decreases: it
+//! grows by `(h/6)(P_0 + 4P_m + P_1)` with the production `P ≥ 0` of each stage.
 
 /// Simpson's rule: weights of the stages over the step.
 pub(crate) const STEP: [f64; 3] = [1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0];
