@@ -19,6 +19,7 @@ mod geometry;
 mod inspect;
 mod local;
 mod member;
+mod stages;
 
 use crate::conduction::Conduction;
 use crate::error::StateError;
@@ -36,6 +37,7 @@ pub(crate) use generic::ElementGeneric;
 use geometry::Geometry;
 use local::LocalSolver;
 use member::Member;
+pub(crate) use stages::{StageGroup, StageTrial, StageView, ThreeStageGroup};
 
 /// What all elements share during one step.
 #[derive(Clone, Copy, Debug)]
@@ -114,8 +116,26 @@ pub(crate) struct ElementView<S> {
     pub(crate) internal_energy: S,
 }
 
+/// Elements of one model in a state, whatever steps them.
+pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
+    /// Entropies of an initial state whose temperatures are given.
+    fn initialize(&mut self, state: &mut State<S>) -> Result<(), StateError>;
+
+    /// Temperatures of a new state whose entropies are given, and all that must be true of a state.
+    fn settle(&mut self, view: &StepView<'_, S>, next: &mut State<S>) -> Result<(), StateError>;
+
+    /// Energy and entropy, from their definitions.
+    fn totals(&self, state: &State<S>) -> GroupTotals<S>;
+
+    /// What the elements contribute to the GENERIC form in a state.
+    fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>>;
+
+    /// The element at `place` in a state.
+    fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S>;
+}
+
 /// Elements of one model, whatever model, kinematics and scheme are.
-pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
+pub(crate) trait Group<S: Real, const D: usize>: Elements<S, D> {
     /// Looks at the old state; adds the nodal forces that it alone decides to `old_force`, N.
     fn begin(&mut self, view: &StepView<'_, S>, old_force: &mut [S]) -> Result<(), StateError>;
 
@@ -153,26 +173,11 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
     /// Adds the increments of the internal variables and of the reservoirs' entropies.
     fn close(&mut self, view: &StepView<'_, S>, trial: &Trial<S>, next: &mut State<S>);
 
-    /// Entropies of an initial state whose temperatures are given.
-    fn initialize(&mut self, state: &mut State<S>) -> Result<(), StateError>;
-
-    /// Temperatures of a new state whose entropies are given, and all that must be true of a state.
-    fn settle(&mut self, view: &StepView<'_, S>, next: &mut State<S>) -> Result<(), StateError>;
-
-    /// Energy and entropy, from their definitions.
-    fn totals(&self, state: &State<S>) -> GroupTotals<S>;
-
     /// Reduces the unit of length of each node to the shortest measure of the old state.
     fn shorten(&self, lengths: &mut [S]);
 
-    /// What the elements contribute to the GENERIC form in a state.
-    fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>>;
-
     /// What they contributed to the discrete GENERIC form of the last step.
     fn generic_of_step(&self) -> Vec<ElementGeneric<S>>;
-
-    /// The element at `place` in a state.
-    fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S>;
 }
 
 /// Where the elements of a group are.
@@ -227,6 +232,34 @@ where
             geometry,
             local: LocalSolver::new(M::Variables::LEN - M::MEASURES),
         }
+    }
+}
+
+impl<S, M, K, C, const D: usize> Elements<S, D> for ElementGroup<S, M, K, C>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S>,
+    C: ElementScheme<S, M>,
+{
+    fn initialize(&mut self, state: &mut State<S>) -> Result<(), StateError> {
+        self.initialize_all(state)
+    }
+
+    fn settle(&mut self, view: &StepView<'_, S>, next: &mut State<S>) -> Result<(), StateError> {
+        self.settle_all(view, next)
+    }
+
+    fn totals(&self, state: &State<S>) -> GroupTotals<S> {
+        self.sum(state)
+    }
+
+    fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>> {
+        self.generic_in_all(state)
+    }
+
+    fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {
+        self.inspect_at(place, state)
     }
 }
 
@@ -288,18 +321,6 @@ where
         self.close_all(view, trial, next);
     }
 
-    fn initialize(&mut self, state: &mut State<S>) -> Result<(), StateError> {
-        self.initialize_all(state)
-    }
-
-    fn settle(&mut self, view: &StepView<'_, S>, next: &mut State<S>) -> Result<(), StateError> {
-        self.settle_all(view, next)
-    }
-
-    fn totals(&self, state: &State<S>) -> GroupTotals<S> {
-        self.sum(state)
-    }
-
     fn shorten(&self, lengths: &mut [S]) {
         for i in 0..self.members.len() {
             let own = &self.geometry.old_measures[self.geometry.measures_range(i)];
@@ -311,16 +332,8 @@ where
         }
     }
 
-    fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>> {
-        self.generic_in_all(state)
-    }
-
     fn generic_of_step(&self) -> Vec<ElementGeneric<S>> {
         self.generic_of_step_all()
-    }
-
-    fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {
-        self.inspect_at(place, state)
     }
 }
 

@@ -3,6 +3,7 @@
 mod assemble;
 mod closing;
 mod linearize;
+mod stages;
 
 use crate::error::{NewtonIteration, StateError, StepFailure};
 use crate::group::{Group, StepView, Trial};
@@ -12,6 +13,7 @@ use crate::scalar::Real;
 use crate::scheme::Scheme;
 use crate::state::State;
 use crate::system::LinearSystem;
+pub(crate) use stages::{Effort, Staged};
 
 /// How often an update is halved to bring all elements back to admissible states.
 const HALVINGS: u32 = 30;

@@ -8,7 +8,7 @@ use super::evaluate::check_temperature;
 use super::{ElementGroup, StepView, Trial};
 use crate::conduction::Partner;
 use crate::error::StateError;
-use crate::free_energy::{Array, FreeEnergy};
+use crate::free_energy::{Array, Caloric, FreeEnergy};
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
 use crate::scheme::{ElementScheme, Infeasible, Placement, temperature_at};
@@ -143,49 +143,22 @@ where
         }
     }
 
-    /// See [`Group::settle`](super::Group::settle).
+    /// See [`Elements::settle`](super::Elements::settle).
     pub(super) fn settle_all(
         &mut self,
         view: &StepView<'_, S>,
         state: &mut State<S>,
     ) -> Result<(), StateError> {
         for i in 0..self.members.len() {
-            let mut x = self.locate(i, state)?;
-            let member = &mut self.members[i];
-            for (dashpot, &stretch) in x.as_ref()[M::MEASURES..][..M::DASHPOTS].iter().enumerate() {
-                if !stretch.is_finite() {
-                    return Err(StateError::ViscousStretch {
-                        element: member.element,
-                        dashpot,
-                        value: stretch.to_f64(),
-                    });
-                }
-            }
-            let Some(slot) = member.slots.thermal else {
-                member.check_energy(&x)?;
+            let guess = self.members[i].x.as_ref()[M::Variables::LEN - 1];
+            let Some(caloric) = self.settle_one(i, view, state, guess)? else {
                 continue;
             };
-            let prescribed = view.prescribed(Some(slot), Placement::End);
-            state.temperatures[slot] = if let Some(theta) = prescribed {
-                theta
-            } else if C::IN_TEMPERATURE {
-                member.new_temperature(view.state.temperatures[slot])
-            } else {
-                let entropy = state.entropies.values()[slot];
-                let guess = member.x.as_ref()[M::Variables::LEN - 1];
-                temperature_at(&member.model, x, entropy, guess)
-                    .map_err(|infeasible| infeasible.of(member.element))?
+            let member = &self.members[i];
+            let Some(slot) = member.slots.thermal else {
+                continue;
             };
-            x.as_mut()[M::Variables::LEN - 1] = state.temperatures[slot];
-            check_temperature(member.element, state.temperatures[slot])?;
-            member.check_energy(&x)?;
-            let caloric = member.model.caloric(&x);
-            if C::IN_TEMPERATURE {
-                state.entropies.set(slot, caloric.entropy);
-            }
-            Infeasible::unless_stable(&caloric, state.temperatures[slot])
-                .map_err(|infeasible| infeasible.of(member.element))?;
-            if prescribed.is_some() {
+            if view.prescribed(Some(slot), Placement::End).is_some() {
                 let change = caloric.entropy - view.state.entropies.values()[slot];
                 let given = change - member.entropy_received;
                 state.entropies.set(slot, caloric.entropy);
@@ -194,5 +167,51 @@ where
             }
         }
         Ok(())
+    }
+
+    /// The temperature of element `i` in a new state, near `guess`, and all that must be true of the
+    /// state; its caloric quantities if it has a temperature.
+    pub(super) fn settle_one(
+        &mut self,
+        i: usize,
+        view: &StepView<'_, S>,
+        state: &mut State<S>,
+        guess: S,
+    ) -> Result<Option<Caloric<S>>, StateError> {
+        let mut x = self.locate(i, state)?;
+        let member = &mut self.members[i];
+        for (dashpot, &stretch) in x.as_ref()[M::MEASURES..][..M::DASHPOTS].iter().enumerate() {
+            if !stretch.is_finite() {
+                return Err(StateError::ViscousStretch {
+                    element: member.element,
+                    dashpot,
+                    value: stretch.to_f64(),
+                });
+            }
+        }
+        let Some(slot) = member.slots.thermal else {
+            member.check_energy(&x)?;
+            return Ok(None);
+        };
+        let prescribed = view.prescribed(Some(slot), Placement::End);
+        state.temperatures[slot] = if let Some(theta) = prescribed {
+            theta
+        } else if C::IN_TEMPERATURE {
+            member.new_temperature(view.state.temperatures[slot])
+        } else {
+            let entropy = state.entropies.values()[slot];
+            temperature_at(&member.model, x, entropy, guess)
+                .map_err(|infeasible| infeasible.of(member.element))?
+        };
+        x.as_mut()[M::Variables::LEN - 1] = state.temperatures[slot];
+        check_temperature(member.element, state.temperatures[slot])?;
+        member.check_energy(&x)?;
+        let caloric = member.model.caloric(&x);
+        if C::IN_TEMPERATURE {
+            state.entropies.set(slot, caloric.entropy);
+        }
+        Infeasible::unless_stable(&caloric, state.temperatures[slot])
+            .map_err(|infeasible| infeasible.of(member.element))?;
+        Ok(Some(caloric))
     }
 }

@@ -18,7 +18,7 @@ where
     K: Kinematics<S>,
     C: ElementScheme<S, M>,
 {
-    /// See [`Group::initialize`](super::Group::initialize).
+    /// See [`Elements::initialize`](super::Elements::initialize).
     pub(super) fn initialize_all(&mut self, state: &mut State<S>) -> Result<(), StateError> {
         for i in 0..self.members.len() {
             let x = self.locate(i, state)?;
@@ -67,7 +67,7 @@ where
         }
     }
 
-    /// See [`Group::totals`](super::Group::totals).
+    /// See [`Elements::totals`](super::Elements::totals).
     pub(super) fn sum(&self, state: &State<S>) -> GroupTotals<S> {
         let (mut energy, mut entropy) = (S::zero(), S::zero());
         for (i, member) in self.members.iter().enumerate() {
@@ -79,7 +79,7 @@ where
         GroupTotals { energy, entropy }
     }
 
-    /// See [`Group::inspect`](super::Group::inspect).
+    /// See [`Elements::inspect`](super::Elements::inspect).
     pub(super) fn inspect_at(&self, place: usize, state: &State<S>) -> ElementView<S> {
         let x = self.variables_at(place, state);
         ElementView {

@@ -185,7 +185,7 @@ impl<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>> Member<S, M, C> {
 }
 
 /// A change of ln θ, at most the largest that one iteration may make.
-fn limited<S: Real>(change: S) -> S {
+pub(super) fn limited<S: Real>(change: S) -> S {
     let most = S::from_f64(LARGEST_LOGARITHMIC_CHANGE);
     change.minimum(most).maximum(-most)
 }

@@ -58,29 +58,12 @@ impl<S: Real> Solver<S> {
                 }
             }
         }
-        self.check_motion(next)?;
+        check_motion(next, self.dimension)?;
         for group in groups.iter_mut() {
             group.close(view, &self.trial, next);
         }
         for group in groups.iter_mut() {
             group.settle(view, next)?;
-        }
-        Ok(())
-    }
-
-    /// Positions and momenta are finite.
-    fn check_motion(&self, next: &State<S>) -> Result<(), StepFailure> {
-        let sums = [("position", &next.positions), ("momentum", &next.momenta)];
-        for (quantity, sums) in sums {
-            let values = sums.values();
-            if let Some(at) = values.iter().position(|value| !value.is_finite()) {
-                return Err(StepFailure::Unbounded {
-                    node: at / self.dimension,
-                    axis: at % self.dimension,
-                    quantity,
-                    value: values[at].to_f64(),
-                });
-            }
         }
         Ok(())
     }
@@ -153,4 +136,21 @@ impl<S: Real> Solver<S> {
         }
         Ok(())
     }
+}
+
+/// Positions and momenta are finite.
+pub(super) fn check_motion<S: Real>(next: &State<S>, dimension: usize) -> Result<(), StepFailure> {
+    let sums = [("position", &next.positions), ("momentum", &next.momenta)];
+    for (quantity, sums) in sums {
+        let values = sums.values();
+        if let Some(at) = values.iter().position(|value| !value.is_finite()) {
+            return Err(StepFailure::Unbounded {
+                node: at / dimension,
+                axis: at % dimension,
+                quantity,
+                value: values[at].to_f64(),
+            });
+        }
+    }
+    Ok(())
 }
