@@ -1,13 +1,16 @@
-//! Logarithms, based at the smaller end.
+//! Logarithms, summed up between close ends and based at the smaller of distant ones.
 
-use super::primitives::{by_definition, ends, log_difference, near_or_far, phi2_near};
+use super::primitives::{LogNear, by_definition, log_difference};
 use crate::scalar::Scalar;
 
-/// `f[a,b]` of the natural logarithm, for `a, b > 0`.
+/// `f[a,b]` of the natural logarithm, for `a, b > 0`; of `ln |x|` if both are negative.
 ///
 /// ```text
-/// f = ln x:  f[a,b] = L(d/m)/m,  m = min(a,b),  d = |b − a|,  L(u) = ln(1 + u)/u
+/// f = ln x:  f[a,b] = (artanh z)/(zμ),  μ = ½(a + b),  z = (b − a)/(2μ)
 /// ```
+///
+/// summed up for |z| < 1/5, which needs no function of the library, and `ln(1 + d/m)/d` with
+/// m = min(a,b) and d = |b − a| for larger ratios.
 ///
 /// ```
 /// use eem_runtime::kernel::ln_dd;
@@ -17,30 +20,29 @@ use crate::scalar::Scalar;
 /// ```
 #[inline]
 pub fn ln_dd<S: Scalar>(a: S, b: S) -> S {
-    let (low, _, d) = ends(a, b);
-    log_difference(d, low)
+    first(a.minimum(b), a, b)
 }
 
-/// `f[a,b,b]` of the natural logarithm, for `a, b > 0`.
+/// `f[a,b,b]` of the natural logarithm, for `a, b > 0`; of `ln |x|` if both are negative.
 ///
 /// ```text
-/// f = ln x:  f[a,b,b] = −F²φ₂(δ),  F = ln[a,b],  δ = (b − a)F = ln(b/a),  |δ| < 1
+/// f = ln x:  f[a,b,b] = ((1 − z)g′ − g)/(2μ²),  g = (artanh z)/z,  |z| < 1/5
 /// ```
 ///
-/// with `φ₂(x) = (e^(−x) − 1 + x)/x²`; by definition for |δ| ≥ 1.
+/// with μ and z of [`ln_dd`]; by definition for larger ratios.
 ///
 /// ```
 /// assert_eq!(eem_runtime::kernel::ln_dd2(2.0, 2.0), -0.125);
 /// ```
 #[inline]
 pub fn ln_dd2<S: Scalar>(a: S, b: S) -> S {
-    logarithm_dd2(a, b, b, ln_dd(a, b))
+    second(a.minimum(b), a, b, b)
 }
 
 /// `f[a,b]` of `ln(1 + x)`, for `a, b > −1`.
 ///
 /// ```text
-/// f = ln(1 + x):  f[a,b] = L(d/w)/w,  w = 1 + min(a,b),  d = |b − a|
+/// f = ln(1 + x):  f[a,b] = ln(1 + d/w)/d,  w = 1 + min(a,b),  d = |b − a|
 /// ```
 ///
 /// ```
@@ -49,8 +51,7 @@ pub fn ln_dd2<S: Scalar>(a: S, b: S) -> S {
 /// ```
 #[inline]
 pub fn ln_1p_dd<S: Scalar>(a: S, b: S) -> S {
-    let (low, _, d) = ends(a, b);
-    log_difference(d, S::one() + low)
+    first(S::one() + a.minimum(b), a, b)
 }
 
 /// `f[a,b,b]` of `ln(1 + x)`, for `a, b > −1`: [`ln_dd2`] with the base `1 + b`.
@@ -60,7 +61,7 @@ pub fn ln_1p_dd<S: Scalar>(a: S, b: S) -> S {
 /// ```
 #[inline]
 pub fn ln_1p_dd2<S: Scalar>(a: S, b: S) -> S {
-    logarithm_dd2(a, b, S::one() + b, ln_1p_dd(a, b))
+    second(S::one() + a.minimum(b), a, b, S::one() + b)
 }
 
 /// `f[a,b]` of the binary logarithm, for `a, b > 0`: [`ln_dd`]` / ln 2`.
@@ -107,13 +108,26 @@ pub fn log10_dd2<S: Scalar>(a: S, b: S) -> S {
     ln_dd2(a, b) * S::from_f64(core::f64::consts::LOG10_E)
 }
 
-/// The second difference of a logarithm with `f′(b) = 1/base` and `difference = f[a,b]`.
+/// The first difference of `ln(x + c)` with `base = c + min(a, b)`.
 #[inline]
-fn logarithm_dd2<S: Scalar>(a: S, b: S, base: S, difference: S) -> S {
-    let step = (b - a) * difference;
-    near_or_far(
-        step,
-        || -(difference * difference) * phi2_near(step),
-        || by_definition(base.recip(), difference, a, b),
+fn first<S: Scalar>(base: S, a: S, b: S) -> S {
+    let near = LogNear::new(base, a, b);
+    let difference = near.first();
+    let far = || log_difference((b - a).abs(), base);
+    S::branch(near.applies, || difference, far)
+}
+
+/// The second difference of `ln(x + c)` with `base = c + min(a, b)` and `argument = c + b`.
+#[inline]
+fn second<S: Scalar>(base: S, a: S, b: S, argument: S) -> S {
+    let near = LogNear::new(base, a, b);
+    let difference = near.second();
+    S::branch(
+        near.applies,
+        || difference,
+        || {
+            let far = log_difference((b - a).abs(), base);
+            by_definition(argument.recip(), far, a, b)
+        },
     )
 }
