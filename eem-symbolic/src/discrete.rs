@@ -12,6 +12,7 @@
 mod edge;
 mod elastic;
 mod entropy_form;
+mod latent;
 mod temperature_form;
 
 pub(crate) use elastic::elastic_form;
@@ -122,7 +123,8 @@ impl Step {
             locals: &self.locals,
             parameters: self.parameters.len(),
         };
-        schedule.program(self.inputs(), &form.response, &form.tangent)
+        let outputs = [&form.response[..], &form.tangent].concat();
+        schedule.program(self.inputs(), &outputs)
     }
 
     /// `F` at a state.
@@ -135,11 +137,43 @@ impl Step {
     }
 
     /// `F[x_i: a, b]` with the other variables at a state, as a local.
-    fn along(&mut self, f: ExprId, i: usize, [a, b]: [Symbol; 2], point: &[Symbol]) -> ExprId {
-        let x = self.variables[i];
-        let mut others = point.to_vec();
-        others[i] = x;
+    fn along(&mut self, f: ExprId, i: usize, ends: [Symbol; 2], point: &[Symbol]) -> ExprId {
+        let f = self.at(f, &self.except(i, point));
+        self.difference(f, i, ends)
+    }
+
+    /// The same at another temperature.
+    fn along_at(
+        &mut self,
+        f: ExprId,
+        i: usize,
+        ends: [Symbol; 2],
+        point: &[Symbol],
+        theta: ExprId,
+    ) -> ExprId {
+        let last = self.mechanical;
+        let mut others = self.except(i, point);
+        others[last] = self.variables[last];
         let f = self.at(f, &others);
+        let f = substitute(&mut self.graph, f, &[(self.variables[last], theta)]);
+        self.difference(f, i, ends)
+    }
+
+    /// A state whose variable `i` is not replaced.
+    fn except(&self, i: usize, point: &[Symbol]) -> Point {
+        let mut others = point.to_vec();
+        others[i] = self.variables[i];
+        others
+    }
+
+    /// Whether a divided difference depends on the temperature of a state.
+    fn feels_temperature(&self, difference: ExprId, point: &[Symbol]) -> bool {
+        let value = self.locals.resolve(&self.graph, difference);
+        self.graph.depends_on(value, point[self.mechanical])
+    }
+
+    fn difference(&mut self, f: ExprId, i: usize, [a, b]: [Symbol; 2]) -> ExprId {
+        let x = self.variables[i];
         let (a, b) = (self.graph.variable(a), self.graph.variable(b));
         let quotient = divided_difference(&mut self.graph, f, x, a, b);
         self.name(quotient)

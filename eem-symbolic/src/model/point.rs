@@ -29,12 +29,12 @@ impl<'m> PointPrograms<'m> {
     }
 
     pub(super) fn free_energy(&self) -> Program {
-        self.program(&self.variables, &[self.model.psi], &[])
+        self.program(&self.variables, &[self.model.psi])
     }
 
     pub(super) fn gradient(&mut self) -> Program {
         let gradient = self.slopes(self.model.psi);
-        self.program(&self.variables, &gradient, &[])
+        self.program(&self.variables, &gradient)
     }
 
     pub(super) fn hessian(&mut self) -> Program {
@@ -43,19 +43,19 @@ impl<'m> PointPrograms<'m> {
             .iter()
             .flat_map(|&force| self.slopes(force))
             .collect::<Vec<_>>();
-        self.program(&self.variables, &gradient, &hessian)
+        self.program(&self.variables, &[gradient, hessian].concat())
     }
 
     pub(super) fn internal_energy(&mut self) -> Program {
         let energy = self.model.internal_energy(&mut self.graph);
-        self.program(&self.variables, &[energy], &[])
+        self.program(&self.variables, &[energy])
     }
 
     pub(super) fn caloric(&mut self, theta: Symbol) -> Program {
         let entropy = self.model.entropy(&mut self.graph, theta);
         let capacity = heat_capacity(&mut self.graph, entropy, theta);
         let magnitude = magnitude(&mut self.graph, entropy, theta);
-        self.program(&self.variables, &[entropy, capacity, magnitude], &[])
+        self.program(&self.variables, &[entropy, capacity, magnitude])
     }
 
     pub(super) fn entropy_hessian(&mut self, theta: Symbol) -> Program {
@@ -65,7 +65,7 @@ impl<'m> PointPrograms<'m> {
             .iter()
             .flat_map(|&slope| self.slopes(slope))
             .collect::<Vec<_>>();
-        self.program(&self.variables, &[], &hessian)
+        self.program(&self.variables, &hessian)
     }
 
     pub(super) fn viscosity(&mut self) -> Program {
@@ -77,7 +77,7 @@ impl<'m> PointPrograms<'m> {
                 None => self.graph.integer(0),
             });
         }
-        self.program(theta.as_slice(), &self.model.viscosities, &slopes)
+        self.program(theta.as_slice(), &[&self.model.viscosities[..], &slopes].concat())
     }
 
     fn slopes(&mut self, e: ExprId) -> Vec<ExprId> {
@@ -85,7 +85,7 @@ impl<'m> PointPrograms<'m> {
         variables.map(|&x| diff(&mut self.graph, e, x)).collect()
     }
 
-    fn program(&self, variables: &[Symbol], values: &[ExprId], tangents: &[ExprId]) -> Program {
+    fn program(&self, variables: &[Symbol], outputs: &[ExprId]) -> Program {
         let parameters = self
             .model
             .parameters
@@ -102,7 +102,7 @@ impl<'m> PointPrograms<'m> {
             locals: &Locals::default(),
             parameters: self.model.parameters.len(),
         };
-        schedule.program(inputs.collect(), values, tangents)
+        schedule.program(inputs.collect(), outputs)
     }
 }
 

@@ -3,8 +3,10 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::Schedule;
+use super::plan::Plan;
+use super::sharing::Token;
 use crate::function::Function;
-use crate::node::{ExprId, Kernel, Symbol};
+use crate::node::{ExprId, Kernel, Node, Symbol};
 use crate::number::Number;
 use crate::program::{Input, Instruction, Operation, Program, ProgramKernel, Stage, Value};
 
@@ -39,8 +41,13 @@ pub(super) struct Builder<'s> {
     /// Looked up, never iterated.
     numbering: HashMap<(Stage, Operation), Value>,
     results: BTreeMap<ExprId, Signed>,
-    /// Whether quotients are products with shared reciprocals.
-    pub(super) reciprocals: bool,
+    /// The order of operations, if it is not the structural one.
+    pub(super) plan: Option<Plan>,
+    /// Products that are terms of sums, with their coefficients. Looked up, never iterated.
+    pub(super) scaled: HashMap<(Number, ExprId), Signed>,
+    /// The tokens of the plan that have been emitted: factors and terms.
+    pub(super) factors: HashMap<Token, Signed>,
+    pub(super) terms: HashMap<Token, Signed>,
 }
 
 impl<'s> Builder<'s> {
@@ -57,7 +64,10 @@ impl<'s> Builder<'s> {
             of_state: Vec::new(),
             numbering: HashMap::new(),
             results: BTreeMap::new(),
-            reciprocals: false,
+            plan: None,
+            scaled: HashMap::new(),
+            factors: HashMap::new(),
+            terms: HashMap::new(),
         }
     }
 
@@ -77,6 +87,21 @@ impl<'s> Builder<'s> {
     /// Whether an expression has been emitted.
     pub(super) fn has(&self, e: ExprId) -> bool {
         self.results.contains_key(&e)
+    }
+
+    /// Whether `operand` is a product that the sum `e` evaluates with its coefficient.
+    pub(super) fn is_part_of_sum(&self, e: ExprId, operand: ExprId) -> bool {
+        let graph = self.schedule.graph;
+        let Node::Sum { terms, .. } = graph.node(e) else {
+            return false;
+        };
+        let Some(plan) = &self.plan else {
+            return false;
+        };
+        let term = terms.iter().find(|(_, term)| *term == operand);
+        term.is_some_and(|&(coefficient, term)| {
+            plan.products.entries(&(coefficient.abs(), term)).is_some()
+        })
     }
 
     /// The result of an expression that comes earlier, up to its sign.
@@ -145,6 +170,14 @@ impl<'s> Builder<'s> {
     ) -> Operand {
         let [a, b] = [self.done(a), self.done(b)];
         let plain = match kernel {
+            // Values of the exponential function are shared by all differences that end there.
+            Kernel::Function(Function::Exp | Function::ExpM1) => {
+                let [value_a, value_b] =
+                    [a, b].map(|x| self.emit([x], |[x]| Operation::Apply(Function::Exp, x)));
+                return self.emit([value_a, value_b, a, b], |[value_a, value_b, a, b]| {
+                    operation(ProgramKernel::Power(value_a, value_b), a, b)
+                });
+            }
             Kernel::Function(function) => ProgramKernel::Function(function),
             Kernel::Sqrt => ProgramKernel::Sqrt,
             Kernel::Recip => ProgramKernel::Powi(-1),
