@@ -21,6 +21,7 @@ pub(crate) use temperature_form::temperature_form;
 
 use crate::diff::diff;
 use crate::divided_difference::divided_difference;
+use crate::factor::Factoring;
 use crate::graph::Graph;
 use crate::model::Model;
 use crate::node::{ExprId, Symbol};
@@ -117,14 +118,21 @@ impl Step {
     }
 
     /// Schedules a form.
-    pub(crate) fn program(&self, form: &Form) -> Program {
+    pub(crate) fn program(mut self, form: &Form) -> Program {
+        let inputs = self.inputs();
+        let mut factoring = Factoring::default();
+        let mut outputs = [&form.response[..], &form.tangent].concat();
+        for output in &mut outputs {
+            *output = factoring.of(&mut self.graph, *output);
+        }
+        self.locals
+            .redefine(|value| factoring.of(&mut self.graph, value));
         let schedule = Schedule {
             graph: &self.graph,
             locals: &self.locals,
             parameters: self.parameters.len(),
         };
-        let outputs = [&form.response[..], &form.tangent].concat();
-        schedule.program(self.inputs(), &outputs)
+        schedule.program(inputs, &outputs)
     }
 
     /// `F` at a state.

@@ -42,6 +42,7 @@ mod sum;
 mod diff;
 mod display;
 mod divided_difference;
+mod factor;
 mod internal_energy;
 mod substitute;
 

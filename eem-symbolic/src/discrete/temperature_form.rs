@@ -99,6 +99,7 @@ impl Pair {
         let states = [mixed(i, &old, &new), mixed(i, &new, &old)];
         let edges = states.map(|state| Latent::new(step, i, ends, &state, star));
         let entropies = edges.each_ref().map(|edge| edge.entropy);
+        let entropies = entropies.map(|value| step.locals.resolve(&step.graph, value));
         let entropies = step.graph.sum(&entropies);
         let entropies = step.name(entropies);
         Self { edges, entropies }
@@ -106,9 +107,10 @@ impl Pair {
 
     fn value(&self, step: &mut Step) -> ExprId {
         let [first, second] = self.edges.each_ref().map(|edge| edge.value(step));
-        // In pairs, so that exchanging the states changes no bit.
-        let [psi, latent] = [0, 1].map(|part| step.graph.pair_sum(first[part], second[part]));
-        step.half(&[psi, latent])
+        // Looked through: the two edges have most of their terms in common.
+        let terms = [first, second].concat();
+        let terms: Vec<_> = terms.into_iter().map(|term| step.locals.resolve(&step.graph, term)).collect();
+        step.half(&terms)
     }
 
     /// The derivative with respect to `x_j¹`, where θ* changes by `change`.

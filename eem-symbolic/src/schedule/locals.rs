@@ -45,6 +45,13 @@ impl Locals {
         }
     }
 
+    /// Replaces every definition by an equal expression.
+    pub(crate) fn redefine(&mut self, mut image: impl FnMut(ExprId) -> ExprId) {
+        for definition in self.definitions.values_mut() {
+            *definition = image(*definition);
+        }
+    }
+
     /// The definition of a local, anything else as it is.
     pub(crate) fn resolve(&self, graph: &Graph, value: ExprId) -> ExprId {
         match graph.node(value) {
