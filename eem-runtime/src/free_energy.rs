@@ -134,6 +134,17 @@ pub trait FreeEnergy<S: Scalar> {
         corners: &Self::Corners,
     ) -> (Self::Response, Self::Tangent);
 
+    /// The response of [`entropy_form`](Self::entropy_form) without the tangent: the same bits, for
+    /// less work.
+    fn entropy_form_response(
+        &self,
+        old: &Self::EntropyFormOld,
+        x1: &Self::Variables,
+        corners: &Self::Corners,
+    ) -> Self::Response {
+        self.entropy_form(old, x1, corners).0
+    }
+
     /// What [`temperature_form`](Self::temperature_form) needs of the old state.
     fn temperature_form_old(&self, x0: &Self::Variables) -> Self::TemperatureFormOld;
 
@@ -145,4 +156,14 @@ pub trait FreeEnergy<S: Scalar> {
         old: &Self::TemperatureFormOld,
         x1: &Self::Variables,
     ) -> (Self::Response, Self::Tangent);
+
+    /// The response of [`temperature_form`](Self::temperature_form) without the tangent: the same
+    /// bits, for less work.
+    fn temperature_form_response(
+        &self,
+        old: &Self::TemperatureFormOld,
+        x1: &Self::Variables,
+    ) -> Self::Response {
+        self.temperature_form(old, x1).0
+    }
 }

@@ -89,7 +89,9 @@ fn most_frequent(graph: &Graph, terms: &[Term]) -> Option<(ExprId, Rational)> {
         }
     }
     let best = counts.iter().map(|&(_, count)| count).max().unwrap_or(0);
-    let found = counts.iter().find(|&&(_, count)| count == best && count > 1);
+    let found = counts
+        .iter()
+        .find(|&&(_, count)| count == best && count > 1);
     found.map(|&(factor, _)| factor)
 }
 

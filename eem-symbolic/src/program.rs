@@ -143,6 +143,31 @@ impl Operation {
     }
 }
 
+impl Operation {
+    /// The same operation of other values.
+    fn map(&self, of: impl Fn(Value) -> Value) -> Self {
+        match *self {
+            Self::Input(index) => Self::Input(index),
+            Self::Constant(number) => Self::Constant(number),
+            Self::Add(a, b) => Self::Add(of(a), of(b)),
+            Self::Sub(a, b) => Self::Sub(of(a), of(b)),
+            Self::Mul(a, b) => Self::Mul(of(a), of(b)),
+            Self::Div(a, b) => Self::Div(of(a), of(b)),
+            Self::Neg(a) => Self::Neg(of(a)),
+            Self::Powi(a, n) => Self::Powi(of(a), n),
+            Self::Sqrt(a) => Self::Sqrt(of(a)),
+            Self::Power(a, b) => Self::Power(of(a), of(b)),
+            Self::Apply(function, a) => Self::Apply(function, of(a)),
+            Self::DividedDifference(kernel, a, b) => {
+                Self::DividedDifference(kernel.map(&of), of(a), of(b))
+            }
+            Self::SecondDividedDifference(kernel, a, b) => {
+                Self::SecondDividedDifference(kernel.map(&of), of(a), of(b))
+            }
+        }
+    }
+}
+
 impl<V: Copy> ProgramKernel<V> {
     /// The values that f itself depends on.
     #[must_use]
@@ -186,6 +211,56 @@ impl Program {
         let hoisted =
             stages.filter(|(_, (instruction, used))| *used && instruction.stage == Stage::Old);
         hoisted.map(|(index, _)| Value::new(index)).collect()
+    }
+
+    /// Which instructions some values depend on.
+    #[must_use]
+    pub fn needed_by(&self, values: &[Value]) -> Vec<bool> {
+        let mut needed = vec![false; self.instructions.len()];
+        for value in values {
+            needed[value.index()] = true;
+        }
+        for (index, instruction) in self.instructions.iter().enumerate().rev() {
+            if needed[index] {
+                for operand in instruction.operation.operands() {
+                    needed[operand.index()] = true;
+                }
+            }
+        }
+        needed
+    }
+
+    /// The program of the first `outputs` outputs: the same instructions in the same order, without
+    /// those that only the others depend on.
+    ///
+    /// # Panics
+    ///
+    /// If there are fewer outputs.
+    #[must_use]
+    pub fn restricted_to(&self, outputs: usize) -> Program {
+        let needed = self.needed_by(&self.outputs[..outputs]);
+        let mut moved = Vec::with_capacity(needed.len());
+        let mut next = 0;
+        for &needed in &needed {
+            moved.push(Value::new(next));
+            next += usize::from(needed);
+        }
+        let of = |value: Value| moved[value.index()];
+        let kept = self.instructions.iter().zip(&needed);
+        let kept = kept.filter(|(_, needed)| **needed);
+        Program {
+            inputs: self.inputs.clone(),
+            instructions: kept
+                .map(|(instruction, _)| Instruction {
+                    operation: instruction.operation.map(of),
+                    stage: instruction.stage,
+                })
+                .collect(),
+            outputs: self.outputs[..outputs]
+                .iter()
+                .map(|&value| of(value))
+                .collect(),
+        }
     }
 
     /// Counts the operations of each stage.

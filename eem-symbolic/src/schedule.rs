@@ -118,7 +118,10 @@ impl Schedule<'_> {
         let mut operands = Vec::new();
         match self.definition(e) {
             Some(definition) => operands.push(definition),
-            None => self.graph.node(e).for_each_operand(|operand| operands.push(operand)),
+            None => self
+                .graph
+                .node(e)
+                .for_each_operand(|operand| operands.push(operand)),
         }
         operands
     }

@@ -156,7 +156,7 @@ fn viscosity(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
         scalar,
         input: &|index| inputs.viscosity(index),
     }
-    .lets(|_| true);
+    .lets(|_, _| true);
     let outputs: Vec<_> = program
         .outputs
         .iter()
@@ -184,5 +184,5 @@ fn lets(program: &Program, inputs: &Inputs) -> TokenStream {
         scalar: &inputs.scalar,
         input: &|index| inputs.point(index),
     }
-    .lets(|_| true)
+    .lets(|_, _| true)
 }

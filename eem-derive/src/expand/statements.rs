@@ -15,10 +15,10 @@ pub(super) struct Statements<'p> {
 
 impl Statements<'_> {
     // Expands to: `let __v7 = __v3 * __v5;` for every instruction that `keep` selects.
-    pub(super) fn lets(&self, keep: impl Fn(&Instruction) -> bool) -> TokenStream {
+    pub(super) fn lets(&self, keep: impl Fn(usize, &Instruction) -> bool) -> TokenStream {
         let mut tokens = TokenStream::new();
         for (index, instruction) in self.program.instructions.iter().enumerate() {
-            if keep(instruction) {
+            if keep(index, instruction) {
                 let name = name(index);
                 let value = self.operation(&instruction.operation);
                 tokens.extend(quote! { let #name = #value; });

@@ -228,6 +228,8 @@ pub(super) struct LogNear<S: Scalar> {
     inverse: S,
     /// z, of the sign of `b − a`.
     z: S,
+    /// z².
+    square: S,
     g: S,
 }
 
@@ -238,12 +240,14 @@ impl<S: Scalar> LogNear<S> {
     pub(super) fn new(base: S, a: S, b: S) -> Self {
         let (_, _, d) = ends(a, b);
         let inverse = (base + half(d)).recip();
-        let z = half(b - a) * inverse;
-        let square = z * z;
+        // Of the same bits for both orders of the ends, so that they share the series.
+        let size = half(d) * inverse;
+        let square = size * size;
         Self {
-            applies: z.abs().less(S::from_f64(0.2)),
+            applies: size.abs().less(S::from_f64(0.2)),
             inverse,
-            z,
+            z: S::branch(b.less(a), || -size, || size),
+            square,
             g: S::one() + square * polynomial(&AREA_TANGENT, square),
         }
     }
@@ -257,7 +261,7 @@ impl<S: Scalar> LogNear<S> {
     /// `ln[a,b,b]`.
     #[inline]
     pub(super) fn second(&self) -> S {
-        let slope = self.z * polynomial(&AREA_TANGENT_PRIME, self.z * self.z);
+        let slope = self.z * polynomial(&AREA_TANGENT_PRIME, self.square);
         let bracket = (S::one() - self.z) * slope - self.g;
         half(self.inverse) * self.inverse * bracket
     }

@@ -109,7 +109,10 @@ impl Pair {
         let [first, second] = self.edges.each_ref().map(|edge| edge.value(step));
         // Looked through: the two edges have most of their terms in common.
         let terms = [first, second].concat();
-        let terms: Vec<_> = terms.into_iter().map(|term| step.locals.resolve(&step.graph, term)).collect();
+        let terms: Vec<_> = terms
+            .into_iter()
+            .map(|term| step.locals.resolve(&step.graph, term))
+            .collect();
         step.half(&terms)
     }
 

@@ -77,7 +77,10 @@ impl<'m> PointPrograms<'m> {
                 None => self.graph.integer(0),
             });
         }
-        self.program(theta.as_slice(), &[&self.model.viscosities[..], &slopes].concat())
+        self.program(
+            theta.as_slice(),
+            &[&self.model.viscosities[..], &slopes].concat(),
+        )
     }
 
     fn slopes(&mut self, e: ExprId) -> Vec<ExprId> {

@@ -23,7 +23,10 @@ impl Builder<'_> {
         match self.planned_product(Number::ONE, e) {
             Some(product) => product,
             None => {
-                let whole = self.plan.as_ref().is_none_or(|plan| plan.arguments.contains(&e));
+                let whole = self
+                    .plan
+                    .as_ref()
+                    .is_none_or(|plan| plan.arguments.contains(&e));
                 self.in_order(Number::ONE, factors, whole)
             }
         }
@@ -43,7 +46,9 @@ impl Builder<'_> {
             .iter()
             .map(|entry| self.planned_factor(entry.token))
             .collect();
-        let negative = factors.iter().fold(false, |sign, factor| sign ^ factor.negative);
+        let negative = factors
+            .iter()
+            .fold(false, |sign, factor| sign ^ factor.negative);
         let operands = factors.into_iter().map(|factor| factor.operand).collect();
         let operand = self.multiply(operands).unwrap_or(ONE);
         let product = Signed { negative, operand };

@@ -9,7 +9,12 @@ use crate::program::Operation;
 
 impl Builder<'_> {
     /// `constant + Σ coefficient · term`.
-    pub(super) fn sum(&mut self, e: ExprId, constant: Number, terms: &[(Number, ExprId)]) -> Signed {
+    pub(super) fn sum(
+        &mut self,
+        e: ExprId,
+        constant: Number,
+        terms: &[(Number, ExprId)],
+    ) -> Signed {
         match self.planned_sum(e) {
             Some(sum) => sum,
             None => self.sum_in_order(constant, terms),
