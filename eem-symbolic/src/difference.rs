@@ -23,11 +23,6 @@ impl Graph {
         if a == b {
             return self.kernel_derivative(kernel, a);
         }
-        match kernel {
-            Kernel::Recip => return self.recip_difference(a, b),
-            Kernel::Sqrt => return self.sqrt_difference(a, b),
-            Kernel::Function(_) | Kernel::Powi(_) | Kernel::Powf(_) => {}
-        }
         if kernel == Kernel::Function(Function::Abs) {
             return self.abs_difference(a, b);
         }
@@ -51,43 +46,7 @@ impl Graph {
             Some(exponent) => self.power_kernel(exponent),
             None => kernel,
         };
-        match kernel {
-            Kernel::Recip => self.recip_second_difference(a, b),
-            Kernel::Sqrt => self.sqrt_second_difference(a, b),
-            Kernel::Function(_) | Kernel::Powi(_) | Kernel::Powf(_) => {
-                self.intern(Node::SecondDividedDifference(kernel, a, b))
-            }
-        }
-    }
-
-    /// `−1/(a·b)`.
-    fn recip_difference(&mut self, a: ExprId, b: ExprId) -> ExprId {
-        let factors = [a, b].map(|end| (end, Rational::MINUS_ONE));
-        let product = self.power_product(&factors);
-        self.neg(product)
-    }
-
-    /// `1/(a·b²)`.
-    fn recip_second_difference(&mut self, a: ExprId, b: ExprId) -> ExprId {
-        let inverse = (b, Rational::MINUS_ONE);
-        self.power_product(&[(a, Rational::MINUS_ONE), inverse, inverse])
-    }
-
-    /// `1/(√a + √b)`.
-    fn sqrt_difference(&mut self, a: ExprId, b: ExprId) -> ExprId {
-        let [a, b] = [a, b].map(|end| self.sqrt(end));
-        let sum = self.pair_sum(a, b);
-        self.recip(sum)
-    }
-
-    /// `−½/(√b (√a + √b)²)`.
-    fn sqrt_second_difference(&mut self, a: ExprId, b: ExprId) -> ExprId {
-        let difference = self.sqrt_difference(a, b);
-        let root = self.sqrt(b);
-        let quotient = self.div(difference, root);
-        let product = self.mul(quotient, difference);
-        let half = self.scale(Number::HALF, product);
-        self.neg(half)
+        self.intern(Node::SecondDividedDifference(kernel, a, b))
     }
 
     /// `exp[X_a, X_b]` for `X = h·ln g`, given the values `g^h = exp X` at both ends.

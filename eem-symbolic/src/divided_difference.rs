@@ -40,7 +40,7 @@ use crate::number::{Number, Rational};
 /// let (a, b) = (graph.version(x, "a"), graph.version(x, "b"));
 /// let (a, b) = (graph.variable(a), graph.variable(b));
 /// let secant = divided_difference(&mut graph, e, x, a, b);
-/// assert_eq!(format(&graph, secant), "1 - 1/(a*b)");
+/// assert_eq!(format(&graph, secant), "recip[a, b] + 1");
 /// ```
 pub fn divided_difference(graph: &mut Graph, e: ExprId, x: Symbol, a: ExprId, b: ExprId) -> ExprId {
     let (zero, one) = (graph.number(Number::ZERO), graph.number(Number::ONE));

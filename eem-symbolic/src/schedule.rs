@@ -13,6 +13,7 @@
 //!   that ln(λ/λ₀) vanishes where λ = λ₀.
 
 mod builder;
+mod difference;
 mod locals;
 mod plan;
 mod power;
@@ -71,7 +72,7 @@ impl Schedule<'_> {
 
     /// Operations in the order that shares the most.
     pub(crate) fn program(&self, inputs: Vec<Input>, outputs: &[ExprId]) -> Program {
-        let new = inputs.iter().filter(|input| input.stage == Stage::New);
+        let new = inputs.iter().skip(self.parameters);
         let new = new.map(|input| input.symbol).collect();
         let plan = Plan::new(self, &new, outputs);
         let mut builder = Builder::new(self, inputs);
@@ -144,9 +145,11 @@ impl Schedule<'_> {
             Node::Power(base, exponent) => builder.power(*base, *exponent),
             Node::Apply(function, x) => builder.apply(*function, *x),
             Node::PairSum(a, b) => builder.pair_sum(*a, *b),
-            Node::DividedDifference(kernel, a, b) => builder.divided_difference(*kernel, *a, *b),
+            Node::DividedDifference(kernel, a, b) => {
+                return builder.divided_difference(*kernel, *a, *b);
+            }
             Node::SecondDividedDifference(kernel, a, b) => {
-                builder.second_divided_difference(*kernel, *a, *b)
+                return builder.second_divided_difference(*kernel, *a, *b);
             }
             Node::PowerDifference { values, logarithms } => {
                 builder.power_difference(*values, *logarithms)

@@ -6,9 +6,9 @@ use super::Schedule;
 use super::plan::Plan;
 use super::sharing::Token;
 use crate::function::Function;
-use crate::node::{ExprId, Kernel, Node, Symbol};
+use crate::node::{ExprId, Node, Symbol};
 use crate::number::Number;
-use crate::program::{Input, Instruction, Operation, Program, ProgramKernel, Stage, Value};
+use crate::program::{Input, Instruction, Operation, Program, Stage, Value};
 
 /// A result: an instruction, or a number that becomes a constant of the stage that uses it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -146,62 +146,6 @@ impl<'s> Builder<'s> {
     pub(super) fn pair_sum(&mut self, a: ExprId, b: ExprId) -> Operand {
         let (a, b) = (self.done(a), self.done(b));
         self.add(a, b)
-    }
-
-    pub(super) fn divided_difference(&mut self, kernel: Kernel, a: ExprId, b: ExprId) -> Operand {
-        self.difference(kernel, a, b, Operation::DividedDifference)
-    }
-
-    pub(super) fn second_divided_difference(
-        &mut self,
-        kernel: Kernel,
-        a: ExprId,
-        b: ExprId,
-    ) -> Operand {
-        self.difference(kernel, a, b, Operation::SecondDividedDifference)
-    }
-
-    fn difference(
-        &mut self,
-        kernel: Kernel,
-        a: ExprId,
-        b: ExprId,
-        operation: fn(ProgramKernel, Value, Value) -> Operation,
-    ) -> Operand {
-        let [a, b] = [self.done(a), self.done(b)];
-        let plain = match kernel {
-            // Values of the exponential function are shared by all differences that end there.
-            Kernel::Function(Function::Exp | Function::ExpM1) => {
-                let [value_a, value_b] =
-                    [a, b].map(|x| self.emit([x], |[x]| Operation::Apply(Function::Exp, x)));
-                return self.emit([value_a, value_b, a, b], |[value_a, value_b, a, b]| {
-                    operation(ProgramKernel::Power(value_a, value_b), a, b)
-                });
-            }
-            Kernel::Function(function) => ProgramKernel::Function(function),
-            Kernel::Sqrt => ProgramKernel::Sqrt,
-            Kernel::Recip => ProgramKernel::Powi(-1),
-            Kernel::Powi(n) => ProgramKernel::Powi(n),
-            Kernel::Powf(exponent) => {
-                let exponent = self.done(exponent);
-                return self.emit([exponent, a, b], |[exponent, a, b]| {
-                    operation(ProgramKernel::Powf(exponent), a, b)
-                });
-            }
-        };
-        self.emit([a, b], |[a, b]| operation(plain, a, b))
-    }
-
-    pub(super) fn power_difference(
-        &mut self,
-        values: [ExprId; 2],
-        logarithms: [ExprId; 2],
-    ) -> Operand {
-        let [value_a, value_b] = values.map(|value| self.done(value));
-        let [a, b] = logarithms.map(|logarithm| self.done(logarithm));
-        self.emit([value_a, value_b, a, b], |[value_a, value_b, a, b]| {
-            Operation::DividedDifference(ProgramKernel::Power(value_a, value_b), a, b)
-        })
     }
 
     pub(super) fn add(&mut self, a: Operand, b: Operand) -> Operand {

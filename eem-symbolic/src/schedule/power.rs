@@ -129,7 +129,8 @@ impl Builder<'_> {
         Signed { negative, operand }
     }
 
-    fn reciprocal(&mut self, x: Operand) -> Operand {
+    /// `1/x`.
+    pub(super) fn reciprocal(&mut self, x: Operand) -> Operand {
         self.emit([ONE, x], |[a, b]| Operation::Div(a, b))
     }
 
