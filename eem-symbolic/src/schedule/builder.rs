@@ -99,9 +99,7 @@ impl<'s> Builder<'s> {
             return false;
         };
         let term = terms.iter().find(|(_, term)| *term == operand);
-        term.is_some_and(|&(coefficient, term)| {
-            plan.products.entries(&(coefficient.abs(), term)).is_some()
-        })
+        term.is_some_and(|&(coefficient, term)| plan.factors(coefficient.abs(), term).is_some())
     }
 
     /// The result of an expression that comes earlier, up to its sign.

@@ -105,6 +105,15 @@ impl Plan {
         plan
     }
 
+    /// Where the factors of `coefficient · e` are listed; not for an argument of a function, which
+    /// is divided as a whole.
+    pub(super) fn factors(&self, coefficient: Number, e: ExprId) -> Option<Vec<Entry>> {
+        if coefficient == Number::ONE && self.arguments.contains(&e) {
+            return None;
+        }
+        self.products.entries(&(coefficient, e))
+    }
+
     fn look_at(&mut self, collector: &Collector<'_>, e: ExprId) {
         let graph = collector.schedule.graph;
         let resolved = collector.schedule.locals.resolve(graph, e);

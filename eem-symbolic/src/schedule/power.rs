@@ -34,14 +34,10 @@ impl Builder<'_> {
 
     /// `coefficient · e` for a product e that has been planned.
     pub(super) fn planned_product(&mut self, coefficient: Number, e: ExprId) -> Option<Signed> {
-        let plan = self.plan.as_ref()?;
-        if coefficient == Number::ONE && plan.arguments.contains(&e) {
-            return None;
-        }
+        let entries = self.plan.as_ref()?.factors(coefficient, e)?;
         if let Some(&product) = self.scaled.get(&(coefficient, e)) {
             return Some(product);
         }
-        let entries = plan.products.entries(&(coefficient, e))?;
         let factors: Vec<_> = entries
             .iter()
             .map(|entry| self.planned_factor(entry.token))
