@@ -24,7 +24,7 @@ pub(crate) use locals::Locals;
 
 use crate::graph::Graph;
 use crate::node::{ExprId, Node};
-use crate::program::{Input, Program, Stage};
+use crate::program::{Input, Program};
 use builder::{Builder, Operand, Signed};
 use plan::Plan;
 

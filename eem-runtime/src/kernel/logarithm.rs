@@ -1,7 +1,43 @@
 //! Logarithms, summed up between close ends and based at the smaller of distant ones.
 
-use super::primitives::{LogNear, by_definition, log_difference};
+use super::Differences;
+use super::primitives::{
+    area_tangent_slope, area_tangent_tail, by_definition, half, log_difference,
+};
 use crate::scalar::Scalar;
+
+/// Up to this |z| = |b − a|/(a + b), a ratio of 3/2, differences are sums of series.
+const CLOSE: f64 = 0.2;
+
+/// All differences of the natural logarithm: [`ln_dd`] and both [`ln_dd2`].
+///
+/// ```
+/// let all = eem_runtime::kernel::ln_dds(2.0, 2.0);
+/// assert_eq!((all.first, all.second_a, all.second_b), (0.5, -0.125, -0.125));
+/// ```
+#[expect(
+    clippy::inline_always,
+    reason = "what the caller does not use must not be computed"
+)]
+#[inline(always)]
+pub fn ln_dds<S: Scalar>(a: S, b: S) -> Differences<S> {
+    differences(a.minimum(b), S::zero(), a, b)
+}
+
+/// All differences of `ln(1 + x)`: [`ln_1p_dd`] and both [`ln_1p_dd2`].
+///
+/// ```
+/// let all = eem_runtime::kernel::ln_1p_dds(1.0, 1.0);
+/// assert_eq!((all.first, all.second_a, all.second_b), (0.5, -0.125, -0.125));
+/// ```
+#[expect(
+    clippy::inline_always,
+    reason = "what the caller does not use must not be computed"
+)]
+#[inline(always)]
+pub fn ln_1p_dds<S: Scalar>(a: S, b: S) -> Differences<S> {
+    differences(S::one() + a.minimum(b), S::one(), a, b)
+}
 
 /// `f[a,b]` of the natural logarithm, for `a, b > 0`; of `ln |x|` if both are negative.
 ///
@@ -20,7 +56,7 @@ use crate::scalar::Scalar;
 /// ```
 #[inline]
 pub fn ln_dd<S: Scalar>(a: S, b: S) -> S {
-    first(a.minimum(b), a, b)
+    ln_dds(a, b).first
 }
 
 /// `f[a,b,b]` of the natural logarithm, for `a, b > 0`; of `ln |x|` if both are negative.
@@ -36,7 +72,7 @@ pub fn ln_dd<S: Scalar>(a: S, b: S) -> S {
 /// ```
 #[inline]
 pub fn ln_dd2<S: Scalar>(a: S, b: S) -> S {
-    second(a.minimum(b), a, b, b)
+    ln_dds(a, b).second_b
 }
 
 /// `f[a,b]` of `ln(1 + x)`, for `a, b > −1`.
@@ -51,7 +87,7 @@ pub fn ln_dd2<S: Scalar>(a: S, b: S) -> S {
 /// ```
 #[inline]
 pub fn ln_1p_dd<S: Scalar>(a: S, b: S) -> S {
-    first(S::one() + a.minimum(b), a, b)
+    ln_1p_dds(a, b).first
 }
 
 /// `f[a,b,b]` of `ln(1 + x)`, for `a, b > −1`: [`ln_dd2`] with the base `1 + b`.
@@ -61,7 +97,7 @@ pub fn ln_1p_dd<S: Scalar>(a: S, b: S) -> S {
 /// ```
 #[inline]
 pub fn ln_1p_dd2<S: Scalar>(a: S, b: S) -> S {
-    second(S::one() + a.minimum(b), a, b, S::one() + b)
+    ln_1p_dds(a, b).second_b
 }
 
 /// `f[a,b]` of the binary logarithm, for `a, b > 0`: [`ln_dd`]` / ln 2`.
@@ -108,26 +144,54 @@ pub fn log10_dd2<S: Scalar>(a: S, b: S) -> S {
     ln_dd2(a, b) * S::from_f64(core::f64::consts::LOG10_E)
 }
 
-/// The first difference of `ln(x + c)` with `base = c + min(a, b)`.
-#[inline]
-fn first<S: Scalar>(base: S, a: S, b: S) -> S {
-    let near = LogNear::new(base, a, b);
-    let difference = near.first();
-    let far = || log_difference((b - a).abs(), base);
-    S::branch(near.applies, || difference, far)
+/// All differences of `ln(x + c)` with `base = c + min(a, b)`.
+///
+/// ```text
+/// μ = base + ½|b − a|,  z = (b − a)/(2μ),  |z| < 1/5,  ln(b/a) = 2 artanh z
+/// ln[a,b]   = g/μ                       g  = artanh z/z = 1 + z²/3 + z⁴/5 + …
+/// ln[a,b,b] = ((1 − z)g′ − g)/(2μ²)     g′ = ⅔z + ⅘z³ + …
+/// ```
+///
+/// Nothing cancels: all terms of g are positive, and `(1 − z)|g′| < ⅙ g`.
+#[expect(
+    clippy::inline_always,
+    reason = "what the caller does not use must not be computed"
+)]
+#[inline(always)]
+fn differences<S: Scalar>(base: S, c: S, a: S, b: S) -> Differences<S> {
+    let increment = b - a;
+    let inverse = (base + half(increment.abs())).recip();
+    let z = half(increment) * inverse;
+    let square = z * z;
+    let g = S::one() + square * area_tangent_tail(square);
+    let slope = z * area_tangent_slope(square);
+    let curvature = half(inverse) * inverse;
+    let near = z.abs().less(S::from_f64(CLOSE));
+    Differences {
+        first: S::branch(near, || inverse * g, || distant(base, a, b)),
+        second_a: S::branch(
+            near,
+            || -(curvature * ((S::one() + z) * slope + g)),
+            || distant_second(base, c, b, a),
+        ),
+        second_b: S::branch(
+            near,
+            || curvature * ((S::one() - z) * slope - g),
+            || distant_second(base, c, a, b),
+        ),
+    }
 }
 
-/// The second difference of `ln(x + c)` with `base = c + min(a, b)` and `argument = c + b`.
-#[inline]
-fn second<S: Scalar>(base: S, a: S, b: S, argument: S) -> S {
-    let near = LogNear::new(base, a, b);
-    let difference = near.second();
-    S::branch(
-        near.applies,
-        || difference,
-        || {
-            let far = log_difference((b - a).abs(), base);
-            by_definition(argument.recip(), far, a, b)
-        },
-    )
+/// `ln[a,b]` of ends of a large ratio.
+#[cold]
+#[inline(never)]
+fn distant<S: Scalar>(base: S, a: S, b: S) -> S {
+    log_difference((b - a).abs(), base)
+}
+
+/// `ln[a,b,b]` of ends of a large ratio.
+#[cold]
+#[inline(never)]
+fn distant_second<S: Scalar>(base: S, c: S, a: S, b: S) -> S {
+    by_definition((c + b).recip(), distant(base, a, b), a, b)
 }

@@ -10,7 +10,7 @@ use crate::scalar::Scalar;
 /// Number of terms of `Σ (±x)^k/(k+2)!` for |x| < 1: 1/22! = 2⁻⁶⁹.
 const EXPONENTIAL_TERMS: usize = 20;
 
-/// Number of terms of the two series of [`log_near`] for z² < 1/25: 25⁻¹² = 2⁻⁵⁵.
+/// Number of terms of the series of `artanh` and its derivative for z² < 1/25: 25⁻¹² = 2⁻⁵⁵.
 const LOGARITHM_TERMS: usize = 12;
 
 /// Number of terms of `Σ 2k(±x²)^(k−1)/(2k+1)!` for |x| < 1: 20/21! = 2⁻⁶¹.
@@ -121,6 +121,18 @@ fn polynomial<S: Scalar, const N: usize>(coefficients: &[f64; N], x: S) -> S {
     sum
 }
 
+/// `(artanh z/z − 1)/z² = 1/3 + z²/5 + …` of z² < 1/25.
+#[inline]
+pub(super) fn area_tangent_tail<S: Scalar>(square: S) -> S {
+    polynomial(&AREA_TANGENT, square)
+}
+
+/// `(artanh z/z)′/z = 2/3 + 4z²/5 + …` of z² < 1/25.
+#[inline]
+pub(super) fn area_tangent_slope<S: Scalar>(square: S) -> S {
+    polynomial(&AREA_TANGENT_PRIME, square)
+}
+
 /// `2x`, exact.
 #[inline]
 pub(super) fn twice<S: Scalar>(x: S) -> S {
@@ -166,37 +178,39 @@ pub(super) fn by_definition<S: Scalar>(slope_at_b: S, difference: S, a: S, b: S)
     (slope_at_b - difference) / (b - a)
 }
 
-/// `φ(d) = (1 − e^(−d))/d = 1 − d φ₂(d)` for `d ≥ 0`, condition at most 1.
-#[inline]
-pub(super) fn phi<S: Scalar>(d: S) -> S {
-    let series = phi2_near(d);
-    near_or_far(d, || S::one() - d * series, || -(-d).exp_m1() / d)
-}
-
 /// `φ₂(x) = (e^(−x) − 1 + x)/x²` for |x| < 1.
-///
-/// Evaluated outside of branches, so that the functions of one argument share it.
 #[inline]
 pub(super) fn phi2_near<S: Scalar>(x: S) -> S {
     polynomial(&EXPONENTIAL, -x)
 }
 
+/// `φ(d) = (1 − e^(−d))/d = 1 − d φ₂(d)` for `d ≥ 0`, condition at most 1.
+///
+/// Here and below the series stands outside of the branch: functions of one argument share it.
+#[inline]
+pub(super) fn phi<S: Scalar>(d: S) -> S {
+    let near = S::one() - d * phi2_near(d);
+    near_or_far(d, || near, || phi_far(d))
+}
+
 /// `φ₂(x) = (e^(−x) − 1 + x)/x²` for `x ≥ 0`.
 #[inline]
 pub(super) fn phi2<S: Scalar>(x: S) -> S {
-    let series = phi2_near(x);
-    near_or_far(x, || series, || (S::one() - phi(x)) / x)
+    let near = phi2_near(x);
+    near_or_far(x, || near, || (S::one() - phi_far(x)) / x)
 }
 
 /// `φ₃(x) = (1 − (1 + x)e^(−x))/x² = 1 − (1 + x)φ₂(x)` for `x ≥ 0`.
 #[inline]
 pub(super) fn phi3<S: Scalar>(x: S) -> S {
-    let series = phi2_near(x);
-    near_or_far(
-        x,
-        || S::one() - (S::one() + x) * series,
-        || (phi(x) - (-x).exp()) / x,
-    )
+    let near = S::one() - (S::one() + x) * phi2_near(x);
+    near_or_far(x, || near, || (phi_far(x) - (-x).exp()) / x)
+}
+
+#[cold]
+#[inline(never)]
+fn phi_far<S: Scalar>(d: S) -> S {
+    -(-d).exp_m1() / d
 }
 
 /// `ln(1 + d/w)` for `d ≥ 0`, `w ≥ 0`, also where `d/w` overflows.
@@ -210,61 +224,6 @@ pub(super) fn log_ratio<S: Scalar>(d: S, w: S) -> S {
 #[inline]
 pub(super) fn log_difference<S: Scalar>(d: S, w: S) -> S {
     S::branch(d.equal(S::zero()), || w.recip(), || log_ratio(d, w) / d)
-}
-
-/// The divided differences of `ln` between ends of a ratio below 3/2, and whether they are.
-///
-/// ```text
-/// μ = ½(a + b),  z = (b − a)/(2μ),  |z| < 1/5,  ln(b/a) = 2 artanh z
-/// ln[a,b]   = g/μ                       g  = artanh z/z = 1 + z²/3 + z⁴/5 + …
-/// ln[a,b,b] = ((1 − z)g′ − g)/(2μ²)     g′ = ⅔z + ⅘z³ + …
-/// ```
-///
-/// Nothing cancels: all terms of g are positive, and `(1 − z)|g′| < ⅙ g`.
-pub(super) struct LogNear<S: Scalar> {
-    /// Whether the ends are that close.
-    pub(super) applies: S::Mask,
-    /// `1/μ`.
-    inverse: S,
-    /// z, of the sign of `b − a`.
-    z: S,
-    /// z².
-    square: S,
-    g: S,
-}
-
-impl<S: Scalar> LogNear<S> {
-    /// Looks at the ends `a` and `b`, of one sign, of which `base` is the smaller; or at `a + c` and
-    /// `b + c`, of which it is.
-    #[inline]
-    pub(super) fn new(base: S, a: S, b: S) -> Self {
-        let (_, _, d) = ends(a, b);
-        let inverse = (base + half(d)).recip();
-        // Of the same bits for both orders of the ends, so that they share the series.
-        let size = half(d) * inverse;
-        let square = size * size;
-        Self {
-            applies: size.abs().less(S::from_f64(0.2)),
-            inverse,
-            z: S::branch(b.less(a), || -size, || size),
-            square,
-            g: S::one() + square * polynomial(&AREA_TANGENT, square),
-        }
-    }
-
-    /// `ln[a,b]`.
-    #[inline]
-    pub(super) fn first(&self) -> S {
-        self.inverse * self.g
-    }
-
-    /// `ln[a,b,b]`.
-    #[inline]
-    pub(super) fn second(&self) -> S {
-        let slope = self.z * polynomial(&AREA_TANGENT_PRIME, self.square);
-        let bracket = (S::one() - self.z) * slope - self.g;
-        half(self.inverse) * self.inverse * bracket
-    }
 }
 
 /// `sinc x = sin x/x`.
