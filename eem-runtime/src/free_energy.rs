@@ -111,6 +111,20 @@ pub trait FreeEnergy<S: Scalar> {
     /// Entropy and heat capacity; zero without temperature.
     fn caloric(&self, x: &Self::Variables) -> Caloric<S>;
 
+    /// [`caloric`](Self::caloric) as a function of the temperature, with the other variables of
+    /// `x`: for inversions, which evaluate it several times. What does not depend on the temperature
+    /// is computed once. The results of both differ by rounding.
+    fn caloric_at(&self, x: &Self::Variables) -> impl Fn(S) -> Caloric<S> {
+        let x = *x;
+        move |theta| {
+            let mut x = x;
+            if let Some(last) = x.as_mut().last_mut() {
+                *last = theta;
+            }
+            self.caloric(&x)
+        }
+    }
+
     /// `∂²s/∂x²`, what the ordinary rules in temperature variables need for their tangent; zero
     /// without temperature.
     fn entropy_hessian(&self, x: &Self::Variables) -> Self::Hessian;

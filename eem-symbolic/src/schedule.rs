@@ -60,7 +60,7 @@ pub fn schedule(graph: &Graph, inputs: Vec<Input>, outputs: &[ExprId]) -> Progra
 pub(crate) struct Schedule<'g> {
     pub(crate) graph: &'g Graph,
     pub(crate) locals: &'g Locals,
-    /// How many of the first inputs are parameters.
+    /// How many of the first inputs are parameters, or like parameters: known before all others.
     pub(crate) parameters: usize,
 }
 

@@ -52,10 +52,24 @@ impl<'m> PointPrograms<'m> {
     }
 
     pub(super) fn caloric(&mut self, theta: Symbol) -> Program {
+        let outputs = self.caloric_quantities(theta);
+        self.program(&self.variables, &outputs)
+    }
+
+    /// The same with everything but the temperature at the old stage.
+    pub(super) fn caloric_at(&mut self, theta: Symbol) -> Program {
+        let outputs = self.caloric_quantities(theta);
+        let known = self.variables.iter().filter(|&&symbol| symbol != theta);
+        let known = self.model.parameters.iter().chain(known);
+        let known: Vec<_> = known.copied().collect();
+        self.staged(&known, &[theta], &outputs)
+    }
+
+    fn caloric_quantities(&mut self, theta: Symbol) -> [ExprId; 3] {
         let entropy = self.model.entropy(&mut self.graph, theta);
         let capacity = heat_capacity(&mut self.graph, entropy, theta);
         let magnitude = magnitude(&mut self.graph, entropy, theta);
-        self.program(&self.variables, &[entropy, capacity, magnitude])
+        [entropy, capacity, magnitude]
     }
 
     pub(super) fn entropy_hessian(&mut self, theta: Symbol) -> Program {
@@ -89,13 +103,14 @@ impl<'m> PointPrograms<'m> {
     }
 
     fn program(&self, variables: &[Symbol], outputs: &[ExprId]) -> Program {
-        let parameters = self
-            .model
-            .parameters
-            .iter()
-            .map(|&symbol| (symbol, Stage::Old));
-        let variables = variables.iter().map(|&symbol| (symbol, Stage::New));
-        let inputs = parameters.chain(variables).map(|(symbol, stage)| Input {
+        self.staged(&self.model.parameters, variables, outputs)
+    }
+
+    /// What depends on `known` alone is of the old stage.
+    fn staged(&self, known: &[Symbol], unknown: &[Symbol], outputs: &[ExprId]) -> Program {
+        let old = known.iter().map(|&symbol| (symbol, Stage::Old));
+        let new = unknown.iter().map(|&symbol| (symbol, Stage::New));
+        let inputs = old.chain(new).map(|(symbol, stage)| Input {
             symbol,
             name: self.graph.name(symbol).to_owned(),
             stage,
@@ -103,7 +118,7 @@ impl<'m> PointPrograms<'m> {
         let schedule = Schedule {
             graph: &self.graph,
             locals: &Locals::default(),
-            parameters: self.model.parameters.len(),
+            parameters: known.len(),
         };
         schedule.program(inputs.collect(), outputs)
     }
