@@ -52,7 +52,7 @@ fn set_up() -> Pendulum {
 
 /// The temperature θ of the state (λ, γ, θ) with the entropy of another, from a start.
 fn temperature([lambda, gamma, _]: Variables, entropy: f64, start: f64) -> f64 {
-    let caloric = LAW.caloric_at(&[lambda, gamma, start]);
+    let caloric = LAW.caloric_at([lambda, gamma, start]);
     invert(caloric, entropy, start).unwrap().temperature
 }
 

@@ -114,8 +114,7 @@ pub trait FreeEnergy<S: Scalar> {
     /// [`caloric`](Self::caloric) as a function of the temperature, with the other variables of
     /// `x`: for inversions, which evaluate it several times. What does not depend on the temperature
     /// is computed once. The results of both differ by rounding.
-    fn caloric_at(&self, x: &Self::Variables) -> impl Fn(S) -> Caloric<S> {
-        let x = *x;
+    fn caloric_at(&self, x: Self::Variables) -> impl Fn(S) -> Caloric<S> {
         move |theta| {
             let mut x = x;
             if let Some(last) = x.as_mut().last_mut() {

@@ -132,7 +132,7 @@ fn caloric_at(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
         #docs
         fn caloric_at(
             &self,
-            __x: &Self::Variables,
+            __x: Self::Variables,
         ) -> impl __eem::core::ops::Fn(#scalar) -> __eem::Caloric<#scalar> {
             #old
             move |__theta| {

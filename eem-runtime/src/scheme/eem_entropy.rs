@@ -76,7 +76,7 @@ pub(crate) fn temperature_at<S: Real, M: FreeEnergy<S>>(
     entropy: S,
     guess: S,
 ) -> Result<S, Infeasible> {
-    match invert(model.caloric_at(&x), entropy, guess) {
+    match invert(model.caloric_at(x), entropy, guess) {
         Ok(found) => Ok(found.temperature),
         Err(source) => Err(Infeasible::Entropy {
             entropy: entropy.to_f64(),

@@ -1,0 +1,147 @@
+//! Calls of the library's transcendental functions: as many as the programs say, and no more than
+//! the formulas ask for.
+
+mod support;
+
+use core::cell::Cell;
+use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use eem::{FreeEnergy, Scalar, kernel};
+use support::ThermoViscoElastic;
+
+thread_local! {
+    static CALLS: Cell<usize> = const { Cell::new(0) };
+}
+
+/// How often `run` calls a transcendental function.
+fn calls<T>(run: impl FnOnce() -> T) -> usize {
+    CALLS.set(0);
+    run();
+    CALLS.get()
+}
+
+/// A number that counts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Counted(f64);
+
+impl Neg for Counted {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+macro_rules! operators {
+    ($($operator:ident $method:ident $assign:ident $method_assign:ident),*) => {
+        $(
+            impl $operator for Counted {
+                type Output = Self;
+
+                fn $method(self, other: Self) -> Self {
+                    Self(self.0.$method(other.0))
+                }
+            }
+
+            impl $assign for Counted {
+                fn $method_assign(&mut self, other: Self) {
+                    self.0.$method_assign(other.0);
+                }
+            }
+        )*
+    };
+}
+
+operators!(
+    Add add AddAssign add_assign,
+    Sub sub SubAssign sub_assign,
+    Mul mul MulAssign mul_assign,
+    Div div DivAssign div_assign
+);
+
+macro_rules! forward {
+    ($count:literal: $($method:ident($($argument:ident)?)),*) => {
+        $(
+            fn $method(self $(, $argument: Self)?) -> Self {
+                CALLS.set(CALLS.get() + $count);
+                Self(<f64 as Scalar>::$method(self.0 $(, $argument.0)?))
+            }
+        )*
+    };
+}
+
+impl Scalar for Counted {
+    type Mask = bool;
+
+    fn from_f64(value: f64) -> Self {
+        Self(value)
+    }
+
+    fn equal(self, other: Self) -> bool {
+        self.0.equal(other.0)
+    }
+
+    fn less(self, other: Self) -> bool {
+        self.0.less(other.0)
+    }
+
+    fn branch(mask: bool, then: impl FnOnce() -> Self, otherwise: impl FnOnce() -> Self) -> Self {
+        if mask { then() } else { otherwise() }
+    }
+
+    forward!(0: abs(), minimum(other), maximum(other), sqrt(), cbrt(), hypot(other));
+    forward!(1: exp(), exp_m1(), ln(), ln_1p(), log2(), log10(), sin(), cos(), tan(), sinh(),
+        cosh(), tanh(), asinh(), atan(), atan2(x), atanh(), powf(exponent));
+}
+
+/// Close ends, in the domain of every function.
+const ENDS: [Counted; 2] = [Counted(0.5), Counted(0.51)];
+
+macro_rules! differences {
+    ($($first:ident $second:ident),*) => {
+        [$({
+            let [a, b] = ENDS;
+            let counts = [
+                calls(|| kernel::$first(a, b)),
+                calls(|| kernel::$second(a, b)),
+            ];
+            (stringify!($first), counts)
+        }),*]
+    };
+}
+
+#[test]
+fn differences_call_the_library_as_often_as_programs_count() {
+    let counted = differences!(
+        ln_dd ln_dd2, ln_1p_dd ln_1p_dd2, log2_dd log2_dd2, log10_dd log10_dd2, exp_dd exp_dd2,
+        exp_m1_dd exp_m1_dd2, sin_dd sin_dd2, cos_dd cos_dd2, tan_dd tan_dd2, sinh_dd sinh_dd2,
+        cosh_dd cosh_dd2, tanh_dd tanh_dd2, asinh_dd asinh_dd2, atan_dd atan_dd2, atanh_dd atanh_dd2
+    );
+    for (name, counts) in counted {
+        println!("{name} {counts:?}");
+    }
+    let [a, b] = ENDS;
+    let p = Counted(1.7);
+    println!(
+        "powf {:?}",
+        [
+            calls(|| kernel::powf_dd(a, b, p)),
+            calls(|| kernel::powf_dd2(a, b, p)),
+        ]
+    );
+    assert_eq!(calls(|| kernel::power_dds(a, b, a, b)), 0);
+}
+
+#[test]
+fn the_pendulum_calls_one_function_per_iteration() {
+    let law = ThermoViscoElastic::PENDULUM;
+    let [x0, x1] = [[3.0, 0.2, 380.0], [2.95, 0.21, 379.8]].map(|x| x.map(Counted));
+    let old = law.temperature_form_old(&x0);
+    // ln λ¹. The least that library functions could do it with are two: ln λ¹ and ln θ¹.
+    assert_eq!(calls(|| law.temperature_form(&old, &x1)), 1);
+    assert_eq!(calls(|| law.temperature_form_response(&old, &x1)), 1);
+    let old = law.entropy_form_old(&x0);
+    let corners = [380.1, 380.2, 379.9, 380.0].map(Counted);
+    assert_eq!(calls(|| law.entropy_form(&old, &x1, &corners)), 1);
+    assert_eq!(calls(|| law.entropy_form_response(&old, &x1, &corners)), 1);
+}
