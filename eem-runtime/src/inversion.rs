@@ -40,7 +40,7 @@ pub struct Inversion<S> {
 /// the start, normally the last accepted temperature; `S` increases on it, so
 /// that there is at most one solution. `evaluate` returns entropy, heat capacity and
 /// the sum of |terms of S|, which tells rounding noise from a residual; any
-/// units. The entropy is met to a few ε of that sum. Warm starts take 1 to 5
+/// units. The entropy is met to a few ε of that sum. Warm starts take 2 to 5
 /// evaluations, starts that are off by hundreds of orders of magnitude 10 to 20.
 ///
 /// The branch is known where the entropy is evaluated: an unstable range is noticed when

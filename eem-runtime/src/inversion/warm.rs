@@ -19,10 +19,6 @@ const LONGEST: f64 = 0.25;
 /// converges as its theory says.
 const SHRINKING: f64 = 0.125;
 
-/// The fastest relative change of a heat capacity with ln θ that is taken into account before it
-/// has been measured: that of e^(−E/θ) just above underflow, ln 2¹⁰²².
-const FASTEST: f64 = 709.0;
-
 /// Below this, `1 + x + x²/2 + x³/6 + x⁴/24` is eˣ to rounding: x⁵/120 < 2⁻⁵⁶.
 const SMALL: f64 = 1.0 / 1024.0;
 
@@ -43,23 +39,15 @@ pub(super) fn start<S: Real>(
     let mut point = Point::new(S::zero(), start, first, entropy);
     let mut evaluations = 1;
     let mut longest = S::from_f64(LONGEST);
-    let mut rate = S::from_f64(FASTEST);
     loop {
         let step = point.newton();
         // What is not a number ends here too.
         if !(point.stable() && step.abs() <= longest) {
             return Warm::Cold(first, evaluations);
         }
-        // Newton's method leaves ½ rate · step².
-        let settled = rate * step * step <= S::EPSILON;
-        if settled || point.is_noise() {
-            let correction = if settled {
-                step
-            } else {
-                point.last_correction()
-            };
+        if point.is_noise() || step.abs() <= point.resolution() {
             return Warm::Found(Inversion {
-                temperature: point.theta * exponential(correction),
+                temperature: point.theta * exponential(point.last_correction()),
                 evaluations,
             });
         }
@@ -69,9 +57,6 @@ pub(super) fn start<S: Real>(
         if !(trial.stable() && trial.follows(&point)) {
             return Warm::Cold(first, evaluations);
         }
-        // Twice what has been measured.
-        let change = (trial.heat_capacity - point.heat_capacity) / (trial.heat_capacity * step);
-        rate = S::from_f64(2.0) * change.abs();
         longest = S::from_f64(SHRINKING) * step.abs();
         point = trial;
     }
