@@ -10,6 +10,7 @@ mod header;
 mod inputs;
 mod points;
 mod statements;
+mod together;
 
 use eem_symbolic::Model;
 use proc_macro2::TokenStream;

@@ -111,6 +111,19 @@ pub trait FreeEnergy<S: Scalar> {
     /// Entropy and heat capacity; zero without temperature.
     fn caloric(&self, x: &Self::Variables) -> Caloric<S>;
 
+    /// [`caloric`](Self::caloric) as a function of the temperature, with the other variables of
+    /// `x`: for inversions, which evaluate it several times. What does not depend on the temperature
+    /// is computed once. The results of both differ by rounding.
+    fn caloric_at(&self, x: Self::Variables) -> impl Fn(S) -> Caloric<S> {
+        move |theta| {
+            let mut x = x;
+            if let Some(last) = x.as_mut().last_mut() {
+                *last = theta;
+            }
+            self.caloric(&x)
+        }
+    }
+
     /// `∂²s/∂x²`, what the ordinary rules in temperature variables need for their tangent; zero
     /// without temperature.
     fn entropy_hessian(&self, x: &Self::Variables) -> Self::Hessian;
@@ -134,6 +147,17 @@ pub trait FreeEnergy<S: Scalar> {
         corners: &Self::Corners,
     ) -> (Self::Response, Self::Tangent);
 
+    /// The response of [`entropy_form`](Self::entropy_form) without the tangent: the same bits, for
+    /// less work.
+    fn entropy_form_response(
+        &self,
+        old: &Self::EntropyFormOld,
+        x1: &Self::Variables,
+        corners: &Self::Corners,
+    ) -> Self::Response {
+        self.entropy_form(old, x1, corners).0
+    }
+
     /// What [`temperature_form`](Self::temperature_form) needs of the old state.
     fn temperature_form_old(&self, x0: &Self::Variables) -> Self::TemperatureFormOld;
 
@@ -145,4 +169,14 @@ pub trait FreeEnergy<S: Scalar> {
         old: &Self::TemperatureFormOld,
         x1: &Self::Variables,
     ) -> (Self::Response, Self::Tangent);
+
+    /// The response of [`temperature_form`](Self::temperature_form) without the tangent: the same
+    /// bits, for less work.
+    fn temperature_form_response(
+        &self,
+        old: &Self::TemperatureFormOld,
+        x1: &Self::Variables,
+    ) -> Self::Response {
+        self.temperature_form(old, x1).0
+    }
 }

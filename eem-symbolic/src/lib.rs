@@ -42,10 +42,12 @@ mod sum;
 mod diff;
 mod display;
 mod divided_difference;
+mod factor;
 mod internal_energy;
 mod substitute;
 
 // Programs.
+mod cost;
 mod discrete;
 mod interpret;
 mod model;
@@ -65,11 +67,10 @@ pub use node::{ExprId, Kernel, Node, Symbol};
 pub use number::{Number, Rational};
 pub use substitute::substitute;
 
+pub use cost::{OperationCount, StageCount, TranscendentalCount};
 pub use interpret::{Arithmetic, F64};
 pub use model::{Formulas, Model, Programs};
-pub use program::{
-    Input, Instruction, Operation, OperationCount, Program, ProgramKernel, Stage, StageCount, Value,
-};
+pub use program::{Input, Instruction, Operation, Program, ProgramKernel, Stage, Value};
 pub use running_error::{Bounded, RunningError};
 pub use schedule::schedule;
 pub use verify::VerifyError;

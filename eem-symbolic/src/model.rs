@@ -46,6 +46,8 @@ pub struct Programs {
     pub internal_energy: Program,
     /// `[s, θ ∂s/∂θ, Σ |terms of s|]`; none without a temperature.
     pub caloric: Option<Program>,
+    /// The same outputs, everything that does not depend on θ at [`Stage::Old`](crate::Stage::Old).
+    pub caloric_at: Option<Program>,
     /// `[∂²s/∂x_i∂x_j …]` by rows; none without a temperature.
     pub entropy_hessian: Option<Program>,
     /// `[η_k …, dη_k/dθ …]`, inputs parameters and θ (if there is one); none without dashpots.
@@ -93,6 +95,7 @@ impl Model {
             hessian: point.hessian(),
             internal_energy: point.internal_energy(),
             caloric: self.temperature.map(|theta| point.caloric(theta)),
+            caloric_at: self.temperature.map(|theta| point.caloric_at(theta)),
             entropy_hessian: self.temperature.map(|theta| point.entropy_hessian(theta)),
             viscosity: (!self.dashpots.is_empty()).then(|| point.viscosity()),
             entropy_form: self.entropy_form(),

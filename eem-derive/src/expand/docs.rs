@@ -1,6 +1,6 @@
 //! The documentation of the generated code: the model as formulas, each function with its cost.
 
-use eem_symbolic::{Formulas, Model, Program, StageCount};
+use eem_symbolic::{Formulas, Model, Program, StageCount, TranscendentalCount};
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -138,7 +138,24 @@ pub(super) fn old_stage(purpose: &str, program: &Program) -> TokenStream {
 
 /// `purpose` and what the part that runs once per iteration costs.
 pub(super) fn new_stage(purpose: &str, program: &Program) -> TokenStream {
-    paragraphs(purpose, &operations(&program.operation_count().new))
+    let cost = operations(&program.operation_count().new);
+    let transcendental = transcendental(program.transcendental_count());
+    paragraphs(purpose, &format!("{cost}{transcendental}"))
+}
+
+/// How many transcendental functions are called, beside how many arguments they have.
+fn transcendental(count: TranscendentalCount) -> String {
+    let TranscendentalCount { calls, arguments } = count;
+    let plural = |n: usize, noun: &str| match n {
+        1 => format!("1 {noun}"),
+        n => format!("{n} {noun}s"),
+    };
+    if calls == 0 && arguments == 0 {
+        return String::new();
+    }
+    let calls = plural(calls, "call");
+    let arguments = plural(arguments, "argument");
+    format!(" Transcendental functions: {calls} for {arguments}.")
 }
 
 /// `12 operations: 5 additions, 6 multiplications, 1 function.`

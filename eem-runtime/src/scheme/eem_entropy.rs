@@ -72,16 +72,11 @@ fn find_corners<S: Real, M: FreeEnergy<S>, Old>(
 /// θ̂ at the configuration of `x`, whose own temperature does not matter.
 pub(crate) fn temperature_at<S: Real, M: FreeEnergy<S>>(
     model: &M,
-    mut x: M::Variables,
+    x: M::Variables,
     entropy: S,
     guess: S,
 ) -> Result<S, Infeasible> {
-    let last = M::Variables::LEN - 1;
-    let evaluate = |theta| {
-        x.as_mut()[last] = theta;
-        model.caloric(&x)
-    };
-    match invert(evaluate, entropy, guess) {
+    match invert(model.caloric_at(x), entropy, guess) {
         Ok(found) => Ok(found.temperature),
         Err(source) => Err(Infeasible::Entropy {
             entropy: entropy.to_f64(),
