@@ -5,14 +5,17 @@
 
 #[path = "lanes/packed.rs"]
 mod packed;
+#[path = "lanes/pendulum.rs"]
+mod pendulum;
 #[path = "../tests/support/mod.rs"]
 mod support;
 
 use divan::{Bencher, black_box};
 use eem::__private::Scalar;
-use eem::{FreeEnergy, invert};
+use eem::{FreeEnergy, Scheme, invert};
 use packed::{Eight, Four, FourByLibrary};
-use support::ThermoViscoElastic;
+use pendulum::{Law, State};
+use support::{ThermoViscoElastic, single_pendulum};
 
 /// Every line is the work for so many elements, whatever the lanes.
 const ELEMENTS: usize = 8;
@@ -32,12 +35,17 @@ trait Bundle: Scalar {
     const LANES: usize;
     /// Packs as many numbers as there are lanes.
     fn pack(numbers: impl Fn(usize) -> f64) -> Self;
+    /// Whether no lane exceeds the bound, or is not a number.
+    fn all_below(self, bound: f64) -> bool;
 }
 
 impl Bundle for f64 {
     const LANES: usize = 1;
     fn pack(numbers: impl Fn(usize) -> f64) -> Self {
         numbers(0)
+    }
+    fn all_below(self, bound: f64) -> bool {
+        self <= bound
     }
 }
 
@@ -48,6 +56,9 @@ macro_rules! bundles {
                 const LANES: usize = Self::LANES;
                 fn pack(numbers: impl Fn(usize) -> f64) -> Self {
                     Self::new(core::array::from_fn(numbers))
+                }
+                fn all_below(self, bound: f64) -> bool {
+                    self.lanes().iter().all(|lane| *lane <= bound)
                 }
             }
         )*
@@ -167,6 +178,46 @@ where
                 }
             }
             black_box(x);
+        }
+    });
+}
+
+/// Steps of a pendulum: the published run.
+const STEPS: usize = 100;
+
+/// How far two codes may differ in the temperature after the run, relative to it: both leave of
+/// Newton's method the square of 1e-8, and rounding grows over 100 steps.
+const AGREEMENT: f64 = 1e-10;
+
+/// The whole run of eight pendulums, started at different speeds, by a stepper that is written out
+/// for lanes: what lanes could give at most.
+#[divan::bench(types = [f64, FourByLibrary, Four, Eight], sample_size = 1, sample_count = 500)]
+fn pendulums<S: Bundle>(bencher: Bencher<'_, '_>)
+where
+    ThermoViscoElastic: Law<S>,
+{
+    // The first one starts at the published 1 m/s.
+    let speed = |element: usize| 1.0 + 0.05 * f64::from(u32::try_from(element).unwrap());
+    let bundles = 0..ELEMENTS / S::LANES;
+    let pack = |bundle: usize| S::pack(|lane| speed(bundle * S::LANES + lane));
+    let speeds: Vec<S> = bundles.map(pack).collect();
+    let run = |speed: S| {
+        let mut state = State::start(speed);
+        for _ in 0..STEPS {
+            state.step();
+        }
+        state.theta
+    };
+    let mut library = single_pendulum(Scheme::EemTemperature, 0.2);
+    for _ in 0..STEPS {
+        library.run.step().unwrap();
+    }
+    let expected = library.run.temperature(library.spring).unwrap();
+    let difference = (run(S::from_f64(1.0)) / S::from_f64(expected) - S::one()).abs();
+    assert!(difference.all_below(AGREEMENT), "{difference:?}");
+    bencher.bench_local(|| {
+        for &speed in black_box(&speeds) {
+            black_box(run(speed));
         }
     });
 }

@@ -7,6 +7,7 @@ use eem::{MemberError, MemberFailure};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
+use super::report::real;
 use super::support::progress::Progress;
 use super::support::time_grid::TimeGrid;
 
@@ -126,13 +127,13 @@ const fn unknown(name: &'static str, label: &'static str, mean: f64, spread: f64
 /// What is kept of a member.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct End {
-    /// θ at the end, K.
+    /// The mean of θ over the last quarter of the run, K: the spring is colder when it is long.
     pub(crate) temperature: f64,
     /// S − S₀ of spring and surroundings, J/K.
     pub(crate) entropy: f64,
     /// The largest |E − E₀|/|E₀| along the run.
     pub(crate) energy_defect: f64,
-    /// The largest loss of S in a step, in units in the last place of S.
+    /// The largest loss of S in a step, J/K: negative by the second law.
     pub(crate) entropy_loss: f64,
 }
 
@@ -147,17 +148,20 @@ impl End {
             entropy_loss: f64::NEG_INFINITY,
         };
         let mut entropy = start.entropy;
-        for _ in 0..steps {
+        let last_quarter = steps - steps.div_ceil(4);
+        let mut temperatures = Vec::with_capacity(steps - last_quarter);
+        for step in 0..steps {
             run.step()?;
             let ledger = run.ledger();
             let defect = (ledger.energy - start.energy).abs() / start.energy.abs();
-            let ulp = entropy.abs().next_up() - entropy.abs();
-            let loss = (entropy - ledger.entropy) / ulp;
             end.energy_defect = larger(end.energy_defect, defect);
-            end.entropy_loss = larger(end.entropy_loss, loss);
+            end.entropy_loss = larger(end.entropy_loss, entropy - ledger.entropy);
             entropy = ledger.entropy;
+            if step >= last_quarter {
+                temperatures.push(run.temperature(spring)?);
+            }
         }
-        end.temperature = run.temperature(spring)?;
+        end.temperature = temperatures.iter().sum::<f64>() / real(temperatures.len());
         end.entropy = entropy - start.entropy;
         Ok(end)
     }

@@ -1,4 +1,4 @@
-//! The pictures: how the final temperature is distributed, and how it depends on the viscosity;
+//! The pictures: how the temperature is distributed, and how it depends on the stiffness;
 //! and all members as CSV.
 
 use std::error::Error;
@@ -14,11 +14,11 @@ use super::support::output;
 const BARS: usize = 40;
 const OUTERMOST: f64 = 0.001;
 
-/// Parts of the range of the viscosity in each of which quantiles are taken.
+/// Parts of the range of the stiffness in each of which quantiles are taken.
 const PARTS: usize = 15;
 
-/// The viscosity among the unknowns.
-const VISCOSITY: usize = 1;
+/// The stiffness among the unknowns.
+const STIFFNESS: usize = 0;
 
 /// Writes a CSV file for each scheme, and the pictures.
 pub(crate) fn write(
@@ -33,7 +33,7 @@ pub(crate) fn write(
     let svg = |name: &str| directory.join(format!("{name}.svg"));
     distribution(samples, end).write_svg(&svg("distribution"))?;
     if let Some(sample) = samples.first() {
-        over_viscosity(springs, sample, end).write_svg(&svg("temperature_over_viscosity"))?;
+        over_stiffness(springs, sample, end).write_svg(&svg("temperature_over_stiffness"))?;
     }
     Ok(())
 }
@@ -61,7 +61,7 @@ fn write_csv(directory: &Path, springs: &[Spring], sample: &Sample) -> Result<()
     Ok(())
 }
 
-/// The histogram of the final temperature as an outline, for each scheme.
+/// The histogram of the temperature as an outline, for each scheme.
 fn distribution(samples: &[Sample], end: f64) -> Figure {
     let curve = |sample: &Sample| {
         let points = outline(&sample.sorted(|end| end.temperature));
@@ -74,7 +74,7 @@ fn distribution(samples: &[Sample], end: f64) -> Figure {
         }
     };
     Figure {
-        title: format!("Temperature of the spring after {end} s"),
+        title: format!("Mean temperature of the spring in the last quarter of {end} s"),
         x_label: "temperature θ (K)".to_owned(),
         y_label: "members per kelvin (%)".to_owned(),
         curves: samples.iter().map(curve).collect(),
@@ -101,23 +101,27 @@ fn outline(ascending: &[f64]) -> Vec<(f64, f64)> {
     first.chain(bars).chain([(high, 0.0)]).collect()
 }
 
-/// Quantiles of the final temperature over the viscosity.
-fn over_viscosity(springs: &[Spring], sample: &Sample, end: f64) -> Figure {
+/// Quantiles of the temperature over the stiffness.
+fn over_stiffness(springs: &[Spring], sample: &Sample, end: f64) -> Figure {
     let members = springs.iter().zip(&sample.ends);
     let mut pairs: Vec<(f64, f64)> = members
         .filter_map(|(spring, end)| {
-            Some((spring.values[VISCOSITY], end.as_ref().ok()?.temperature))
+            Some((spring.values[STIFFNESS], end.as_ref().ok()?.temperature))
         })
         .collect();
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let labels = ["5 % of the members below", "half", "95 %"];
+    let labels = [
+        "5 % of the members are below",
+        "half of them",
+        "95 % of them",
+    ];
     let parts: Vec<&[(f64, f64)]> = pairs.chunks(pairs.len().div_ceil(PARTS).max(1)).collect();
     let curve = |index: usize| {
         let point = |part: &&[(f64, f64)]| {
-            let viscosity = part.iter().map(|pair| pair.0).sum::<f64>() / real(part.len());
+            let stiffness = part.iter().map(|pair| pair.0).sum::<f64>() / real(part.len());
             let mut temperatures: Vec<f64> = part.iter().map(|pair| pair.1).collect();
             temperatures.sort_by(f64::total_cmp);
-            Some((viscosity, quantile(&temperatures, QUANTILES[index])?))
+            Some((stiffness, quantile(&temperatures, QUANTILES[index])?))
         };
         let points: Vec<_> = parts.iter().filter_map(point).collect();
         Curve {
@@ -129,8 +133,8 @@ fn over_viscosity(springs: &[Spring], sample: &Sample, end: f64) -> Figure {
         }
     };
     Figure {
-        title: format!("Temperature after {end} s over the viscosity"),
-        x_label: Spring::UNKNOWNS[VISCOSITY].label.to_owned(),
+        title: format!("Mean temperature in the last quarter of {end} s, by stiffness"),
+        x_label: Spring::UNKNOWNS[STIFFNESS].label.to_owned(),
         y_label: "temperature θ (K)".to_owned(),
         curves: (0..QUANTILES.len()).map(curve).collect(),
         axes: Axes::Even,

@@ -14,9 +14,9 @@ const HEADS: [&str; 9] = [
     "θ 5 % (K)",
     "θ 50 % (K)",
     "θ 95 % (K)",
-    "ΔS 50 % (J/K)",
+    "S − S₀ (J/K)",
     "energy defect",
-    "entropy loss (ulp)",
+    "least ΔS (J/K)",
     "members/s",
 ];
 
@@ -28,16 +28,19 @@ pub(crate) fn print(springs: &[Spring], samples: &[Sample], end: f64) {
     }
     terminal::say(format_args!("{table}\n"));
     terminal::say(format_args!(
-        "{} members, t = {end} s. θ: temperature that so many members stay below; ΔS: entropy \
-         produced; energy defect: max |E − E₀|/|E₀| and entropy loss: max Sₙ − Sₙ₊₁, over all steps \
-         of all members.",
+        "{} members, {end} s. θ: mean temperature in the last quarter of the time, which so many \
+         members stay below; S − S₀: entropy that half of the members produce at most; energy \
+         defect: max |E − E₀|/|E₀|, least ΔS: min Sₙ₊₁ − Sₙ, over all steps of all members.",
         springs.len()
     ));
     let Some(sample) = samples.first() else {
         return;
     };
-    if let Some(failure) = samples.iter().find_map(|sample| sample.failures().next()) {
-        terminal::say(format_args!("The first member to fail: {failure}."));
+    let failure = samples
+        .iter()
+        .find_map(|sample| Some((sample.scheme.name(), sample.failures().next()?)));
+    if let Some((scheme, failure)) = failure {
+        terminal::say(format_args!("The first to fail, {scheme}: {failure}."));
     }
     terminal::say(format_args!(
         "\nWhich unknown matters ({}):\n",
@@ -68,14 +71,18 @@ fn row(sample: &Sample) -> Vec<String> {
     }
     cells.push(cell(quantile(&entropies, 0.5), 4));
     cells.push(scientific(sample.largest(|end| end.energy_defect)));
-    cells.push(cell(sample.largest(|end| end.entropy_loss), 1));
+    cells.push(scientific(
+        sample
+            .largest(|end| end.entropy_loss)
+            .map(|loss| 0.0 - loss),
+    ));
     cells.push(format!("{:.0}", total / sample.elapsed.as_secs_f64()));
     cells
 }
 
 /// The share of each unknown in the variance of temperature and entropy.
 fn shares(springs: &[Spring], sample: &Sample) -> Table {
-    let mut table = table(&["unknown", "share in θ", "share in ΔS"]);
+    let mut table = table(&["unknown", "share in θ", "share in S − S₀"]);
     for (index, unknown) in Spring::UNKNOWNS.iter().enumerate() {
         let share = |quantity: fn(&End) -> f64| {
             let members = springs.iter().zip(&sample.ends);
