@@ -16,8 +16,8 @@ pub mod prelude {
     pub use core::ops::ControlFlow;
 
     pub use crate::{
-        Checkpoint, Element, FreeEnergy, Ledger, NewtonSettings, Node, Quantity, Recorder,
-        Reservoir, RunEnd, Scene, SceneError, Scheme, Simulation, StepError, StepReport,
+        Checkpoint, Element, Ensemble, FreeEnergy, Ledger, NewtonSettings, Node, Quantity,
+        Recorder, Reservoir, RunEnd, Scene, SceneError, Scheme, Simulation, StepError, StepReport,
     };
 }
 
