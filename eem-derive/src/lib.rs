@@ -29,6 +29,7 @@ mod nearest;
 mod parse;
 #[cfg(test)]
 mod tests;
+mod units;
 
 use proc_macro::TokenStream;
 use syn::{DeriveInput, parse_macro_input};
@@ -86,7 +87,7 @@ use syn::{DeriveInput, parse_macro_input};
 ///
 /// `#[free_energy(crate = path)]`, alone or in front of the closure, for a renamed or re-exported
 /// `eem`.
-#[proc_macro_derive(FreeEnergy, attributes(free_energy, viscosity))]
+#[proc_macro_derive(FreeEnergy, attributes(free_energy, viscosity, unit))]
 pub fn derive_free_energy(input: TokenStream) -> TokenStream {
     let input = parse_macro_input!(input as DeriveInput);
     derive::derive(&input).into()
