@@ -92,16 +92,27 @@ const ULP_OF_ENTROPY: f64 = 4.0 * f64::EPSILON;
 })]
 #[viscosity(gamma = eta0 * exp(a * (1 / theta - 1 / theta_ref)))]
 struct CreepingSpring {
+    #[unit("m")]
     natural_length: f64,
+    #[unit("K")]
     theta_ref: f64,
+    #[unit("N m")]
     k0: f64,
+    #[unit("N m/K")]
     k1: f64,
+    #[unit("N m/K")]
     thermal_coupling: f64,
+    #[unit("N m/K")]
     capacity: f64,
+    #[unit("1")]
     viscous_coupling: f64,
+    #[unit("N/m")]
     mu0: f64,
+    #[unit("N/(m K)")]
     mu1: f64,
+    #[unit("N s/m")]
     eta0: f64,
+    #[unit("K")]
     a: f64,
 }
 

@@ -19,7 +19,7 @@ pub(crate) fn derive(input: &DeriveInput) -> TokenStream {
 fn try_derive(cx: &Ctxt, input: &DeriveInput, attributes: &Attributes) -> syn::Result<TokenStream> {
     let parsed = cx.barrier(parse::input(cx, input, attributes))?;
     let checked = cx.barrier(check::check(cx, &parsed))?;
-    let _units = units::check(cx, &checked);
+    let units = units::check(cx, &checked);
     let model = cx.barrier(model::lower(cx, &checked))?;
-    Ok(expand::expand(&checked, &model))
+    Ok(expand::expand(&checked, &model, &units))
 }

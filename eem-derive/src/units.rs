@@ -34,10 +34,10 @@ pub(crate) struct Units {
 }
 
 impl Units {
-    /// The unit of a field, by its index in the struct.
-    pub(crate) fn of_field(&self, index: usize) -> Option<&Unit> {
+    /// The unit of a field as it was written, by the index of the field in the struct.
+    pub(crate) fn of_field(&self, index: usize) -> Option<&str> {
         match self.declarations.get(index)? {
-            Declaration::Unit(unit) => Some(unit),
+            Declaration::Unit(_, text) => Some(text),
             Declaration::Missing | Declaration::Unreadable => None,
         }
     }

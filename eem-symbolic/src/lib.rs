@@ -66,7 +66,7 @@ pub use number::{Number, Rational};
 pub use substitute::substitute;
 
 pub use interpret::{Arithmetic, F64};
-pub use model::{Formulas, Model, Programs};
+pub use model::{DifferenceFormula, Formulas, Model, Programs};
 pub use program::{
     Input, Instruction, Operation, OperationCount, Program, ProgramKernel, Stage, StageCount, Value,
 };

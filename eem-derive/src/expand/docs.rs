@@ -1,11 +1,13 @@
 //! The documentation of the generated code: the model as formulas, each function with its cost.
 
-use eem_symbolic::{Formulas, Model, Program, StageCount};
+use eem_symbolic::{Program, StageCount};
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::ast::{self, Role};
+use super::description::Equation;
+use crate::ast;
 use crate::checked::Checked;
+use crate::units::Units;
 
 /// Columns of a line in a formula block.
 const WIDTH: usize = 96;
@@ -20,62 +22,49 @@ const INDENT: usize = 4;
 //     /// ψ = …
 //     /// f = ∂ψ/∂lambda = …
 //     /// ```
-pub(super) fn formulas(checked: &Checked<'_>, model: &Model) -> TokenStream {
+//     ///
+//     /// | parameter | unit |
+//     /// |---|---|
+//     /// | `stiffness` | `N/m` |
+pub(super) fn formulas(
+    checked: &Checked<'_>,
+    equations: &[Equation],
+    units: &Units,
+) -> TokenStream {
     let mut lines = vec![
         "Generated from the free energy of the model:".to_owned(),
         String::new(),
         "```text".to_owned(),
     ];
-    for (left, right) in equations(checked, &model.formulas()) {
-        // A long formula comes with a list of definitions, one per line.
-        for line in format!("{left} = {right}").lines() {
-            wrap(line, &mut lines);
-        }
-    }
+    let equations = equations.iter().flat_map(|equation| &equation.lines);
+    lines.extend(equations.cloned());
     lines.push("```".to_owned());
+    lines.extend(table_of_units(checked, units));
     doc(lines)
 }
 
-/// Left and right sides, in the order in which a reader wants them.
-fn equations(checked: &Checked<'_>, formulas: &Formulas) -> Vec<(String, String)> {
-    let names = |role| {
-        let variables = checked.variables.iter().filter(move |v| v.role == role);
-        variables.map(|v| ast::name(v.ident))
-    };
-    let theta = names(Role::Temperature).next().unwrap_or_default();
-    let mut equations = vec![("ψ".to_owned(), formulas.free_energy.clone())];
-    if let Some(entropy) = &formulas.entropy {
-        equations.push((format!("s = −∂ψ/∂{theta}"), entropy.clone()));
-        let energy = formulas.internal_energy.clone();
-        equations.push((format!("e = ψ + {theta} s"), energy));
+/// Nothing for a model without units.
+fn table_of_units(checked: &Checked<'_>, units: &Units) -> Vec<String> {
+    let parameters = checked.parameters.iter();
+    let rows = parameters.filter_map(|parameter| {
+        let unit = units.of_field(parameter.field)?;
+        Some(format!("| `{}` | `{unit}` |", ast::name(parameter.ident)))
+    });
+    let rows: Vec<String> = rows.collect();
+    if rows.is_empty() {
+        return rows;
     }
-    for (name, force) in names(Role::Stretch).zip(&formulas.forces) {
-        equations.push((format!("f = ∂ψ/∂{name}"), force.clone()));
-    }
-    for (k, (name, force)) in names(Role::Viscous)
-        .zip(&formulas.dashpot_forces)
-        .enumerate()
-    {
-        let g = subscript("g", k, formulas.dashpot_forces.len());
-        equations.push((format!("{g} = −∂ψ/∂{name}"), force.clone()));
-    }
-    if let Some(capacity) = &formulas.heat_capacity {
-        equations.push((format!("c = {theta} ∂s/∂{theta}"), capacity.clone()));
-    }
-    for (k, viscosity) in formulas.viscosities.iter().enumerate() {
-        let eta = subscript("η", k, formulas.viscosities.len());
-        equations.push((eta, viscosity.clone()));
-    }
-    equations
+    let head = ["", "| parameter | unit |", "|---|---|"].map(str::to_owned);
+    head.into_iter().chain(rows).collect()
 }
 
-/// `symbol`, numbered from 1 if there are several.
-fn subscript(symbol: &str, index: usize, count: usize) -> String {
-    if count == 1 {
-        symbol.to_owned()
-    } else {
-        format!("{symbol}_{}", index + 1)
+/// A formula in lines; a long one comes with a list of definitions, one per line.
+pub(super) fn lines(formula: &str) -> Vec<String> {
+    let mut lines = Vec::new();
+    for line in formula.lines() {
+        wrap(line, &mut lines);
     }
+    lines
 }
 
 /// Appends a formula, broken in front of operators into lines of at most [`WIDTH`] columns where

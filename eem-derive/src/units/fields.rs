@@ -17,8 +17,8 @@ pub(super) enum Declaration {
     Missing,
     /// Something that has been reported.
     Unreadable,
-    /// A unit.
-    Unit(Unit),
+    /// A unit, and how it was written.
+    Unit(Unit, String),
 }
 
 /// The declarations of all named fields, in their order.
@@ -51,7 +51,7 @@ fn read_one(cx: &Ctxt, attribute: &Attribute) -> Declaration {
         return Declaration::Unreadable;
     };
     match grammar::parse(&text.value()) {
-        Ok(unit) => Declaration::Unit(unit),
+        Ok(unit) => Declaration::Unit(unit, text.value().trim().to_owned()),
         Err(message) => {
             cx.error(&text, &message);
             Declaration::Unreadable

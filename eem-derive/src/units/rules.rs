@@ -92,7 +92,7 @@ impl<'r> Rules<'r> {
         match &expr.kind {
             ExprKind::Number(number) => Some(Quantity::number(number.exact())),
             ExprKind::Parameter(field) => match self.units.declarations.get(*field)? {
-                Declaration::Unit(unit) => Some(Quantity::new(unit.clone())),
+                Declaration::Unit(unit, _) => Some(Quantity::new(unit.clone())),
                 Declaration::Missing => Some(Quantity::new(Unit::unknown(*field))),
                 Declaration::Unreadable => None,
             },

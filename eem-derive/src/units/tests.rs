@@ -94,7 +94,7 @@ fn units_are_printed_as_a_person_would() {
         "A",
         "m^2/(s^2 K)",
         "1/mm",
-        "N/m^3",
+        "Pa/m",
     ];
     for text in texts {
         assert_eq!(unit(text).to_string(), text);
