@@ -14,12 +14,8 @@ use core::fmt::{self, Display, Formatter};
 ///
 /// impl Describe for Rubber {
 ///     const DESCRIPTION: Description = Description {
-///         arguments: &[describe::Argument { name: "lambda", role: "Stretch", unit: "m" }],
-///         formulas: &[describe::Formula {
-///             symbol: "ψ",
-///             equation: "ψ = 5*lambda^2",
-///             unit: "J",
-///         }],
+///         arguments: &[describe::Argument::new("lambda", "Stretch", "m")],
+///         formulas: &[describe::Formula::new("ψ", "ψ = 5*lambda^2", "J")],
 ///         ..Description::new("Rubber")
 ///     };
 /// }
@@ -33,7 +29,7 @@ pub trait Describe {
     const DESCRIPTION: Description;
 }
 
-/// A model in print; [`Display`] shows all of it.
+/// A model in print; `Display` shows all of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Description {
     /// The name of the type.
@@ -114,6 +110,53 @@ impl Description {
         let mut formulas = self.formulas.iter().chain(self.divided_differences);
         let formula = formulas.find(|formula| formula.symbol == symbol);
         formula.map(|formula| formula.equation)
+    }
+}
+
+impl Argument {
+    /// An argument and its unit.
+    #[must_use]
+    pub const fn new(name: &'static str, role: &'static str, unit: &'static str) -> Self {
+        Self { name, role, unit }
+    }
+}
+
+impl Parameter {
+    /// A parameter with a unit.
+    #[must_use]
+    pub const fn new(name: &'static str, unit: &'static str) -> Self {
+        let unit = Some(unit);
+        Self { name, unit }
+    }
+
+    /// A parameter of a model without units.
+    #[must_use]
+    pub const fn without_unit(name: &'static str) -> Self {
+        Self { name, unit: None }
+    }
+}
+
+impl Formula {
+    /// A formula and the unit of both sides.
+    #[must_use]
+    pub const fn new(symbol: &'static str, equation: &'static str, unit: &'static str) -> Self {
+        Self {
+            symbol,
+            equation,
+            unit,
+        }
+    }
+}
+
+impl Cost {
+    /// Operations of a function.
+    #[must_use]
+    pub const fn new(function: &'static str, per_step: usize, per_call: usize) -> Self {
+        Self {
+            function,
+            per_step,
+            per_call,
+        }
     }
 }
 

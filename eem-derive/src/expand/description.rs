@@ -57,18 +57,17 @@ fn arguments(checked: &Checked<'_>) -> impl Iterator<Item = TokenStream> {
     checked.variables.iter().map(|variable| {
         let (name, role) = (ast::name(variable.ident), variable.role.name());
         let unit = units::of_role(variable.role).to_string();
-        quote! { __eem::describe::Argument { name: #name, role: #role, unit: #unit } }
+        quote! { __eem::describe::Argument::new(#name, #role, #unit) }
     })
 }
 
 fn parameters(checked: &Checked<'_>, units: &Units) -> impl Iterator<Item = TokenStream> {
     checked.parameters.iter().map(|parameter| {
         let name = ast::name(parameter.ident);
-        let unit = match units.of_field(parameter.field) {
-            Some(unit) => quote! { __eem::core::option::Option::Some(#unit) },
-            None => quote! { __eem::core::option::Option::None },
-        };
-        quote! { __eem::describe::Parameter { name: #name, unit: #unit } }
+        match units.of_field(parameter.field) {
+            Some(unit) => quote! { __eem::describe::Parameter::new(#name, #unit) },
+            None => quote! { __eem::describe::Parameter::without_unit(#name) },
+        }
     })
 }
 
@@ -93,9 +92,7 @@ impl Equation {
     fn tokens(&self) -> TokenStream {
         let (symbol, unit) = (&self.symbol, &self.unit);
         let equation = self.lines.join("\n");
-        quote! {
-            __eem::describe::Formula { symbol: #symbol, equation: #equation, unit: #unit }
-        }
+        quote! { __eem::describe::Formula::new(#symbol, #equation, #unit) }
     }
 }
 
@@ -204,7 +201,5 @@ fn cost(function: &str, program: &Program, two_states: bool) -> TokenStream {
         (0, old + new)
     };
     let [step, call] = [step, call].map(Literal::usize_unsuffixed);
-    quote! {
-        __eem::describe::Cost { function: #function, per_step: #step, per_call: #call }
-    }
+    quote! { __eem::describe::Cost::new(#function, #step, #call) }
 }

@@ -68,40 +68,63 @@ pub(super) fn lines(formula: &str) -> Vec<String> {
 }
 
 /// Appends a formula, broken in front of operators into lines of at most [`WIDTH`] columns where
-/// possible: outside of parentheses rather than inside, late rather than early. What is deeper in
-/// parentheses is indented more.
+/// possible: outside of parentheses rather than inside, sums rather than products, late rather than
+/// early. What is deeper in parentheses is indented more.
 fn wrap(formula: &str, lines: &mut Vec<String>) {
     let mut rest: Vec<char> = formula.chars().collect();
     let (mut indent, mut depth) = (0, 0);
     while rest.len() > WIDTH {
-        let Some((deeper, at)) = break_point(&rest, indent) else {
+        let Some(Break { deeper, at, .. }) = break_point(&rest, indent) else {
             break;
         };
         depth += deeper;
         indent = INDENT * usize::try_from(1 + depth).unwrap_or(1);
         lines.push(rest[..at].iter().collect());
-        // The blank goes, the operator leads the next line.
-        rest = [vec![' '; indent], rest.split_off(at + 1)].concat();
+        let tail = rest.split_off(at).into_iter().skip_while(|&c| c == ' ');
+        // The operator leads the next line.
+        rest = vec![' '; indent];
+        rest.extend(tail);
     }
     lines.push(rest.into_iter().collect());
 }
 
-/// The best blank to break at, and how many more parentheses are open there than at the start.
-fn break_point(line: &[char], indent: usize) -> Option<(i32, usize)> {
-    let mut depth = 0;
-    let mut best: Option<(i32, usize)> = None;
-    for at in indent + 1..=WIDTH {
-        match line[at] {
-            '(' | '[' => depth += 1,
-            ')' | ']' => depth -= 1,
-            ' ' if matches!(line[at + 1..], ['+' | '-', ' ', ..]) => {
-                // In the first half only what is outside of everything.
-                let late = 2 * at > WIDTH;
-                if (late || depth <= 0) && best.is_none_or(|(best, _)| depth <= best) {
-                    best = Some((depth, at));
-                }
+/// A place to break a line.
+#[derive(Clone, Copy)]
+struct Break {
+    /// How many more parentheses are open there than at the start.
+    deeper: i32,
+    /// In front of `*` and not of `+` or `-`.
+    product: bool,
+    at: usize,
+}
+
+/// The best place to break a line; the first one if all are too late.
+fn break_point(line: &[char], indent: usize) -> Option<Break> {
+    let mut deeper = 0;
+    let mut best: Option<Break> = None;
+    for at in indent + 1..line.len() {
+        if at > WIDTH && best.is_some() {
+            break;
+        }
+        let product = match line[at..] {
+            [' ', '+' | '-', ' ', ..] => false,
+            ['*', ..] => true,
+            [c, ..] => {
+                deeper += i32::from("([".contains(c)) - i32::from(")]".contains(c));
+                continue;
             }
-            _ => {}
+            [] => break,
+        };
+        // Early breaks are for what is outside of everything, and not for single letters.
+        let early = if product { 4 * at <= WIDTH } else { false };
+        let late = 2 * at > WIDTH;
+        let better = |best: Break| (deeper, product) <= (best.deeper, best.product);
+        if (late || (deeper <= 0 && !early)) && best.is_none_or(better) {
+            best = Some(Break {
+                deeper,
+                product,
+                at,
+            });
         }
     }
     best

@@ -60,9 +60,9 @@ pub(crate) fn power_stars(text: &str) -> Message {
     unreadable(text, "a power is written with `^`, as in `m^2`")
 }
 
-pub(crate) fn minus(symbol: &str) -> Message {
+pub(crate) fn minus(text: &str, symbol: &str) -> Message {
     unreadable(
-        &format!("{symbol}-"),
+        text,
         format!("a negative power is written `{symbol}^-1` or `1/{symbol}`"),
     )
 }
@@ -149,16 +149,19 @@ pub(crate) fn number_with_unit(number: &str, unit: &Unit) -> String {
     format!("make `{number}` a field with `#[unit(\"{unit}\")]`: numbers in a formula have no unit")
 }
 
-/// Help for units that differ by a factor; `unit` is the one with a scale.
-pub(crate) fn scales_differ(unit: &Unit) -> String {
+/// Help for units that differ by a factor, if a field brings it in.
+pub(crate) fn field_with_scale(field: &str, unit: &Unit) -> String {
     let coherent = unit.coherent();
     if coherent.is_one() {
-        return "units in it differ by this factor: give all values in the same unit".to_owned();
+        return format!("`{field}` converts by {}: use it once", unit.expanded());
     }
-    format!(
-        "1 {unit} is {}: give the value in {coherent}",
-        unit.expanded()
-    )
+    let scaled = unit.expanded();
+    format!("`{field}` is in {unit}, and 1 {unit} is {scaled}: give it in {coherent}")
+}
+
+/// Help for units that differ by a factor, if all fields are in coherent units.
+pub(crate) fn scales_differ(unit: &Unit) -> String {
+    format!("1 {unit} is {}", unit.expanded())
 }
 
 /// Help for units that differ: the quotient of what is wanted and what is `found`, by name.

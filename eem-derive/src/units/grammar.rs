@@ -110,7 +110,7 @@ impl Parser<'_> {
     fn symbol(&mut self) -> Result<Unit, Message> {
         let symbol = self.take(|c| is_symbol(c) || c.is_ascii_digit());
         if self.chars.peek() == Some(&'-') {
-            return Err(message::minus(&symbol));
+            return Err(message::minus(self.text, &symbol));
         }
         table::lookup(&symbol).ok_or_else(|| message::unknown(&symbol, table::advice(&symbol)))
     }

@@ -1,5 +1,8 @@
 //! The rules: what every operation demands of the units of its operands, and the unit it yields.
 
+mod function;
+mod sum;
+
 use eem_symbolic::{Function, Rational};
 
 use super::excerpt::excerpt;
@@ -7,7 +10,7 @@ use super::fields::Declaration;
 use super::unit::Unit;
 use super::unknowns::Unknowns;
 use super::{Units, of_role};
-use crate::ast::Operator;
+use crate::ast::{self, Operator};
 use crate::checked::{Body, Checked, Expr, ExprKind};
 use crate::ctxt::Ctxt;
 use crate::message::unit::{self as message, Side};
@@ -45,7 +48,9 @@ pub(super) struct Rules<'r> {
     units: &'r Units,
     /// The units of fields that have none, as far as the formulas say them.
     pub(super) unknowns: Unknowns,
-    /// The bindings of the current body; nothing where an error was reported.
+    /// The bindings of the current body as they were written.
+    written: &'r [Expr<'r>],
+    /// What is known of them; nothing where an error was reported.
     bindings: Vec<Option<Quantity>>,
 }
 
@@ -56,12 +61,20 @@ impl<'r> Rules<'r> {
             checked,
             units,
             unknowns: Unknowns::default(),
+            written: &[],
             bindings: Vec::new(),
         }
     }
 
     /// A free energy is in J, a viscosity in N s/m.
-    pub(super) fn body(&mut self, what: &str, wanted_text: &str, wanted: &Unit, body: &Body<'_>) {
+    pub(super) fn body(
+        &mut self,
+        what: &str,
+        wanted_text: &str,
+        wanted: &Unit,
+        body: &'r Body<'r>,
+    ) {
+        self.written = &body.bindings;
         self.bindings.clear();
         for binding in &body.bindings {
             let quantity = self.quantity(binding);
@@ -79,7 +92,7 @@ impl<'r> Rules<'r> {
             unit: &found.unit,
         };
         let help = if found.unit.coherent() == *wanted {
-            message::scales_differ(&found.unit)
+            self.scales_differ(&found.unit, &[&body.value])
         } else {
             message::factor_is_missing("it", wanted, &found.unit)
         };
@@ -147,141 +160,6 @@ impl<'r> Rules<'r> {
         }
     }
 
-    /// Both sides of a sum have the same unit.
-    fn sum(
-        &mut self,
-        expr: &Expr<'_>,
-        operator: Operator,
-        sides: [&Expr<'_>; 2],
-        [a, b]: [Quantity; 2],
-    ) -> Option<Quantity> {
-        let difference = operator == Operator::Subtract;
-        let pair = a.value.zip(b.value);
-        let value = pair.and_then(|(a, b)| a.checked_add(if difference { -b } else { b }));
-        if a.is_zero() || b.is_zero() {
-            let unit = if a.is_zero() { b.unit } else { a.unit };
-            return Some(Quantity { unit, value });
-        }
-        if self.agree(expr, &a.unit, &b.unit)? {
-            return Some(Quantity {
-                unit: a.unit,
-                value,
-            });
-        }
-        let texts = sides.map(|side| excerpt(side.original));
-        let help = if is_number(sides[1]) {
-            message::number_with_unit(&texts[1], &a.unit)
-        } else if is_number(sides[0]) {
-            message::number_with_unit(&texts[0], &b.unit)
-        } else if a.unit.coherent() == b.unit.coherent() {
-            let scaled = if b.unit.scale().is_one() {
-                &a.unit
-            } else {
-                &b.unit
-            };
-            message::scales_differ(scaled)
-        } else {
-            message::factor_is_missing("the right side", &a.unit, &b.unit)
-        };
-        let [left, right] = [(&texts[0], &a.unit), (&texts[1], &b.unit)];
-        let [left, right] = [left, right].map(|(text, unit)| Side { text, unit });
-        let message = message::sum(difference, &left, &right, help);
-        match operator_token(expr.original) {
-            Some(operator) => self.cx.error(operator, &message),
-            None => self.cx.error(expr.original, &message),
-        }
-        None
-    }
-
-    fn product(
-        &self,
-        expr: &Expr<'_>,
-        operator: Operator,
-        a: &Quantity,
-        b: &Quantity,
-    ) -> Option<Quantity> {
-        let pair = a.value.zip(b.value);
-        let (unit, value) = if operator == Operator::Divide {
-            let value = pair.and_then(|(a, b)| a.checked_div(b));
-            (a.unit.over(&b.unit), value)
-        } else {
-            let value = pair.and_then(|(a, b)| a.checked_mul(b));
-            (a.unit.times(&b.unit), value)
-        };
-        let zero = a.is_zero() || (b.is_zero() && operator != Operator::Divide);
-        Some(Quantity {
-            unit: self.fits(expr, unit)?,
-            value: if zero { Some(Rational::ZERO) } else { value },
-        })
-    }
-
-    fn root(&mut self, expr: &Expr<'_>, inner: &Expr<'_>, degree: i128) -> Option<Quantity> {
-        let Quantity { unit, value } = self.quantity(inner)?;
-        let exponent = Rational::new(1, degree)?;
-        Some(Quantity {
-            unit: self.fits(expr, unit.power(exponent))?,
-            value: value.filter(|value| value.is_zero()),
-        })
-    }
-
-    /// The argument of a transcendental function is a pure number.
-    fn argument(&mut self, function: &str, inner: &Expr<'_>) -> Option<()> {
-        let argument = self.quantity(inner)?;
-        if argument.is_zero() || self.agree(inner, &argument.unit, &Unit::one())? {
-            return Some(());
-        }
-        let text = excerpt(inner.original);
-        let side = Side {
-            text: &text,
-            unit: &argument.unit,
-        };
-        let help = if argument.unit.coherent().is_one() {
-            message::scales_differ(&argument.unit)
-        } else {
-            message::divide_by_reference(&side)
-        };
-        let message = message::function_of_unit(function, &side, help);
-        self.cx.error(inner.original, &message);
-        None
-    }
-
-    /// An exponent is a pure number, and one that the compiler knows unless the base is one too.
-    fn power(
-        &mut self,
-        expr: &Expr<'_>,
-        sides: [&Expr<'_>; 2],
-        base: &Quantity,
-        exponent: &Quantity,
-    ) -> Option<Quantity> {
-        let texts = sides.map(|side| excerpt(side.original));
-        if !self.agree(sides[1], &exponent.unit, &Unit::one())? {
-            let side = Side {
-                text: &texts[1],
-                unit: &exponent.unit,
-            };
-            let message = message::exponent_with_unit(&side);
-            self.cx.error(sides[1].original, &message);
-            return None;
-        }
-        if let Some(exponent) = exponent.value {
-            let power = |value: Rational| value.checked_powi(exponent.to_i32()?);
-            return Some(Quantity {
-                unit: self.fits(expr, base.unit.power(exponent))?,
-                value: base.value.and_then(power),
-            });
-        }
-        if !self.agree(sides[0], &base.unit, &Unit::one())? {
-            let side = Side {
-                text: &texts[0],
-                unit: &base.unit,
-            };
-            let message = message::power_of_unit(&side, &texts[1]);
-            self.cx.error(sides[0].original, &message);
-            return None;
-        }
-        Some(Quantity::number(None))
-    }
-
     /// Whether two units are equal. Where the unit of a field is unknown they are, and this says
     /// something about it; nothing if what it says is not consistent.
     fn agree(&mut self, expr: &Expr<'_>, a: &Unit, b: &Unit) -> Option<bool> {
@@ -294,30 +172,47 @@ impl<'r> Rules<'r> {
         (a == b).then_some(true)
     }
 
+    /// Help where units differ by a factor only: the first field that brings one in, if there is one.
+    fn scales_differ(&self, unit: &Unit, exprs: &[&Expr<'_>]) -> String {
+        let field = exprs.iter().find_map(|expr| self.scaled_field(expr));
+        let names = self.checked.parameters.iter();
+        let found = field.and_then(|(index, unit)| {
+            let mut of_field = names.filter(|parameter| parameter.field == index);
+            Some((ast::name(of_field.next()?.ident), unit))
+        });
+        match found {
+            Some((name, unit)) => message::field_with_scale(&name, unit),
+            None => message::scales_differ(unit),
+        }
+    }
+
+    /// The first field in an expression whose unit is not coherent.
+    fn scaled_field(&self, expr: &Expr<'_>) -> Option<(usize, &'r Unit)> {
+        let first = |exprs: &[&Expr<'_>]| exprs.iter().find_map(|expr| self.scaled_field(expr));
+        match &expr.kind {
+            ExprKind::Number(_) | ExprKind::Variable(_) => None,
+            ExprKind::Parameter(index) => match self.units.declarations.get(*index)? {
+                Declaration::Unit(unit, _) if !unit.scale().is_one() => Some((*index, unit)),
+                Declaration::Unit(..) | Declaration::Missing | Declaration::Unreadable => None,
+            },
+            ExprKind::Binding(index) => self.scaled_field(self.written.get(*index)?),
+            ExprKind::Negate(inner)
+            | ExprKind::Sqrt(inner)
+            | ExprKind::Recip(inner)
+            | ExprKind::Abs(_, inner)
+            | ExprKind::Apply(_, inner)
+            | ExprKind::Diff(inner, _) => self.scaled_field(inner),
+            ExprKind::Binary(_, a, b) | ExprKind::Powi(a, b) | ExprKind::Powf(a, b) => {
+                first(&[a, b])
+            }
+        }
+    }
+
     /// Exponents beyond 128 bits are reported.
     fn fits<T>(&self, expr: &Expr<'_>, unit: Option<T>) -> Option<T> {
         if unit.is_none() {
             self.cx.error(expr.original, &message::beyond_measure());
         }
         unit
-    }
-}
-
-/// A literal, with or without sign.
-fn is_number(expr: &Expr<'_>) -> bool {
-    match &expr.kind {
-        ExprKind::Number(_) => true,
-        ExprKind::Negate(inner) => is_number(inner),
-        _ => false,
-    }
-}
-
-/// The operator of a sum, without the parentheses around it.
-fn operator_token(expr: &syn::Expr) -> Option<&syn::BinOp> {
-    match expr {
-        syn::Expr::Binary(binary) => Some(&binary.op),
-        syn::Expr::Paren(paren) => operator_token(&paren.expr),
-        syn::Expr::Group(group) => operator_token(&group.expr),
-        _ => None,
     }
 }
