@@ -64,10 +64,11 @@ fn arguments(checked: &Checked<'_>) -> impl Iterator<Item = TokenStream> {
 fn parameters(checked: &Checked<'_>, units: &Units) -> impl Iterator<Item = TokenStream> {
     checked.parameters.iter().map(|parameter| {
         let name = ast::name(parameter.ident);
-        match units.of_field(parameter.field) {
-            Some(unit) => quote! { __eem::describe::Parameter::new(#name, #unit) },
-            None => quote! { __eem::describe::Parameter::without_unit(#name) },
-        }
+        let unit = units.of_field(parameter.field);
+        unit.map_or_else(
+            || quote! { __eem::describe::Parameter::without_unit(#name) },
+            |unit| quote! { __eem::describe::Parameter::new(#name, #unit) },
+        )
     })
 }
 

@@ -74,11 +74,19 @@ fn wrap(formula: &str, lines: &mut Vec<String>) {
     let mut rest: Vec<char> = formula.chars().collect();
     let (mut indent, mut depth) = (0, 0);
     while rest.len() > WIDTH {
-        let Some(Break { deeper, at, .. }) = break_point(&rest, indent) else {
+        let Some(Break {
+            deeper,
+            product,
+            at,
+        }) = break_point(&rest, indent)
+        else {
             break;
         };
         depth += deeper;
         indent = INDENT * usize::try_from(1 + depth).unwrap_or(1);
+        if product {
+            indent += INDENT / 2;
+        }
         lines.push(rest[..at].iter().collect());
         let tail = rest.split_off(at).into_iter().skip_while(|&c| c == ' ');
         // The operator leads the next line.

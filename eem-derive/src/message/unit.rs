@@ -119,9 +119,10 @@ impl Side<'_> {
     }
 
     fn name(&self) -> String {
-        match self.unit.coherent().is_one() {
-            true => self.phrase(),
-            false => self.unit.to_string(),
+        if self.unit.coherent().is_one() {
+            self.phrase()
+        } else {
+            self.unit.to_string()
         }
     }
 }
@@ -149,19 +150,15 @@ pub(crate) fn number_with_unit(number: &str, unit: &Unit) -> String {
     format!("make `{number}` a field with `#[unit(\"{unit}\")]`: numbers in a formula have no unit")
 }
 
-/// Help for units that differ by a factor, if a field brings it in.
+/// Help for units that differ by a factor, which a field brings in.
 pub(crate) fn field_with_scale(field: &str, unit: &Unit) -> String {
     let coherent = unit.coherent();
     if coherent.is_one() {
-        return format!("`{field}` converts by {}: use it once", unit.expanded());
+        let scale = unit.expanded();
+        return format!("the factor comes with `{field}`, whose unit is {scale}: use it once");
     }
     let scaled = unit.expanded();
     format!("`{field}` is in {unit}, and 1 {unit} is {scaled}: give it in {coherent}")
-}
-
-/// Help for units that differ by a factor, if all fields are in coherent units.
-pub(crate) fn scales_differ(unit: &Unit) -> String {
-    format!("1 {unit} is {}", unit.expanded())
 }
 
 /// Help for units that differ: the quotient of what is wanted and what is `found`, by name.

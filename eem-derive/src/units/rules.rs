@@ -91,11 +91,9 @@ impl<'r> Rules<'r> {
             text: &text,
             unit: &found.unit,
         };
-        let help = if found.unit.coherent() == *wanted {
-            self.scales_differ(&found.unit, &[&body.value])
-        } else {
-            message::factor_is_missing("it", wanted, &found.unit)
-        };
+        let same = found.unit.coherent() == *wanted;
+        let scale = same.then(|| self.scale_help(&[&body.value])).flatten();
+        let help = scale.unwrap_or_else(|| message::factor_is_missing("it", wanted, &found.unit));
         let message = message::whole(what, wanted_text, &side, help);
         self.cx.error(body.value.original, &message);
     }
@@ -172,18 +170,12 @@ impl<'r> Rules<'r> {
         (a == b).then_some(true)
     }
 
-    /// Help where units differ by a factor only: the first field that brings one in, if there is one.
-    fn scales_differ(&self, unit: &Unit, exprs: &[&Expr<'_>]) -> String {
-        let field = exprs.iter().find_map(|expr| self.scaled_field(expr));
-        let names = self.checked.parameters.iter();
-        let found = field.and_then(|(index, unit)| {
-            let mut of_field = names.filter(|parameter| parameter.field == index);
-            Some((ast::name(of_field.next()?.ident), unit))
-        });
-        match found {
-            Some((name, unit)) => message::field_with_scale(&name, unit),
-            None => message::scales_differ(unit),
-        }
+    /// Help where units differ by a factor only: the first field that brings one in.
+    fn scale_help(&self, exprs: &[&Expr<'_>]) -> Option<String> {
+        let (index, unit) = exprs.iter().find_map(|expr| self.scaled_field(expr))?;
+        let mut parameters = self.checked.parameters.iter();
+        let parameter = parameters.find(|parameter| parameter.field == index)?;
+        Some(message::field_with_scale(&ast::name(parameter.ident), unit))
     }
 
     /// The first field in an expression whose unit is not coherent.

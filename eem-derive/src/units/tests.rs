@@ -2,6 +2,7 @@
 
 use eem_symbolic::Rational;
 use proptest::prelude::*;
+use syn::{Data, DeriveInput, Field, parse_quote};
 
 use super::grammar::parse;
 use super::unit::{Base, Unit};
@@ -144,6 +145,84 @@ fn exponents_beyond_128_bits_are_refused() {
     let nested = (0..40).fold("m".to_owned(), |unit, _| format!("({unit})^(98/99)"));
     let message = parse(&nested).expect_err("this does not fit").to_string();
     assert!(message.contains("an exponent is"), "{message}");
+}
+
+/// The thermo-visco-elastic pendulum of García Orden & Romero (2012), §4.1, and its units.
+fn pendulum() -> DeriveInput {
+    parse_quote! {
+        #[free_energy(|lambda: Stretch, gamma: Viscous, theta: Temperature| {
+            let strain = ln(lambda / length);
+            let heating = theta - theta_ref;
+            let elastic = 0.5 * (k0 - k1 * heating) * strain.powi(2) - beta * heating * strain
+                + capacity * (heating - theta * ln(theta / theta_ref));
+            (1.0 + ratio) * elastic + (mu0 - mu1 * heating) * gamma.powi(2)
+                - ratio * gamma * diff(elastic, lambda)
+        })]
+        #[viscosity(gamma = eta0 * exp(activation * (1.0 / theta - 1.0 / theta_ref)))]
+        struct Pendulum {
+            #[unit("m")] length: f64,
+            #[unit("J")] k0: f64,
+            #[unit("J/K")] k1: f64,
+            #[unit("1")] ratio: f64,
+            #[unit("J/K")] beta: f64,
+            #[unit("J/K")] capacity: f64,
+            #[unit("N/m")] mu0: f64,
+            #[unit("N/(m K)")] mu1: f64,
+            #[unit("N s/m")] eta0: f64,
+            #[unit("K")] activation: f64,
+            #[unit("K")] theta_ref: f64,
+        }
+    }
+}
+
+/// The expansion of the pendulum with one field changed, for every field and its unit.
+fn changed(change: impl Fn(&mut Field)) -> Vec<(String, String)> {
+    let count = pendulum_fields(&mut pendulum()).count();
+    let model = |index| {
+        let mut model = pendulum();
+        let field = pendulum_fields(&mut model).nth(index).unwrap();
+        let unit: syn::LitStr = field.attrs[0].parse_args().unwrap();
+        change(field);
+        (unit.value(), crate::derive::derive(&model).to_string())
+    };
+    (0..count).map(model).collect()
+}
+
+fn pendulum_fields(model: &mut DeriveInput) -> impl Iterator<Item = &mut Field> {
+    let Data::Struct(data) = &mut model.data else {
+        panic!("the pendulum is a struct");
+    };
+    data.fields.iter_mut()
+}
+
+#[test]
+fn the_unit_of_any_field_follows_from_the_others() {
+    for (unit, expansion) in changed(|field| field.attrs.clear()) {
+        let needs = format!("the formula needs `#[unit(\\\"{unit}\\\")]`");
+        assert!(expansion.contains(&needs), "{needs}: {expansion:.400}");
+        assert_eq!(expansion.matches("compile_error").count(), 1);
+    }
+}
+
+#[test]
+fn the_units_of_all_fields_follow_from_one() {
+    let mut model = pendulum();
+    pendulum_fields(&mut model)
+        .skip(1)
+        .for_each(|field| field.attrs.clear());
+    let expansion = crate::derive::derive(&model).to_string();
+    assert_eq!(expansion.matches("the formula needs").count(), 10);
+}
+
+#[test]
+fn any_wrong_unit_is_noticed() {
+    let candela: syn::Attribute = parse_quote!(#[unit("cd")]);
+    for (unit, expansion) in changed(|field| field.attrs = vec![candela.clone()]) {
+        assert!(expansion.contains("compile_error"), "cd instead of {unit}");
+    }
+    for (unit, expansion) in changed(|_| ()) {
+        assert!(!expansion.contains("compile_error"), "{unit}");
+    }
 }
 
 fn exponent() -> impl Strategy<Value = Rational> {

@@ -35,11 +35,9 @@ impl Rules<'_> {
             text: &text,
             unit: &argument.unit,
         };
-        let help = if argument.unit.coherent().is_one() {
-            self.scales_differ(&argument.unit, &[inner])
-        } else {
-            message::divide_by_reference(&side)
-        };
+        let same = argument.unit.coherent().is_one();
+        let scale = same.then(|| self.scale_help(&[inner])).flatten();
+        let help = scale.unwrap_or_else(|| message::divide_by_reference(&side));
         let message = message::function_of_unit(function, &side, help);
         self.cx.error(inner.original, &message);
         None

@@ -35,15 +35,12 @@ impl Rules<'_> {
             message::number_with_unit(&texts[1], &a.unit)
         } else if is_number(sides[0]) {
             message::number_with_unit(&texts[0], &b.unit)
-        } else if a.unit.coherent() == b.unit.coherent() {
-            let [(first, first_unit), (second, _)] = if b.unit.scale().is_one() {
-                [(sides[0], &a.unit), (sides[1], &b.unit)]
-            } else {
-                [(sides[1], &b.unit), (sides[0], &a.unit)]
-            };
-            self.scales_differ(first_unit, &[first, second])
         } else {
-            message::factor_is_missing("the right side", &a.unit, &b.unit)
+            let same = a.unit.coherent() == b.unit.coherent();
+            let first = usize::from(!b.unit.scale().is_one());
+            let scaled = [sides[first], sides[1 - first]];
+            let scale = same.then(|| self.scale_help(&scaled)).flatten();
+            scale.unwrap_or_else(|| message::factor_is_missing("the right side", &a.unit, &b.unit))
         };
         let [left, right] = [(&texts[0], &a.unit), (&texts[1], &b.unit)];
         let [left, right] = [left, right].map(|(text, unit)| Side { text, unit });
