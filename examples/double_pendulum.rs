@@ -33,6 +33,9 @@
 //! Betsch (2011), who set the first two, and after the logarithmic stiffness of the third. The
 //! third is also example 2 of Kern, Romero, Conde Martín & García Orden (2021).
 //!
+//! The source gives the data of the first two cases without units; they are read here in those of the
+//! table, in which ψ is in J. The strain ln(λ/λ0) is a pure number, so that stiffnesses are energies.
+//!
 //! What the example claims, and fails without: every energy–entropy–momentum scheme reaches the
 //! end, keeps energy and angular momentum to rounding, and loses no entropy in any step.
 

@@ -147,32 +147,8 @@ fn exponents_beyond_128_bits_are_refused() {
     assert!(message.contains("an exponent is"), "{message}");
 }
 
-/// The thermo-visco-elastic pendulum of García Orden & Romero (2012), §4.1, and its units.
 fn pendulum() -> DeriveInput {
-    parse_quote! {
-        #[free_energy(|lambda: Stretch, gamma: Viscous, theta: Temperature| {
-            let strain = ln(lambda / length);
-            let heating = theta - theta_ref;
-            let elastic = 0.5 * (k0 - k1 * heating) * strain.powi(2) - beta * heating * strain
-                + capacity * (heating - theta * ln(theta / theta_ref));
-            (1.0 + ratio) * elastic + (mu0 - mu1 * heating) * gamma.powi(2)
-                - ratio * gamma * diff(elastic, lambda)
-        })]
-        #[viscosity(gamma = eta0 * exp(activation * (1.0 / theta - 1.0 / theta_ref)))]
-        struct Pendulum {
-            #[unit("m")] length: f64,
-            #[unit("J")] k0: f64,
-            #[unit("J/K")] k1: f64,
-            #[unit("1")] ratio: f64,
-            #[unit("J/K")] beta: f64,
-            #[unit("J/K")] capacity: f64,
-            #[unit("N/m")] mu0: f64,
-            #[unit("N/(m K)")] mu1: f64,
-            #[unit("N s/m")] eta0: f64,
-            #[unit("K")] activation: f64,
-            #[unit("K")] theta_ref: f64,
-        }
-    }
+    syn::parse2(crate::tests::pendulum()).unwrap()
 }
 
 /// The expansion of the pendulum with one field changed, for every field and its unit.
