@@ -21,17 +21,23 @@ struct Quantity {
     unit: Unit,
     /// Its value, if it is a number.
     value: Option<Rational>,
+    /// The first field in it that has a scale, to blame where scales differ.
+    scaled: Option<usize>,
 }
 
 impl Quantity {
     fn new(unit: Unit) -> Self {
-        Self { unit, value: None }
+        Self {
+            unit,
+            value: None,
+            scaled: None,
+        }
     }
 
     fn number(value: Option<Rational>) -> Self {
         Self {
-            unit: Unit::one(),
             value,
+            ..Self::new(Unit::one())
         }
     }
 
@@ -48,9 +54,7 @@ pub(super) struct Rules<'r> {
     units: &'r Units,
     /// The units of fields that have none, as far as the formulas say them.
     pub(super) unknowns: Unknowns,
-    /// The bindings of the current body as they were written.
-    written: &'r [Expr<'r>],
-    /// What is known of them; nothing where an error was reported.
+    /// The bindings of the current body; nothing where an error was reported.
     bindings: Vec<Option<Quantity>>,
 }
 
@@ -61,20 +65,12 @@ impl<'r> Rules<'r> {
             checked,
             units,
             unknowns: Unknowns::default(),
-            written: &[],
             bindings: Vec::new(),
         }
     }
 
     /// A free energy is in J, a viscosity in N s/m.
-    pub(super) fn body(
-        &mut self,
-        what: &str,
-        wanted_text: &str,
-        wanted: &Unit,
-        body: &'r Body<'r>,
-    ) {
-        self.written = &body.bindings;
+    pub(super) fn body(&mut self, what: &str, wanted_text: &str, wanted: &Unit, body: &Body<'_>) {
         self.bindings.clear();
         for binding in &body.bindings {
             let quantity = self.quantity(binding);
@@ -92,7 +88,7 @@ impl<'r> Rules<'r> {
             unit: &found.unit,
         };
         let same = found.unit.coherent() == *wanted;
-        let scale = same.then(|| self.scale_help(&[&body.value])).flatten();
+        let scale = same.then(|| self.scale_help(found.scaled)).flatten();
         let help = scale.unwrap_or_else(|| message::factor_is_missing("it", wanted, &found.unit));
         let message = message::whole(what, wanted_text, &side, help);
         self.cx.error(body.value.original, &message);
@@ -103,7 +99,10 @@ impl<'r> Rules<'r> {
         match &expr.kind {
             ExprKind::Number(number) => Some(Quantity::number(number.exact())),
             ExprKind::Parameter(field) => match self.units.declarations.get(*field)? {
-                Declaration::Unit(unit, _) => Some(Quantity::new(unit.clone())),
+                Declaration::Unit(unit, _) => Some(Quantity {
+                    scaled: (!unit.scale().is_one()).then_some(*field),
+                    ..Quantity::new(unit.clone())
+                }),
                 Declaration::Missing => Some(Quantity::new(Unit::unknown(*field))),
                 Declaration::Unreadable => None,
             },
@@ -113,9 +112,9 @@ impl<'r> Rules<'r> {
             }
             ExprKind::Binding(index) => self.bindings.get(*index)?.clone(),
             ExprKind::Negate(inner) => {
-                let Quantity { unit, value } = self.quantity(inner)?;
-                let value = value.map(|value| -value);
-                Some(Quantity { unit, value })
+                let inner = self.quantity(inner)?;
+                let value = inner.value.map(|value| -value);
+                Some(Quantity { value, ..inner })
             }
             ExprKind::Binary(operator, left, right) => {
                 let (a, b) = (self.quantity(left), self.quantity(right));
@@ -135,8 +134,9 @@ impl<'r> Rules<'r> {
                 self.product(expr, Operator::Divide, &one, &inner)
             }
             ExprKind::Abs(_, inner) => {
-                let unit = self.quantity(inner)?.unit;
-                Some(Quantity::new(unit))
+                let inner = self.quantity(inner)?;
+                let value = inner.value.map(|value| value.max(-value));
+                Some(Quantity { value, ..inner })
             }
             ExprKind::Apply(Function::Cbrt, inner) => self.root(expr, inner, 3),
             ExprKind::Apply(function, inner) => {
@@ -153,7 +153,12 @@ impl<'r> Rules<'r> {
                 let unit = self.fits(expr, inner.unit.over(&of_role(role)))?;
                 // The derivative of a number is zero.
                 let value = inner.value.map(|_| Rational::ZERO);
-                Some(Quantity { unit, value })
+                let scaled = inner.scaled;
+                Some(Quantity {
+                    unit,
+                    value,
+                    scaled,
+                })
             }
         }
     }
@@ -170,33 +175,16 @@ impl<'r> Rules<'r> {
         (a == b).then_some(true)
     }
 
-    /// Help where units differ by a factor only: the first field that brings one in.
-    fn scale_help(&self, exprs: &[&Expr<'_>]) -> Option<String> {
-        let (index, unit) = exprs.iter().find_map(|expr| self.scaled_field(expr))?;
+    /// Help where units differ by a factor only: the field that brings it in.
+    fn scale_help(&self, scaled: Option<usize>) -> Option<String> {
         let mut parameters = self.checked.parameters.iter();
-        let parameter = parameters.find(|parameter| parameter.field == index)?;
-        Some(message::field_with_scale(&ast::name(parameter.ident), unit))
-    }
-
-    /// The first field in an expression whose unit is not coherent.
-    fn scaled_field(&self, expr: &Expr<'_>) -> Option<(usize, &'r Unit)> {
-        let first = |exprs: &[&Expr<'_>]| exprs.iter().find_map(|expr| self.scaled_field(expr));
-        match &expr.kind {
-            ExprKind::Number(_) | ExprKind::Variable(_) => None,
-            ExprKind::Parameter(index) => match self.units.declarations.get(*index)? {
-                Declaration::Unit(unit, _) if !unit.scale().is_one() => Some((*index, unit)),
-                Declaration::Unit(..) | Declaration::Missing | Declaration::Unreadable => None,
-            },
-            ExprKind::Binding(index) => self.scaled_field(self.written.get(*index)?),
-            ExprKind::Negate(inner)
-            | ExprKind::Sqrt(inner)
-            | ExprKind::Recip(inner)
-            | ExprKind::Abs(_, inner)
-            | ExprKind::Apply(_, inner)
-            | ExprKind::Diff(inner, _) => self.scaled_field(inner),
-            ExprKind::Binary(_, a, b) | ExprKind::Powi(a, b) | ExprKind::Powf(a, b) => {
-                first(&[a, b])
+        let parameter = parameters.find(|parameter| Some(parameter.field) == scaled)?;
+        match self.units.declarations.get(parameter.field)? {
+            Declaration::Unit(unit, _) => {
+                let name = ast::name(parameter.ident);
+                Some(message::field_with_scale(&name, unit))
             }
+            Declaration::Missing | Declaration::Unreadable => None,
         }
     }
 

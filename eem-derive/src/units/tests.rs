@@ -201,6 +201,24 @@ fn any_wrong_unit_is_noticed() {
     }
 }
 
+#[test]
+fn bindings_are_looked_at_once() {
+    // Written out, the sum has 2²⁰⁰ terms.
+    let doubled = (0..200).map(|i| format!("let x{} = x{i} + x{i};", i + 1));
+    let doubled: String = doubled.collect();
+    let body = format!("{{ let x0 = k * lambda; {doubled} x200 + short }}");
+    let body: syn::Expr = syn::parse_str(&body).unwrap();
+    let model = parse_quote! {
+        #[free_energy(|lambda: Stretch| #body)]
+        struct Model {
+            #[unit("N")] k: f64,
+            #[unit("kJ")] short: f64,
+        }
+    };
+    let expansion = crate::derive::derive(&model).to_string();
+    assert!(expansion.contains("`short` is in kJ"), "{expansion:.400}");
+}
+
 fn exponent() -> impl Strategy<Value = Rational> {
     (-6i128..=6, 1i128..=4).prop_map(|(n, d)| Rational::new(n, d).unwrap())
 }

@@ -16,11 +16,12 @@ impl Rules<'_> {
         inner: &Expr<'_>,
         degree: i128,
     ) -> Option<Quantity> {
-        let Quantity { unit, value } = self.quantity(inner)?;
+        let inner = self.quantity(inner)?;
         let exponent = Rational::new(1, degree)?;
         Some(Quantity {
-            unit: self.fits(expr, unit.power(exponent))?,
-            value: value.filter(|value| value.is_zero()),
+            unit: self.fits(expr, inner.unit.power(exponent))?,
+            value: inner.value.filter(|value| value.is_zero()),
+            scaled: inner.scaled,
         })
     }
 
@@ -36,7 +37,7 @@ impl Rules<'_> {
             unit: &argument.unit,
         };
         let same = argument.unit.coherent().is_one();
-        let scale = same.then(|| self.scale_help(&[inner])).flatten();
+        let scale = same.then(|| self.scale_help(argument.scaled)).flatten();
         let help = scale.unwrap_or_else(|| message::divide_by_reference(&side));
         let message = message::function_of_unit(function, &side, help);
         self.cx.error(inner.original, &message);
@@ -51,10 +52,10 @@ impl Rules<'_> {
         base: &Quantity,
         exponent: &Quantity,
     ) -> Option<Quantity> {
-        let texts = sides.map(|side| excerpt(side.original));
+        let text = |side: usize| excerpt(sides[side].original);
         if !self.agree(sides[1], &exponent.unit, &Unit::one())? {
             let side = Side {
-                text: &texts[1],
+                text: &text(1),
                 unit: &exponent.unit,
             };
             let message = message::exponent_with_unit(&side);
@@ -66,14 +67,15 @@ impl Rules<'_> {
             return Some(Quantity {
                 unit: self.fits(expr, base.unit.power(exponent))?,
                 value: base.value.and_then(power),
+                scaled: base.scaled,
             });
         }
         if !self.agree(sides[0], &base.unit, &Unit::one())? {
             let side = Side {
-                text: &texts[0],
+                text: &text(0),
                 unit: &base.unit,
             };
-            let message = message::power_of_unit(&side, &texts[1]);
+            let message = message::power_of_unit(&side, &text(1));
             self.cx.error(sides[0].original, &message);
             return None;
         }

@@ -20,26 +20,27 @@ impl Rules<'_> {
         let difference = operator == Operator::Subtract;
         let pair = a.value.zip(b.value);
         let value = pair.and_then(|(a, b)| a.checked_add(if difference { -b } else { b }));
-        if a.is_zero() || b.is_zero() {
-            let unit = if a.is_zero() { b.unit } else { a.unit };
-            return Some(Quantity { unit, value });
-        }
-        if self.agree(expr, &a.unit, &b.unit)? {
+        let any = a.is_zero() || b.is_zero();
+        if any || self.agree(expr, &a.unit, &b.unit)? {
             return Some(Quantity {
-                unit: a.unit,
+                scaled: a.scaled.or(b.scaled),
+                unit: if a.is_zero() { b.unit } else { a.unit },
                 value,
             });
         }
         let texts = sides.map(|side| excerpt(side.original));
-        let help = if is_number(sides[1]) {
+        let help = if is_number(sides[1], &b) {
             message::number_with_unit(&texts[1], &a.unit)
-        } else if is_number(sides[0]) {
+        } else if is_number(sides[0], &a) {
             message::number_with_unit(&texts[0], &b.unit)
         } else {
             let same = a.unit.coherent() == b.unit.coherent();
-            let first = usize::from(!b.unit.scale().is_one());
-            let scaled = [sides[first], sides[1 - first]];
-            let scale = same.then(|| self.scale_help(&scaled)).flatten();
+            let scaled = if b.unit.scale().is_one() {
+                a.scaled
+            } else {
+                b.scaled
+            };
+            let scale = same.then(|| self.scale_help(scaled)).flatten();
             scale.unwrap_or_else(|| message::factor_is_missing("the right side", &a.unit, &b.unit))
         };
         let [left, right] = [(&texts[0], &a.unit), (&texts[1], &b.unit)];
@@ -52,6 +53,7 @@ impl Rules<'_> {
         None
     }
 
+    /// A product multiplies units, and is zero if a factor is.
     pub(super) fn product(
         &self,
         expr: &Expr<'_>,
@@ -71,17 +73,18 @@ impl Rules<'_> {
         Some(Quantity {
             unit: self.fits(expr, unit)?,
             value: if zero { Some(Rational::ZERO) } else { value },
+            scaled: a.scaled.or(b.scaled),
         })
     }
 }
 
-/// A literal, with or without sign.
-fn is_number(expr: &Expr<'_>) -> bool {
-    match &expr.kind {
-        ExprKind::Number(_) => true,
-        ExprKind::Negate(inner) => is_number(inner),
-        _ => false,
+/// A number, computed or written; one that is not kept as a rational only if it is written.
+fn is_number(expr: &Expr<'_>, quantity: &Quantity) -> bool {
+    let mut expr = expr;
+    while let ExprKind::Negate(inner) = &expr.kind {
+        expr = inner;
     }
+    quantity.value.is_some() || matches!(expr.kind, ExprKind::Number(_))
 }
 
 /// The operator of a sum, without the parentheses around it.
