@@ -83,10 +83,15 @@ const CAPACITY: f64 = 5.0;
         + capacity * (theta - theta_ref - theta * ln(theta / theta_ref))
 })]
 struct ThermoelasticSpring {
+    #[unit("J")]
     stiffness: f64,
+    #[unit("J/K")]
     coupling: f64,
+    #[unit("J/K")]
     capacity: f64,
+    #[unit("m")]
     natural_length: f64,
+    #[unit("K")]
     theta_ref: f64,
 }
 

@@ -127,7 +127,9 @@ const LONGEST_STEP: f64 = 10.0 * STEP;
 #[derive(Clone, Debug, FreeEnergy)]
 #[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - natural_length).powi(2))]
 struct Spring {
+    #[unit("N/m")]
     stiffness: f64,
+    #[unit("m")]
     natural_length: f64,
 }
 
@@ -141,12 +143,19 @@ struct Spring {
 })]
 #[viscosity(gamma = eta0 * exp(a * (1 / theta - 1 / theta_ref)))]
 pub(crate) struct Damper {
+    #[unit("m")]
     natural_length: f64,
+    #[unit("K")]
     theta_ref: f64,
+    #[unit("N/m")]
     mount: f64,
+    #[unit("N")]
     gas_force: f64,
+    #[unit("J/K")]
     capacity: f64,
+    #[unit("N s/m")]
     eta0: f64,
+    #[unit("K")]
     a: f64,
 }
 

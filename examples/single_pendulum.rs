@@ -21,7 +21,7 @@
 //! | k0, k1 | stiffness, softening with temperature | 100 N m, 0.5 N m/K |
 //! | βt, c | thermoelastic coupling, heat capacity | 4 N m/K, 1 N m/K |
 //! | μ0, μ1 | viscous stiffness, softening with temperature | 5 N/m, 0.1 N/(m K) |
-//! | βc | viscoelastic coupling, 2 μ0/k0 in units of λ0 | 0.1 |
+//! | βc | viscoelastic coupling | 0.1 |
 //! | η0, a | viscosity, its dependence on temperature | 100 N s/m, 10 K |
 //! | κ | heat conductance | 10 W/K |
 //!
@@ -29,6 +29,10 @@
 //! more than two periods of the fastest oscillation per step. It is also example 1 of Kern, Romero,
 //! Conde Martín & García Orden (2021), §IV.A. Figures 2 to 8 of the former and 3 and 4 of the latter
 //! are drawn under their numbers; the example `paper_tables` compares the numbers.
+//!
+//! Units are checked where the free energy stands below. Every sum of the paper agrees in its units
+//! (N m of its stiffnesses is J) if βc is a pure number, and this is the reading here; 2 μ0/k0, to
+//! which it is equal, is per square metre, and so a number only with lengths in units of λ0.
 //!
 //! What the example claims, and fails without: every energy–entropy–momentum scheme reaches the
 //! end, keeps energy and angular momentum to rounding, and loses no entropy in any step.

@@ -16,7 +16,7 @@ pub mod prelude {
     pub use core::ops::ControlFlow;
 
     pub use crate::{
-        Checkpoint, Element, Ensemble, FreeEnergy, Ledger, NewtonSettings, Node, Quantity,
+        Checkpoint, Describe, Element, Ensemble, FreeEnergy, Ledger, NewtonSettings, Node, Quantity,
         Recorder, Reservoir, RunEnd, Scene, SceneError, Scheme, Simulation, StepError, StepReport,
     };
 }
@@ -25,5 +25,7 @@ pub mod prelude {
 #[doc(hidden)]
 pub mod __private {
     pub use core;
-    pub use eem_runtime::{Array, Caloric, FreeEnergy, Scalar, kernel};
+    pub use eem_runtime::{
+        Array, Caloric, Describe, Description, FreeEnergy, Scalar, describe, kernel,
+    };
 }

@@ -5,7 +5,7 @@ use syn::DeriveInput;
 
 use crate::attr::Attributes;
 use crate::ctxt::Ctxt;
-use crate::{check, expand, fallback, model, parse};
+use crate::{check, expand, fallback, model, parse, units};
 
 /// The implementation of the trait, or all errors of the first phase that found any together with
 /// an implementation that does nothing.
@@ -19,6 +19,7 @@ pub(crate) fn derive(input: &DeriveInput) -> TokenStream {
 fn try_derive(cx: &Ctxt, input: &DeriveInput, attributes: &Attributes) -> syn::Result<TokenStream> {
     let parsed = cx.barrier(parse::input(cx, input, attributes))?;
     let checked = cx.barrier(check::check(cx, &parsed))?;
+    let units = units::check(cx, &checked);
     let model = cx.barrier(model::lower(cx, &checked))?;
-    Ok(expand::expand(&checked, &model))
+    Ok(expand::expand(&checked, &model, &units))
 }

@@ -7,15 +7,27 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use syn::{DeriveInput, Path};
 
+use crate::ast;
 use crate::checked::Scalar;
-use crate::expand::{Header, wrap};
+use crate::expand::{Header, description, wrap};
 
 /// The errors and a stub.
 pub(crate) fn expand(input: &DeriveInput, krate: &Path, error: &syn::Error) -> TokenStream {
     let errors = error.to_compile_error();
     let header = Header::new(input, Scalar::Any);
-    let stub = wrap(krate, &header.implementation(&body(&header.scalar)));
+    let implementation = header.implementation(&body(&header.scalar));
+    let description = empty_description(input);
+    let stub = wrap(krate, &quote! { #implementation #description });
     quote! { #errors #stub }
+}
+
+// Expands to: a description without content.
+fn empty_description(input: &DeriveInput) -> TokenStream {
+    let name = ast::name(&input.ident);
+    let body = quote! {
+        const DESCRIPTION: __eem::Description = __eem::Description::new(#name);
+    };
+    description::implementation(input, &body)
 }
 
 // Expands to: the smallest model there can be, whose functions are never run because the program

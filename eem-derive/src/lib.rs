@@ -9,8 +9,11 @@
 //! |---|---|---|
 //! | parse | `attr`, `parse` | tokens → `ast` |
 //! | check | `check` | `ast` → `checked`: names resolved, roles and laws complete |
+//! | units | `units` | `checked` → the units of its fields, every operation in order |
 //! | model | `model` | `checked` → [`eem_symbolic::Model`] |
 //! | expand | `expand` | programs → tokens |
+//!
+//! Units and model are one phase as far as errors go.
 //!
 //! A phase that fails yields its errors and, from `fallback`, an implementation that does nothing,
 //! so that a wrong model causes one message and not twenty.
@@ -29,6 +32,7 @@ mod nearest;
 mod parse;
 #[cfg(test)]
 mod tests;
+mod units;
 
 use proc_macro::TokenStream;
 use syn::{DeriveInput, parse_macro_input};
@@ -45,15 +49,25 @@ use syn::{DeriveInput, parse_macro_input};
 /// })]
 /// #[viscosity(gamma = eta_ref * exp(activation / theta))]
 /// pub struct Spring {
-///     pub natural_length: f64, // m
-///     pub stiffness: f64,      // J
-///     pub branch: f64,         // N/m
-///     pub capacity: f64,       // J/K
-///     pub theta_ref: f64,      // K
-///     pub eta_ref: f64,        // N s/m
-///     pub activation: f64,     // K
+///     #[unit("m")]
+///     pub natural_length: f64,
+///     #[unit("J")]
+///     pub stiffness: f64,
+///     #[unit("N/m")]
+///     pub branch: f64,
+///     #[unit("J/K")]
+///     pub capacity: f64,
+///     #[unit("K")]
+///     pub theta_ref: f64,
+///     #[unit("N s/m")]
+///     pub eta_ref: f64,
+///     #[unit("K")]
+///     pub activation: f64,
 /// }
 /// ```
+///
+/// Beside `FreeEnergy`, which the schemes use, this implements `Describe`: the formulas, units and
+/// operation counts of the model in print, `Spring::DESCRIPTION`.
 ///
 /// # Arguments
 ///
@@ -82,11 +96,39 @@ use syn::{DeriveInput, parse_macro_input};
 /// `#[viscosity(gamma = law)]`, one law per dashpot in N s/m, separated by commas or in several
 /// attributes. A law may use the temperature and the fields.
 ///
+/// # Units
+///
+/// `#[unit("J/K")]` on a field says what it is measured in. A model whose formulas use no field
+/// with a unit is not looked at; otherwise all fields that they use need one, and the compiler
+/// checks every operation and says which unit a field without one needs. Lengths and viscous
+/// stretches are in m, the temperature is in K, the free energy has to come out in J and a
+/// viscosity in N s/m.
+///
+/// | in a formula | is right if |
+/// |---|---|
+/// | `a + b`, `a - b` | `a` and `b` have the same unit |
+/// | `exp(x)`, `ln(x)`, `sin(x)` … | `x` is a pure number |
+/// | `x.powi(n)`, `x.powf(y)` | the exponent is a pure number, and one that is written out unless `x` is a pure number, too |
+/// | a number | a pure number; zero has any unit |
+///
+/// All others multiply and divide units; `diff(e, x)` has the unit of `e/x`. Exponents are exact
+/// rationals.
+///
+/// A unit is a product of symbols: `N s/m`, `kg*m^2/(s^2 K)`, `J·K⁻¹`, `m^(1/2)`, `1/s`, and `1` for a
+/// pure number. Known are the units of the SI (`rad` and `sr` are 1, `ohm` stands for Ω), with
+/// their prefixes, and `min`, `h`, `d`, `L`, `t`, `bar`. What can be read in two ways is refused:
+/// write `J/(kg K)`, not `J/kg K`, and `m^2`, not `m2`.
+///
+/// Prefixes are factors of the value, and a formula works with values: 5 kN/m times 2 m is 10 only in
+/// kN. That is why the scale of a unit counts as the rest of it does, numbers in a formula do not
+/// stand for prefixes, and a field in mm cannot be added to a length in m: give it in m, or multiply
+/// it by a field in `m/mm`, of value 0.001.
+///
 /// # Another path to the crate
 ///
 /// `#[free_energy(crate = path)]`, alone or in front of the closure, for a renamed or re-exported
 /// `eem`.
-#[proc_macro_derive(FreeEnergy, attributes(free_energy, viscosity))]
+#[proc_macro_derive(FreeEnergy, attributes(free_energy, viscosity, unit))]
 pub fn derive_free_energy(input: TokenStream) -> TokenStream {
     let input = parse_macro_input!(input as DeriveInput);
     derive::derive(&input).into()

@@ -10,6 +10,7 @@ pub(crate) mod attribute;
 pub(crate) mod expression;
 pub(crate) mod field;
 pub(crate) mod item;
+pub(crate) mod unit;
 
 /// What is wrong and what to write.
 #[derive(Debug)]

@@ -20,6 +20,7 @@
 //!
 //! Index 0 is the old, 1 the new state of a step, `m` their mean, `*` an algorithmic quantity.
 
+pub mod describe;
 pub mod kernel;
 pub mod kinematics;
 
@@ -49,6 +50,7 @@ mod system;
 
 pub use checkpoint::{Checkpoint, RestoreError};
 pub use ensemble::{Ensemble, MemberError, MemberFailure};
+pub use describe::{Describe, Description};
 pub use error::{NewtonIteration, SceneError, StateError, StepError, StepFailure};
 pub use free_energy::{Array, Caloric, FreeEnergy};
 pub use handle::{Element, HeatPartner, Node, Reservoir};

@@ -69,7 +69,7 @@ pub use substitute::substitute;
 
 pub use cost::{OperationCount, StageCount, TranscendentalCount};
 pub use interpret::{Arithmetic, F64};
-pub use model::{Formulas, Model, Programs};
+pub use model::{DifferenceFormula, Formulas, Model, Programs};
 pub use program::{Input, Instruction, Operation, Program, ProgramKernel, Stage, Value};
 pub use running_error::{Bounded, RunningError};
 pub use schedule::schedule;

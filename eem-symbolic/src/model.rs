@@ -1,5 +1,6 @@
 //! From one free energy to all programs of a constitutive law.
 
+mod difference_formulas;
 mod point;
 
 use crate::diff::diff;
@@ -8,6 +9,7 @@ use crate::display::format;
 use crate::graph::Graph;
 use crate::node::{ExprId, Symbol};
 use crate::program::Program;
+pub use difference_formulas::DifferenceFormula;
 use point::{PointPrograms, heat_capacity};
 
 /// A free energy ψ(x; parameters) and its dashpots, x = (measures …, dashpots …, temperature).

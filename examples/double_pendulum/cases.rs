@@ -25,11 +25,17 @@ use super::support::time_grid::TimeGrid;
         + capacity * (theta - theta_ref - theta * ln(theta / theta_ref))
 })]
 pub(crate) struct ThermoelasticSpring {
+    #[unit("J")]
     pub(crate) stiffness: f64,
+    #[unit("J/K")]
     pub(crate) softening: f64,
+    #[unit("J/K")]
     pub(crate) coupling: f64,
+    #[unit("J/K")]
     pub(crate) capacity: f64,
+    #[unit("m")]
     pub(crate) natural_length: f64,
+    #[unit("K")]
     pub(crate) theta_ref: f64,
 }
 

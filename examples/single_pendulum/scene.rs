@@ -24,16 +24,27 @@ pub(crate) const END: f64 = 20.0;
 })]
 #[viscosity(gamma = eta0 * exp(a * (1 / theta - 1 / theta_ref)))]
 pub(crate) struct CreepingSpring {
+    #[unit("m")]
     pub(crate) natural_length: f64,
+    #[unit("K")]
     pub(crate) theta_ref: f64,
+    #[unit("N m")]
     pub(crate) k0: f64,
+    #[unit("N m/K")]
     pub(crate) k1: f64,
+    #[unit("N m/K")]
     pub(crate) thermal_coupling: f64,
+    #[unit("N m/K")]
     pub(crate) capacity: f64,
+    #[unit("1")]
     pub(crate) viscous_coupling: f64,
+    #[unit("N/m")]
     pub(crate) mu0: f64,
+    #[unit("N/(m K)")]
     pub(crate) mu1: f64,
+    #[unit("N s/m")]
     pub(crate) eta0: f64,
+    #[unit("K")]
     pub(crate) a: f64,
 }
 

@@ -170,4 +170,41 @@ const _: () = {
             __eem::FreeEnergy::entropy_form_response(self, __old, __x1, &[])
         }
     }
+    #[automatically_derived]
+    impl __eem::Describe for ElasticSpring {
+        const DESCRIPTION: __eem::Description = __eem::Description {
+            name: "ElasticSpring",
+            arguments: &[__eem::describe::Argument::new("lambda", "Stretch", "m")],
+            parameters: &[
+                __eem::describe::Parameter::without_unit("stiffness"),
+                __eem::describe::Parameter::without_unit("length"),
+            ],
+            formulas: &[
+                __eem::describe::Formula::new(
+                    "ψ",
+                    "ψ = 0.5*stiffness*(lambda - length)^2",
+                    "J",
+                ),
+                __eem::describe::Formula::new(
+                    "f",
+                    "f = ∂ψ/∂lambda = stiffness*(lambda - length)",
+                    "N",
+                ),
+            ],
+            divided_differences: &[
+                __eem::describe::Formula::new(
+                    "ψ[lambda]",
+                    "ψ[lambda⁰, lambda¹] = 0.5*stiffness*(lambda⁰ - length + lambda¹ - length)",
+                    "N",
+                ),
+            ],
+            costs: &[
+                __eem::describe::Cost::new("free_energy", 0, 4),
+                __eem::describe::Cost::new("internal_energy", 0, 4),
+                __eem::describe::Cost::new("gradient", 0, 2),
+                __eem::describe::Cost::new("hessian", 0, 2),
+                __eem::describe::Cost::new("entropy_form", 2, 6),
+            ],
+        };
+    }
 };

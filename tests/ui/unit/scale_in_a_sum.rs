@@ -1,0 +1,16 @@
+use eem::FreeEnergy;
+
+#[derive(FreeEnergy)]
+#[free_energy(|lambda: Stretch, theta: Temperature| 0.5 * k * (lambda - length).powi(2) + (work + c * theta))]
+struct Model {
+    #[unit("kN/m")]
+    k: f64,
+    #[unit("mm")]
+    length: f64,
+    #[unit("kJ")]
+    work: f64,
+    #[unit("J/K")]
+    c: f64,
+}
+
+fn main() {}
