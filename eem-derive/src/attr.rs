@@ -4,6 +4,7 @@
 //! seen and an implementation of the trait can be written whatever happens.
 
 use proc_macro2::Ident;
+use syn::ext::IdentExt as _;
 use syn::parse::ParseStream;
 use syn::punctuated::Punctuated;
 use syn::{Attribute, DeriveInput, Expr, ExprClosure, Meta, Path, Token, parse_quote};
@@ -19,11 +20,15 @@ pub(crate) struct Attributes {
     pub(crate) closure: Option<ExprClosure>,
     /// The laws of all `#[viscosity(…)]`.
     pub(crate) laws: Vec<(Ident, Expr)>,
+    /// Every `#[viscosity(…)]` could be read.
+    pub(crate) laws_complete: bool,
 }
 
 /// One entry of `#[free_energy(…)]`.
 enum Entry {
     Crate(Token![crate], Path),
+    /// `name = …` with another name.
+    Option(Ident),
     Closure(ExprClosure),
     Other(Expr),
 }
@@ -32,12 +37,15 @@ impl Attributes {
     /// Reads all attributes of `input`.
     pub(crate) fn from_syn(cx: &Ctxt, input: &DeriveInput) -> Self {
         let mut energy = FreeEnergy::default();
-        let mut laws = Vec::new();
+        let (mut laws, mut laws_complete) = (Vec::new(), true);
         for attribute in &input.attrs {
             if attribute.path().is_ident("free_energy") {
                 energy.read(cx, attribute);
             } else if attribute.path().is_ident("viscosity") {
-                laws.extend(read_laws(cx, attribute));
+                match read_laws(cx, attribute) {
+                    Some(read) => laws.extend(read),
+                    None => laws_complete = false,
+                }
             }
         }
         if energy.closure.is_none() && !energy.failed {
@@ -47,6 +55,7 @@ impl Attributes {
             krate: energy.krate.unwrap_or_else(|| parse_quote!(::eem)),
             closure: energy.closure,
             laws,
+            laws_complete,
         }
     }
 }
@@ -88,6 +97,10 @@ impl FreeEnergy {
                 cx.error(attribute.path(), &message::second_free_energy());
             }
             Entry::Closure(closure) => self.closure = Some(closure),
+            Entry::Option(name) => {
+                self.failed = true;
+                cx.error(&name, &message::unknown_option(&name));
+            }
             Entry::Other(expr) => {
                 self.failed = true;
                 cx.error(expr, &message::free_energy_is_not_a_closure());
@@ -111,22 +124,29 @@ fn parse_entry(input: ParseStream<'_>) -> syn::Result<Entry> {
         input.parse::<Token![=]>()?;
         return Ok(Entry::Crate(token, Path::parse_mod_style(input)?));
     }
+    if input.peek(Ident::peek_any) && input.peek2(Token![=]) && !input.peek2(Token![==]) {
+        let name = Ident::parse_any(input)?;
+        input.parse::<Token![=]>()?;
+        input.parse::<Expr>()?;
+        return Ok(Entry::Option(name));
+    }
     Ok(match input.parse()? {
         Expr::Closure(closure) => Entry::Closure(closure),
         expr => Entry::Other(expr),
     })
 }
 
-fn read_laws(cx: &Ctxt, attribute: &Attribute) -> Vec<(Ident, Expr)> {
+/// The laws of one attribute; nothing if they cannot be read.
+fn read_laws(cx: &Ctxt, attribute: &Attribute) -> Option<Vec<(Ident, Expr)>> {
     match laws(attribute) {
         Ok(laws) if laws.is_empty() => {
             cx.error(attribute.path(), &message::empty_viscosity());
-            Vec::new()
+            None
         }
-        Ok(laws) => laws.into_iter().collect(),
+        Ok(laws) => Some(laws.into_iter().collect()),
         Err(error) => {
             cx.error_at(error.span(), &message::unreadable_viscosity(&error));
-            Vec::new()
+            None
         }
     }
 }

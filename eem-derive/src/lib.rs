@@ -27,6 +27,7 @@ mod message;
 mod model;
 mod nearest;
 mod parse;
+mod physics;
 #[cfg(test)]
 mod tests;
 

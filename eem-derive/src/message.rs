@@ -7,6 +7,8 @@
 use std::fmt::{self, Display, Formatter};
 
 pub(crate) mod attribute;
+#[cfg(test)]
+mod catalogue;
 pub(crate) mod expression;
 pub(crate) mod field;
 pub(crate) mod item;
@@ -19,7 +21,10 @@ pub(crate) struct Message {
 }
 
 impl Message {
+    #[cfg_attr(test, track_caller)]
     fn new(text: impl Into<String>, help: impl Into<String>) -> Self {
+        #[cfg(test)]
+        catalogue::record(std::panic::Location::caller());
         Self {
             text: text.into(),
             help: help.into(),

@@ -43,10 +43,12 @@ mod diff;
 mod display;
 mod divided_difference;
 mod internal_energy;
+mod sign;
 mod substitute;
 
 // Programs.
 mod discrete;
+mod flaw;
 mod interpret;
 mod model;
 mod program;
@@ -63,8 +65,10 @@ pub use graph::Graph;
 pub use internal_energy::internal_energy;
 pub use node::{ExprId, Kernel, Node, Symbol};
 pub use number::{Number, Rational};
+pub use sign::{Sign, sign};
 pub use substitute::substitute;
 
+pub use flaw::Flaw;
 pub use interpret::{Arithmetic, F64};
 pub use model::{Formulas, Model, Programs};
 pub use program::{

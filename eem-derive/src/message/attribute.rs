@@ -5,6 +5,8 @@ use proc_macro2::Ident;
 use super::{Message, list};
 use crate::ast::{self, Role};
 
+pub(crate) mod physics;
+
 const CLOSURE: &str = "`#[free_energy(|lambda: Stretch, theta: Temperature| …)]`";
 
 pub(crate) fn missing_free_energy(item: &Ident) -> Message {
@@ -39,6 +41,13 @@ pub(crate) fn free_energy_is_not_a_closure() -> Message {
     Message::new(
         "the free energy is a closure, so that its arguments have names and roles",
         format!("write {CLOSURE}"),
+    )
+}
+
+pub(crate) fn unknown_option(name: &Ident) -> Message {
+    Message::new(
+        format!("`#[free_energy]` has no option `{name}`"),
+        format!("there is `crate = path`, and the closure: {CLOSURE}"),
     )
 }
 
@@ -115,6 +124,14 @@ pub(crate) fn second_argument(argument: &Ident) -> Message {
     )
 }
 
+pub(crate) fn argument_hides_field(argument: &Ident) -> Message {
+    let name = ast::name(argument);
+    Message::new(
+        format!("`{name}` is an argument here and a field of the struct"),
+        "rename one of them; a field that is no parameter can be marked with `#[free_energy(unused)]`",
+    )
+}
+
 pub(crate) fn empty_viscosity() -> Message {
     Message::new(
         "`#[viscosity]` without a law",
@@ -132,7 +149,7 @@ pub(crate) fn unreadable_viscosity(error: &syn::Error) -> Message {
 pub(crate) fn missing_viscosity(dashpot: &Ident) -> Message {
     let name = ast::name(dashpot);
     Message::new(
-        format!("the dashpot `{name}` has no viscosity"),
+        format!("the dashpot `{name}` has no viscosity law"),
         format!("write `#[viscosity({name} = …)]` on top of the struct, in N s/m"),
     )
 }

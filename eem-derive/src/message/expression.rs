@@ -18,6 +18,22 @@ pub(crate) fn unknown_name(name: &Ident, nearest: Option<&str>) -> Message {
     Message::new(format!("unknown name `{name}`"), help)
 }
 
+pub(crate) fn binding_hides(binding: &Ident, what: &str, free: &str) -> Message {
+    let name = ast::name(binding);
+    Message::new(
+        format!("`{name}` is the name of {what} already"),
+        format!("a name means one thing in a formula: write `let {free} = …;`"),
+    )
+}
+
+pub(crate) fn unused_binding(binding: &Ident) -> Message {
+    let name = ast::name(binding);
+    Message::new(
+        format!("nothing uses `{name}`"),
+        format!("use it, remove it, or call it `_{name}` to keep it"),
+    )
+}
+
 pub(crate) fn unknown_function(name: &str, advice: String) -> Message {
     Message::new(format!("unknown function `{name}`"), advice)
 }
@@ -89,6 +105,13 @@ pub(crate) fn exponent_is_not_an_integer() -> Message {
     )
 }
 
+pub(crate) fn exponent_is_too_large() -> Message {
+    Message::new(
+        "the exponent of `powi` does not fit an `i32`",
+        "write `powf(x, y)`",
+    )
+}
+
 pub(crate) fn diff_variable_is_not_a_name() -> Message {
     Message::new(
         "the second argument of `diff` is the name of an argument of the free energy",
@@ -139,14 +162,28 @@ pub(crate) fn law_of_binding(name: &Ident) -> Message {
 pub(crate) fn number_out_of_range() -> Message {
     Message::new(
         "this number does not fit an `f64`",
-        "they reach from about `2.3e-308` to `1.8e308`; choose other units",
+        "an `f64` reaches from about `2.3e-308` to `1.8e308`; choose other units",
     )
 }
 
-pub(crate) fn not_finite() -> Message {
+pub(crate) fn constant_too_large() -> Message {
     Message::new(
-        "this constant is not a finite number",
-        "check the domain: `ln(0)` and `sqrt(-1)` have no value",
+        "this constant does not fit an `f64`",
+        "an `f64` reaches to about `1.8e308`; choose other units",
+    )
+}
+
+pub(crate) fn outside_domain(function: &str, what: &str, domain: &str) -> Message {
+    Message::new(
+        format!("`{function}` has no value here: its argument is {what}"),
+        format!("`{function}(x)` is defined for `{domain}`"),
+    )
+}
+
+pub(crate) fn negative_base() -> Message {
+    Message::new(
+        "`powf` has no value here: its base is negative",
+        "`powf(x, y)` is defined for `x > 0`; an integer power is `powi(x, n)`",
     )
 }
 
