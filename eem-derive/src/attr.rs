@@ -3,9 +3,10 @@
 //! Nothing here fails: what cannot be read is reported and left out, so that all attributes are
 //! seen and an implementation of the trait can be written whatever happens.
 
-use proc_macro2::Ident;
+use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use syn::ext::IdentExt as _;
 use syn::parse::ParseStream;
+use syn::parse::discouraged::Speculative as _;
 use syn::punctuated::Punctuated;
 use syn::{Attribute, DeriveInput, Expr, ExprClosure, Meta, Path, Token, parse_quote};
 
@@ -27,6 +28,8 @@ pub(crate) struct Attributes {
 /// One entry of `#[free_energy(…)]`.
 enum Entry {
     Crate(Token![crate], Path),
+    /// `crate = …` with something else than a path.
+    WrongCrate(Span),
     /// `name = …` with another name.
     Option(Ident),
     Closure(ExprClosure),
@@ -75,7 +78,12 @@ impl FreeEnergy {
             Ok(entries) => entries,
             Err(error) => {
                 self.failed = true;
-                return cx.error_at(error.span(), &message::unreadable_free_energy(&error));
+                let message = if has_closure(attribute) {
+                    message::unreadable_formula(&error)
+                } else {
+                    message::unreadable_free_energy(&error)
+                };
+                return cx.error_at(error.span(), &message);
             }
         };
         if entries.is_empty() {
@@ -93,6 +101,10 @@ impl FreeEnergy {
                 cx.error(token, &message::second_crate());
             }
             Entry::Crate(_, path) => self.krate = Some(path),
+            Entry::WrongCrate(span) => {
+                self.failed = true;
+                cx.error_at(span, &message::crate_is_not_a_path());
+            }
             Entry::Closure(_) if self.closure.is_some() => {
                 cx.error(attribute.path(), &message::second_free_energy());
             }
@@ -101,12 +113,39 @@ impl FreeEnergy {
                 self.failed = true;
                 cx.error(&name, &message::unknown_option(&name));
             }
+            Entry::Other(expr) if self.closure.is_some() => {
+                cx.error(expr, &message::after_the_closure());
+            }
             Entry::Other(expr) => {
                 self.failed = true;
                 cx.error(expr, &message::free_energy_is_not_a_closure());
             }
         }
     }
+}
+
+/// There is a `|` in the attribute: a closure has been begun.
+fn has_closure(attribute: &Attribute) -> bool {
+    tokens(attribute).any(|token| is_punct(&token, '|'))
+}
+
+/// The attribute begins with `name =`.
+fn has_law(attribute: &Attribute) -> bool {
+    let mut tokens = tokens(attribute);
+    let name = tokens.next();
+    matches!(name, Some(TokenTree::Ident(_))) && tokens.next().is_some_and(|t| is_punct(&t, '='))
+}
+
+fn tokens(attribute: &Attribute) -> impl Iterator<Item = TokenTree> {
+    let tokens = match &attribute.meta {
+        Meta::List(list) => list.tokens.clone(),
+        Meta::Path(_) | Meta::NameValue(_) => TokenStream::new(),
+    };
+    tokens.into_iter()
+}
+
+fn is_punct(token: &TokenTree, character: char) -> bool {
+    matches!(token, TokenTree::Punct(punct) if punct.as_char() == character)
 }
 
 fn entries(attribute: &Attribute) -> syn::Result<Punctuated<Entry, Token![,]>> {
@@ -122,7 +161,15 @@ fn parse_entry(input: ParseStream<'_>) -> syn::Result<Entry> {
     if input.peek(Token![crate]) && input.peek2(Token![=]) {
         let token = input.parse()?;
         input.parse::<Token![=]>()?;
-        return Ok(Entry::Crate(token, Path::parse_mod_style(input)?));
+        let ahead = input.fork();
+        let path = Path::parse_mod_style(&ahead);
+        return match path {
+            Ok(path) if ahead.is_empty() || ahead.peek(Token![,]) => {
+                input.advance_to(&ahead);
+                Ok(Entry::Crate(token, path))
+            }
+            _ => Ok(Entry::WrongCrate(skip_entry(input)?)),
+        };
     }
     if input.peek(Ident::peek_any) && input.peek2(Token![=]) && !input.peek2(Token![==]) {
         let name = Ident::parse_any(input)?;
@@ -136,6 +183,16 @@ fn parse_entry(input: ParseStream<'_>) -> syn::Result<Entry> {
     })
 }
 
+/// Goes to the comma that ends an entry; a closure without a comma before it belongs to the entry.
+fn skip_entry(input: ParseStream<'_>) -> syn::Result<Span> {
+    let span = input.span();
+    let mut closure = false;
+    while !input.is_empty() && (closure || !input.peek(Token![,])) {
+        closure |= is_punct(&input.parse()?, '|');
+    }
+    Ok(span)
+}
+
 /// The laws of one attribute; nothing if they cannot be read.
 fn read_laws(cx: &Ctxt, attribute: &Attribute) -> Option<Vec<(Ident, Expr)>> {
     match laws(attribute) {
@@ -145,7 +202,12 @@ fn read_laws(cx: &Ctxt, attribute: &Attribute) -> Option<Vec<(Ident, Expr)>> {
         }
         Ok(laws) => Some(laws.into_iter().collect()),
         Err(error) => {
-            cx.error_at(error.span(), &message::unreadable_viscosity(&error));
+            let message = if has_law(attribute) {
+                message::unreadable_formula(&error)
+            } else {
+                message::unreadable_viscosity(&error)
+            };
+            cx.error_at(error.span(), &message);
             None
         }
     }

@@ -102,12 +102,20 @@ pub(super) fn call<'a>(
 }
 
 fn report_unknown(resolver: &Resolver<'_, '_>, function: &Ident, name: &str) {
+    let nearest = nearest(name, Callee::names());
     let message = match resolver.scope.resolve(function) {
-        Some(meaning) if meaning != Meaning::Unreadable => message::name_is_not_a_function(name),
-        _ => {
-            let nearest = nearest(name, Callee::names());
+        // A closure, which has been reported.
+        Some(Meaning::Binding(index)) if resolver.is_wrong(index) => return,
+        // It may be declared by what could not be read.
+        Some(Meaning::Unreadable)
+            if nearest.is_none() && message::function_advice(name).is_none() =>
+        {
+            return;
+        }
+        None | Some(Meaning::Unreadable) => {
             message::unknown_function(name, message::function_help(name, nearest, Callee::names()))
         }
+        Some(_) => message::name_is_not_a_function(name),
     };
     resolver.cx.error(function, &message);
 }

@@ -94,6 +94,11 @@ impl<'r, 'a> Resolver<'r, 'a> {
         }
     }
 
+    /// The value of a binding has been reported.
+    pub(super) fn is_wrong(&self, binding: usize) -> bool {
+        matches!(self.bindings[binding].kind, ExprKind::Wrong(_))
+    }
+
     fn block(&mut self, block: &'a Block<'a>) -> Expr<'a> {
         let mark = self.scope.enter();
         for binding in &block.bindings {

@@ -37,6 +37,28 @@ pub(crate) fn unreadable_free_energy(error: &syn::Error) -> Message {
     )
 }
 
+pub(crate) fn unreadable_formula(error: &syn::Error) -> Message {
+    let error = error.to_string();
+    // What the parser expects between the entries of an attribute and between statements: here it
+    // is the formula that should have gone on.
+    let text = if error.ends_with("expected `,`") || error.ends_with("expected `;`") {
+        "cannot read the formula from here on".to_owned()
+    } else {
+        format!("cannot read the formula: {error}")
+    };
+    Message::new(
+        text,
+        "between two values is an operator, `2 * x`; a function has parentheses, `ln(x)`; `let` and `;` need braces, `|…| { let …; value }`; `|x|` is `abs(x)`",
+    )
+}
+
+pub(crate) fn after_the_closure() -> Message {
+    Message::new(
+        "the free energy is complete before this",
+        "nothing follows the closure; the decimal point is `.`",
+    )
+}
+
 pub(crate) fn free_energy_is_not_a_closure() -> Message {
     Message::new(
         "the free energy is a closure, so that its arguments have names and roles",
@@ -55,6 +77,13 @@ pub(crate) fn second_crate() -> Message {
     Message::new(
         "a second `crate = …`",
         "the path of the crate is given once per struct",
+    )
+}
+
+pub(crate) fn crate_is_not_a_path() -> Message {
+    Message::new(
+        "the crate is given by a path",
+        "write `crate = ::eem` without quotes, and a comma before the closure",
     )
 }
 
@@ -91,7 +120,10 @@ pub(crate) fn argument_pattern() -> Message {
 pub(crate) fn unknown_role(role: &str, nearest: Option<&str>) -> Message {
     let help = match nearest {
         Some(nearest) => format!("did you mean `{nearest}`?"),
-        None => format!("the roles are {}", list(Role::ALL.map(Role::name))),
+        None => format!(
+            "the roles are {}, as bare words",
+            list(Role::ALL.map(Role::name))
+        ),
     };
     Message::new(format!("unknown role `{role}`"), help)
 }

@@ -12,7 +12,7 @@ pub(crate) fn unknown_name(name: &Ident, nearest: Option<&str>) -> Message {
     let help = match nearest {
         Some(nearest) => format!("did you mean `{nearest}`?"),
         None => format!(
-            "known are the arguments, the fields and earlier `let` bindings; a parameter is a field, `{name}: f64`"
+            "known are the arguments of the closure, the fields and earlier `let` bindings; a parameter is a field, `{name}: f64`"
         ),
     };
     Message::new(format!("unknown name `{name}`"), help)
@@ -42,22 +42,38 @@ pub(crate) fn unknown_function(name: &str, advice: String) -> Message {
 pub(crate) fn function_advice(name: &str) -> Option<&'static str> {
     Some(match name {
         "log" => "the natural logarithm is `ln(x)`; there are `log2(x)` and `log10(x)` too",
+        "lg" => "write `log10(x)`",
         "log1p" => "write `ln_1p(x)`",
         "expm1" => "write `exp_m1(x)`",
         "exp2" => "write `powf(2, x)`",
-        "pow" => "write `powi(x, 2)` for an integer power and `powf(x, y)` for any other",
-        "sqr" | "square" => "write `powi(x, 2)`",
+        "pow" | "power" => "write `powi(x, 2)` for an integer power and `powf(x, y)` for any other",
+        "sq" | "sqr" | "square" => "write `powi(x, 2)`",
         "cube" => "write `powi(x, 3)`",
+        "inv" | "reciprocal" => "write `recip(x)` or `1 / x`",
         "asin" | "arcsin" => "write `atan(x / sqrt(1 - x * x))`",
         "acos" | "arccos" => "write `2 * atan(sqrt((1 - x) / (1 + x)))`",
         "arctan" => "write `atan(x)`",
+        "arsinh" | "arcsinh" => "write `asinh(x)`",
+        "artanh" | "arctanh" => "write `atanh(x)`",
         "atan2" => "write `atan(y / x)` where `x` is positive",
-        "acosh" => "write `ln(x + sqrt(x * x - 1))`",
+        "acosh" | "arcosh" | "arccosh" => "write `ln(x + sqrt(x * x - 1))`",
+        "sec" => "write `1 / cos(x)`",
+        "csc" => "write `1 / sin(x)`",
+        "cot" => "write `1 / tan(x)`",
+        "sech" => "write `1 / cosh(x)`",
+        "csch" => "write `1 / sinh(x)`",
+        "coth" => "write `1 / tanh(x)`",
+        "sin_cos" => "write `sin(x)` and `cos(x)`",
         "hypot" => "write `sqrt(x * x + y * y)`",
         "mul_add" => "write `a * b + c`",
-        "min" | "max" | "clamp" | "signum" | "copysign" | "floor" | "ceil" | "round" | "trunc"
-        | "fract" | "rem_euclid" => {
-            "forces are derivatives of the free energy, and this one has none at its kinks: use a smooth function"
+        "d" | "D" | "grad" | "gradient" | "derivative" | "partial" | "derive" => {
+            "a derivative is `diff(expression, lambda)`"
+        }
+        "from" | "into" | "clone" | "to_owned" => "remove it: all values are numbers of one kind",
+        "sum" | "map" | "fold" | "iter" => "write the terms out",
+        "min" | "max" | "clamp" | "sign" | "sgn" | "signum" | "copysign" | "heaviside" | "step"
+        | "floor" | "ceil" | "round" | "trunc" | "fract" | "rem_euclid" => {
+            "forces are derivatives of the free energy, and this one has none at its kinks: use a smooth function such as `tanh`"
         }
         _ => return None,
     })
@@ -79,7 +95,7 @@ pub(crate) fn function_help<'n>(
 pub(crate) fn argument_count(function: &str, form: &str, expected: usize, found: usize) -> Message {
     let plural = if expected == 1 { "" } else { "s" };
     Message::new(
-        format!("`{function}` takes {expected} argument{plural}, and here are {found}"),
+        format!("`{function}` takes {expected} argument{plural}, not {found}"),
         format!("write `{form}`"),
     )
 }
@@ -198,5 +214,12 @@ pub(crate) fn number_suffix(suffix: &str) -> Message {
     Message::new(
         format!("a number in a free energy has no type `{suffix}`"),
         "write it without suffix: all numbers are exact",
+    )
+}
+
+pub(crate) fn number_and_name(digits: &str, name: &str) -> Message {
+    Message::new(
+        format!("`{digits}{name}` is not a number"),
+        format!("for a product write `{digits} * {name}`"),
     )
 }

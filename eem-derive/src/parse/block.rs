@@ -16,7 +16,7 @@ pub(super) fn block<'a>(cx: &Ctxt, original: &'a Syntax, block: &'a ExprBlock) -
         cx.error(attribute, &message::attribute());
     }
     let (last, statements) = match block.block.stmts.split_last() {
-        Some((last, statements)) if is_value(last) => (Some(last), statements),
+        Some((last, statements)) if stands_for_value(last) => (Some(last), statements),
         _ => (None, &*block.block.stmts),
     };
     let statements = statements.iter();
@@ -24,7 +24,14 @@ pub(super) fn block<'a>(cx: &Ctxt, original: &'a Syntax, block: &'a ExprBlock) -
         .map(|stmt| statement(cx, original, stmt))
         .collect();
     let value = match last {
-        Some(Stmt::Expr(value, _)) => expr(cx, value),
+        Some(Stmt::Expr(syntax, semicolon)) => {
+            let value = expr(cx, syntax);
+            // Of `return x;` the keyword is what is wrong.
+            if let (Some(token), false) = (semicolon, matches!(value.kind, ExprKind::Wrong(_))) {
+                cx.error(token, &message::semicolon_after_value());
+            }
+            value
+        }
         Some(other) => statement(cx, original, other).value,
         None => {
             let end = block.block.brace_token.span.close();
@@ -38,10 +45,10 @@ pub(super) fn block<'a>(cx: &Ctxt, original: &'a Syntax, block: &'a ExprBlock) -
     }
 }
 
-/// Stands where the value of a block stands.
-fn is_value(statement: &Stmt) -> bool {
+/// Stands where the value of a block stands, if there is no `;` by mistake.
+fn stands_for_value(statement: &Stmt) -> bool {
     match statement {
-        Stmt::Expr(_, semicolon) => semicolon.is_none(),
+        Stmt::Expr(..) => true,
         Stmt::Macro(invocation) => invocation.semi_token.is_none(),
         Stmt::Local(_) | Stmt::Item(_) => false,
     }

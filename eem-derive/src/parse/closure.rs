@@ -84,6 +84,20 @@ fn plain_name<'a>(cx: &Ctxt, pat: &'a Pat) -> Option<&'a syn::Ident> {
     }
 }
 
+/// Other words for the roles.
+const SYNONYMS: [(&str, Role); 10] = [
+    ("Length", Role::Stretch),
+    ("Strain", Role::Stretch),
+    ("Elongation", Role::Stretch),
+    ("Lambda", Role::Stretch),
+    ("Dashpot", Role::Viscous),
+    ("Internal", Role::Viscous),
+    ("Damper", Role::Viscous),
+    ("Gamma", Role::Viscous),
+    ("Temp", Role::Temperature),
+    ("Theta", Role::Temperature),
+];
+
 fn role(cx: &Ctxt, argument: Option<&syn::Ident>, ty: &Type) -> Option<Role> {
     let name = match ty {
         Type::Group(group) => return role(cx, argument, &group.elem),
@@ -102,9 +116,22 @@ fn role(cx: &Ctxt, argument: Option<&syn::Ident>, ty: &Type) -> Option<Role> {
             cx.error(ty, &message::argument_without_role(&name));
         }
         _ => {
-            let nearest = nearest(&text, Role::ALL.map(Role::name));
+            let word = last_word(ty).unwrap_or_default();
+            let role_of = |(synonym, role): &(&str, Role)| (word == *synonym).then(|| role.name());
+            let synonym = SYNONYMS.iter().find_map(role_of);
+            let nearest = synonym.or_else(|| nearest(&word, Role::ALL.map(Role::name)));
             cx.error(ty, &message::unknown_role(&text, nearest));
         }
     }
     None
+}
+
+/// The name at the end of a path, also behind a reference.
+fn last_word(ty: &Type) -> Option<String> {
+    match ty {
+        Type::Group(group) => last_word(&group.elem),
+        Type::Reference(reference) => last_word(&reference.elem),
+        Type::Path(path) => Some(path.path.segments.last()?.ident.to_string()),
+        _ => None,
+    }
 }

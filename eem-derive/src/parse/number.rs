@@ -7,6 +7,12 @@ use crate::ast::ExprKind;
 use crate::ctxt::Ctxt;
 use crate::message::expression::{self as message, syntax};
 
+/// The number types of Rust that a literal may not name.
+const RUST_NUMBERS: [&str; 14] = [
+    "f32", "f16", "i8", "i16", "i32", "i64", "i128", "isize", "u8", "u16", "u32", "u64", "u128",
+    "usize",
+];
+
 /// The value of a numeric literal; reports every other literal.
 pub(super) fn literal<'a>(cx: &Ctxt, literal: &Lit) -> ExprKind<'a> {
     let (digits, suffix) = match literal {
@@ -17,8 +23,11 @@ pub(super) fn literal<'a>(cx: &Ctxt, literal: &Lit) -> ExprKind<'a> {
             return ExprKind::Wrong(Vec::new());
         }
     };
-    if !matches!(suffix, "" | "f64") {
+    if RUST_NUMBERS.contains(&suffix) {
         cx.error(literal, &message::number_suffix(suffix));
+    } else if !matches!(suffix, "" | "f64") {
+        cx.error(literal, &message::number_and_name(digits, suffix));
+        return ExprKind::Wrong(Vec::new());
     }
     if let Some(number) = number(digits) {
         return ExprKind::Number(number);

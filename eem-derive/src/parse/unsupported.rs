@@ -59,7 +59,7 @@ fn report_opaque(cx: &Ctxt, expr: &Expr) {
     match expr {
         Expr::If(e) => cx.error(e.if_token, &message::control_flow("if")),
         Expr::Match(e) => cx.error(e.match_token, &message::control_flow("match")),
-        Expr::Let(e) => cx.error(e.let_token, &message::control_flow("let")),
+        Expr::Let(e) => cx.error(e.let_token, &message::let_without_block()),
         Expr::ForLoop(e) => cx.error(e.for_token, &message::repetition("for")),
         Expr::While(e) => cx.error(e.while_token, &message::repetition("while")),
         Expr::Loop(e) => cx.error(e.loop_token, &message::repetition("loop")),

@@ -36,7 +36,7 @@ pub(crate) fn bit_operator(operator: &str) -> Message {
 pub(crate) fn assignment(operator: &str) -> Message {
     Message::new(
         format!("`{operator}` changes a value, and values do not change in a formula"),
-        "bind a new name: `let x = x + …;`",
+        "bind another name: `let y = x + …;`",
     )
 }
 
@@ -134,7 +134,7 @@ pub(crate) fn question_mark() -> Message {
 pub(crate) fn field_access(name: Option<&str>) -> Message {
     let help = match name {
         Some(name) => format!("fields are used by bare name: write `{name}`"),
-        None => "use one field per parameter, by bare name".to_owned(),
+        None => "a parameter is a field of its own, used by bare name; a method has parentheses, `x.sqrt()`".to_owned(),
     };
     Message::new("a field access is not part of a formula", help)
 }
@@ -151,7 +151,7 @@ pub(crate) fn constant_value(name: &str) -> Option<&'static str> {
     Some(match name {
         "PI" | "pi" => "3.141592653589793",
         "TAU" => "6.283185307179586",
-        "E" => "2.718281828459045",
+        "E" | "e" => "2.718281828459045",
         "SQRT_2" => "sqrt(2)",
         "LN_2" => "ln(2)",
         "LN_10" => "ln(10)",
@@ -212,6 +212,20 @@ pub(crate) fn block_without_value() -> Message {
     Message::new(
         "this block ends without a value",
         "end it with an expression that has no `;`",
+    )
+}
+
+pub(crate) fn semicolon_after_value() -> Message {
+    Message::new(
+        "a `;` after the value of a block throws it away",
+        "remove `;`",
+    )
+}
+
+pub(crate) fn let_without_block() -> Message {
+    Message::new(
+        "a `let` needs a block around it",
+        "write `{ let name = value; … }`",
     )
 }
 
