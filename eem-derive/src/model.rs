@@ -4,8 +4,9 @@
 //! the expressions exist: exponents, dependences and domains.
 
 mod domain;
+mod smooth;
 
-use eem_symbolic::{ExprId, Function, Graph, Model, Number, Symbol, diff};
+use eem_symbolic::{ExprId, Graph, Model, Number, Symbol, diff};
 
 use crate::ast::{self, Operator, Role};
 use crate::checked::{Body, Checked, Expr, ExprKind};
@@ -98,6 +99,7 @@ impl Lowering<'_> {
             ExprKind::Sqrt(inner) => {
                 let value = self.expr(inner)?;
                 self.check_root(inner, value)?;
+                self.check_square(inner, value)?;
                 self.graph.sqrt(value)
             }
             ExprKind::Recip(inner) => {
@@ -119,8 +121,9 @@ impl Lowering<'_> {
                 self.graph.power(value, exponent)
             }
             ExprKind::Diff(inner, variable) => {
-                let inner = self.expr(inner)?;
-                diff(&mut self.graph, inner, self.variables[*variable])
+                let value = self.expr(inner)?;
+                self.check_derivative(inner, value)?;
+                diff(&mut self.graph, value, self.variables[*variable])
             }
             ExprKind::Wrong(parts) => {
                 for part in parts {
@@ -144,19 +147,6 @@ impl Lowering<'_> {
             Operator::Multiply => self.graph.mul(left, right),
             Operator::Divide => self.graph.div(left, right),
         })
-    }
-
-    /// |x| has no derivative at zero, so that only parameters may be inside.
-    fn abs(&mut self, token: &syn::Ident, inner: &Expr<'_>) -> Option<ExprId> {
-        let inner = self.expr(inner)?;
-        for (variable, &symbol) in self.checked.variables.iter().zip(&self.variables) {
-            if self.graph.depends_on(inner, symbol) {
-                let name = ast::name(variable.ident);
-                self.cx.error(token, &message::abs_of_state(&name));
-                return None;
-            }
-        }
-        Some(self.graph.apply(Function::Abs, inner))
     }
 
     fn powi(&mut self, base: &Expr<'_>, exponent: &Expr<'_>) -> Option<ExprId> {

@@ -107,11 +107,7 @@ fn report_unknown(resolver: &Resolver<'_, '_>, function: &Ident, name: &str) {
         // A closure, which has been reported.
         Some(Meaning::Binding(index)) if resolver.is_wrong(index) => return,
         // It may be declared by what could not be read.
-        Some(Meaning::Unreadable)
-            if nearest.is_none() && message::function_advice(name).is_none() =>
-        {
-            return;
-        }
+        Some(Meaning::Unreadable) if nearest.is_none() => return,
         None | Some(Meaning::Unreadable) => {
             message::unknown_function(name, message::function_help(name, nearest, Callee::names()))
         }

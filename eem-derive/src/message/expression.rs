@@ -156,6 +156,22 @@ pub(crate) fn abs_of_state(argument: &str) -> Message {
     )
 }
 
+pub(crate) fn root_of_square(argument: &str) -> Message {
+    Message::new(
+        format!(
+            "the root of a square is an absolute value, and it depends on `{argument}`: there is no derivative at zero"
+        ),
+        "write the square without the root, or add a small constant under it: `sqrt(x * x + c * c)`",
+    )
+}
+
+pub(crate) fn diff_of_number() -> Message {
+    Message::new(
+        "this depends on no argument of the free energy, and its derivative is zero",
+        "the first argument of `diff` is an expression of the state, such as a part of the energy",
+    )
+}
+
 pub(crate) fn law_of_state(name: &Ident, role: Role) -> Message {
     let name = ast::name(name);
     Message::new(

@@ -111,7 +111,8 @@ impl Lowering<'_> {
         program.interpret(&F64, &[]).first().copied()
     }
 
-    fn sign(&self, e: ExprId) -> Sign {
+    /// The signs of an expression, given that lengths and temperatures are positive.
+    pub(super) fn sign(&self, e: ExprId) -> Sign {
         if let Some(constant) = self.constant(e) {
             return Sign {
                 negative: constant < 0.0,
