@@ -85,12 +85,20 @@ pub struct Viscous {
 #[free_energy(|lambda: Stretch, theta: Temperature| k * theta * lambda - c * theta * ln(theta))]
 pub struct Entropic<'a, T: Clone, const N: usize>
 where
-    T: Send,
+    [T; N]: Sized,
 {
     k: T,
     c: T,
     /// Name, for humans.
     pub name: &'a [&'a str; N],
+}
+
+#[test]
+fn strict_functions_can_derive() {
+    #[derive(FreeEnergy)]
+    #[free_energy(|lambda: Stretch| lambda / 2)]
+    struct Local;
+    assert!((Local.free_energy(&[4.0_f64]) - 2.0).abs() < f64::EPSILON);
 }
 
 #[test]

@@ -61,7 +61,7 @@ pub(crate) fn after_the_closure() -> Message {
 
 pub(crate) fn free_energy_is_not_a_closure() -> Message {
     Message::new(
-        "the free energy is a closure, so that its arguments have names and roles",
+        "this is not a closure, and says nothing about the arguments and their roles",
         format!("write {CLOSURE}"),
     )
 }
@@ -82,7 +82,7 @@ pub(crate) fn second_crate() -> Message {
 
 pub(crate) fn crate_is_not_a_path() -> Message {
     Message::new(
-        "the crate is given by a path",
+        "this is not the path of a crate",
         "write `crate = ::eem` without quotes, and a comma before the closure",
     )
 }
@@ -112,7 +112,7 @@ pub(crate) fn argument_without_role(argument: &str) -> Message {
 
 pub(crate) fn argument_pattern() -> Message {
     Message::new(
-        "an argument of a free energy is a plain name",
+        "this argument of the free energy is not a plain name",
         "write `name: Role`, for example `lambda: Stretch`",
     )
 }

@@ -39,7 +39,7 @@ pub(crate) fn unknown_function(name: &str, advice: String) -> Message {
 }
 
 /// What to write for a function that is known elsewhere, if there is a good answer.
-pub(crate) fn function_advice(name: &str) -> Option<&'static str> {
+fn function_advice(name: &str) -> Option<&'static str> {
     Some(match name {
         "log" => "the natural logarithm is `ln(x)`; there are `log2(x)` and `log10(x)` too",
         "lg" => "write `log10(x)`",
@@ -116,7 +116,7 @@ pub(crate) fn name_is_not_a_function(name: &str) -> Message {
 
 pub(crate) fn exponent_is_not_an_integer() -> Message {
     Message::new(
-        "the exponent of `powi` is an integer known at compile time",
+        "the exponent of `powi` is not an integer known at compile time",
         "write `powf(x, y)` for any other exponent",
     )
 }
@@ -130,7 +130,7 @@ pub(crate) fn exponent_is_too_large() -> Message {
 
 pub(crate) fn diff_variable_is_not_a_name() -> Message {
     Message::new(
-        "the second argument of `diff` is the name of an argument of the free energy",
+        "the second argument of `diff` is not the name of an argument of the free energy",
         "write `diff(expression, lambda)`",
     )
 }

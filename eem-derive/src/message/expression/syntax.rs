@@ -175,7 +175,7 @@ pub(crate) fn generic_arguments() -> Message {
 
 pub(crate) fn callee() -> Message {
     Message::new(
-        "only a named function can be called",
+        "this is not the name of a function",
         "for a product write `*`",
     )
 }
@@ -195,10 +195,7 @@ pub(crate) fn attribute() -> Message {
 }
 
 pub(crate) fn label_or_modifier() -> Message {
-    Message::new(
-        "only plain blocks belong into a formula",
-        "write `{ let …; value }`",
-    )
+    Message::new("this is not a plain block", "write `{ let …; value }`")
 }
 
 pub(crate) fn unsupported() -> Message {
@@ -245,14 +242,14 @@ pub(crate) fn item_in_block() -> Message {
 
 pub(crate) fn let_pattern() -> Message {
     Message::new(
-        "a `let` of a free energy binds one plain name",
+        "this pattern is not a plain name",
         "write `let name = value;`",
     )
 }
 
 pub(crate) fn let_type() -> Message {
     Message::new(
-        "a `let` of a free energy has no type",
+        "a `let` in a formula has no type",
         "write `let name = value;`",
     )
 }
