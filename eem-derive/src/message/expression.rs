@@ -9,13 +9,30 @@ pub(crate) mod syntax;
 
 pub(crate) fn unknown_name(name: &Ident, nearest: Option<&str>) -> Message {
     let name = ast::name(name);
-    let help = match nearest {
-        Some(nearest) => format!("did you mean `{nearest}`?"),
-        None => format!(
+    let help = match (nearest, usual_role(&name)) {
+        (Some(nearest), _) => format!("did you mean `{nearest}`?"),
+        (None, Some(role)) => format!(
+            "declare it as an argument, `{name}: {}`, or as a field, `{name}: f64`",
+            role.name()
+        ),
+        (None, None) if name.len() > 1 && !name.contains(char::is_lowercase) => {
+            "constants of the program are not seen: write the value, or make it a field".to_owned()
+        }
+        (None, None) => format!(
             "known are the arguments of the closure, the fields and earlier `let` bindings; a parameter is a field, `{name}: f64`"
         ),
     };
     Message::new(format!("unknown name `{name}`"), help)
+}
+
+/// What the literature means by a name.
+fn usual_role(name: &str) -> Option<Role> {
+    match name {
+        "lambda" | "λ" => Some(Role::Stretch),
+        "gamma" | "γ" => Some(Role::Viscous),
+        "theta" | "θ" | "temperature" => Some(Role::Temperature),
+        _ => None,
+    }
 }
 
 pub(crate) fn binding_hides(binding: &Ident, what: &str, free: &str) -> Message {
