@@ -3,6 +3,8 @@
 //! Nothing here fails: what cannot be read is reported and left out, so that all attributes are
 //! seen and an implementation of the trait can be written whatever happens.
 
+mod depth;
+
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use syn::ext::IdentExt as _;
 use syn::parse::ParseStream;
@@ -74,6 +76,10 @@ struct FreeEnergy {
 
 impl FreeEnergy {
     fn read(&mut self, cx: &Ctxt, attribute: &Attribute) {
+        if is_too_deep(cx, attribute) {
+            self.failed = true;
+            return;
+        }
         let entries = match entries(attribute) {
             Ok(entries) => entries,
             Err(error) => {
@@ -124,24 +130,33 @@ impl FreeEnergy {
     }
 }
 
+fn is_too_deep(cx: &Ctxt, attribute: &Attribute) -> bool {
+    let place = depth::too_deep(tokens(attribute));
+    if let Some(span) = place {
+        cx.error_at(span, &message::too_deep());
+    }
+    place.is_some()
+}
+
 /// There is a `|` in the attribute: a closure has been begun.
 fn has_closure(attribute: &Attribute) -> bool {
-    tokens(attribute).any(|token| is_punct(&token, '|'))
+    tokens(attribute)
+        .into_iter()
+        .any(|token| is_punct(&token, '|'))
 }
 
 /// The attribute begins with `name =`.
 fn has_law(attribute: &Attribute) -> bool {
-    let mut tokens = tokens(attribute);
+    let mut tokens = tokens(attribute).into_iter();
     let name = tokens.next();
     matches!(name, Some(TokenTree::Ident(_))) && tokens.next().is_some_and(|t| is_punct(&t, '='))
 }
 
-fn tokens(attribute: &Attribute) -> impl Iterator<Item = TokenTree> {
-    let tokens = match &attribute.meta {
+fn tokens(attribute: &Attribute) -> TokenStream {
+    match &attribute.meta {
         Meta::List(list) => list.tokens.clone(),
         Meta::Path(_) | Meta::NameValue(_) => TokenStream::new(),
-    };
-    tokens.into_iter()
+    }
 }
 
 fn is_punct(token: &TokenTree, character: char) -> bool {
@@ -195,6 +210,9 @@ fn skip_entry(input: ParseStream<'_>) -> syn::Result<Span> {
 
 /// The laws of one attribute; nothing if they cannot be read.
 fn read_laws(cx: &Ctxt, attribute: &Attribute) -> Option<Vec<(Ident, Expr)>> {
+    if is_too_deep(cx, attribute) {
+        return None;
+    }
     match laws(attribute) {
         Ok(laws) if laws.is_empty() => {
             cx.error(attribute.path(), &message::empty_viscosity());

@@ -118,6 +118,9 @@ impl Lowering<'_> {
                 let (value, exponent) = (self.expr(base), self.expr(exponent));
                 let (value, exponent) = (value?, exponent?);
                 self.check_base(base, value, exponent)?;
+                if self.graph.as_number(exponent) == Some(Number::HALF) {
+                    self.check_square(base, value)?;
+                }
                 self.graph.power(value, exponent)
             }
             ExprKind::Diff(inner, variable) => {

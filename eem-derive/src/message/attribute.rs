@@ -52,6 +52,13 @@ pub(crate) fn unreadable_formula(error: &syn::Error) -> Message {
     )
 }
 
+pub(crate) fn too_deep() -> Message {
+    Message::new(
+        "the formula is nested too deeply to be read",
+        "bind its parts with `let`",
+    )
+}
+
 pub(crate) fn after_the_closure() -> Message {
     Message::new(
         "the free energy is complete before this",

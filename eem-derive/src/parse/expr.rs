@@ -91,9 +91,8 @@ fn function_call<'a>(cx: &Ctxt, call: &'a syn::ExprCall) -> ExprKind<'a> {
 }
 
 fn method_call<'a>(cx: &Ctxt, call: &'a syn::ExprMethodCall) -> ExprKind<'a> {
-    let receiver = std::iter::once(&*call.receiver);
-    let arguments = receiver.chain(&call.args);
-    let arguments = arguments.map(|argument| expr(cx, argument)).collect();
+    let mut arguments = vec![expr(cx, &call.receiver)];
+    arguments.extend(call.args.iter().map(|argument| expr(cx, argument)));
     if let Some(generics) = &call.turbofish {
         cx.error(generics, &message::generic_arguments());
     }
