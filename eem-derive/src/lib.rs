@@ -3,20 +3,21 @@
 //! The input is a struct whose fields are the parameters of a material and whose attribute is its
 //! free energy; the output is one `impl FreeEnergy`. There is no mathematics in this crate. It
 //! reads tokens, checks them, hands a model to [`eem_symbolic`] and prints the programs that come
-//! back. The phases, each of which reports everything it finds before the next one starts:
+//! back. The phases:
 //!
 //! | phase | module | from → to |
 //! |---|---|---|
 //! | parse | `attr`, `parse` | tokens → `ast` |
 //! | check | `check` | `ast` → `checked`: names resolved, roles and laws complete |
 //! | units | `units` | `checked` → the units of its fields, every operation in order |
-//! | model | `model` | `checked` → [`eem_symbolic::Model`] |
+//! | model | `model` | `checked` → [`eem_symbolic::Model`]: every subexpression has a value |
+//! | physics | `physics` | the model can be one of a material |
 //! | expand | `expand` | programs → tokens |
 //!
-//! Units and model are one phase as far as errors go.
-//!
-//! A phase that fails yields its errors and, from `fallback`, an implementation that does nothing,
-//! so that a wrong model causes one message and not twenty.
+//! A phase leaves a hole where it reports something, and the phases after it look at the rest: the
+//! mistakes of all phases come out together, and none of them causes a second message. Beside them
+//! stands an implementation that does nothing, from `fallback`, so that uses of a wrong model cause
+//! no messages either. `message` is the catalogue of all messages.
 
 mod ast;
 mod attr;
@@ -30,6 +31,7 @@ mod message;
 mod model;
 mod nearest;
 mod parse;
+mod physics;
 #[cfg(test)]
 mod tests;
 mod units;
@@ -82,8 +84,9 @@ use syn::{DeriveInput, parse_macro_input};
 ///
 /// # Expressions
 ///
-/// * names: arguments, fields of type `f64`, `f32` or of a type parameter, and `let` bindings. An
-///   inner name hides an outer one as in Rust: `let` hides arguments, arguments hide fields.
+/// * names: arguments, fields of type `f64`, `f32` or of a type parameter, and `let` bindings. A
+///   name means one thing: no argument has the name of a field, and no `let` a name that can be seen
+///   where it stands.
 /// * numbers: `2`, `2.0`, `1e-3`, `1_000.0`, all exact: `1 / 2` is one half.
 /// * `+`, `-`, `*`, `/`, unary minus, parentheses, blocks with `let`.
 /// * `diff(expression, argument)`: the partial derivative, anywhere in an expression.
@@ -124,9 +127,30 @@ use syn::{DeriveInput, parse_macro_input};
 /// stand for prefixes, and a field in mm cannot be added to a length in m: give it in m, or multiply
 /// it by a field in `m/mm`, of value 0.001.
 ///
+/// # Fields that are no parameters
+///
+/// Fields of other types may be there for any purpose. A number that neither the free energy nor a
+/// viscosity uses is an error, because a parameter without effect is most often a term that was
+/// forgotten. `#[free_energy(unused)]` on the field says that it is no parameter; a name that
+/// starts with an underscore says so too.
+///
+/// # What is refused
+///
+/// Everything wrong with a model is a compile-time error at the token that is wrong, with a line
+/// that says what to write instead. Beside syntax, names and arguments of functions these are
+///
+/// * constants that do not fit an `f64`, divisors that are zero, and arguments outside of the domain
+///   of a function: `ln(-1)`, `sqrt(-lambda)`;
+/// * a free energy that does not depend on one of its arguments, or is linear in the temperature:
+///   its heat capacity `c = -θ ∂²ψ/∂θ²` is zero, and no temperature belongs to an entropy;
+/// * a heat capacity or a viscosity that is nowhere positive.
+///
+/// These follow from the formulas alone, given that lengths and temperatures are positive. What
+/// depends on the values of the parameters shows only at run time.
+///
 /// # Another path to the crate
 ///
-/// `#[free_energy(crate = path)]`, alone or in front of the closure, for a renamed or re-exported
+/// `#[free_energy(crate = path)]`, alone or beside the closure, for a renamed or re-exported
 /// `eem`.
 #[proc_macro_derive(FreeEnergy, attributes(free_energy, viscosity, unit))]
 pub fn derive_free_energy(input: TokenStream) -> TokenStream {

@@ -5,6 +5,7 @@ use quote::quote;
 use syn::{DeriveInput, parse_quote};
 
 mod golden;
+mod mutation;
 
 /// The expansion of an item.
 fn expand(item: TokenStream) -> TokenStream {

@@ -68,7 +68,7 @@ pub(crate) fn check(cx: &Ctxt, checked: &Checked<'_>) -> Units {
     }
     let mut rules = Rules::new(cx, checked, &units);
     rules.body("the free energy", "J", &Unit::joule(), &checked.energy);
-    for viscosity in &checked.viscosities {
+    for viscosity in checked.viscosities.iter().flatten() {
         rules.body("a viscosity", "N s/m", &Unit::viscosity(), viscosity);
     }
     let unknowns = rules.unknowns;

@@ -66,6 +66,11 @@ pub struct Caloric<S> {
 ///
 /// with the symmetrised partitioned discrete derivatives D of García Orden &
 /// Romero (2012), eq. (28). A model without temperature has `D ψ` instead.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no free energy in the scalar `{S}`",
+    label = "no material for `{S}`",
+    note = "write `#[derive(FreeEnergy)]` and `#[free_energy(|lambda: Stretch| …)]` on top of the struct"
+)]
 pub trait FreeEnergy<S: Scalar> {
     /// Number of measures of the deformation, M.
     const MEASURES: usize;

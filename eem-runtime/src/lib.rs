@@ -49,8 +49,8 @@ mod state;
 mod system;
 
 pub use checkpoint::{Checkpoint, RestoreError};
-pub use ensemble::{Ensemble, MemberError, MemberFailure};
 pub use describe::{Describe, Description};
+pub use ensemble::{Ensemble, MemberError, MemberFailure};
 pub use error::{NewtonIteration, SceneError, StateError, StepError, StepFailure};
 pub use free_energy::{Array, Caloric, FreeEnergy};
 pub use handle::{Element, HeatPartner, Node, Reservoir};

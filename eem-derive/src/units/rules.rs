@@ -127,6 +127,12 @@ impl<'r> Rules<'r> {
                     }
                 }
             }
+            ExprKind::Wrong(parts) => {
+                for part in parts {
+                    self.quantity(part);
+                }
+                None
+            }
             ExprKind::Sqrt(inner) => self.root(expr, inner, 2),
             ExprKind::Recip(inner) => {
                 let one = Quantity::number(Some(Rational::ONE));
