@@ -203,7 +203,7 @@ const _: () = {
                 __eem::describe::Cost::new("internal_energy", 0, 4),
                 __eem::describe::Cost::new("gradient", 0, 2),
                 __eem::describe::Cost::new("hessian", 0, 2),
-                __eem::describe::Cost::new("entropy_form", 2, 6),
+                __eem::describe::Cost::new("entropy_form", 2, 3),
             ],
         };
     }
