@@ -247,6 +247,49 @@ fn loads_moved_anchors_and_thermostats_keep_the_order() {
     assert!((slope(&defects) - 4.0).abs() <= SLOPE_TOLERANCE);
 }
 
+/// A Maxwell element without temperature beside a spring.
+#[derive(Clone, Copy, Debug, FreeEnergy)]
+#[free_energy(|lambda: Stretch, gamma: Viscous| {
+    20.0 * (lambda - 1.0).powi(2) + 10.0 * (lambda - 1.0 - gamma).powi(2) * (1.0 + gamma.powi(2))
+})]
+#[viscosity(gamma = 4.0)]
+struct Isothermal {}
+
+// The heat of its dashpot is lost, and that is booked.
+#[test]
+fn a_dashpot_without_temperature_keeps_the_order() {
+    let end = |step: f64| {
+        let mut scene = Scene::<2>::new();
+        let pivot = scene.anchor([0.0, 0.0]);
+        let bob = scene.mass(1.0, [1.4, 0.0], [0.0, 1.0]);
+        let spring = scene.spring(Isothermal {}, [pivot, bob]);
+        let mut run = Simulation::new(scene, SCHEME, step).unwrap();
+        assert_eq!(run.unknowns(), 2 * 2);
+        let first = run.ledger();
+        let mut laws = Laws::new(&run);
+        while run.time() < 1.0 - 0.5 * step {
+            run.step().unwrap();
+            laws.watch(&run);
+        }
+        assert!(laws.angular_momentum <= MOMENTUM_TOLERANCE);
+        let defect = (run.ledger().balance - first.balance).abs();
+        let stretch = run.viscous_stretch(spring, 0).unwrap();
+        ([run.stretch(spring).unwrap(), stretch], defect)
+    };
+    let runs = [0.04, 0.02, 0.01, 0.005].map(end);
+    let defects: Vec<_> = runs.iter().map(|run| run.1).collect();
+    println!("balance: {defects:?}, slope {}", slope(&defects));
+    assert!((slope(&defects) - 4.0).abs() <= SLOPE_TOLERANCE);
+    for at in 0..2 {
+        let pairs = runs.windows(2);
+        let changes: Vec<_> = pairs
+            .map(|pair| (pair[0].0[at] - pair[1].0[at]).abs())
+            .collect();
+        println!("{}: {changes:?}, slope {}", runs[0].0[at], slope(&changes));
+        assert!((slope(&changes) - 4.0).abs() <= SLOPE_TOLERANCE);
+    }
+}
+
 #[test]
 fn the_tangent_is_exact() {
     // The error of a central difference of size δ, δ² + ε/δ, relative to the largest entry.
