@@ -4,6 +4,9 @@
 //! With names behind the file, for the structs of these names only. Mistakes in a model are printed
 //! where the compiler would show them, as `compile_error!` in front of an empty implementation.
 
+// For modules that ask whether a compiler runs them.
+extern crate proc_macro;
+
 use std::error::Error;
 use std::process::ExitCode;
 

@@ -1,7 +1,7 @@
 use eem::FreeEnergy;
 
 #[derive(FreeEnergy)]
-#[free_energy(|lambda: Stretch, theta: Temperature| k * lambda.powf(n) + k * (lambda / length).powf(length) + k * sqrt(lambda) / length.powf(0.5) + k * lambda.powf(1.5) / length)]
+#[free_energy(|lambda: Stretch| k * lambda.powf(n) + k * (lambda / length).powf(length) + k * sqrt(lambda) / length.powf(0.5) + k * lambda.powf(1.5) / length)]
 struct Model {
     #[unit("J")]
     k: f64,

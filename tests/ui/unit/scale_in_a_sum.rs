@@ -1,7 +1,7 @@
 use eem::FreeEnergy;
 
 #[derive(FreeEnergy)]
-#[free_energy(|lambda: Stretch, theta: Temperature| 0.5 * k * (lambda - length).powi(2) + (work + c * theta))]
+#[free_energy(|lambda: Stretch| 0.5 * k * (lambda - length).powi(2) + (work + c * warmth))]
 struct Model {
     #[unit("kN/m")]
     k: f64,
@@ -11,6 +11,8 @@ struct Model {
     work: f64,
     #[unit("J/K")]
     c: f64,
+    #[unit("K")]
+    warmth: f64,
 }
 
 fn main() {}

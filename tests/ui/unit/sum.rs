@@ -1,9 +1,9 @@
 use eem::FreeEnergy;
 
 #[derive(FreeEnergy)]
-#[free_energy(|lambda: Stretch, theta: Temperature| {
+#[free_energy(|lambda: Stretch| {
     let travel = lambda - length;
-    0.5 * k * travel.powi(2) + force - (c * theta - work)
+    0.5 * k * travel.powi(2) + force - (c * warmth - work)
 })]
 struct Model {
     #[unit("N/m")]
@@ -14,6 +14,8 @@ struct Model {
     force: f64,
     #[unit("J")]
     c: f64,
+    #[unit("K")]
+    warmth: f64,
     #[unit("J")]
     work: f64,
 }

@@ -1,7 +1,7 @@
 use eem::FreeEnergy;
 
 #[derive(FreeEnergy)]
-#[free_energy(|lambda: Stretch, theta: Temperature| (a + b + c + d + e + f) * lambda * theta)]
+#[free_energy(|lambda: Stretch| (a + b + c + d + e + f) * lambda)]
 struct Model {
     #[unit("Nm")]
     a: f64,
