@@ -27,6 +27,7 @@ mod blueprint;
 mod checkpoint;
 mod compensated;
 mod conduction;
+mod domain;
 mod error;
 mod free_energy;
 mod group;
@@ -47,6 +48,7 @@ mod state;
 mod system;
 
 pub use checkpoint::{Checkpoint, RestoreError};
+pub use domain::{Domain, DomainError, DomainPoint, DomainReport, Least, check_domain};
 pub use error::{NewtonIteration, SceneError, StateError, StepError, StepFailure};
 pub use free_energy::{Array, Caloric, FreeEnergy};
 pub use handle::{Element, HeatPartner, Node, Reservoir};
