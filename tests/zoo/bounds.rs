@@ -8,8 +8,8 @@ use eem_symbolic::{Bounded, Program, Programs, RunningError};
 use crate::specimen::Specimen;
 use crate::states::Corner;
 
-/// Products and sums of a few subnormal numbers, for outputs that are exactly zero somewhere.
-const TINY: f64 = 1e-300;
+/// Relative error of derivatives that are differences of 96 digits, for outputs without rounding.
+const TINY: f64 = 1e-30;
 
 /// Names of functions, their outputs with bounds and what was generated.
 pub(crate) struct Output {
@@ -108,12 +108,12 @@ pub(crate) fn forms(
 pub(crate) struct Worst {
     /// In units of the bound.
     pub(crate) of_bound: f64,
-    /// In ulp of the value, where the bound is below 8 ulp of it: what cancels is left out.
+    /// In ulp of the value, where the bound is below 64 ulp of it: what cancels is left out.
     pub(crate) ulps: f64,
 }
 
 /// Beyond this bound, in ulp of the value, an output is the small difference of large terms.
-const CANCELS: f64 = 8.0;
+const CANCELS: f64 = 64.0;
 
 impl Worst {
     /// Compares one number; `allowed` bounds are the limit. Returns what is wrong.
@@ -124,7 +124,7 @@ impl Worst {
         allowed: f64,
         what: impl FnOnce() -> String,
     ) -> Option<String> {
-        let bound = bounded.error + TINY;
+        let bound = bounded.error + TINY * (1.0 + bounded.value.abs());
         let ulp = f64::EPSILON * bounded.value.abs();
         if error > 0.0 {
             self.of_bound = self.of_bound.max(error / bound);

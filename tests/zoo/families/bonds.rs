@@ -55,8 +55,8 @@ specimen! {
 
 specimen! {
     /// Exp–6, Buckingham 1938, with the data of argon in eV and Å.
-    Buckingham { a: 2230.0, b: 3.67, c: 65.4 }
-    (lambda: Stretch = 4.0 in [3.0, 6.0])
+    Buckingham { a: 10550.0, b: 3.66, c: 63.7 }
+    (lambda: Stretch = 3.9 in [3.4, 4.6])
     {
         a * exp(-b * lambda) - c / lambda.powi(6)
     }

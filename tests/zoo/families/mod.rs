@@ -7,7 +7,7 @@ mod heat;
 mod memory;
 mod published;
 mod rubber;
-mod springs;
+pub(crate) mod springs;
 
 use crate::specimen::{Formula, Specimen};
 

@@ -83,6 +83,15 @@ specimen! {
 }
 
 specimen! {
+    /// A square centimetre of steel, a metre long, with the stretch of a spring wire.
+    Steel { stiffness: 21000000.0, length: 1.0 }
+    (lambda: Stretch = 1.001 in [0.998, 1.002])
+    {
+        0.5 * stiffness * length * ln(lambda / length).powi(2)
+    }
+}
+
+specimen! {
     /// A linear thermoelastic bar: thermal expansion and a constant heat capacity.
     Thermoelastic {
         stiffness: 800.0, expansion: 0.002, length: 1.0, capacity: 15.0, theta_ref: 293.0,
