@@ -1,9 +1,14 @@
 //! Bytes as the program of a stack machine that builds expressions.
 
-use eem_symbolic::{ExprId, Function, Graph, Model, Number, Symbol, diff};
+use std::collections::BTreeSet;
+
+use eem_symbolic::{ExprId, Function, Graph, Model, Node, Number, Symbol, diff};
 
 /// Larger expressions say nothing new and take long.
 const LARGEST: usize = 60;
+/// Orders of magnitude of all numbers together, of which the second derivative of a product has three
+/// times as many at most.
+const DECADES: f64 = 60.0;
 /// Expressions that are kept on the stack.
 const DEEPEST: usize = 16;
 const NAMES: [&str; 5] = ["lambda", "gamma", "theta", "k", "c"];
@@ -47,6 +52,39 @@ impl Recipe {
             symbols,
             psi,
         }
+    }
+
+    /// Whether its numbers are so far from overflow that no derivative contains an infinite one,
+    /// which the front end refuses before there are programs.
+    pub(crate) fn is_tame(&self) -> bool {
+        let (mut pending, mut seen, mut decades) = (vec![self.psi], BTreeSet::new(), 0.0);
+        let size = |number: f64| number.abs().log10().abs();
+        while let Some(e) = pending.pop() {
+            if !seen.insert(e) {
+                continue;
+            }
+            match self.graph.node(e) {
+                Node::Number(number) if *number == Number::ZERO => {}
+                Node::Number(number) => decades += size(number.to_f64()),
+                Node::Sum { constant, terms } => {
+                    let numbers = terms.iter().map(|(number, _)| number).chain([constant]);
+                    let numbers = numbers.filter(|&&number| number != Number::ZERO);
+                    decades += numbers.map(|number| size(number.to_f64())).sum::<f64>();
+                    pending.extend(terms.iter().map(|&(_, term)| term));
+                }
+                Node::Product(factors) => {
+                    decades += factors
+                        .iter()
+                        .map(|(_, power)| size(power.to_f64()))
+                        .sum::<f64>();
+                    pending.extend(factors.iter().map(|&(base, _)| base));
+                }
+                &Node::Power(base, exponent) => pending.extend([base, exponent]),
+                &Node::Apply(_, argument) => pending.push(argument),
+                _ => {}
+            }
+        }
+        decades <= DECADES
     }
 
     /// The same as a constitutive law, with the viscosity c.
@@ -93,7 +131,7 @@ impl Machine {
         let text = if byte < 192 {
             format!("{}", (f64::from(byte) - 64.0) / 8.0)
         } else {
-            format!("1e{}", 20 * (i32::from(byte) - 224))
+            format!("1e{}", i32::from(byte) - 224)
         };
         let parsed = Number::parse_decimal(&text);
         let number = parsed.unwrap_or_else(|| Number::Float(text.parse().unwrap_or(f64::NAN)));
