@@ -53,7 +53,7 @@ same! { parentheses_and_blocks at [1.3, 2.1];
     }
     {
         #[free_energy(|lambda: Stretch, theta: Temperature| {
-            { k * { lambda * theta } } - { c * theta * ln({ theta }) }
+            k * { lambda * theta } - { c * theta * ln({ theta }) }
         })]
     }
 }

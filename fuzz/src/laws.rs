@@ -27,9 +27,7 @@ pub fn laws(data: &[u8]) {
         return;
     }
     let increment = INCREMENTS[data.len() % INCREMENTS.len()];
-    for variable in 0..3 {
-        differences(&recipe, variable, increment);
-    }
+    differences(&recipe, data.len() / INCREMENTS.len() % 3, increment);
     let model = recipe.model();
     let (programs, formulas) = (model.programs(), model.formulas());
     assert_eq!(formulas.free_energy, format(&model.graph, model.psi));
@@ -47,7 +45,10 @@ pub fn laws(data: &[u8]) {
     for program in all.into_iter().flatten() {
         program.verify().expect("a valid program");
     }
-    assert_eq!(programs, recipe.model().programs());
+    // Costs as much as everything else together.
+    if data.len().is_multiple_of(8) {
+        assert_eq!(programs, recipe.model().programs());
+    }
     if let Some(form) = &programs.temperature_form {
         first_law(&programs.internal_energy, form, increment);
     }
@@ -64,9 +65,12 @@ fn program(graph: &Graph, symbols: &[Symbol], outputs: &[ExprId]) -> Program {
     program
 }
 
-/// The outputs, if everything on the way to them is determined.
-fn determined(program: &Program, inputs: &[f64]) -> Option<Vec<Bounded>> {
+/// The first outputs, if everything on the way to them is determined.
+fn determined(program: &Program, inputs: &[f64], count: usize) -> Option<Vec<Bounded>> {
     let mut all = program.clone();
+    let wanted = &program.outputs[..count];
+    let last = wanted.iter().map(|output| output.index()).max()?;
+    all.instructions.truncate(last + 1);
     all.outputs = (0..all.instructions.len()).map(Value::new).collect();
     let inputs: Vec<Bounded> = inputs.iter().map(|&x| Bounded::exact(x)).collect();
     let values = all.interpret(&BoundedKernels, &inputs);
@@ -75,11 +79,10 @@ fn determined(program: &Program, inputs: &[f64]) -> Option<Vec<Bounded>> {
         let exact = *error <= 0.0 && size < LARGE;
         exact || (size < LARGE && size > 1.0 / LARGE && *error <= DETERMINED * size)
     };
-    let outputs = program.outputs.iter();
     values
         .iter()
         .all(sound)
-        .then(|| outputs.map(|output| values[output.index()]).collect())
+        .then(|| wanted.iter().map(|output| values[output.index()]).collect())
 }
 
 /// `e[a, b] (b − a) = e(b) − e(a)`, and `e[a, a] = ∂e/∂x`.
@@ -103,8 +106,8 @@ fn differences(recipe: &Recipe, variable: usize, increment: f64) {
     };
     let a = POINT[variable];
     let b = a * (1.0 + increment);
-    let states = [a, b].map(|x| determined(&of_state, &at(x)));
-    let secants = [a, b].map(|x| determined(&of_ends, &[&at(a)[..], &[a, x]].concat()));
+    let states = [a, b].map(|x| determined(&of_state, &at(x), 2));
+    let secants = [a, b].map(|x| determined(&of_ends, &[&at(a)[..], &[a, x]].concat(), 1));
     let [Some(at_a), Some(at_b)] = states else {
         return;
     };
@@ -138,11 +141,11 @@ fn first_law(energy: &Program, form: &Program, increment: f64) {
     let x0 = [lambda, gamma, theta];
     let x1 = [1.0, -0.7, 0.4].map(|shape| 1.0 + shape * increment);
     let x1 = [0, 1, 2].map(|i| x0[i] * x1[i]);
-    let energies = [x0, x1].map(|x| determined(energy, &[&[k, c][..], &x].concat()));
+    let energies = [x0, x1].map(|x| determined(energy, &[&[k, c][..], &x].concat(), 1));
     let [Some(before), Some(after)] = energies else {
         return;
     };
-    let Some(response) = determined(form, &[&[k, c][..], &x0, &x1].concat()) else {
+    let Some(response) = determined(form, &[&[k, c][..], &x0, &x1].concat(), 4) else {
         return;
     };
     let [f, g, theta, entropy] = [0, 1, 2, 3].map(|i| response[i]);

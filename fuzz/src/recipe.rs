@@ -5,12 +5,12 @@ use std::collections::BTreeSet;
 use eem_symbolic::{ExprId, Function, Graph, Model, Node, Number, Symbol, diff};
 
 /// Larger expressions say nothing new and take long.
-const LARGEST: usize = 60;
+const LARGEST: usize = 40;
 /// Orders of magnitude of all numbers together, of which the second derivative of a product has three
 /// times as many at most.
 const DECADES: f64 = 60.0;
 /// Expressions that are kept on the stack.
-const DEEPEST: usize = 16;
+const DEEPEST: usize = 8;
 const NAMES: [&str; 5] = ["lambda", "gamma", "theta", "k", "c"];
 
 /// A free energy ψ(λ, γ, θ; k, c) that the bytes describe.
