@@ -3,7 +3,7 @@
 //! A fold that calls one constructor of the graph per node. What can be wrong here shows only once
 //! the expressions exist: exponents, dependences and values of constants.
 
-use eem_symbolic::{ExprId, F64, Graph, Model, Node, Number, Symbol, diff, schedule};
+use eem_symbolic::{ExprId, F64, Graph, Model, Number, Symbol, diff, schedule};
 
 use crate::ast::{self, Operator, Role};
 use crate::checked::{Body, Checked, Expr, ExprKind};
@@ -76,15 +76,12 @@ impl Lowering<'_> {
         self.check_finite(expr, value)
     }
 
-    /// A constant outside of the domain of a function has no value: `ln(-1)`, `1 / 0`; neither has
-    /// one that is too large for an `f64`, also as a coefficient: `1e300 * lambda * 1e300`.
+    /// A constant outside of the domain of a function has no value: `ln(-1)`, `1 / 0`.
     fn check_finite(&self, expr: &Expr<'_>, value: ExprId) -> Option<ExprId> {
-        let overflows = match self.graph.node(value) {
-            Node::Sum { terms, .. } => terms.iter().any(|(c, _)| !c.to_f64().is_finite()),
-            _ => false,
-        };
-        let constant = self.constant(value);
-        if overflows || constant.is_some_and(|constant| !constant.is_finite()) {
+        if self
+            .constant(value)
+            .is_some_and(|constant| !constant.is_finite())
+        {
             self.cx.error(expr.original, &message::not_finite());
             return None;
         }
