@@ -31,12 +31,12 @@ macro_rules! same {
 same! { calls_and_methods at [1.3, 2.1];
     {
         #[free_energy(|lambda: Stretch, theta: Temperature| {
-            k * ln(lambda) * exp(theta) + sqrt(lambda) * powf(theta, 2.5) - powi(lambda, 3) * recip(theta)
+            c + k * ln(lambda) * exp(theta) + sqrt(lambda) * powf(theta, 2.5) - powi(lambda, 3) * recip(theta)
         })]
     }
     {
         #[free_energy(|lambda: Stretch, theta: Temperature| {
-            k * lambda.ln() * theta.exp() + lambda.sqrt() * theta.powf(2.5)
+            c + k * lambda.ln() * theta.exp() + lambda.sqrt() * theta.powf(2.5)
                 - lambda.powi(3) * theta.recip()
         })]
     }
@@ -103,12 +103,14 @@ same! { a_name_bound_again at [1.3, 2.1];
 
 same! { a_block_ends_its_names at [1.3, 2.1];
     {
-        #[free_energy(|lambda: Stretch, theta: Temperature| c.powi(2) * lambda.powi(2) * theta.powi(2))]
+        #[free_energy(|lambda: Stretch, theta: Temperature| {
+            k + c.powi(2) * lambda.powi(2) * theta.powi(2)
+        })]
     }
     {
         #[free_energy(|lambda: Stretch, theta: Temperature| {
             let square = { let c = c * lambda; c.powi(2) };
-            square * theta.powi(2)
+            k + square * theta.powi(2)
         })]
     }
 }
@@ -149,19 +151,19 @@ same! { numbers at [1.3, 2.1];
 same! { derivatives at [1.3, 2.1];
     {
         #[free_energy(|lambda: Stretch, theta: Temperature| {
-            k * lambda.powi(3) + 3 * k * lambda.powi(2) * theta.powi(2)
+            c + k * lambda.powi(3) + 3 * k * lambda.powi(2) * theta.powi(2)
         })]
     }
     {
         #[free_energy(|lambda: Stretch, theta: Temperature| {
             let elastic = k * lambda.powi(3);
-            elastic + diff(elastic, lambda) * theta.powi(2)
+            c + elastic + diff(elastic, lambda) * theta.powi(2)
         })]
     }
     {
         #[free_energy(|lambda: Stretch, theta: Temperature| {
             let elastic = k * lambda.powi(3);
-            elastic + elastic.diff(lambda) * theta.powi(2)
+            c + elastic + elastic.diff(lambda) * theta.powi(2)
         })]
     }
 }

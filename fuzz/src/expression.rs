@@ -109,6 +109,10 @@ const WORDS: [&str; 96] = [
 
 /// A struct with the first line as its free energy and the second as the law of its dashpot. If
 /// the first byte is odd, the bytes are numbers of [`WORDS`].
+///
+/// # Panics
+///
+/// If the front end does, if what it prints is not Rust, or not the same twice.
 pub fn expression(data: &[u8]) {
     let Some((&kind, data)) = data.split_first() else {
         return;

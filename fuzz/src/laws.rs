@@ -21,6 +21,10 @@ const LARGE: f64 = 1e60;
 const ALLOWED: f64 = 4.0;
 
 /// What must hold for every expression.
+///
+/// # Panics
+///
+/// If something does not hold.
 pub fn laws(data: &[u8]) {
     let recipe = Recipe::read(data);
     if !recipe.is_tame() {

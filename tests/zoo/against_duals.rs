@@ -20,12 +20,11 @@ fn expected(specimen: &dyn Specimen, function: &str, i: usize, x: &[f64]) -> Opt
     let psi = |j, k| specimen.psi_of_duals(&seeded(x, j, k)).0;
     let last = n - 1;
     Some(match (function, i) {
-        ("ψ", _) => psi(0, 0).re,
         ("e", _) if specimen.thermal() => {
             let psi = psi(last, last);
             psi.re - x[last] * psi.eps1
         }
-        ("e", _) => psi(0, 0).re,
+        ("ψ" | "e", _) => psi(0, 0).re,
         ("gradient", j) => psi(j, j).eps1,
         ("Hessian", j) if j < n => psi(j, j).eps1,
         ("Hessian", entry) => psi(entry / n - 1, entry % n).eps1eps2,

@@ -139,7 +139,7 @@ fn array<A: Array<f64>>(elements: &[f64]) -> A {
 }
 
 fn flat<R: Array<f64>, M: Array<R>>(first: &[f64], matrix: &M) -> Vec<f64> {
-    let rows = matrix.as_ref().iter().flat_map(|row| row.as_ref());
+    let rows = matrix.as_ref().iter().flat_map(AsRef::as_ref);
     first.iter().chain(rows).copied().collect()
 }
 

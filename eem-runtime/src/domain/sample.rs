@@ -57,7 +57,8 @@ mod tests {
         // 1000 points: every one of 64 cells has its 15.6 of them, give or take a few.
         let mut cells = [0_u32; 64];
         for unit in even(3, 1000) {
-            let cell = unit.iter().fold(0, |cell, u| 4 * cell + (u * 4.0) as usize);
+            let quarter = |u: f64| [0.25, 0.5, 0.75].iter().filter(|&&end| u >= end).count();
+            let cell = unit.iter().fold(0, |cell, &u| 4 * cell + quarter(u));
             cells[cell] += 1;
         }
         assert!(

@@ -11,6 +11,9 @@ const STEPS: [f64; 2] = [0.125, 1e-6];
 /// Limit of the moves from one start, for quantities that fall in tiny steps.
 const MOVES: usize = 500;
 
+/// Heat capacity and viscosities of a state, or what is wrong with it.
+type Examine<'e> = dyn Fn(&[f64]) -> Result<Vec<f64>, DomainError> + 'e;
+
 /// A looked-at point of the unit cube and its quantities.
 #[derive(Clone, Debug)]
 struct Looked {
@@ -21,7 +24,7 @@ struct Looked {
 /// Calls of the examination, counted.
 struct Examiner<'e> {
     space: &'e Space,
-    examine: &'e dyn Fn(&[f64]) -> Result<Vec<f64>, DomainError>,
+    examine: &'e Examine<'e>,
     evaluations: usize,
 }
 
@@ -64,7 +67,7 @@ impl Examiner<'_> {
 pub(super) fn search(
     space: &Space,
     samples: usize,
-    examine: &dyn Fn(&[f64]) -> Result<Vec<f64>, DomainError>,
+    examine: &Examine<'_>,
 ) -> Result<DomainReport, DomainError> {
     let mut examiner = Examiner {
         space,

@@ -63,7 +63,7 @@ specimen! {
 }
 
 specimen! {
-    /// An ion pair, Born & Mayer 1932, with the data of NaCl in eV and Å.
+    /// An ion pair, Born & Mayer 1932, with the data of rock salt in eV and Å.
     BornMayer { charge: 14.4, a: 1227.0, rho: 0.321 }
     (lambda: Stretch = 2.5 in [1.8, 5.0])
     {

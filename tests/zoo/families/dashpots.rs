@@ -146,7 +146,7 @@ specimen! {
 specimen! {
     /// An air spring with an auxiliary volume behind an orifice; the viscosity is Sutherland's.
     AirSpring {
-        n_r: 8.314, aux: 4.0, area: 0.1, pressure: 100000.0, height: 0.25, restoring: 400.0,
+        n_r: 8.314, aux: 4.0, area: 0.1, pressure: 100_000.0, height: 0.25, restoring: 400.0,
         capacity: 31.0, theta_ref: 300.0, eta: 900.0, sutherland: 111.0,
     }
     (

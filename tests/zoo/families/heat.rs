@@ -19,8 +19,8 @@ specimen! {
     /// Shomate's polynomial, `C = a + b t + c t² + d t³ + e/t²` with t = θ/1000 K; a mole of solid
     /// aluminium, Chase 1998.
     Polynomial {
-        a: 28.0892, b: -5.414849, c: 8.560423, d: 3.42737, e: -0.277375,
-        stiffness: 90000.0, expansion: 0.000023, length: 0.1,
+        a: 28.0892, b: -5.414_849, c: 8.560_423, d: 3.42737, e: -0.277_375,
+        stiffness: 90000.0, expansion: 0.000_023, length: 0.1,
     }
     (lambda: Stretch = 0.101 in [0.09, 0.11], theta: Temperature = 400.0 in [300.0, 900.0])
     {
@@ -33,7 +33,7 @@ specimen! {
 
 specimen! {
     /// A metal at a few kelvin: electrons and lattice, `C = g θ + a θ³`.
-    Metal { stiffness: 40.0, pull: 0.001, length: 1.0, g: 0.00069, a: 0.0000478 }
+    Metal { stiffness: 40.0, pull: 0.001, length: 1.0, g: 0.00069, a: 0.000_047_8 }
     (lambda: Stretch = 1.05 in [0.7, 1.5], theta: Temperature = 8.0 in [1.0, 30.0])
     {
         let u = lambda - length;
@@ -44,11 +44,11 @@ specimen! {
 
 specimen! {
     /// Einstein solid whose frequency falls with the stretch, `Θ = Θ₀ (λ/L)^(−g)`.
-    Einstein { stiffness: 300.0, length: 1.0, capacity: 3.0, einstein: 250.0, grueneisen: 1.8 }
+    Einstein { stiffness: 300.0, length: 1.0, capacity: 3.0, lowest: 250.0, grueneisen: 1.8 }
     (lambda: Stretch = 1.1 in [0.8, 1.6], theta: Temperature = 150.0 in [40.0, 400.0])
     {
         let s = lambda / length;
-        let frequency = einstein * s.powf(-grueneisen);
+        let frequency = lowest * s.powf(-grueneisen);
         0.5 * stiffness * ln(s).powi(2) + 0.5 * capacity * frequency
             + capacity * theta * ln_1p(-exp(-frequency / theta))
     }

@@ -7,7 +7,7 @@ specimen! {
     /// A shape-memory bar, Landau's expansion in the strain after Falk 1980: one well when hot,
     /// two when cold, three between.
     Falk {
-        a: 20.0, b: 60000.0, c: 40000000.0, transition: 290.0, length: 1.0, capacity: 3.0,
+        a: 20.0, b: 60000.0, c: 40_000_000.0, transition: 290.0, length: 1.0, capacity: 3.0,
         theta_ref: 300.0,
     }
     (lambda: Stretch = 1.02 in [0.93, 1.07], theta: Temperature = 305.0 in [270.0, 350.0])

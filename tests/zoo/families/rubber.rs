@@ -24,7 +24,7 @@ specimen! {
 }
 
 specimen! {
-    /// Three powers, Ogden 1972, with his moduli for Treloar's vulcanised rubber in MPa.
+    /// Three powers, Ogden 1972, with his moduli for Treloar's vulcanised rubber in `MPa`.
     Ogden {
         mu1: 0.63, mu2: 0.0012, mu3: -0.01, alpha1: 1.3, alpha2: 5.0, alpha3: -2.0, length: 1.0,
     }
@@ -68,7 +68,7 @@ specimen! {
         modulus * (0.5 * (i - 3.0) + (i.powi(2) - 9.0) / (20.0 * n)
             + 11.0 * (i.powi(3) - 27.0) / (1050.0 * n.powi(2))
             + 19.0 * (i.powi(4) - 81.0) / (7000.0 * n.powi(3))
-            + 519.0 * (i.powi(5) - 243.0) / (673750.0 * n.powi(4)))
+            + 519.0 * (i.powi(5) - 243.0) / (673_750.0 * n.powi(4)))
     }
 }
 

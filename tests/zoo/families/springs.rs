@@ -84,7 +84,7 @@ specimen! {
 
 specimen! {
     /// A square centimetre of steel, a metre long, with the stretch of a spring wire.
-    Steel { stiffness: 21000000.0, length: 1.0 }
+    Steel { stiffness: 21_000_000.0, length: 1.0 }
     (lambda: Stretch = 1.001 in [0.998, 1.002])
     {
         0.5 * stiffness * length * ln(lambda / length).powi(2)
