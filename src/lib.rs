@@ -22,6 +22,10 @@ pub mod prelude {
     };
 }
 
+/// Guide: how a material is written, in stages, and how it is checked.
+#[doc = include_str!("../docs/guide.md")]
+pub mod guide {}
+
 /// What generated code names. Not part of the public interface.
 #[doc(hidden)]
 pub mod __private {

@@ -26,6 +26,7 @@ mod message;
 mod model;
 mod nearest;
 mod parse;
+mod physics;
 mod units;
 
 const USAGE: &str = "usage: expand FILE [STRUCT]…";

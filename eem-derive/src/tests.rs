@@ -6,6 +6,7 @@ use syn::{DeriveInput, parse_quote};
 
 mod golden;
 mod mutation;
+mod units;
 
 /// The expansion of an item.
 fn expand(item: TokenStream) -> TokenStream {

@@ -11,12 +11,10 @@
 mod display;
 mod excerpt;
 mod fields;
-mod grammar;
+pub(crate) mod grammar;
 mod rules;
 mod table;
-#[cfg(test)]
-mod tests;
-mod unit;
+pub(crate) mod unit;
 mod unknowns;
 
 use crate::ast::Role;

@@ -28,6 +28,7 @@ mod blueprint;
 mod checkpoint;
 mod compensated;
 mod conduction;
+mod domain;
 mod ensemble;
 mod error;
 mod free_energy;
@@ -50,6 +51,7 @@ mod system;
 
 pub use checkpoint::{Checkpoint, RestoreError};
 pub use describe::{Describe, Description};
+pub use domain::{Domain, DomainError, DomainPoint, DomainReport, Least, check_domain};
 pub use ensemble::{Ensemble, MemberError, MemberFailure};
 pub use error::{NewtonIteration, SceneError, StateError, StepError, StepFailure};
 pub use free_energy::{Array, Caloric, FreeEnergy};

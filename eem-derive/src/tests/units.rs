@@ -4,8 +4,9 @@ use eem_symbolic::Rational;
 use proptest::prelude::*;
 use syn::{Data, DeriveInput, Field, parse_quote};
 
-use super::grammar::parse;
-use super::unit::{Base, Unit};
+use crate::units::Unit;
+use crate::units::grammar::parse;
+use crate::units::unit::Base;
 
 fn unit(text: &str) -> Unit {
     parse(text).unwrap_or_else(|message| panic!("{text}: {message}"))
