@@ -15,6 +15,8 @@ mod against_duals;
 mod against_interpreter;
 #[path = "zoo/bounds.rs"]
 mod bounds;
+#[path = "zoo/digits.rs"]
+mod digits;
 #[path = "zoo/dual.rs"]
 mod dual;
 #[path = "zoo/expression.rs"]

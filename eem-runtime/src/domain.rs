@@ -91,7 +91,7 @@ impl<S: Real> Domain<S> {
 /// capacities and viscosities meets. The result is the same in every run.
 ///
 /// A report is evidence, not a proof: a dip between the points that no slope leads to stays unseen.
-/// More samples see narrower dips; some hundred cost less than a step of a small scene in ten.
+/// More samples see narrower dips.
 ///
 /// # Errors
 ///

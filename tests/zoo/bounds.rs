@@ -9,7 +9,7 @@ use crate::specimen::Specimen;
 use crate::states::Corner;
 
 /// Relative error of derivatives that are differences of 96 digits, for outputs without rounding.
-const TINY: f64 = 1e-30;
+const TINY: f64 = 1e-25;
 
 /// Names of functions, their outputs with bounds and what was generated.
 pub(crate) struct Output {

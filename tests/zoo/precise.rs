@@ -12,6 +12,8 @@ const BITS: usize = 320;
 const ROUNDING: RoundingMode = RoundingMode::None;
 /// Relative offset 2ⁿ of numerical derivatives, whose own error is its square.
 const OFFSET: i32 = -80;
+/// What the offset of quotients has more.
+const COARSE: i32 = 20;
 
 thread_local! {
     static NUMBERS: RefCell<Vec<BigFloat>> = const { RefCell::new(Vec::new()) };
@@ -161,6 +163,12 @@ impl Value for Precise {
     fn sqrt(self) -> Self {
         store(self.get().sqrt(BITS, ROUNDING))
     }
+}
+
+/// The change that derivatives of quotients are taken with: more than that of derivatives, on which
+/// they depend.
+pub(crate) fn coarse_offset(x: Precise) -> Precise {
+    offset(x).mul(Precise::two_to(COARSE))
 }
 
 /// The change that numerical derivatives by `x` are taken with.

@@ -28,8 +28,14 @@ pub(crate) fn around(specimen: &dyn Specimen) -> Vec<Vec<f64>> {
 
 /// Pairs of an old and a new state.
 pub(crate) fn steps(specimen: &dyn Specimen) -> Vec<[Vec<f64>; 2]> {
-    let step = |increment| [moved(specimen, 0.0, true), moved(specimen, increment, true)];
-    INCREMENTS.map(step).to_vec()
+    INCREMENTS
+        .map(|increment| step(specimen, increment))
+        .to_vec()
+}
+
+/// A step of one size.
+pub(crate) fn step(specimen: &dyn Specimen, increment: f64) -> [Vec<f64>; 2] {
+    [0.0, increment].map(|part| moved(specimen, part, true))
 }
 
 /// A temperature and what rounding may have done to it.
