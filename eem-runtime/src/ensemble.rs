@@ -102,9 +102,7 @@ impl<S: Real> Ensemble<'_, S> {
         self.newton = settings;
         self
     }
-}
 
-impl<'w, S: Real> Ensemble<'w, S> {
     /// Calls `watch` with the number of finished members and that of all members, each time one
     /// has finished or failed: 1, 2, 3 … in this order, one call at a time, but from any thread.
     ///
