@@ -1,5 +1,7 @@
 //! Throughput of an ensemble of single pendulums by number of threads; see `README.md`.
 
+#![allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
+
 #[path = "../tests/support/mod.rs"]
 mod support;
 

@@ -163,9 +163,9 @@ impl<S: Bundle> State<S> {
     /// The new state.
     fn close(&mut self, x: &[S; 4]) {
         let inertia = S::from_f64(2.0 * MASS / STEP);
-        for axis in 0..2 {
-            self.p[axis] = inertia * (x[axis] - self.q[axis]) - self.p[axis];
-            self.q[axis] = x[axis];
+        for (axis, &new) in x[..2].iter().enumerate() {
+            self.p[axis] = inertia * (new - self.q[axis]) - self.p[axis];
+            self.q[axis] = new;
         }
         [self.gamma, self.theta] = [x[2], x[3]];
     }
@@ -179,14 +179,14 @@ fn norm<S: Scalar>(x: S, y: S) -> S {
 /// Elimination from the last unknown on; heat and creep dominate their rows.
 fn solve<S: Scalar>(mut matrix: [[S; 4]; 4], mut right: [S; 4]) -> [S; 4] {
     for pivot in (1..4).rev() {
-        let row = matrix[pivot];
+        let (row, last) = (matrix[pivot], right[pivot]);
         let inverse = row[pivot].recip();
         for i in 0..pivot {
             let factor = matrix[i][pivot] * inverse;
             for j in 0..pivot {
                 matrix[i][j] -= factor * row[j];
             }
-            right[i] = right[i] - factor * right[pivot];
+            right[i] -= factor * last;
         }
     }
     let mut solution = [S::zero(); 4];

@@ -88,7 +88,8 @@ impl<S: Real> Ensemble<'_, S> {
     /// How many threads work; with 1 it is the calling one. Default 0: those of rayon's pool, one
     /// for each core unless the program or `RAYON_NUM_THREADS` says otherwise.
     ///
-    /// Results do not depend on it. Without the feature `parallel` it is always one.
+    /// Results do not depend on it. Without the feature `parallel`, or where the system refuses the
+    /// threads, it is always one.
     #[must_use]
     pub fn threads(mut self, threads: usize) -> Self {
         self.threads = threads;
@@ -102,9 +103,7 @@ impl<S: Real> Ensemble<'_, S> {
         self.newton = settings;
         self
     }
-}
 
-impl<'w, S: Real> Ensemble<'w, S> {
     /// Calls `watch` with the number of finished members and that of all members, each time one
     /// has finished or failed: 1, 2, 3 … in this order, one call at a time, but from any thread.
     ///

@@ -11,7 +11,7 @@ use super::support::figures::{Axes, Curve, Figure};
 use super::support::output;
 
 /// Bars of the histogram, over the members between the outermost thousandths.
-const BARS: usize = 40;
+const BARS: usize = 20;
 const OUTERMOST: f64 = 0.001;
 
 /// Parts of the range of the stiffness in each of which quantiles are taken.
