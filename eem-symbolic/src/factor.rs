@@ -102,8 +102,9 @@ fn most_frequent(graph: &Graph, terms: &[Term]) -> Option<(ExprId, Rational)> {
 }
 
 fn factors(graph: &Graph, term: ExprId) -> Vec<(ExprId, Rational)> {
-    match graph.node(term) {
-        Node::Product(factors) => factors.clone(),
-        _ => vec![(term, Rational::ONE)],
+    if let Node::Product(factors) = graph.node(term) {
+        factors.clone()
+    } else {
+        vec![(term, Rational::ONE)]
     }
 }
