@@ -34,7 +34,15 @@ impl Program {
                 | Operation::SecondDividedDifference(kernel, a, b) => {
                     (family_of(kernel), vec![a, b])
                 }
-                _ => (None, Vec::new()),
+                Operation::Input(_)
+                | Operation::Constant(_)
+                | Operation::Add(..)
+                | Operation::Sub(..)
+                | Operation::Mul(..)
+                | Operation::Div(..)
+                | Operation::Neg(_)
+                | Operation::Powi(..)
+                | Operation::Sqrt(_) => (None, Vec::new()),
             };
             let Some(family) = family else { continue };
             for end in ends {
@@ -54,11 +62,18 @@ impl Program {
             return argument;
         }
         let known = |value: Value| self.instructions[value.index()].stage == Stage::Old;
-        match self.instructions[argument.index()].operation {
-            Operation::Mul(a, b) | Operation::Div(a, b) if known(b) => a,
-            Operation::Mul(a, b) if known(a) => b,
-            _ => argument,
+        let factors = self.instructions[argument.index()].operation.clone();
+        if let Operation::Mul(a, b) | Operation::Div(a, b) = factors
+            && known(b)
+        {
+            return a;
         }
+        if let Operation::Mul(a, b) = factors
+            && known(a)
+        {
+            return b;
+        }
+        argument
     }
 }
 
@@ -119,15 +134,22 @@ fn library_calls(operation: &Operation) -> usize {
 fn calls_of(kernel: ProgramKernel) -> [usize; 2] {
     match kernel {
         ProgramKernel::Function(function) => match function {
-            Function::Ln | Function::Log2 | Function::Log10 | Function::Ln1p => [0, 0],
-            Function::Exp | Function::ExpM1 => [1, 2],
             Function::Sin | Function::Cos => [3, 3],
             Function::Tan => [3, 4],
             Function::Sinh => [2, 3],
             Function::Cosh => [2, 4],
             Function::Tanh => [3, 6],
-            Function::Asinh | Function::Atan | Function::Atanh => [1, 2],
-            Function::Cbrt | Function::Abs => [0, 0],
+            Function::Exp
+            | Function::ExpM1
+            | Function::Asinh
+            | Function::Atan
+            | Function::Atanh => [1, 2],
+            Function::Ln
+            | Function::Log2
+            | Function::Log10
+            | Function::Ln1p
+            | Function::Cbrt
+            | Function::Abs => [0, 0],
         },
         ProgramKernel::Powf(_) => [3, 1],
         ProgramKernel::Power(..) | ProgramKernel::Powi(_) | ProgramKernel::Sqrt => [0, 0],

@@ -16,9 +16,15 @@ pub(crate) struct Factoring {
 impl Factoring {
     /// An equal expression in which no two terms of a sum have a factor in common.
     pub(crate) fn of(&mut self, graph: &mut Graph, e: ExprId) -> ExprId {
-        let images = &self.images;
-        for id in graph.reachable(e, |id| !images.contains_key(&id)) {
+        let mut pending = vec![(e, false)];
+        while let Some((id, operands_done)) = pending.pop() {
             if self.images.contains_key(&id) {
+                continue;
+            }
+            if !operands_done {
+                pending.push((id, true));
+                let node = graph.node(id);
+                node.for_each_operand(|operand| pending.push((operand, false)));
                 continue;
             }
             let node = graph.node(id).clone();
@@ -96,8 +102,9 @@ fn most_frequent(graph: &Graph, terms: &[Term]) -> Option<(ExprId, Rational)> {
 }
 
 fn factors(graph: &Graph, term: ExprId) -> Vec<(ExprId, Rational)> {
-    match graph.node(term) {
-        Node::Product(factors) => factors.clone(),
-        _ => vec![(term, Rational::ONE)],
+    if let Node::Product(factors) = graph.node(term) {
+        factors.clone()
+    } else {
+        vec![(term, Rational::ONE)]
     }
 }

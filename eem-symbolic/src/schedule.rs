@@ -7,8 +7,8 @@
 //! * [`schedule`] keeps the structural order and divides once per product: an expression takes the
 //!   same operations at the old and at the new state, and what is symmetric in the two is symmetric
 //!   bit by bit. Only factors and terms of parameters alone come first.
-//! * The programs of a [`Model`](crate::Model) take the freedom that rounding leaves: what belongs
-//!   to the old stage comes first, operands that many products or sums have in common next, and
+//! * The programs of a [`Model`](crate::Model) take the freedom that rounding leaves: what depends
+//!   on parameters alone comes first, operands that many products or sums have in common next, and
 //!   quotients are products with shared reciprocals. Arguments of functions are still divided, so
 //!   that ln(λ/λ₀) vanishes where λ = λ₀.
 

@@ -1,6 +1,6 @@
-//! In which order products and sums of the new stage are evaluated so that they share the most.
+//! In which order products and sums are evaluated so that they share the most.
 //!
-//! What belongs to the old stage is taken together first, coefficients included: it is computed
+//! What depends on parameters alone is taken together first, coefficients included: it is computed
 //! once per step. The rest is left to [`Sharing`].
 
 use std::collections::{BTreeSet, HashMap};
@@ -10,21 +10,21 @@ use super::sharing::{Entry, Sharing, Token};
 use crate::node::{ExprId, Node, Symbol};
 use crate::number::{Number, Rational};
 
-/// A factor or a part of a product that belongs to the old stage.
+/// A factor of a product, or all that depend on parameters alone.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Factor {
-    /// `base ^ exponent`, of the new stage.
+    /// `base ^ exponent` of a state.
     Power(ExprId, Rational),
-    /// `coefficient · Π base ^ exponent`, of the old stage.
+    /// `coefficient · Π base ^ exponent` of parameters.
     Hoisted(Number, Vec<(ExprId, Rational)>),
 }
 
-/// A term or a part of a sum that belongs to the old stage.
+/// A term of a sum, or all that depend on parameters alone.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Term {
     /// `coefficient · term` with a positive coefficient.
     Scaled(Number, ExprId),
-    /// `constant + Σ coefficient · term`, of the old stage.
+    /// `constant + Σ coefficient · term` of parameters.
     Hoisted(Number, Vec<(Number, ExprId)>),
 }
 
@@ -138,7 +138,7 @@ impl Plan {
         });
     }
 
-    /// Plans `coefficient · e` if e is a product of the new stage.
+    /// Plans `coefficient · e` if e is a product that depends on a state.
     fn product(&mut self, collector: &Collector<'_>, coefficient: Number, e: ExprId) {
         let Node::Product(factors) = collector.schedule.graph.node(e) else {
             return;
@@ -163,7 +163,7 @@ impl Plan {
         self.products.lists.insert(key, list);
     }
 
-    /// Plans a sum of the new stage.
+    /// Plans a sum that depends on a state.
     fn sum(
         &mut self,
         collector: &Collector<'_>,
@@ -192,10 +192,10 @@ impl Plan {
     }
 }
 
-/// Finds what the outputs depend on, and what of it changes within a step.
+/// Finds what the outputs depend on, and what of it depends on a state.
 struct Collector<'s> {
     schedule: &'s Schedule<'s>,
-    /// The inputs of the new stage.
+    /// The variables of the states.
     new: &'s BTreeSet<Symbol>,
     /// Looked up, never iterated.
     changing: HashMap<ExprId, bool>,
@@ -218,10 +218,12 @@ impl Collector<'_> {
                 }
                 let operands = schedule.operands(e);
                 if operands_done {
-                    let changes = match schedule.graph.node(e) {
-                        Node::Variable(symbol) if operands.is_empty() => self.new.contains(symbol),
-                        _ => operands.iter().any(|&operand| self.changes(operand)),
-                    };
+                    let mut changes = operands.iter().any(|&operand| self.changes(operand));
+                    if let (Node::Variable(symbol), true) =
+                        (schedule.graph.node(e), operands.is_empty())
+                    {
+                        changes = self.new.contains(symbol);
+                    }
                     self.changing.insert(e, changes);
                     found.push(e);
                     continue;

@@ -20,16 +20,12 @@ enum Exponent {
 impl Builder<'_> {
     /// `Π base ^ exponent`.
     pub(super) fn product(&mut self, e: ExprId, factors: &[(ExprId, Rational)]) -> Signed {
-        match self.planned_product(Number::ONE, e) {
-            Some(product) => product,
-            None => {
-                let whole = self
-                    .plan
-                    .as_ref()
-                    .is_none_or(|plan| plan.arguments.contains(&e));
-                self.in_order(Number::ONE, factors, whole)
-            }
+        if let Some(product) = self.planned_product(Number::ONE, e) {
+            return product;
         }
+        let plan = self.plan.as_ref();
+        let whole = plan.is_none_or(|plan| plan.arguments.contains(&e));
+        self.in_order(Number::ONE, factors, whole)
     }
 
     /// `coefficient · e` for a product e that has been planned.
