@@ -204,9 +204,11 @@ mod files {
     #[test]
     fn damaged_files_are_errors() {
         assert_eq!(
-            damaged("\"time\":[[0.0,0.0]]", "\"time\":[]"),
-            "number of time: the checkpoint has 0, the simulation has 1"
+            damaged("\"viscous\":[[0.0,0.0]]", "\"viscous\":[]"),
+            "number of viscous stretches: the checkpoint has 0, the simulation has 1"
         );
+        let error = damaged("\"time\":[0.0,0.0]", "\"time\":[]");
+        assert!(error.starts_with("invalid length 0"), "{error}");
         assert_eq!(
             damaged("\"temperatures\":[380.0]", "\"temperatures\":[-1.0]"),
             "the checkpoint has -1 among its values of temperatures, they must be positive and finite"

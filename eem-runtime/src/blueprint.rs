@@ -74,7 +74,7 @@ impl<S, M, K, const D: usize> Blueprint<S, D> for ModelSet<M, K>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S>,
+    K: Kinematics<S, D>,
 {
     fn as_any(&self) -> &dyn Any {
         self
@@ -120,9 +120,9 @@ where
                 boxed::<S, M, K, EemTemperature, D>(kinematics, models, placed)
             }
             Scheme::Variational => boxed::<S, M, K, Variational, D>(kinematics, models, placed),
-            Scheme::Variational4 => Built::InStages(Box::new(
-                ThreeStageGroup::<S, M, K>::new::<D>(kinematics, models, placed),
-            )),
+            Scheme::Variational4 => Built::InStages(Box::new(ThreeStageGroup::<S, M, K, D>::new(
+                kinematics, models, placed,
+            ))),
             Scheme::MidpointTemperature => {
                 boxed::<S, M, K, MidpointTemperature, D>(kinematics, models, placed)
             }
@@ -144,10 +144,10 @@ fn boxed<S, M, K, C, const D: usize>(
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S>,
+    K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    Built::AtOnce(Box::new(ElementGroup::<S, M, K, C>::new::<D>(
+    Built::AtOnce(Box::new(ElementGroup::<S, M, K, C, D>::new(
         kinematics, models, placed,
     )))
 }

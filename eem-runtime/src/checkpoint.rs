@@ -5,7 +5,7 @@ mod outline;
 #[cfg(feature = "serde")]
 mod scheme_name;
 
-use crate::compensated::Compensated;
+use crate::compensated::{Compensated, Sum};
 use crate::newton::NewtonSettings;
 use crate::scalar::Real;
 use crate::scene::is_positive;
@@ -96,6 +96,20 @@ impl<S: Real> Checkpoint<S> {
             let numbers = own.sums().flat_map(|(value, carry)| [value, carry]);
             expect_all("finite", quantity, numbers, Real::is_finite)?;
         }
+        for (own, other) in self.state.past.forces.iter().zip(&state.past.forces) {
+            expect_count("forces", own.len(), other.len())?;
+            expect_all("finite", "forces", own.iter().copied(), Real::is_finite)?;
+        }
+        let errors = self.state.past.errors.into_iter();
+        expect_all("finite", "forces", errors, Real::is_finite)?;
+        for (quantity, sum) in single_sums(&self.state) {
+            expect_all(
+                "finite",
+                quantity,
+                [sum.value, sum.carry].into_iter(),
+                Real::is_finite,
+            )?;
+        }
         let (own, other) = (&self.state.temperatures, &state.temperatures);
         expect_count("temperatures", own.len(), other.len())?;
         let positive = "positive and finite";
@@ -104,32 +118,39 @@ impl<S: Real> Checkpoint<S> {
     }
 }
 
-/// All sums of a state with their names. The pattern makes a new one impossible to forget.
-fn sums<S>(state: &State<S>) -> [(&'static str, &Compensated<S>); 10] {
+/// All lists of sums of a state with their names.
+fn sums<S>(state: &State<S>) -> [(&'static str, &Compensated<S>); 5] {
+    [
+        ("coordinates", &state.positions),
+        ("momenta", &state.momenta),
+        ("viscous stretches", &state.viscous),
+        ("entropies", &state.entropies),
+        ("reservoir entropies", &state.reservoir_entropies),
+    ]
+}
+
+/// All single sums of a state with their names. The pattern makes a new one impossible to forget.
+fn single_sums<S: Copy>(state: &State<S>) -> [(&'static str, Sum<S>); 5] {
     let State {
         time,
-        positions,
-        momenta,
-        viscous,
-        entropies,
+        positions: _,
+        momenta: _,
+        viscous: _,
+        entropies: _,
         temperatures: _,
-        reservoir_entropies,
+        reservoir_entropies: _,
         work,
         heat,
         thermostat_entropy,
         dissipated,
+        past: _,
     } = state;
     [
-        ("time", time),
-        ("coordinates", positions),
-        ("momenta", momenta),
-        ("viscous stretches", viscous),
-        ("entropies", entropies),
-        ("reservoir entropies", reservoir_entropies),
-        ("work", work),
-        ("heat", heat),
-        ("thermostat entropy", thermostat_entropy),
-        ("lost heat", dissipated),
+        ("time", *time),
+        ("work", *work),
+        ("heat", *heat),
+        ("thermostat entropy", *thermostat_entropy),
+        ("lost heat", *dissipated),
     ]
 }
 

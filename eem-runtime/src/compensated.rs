@@ -37,6 +37,14 @@ impl<S: Scalar> Compensated<S> {
         self.carries[index] = S::zero();
     }
 
+    /// One sum of `old` and an increment.
+    #[inline]
+    pub(crate) fn advance(&mut self, index: usize, old: &Self, increment: S) {
+        let (value, rest) = two_sum(old.values[index], increment + old.carries[index]);
+        self.values[index] = value;
+        self.carries[index] = rest;
+    }
+
     /// Adds to one sum.
     pub(crate) fn add(&mut self, index: usize, increment: S) {
         let (value, rest) = two_sum(self.values[index], increment + self.carries[index]);
@@ -48,6 +56,43 @@ impl<S: Scalar> Compensated<S> {
     pub(crate) fn copy_from(&mut self, other: &Self) {
         self.values.copy_from_slice(&other.values);
         self.carries.copy_from_slice(&other.carries);
+    }
+}
+
+/// One accumulated quantity with the rounding error of all its additions so far.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Sum<S> {
+    pub(crate) value: S,
+    pub(crate) carry: S,
+}
+
+impl<S: Scalar> Sum<S> {
+    /// A sum that starts at `value`, exactly.
+    pub(crate) fn new(value: S) -> Self {
+        let carry = S::zero();
+        Self { value, carry }
+    }
+
+    /// Adds to the sum.
+    #[inline]
+    pub(crate) fn add(&mut self, increment: S) {
+        (self.value, self.carry) = two_sum(self.value, increment + self.carry);
+    }
+}
+
+/// In a file, a pair: the sum and what is still missing of it.
+#[cfg(feature = "serde")]
+impl<S: serde::Serialize> serde::Serialize for Sum<S> {
+    fn serialize<T: serde::Serializer>(&self, serializer: T) -> Result<T::Ok, T::Error> {
+        (&self.value, &self.carry).serialize(serializer)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<'de, S: serde::Deserialize<'de>> serde::Deserialize<'de> for Sum<S> {
+    fn deserialize<T: serde::Deserializer<'de>>(deserializer: T) -> Result<Self, T::Error> {
+        let (value, carry) = serde::Deserialize::deserialize(deserializer)?;
+        Ok(Self { value, carry })
     }
 }
 

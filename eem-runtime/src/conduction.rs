@@ -76,33 +76,38 @@ impl<S: Real> Conduction<S> {
     }
 
     /// The paths that end at a slot.
+    #[inline]
     pub(crate) fn links(&self, slot: usize) -> &[Link<S>] {
         &self.links[self.ranges[slot].clone()]
     }
 
-    /// `Σ κ` from a slot to reservoirs, W/K.
-    pub(crate) fn reservoir_conductance(&self, slot: usize) -> S {
-        let mut sum = S::zero();
-        for link in self.links(slot) {
-            if matches!(link.partner, Partner::Reservoir(_)) {
-                sum += link.conductance;
-            }
-        }
-        sum
-    }
-
-    /// The heat flow into a slot, `Σ κ (Θ_partner − Θ) + Σ κ (θ_r − θ)`, W.
+    /// The heat flow into a slot, `Σ κ (Θ_partner − Θ) + Σ κ (θ_r − θ)`.
     ///
     /// Flows between elements are computed from `seen` temperatures Θ at both ends, so that one end
     /// receives exactly what the other gives, whatever rounding does to a large κ; flows
     /// from reservoirs from the temperature θ of the slot.
-    pub(crate) fn heat_flow(&self, slot: usize, theta: S, seen: &[S]) -> S {
-        self.links(slot).iter().fold(S::zero(), |sum, link| {
+    #[inline]
+    pub(crate) fn heat_flow(&self, slot: usize, theta: S, seen: &[S]) -> HeatFlow<S> {
+        let (mut heat, mut conductance) = (S::zero(), S::zero());
+        for link in self.links(slot) {
             let difference = match link.partner {
                 Partner::Slot(partner) => seen[partner] - seen[slot],
-                Partner::Reservoir(index) => self.reservoirs[index] - theta,
+                Partner::Reservoir(index) => {
+                    conductance += link.conductance;
+                    self.reservoirs[index] - theta
+                }
             };
-            sum + link.conductance * difference
-        })
+            heat += link.conductance * difference;
+        }
+        HeatFlow { heat, conductance }
     }
+}
+
+/// What flows into a slot.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HeatFlow<S> {
+    /// Q, W.
+    pub(crate) heat: S,
+    /// `−∂Q/∂θ = Σ κ` to reservoirs, W/K.
+    pub(crate) conductance: S,
 }

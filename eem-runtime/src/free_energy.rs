@@ -1,6 +1,7 @@
 //! What a free energy offers to the schemes: the trait that the derive implements.
 
 use core::fmt::Debug;
+use core::ops::{Index, IndexMut};
 
 use crate::scalar::Scalar;
 
@@ -16,7 +17,9 @@ use crate::scalar::Scalar;
 /// assert_eq!(<[f64; 3] as Array<f64>>::LEN, 3);
 /// assert_eq!(row.as_ref().iter().sum::<f64>(), 6.0);
 /// ```
-pub trait Array<T>: Copy + Debug + AsRef<[T]> + AsMut<[T]> + Send + Sync + 'static {
+pub trait Array<T>:
+    Entry + AsRef<[T]> + AsMut<[T]> + Index<usize, Output = T> + IndexMut<usize>
+{
     /// The number of elements.
     const LEN: usize;
 
@@ -24,7 +27,12 @@ pub trait Array<T>: Copy + Debug + AsRef<[T]> + AsMut<[T]> + Send + Sync + 'stat
     fn filled(value: T) -> Self;
 }
 
-impl<T: Copy + Debug + Send + Sync + 'static, const N: usize> Array<T> for [T; N] {
+/// What an array can hold. Implemented for everything that qualifies.
+pub trait Entry: Copy + Debug + Send + Sync + 'static {}
+
+impl<T: Copy + Debug + Send + Sync + 'static> Entry for T {}
+
+impl<T: Entry, const N: usize> Array<T> for [T; N] {
     const LEN: usize = N;
 
     #[inline]

@@ -8,60 +8,105 @@
 //! D*π = ∂π(q⁰, q¹):   D*π (q¹ − q⁰) = π¹ − π⁰   exactly
 //! ```
 //!
-//! is linear in the mean position `q_m`, so that a force `Σ f_a D*π_a = A q_m`
-//! with a symmetric matrix A that only depends on `f`, `π⁰` and `π¹`. Nothing
-//! outside this module knows how many nodes or measures an element has.
+//! is linear in the mean position `q_m`.
+//!
+//! Measures do not change in a translation. So an element is described by its *arms*, the vectors
+//! from its first node to the others,
+//!
+//! ```text
+//! r_i = q_i − q_0,   ∂π/∂q_i = ∂π/∂r_i,   ∂π/∂q_0 = −Σ_i ∂π/∂r_i
+//! ```
+//!
+//! and the force `Σ f_a D*π_a` on node i is `Σ_j A_ij r_m,j` with a symmetric matrix A of numbers, one
+//! per pair of arms, that only depends on `f`, `π⁰` and `π¹`.
+//!
+//! Everything is an array over arms or measures whose length the kinematics knows, so that loops
+//! over an element have no bounds but those of its arrays.
 
 mod stretch;
 
+use crate::free_energy::{Array, Entry};
 use crate::scalar::Real;
 
 pub use stretch::Stretch;
 
-/// The positions and measures of one element at both ends of a step.
-///
-/// Positions are the coordinates of all nodes of the element, one node after
-/// the other, in m.
+/// The arms of an element, m.
+pub type Arms<K, S, const D: usize> = <K as Kinematics<S, D>>::PerArm<[S; D]>;
+
+/// A number per measure: the measures themselves, or the forces that belong to them.
+pub type Measures<K, S, const D: usize> = <K as Kinematics<S, D>>::PerMeasure<S>;
+
+/// Derivatives of measures by arms: per measure and arm.
+pub type Gradient<K, S, const D: usize> = <K as Kinematics<S, D>>::PerMeasure<Arms<K, S, D>>;
+
+/// Second derivatives by arms: a square block per pair of arms.
+pub type Blocks<K, S, const D: usize> =
+    <K as Kinematics<S, D>>::PerArm<<K as Kinematics<S, D>>::PerArm<[[S; D]; D]>>;
+
+/// A number per pair of arms.
+pub type Weights<K, S, const D: usize> =
+    <K as Kinematics<S, D>>::PerArm<<K as Kinematics<S, D>>::PerArm<S>>;
+
+/// The arms and measures of one element at both ends of a step.
 #[derive(Clone, Copy, Debug)]
-pub struct Ends<'a, S> {
-    /// Old positions `q⁰`.
-    pub q0: &'a [S],
-    /// New positions `q¹`.
-    pub q1: &'a [S],
+pub struct Ends<K: Kinematics<S, D>, S: Real, const D: usize> {
+    /// Old arms `r⁰`, m.
+    pub r0: Arms<K, S, D>,
+    /// New arms `r¹`, m.
+    pub r1: Arms<K, S, D>,
     /// Old measures `π⁰`.
-    pub measures0: &'a [S],
+    pub measures0: Measures<K, S, D>,
     /// New measures `π¹`.
-    pub measures1: &'a [S],
+    pub measures1: Measures<K, S, D>,
 }
 
-/// The measures of one element as functions of its nodal coordinates.
-///
-/// Matrices are row-major slices: a gradient has a row per measure and a column
-/// per coordinate, a curvature a row and a column per coordinate.
-pub trait Kinematics<S: Real>: Copy + Send + Sync + 'static {
-    /// Number of nodes.
-    const NODES: usize;
-    /// Number of measures, M.
-    const MEASURES: usize;
+/// The measures of one element as functions of its arms in `D` dimensions.
+pub trait Kinematics<S: Real, const D: usize>:
+    Copy + Send + Sync + core::fmt::Debug + 'static
+{
+    /// `[T; number of nodes]`.
+    type PerNode<T: Entry>: Array<T>;
+    /// `[T; number of nodes − 1]`.
+    type PerArm<T: Entry>: Array<T>;
+    /// `[T; number of measures]`.
+    type PerMeasure<T: Entry>: Array<T>;
 
     /// Whether an element can have this measure; a stretch must be positive and finite.
     fn is_admissible(&self, measure: S) -> bool;
 
-    /// The measures `π(q)`.
-    fn measure(&self, q: &[S], measures: &mut [S]);
+    /// The measures `π(r)`.
+    fn measure(&self, r: &Arms<Self, S, D>) -> Measures<Self, S, D>;
 
-    /// `∂π/∂q` at `q`, whose measures are given.
-    fn gradient(&self, q: &[S], measures: &[S], gradient: &mut [S]);
+    /// `∂π/∂r` at `r`, whose measures are given.
+    fn gradient(
+        &self,
+        r: &Arms<Self, S, D>,
+        measures: &Measures<Self, S, D>,
+    ) -> Gradient<Self, S, D>;
 
-    /// Adds `Σ_a f_a ∂²π_a/∂q²`.
-    fn add_curvature(&self, q: &[S], measures: &[S], force: &[S], matrix: &mut [S]);
+    /// `Σ_a f_a ∂²π_a/∂r²`.
+    fn curvature(
+        &self,
+        r: &Arms<Self, S, D>,
+        measures: &Measures<Self, S, D>,
+        force: &Measures<Self, S, D>,
+    ) -> Blocks<Self, S, D>;
 
     /// The mean-value gradient `D*π` between two states.
-    fn discrete_gradient(&self, ends: Ends<'_, S>, gradient: &mut [S]);
+    fn discrete_gradient(&self, ends: &Ends<Self, S, D>) -> Gradient<Self, S, D>;
 
-    /// Adds `Σ_a f_a ∂(D*π_a)/∂q¹`.
-    fn add_discrete_curvature(&self, ends: Ends<'_, S>, force: &[S], matrix: &mut [S]);
+    /// `Σ_a f_a ∂(D*π_a)/∂r¹`.
+    fn discrete_curvature(
+        &self,
+        ends: &Ends<Self, S, D>,
+        force: &Measures<Self, S, D>,
+    ) -> Blocks<Self, S, D>;
 
-    /// Adds A of `Σ_a f_a D*π_a = A q_m`, with the measures held.
-    fn add_secant(&self, measures0: &[S], measures1: &[S], force: &[S], matrix: &mut [S]);
+    /// A of `Σ_a f_a D*π_a = A r_m`, with the measures held.
+    fn secant(
+        &self,
+        measures0: &Measures<Self, S, D>,
+        measures1: &Measures<Self, S, D>,
+        force: &Measures<Self, S, D>,
+    ) -> Weights<Self, S, D>;
 }

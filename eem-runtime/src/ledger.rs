@@ -87,12 +87,12 @@ impl<S: Real, const D: usize> Ledger<S, D> {
             }
         }
         let [lost_heat, work, given_heat, thermostat_entropy] = [
-            &state.dissipated,
-            &state.work,
-            &state.heat,
-            &state.thermostat_entropy,
+            state.dissipated,
+            state.work,
+            state.heat,
+            state.thermostat_entropy,
         ]
-        .map(|booked| booked.values()[0]);
+        .map(|booked| booked.value);
         let energy = [
             kinetic.value(),
             potential.value(),

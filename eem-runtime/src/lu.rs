@@ -47,26 +47,85 @@ fn eliminate<S: Real>(matrix: &mut [S], n: usize, column: usize) {
     }
 }
 
-/// Overwrites `b` with the solution of `A x = b`, given the factors of A.
-pub(crate) fn solve<S: Real>(factors: &[S], pivots: &[usize], b: &mut [S]) {
+/// Overwrites the columns of `b` with the solutions of `A x = b`, given the factors of A.
+pub(crate) fn solve<S: Real, const W: usize>(factors: &[S], pivots: &[usize], b: &mut [[S; W]]) {
     let n = pivots.len();
     for (row, &pivot) in pivots.iter().enumerate() {
         b.swap(row, pivot);
     }
     for row in 1..n {
         let (known, rest) = b.split_at_mut(row);
-        rest[0] -= dot(&factors[row * n..row * n + row], known);
+        for (&factor, known) in factors[row * n..row * n + row].iter().zip(known) {
+            subtract(&mut rest[0], factor, known);
+        }
     }
     for row in (0..n).rev() {
         let (head, known) = b.split_at_mut(row + 1);
-        let sum = dot(&factors[row * n + row + 1..(row + 1) * n], known);
-        head[row] = (head[row] - sum) / factors[row * n + row];
+        for (&factor, known) in factors[row * n + row + 1..(row + 1) * n].iter().zip(known) {
+            subtract(&mut head[row], factor, known);
+        }
+        for entry in &mut head[row] {
+            *entry /= factors[row * n + row];
+        }
     }
 }
 
-/// `Σ a_i b_i`.
-fn dot<S: Real>(a: &[S], b: &[S]) -> S {
-    a.iter().zip(b).fold(S::zero(), |sum, (&a, &b)| sum + a * b)
+/// Overwrites the columns of `b` with the solutions of `A x = b` for `N` unknowns, which the
+/// compiler knows. A is lost.
+pub(crate) fn solve_fixed<S: Real, const N: usize, const W: usize>(
+    matrix: &mut [S],
+    b: &mut [[S; W]],
+) -> Result<(), Singular> {
+    let [a, ..] = matrix.as_chunks_mut::<N>().0.as_chunks_mut::<N>().0 else {
+        return Err(Singular);
+    };
+    let [b, ..] = b.as_chunks_mut::<N>().0 else {
+        return Err(Singular);
+    };
+    let mut inverse = [S::zero(); N];
+    for column in 0..N {
+        let (mut pivot, mut size) = (column, a[column][column].abs());
+        for (row, entries) in a.iter().enumerate().skip(column + 1) {
+            if entries[column].abs() > size {
+                (pivot, size) = (row, entries[column].abs());
+            }
+        }
+        if !(size.is_finite() && size > S::zero()) {
+            return Err(Singular);
+        }
+        if pivot != column {
+            a.swap(pivot, column);
+            b.swap(pivot, column);
+        }
+        let (above, below) = a.split_at_mut(column + 1);
+        let (above_b, below_b) = b.split_at_mut(column + 1);
+        let (pivot_row, pivot_b) = (&above[column], &above_b[column]);
+        inverse[column] = pivot_row[column].recip();
+        for (row, b) in below.iter_mut().zip(below_b) {
+            let factor = row[column] * inverse[column];
+            // Whole rows, which is faster: the entries before the column are not read again.
+            subtract(row, factor, pivot_row);
+            subtract(b, factor, pivot_b);
+        }
+    }
+    for row in (0..N).rev() {
+        let (head, known) = b.split_at_mut(row + 1);
+        for (known, &factor) in known.iter().zip(&a[row][row + 1..]) {
+            subtract(&mut head[row], factor, known);
+        }
+        for entry in &mut head[row] {
+            *entry *= inverse[row];
+        }
+    }
+    Ok(())
+}
+
+/// `x −= factor y`.
+#[inline]
+fn subtract<S: Real, const W: usize>(x: &mut [S; W], factor: S, y: &[S; W]) {
+    for (x, &y) in x.iter_mut().zip(y) {
+        *x -= factor * y;
+    }
 }
 
 #[cfg(test)]
@@ -77,11 +136,15 @@ mod tests {
     fn solves_a_system_that_needs_pivoting() {
         let mut matrix = [0.0, 2.0, 1.0, 1.0, 1.0, 0.0, 3.0, 0.0, 1.0];
         let mut pivots = [0; 3];
+        let (fixed, right) = (matrix, [[7.0_f64], [3.0], [6.0]]);
         factor(&mut matrix, &mut pivots).unwrap();
-        let mut b = [7.0_f64, 3.0, 6.0];
+        let mut b = right;
         solve(&matrix, &pivots, &mut b);
-        for (found, exact) in b.iter().zip([1.0, 2.0, 3.0]) {
-            assert!((found - exact).abs() <= 4.0 * f64::EPSILON * exact);
+        let (mut matrix, mut c) = (fixed, right);
+        solve_fixed::<f64, 3, 1>(&mut matrix, &mut c).unwrap();
+        for ((found, fixed), exact) in b.iter().zip(c).zip([1.0, 2.0, 3.0]) {
+            assert!((found[0] - exact).abs() <= 4.0 * f64::EPSILON * exact);
+            assert!((fixed[0] - exact).abs() <= 4.0 * f64::EPSILON * exact);
         }
     }
 
@@ -89,6 +152,9 @@ mod tests {
     fn a_singular_matrix_is_reported() {
         let mut matrix = [1.0, 2.0, 2.0, 4.0];
         assert_eq!(factor(&mut matrix, &mut [0; 2]), Err(Singular));
+        let mut matrix = [1.0, 2.0, 2.0, 4.0];
+        let solved = solve_fixed::<f64, 2, 1>(&mut matrix, &mut [[1.0]; 2]);
+        assert_eq!(solved, Err(Singular));
         let mut matrix = [f64::NAN];
         assert_eq!(factor(&mut matrix, &mut [0; 1]), Err(Singular));
     }

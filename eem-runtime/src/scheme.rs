@@ -11,23 +11,25 @@ mod midpoint;
 mod midpoint_temperature;
 mod point;
 mod staggered;
+mod temperature;
 mod trapezoidal;
 mod trapezoidal_temperature;
 mod variational;
 pub(crate) mod variational_4;
 
 use crate::error::StateError;
-use crate::free_energy::{Array, Caloric, FreeEnergy};
+use crate::free_energy::{Array, FreeEnergy};
 use crate::handle::Element;
 use crate::inversion::InversionError;
 use crate::scalar::Real;
 use crate::scene::is_positive;
 
-pub(crate) use eem_entropy::{EemEntropy, temperature_at};
+pub(crate) use eem_entropy::EemEntropy;
 pub(crate) use eem_temperature::EemTemperature;
 pub(crate) use midpoint::Midpoint;
 pub(crate) use midpoint_temperature::MidpointTemperature;
 pub(crate) use staggered::Phase;
+pub(crate) use temperature::temperature_at;
 pub(crate) use trapezoidal::Trapezoidal;
 pub(crate) use trapezoidal_temperature::TrapezoidalTemperature;
 pub(crate) use variational::Variational;
@@ -117,11 +119,11 @@ impl Scheme {
 }
 
 impl Scheme {
-    /// Whether Newton's method starts from free flight, `q¹ = q⁰ + h p⁰/m`, which saves most of an
+    /// Whether Newton's method starts from a motion under foretold forces, which saves most of an
     /// iteration. The ordinary rules start at the old state, as ordinary codes do: beyond
     /// their stable steps it depends on the start which state is found, if any, and so they
     /// break down where the literature says.
-    pub(crate) const fn starts_in_free_flight(self) -> bool {
+    pub(crate) const fn foretells_its_start(self) -> bool {
         !self.is_ordinary()
     }
 
@@ -205,6 +207,9 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static
 
     /// Whether the temperature is the state that the scheme integrates, and not the entropy.
     const IN_TEMPERATURE: bool = false;
+
+    /// Whether the scheme takes the entropy for its unknown and finds τ from it.
+    const FINDS_TEMPERATURE: bool = false;
 
     /// What the scheme keeps of the old state.
     type Old: Copy + Send + Sync;
@@ -291,12 +296,12 @@ pub(crate) enum Infeasible {
 
 impl Infeasible {
     /// An error unless the heat capacity is positive and finite.
-    pub(crate) fn unless_stable<S: Real>(caloric: &Caloric<S>, theta: S) -> Result<(), Self> {
-        if is_positive(caloric.heat_capacity) {
+    pub(crate) fn unless_stable<S: Real>(heat_capacity: S, theta: S) -> Result<(), Self> {
+        if is_positive(heat_capacity) {
             return Ok(());
         }
         Err(Self::HeatCapacity {
-            value: caloric.heat_capacity.to_f64(),
+            value: heat_capacity.to_f64(),
             temperature: theta.to_f64(),
         })
     }

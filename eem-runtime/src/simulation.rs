@@ -10,7 +10,7 @@ mod run;
 use core::fmt;
 
 use crate::blueprint::{Built, Shape};
-use crate::compensated::Compensated;
+use crate::compensated::{Compensated, Sum};
 use crate::conduction::Conduction;
 use crate::error::{SceneError, StepError, StepFailure};
 use crate::group::{Group, Placed, StageView, StepView};
@@ -22,7 +22,7 @@ use crate::scalar::Real;
 use crate::scene::{Scene, is_positive};
 use crate::scheme::{Phase, Scheme};
 use crate::solver::{Effort, Solver, Staged};
-use crate::state::State;
+use crate::state::{Past, State};
 
 pub use generic::Generic;
 pub use linearize::StepTangent;
@@ -36,7 +36,6 @@ macro_rules! view {
             step: $simulation.step,
             state: $state,
             conduction: &$simulation.conduction,
-            layout: &$simulation.layout,
             loads: &$simulation.step_loads,
             masses: &$simulation.masses,
         }
@@ -51,7 +50,6 @@ macro_rules! stage_view {
             step: $simulation.step,
             state: &$simulation.state,
             conduction: &$simulation.conduction,
-            layout: &$simulation.layout,
             loads: &$loads,
             masses: &$simulation.masses,
         }
@@ -95,7 +93,7 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     next: State<S>,
     /// The state between the two parts of a staggered step.
     between: State<S>,
-    solver: Solver<S>,
+    solver: Solver<S, D>,
 }
 
 impl<const D: usize, S: Real> fmt::Debug for Simulation<D, S> {
@@ -149,10 +147,22 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 }
             }
         }
-        let staged = (scheme == Scheme::Variational4)
-            .then(|| Staged::new(stage_groups, masses.clone(), &layout));
-        let solver = Solver::new(scheme, masses.clone(), D, &layout);
-        let step_loads = StepLoads::new(masses.len() * D, &layout);
+        let elements = &scene.elements;
+        let staged = (scheme == Scheme::Variational4).then(|| {
+            Staged::new(
+                stage_groups,
+                &masses,
+                elements,
+                &layout,
+                &conduction,
+                &scene.loads,
+            )
+        });
+        let solver = Solver::new(scheme, &masses, elements, &layout, &conduction);
+        for group in &mut groups {
+            group.connect(&solver.sites(&layout, &conduction));
+        }
+        let step_loads = StepLoads::new(masses.len() * D, &layout, &scene.loads);
         Ok(Self {
             scene: scene.id,
             scheme,
@@ -244,7 +254,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// The time, s.
     #[must_use]
     pub fn time(&self) -> S {
-        self.state.time.values()[0]
+        self.state.time.value
     }
 
     /// The scheme.
@@ -341,16 +351,17 @@ fn initial_state<const D: usize, S: Real>(scene: &Scene<D, S>, layout: &Layout) 
         }
     }
     State {
-        time: Compensated::new(vec![S::zero()]),
+        time: Sum::new(S::zero()),
         positions: Compensated::new(positions.collect()),
         momenta: Compensated::new(momenta.collect()),
         viscous: Compensated::new(viscous),
         entropies: Compensated::new(vec![S::zero(); temperatures.len()]),
         temperatures,
         reservoir_entropies: Compensated::new(vec![S::zero(); scene.reservoirs.len()]),
-        work: Compensated::new(vec![S::zero()]),
-        heat: Compensated::new(vec![S::zero()]),
-        thermostat_entropy: Compensated::new(vec![S::zero()]),
-        dissipated: Compensated::new(vec![S::zero()]),
+        work: Sum::new(S::zero()),
+        heat: Sum::new(S::zero()),
+        thermostat_entropy: Sum::new(S::zero()),
+        dissipated: Sum::new(S::zero()),
+        past: Past::none(scene.nodes.len() * D),
     }
 }

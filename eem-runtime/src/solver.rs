@@ -1,18 +1,24 @@
 //! One step of a whole scene: Newton's method, then the closing evaluation.
 
-mod assemble;
+mod begin;
 mod closing;
+mod iteration;
 mod linearize;
+mod places;
 mod stages;
 
+use crate::conduction::Conduction;
 use crate::error::{NewtonIteration, StateError, StepFailure};
-use crate::group::{Group, StepView, Trial};
+use crate::group::{Group, Sites, StepView, Trial, points};
 use crate::layout::Layout;
 use crate::newton::{NewtonSettings, is_last};
+use crate::pattern::Pattern;
 use crate::scalar::Real;
+use crate::scene::ElementEntry;
 use crate::scheme::Scheme;
 use crate::state::State;
 use crate::system::LinearSystem;
+use places::{MovingNode, Seen, moving, seen};
 pub(crate) use stages::{Effort, Staged};
 
 /// How often an update is halved to bring all elements back to admissible states.
@@ -24,24 +30,34 @@ const STAGES: u8 = 8;
 /// Iterations for which memory is kept; settings that ask for more allocate when they get there.
 const LONGEST_HISTORY: usize = 4096;
 
+/// An update whose square is below this many ε leaves nothing to correct: it is applied to the
+/// forces through the tangent. What that leaves out, the square times a curvature of the order of
+/// one, is small beside the roundings of a force.
+const NEGLIGIBLE: f64 = 1.0 / 1024.0;
+
 /// Working memory of a step; nothing in it outlives the step.
 #[derive(Clone, Debug)]
-pub(crate) struct Solver<S> {
+pub(crate) struct Solver<S, const D: usize> {
     pub(crate) settings: NewtonSettings<S>,
-    /// m per node; `None` for anchors.
-    masses: Vec<Option<S>>,
-    dimension: usize,
     scheme: Scheme,
-    system: LinearSystem<S>,
-    trial: Trial<S>,
+    /// The nodes that move.
+    masses: Vec<MovingNode<S, D>>,
+    /// The rows of the temperatures that neighbours see, and their thermal slots.
+    seen: Vec<Seen>,
+    /// The system of an iteration.
+    tangent: LinearSystem<S, 1>,
+    /// The system that closes a step.
+    secant: LinearSystem<S, D>,
+    trial: Trial<S, D>,
     /// Displacements and seen temperatures before the last update, and the update.
-    previous: [Vec<S>; 2],
-    correction: [Vec<S>; 2],
+    previous: (Vec<[S; D]>, Vec<S>),
+    correction: (Vec<[S; D]>, Vec<S>),
     /// The part of the nodal forces that the old state decides, N.
-    old_force: Vec<S>,
-    impulse: Vec<S>,
-    /// The unit of length of each node: its shortest element in the old state; 1 m without.
-    lengths: Vec<S>,
+    old_force: Vec<[S; D]>,
+    impulse: Vec<[S; D]>,
+    /// The reciprocal of the unit of length of each node: its shortest element in the old state;
+    /// 1 m without.
+    per_length: Vec<S>,
     /// What kept the last update from being applied in full.
     obstacle: Option<StateError>,
     /// What each iteration did.
@@ -67,35 +83,61 @@ impl<S: Real> Iteration<S> {
     }
 }
 
-impl<S: Real> Solver<S> {
+impl<S: Real, const D: usize> Solver<S, D> {
     pub(crate) fn new(
         scheme: Scheme,
-        masses: Vec<Option<S>>,
-        dimension: usize,
+        masses: &[Option<S>],
+        elements: &[ElementEntry<S>],
         layout: &Layout,
+        conduction: &Conduction<S>,
     ) -> Self {
-        let settings = NewtonSettings::default();
-        let lengths = vec![S::one(); masses.len()];
-        let coordinates = vec![S::zero(); masses.len() * dimension];
+        let pattern = Pattern::of_tangent(elements, layout, conduction, D);
+        let tangent = LinearSystem::new(&pattern, D);
+        let secant = LinearSystem::new(&Pattern::of_secant(elements, layout, D), 1);
+        let sites = Sites {
+            layout,
+            conduction,
+            tangent: &tangent,
+            secant: &secant,
+            shift: [0; 2],
+        };
+        let (moving, seen) = (moving(masses, &sites), seen(&sites));
+        let points = vec![[S::zero(); D]; masses.len()];
         let temperatures = vec![S::zero(); layout.coupled.len()];
         Self {
-            settings,
-            masses,
-            dimension,
+            settings: NewtonSettings::default(),
             scheme,
-            system: LinearSystem::new(layout.unknowns),
+            masses: moving,
+            seen,
+            tangent,
+            secant,
             trial: Trial {
-                displacements: coordinates.clone(),
-                positions: coordinates.clone(),
+                displacements: points.clone(),
+                positions: points.clone(),
                 seen_temperatures: temperatures.clone(),
             },
-            previous: [coordinates.clone(), temperatures.clone()],
-            correction: [coordinates.clone(), temperatures],
-            old_force: coordinates.clone(),
-            impulse: coordinates,
-            lengths,
+            previous: (points.clone(), temperatures.clone()),
+            correction: (points.clone(), temperatures),
+            old_force: points.clone(),
+            impulse: points,
+            per_length: vec![S::one(); masses.len()],
             obstacle: None,
             history: Vec::new(),
+        }
+    }
+
+    /// Where elements write.
+    pub(crate) fn sites<'a>(
+        &'a self,
+        layout: &'a Layout,
+        conduction: &'a Conduction<S>,
+    ) -> Sites<'a, S, D> {
+        Sites {
+            layout,
+            conduction,
+            tangent: &self.tangent,
+            secant: &self.secant,
+            shift: [0; 2],
         }
     }
 
@@ -109,7 +151,7 @@ impl<S: Real> Solver<S> {
     }
 
     /// The state after the step, or after the part of it that the view names.
-    pub(crate) fn solve<const D: usize>(
+    pub(crate) fn solve(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
@@ -123,7 +165,7 @@ impl<S: Real> Solver<S> {
     ///
     /// If that fails from the start of the scheme, an EEM scheme follows its solution from a small
     /// step to the full one.
-    fn iterate<const D: usize>(
+    fn iterate(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
@@ -135,18 +177,18 @@ impl<S: Real> Solver<S> {
         self.follow(groups, view).map_err(|_| failure)
     }
 
-    fn start_and_converge<const D: usize>(
+    fn start_and_converge(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
     ) -> Result<(), StepFailure> {
         self.begin(groups, view)?;
-        let share = self.advance(groups, view)?;
+        let share = self.advance(groups, view, Look::On)?;
         self.converge(groups, view, share)
     }
 
     /// The solution for growing parts of the step, each starting from the one before.
-    fn follow<const D: usize>(
+    fn follow(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
@@ -162,7 +204,7 @@ impl<S: Real> Solver<S> {
                 None => self.start_and_converge(groups, &part)?,
                 Some(before) => {
                     self.extrapolate(groups, stage / before);
-                    let share = self.advance(groups, &part)?;
+                    let share = self.advance(groups, &part, Look::On)?;
                     self.converge(groups, &part, share)?;
                 }
             }
@@ -172,22 +214,21 @@ impl<S: Real> Solver<S> {
     }
 
     /// Makes displacements larger by a factor and leaves everything else.
-    fn extrapolate<const D: usize>(&mut self, groups: &mut [Box<dyn Group<S, D>>], factor: S) {
+    fn extrapolate(&mut self, groups: &mut [Box<dyn Group<S, D>>], factor: S) {
         self.remember();
-        for (node, mass) in self.masses.iter().enumerate() {
-            let growth = mass.map_or(S::zero(), |_| factor - S::one());
-            for at in node * self.dimension..(node + 1) * self.dimension {
-                self.correction[0][at] = growth * self.previous[0][at];
-            }
+        for mass in &self.masses {
+            let growth = factor - S::one();
+            let moved = self.previous.0[mass.node];
+            self.correction.0[mass.node] = moved.map(|component| growth * component);
         }
-        self.correction[1].fill(S::zero());
+        self.correction.1.fill(S::zero());
         for group in groups {
             group.hold();
         }
     }
 
     /// Newton's method from the trial state, which was reached by the given share of a correction.
-    fn converge<const D: usize>(
+    fn converge(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
@@ -195,8 +236,8 @@ impl<S: Real> Solver<S> {
     ) -> Result<(), StepFailure> {
         let mut before = None;
         for _ in 0..self.settings.max_iterations {
-            let residual = self.assemble(groups, view);
-            let solved = self.system.solve();
+            let residual = self.balance(view);
+            let solved = self.tangent.solve();
             solved.map_err(|_| StepFailure::SingularTangent)?;
             let update = self.correct(groups, view);
             self.history.push(Iteration { residual, update });
@@ -204,9 +245,18 @@ impl<S: Real> Solver<S> {
                 break;
             }
             let full = share == S::one();
-            share = self.advance(groups, view)?;
             let before = before.replace(update).filter(|_| full);
-            if share == S::one() && is_last(update, before, self.settings.tolerance) {
+            let is_last = is_last(update, before, self.settings.tolerance);
+            if is_last && update * update <= S::from_f64(NEGLIGIBLE) * S::EPSILON {
+                self.apply(S::one(), view);
+                for group in groups.iter_mut() {
+                    group.extrapolate();
+                }
+                return Ok(());
+            }
+            let look = if is_last { Look::Back } else { Look::On };
+            share = self.advance(groups, view, look)?;
+            if is_last && share == S::one() {
                 return Ok(());
             }
         }
@@ -218,65 +268,20 @@ impl<S: Real> Solver<S> {
         })
     }
 
-    /// Starts at the old state, with free flight as the first correction if the scheme wants it.
-    fn begin<const D: usize>(
-        &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-    ) -> Result<(), StepFailure> {
-        for (old, &load) in self.old_force.iter_mut().zip(&view.loads.total_force) {
-            *old = -load;
-        }
-        for group in groups.iter_mut() {
-            group.begin(view, &mut self.old_force)?;
-        }
-        self.lengths.fill(S::MAX);
-        for group in groups.iter() {
-            group.shorten(&mut self.lengths);
-        }
-        for length in &mut self.lengths {
-            if *length == S::MAX {
-                *length = S::one();
-            }
-        }
-        if view.phase.moves() {
-            self.trial.displacements.copy_from_slice(&view.loads.motion);
-        } else {
-            self.trial.displacements.fill(S::zero());
-        }
-        self.trial
-            .seen_temperatures
-            .copy_from_slice(&view.state.temperatures);
-        self.remember();
-        self.correction[0].fill(S::zero());
-        self.correction[1].fill(S::zero());
-        if !(view.phase.moves() && self.scheme.starts_in_free_flight()) {
-            return Ok(());
-        }
-        let momenta = view.state.momenta.values();
-        for (node, mass) in self.masses.iter().enumerate() {
-            let own = node * self.dimension..(node + 1) * self.dimension;
-            for (change, &p) in self.correction[0][own.clone()]
-                .iter_mut()
-                .zip(&momenta[own])
-            {
-                *change = mass.map_or(S::zero(), |m| view.step * p / m);
-            }
-        }
-        Ok(())
-    }
-
     fn remember(&mut self) {
-        self.previous[0].copy_from_slice(&self.trial.displacements);
-        self.previous[1].copy_from_slice(&self.trial.seen_temperatures);
+        self.previous.0.copy_from_slice(&self.trial.displacements);
+        self.previous
+            .1
+            .copy_from_slice(&self.trial.seen_temperatures);
     }
 
     /// Applies the correction, or as much of it as leaves every element in an admissible state, and
     /// evaluates there. Returns the share that was applied.
-    fn advance<const D: usize>(
+    fn advance(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
+        look: Look,
     ) -> Result<S, StepFailure> {
         let mut share = S::one();
         let mut halvings = 0;
@@ -286,11 +291,8 @@ impl<S: Real> Solver<S> {
             for group in groups.iter_mut() {
                 group.apply(share);
             }
-            let trial = &self.trial;
-            match groups
-                .iter_mut()
-                .try_for_each(|group| group.evaluate(view, trial))
-            {
+            let is_end = look == Look::Back && share == S::one();
+            match self.evaluate(groups, view, !is_end) {
                 Ok(()) => return Ok(share),
                 Err(error) if halvings == HALVINGS => return Err(error.into()),
                 Err(error) => {
@@ -302,16 +304,49 @@ impl<S: Real> Solver<S> {
         }
     }
 
+    /// The responses at the trial state, and the system of the next iteration if there is to be one.
+    fn evaluate(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        goes_on: bool,
+    ) -> Result<(), StateError> {
+        let trial = &self.trial;
+        if !goes_on {
+            let mut groups = groups.iter_mut();
+            return groups.try_for_each(|group| group.evaluate(view, trial, None));
+        }
+        self.tangent.clear();
+        let system = &mut self.tangent;
+        let mut groups = groups.iter_mut();
+        groups.try_for_each(|group| group.evaluate(view, trial, Some(system)))
+    }
+
+    /// The trial a share of the correction away from where it was.
     fn apply(&mut self, share: S, view: &StepView<'_, S>) {
         let trial = &mut self.trial;
-        let old = view.state.positions.values();
-        for (at, &old) in old.iter().enumerate() {
-            trial.displacements[at] = self.previous[0][at] + share * self.correction[0][at];
-            trial.positions[at] = old + trial.displacements[at];
+        let old = points::<S, D>(view.state.positions.values());
+        for mass in &self.masses {
+            let node = mass.node;
+            let (from, by) = (&self.previous.0[node], &self.correction.0[node]);
+            for axis in 0..D {
+                let displacement = from[axis] + share * by[axis];
+                trial.displacements[node][axis] = displacement;
+                trial.positions[node][axis] = old[node][axis] + displacement;
+            }
         }
-        for slot in 0..trial.seen_temperatures.len() {
-            trial.seen_temperatures[slot] =
-                self.previous[1][slot] + share * self.correction[1][slot];
+        for seen in &self.seen {
+            let from = self.previous.1[seen.slot];
+            trial.seen_temperatures[seen.slot] = from + share * self.correction.1[seen.slot];
         }
     }
+}
+
+/// What an evaluation is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Look {
+    /// Another iteration.
+    On,
+    /// Closing the step.
+    Back,
 }

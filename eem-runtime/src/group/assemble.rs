@@ -1,279 +1,282 @@
-//! From the elements to the global system, and back.
+//! From the elements to the global system.
 
+use super::member::Member;
+use super::pose::{Pose, spread};
+use super::site::{Column, Contact, Site};
 use super::{ElementGroup, StepView, Trial};
-use crate::conduction::Partner;
+use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Arms, Kinematics, Measures};
 use crate::scalar::Real;
 use crate::scheme::ElementScheme;
 use crate::system::LinearSystem;
 
-impl<S, M, K, C> ElementGroup<S, M, K, C>
+impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S>,
+    K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    /// The factor by which heat from other elements enters the entropy balance of element `i`:
+    /// See [`Group::evaluate`](super::Group::evaluate).
+    pub(super) fn evaluate_all(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        system: Option<&mut LinearSystem<S, 1>>,
+    ) -> Result<(), StateError> {
+        let kinematics = self.kinematics;
+        let mut parts = system.map(LinearSystem::parts);
+        for member in &mut self.members {
+            let pose = member.respond(kinematics, view, trial)?;
+            let Some((values, right)) = &mut parts else {
+                continue;
+            };
+            member.condense(view, &trial.seen_temperatures)?;
+            let contact = member.site.contact.map(|at| &self.contacts[at]);
+            let mut target = Target {
+                values,
+                right,
+                contact,
+            };
+            if view.phase.moves() {
+                member.assemble_momentum(kinematics, view, &pose, &mut target);
+            }
+            member.assemble_temperature(view, trial, &pose, &mut target);
+        }
+        Ok(())
+    }
+}
+
+/// Where an element writes.
+struct Target<'a, K: Kinematics<S, D>, S: Real, const D: usize> {
+    values: &'a mut [S],
+    right: &'a mut [[S; 1]],
+    contact: Option<&'a Contact<K, S, D>>,
+}
+
+/// A response with the internal variables eliminated, relative to its present value:
+/// `constant + Σ_a by_measure_a δπ_a + by_heat δr_s`.
+struct CondensedRow<K: Kinematics<S, D>, S: Real, const D: usize> {
+    constant: S,
+    by_measure: Measures<K, S, D>,
+    by_heat: S,
+}
+
+impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// The factor by which heat from other elements enters the entropy balance:
     /// `∂r_s/∂Q = −h w/θ*`; zero without temperature.
-    fn heat_factor(&self, view: &StepView<'_, S>, i: usize) -> S {
+    #[inline]
+    pub(super) fn heat_factor(&self, view: &StepView<'_, S>) -> S {
         if !M::THERMAL {
             return S::zero();
         }
-        -view.thermal_step() * S::from_f64(C::IMPLICIT) / self.members[i].temperature()
+        -view.thermal_step() * S::from_f64(C::IMPLICIT) / self.temperature()
     }
 
-    /// A row of the tangent with the internal variables eliminated: response `row` of element `i`
-    /// as `constant + Σ_a by_measure(a) δπ_a + by_heat δr_s`, relative to its present value.
-    fn condensed_row(&self, i: usize, row: usize) -> CondensedRow<M::Variables, S> {
-        let member = &self.members[i];
-        let tangent = &member.tangent.as_ref()[row].as_ref();
-        let (by_measure, by_unknown) = tangent.split_at(M::MEASURES);
-        let dot = |vector: &M::Variables| {
-            let pairs = by_unknown.iter().zip(vector.as_ref());
-            pairs.fold(S::zero(), |sum, (&a, &b)| sum + a * b)
+    #[inline]
+    fn condensed_row(&self, row: usize) -> CondensedRow<K, S, D> {
+        let tangent = &self.tangent[row];
+        let mut condensed = CondensedRow::<K, S, D> {
+            constant: S::zero(),
+            by_measure: Measures::<K, S, D>::filled(S::zero()),
+            by_heat: S::zero(),
         };
-        let mut entries = M::Variables::filled(S::zero());
-        for (a, &entry) in by_measure.iter().enumerate() {
-            let eliminated = dot(&member.condensed.by_measure.as_ref()[a]);
-            entries.as_mut()[a] = entry - eliminated;
+        for a in 0..M::MEASURES {
+            condensed.by_measure[a] = tangent[a];
         }
-        CondensedRow {
-            constant: -dot(&member.condensed.constant),
-            by_measure: entries,
-            by_heat: -dot(&member.condensed.by_heat),
+        for u in 0..Self::UNKNOWNS {
+            let by_unknown = tangent[M::MEASURES + u];
+            condensed.constant -= by_unknown * self.condensed.constant[u];
+            condensed.by_heat -= by_unknown * self.condensed.by_heat[u];
+            for a in 0..M::MEASURES {
+                condensed.by_measure[a] -= by_unknown * self.condensed.by_measure[u][a];
+            }
         }
+        condensed
     }
 
-    /// See [`Group::assemble`](super::Group::assemble).
-    pub(super) fn assemble_all(
-        &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S>,
-        system: &mut LinearSystem<S>,
-    ) {
-        for i in 0..self.members.len() {
-            if view.phase.moves() {
-                self.assemble_momentum(view, trial, i, system);
-            }
-            let slot = self.members[i].slots.thermal;
-            if let Some(unknown) = slot.and_then(|slot| view.layout.coupled[slot]) {
-                self.assemble_temperature(view, trial, i, unknown, system);
+    /// The derivative of a condensed response by the new arms.
+    #[inline]
+    fn by_arm(&self, row: &CondensedRow<K, S, D>, pose: &Pose<K, S, D>) -> Arms<K, S, D> {
+        let mut sum = Arms::<K, S, D>::filled([S::zero(); D]);
+        for a in 0..M::MEASURES {
+            for (sum, entry) in sum.as_mut().iter_mut().zip(pose.sensitivity[a].as_ref()) {
+                for (sum, &entry) in sum.iter_mut().zip(entry) {
+                    *sum += row.by_measure[a] * entry;
+                }
             }
         }
+        if C::IN_TEMPERATURE {
+            let pairs = sum.as_mut().iter_mut().zip(self.by_increment.as_ref());
+            for (sum, entry) in pairs {
+                for (sum, &entry) in sum.iter_mut().zip(entry) {
+                    *sum += row.by_heat * entry;
+                }
+            }
+        }
+        sum
     }
 
     /// The impulse `h w Gᵀ f*` on the nodes and its derivatives.
+    #[inline]
     fn assemble_momentum(
-        &mut self,
+        &self,
+        kinematics: K,
         view: &StepView<'_, S>,
-        trial: &Trial<S>,
-        i: usize,
-        system: &mut LinearSystem<S>,
+        pose: &Pose<K, S, D>,
+        target: &mut Target<'_, K, S, D>,
     ) {
         let impulse = view.step * S::from_f64(C::IMPLICIT);
-        let width = self.geometry.width();
-        let old = view.state.positions.values();
-        self.geometry.gather(i, C::PLACEMENT, old, &trial.positions);
-        let response = self.members[i].response;
-        let forces = &response.as_ref()[..M::MEASURES];
-        self.geometry
-            .curve(self.kinematics, i, C::PLACEMENT, forces);
-        for (a, &force) in forces.iter().enumerate() {
-            let row = self.condensed_row(i, a);
-            let direction = &self.geometry.direction(i)[a * width..(a + 1) * width];
-            let stiffness = self.stiffness_row(i, &row);
-            for (p, at) in self.unknowns(view, i).enumerate() {
-                let Some(at) = at else { continue };
-                let along = impulse * direction[p];
-                system.add_right(at, -along * (force + row.constant));
-                for (q, to) in self.unknowns(view, i).enumerate() {
-                    if let Some(to) = to {
-                        system.add(at, to, along * stiffness(q));
+        let mut forces = Measures::<K, S, D>::filled(S::zero());
+        for (a, force) in forces.as_mut().iter_mut().enumerate() {
+            *force = impulse * self.response[a];
+        }
+        let mut blocks = pose.curvature(kinematics, C::PLACEMENT, &forces);
+        for a in 0..M::MEASURES {
+            let row = self.condensed_row(a);
+            let by_arm = self.by_arm(&row, pose);
+            let change = forces[a] + impulse * row.constant;
+            let direction = spread::<K, S, D>(&pose.direction[a]);
+            for (&at, direction) in self.site.rows.as_ref().iter().zip(direction.as_ref()) {
+                for (axis, &entry) in direction.iter().enumerate() {
+                    target.right[at + axis][0] -= entry * change;
+                }
+            }
+            for (i, direction) in pose.direction[a].as_ref().iter().enumerate() {
+                for (j, by) in by_arm.as_ref().iter().enumerate() {
+                    for (entries, &entry) in blocks[i][j].iter_mut().zip(direction) {
+                        let along = impulse * entry;
+                        for (block, &by) in entries.iter_mut().zip(by) {
+                            *block += along * by;
+                        }
                     }
                 }
-                let heat = along * row.by_heat * self.heat_factor(view, i);
-                self.add_partners(view, i, at, heat, system);
+            }
+            if let Some(contact) = target.contact {
+                let heat = impulse * row.by_heat * self.heat_factor(view);
+                contact.add_partners(heat, &direction, target.values);
             }
         }
-        for (p, at) in self.unknowns(view, i).enumerate() {
-            let Some(at) = at else { continue };
-            for (q, to) in self.unknowns(view, i).enumerate() {
-                if let Some(to) = to {
-                    system.add(at, to, impulse * self.geometry.matrix[p * width + q]);
-                }
+        for (i, row) in blocks.as_ref().iter().enumerate() {
+            for (j, block) in row.as_ref().iter().enumerate() {
+                self.site.add_block([i + 1, j + 1], block, target.values);
             }
         }
     }
 
     /// The equation `Θ − θ* = 0` of an element whose temperature neighbours see.
+    #[inline]
     fn assemble_temperature(
         &self,
         view: &StepView<'_, S>,
-        trial: &Trial<S>,
-        i: usize,
-        unknown: usize,
-        system: &mut LinearSystem<S>,
+        trial: &Trial<S, D>,
+        pose: &Pose<K, S, D>,
+        target: &mut Target<'_, K, S, D>,
     ) {
-        let member = &self.members[i];
-        let row = self.condensed_row(i, M::MEASURES + M::DASHPOTS);
-        let seen = member
-            .slots
-            .thermal
-            .map_or(S::zero(), |slot| trial.seen_temperatures[slot]);
-        system.add(unknown, unknown, S::one());
-        system.add_right(unknown, member.temperature() + row.constant - seen);
-        let sensitivity = self.stiffness_row(i, &row);
-        for (q, to) in self.unknowns(view, i).enumerate() {
-            if let Some(to) = to {
-                system.add(unknown, to, -sensitivity(q));
-            }
-        }
-        let heat = -row.by_heat * self.heat_factor(view, i);
-        self.add_partners(view, i, unknown, heat, system);
-    }
-
-    /// The derivative of a condensed response by coordinate `q` of element `i`.
-    fn stiffness_row<'a>(
-        &'a self,
-        i: usize,
-        row: &'a CondensedRow<M::Variables, S>,
-    ) -> impl Fn(usize) -> S + 'a {
-        let width = self.geometry.width();
-        let sensitivity = self.geometry.sensitivity(i);
-        let increments = self.geometry.increment_sensitivity(i);
-        let by_increment = &self.members[i].by_increment;
-        move |q| {
-            let mut sum = S::zero();
-            for (b, &entry) in row.by_measure.as_ref()[..M::MEASURES].iter().enumerate() {
-                sum += entry * sensitivity[b * width + q];
-                if C::IN_TEMPERATURE {
-                    let entry = row.by_heat * by_increment.as_ref()[b];
-                    sum += entry * increments[b * width + q];
-                }
-            }
-            sum
-        }
-    }
-
-    /// Adds the derivatives of `factor Σ κ (Θ_partner − Θ)` of element `i`.
-    fn add_partners(
-        &self,
-        view: &StepView<'_, S>,
-        i: usize,
-        row: usize,
-        factor: S,
-        system: &mut LinearSystem<S>,
-    ) {
-        let Some(slot) = self.members[i].slots.thermal else {
+        let (Some(contact), Some(slot)) = (target.contact, self.slots.thermal) else {
             return;
         };
-        for link in view.conduction.links(slot) {
-            if let Partner::Slot(partner) = link.partner {
-                let entry = factor * link.conductance;
-                for (slot, entry) in [(partner, entry), (slot, -entry)] {
-                    if let Some(column) = view.layout.coupled[slot] {
-                        system.add(row, column, entry);
-                    }
-                }
-            }
+        let row = self.condensed_row(Self::TEMPERATURE);
+        let seen = trial.seen_temperatures[slot];
+        target.right[contact.unknown][0] += self.temperature() + row.constant - seen;
+        let by_node = spread::<K, S, D>(&self.by_arm(&row, pose));
+        for (by, &place) in by_node.as_ref().iter().zip(contact.row.as_ref()) {
+            subtract(target.values, place, by);
         }
-    }
-
-    /// The unknown of each coordinate of element `i`; `None` at anchors.
-    pub(super) fn unknowns(
-        &self,
-        view: &StepView<'_, S>,
-        i: usize,
-    ) -> impl Iterator<Item = Option<usize>> {
-        let dimension = self.geometry.dimension();
-        let nodes = self.geometry.nodes_of(i).iter();
-        nodes.flat_map(move |&node| {
-            let first = view.layout.nodes[node];
-            (0..dimension).map(move |axis| first.map(|first| first + axis))
-        })
-    }
-
-    /// See [`Group::correct`](super::Group::correct).
-    pub(super) fn correct_all(&mut self, view: &StepView<'_, S>, solution: &[S]) -> S {
-        let mut largest = S::zero();
-        for i in 0..self.members.len() {
-            let correction = self.correction(view, i, solution);
-            let length = self.geometry.old_measures[self.geometry.measures_range(i).start];
-            let member = &mut self.members[i];
-            member.previous = member.x;
-            member.correction = correction;
-            if M::THERMAL {
-                member.previous_entropy_change = member.response.as_ref()[M::Variables::LEN];
-                let row = member.tangent.as_ref()[M::Variables::LEN].as_ref().iter();
-                let terms = row
-                    .zip(correction.as_ref())
-                    .map(|(&entry, &change)| entry * change);
-                member.entropy_correction = terms.fold(S::zero(), |sum, term| sum + term);
-            }
-            for index in M::MEASURES..M::Variables::LEN {
-                let scale = if M::THERMAL && index == M::Variables::LEN - 1 {
-                    member.x.as_ref()[index]
-                } else {
-                    length
-                };
-                largest = largest.maximum((correction.as_ref()[index] / scale).abs());
-            }
+        let heat = -row.by_heat * self.heat_factor(view);
+        let mut diagonal = S::one();
+        for partner in &contact.partners {
+            let entry = heat * partner.conductance;
+            target.values[partner.entry] += entry;
+            diagonal -= entry;
         }
-        largest
-    }
-
-    /// The change of the measures, and `δu = −(constant + Σ_a by_measure_a δπ_a + by_heat δr_s)`.
-    fn correction(&self, view: &StepView<'_, S>, i: usize, solution: &[S]) -> M::Variables {
-        let member = &self.members[i];
-        let condensed = &member.condensed;
-        let width = self.geometry.width();
-        let mut heat = S::zero();
-        if let Some(slot) = member.slots.thermal {
-            for link in view.conduction.links(slot) {
-                if let Partner::Slot(partner) = link.partner {
-                    let change = |slot: usize| {
-                        view.layout.coupled[slot].map_or(S::zero(), |at| solution[at])
-                    };
-                    heat += link.conductance * (change(partner) - change(slot));
-                }
-            }
-            heat *= self.heat_factor(view, i);
-        }
-        if C::IN_TEMPERATURE {
-            let rows = self.geometry.increment_sensitivity(i).chunks_exact(width);
-            for (row, &slope) in rows.zip(member.by_increment.as_ref()) {
-                for (&entry, at) in row.iter().zip(self.unknowns(view, i)) {
-                    heat += slope * entry * at.map_or(S::zero(), |at| solution[at]);
-                }
-            }
-        }
-        let unknowns = M::MEASURES..M::Variables::LEN;
-        let mut correction = M::Variables::filled(S::zero());
-        for (u, at) in unknowns.clone().enumerate() {
-            let constant = condensed.constant.as_ref()[u] + condensed.by_heat.as_ref()[u] * heat;
-            correction.as_mut()[at] = -constant;
-        }
-        for a in 0..M::MEASURES {
-            let sensitivity = &self.geometry.sensitivity(i)[a * width..(a + 1) * width];
-            let mut change = S::zero();
-            for (&entry, at) in sensitivity.iter().zip(self.unknowns(view, i)) {
-                change += entry * at.map_or(S::zero(), |at| solution[at]);
-            }
-            correction.as_mut()[a] = change;
-            let by_measure = &condensed.by_measure.as_ref()[a];
-            for (u, at) in unknowns.clone().enumerate() {
-                correction.as_mut()[at] -= by_measure.as_ref()[u] * change;
-            }
-        }
-        correction
+        target.values[contact.diagonal] += diagonal;
     }
 }
 
-/// See [`ElementGroup::condensed_row`].
-struct CondensedRow<V, S> {
-    constant: S,
-    by_measure: V,
-    by_heat: S,
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
+    /// Adds the block of the arms to two nodes: to the rows and columns of the nodes, and with the
+    /// other sign to those of the first node.
+    #[inline]
+    pub(super) fn add_block(&self, [i, j]: [usize; 2], block: &[[S; D]; D], values: &mut [S]) {
+        if self.is_mass[i] && self.is_mass[j] {
+            add_rows(values, &self.blocks[i][j], block);
+        }
+        if self.is_mass[0] {
+            add_rows(values, &self.blocks[0][0], block);
+            if self.is_mass[i] {
+                subtract_rows(values, &self.blocks[i][0], block);
+            }
+            if self.is_mass[j] {
+                subtract_rows(values, &self.blocks[0][j], block);
+            }
+        }
+    }
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
+    /// Adds the derivatives of `factor Σ κ (Θ_partner − Θ)` to the rows of the nodes, each with its
+    /// direction.
+    #[inline]
+    fn add_partners(&self, factor: S, direction: &K::PerNode<[S; D]>, values: &mut [S]) {
+        let mut own = S::zero();
+        for partner in &self.partners {
+            let entry = factor * partner.conductance;
+            own -= entry;
+            add_column::<K, S, D>(values, &partner.column, entry, direction);
+        }
+        add_column::<K, S, D>(values, &self.column, own, direction);
+    }
+}
+
+/// Adds a block, row by row.
+#[inline]
+fn add_rows<S: Real, const D: usize>(values: &mut [S], places: &[usize; D], block: &[[S; D]; D]) {
+    for (entries, &place) in block.iter().zip(places) {
+        for (value, &entry) in values[place..place + D].iter_mut().zip(entries) {
+            *value += entry;
+        }
+    }
+}
+
+/// Subtracts a block, row by row.
+#[inline]
+fn subtract_rows<S: Real, const D: usize>(
+    values: &mut [S],
+    places: &[usize; D],
+    block: &[[S; D]; D],
+) {
+    for (entries, &place) in block.iter().zip(places) {
+        subtract(values, place, entries);
+    }
+}
+
+/// Subtracts from consecutive entries.
+#[inline]
+pub(super) fn subtract<S: Real, const D: usize>(values: &mut [S], place: usize, entries: &[S; D]) {
+    for (value, &entry) in values[place..place + D].iter_mut().zip(entries) {
+        *value -= entry;
+    }
+}
+
+/// Adds a column, `factor` times the direction of each node.
+#[inline]
+pub(super) fn add_column<K: Kinematics<S, D>, S: Real, const D: usize>(
+    values: &mut [S],
+    column: &Column<K, S, D>,
+    factor: S,
+    direction: &K::PerNode<[S; D]>,
+) {
+    for (places, direction) in column.as_ref().iter().zip(direction.as_ref()) {
+        for (&place, &entry) in places.iter().zip(direction) {
+            values[place] += factor * entry;
+        }
+    }
 }

@@ -4,61 +4,43 @@
 //! evaluating the remaining relations explicitly from them makes the balances of momentum and
 //! entropy hold to rounding whatever that error is, and leaves the energy with its square.
 
-use super::evaluate::check_temperature;
-use super::{ElementGroup, StepView, Trial};
+use super::member::Member;
+use super::pose::{Pose, arms, measures_in, points, resultant, spread};
+use super::site::Site;
+use super::{Along, ElementGroup, StepView, Trial};
 use crate::conduction::Partner;
-use crate::error::StateError;
-use crate::free_energy::{Array, Caloric, FreeEnergy};
-use crate::kinematics::Kinematics;
+use crate::free_energy::{Array, FreeEnergy};
+use crate::kinematics::{Arms, Kinematics, Weights};
 use crate::scalar::Real;
-use crate::scheme::{ElementScheme, Infeasible, Placement, temperature_at};
+use crate::scheme::{ElementScheme, Placement};
 use crate::state::State;
 use crate::system::LinearSystem;
 
-impl<S, M, K, C> ElementGroup<S, M, K, C>
+impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S>,
+    K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    /// A of the nodal force `A q_m` of element `i`, into the matrix of the geometry.
-    fn secant(&mut self, i: usize) -> bool {
-        let response = self.members[i].response;
-        let forces = &response.as_ref()[..M::MEASURES];
-        self.geometry
-            .secant(self.kinematics, i, C::PLACEMENT, forces)
-    }
-
     /// See [`Group::add_secant`](super::Group::add_secant).
     pub(super) fn add_secant_all(
         &mut self,
         view: &StepView<'_, S>,
-        trial: &Trial<S>,
-        system: &mut LinearSystem<S>,
+        trial: &Trial<S, D>,
+        system: &mut LinearSystem<S, D>,
     ) {
-        let (width, h) = (self.geometry.width(), view.step);
-        let half = S::from_f64(0.5);
-        let old = view.state.positions.values();
-        for i in 0..self.members.len() {
-            if !self.secant(i) {
-                return;
-            }
-            for (p, at) in self.unknowns(view, i).enumerate() {
-                let Some(at) = at else { continue };
-                let row = &self.geometry.matrix[p * width..(p + 1) * width];
-                let coordinates = self.geometry.coordinates_of(i);
-                for ((&entry, to), coordinate) in
-                    row.iter().zip(self.unknowns(view, i)).zip(coordinates)
-                {
-                    system.add_right(at, -h * entry * old[coordinate]);
-                    let entry = half * h * entry;
-                    match to {
-                        Some(to) => system.add(at, to, entry),
-                        None => system.add_right(at, -entry * trial.displacements[coordinate]),
-                    }
-                }
-            }
+        let share = S::from_f64(0.5);
+        let old = points(view.state.positions.values());
+        let (values, right) = system.parts();
+        for member in &self.members {
+            let weights = member.secant(self.kinematics);
+            let known = member.site.known(old, &trial.displacements, share);
+            let matrix = share * view.step;
+            member.site.add_secant(&weights, matrix, &mut *values);
+            member
+                .site
+                .subtract_known(&weights, &known, view.step, &mut *right);
         }
     }
 
@@ -66,152 +48,179 @@ where
     pub(super) fn add_impulse_all(
         &mut self,
         view: &StepView<'_, S>,
-        trial: &Trial<S>,
-        impulse: &mut [S],
+        trial: &Trial<S, D>,
+        along: Along,
+        impulse: &mut [[S; D]],
     ) {
-        let (width, h) = (self.geometry.width(), view.step);
-        let half = S::from_f64(0.5);
-        let old = view.state.positions.values();
-        for i in 0..self.members.len() {
-            if self.secant(i) {
-                for (p, at) in self.geometry.coordinates_of(i).enumerate() {
-                    let row = &self.geometry.matrix[p * width..(p + 1) * width];
-                    let pairs = row.iter().zip(self.geometry.coordinates_of(i));
-                    let force = pairs.fold(S::zero(), |sum, (&entry, coordinate)| {
-                        let mean = old[coordinate] + half * trial.displacements[coordinate];
-                        sum + entry * mean
-                    });
-                    impulse[at] -= h * force;
-                }
-            } else {
-                let share = h * S::from_f64(C::IMPLICIT);
-                let rows = self.geometry.direction(i).chunks_exact(width);
-                let forces = &self.members[i].response.as_ref()[..M::MEASURES];
-                for (row, &force) in rows.zip(forces) {
-                    for (&entry, at) in row.iter().zip(self.geometry.coordinates_of(i)) {
-                        impulse[at] -= share * force * entry;
+        let old = points(view.state.positions.values());
+        for member in &self.members {
+            let nodes = &member.site.nodes;
+            let r0 = arms::<K, S, D>(nodes, old);
+            let (h, force) = if along == Along::Secant {
+                let mut mean = arms::<K, S, D>(nodes, &trial.displacements);
+                for (mean, old) in mean.as_mut().iter_mut().zip(r0.as_ref()) {
+                    for (mean, &old) in mean.iter_mut().zip(old) {
+                        *mean = old + S::from_f64(0.5) * *mean;
                     }
                 }
-            }
-        }
-    }
-
-    /// See [`Group::close`](super::Group::close).
-    pub(super) fn close_all(
-        &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S>,
-        next: &mut State<S>,
-    ) {
-        let share = S::from_f64(C::IMPLICIT);
-        for member in &mut self.members {
-            let forces = &member.response.as_ref()[M::MEASURES..M::MEASURES + M::DASHPOTS];
-            let viscosities = member.viscosities.0.as_ref();
-            let mut heat = S::zero();
-            for (k, (&g, &eta)) in forces.iter().zip(viscosities).enumerate() {
-                let rate = g / eta;
-                heat += g * rate;
-                let old_rate = member.old_rates.as_ref()[M::MEASURES + k];
-                next.viscous.add(
-                    member.slots.viscous + k,
-                    view.thermal_step() * (share * rate + old_rate),
-                );
-            }
-            let Some(slot) = member.slots.thermal else {
-                next.dissipated.add(
-                    0,
-                    view.thermal_step() * (share * heat + member.old_dissipation()),
-                );
-                continue;
+                let weights = member.secant(self.kinematics);
+                (view.step, pull::<K, S, D>(&weights, &mean))
+            } else {
+                let r1 = arms::<K, S, D>(nodes, &trial.positions);
+                let at = match along {
+                    Along::Gradient => Placement::End,
+                    Along::Secant | Along::Scheme => C::PLACEMENT,
+                };
+                let share = view.step * S::from_f64(C::IMPLICIT);
+                (share, member.force(self.kinematics, at, [&r0, &r1]))
             };
-            let theta = member.temperature();
-            heat += view
-                .conduction
-                .heat_flow(slot, theta, &trial.seen_temperatures);
-            let old_rate = member.old_rates.as_ref()[M::MEASURES + M::DASHPOTS];
-            member.entropy_received = view.thermal_step() * (share * heat / theta + old_rate);
-            next.entropies.add(slot, member.entropy_received);
-            let seen = share * theta + (S::one() - share) * view.state.temperatures[slot];
-            for link in view.conduction.links(slot) {
-                if let Partner::Reservoir(index) = link.partner {
-                    let theta_r = view.conduction.reservoirs[index];
-                    let flow = link.conductance * (seen - theta_r);
-                    next.reservoir_entropies
-                        .add(index, view.thermal_step() * flow / theta_r);
+            for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
+                for (impulse, &force) in impulse[node].iter_mut().zip(force) {
+                    *impulse -= h * force;
                 }
             }
         }
     }
+}
 
-    /// See [`Elements::settle`](super::Elements::settle).
-    pub(super) fn settle_all(
-        &mut self,
-        view: &StepView<'_, S>,
-        state: &mut State<S>,
-    ) -> Result<(), StateError> {
-        for i in 0..self.members.len() {
-            let guess = self.members[i].x.as_ref()[M::Variables::LEN - 1];
-            let Some(caloric) = self.settle_one(i, view, state, guess)? else {
-                continue;
-            };
-            let member = &self.members[i];
-            let Some(slot) = member.slots.thermal else {
-                continue;
-            };
-            if view.prescribed(Some(slot), Placement::End).is_some() {
-                let change = caloric.entropy - view.state.entropies.values()[slot];
-                let given = change - member.entropy_received;
-                state.entropies.set(slot, caloric.entropy);
-                state.heat.add(0, member.temperature() * given);
-                state.thermostat_entropy.add(0, -given);
+/// The nodal forces `A r`, which sum to zero exactly and do not depend on where the origin is.
+#[inline]
+pub(super) fn pull<K: Kinematics<S, D>, S: Real, const D: usize>(
+    weights: &Weights<K, S, D>,
+    r: &Arms<K, S, D>,
+) -> K::PerNode<[S; D]> {
+    let mut force = Arms::<K, S, D>::filled([S::zero(); D]);
+    for (force, row) in force.as_mut().iter_mut().zip(weights.as_ref()) {
+        for (&weight, arm) in row.as_ref().iter().zip(r.as_ref()) {
+            for axis in 0..D {
+                force[axis] += weight * arm[axis];
             }
         }
-        Ok(())
+    }
+    spread::<K, S, D>(&force)
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
+    /// The old arms, with the fraction `share` of the motion of anchors, which is known.
+    #[inline]
+    pub(super) fn known(&self, old: &[[S; D]], moved: &[[S; D]], share: S) -> Arms<K, S, D> {
+        let mut known = arms::<K, S, D>(&self.nodes, old);
+        for (i, known) in known.as_mut().iter_mut().enumerate() {
+            for (axis, known) in known.iter_mut().enumerate() {
+                let shift = |i: usize| {
+                    let moved = moved[self.nodes[i]][axis];
+                    if self.is_mass[i] { S::zero() } else { moved }
+                };
+                *known += share * (shift(i + 1) - shift(0));
+            }
+        }
+        known
     }
 
-    /// The temperature of element `i` in a new state, near `guess`, and all that must be true of the
-    /// state; its caloric quantities if it has a temperature.
-    pub(super) fn settle_one(
-        &mut self,
-        i: usize,
-        view: &StepView<'_, S>,
-        state: &mut State<S>,
-        guess: S,
-    ) -> Result<Option<Caloric<S>>, StateError> {
-        let mut x = self.locate(i, state)?;
-        let member = &mut self.members[i];
-        for (dashpot, &stretch) in x.as_ref()[M::MEASURES..][..M::DASHPOTS].iter().enumerate() {
-            if !stretch.is_finite() {
-                return Err(StateError::ViscousStretch {
-                    element: member.element,
-                    dashpot,
-                    value: stretch.to_f64(),
-                });
+    /// Adds the matrix `factor A` of nodal forces `A r`.
+    #[inline]
+    pub(super) fn add_secant(&self, weights: &Weights<K, S, D>, factor: S, values: &mut [S]) {
+        for (i, row) in weights.as_ref().iter().enumerate() {
+            for (j, &weight) in row.as_ref().iter().enumerate() {
+                let entry = factor * weight;
+                values[self.secant[i + 1][j + 1]] += entry;
+                values[self.secant[i + 1][0]] -= entry;
+                values[self.secant[0][j + 1]] -= entry;
+                values[self.secant[0][0]] += entry;
             }
         }
-        let Some(slot) = member.slots.thermal else {
-            member.check_energy(&x)?;
-            return Ok(None);
-        };
-        let prescribed = view.prescribed(Some(slot), Placement::End);
-        state.temperatures[slot] = if let Some(theta) = prescribed {
-            theta
-        } else if C::IN_TEMPERATURE {
-            member.new_temperature(view.state.temperatures[slot])
-        } else {
-            let entropy = state.entropies.values()[slot];
-            temperature_at(&member.model, x, entropy, guess)
-                .map_err(|infeasible| infeasible.of(member.element))?
-        };
-        x.as_mut()[M::Variables::LEN - 1] = state.temperatures[slot];
-        check_temperature(member.element, state.temperatures[slot])?;
-        member.check_energy(&x)?;
-        let caloric = member.model.caloric(&x);
-        if C::IN_TEMPERATURE {
-            state.entropies.set(slot, caloric.entropy);
+    }
+
+    /// Subtracts the impulse `h A r` of known arms.
+    #[inline]
+    pub(super) fn subtract_known(
+        &self,
+        weights: &Weights<K, S, D>,
+        known: &Arms<K, S, D>,
+        h: S,
+        right: &mut [[S; D]],
+    ) {
+        let force = pull::<K, S, D>(weights, known);
+        for (&row, force) in self.secant_rows.as_ref().iter().zip(force.as_ref()) {
+            for (right, &force) in right[row].iter_mut().zip(force) {
+                *right -= h * force;
+            }
         }
-        Infeasible::unless_stable(&caloric, state.temperatures[slot])
-            .map_err(|infeasible| infeasible.of(member.element))?;
-        Ok(Some(caloric))
+    }
+}
+
+impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// A of the force `A r_m` at the found response.
+    #[inline]
+    fn secant(&self, kinematics: K) -> Weights<K, S, D> {
+        let measures = measures_in::<K, S, D>(&self.x);
+        let old = match C::PLACEMENT {
+            Placement::Middle => measures,
+            Placement::Ends | Placement::End | Placement::Start => {
+                measures_in::<K, S, D>(&self.start.x0)
+            }
+        };
+        kinematics.secant(&old, &measures, &measures_in::<K, S, D>(&self.response))
+    }
+
+    /// The nodal forces of the found response along the gradient between two configurations, N.
+    pub(super) fn force(
+        &self,
+        kinematics: K,
+        at: Placement,
+        ends: [&Arms<K, S, D>; 2],
+    ) -> K::PerNode<[S; D]> {
+        let measures0 = measures_in::<K, S, D>(&self.start.x0);
+        let pose = Pose::new(kinematics, at, ends, measures0);
+        resultant::<K, S, D>(&pose.direction, &measures_in::<K, S, D>(&self.response))
+    }
+
+    /// The increments of the internal variables and of the reservoirs' entropies.
+    #[inline]
+    pub(super) fn close(
+        &mut self,
+        view: &StepView<'_, S>,
+        seen_temperatures: &[S],
+        next: &mut State<S>,
+    ) {
+        let (h, share) = (view.thermal_step(), S::from_f64(C::IMPLICIT));
+        let mut heat = S::zero();
+        for k in 0..M::DASHPOTS {
+            let g = self.response[M::MEASURES + k];
+            let rate = g / self.viscosities.0[k];
+            heat += g * rate;
+            let old_rate = self.old_rates[M::MEASURES + k];
+            let (at, change) = (self.slots.viscous + k, h * (share * rate + old_rate));
+            next.viscous.advance(at, &view.state.viscous, change);
+        }
+        let Some(slot) = self.slots.thermal else {
+            if M::DASHPOTS > 0 {
+                let lost = h * (share * heat + self.old_dissipation());
+                next.dissipated.add(lost);
+            }
+            return;
+        };
+        let theta = self.temperature();
+        let flow = view.conduction.heat_flow(slot, theta, seen_temperatures);
+        heat += flow.heat;
+        let old_rate = self.old_rates[Self::TEMPERATURE];
+        self.entropy_received = h * (share * heat / theta + old_rate);
+        let entropies = &view.state.entropies;
+        next.entropies
+            .advance(slot, entropies, self.entropy_received);
+        for link in view.conduction.links(slot) {
+            if let Partner::Reservoir(index) = link.partner {
+                let theta_r = view.conduction.reservoirs[index];
+                let seen = share * theta + (S::one() - share) * view.state.temperatures[slot];
+                let flow = link.conductance * (seen - theta_r);
+                next.reservoir_entropies.add(index, h * flow / theta_r);
+            }
+        }
     }
 }

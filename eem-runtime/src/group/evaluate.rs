@@ -1,225 +1,272 @@
 //! Old state and trial state of the elements: responses, viscosities, condensed local systems.
 
 use super::member::Member;
-use super::{ElementGroup, StepView, Trial, variables};
+use super::pose::{Pose, along, arms, measures_in, points, spread};
+use super::{ElementGroup, Old, StepView, Trial, variables};
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
 use crate::handle::Element;
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Arms, Kinematics, Measures};
 use crate::scalar::Real;
 use crate::scene::is_positive;
 use crate::scheme::{ElementScheme, ElementTrial, Placement, Start};
 
-impl<S, M, K, C> ElementGroup<S, M, K, C>
+impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S>,
+    K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
     /// See [`Group::begin`](super::Group::begin).
-    pub(super) fn begin_step(
+    pub(super) fn begin_all(
         &mut self,
         view: &StepView<'_, S>,
-        old_force: &mut [S],
+        old: &mut Old<'_, S, D>,
     ) -> Result<(), StateError> {
-        let positions = view.state.positions.values();
-        for i in 0..self.members.len() {
-            self.geometry.measure_at(self.kinematics, i, positions);
-            let member = &mut self.members[i];
-            let measures = &self.geometry.old_measures[self.geometry.measures_range(i)];
-            let x0 = variables::<S, M>(measures, member.slots, view.state);
-            let entropy = member
-                .slots
-                .thermal
-                .map(|slot| view.state.entropies.values()[slot]);
-            member.start = Some(Start {
-                x0,
-                entropy: entropy.unwrap_or(S::zero()),
-                old: C::old(&member.model, &x0),
-            });
-            member.x = x0;
-            member.entropy_change = S::zero();
-            if M::THERMAL {
-                let theta = x0.as_ref()[M::Variables::LEN - 1];
-                member.corners = M::Corners::filled(theta);
-                let prescribed = view.prescribed(member.slots.thermal, C::PLACEMENT);
-                member.x.as_mut()[M::Variables::LEN - 1] = prescribed.unwrap_or(theta);
-            }
-            member.hold();
+        let positions = points(view.state.positions.values());
+        for member in &mut self.members {
+            let r0 = arms::<K, S, D>(&member.site.nodes, positions);
+            let measures = self.kinematics.measure(&r0);
+            member.begin(view, &measures);
             if C::IMPLICIT < 1.0 {
-                self.old_share(view, i, old_force)?;
+                member.old_share(self.kinematics, view, &r0, old.force)?;
             }
+            shorten::<K, S, D>(&member.site.nodes, &measures, old.lengths);
         }
         Ok(())
+    }
+}
+
+/// Reduces the unit of length of each node to the shortest measure of its elements.
+#[inline]
+pub(super) fn shorten<K: Kinematics<S, D>, S: Real, const D: usize>(
+    nodes: &K::PerNode<usize>,
+    measures: &Measures<K, S, D>,
+    lengths: &mut [S],
+) {
+    for &node in nodes.as_ref() {
+        let own = measures.as_ref().iter();
+        lengths[node] = own.fold(lengths[node], |least, &own| least.minimum(own));
+    }
+}
+
+impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// Looks at the old state, where the trial starts.
+    #[inline]
+    fn begin(&mut self, view: &StepView<'_, S>, measures: &Measures<K, S, D>) {
+        let x0 = variables::<S, M>(measures.as_ref(), self.slots, view.state);
+        let slot = self.slots.thermal;
+        let entropy = slot.map(|slot| view.state.entropies.values()[slot]);
+        self.start = Start {
+            x0,
+            entropy: entropy.unwrap_or(S::zero()),
+            old: C::old(&self.model, &x0),
+        };
+        self.x = x0;
+        self.entropy_change = S::zero();
+        if M::THERMAL {
+            let theta = x0[Self::TEMPERATURE];
+            self.corners = M::Corners::filled(theta);
+            let prescribed = view.prescribed(slot, C::PLACEMENT);
+            self.x[Self::TEMPERATURE] = prescribed.unwrap_or(theta);
+        }
+        self.hold();
     }
 
     /// The part of rates and nodal forces that the scheme takes from the old state.
     fn old_share(
         &mut self,
+        kinematics: K,
         view: &StepView<'_, S>,
-        i: usize,
-        old_force: &mut [S],
+        r0: &Arms<K, S, D>,
+        old_force: &mut [[S; D]],
     ) -> Result<(), StateError> {
         let share = S::one() - S::from_f64(C::IMPLICIT);
-        let member = &mut self.members[i];
-        let x0 = member.old_variables();
-        let theta = x0.as_ref()[M::Variables::LEN - 1];
-        member.find_viscosities(theta)?;
-        let gradient = member.model.gradient(&x0);
+        let x0 = self.start.x0;
+        let theta = x0[Self::VARIABLES - 1];
+        self.find_viscosities(theta)?;
+        let gradient = self.model.gradient(&x0);
         let mut heat = S::zero();
         for k in 0..M::DASHPOTS {
             let index = M::MEASURES + k;
-            let g = -gradient.as_ref()[index];
-            let rate = g / member.viscosities.0.as_ref()[k];
-            member.old_rates.as_mut()[index] = share * rate;
+            let g = -gradient[index];
+            let rate = g / self.viscosities.0[k];
+            self.old_rates[index] = share * rate;
             heat += g * rate;
         }
-        if let Some(slot) = member.slots.thermal {
+        if let Some(slot) = self.slots.thermal {
             let temperatures = &view.state.temperatures;
-            heat += view.conduction.heat_flow(slot, theta, temperatures);
-            member.old_rates.as_mut()[M::Variables::LEN - 1] = share * heat / theta;
+            heat += view.conduction.heat_flow(slot, theta, temperatures).heat;
+            self.old_rates[Self::TEMPERATURE] = share * heat / theta;
         }
+        let measures0 = measures_in::<K, S, D>(&x0);
+        let pose = Pose::new(kinematics, C::PLACEMENT, [r0, r0], measures0);
         if M::THERMAL && C::IN_TEMPERATURE {
-            self.old_heating(view, i, heat / theta);
+            let at_rest = Pose::new(kinematics, Placement::End, [r0, r0], measures0);
+            self.find_old_heating(view, &at_rest, heat / theta);
         }
-        let positions = view.state.positions.values();
-        self.geometry.gather(i, C::PLACEMENT, positions, positions);
-        self.geometry.place(self.kinematics, i, C::PLACEMENT);
-        let direction = self.geometry.direction(i);
-        let rows = direction.chunks_exact(self.geometry.width());
-        for (row, &force) in rows.zip(gradient.as_ref()) {
-            for (coordinate, &entry) in self.geometry.coordinates_of(i).zip(row) {
-                old_force[coordinate] += share * force * entry;
+        for (a, row) in pose.direction.as_ref().iter().enumerate() {
+            let by_node = spread::<K, S, D>(row);
+            for (entry, &node) in by_node.as_ref().iter().zip(self.site.nodes.as_ref()) {
+                for (force, &entry) in old_force[node].iter_mut().zip(entry) {
+                    *force += share * gradient[a] * entry;
+                }
             }
         }
         Ok(())
     }
 
     /// `(1 − w) θ̇⁰` of a scheme in temperature, which takes the place of `(1 − w) ṡ⁰`.
-    fn old_heating(&mut self, view: &StepView<'_, S>, i: usize, entropy_rate: S) {
-        let positions = view.state.positions.values();
-        self.geometry
-            .gather(i, Placement::End, positions, positions);
-        self.geometry.place(self.kinematics, i, Placement::End);
-        let dimension = self.geometry.dimension();
-        let velocity = |coordinate| view.old_velocity(coordinate, dimension);
-        self.geometry
-            .increase(self.kinematics, i, Placement::End, velocity);
-        let own = self.geometry.measures_range(i);
+    fn find_old_heating(&mut self, view: &StepView<'_, S>, pose: &Pose<K, S, D>, entropy_rate: S) {
         let share = S::one() - S::from_f64(C::IMPLICIT);
-        let member = &mut self.members[i];
-        let last = M::Variables::LEN - 1;
-        let (_, hessian) = member.model.hessian(&member.old_variables());
+        let last = Self::TEMPERATURE;
+        let (_, hessian) = self.model.hessian(&self.start.x0);
         // ∂s/∂x = −∂²ψ/∂θ∂x
-        let slope = |index: usize| -hessian.as_ref()[last].as_ref()[index];
+        let slope = |index: usize| -hessian[last][index];
+        let velocities = self.old_velocities(view);
         let mut rest = share * entropy_rate;
-        for (a, &rate) in self.geometry.increments[own].iter().enumerate() {
+        for a in 0..M::MEASURES {
+            let rate = along::<K, S, D>(&pose.direction[a], &velocities);
             rest -= slope(a) * share * rate;
         }
         for index in M::MEASURES..last {
-            rest -= slope(index) * member.old_rates.as_ref()[index];
+            rest -= slope(index) * self.old_rates[index];
         }
-        member.old_heating = rest / slope(last);
-        member.old_rates.as_mut()[last] = S::zero();
+        self.old_heating = rest / slope(last);
+        self.old_rates[last] = S::zero();
     }
 
-    /// The increments of the measures of element `i`: those of `q¹ − q⁰ − (1 − w) h q̇⁰`.
-    fn increase(&mut self, view: &StepView<'_, S>, trial: &Trial<S>, i: usize) {
-        let rest = (S::one() - S::from_f64(C::IMPLICIT)) * view.step;
-        let dimension = self.geometry.dimension();
-        let motion = |coordinate: usize| {
-            let old = rest * view.old_velocity(coordinate, dimension);
-            trial.displacements[coordinate] - old
+    /// The old velocities of the arms; those of anchors are means over the step, m/s.
+    fn old_velocities(&self, view: &StepView<'_, S>) -> Arms<K, S, D> {
+        let momenta = points::<S, D>(view.state.momenta.values());
+        let motion = points::<S, D>(&view.loads.motion);
+        let velocity = |node: usize, axis: usize| match view.masses[node] {
+            Some(mass) => momenta[node][axis] / mass,
+            None => motion[node][axis] / view.step,
         };
-        self.geometry
-            .increase(self.kinematics, i, C::PLACEMENT, motion);
+        let nodes = self.site.nodes.as_ref();
+        let mut velocities = Arms::<K, S, D>::filled([S::zero(); D]);
+        for (arm, &node) in velocities.as_mut().iter_mut().zip(&nodes[1..]) {
+            for (axis, component) in arm.iter_mut().enumerate() {
+                *component = velocity(node, axis) - velocity(nodes[0], axis);
+            }
+        }
+        velocities
     }
 
-    /// See [`Group::evaluate`](super::Group::evaluate).
-    pub(super) fn evaluate_trial(
-        &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S>,
-    ) -> Result<(), StateError> {
-        let old = view.state.positions.values();
-        for i in 0..self.members.len() {
-            self.geometry.gather(i, C::PLACEMENT, old, &trial.positions);
-            self.geometry.place(self.kinematics, i, C::PLACEMENT);
-            if C::IN_TEMPERATURE {
-                self.increase(view, trial, i);
+    /// The motion `r¹ − r⁰ − (1 − w) h ṙ⁰` of the arms.
+    fn motion(&self, view: &StepView<'_, S>, trial: &Trial<S, D>) -> Arms<K, S, D> {
+        let rest = (S::one() - S::from_f64(C::IMPLICIT)) * view.step;
+        let mut motion = arms::<K, S, D>(&self.site.nodes, &trial.displacements);
+        let velocities = self.old_velocities(view);
+        for (motion, velocity) in motion.as_mut().iter_mut().zip(velocities.as_ref()) {
+            for (motion, &velocity) in motion.iter_mut().zip(velocity) {
+                *motion -= rest * velocity;
             }
-            let own = self.geometry.measures_range(i);
-            let own_increments = own.clone();
-            let measures = &self.geometry.measures[own];
-            let member = &mut self.members[i];
-            check_measures(self.kinematics, member.element, measures)?;
-            member.x.as_mut()[..M::MEASURES].copy_from_slice(measures);
-            let Some(start) = &member.start else {
-                unreachable!("a step begins before it is evaluated");
-            };
-            let element = member.element;
-            if M::THERMAL
-                && view
-                    .prescribed(member.slots.thermal, C::PLACEMENT)
-                    .is_none()
-            {
-                let theta = C::temperature(&member.model, start, &member.x, member.entropy_change);
-                member.x.as_mut()[M::Variables::LEN - 1] =
-                    theta.map_err(|infeasible| infeasible.of(element))?;
-            }
-            let trial_variables = ElementTrial {
-                x: member.x,
-                increments: if C::IN_TEMPERATURE {
-                    increments(member, &self.geometry.increments[own_increments], view.step)
-                } else {
-                    M::Variables::filled(S::zero())
-                },
-            };
-            let answer = C::respond(&member.model, start, &trial_variables, &mut member.corners);
-            let answer = answer.map_err(|infeasible| infeasible.of(element))?;
-            member.response = answer.response;
-            member.tangent = answer.tangent;
-            member.by_increment = answer.by_increment;
-            check_response::<S, M>(member.element, &member.response)?;
-            member.find_viscosities(member.temperature())?;
-            self.local
-                .condense(view, &trial.seen_temperatures, member)?;
         }
-        Ok(())
+        motion
+    }
+
+    /// The response at the trial state.
+    #[inline]
+    pub(super) fn respond(
+        &mut self,
+        kinematics: K,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+    ) -> Result<Pose<K, S, D>, StateError> {
+        let old = points(view.state.positions.values());
+        let r0 = arms::<K, S, D>(&self.site.nodes, old);
+        let r1 = arms::<K, S, D>(&self.site.nodes, &trial.positions);
+        let measures0 = measures_in::<K, S, D>(&self.start.x0);
+        let pose = Pose::new(kinematics, C::PLACEMENT, [&r0, &r1], measures0);
+        let element = self.element;
+        check_measures::<K, S, D>(kinematics, element, &pose.measures)?;
+        for (a, &measure) in pose.measures.as_ref().iter().enumerate() {
+            self.x[a] = measure;
+        }
+        self.sensitivity = pose.sensitivity;
+        let slot = self.slots.thermal;
+        if M::THERMAL && C::FINDS_TEMPERATURE && view.prescribed(slot, C::PLACEMENT).is_none() {
+            let theta = C::temperature(&self.model, &self.start, &self.x, self.entropy_change);
+            self.x[Self::TEMPERATURE] = theta.map_err(|infeasible| infeasible.of(element))?;
+        }
+        let mut increments = M::Variables::filled(S::zero());
+        let mut by_arm = self.sensitivity;
+        if C::IN_TEMPERATURE {
+            let motion = self.motion(view, trial);
+            let (own, by) = pose.increase(kinematics, C::PLACEMENT, &motion);
+            increments = self.increments(&own, view.step);
+            by_arm = by;
+        }
+        let asked = ElementTrial {
+            x: self.x,
+            increments,
+        };
+        let answer = C::respond(&self.model, &self.start, &asked, &mut self.corners);
+        let answer = answer.map_err(|infeasible| infeasible.of(element))?;
+        self.response = answer.response;
+        self.tangent = answer.tangent;
+        if C::IN_TEMPERATURE {
+            self.by_increment = combined::<K, S, M, D>(&answer.by_increment, by_arm.as_ref());
+        }
+        check_response::<S, M>(element, &self.response)?;
+        self.find_viscosities(self.temperature())?;
+        Ok(pose)
+    }
+
+    /// The increments of measures, viscous stretches and temperature, less what the old state
+    /// contributes.
+    fn increments(&self, measures: &Measures<K, S, D>, step: S) -> M::Variables {
+        let mut increments = M::Variables::filled(S::zero());
+        let (old, last) = (&self.start.x0, Self::VARIABLES - 1);
+        for (a, &increment) in measures.as_ref().iter().enumerate() {
+            increments[a] = increment;
+        }
+        for index in M::MEASURES..last {
+            let change = self.x[index] - old[index];
+            increments[index] = change - step * self.old_rates[index];
+        }
+        if M::THERMAL {
+            let change = self.new_temperature(old[last]) - old[last];
+            increments[last] = change - step * self.old_heating;
+        }
+        increments
     }
 }
 
-/// The increments of measures, viscous stretches and temperature, less what the old state
-/// contributes.
-fn increments<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>>(
-    member: &Member<S, M, C>,
-    measures: &[S],
-    step: S,
-) -> M::Variables {
-    let mut increments = M::Variables::filled(S::zero());
-    increments.as_mut()[..M::MEASURES].copy_from_slice(measures);
-    let old = member.old_variables();
-    let last = M::Variables::LEN - 1;
-    for index in M::MEASURES..last {
-        let change = member.x.as_ref()[index] - old.as_ref()[index];
-        increments.as_mut()[index] = change - step * member.old_rates.as_ref()[index];
+/// `Σ_a slope_a ∂Λ_a/∂r¹`.
+fn combined<K: Kinematics<S, D>, S: Real, M: FreeEnergy<S>, const D: usize>(
+    slopes: &M::Variables,
+    by_arm: &[Arms<K, S, D>],
+) -> Arms<K, S, D> {
+    let mut sum = Arms::<K, S, D>::filled([S::zero(); D]);
+    for (&slope, row) in slopes.as_ref().iter().zip(by_arm) {
+        for (sum, entry) in sum.as_mut().iter_mut().zip(row.as_ref()) {
+            for (sum, &entry) in sum.iter_mut().zip(entry) {
+                *sum += slope * entry;
+            }
+        }
     }
-    let change = member.new_temperature(old.as_ref()[last]) - old.as_ref()[last];
-    increments.as_mut()[last] = change - step * member.old_heating;
-    increments
+    sum
 }
 
 /// The deformation is one that the element can have.
-pub(super) fn check_measures<S: Real, K: Kinematics<S>>(
+#[inline]
+pub(super) fn check_measures<K: Kinematics<S, D>, S: Real, const D: usize>(
     kinematics: K,
     element: Element,
-    measures: &[S],
+    measures: &Measures<K, S, D>,
 ) -> Result<(), StateError> {
-    match measures
-        .iter()
-        .find(|&&measure| !kinematics.is_admissible(measure))
-    {
+    let mut measures = measures.as_ref().iter();
+    match measures.find(|&&measure| !kinematics.is_admissible(measure)) {
         None => Ok(()),
         Some(measure) => Err(StateError::Stretch {
             element,
@@ -228,16 +275,16 @@ pub(super) fn check_measures<S: Real, K: Kinematics<S>>(
     }
 }
 
+#[inline]
 fn check_response<S: Real, M: FreeEnergy<S>>(
     element: Element,
     response: &M::Response,
 ) -> Result<(), StateError> {
-    let response = response.as_ref();
     if M::THERMAL {
-        let theta = response[M::MEASURES + M::DASHPOTS];
-        check_temperature(element, theta)?;
+        check_temperature(element, response[M::MEASURES + M::DASHPOTS])?;
     }
-    match response.iter().find(|value| !value.is_finite()) {
+    let mut values = response.as_ref().iter();
+    match values.find(|value| !value.is_finite()) {
         None => Ok(()),
         Some(value) => Err(StateError::NotFinite {
             element,
@@ -248,6 +295,7 @@ fn check_response<S: Real, M: FreeEnergy<S>>(
 }
 
 /// A temperature is positive and finite.
+#[inline]
 pub(super) fn check_temperature<S: Real>(element: Element, theta: S) -> Result<(), StateError> {
     if is_positive(theta) {
         return Ok(());

@@ -1,5 +1,7 @@
 //! What one element contributes to the GENERIC form of the equations.
 
+use super::member::Member;
+use super::pose::{arms, points};
 use super::{ElementGroup, variables};
 use crate::free_energy::{Array, FreeEnergy};
 use crate::kinematics::Kinematics;
@@ -18,79 +20,72 @@ pub(crate) struct ElementGeneric<S> {
     pub(crate) temperature: Option<(usize, S)>,
 }
 
-impl<S, M, K, C> ElementGroup<S, M, K, C>
+impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S>,
+    K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
     /// All elements in a state.
     pub(super) fn generic_in_all(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>> {
-        let positions = state.positions.values();
+        let positions = points(state.positions.values());
         let mut elements = Vec::with_capacity(self.members.len());
-        for i in 0..self.members.len() {
-            self.geometry
-                .gather(i, Placement::End, positions, positions);
-            self.geometry.place(self.kinematics, i, Placement::End);
-            let measures = &self.geometry.measures[self.geometry.measures_range(i)];
-            let member = &self.members[i];
-            let x = variables::<S, M>(measures, member.slots, state);
+        for member in &mut self.members {
+            let r = arms::<K, S, D>(&member.site.nodes, positions);
+            let measures = self.kinematics.measure(&r);
+            let x = variables::<S, M>(measures.as_ref(), member.slots, state);
             let gradient = member.model.gradient(&x);
-            let theta = x.as_ref()[M::Variables::LEN - 1];
-            let (viscosities, _) = member.model.viscosity(theta);
-            let mut response = M::Response::filled(S::zero());
+            let theta = x[M::Variables::LEN - 1];
+            member.viscosities = member.model.viscosity(theta);
+            member.start.x0 = x;
             for index in 0..M::MEASURES + M::DASHPOTS {
-                let sign = if index < M::MEASURES {
-                    S::one()
-                } else {
-                    -S::one()
-                };
-                response.as_mut()[index] = sign * gradient.as_ref()[index];
+                let is_force = index < M::MEASURES;
+                let sign = if is_force { S::one() } else { -S::one() };
+                member.response[index] = sign * gradient[index];
             }
             if M::THERMAL {
-                response.as_mut()[M::MEASURES + M::DASHPOTS] = theta;
+                member.response[M::MEASURES + M::DASHPOTS] = theta;
             }
-            elements.push(self.generic_at(i, &response, &viscosities));
+            let force = member.force(self.kinematics, Placement::End, [&r, &r]);
+            elements.push(member.generic(&force));
         }
         elements
     }
 
     /// All elements during the last step, with discrete derivatives in the place of derivatives.
-    pub(super) fn generic_of_step_all(&self) -> Vec<ElementGeneric<S>> {
-        let members = self.members.iter().enumerate();
-        members
-            .map(|(i, member)| self.generic_at(i, &member.response, &member.viscosities.0))
-            .collect()
-    }
-
-    fn generic_at(
-        &self,
-        i: usize,
-        response: &M::Response,
-        viscosities: &M::Viscosities,
-    ) -> ElementGeneric<S> {
-        let (response, slots) = (response.as_ref(), self.members[i].slots);
-        let rows = self
-            .geometry
-            .direction(i)
-            .chunks_exact(self.geometry.width());
-        let forces = rows.zip(response).flat_map(|(row, &force)| {
-            let entries = self.geometry.coordinates_of(i).zip(row);
-            entries.map(move |(coordinate, &entry)| (coordinate, force * entry))
+    pub(super) fn generic_of_step_all(&self, ends: [&State<S>; 2]) -> Vec<ElementGeneric<S>> {
+        let positions = ends.map(|state| points(state.positions.values()));
+        let members = self.members.iter().map(|member| {
+            let [r0, r1] = positions.map(|of| arms::<K, S, D>(&member.site.nodes, of));
+            member.generic(&member.force(self.kinematics, C::PLACEMENT, [&r0, &r1]))
         });
-        let dashpots = response[M::MEASURES..][..M::DASHPOTS]
-            .iter()
-            .zip(viscosities.as_ref());
+        members.collect()
+    }
+}
+
+impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// The present response, with these forces on the nodes.
+    fn generic(&self, force: &K::PerNode<[S; D]>) -> ElementGeneric<S> {
+        let nodes = self.site.nodes.as_ref().iter().zip(force.as_ref());
+        let forces = nodes.flat_map(|(&node, force)| {
+            let axes = force.iter().enumerate();
+            axes.map(move |(axis, &entry)| (node * D + axis, entry))
+        });
+        let dashpots = (0..M::DASHPOTS).map(|k| {
+            let g = self.response[M::MEASURES + k];
+            (self.slots.viscous + k, g, self.viscosities.0[k])
+        });
         ElementGeneric {
             forces: forces.collect(),
-            dashpots: dashpots
-                .enumerate()
-                .map(|(k, (&force, &eta))| (slots.viscous + k, force, eta))
-                .collect(),
-            temperature: slots
-                .thermal
-                .map(|slot| (slot, response[M::MEASURES + M::DASHPOTS])),
+            dashpots: dashpots.collect(),
+            temperature: self.slots.thermal.map(|slot| (slot, self.temperature())),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What the elements are in a state, from the definitions and not from what a step computed.
 
-use super::evaluate::check_measures;
-use super::geometry::MOST_MEASURES;
+use super::member::Member;
+use super::pose::{arms, points};
 use super::{ElementGroup, ElementView, GroupTotals, variables};
 use crate::error::StateError;
 use crate::free_energy::FreeEnergy;
@@ -11,67 +11,39 @@ use crate::scalar::Real;
 use crate::scheme::{ElementScheme, Infeasible};
 use crate::state::State;
 
-impl<S, M, K, C> ElementGroup<S, M, K, C>
+impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S>,
+    K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
     /// See [`Elements::initialize`](super::Elements::initialize).
     pub(super) fn initialize_all(&mut self, state: &mut State<S>) -> Result<(), StateError> {
-        for i in 0..self.members.len() {
-            let x = self.locate(i, state)?;
-            let member = &mut self.members[i];
-            let theta = member
-                .slots
-                .thermal
-                .map_or(S::zero(), |slot| state.temperatures[slot]);
+        for member in &mut self.members {
+            let x = member.locate(self.kinematics, state)?;
+            let slot = member.slots.thermal;
+            let theta = slot.map_or(S::zero(), |slot| state.temperatures[slot]);
             member.find_viscosities(theta)?;
             member.check_energy(&x)?;
             check_gradient::<S, M>(member.element, &member.model.gradient(&x))?;
-            let Some(slot) = member.slots.thermal else {
+            let Some(slot) = slot else {
                 continue;
             };
             let caloric = member.model.caloric(&x);
-            Infeasible::unless_stable(&caloric, theta)
+            Infeasible::unless_stable(caloric.heat_capacity, theta)
                 .map_err(|infeasible| infeasible.of(member.element))?;
             state.entropies.set(slot, caloric.entropy);
         }
         Ok(())
     }
 
-    /// The variables of element `i` in a state, if it can have its deformation.
-    pub(super) fn locate(&self, i: usize, state: &State<S>) -> Result<M::Variables, StateError> {
-        let x = self.variables_at(i, state);
-        let measures = &x.as_ref()[..M::MEASURES];
-        check_measures(self.kinematics, self.members[i].element, measures)?;
-        Ok(x)
-    }
-
-    /// The variables of element `i` in a state.
-    fn variables_at(&self, i: usize, state: &State<S>) -> M::Variables {
-        let mut measures = [S::zero(); MOST_MEASURES];
-        self.geometry
-            .measure_into(self.kinematics, i, state.positions.values(), &mut measures);
-        variables::<S, M>(&measures[..M::MEASURES], self.members[i].slots, state)
-    }
-
-    /// `ψ + θ s` of element `i`, with the entropy that is the state, J.
-    fn internal_energy(&self, i: usize, x: &M::Variables, state: &State<S>) -> S {
-        let member = &self.members[i];
-        let psi = member.model.free_energy(x);
-        match member.slots.thermal {
-            Some(slot) => psi + state.temperatures[slot] * state.entropies.values()[slot],
-            None => psi,
-        }
-    }
-
     /// See [`Elements::totals`](super::Elements::totals).
     pub(super) fn sum(&self, state: &State<S>) -> GroupTotals<S> {
         let (mut energy, mut entropy) = (S::zero(), S::zero());
-        for (i, member) in self.members.iter().enumerate() {
-            energy += self.internal_energy(i, &self.variables_at(i, state), state);
+        for member in &self.members {
+            let x = member.variables_in(self.kinematics, state);
+            energy += member.internal_energy(&x, state);
             if let Some(slot) = member.slots.thermal {
                 entropy += state.entropies.values()[slot];
             }
@@ -81,11 +53,35 @@ where
 
     /// See [`Elements::inspect`](super::Elements::inspect).
     pub(super) fn inspect_at(&self, place: usize, state: &State<S>) -> ElementView<S> {
-        let x = self.variables_at(place, state);
+        let member = &self.members[place];
+        let x = member.variables_in(self.kinematics, state);
         ElementView {
-            measure: x.as_ref()[0],
-            force: self.members[place].model.gradient(&x).as_ref()[0],
-            internal_energy: self.internal_energy(place, &x, state),
+            measure: x[0],
+            force: member.model.gradient(&x)[0],
+            internal_energy: member.internal_energy(&x, state),
+        }
+    }
+}
+
+impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// The variables in a state.
+    fn variables_in(&self, kinematics: K, state: &State<S>) -> M::Variables {
+        let r = arms::<K, S, D>(&self.site.nodes, points(state.positions.values()));
+        variables::<S, M>(kinematics.measure(&r).as_ref(), self.slots, state)
+    }
+
+    /// `ψ + θ s`, with the entropy that is the state, J.
+    fn internal_energy(&self, x: &M::Variables, state: &State<S>) -> S {
+        let psi = self.model.free_energy(x);
+        match self.slots.thermal {
+            Some(slot) => psi + state.temperatures[slot] * state.entropies.values()[slot],
+            None => psi,
         }
     }
 }

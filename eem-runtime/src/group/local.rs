@@ -10,167 +10,178 @@
 //! the global unknown Θ = θ*. So their corrections are eliminated here.
 
 use super::StepView;
-use super::member::Member;
+use super::member::{Condensed, Member};
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
-use crate::lu;
+use crate::kinematics::Kinematics;
+use crate::lu::Singular;
 use crate::scalar::Real;
 use crate::scheme::ElementScheme;
 
-/// Working memory for the local systems of one group.
-#[derive(Clone, Debug)]
-pub(crate) struct LocalSolver<S> {
-    /// ∂r/∂u, row-major.
-    matrix: Vec<S>,
-    pivots: Vec<usize>,
-}
-
-impl<S: Real> LocalSolver<S> {
-    /// Memory for `unknowns` local unknowns.
-    pub(crate) fn new(unknowns: usize) -> Self {
-        Self {
-            matrix: vec![S::zero(); unknowns * unknowns],
-            pivots: vec![0; unknowns],
-        }
-    }
-
+impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S>,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
     /// Eliminates the internal variables of an element whose response and viscosities are known.
-    pub(crate) fn condense<M: FreeEnergy<S>, C: ElementScheme<S, M>>(
+    #[inline]
+    pub(super) fn condense(
         &mut self,
         view: &StepView<'_, S>,
         seen_temperatures: &[S],
-        member: &mut Member<S, M, C>,
     ) -> Result<(), StateError> {
-        let unknowns = self.pivots.len();
-        if unknowns == 0 {
+        if Self::UNKNOWNS == 0 {
             return Ok(());
         }
-        self.residual_and_tangent(view, seen_temperatures, member);
-        if lu::factor(&mut self.matrix, &mut self.pivots).is_err() {
-            // A finite local system is singular only where the response has no derivative.
-            return Err(StateError::NotFinite {
-                element: member.element,
-                quantity: "inverse of the local tangent",
-                value: f64::INFINITY,
-            });
+        let mut dissipation = Dissipation {
+            power: S::zero(),
+            by: M::Variables::filled(S::zero()),
+        };
+        for k in 0..M::DASHPOTS {
+            self.dashpot_balance(view, k, &mut dissipation);
         }
-        let condensed = &mut member.condensed;
-        self.solve(condensed.constant.as_mut());
-        for row in &mut condensed.by_measure.as_mut()[..M::MEASURES] {
-            self.solve(row.as_mut());
+        self.condensed.by_heat = M::Variables::filled(S::zero());
+        if M::THERMAL {
+            let row = M::DASHPOTS;
+            if view.prescribed(self.slots.thermal, C::PLACEMENT).is_some() {
+                // r_s = τ − τ_prescribed, which is zero from the start.
+                self.condensed.constant[row] = S::zero();
+                self.condensed.by_measure[row] = M::Variables::filled(S::zero());
+                self.condensed.by_measure[row][Self::TEMPERATURE] = S::one();
+            } else {
+                self.condensed.by_heat[row] = S::one();
+                self.heat_balance(view, seen_temperatures, &dissipation);
+            }
         }
-        condensed.by_heat = M::Variables::filled(S::zero());
-        let prescribed = view.prescribed(member.slots.thermal, C::PLACEMENT);
-        if M::THERMAL && prescribed.is_none() {
-            condensed.by_heat.as_mut()[unknowns - 1] = S::one();
-            self.solve(condensed.by_heat.as_mut());
-        }
-        Ok(())
+        // A finite local system is singular only where the response has no derivative.
+        eliminate::<S, M>(&mut self.condensed).map_err(|Singular| StateError::NotFinite {
+            element: self.element,
+            quantity: "inverse of the local tangent",
+            value: f64::INFINITY,
+        })
     }
 
-    fn solve(&self, vector: &mut [S]) {
-        let unknowns = self.pivots.len();
-        lu::solve(&self.matrix, &self.pivots, &mut vector[..unknowns]);
+    /// `r_γk` and its derivatives; adds to the dissipated power and its derivatives.
+    #[inline]
+    fn dashpot_balance(
+        &mut self,
+        view: &StepView<'_, S>,
+        k: usize,
+        dissipation: &mut Dissipation<S, M>,
+    ) {
+        let (h, share) = (view.thermal_step(), S::from_f64(C::IMPLICIT));
+        let index = M::MEASURES + k;
+        let per_eta = self.viscosities.0[k].recip();
+        let slope = self.viscosities.1[k];
+        let g = self.response[index];
+        let rate = g * per_eta;
+        dissipation.power += g * rate;
+        let change = self.x[index] - self.start.x0[index];
+        self.condensed.constant[k] = change - h * (share * rate + self.old_rates[index]);
+        for column in 0..Self::VARIABLES {
+            let g_by = self.tangent[index][column];
+            let theta_by = if M::THERMAL {
+                self.tangent[Self::TEMPERATURE][column]
+            } else {
+                S::zero()
+            };
+            let rate_by = (g_by - rate * slope * theta_by) * per_eta;
+            dissipation.by[column] += g_by * rate + g * rate_by;
+            let identity = if column == index { S::one() } else { S::zero() };
+            self.condensed.by_measure[k][column] = identity - h * share * rate_by;
+        }
     }
 
-    /// Writes `r` to `condensed.constant`, `∂r/∂π` to `condensed.by_measure`, `∂r/∂u` to `matrix`.
-    fn residual_and_tangent<M: FreeEnergy<S>, C: ElementScheme<S, M>>(
+    /// `r_s` and its derivatives.
+    #[inline]
+    fn heat_balance(
         &mut self,
         view: &StepView<'_, S>,
         seen_temperatures: &[S],
-        member: &mut Member<S, M, C>,
+        dissipation: &Dissipation<S, M>,
     ) {
-        let (unknowns, h) = (self.pivots.len(), view.thermal_step());
-        let share = S::from_f64(C::IMPLICIT);
-        let response = member.response.as_ref();
-        let tangent = member.tangent.as_ref();
-        let (viscosities, slopes) = &member.viscosities;
-        let heat_row = M::MEASURES + M::DASHPOTS;
-        let (mut dissipation, mut heat) = (S::zero(), S::zero());
-        // ∂(Σ g²/η)/∂x
-        let mut dissipation_by = M::Variables::filled(S::zero());
-        let old = member.old_variables();
-        for k in 0..M::DASHPOTS {
-            let index = M::MEASURES + k;
-            let (g, eta, slope) = (response[index], viscosities.as_ref()[k], slopes.as_ref()[k]);
-            let rate = g / eta;
-            dissipation += g * rate;
-            let change = member.x.as_ref()[index] - old.as_ref()[index];
-            let old_rate = member.old_rates.as_ref()[index];
-            member.condensed.constant.as_mut()[k] = change - h * (share * rate + old_rate);
-            for column in 0..M::Variables::LEN {
-                let g_by = tangent[index].as_ref()[column];
-                let theta_by = if M::THERMAL {
-                    tangent[heat_row].as_ref()[column]
-                } else {
-                    S::zero()
-                };
-                let rate_by = (g_by - rate * slope * theta_by) / eta;
-                dissipation_by.as_mut()[column] += g_by * rate + g * rate_by;
-                let identity = if column == index { S::one() } else { S::zero() };
-                let entry = identity - h * share * rate_by;
-                self.store(&mut member.condensed.by_measure, k, column, entry);
+        let (h, share) = (view.thermal_step(), S::from_f64(C::IMPLICIT));
+        let theta = self.response[Self::TEMPERATURE];
+        let per_theta = theta.recip();
+        let (mut heat, mut conductance) = (dissipation.power, S::zero());
+        if let Some(slot) = self.slots.thermal {
+            let flow = view.conduction.heat_flow(slot, theta, seen_temperatures);
+            heat += flow.heat;
+            conductance = flow.conductance;
+        }
+        let rate = heat * per_theta;
+        let old_rate = self.old_rates[Self::TEMPERATURE];
+        let row = M::DASHPOTS;
+        let residual = self.response[Self::ENTROPY] - h * (share * rate + old_rate);
+        self.condensed.constant[row] = residual;
+        for column in 0..Self::VARIABLES {
+            let theta_by = self.tangent[Self::TEMPERATURE][column];
+            let power_by = dissipation.by[column] - conductance * theta_by;
+            let rate_by = (power_by - rate * theta_by) * per_theta;
+            let mut entry = self.tangent[Self::ENTROPY][column] - h * share * rate_by;
+            if C::SCALES_HEAT {
+                // Newton's method on θ* r_s, which is far less curved than r_s where conduction is
+                // stiff, and the same where r_s = 0.
+                entry += theta_by * residual * per_theta;
+            }
+            self.condensed.by_measure[row][column] = entry;
+        }
+    }
+}
+
+/// What the dashpots turn into heat, `Σ g*²/η`, W, and its derivative by the variables.
+struct Dissipation<S: Real, M: FreeEnergy<S>> {
+    power: S,
+    by: M::Variables,
+}
+
+/// Gauss–Jordan elimination with partial pivoting: from `r` in `constant`, `∂r/∂x` in `by_measure`
+/// and `∂r/∂r_s` in `by_heat` to the solved form.
+#[inline]
+fn eliminate<S: Real, M: FreeEnergy<S>>(system: &mut Condensed<S, M>) -> Result<(), Singular> {
+    let Condensed {
+        constant,
+        by_measure: rows,
+        by_heat,
+    } = system;
+    let unknowns = M::Variables::LEN - M::MEASURES;
+    for k in 0..unknowns {
+        let at = M::MEASURES + k;
+        let mut pivot = k;
+        for row in k + 1..unknowns {
+            if rows[row][at].abs() > rows[pivot][at].abs() {
+                pivot = row;
             }
         }
-        let Some(slot) = member.slots.thermal else {
-            return;
-        };
-        if view.prescribed(Some(slot), C::PLACEMENT).is_some() {
-            self.hold_temperature(member);
-            return;
+        let value = rows[pivot][at];
+        if !value.is_finite() || value == S::zero() {
+            return Err(Singular);
         }
-        let theta = response[heat_row];
-        heat += view.conduction.heat_flow(slot, theta, seen_temperatures);
-        let conductance = view.conduction.reservoir_conductance(slot);
-        let rate = (dissipation + heat) / theta;
-        let old_rate = member.old_rates.as_ref()[heat_row];
-        let row = unknowns - 1;
-        member.condensed.constant.as_mut()[row] =
-            response[heat_row + 1] - h * (share * rate + old_rate);
-        for column in 0..M::Variables::LEN {
-            let theta_by = tangent[heat_row].as_ref()[column];
-            let power_by = dissipation_by.as_ref()[column] - conductance * theta_by;
-            let rate_by = (power_by - rate * theta_by) / theta;
-            let entry = tangent[heat_row + 1].as_ref()[column] - h * share * rate_by;
-            // Newton's method on θ* r_s, which is far less curved than r_s where conduction is
-            // stiff, and the same where r_s = 0.
-            let entry = if C::SCALES_HEAT {
-                entry + theta_by * member.condensed.constant.as_ref()[row] / theta
-            } else {
-                entry
-            };
-            self.store(&mut member.condensed.by_measure, row, column, entry);
+        if pivot != k {
+            rows.as_mut().swap(pivot, k);
+            constant.as_mut().swap(pivot, k);
+            by_heat.as_mut().swap(pivot, k);
+        }
+        let inverse = value.recip();
+        // Columns that have been eliminated are not read again.
+        let live = || (0..M::MEASURES).chain(at + 1..M::Variables::LEN);
+        for column in live() {
+            rows[k][column] *= inverse;
+        }
+        constant[k] *= inverse;
+        by_heat[k] *= inverse;
+        for row in (0..unknowns).filter(|&row| row != k) {
+            let factor = rows[row][at];
+            for column in live() {
+                let entry = rows[k][column];
+                rows[row][column] -= factor * entry;
+            }
+            let (own, heat) = (constant[k], by_heat[k]);
+            constant[row] -= factor * own;
+            by_heat[row] -= factor * heat;
         }
     }
-
-    /// `r_s = τ − τ_prescribed`, which is zero from the start.
-    fn hold_temperature<M: FreeEnergy<S>, C: ElementScheme<S, M>>(
-        &mut self,
-        member: &mut Member<S, M, C>,
-    ) {
-        let row = self.pivots.len() - 1;
-        member.condensed.constant.as_mut()[row] = S::zero();
-        for column in 0..M::Variables::LEN {
-            let own = column == M::Variables::LEN - 1;
-            let entry = if own { S::one() } else { S::zero() };
-            self.store(&mut member.condensed.by_measure, row, column, entry);
-        }
-    }
-
-    /// Stores `∂r_row/∂x_column`: measures in `by_measure`, a row per measure; local unknowns in `matrix`.
-    fn store<V: Array<S>, H: Array<V>>(
-        &mut self,
-        by_measure: &mut H,
-        row: usize,
-        column: usize,
-        entry: S,
-    ) {
-        let unknowns = self.pivots.len();
-        let measures = V::LEN - unknowns;
-        if column < measures {
-            by_measure.as_mut()[column].as_mut()[row] = entry;
-        } else {
-            self.matrix[row * unknowns + column - measures] = entry;
-        }
-    }
+    Ok(())
 }

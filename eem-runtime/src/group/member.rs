@@ -1,103 +1,128 @@
 //! One element of a group: its model and its part of the trial state.
 
+use super::site::Site;
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
 use crate::handle::Element;
+use crate::kinematics::{Arms, Gradient, Kinematics};
 use crate::layout::Slots;
 use crate::scalar::Real;
 use crate::scene::is_positive;
 use crate::scheme::{ElementScheme, Placement, Start};
 
 /// An element, with everything that one step of the scheme `C` needs to remember of it.
-pub(crate) struct Member<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>> {
-    pub(crate) element: Element,
-    pub(crate) model: M,
-    pub(crate) slots: Slots,
-    /// The old state; `None` before the first step.
-    pub(crate) start: Option<Start<S, M, C::Old>>,
+pub(crate) struct Member<S, M, K, C, const D: usize>
+where
+    S: Real,
+    M: FreeEnergy<S>,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    pub(super) element: Element,
+    pub(super) model: M,
+    pub(super) slots: Slots,
+    pub(super) site: Site<K, S, D>,
+    /// The old state.
+    pub(super) start: Start<S, M, C::Old>,
     /// What the old state alone contributes to the rates of the internal variables.
-    pub(crate) old_rates: M::Variables,
-    /// The trial variables `(π, γ, τ)`.
-    pub(crate) x: M::Variables,
-    /// The trial Δs, before the last correction, and the correction, J/K.
-    pub(crate) entropy_change: S,
-    pub(crate) previous_entropy_change: S,
-    pub(crate) entropy_correction: S,
-    /// The trial variables before the last correction, and the correction.
-    pub(crate) previous: M::Variables,
-    pub(crate) correction: M::Variables,
-    /// Corner temperatures, kept as starting values.
-    pub(crate) corners: M::Corners,
-    pub(crate) response: M::Response,
-    pub(crate) tangent: M::Tangent,
-    /// For a scheme in temperature: the derivative of Δs by the increments of the measures.
-    pub(crate) by_increment: M::Variables,
+    pub(super) old_rates: M::Variables,
     /// For a scheme in temperature: what the old state contributes to θ̇, K/s.
-    pub(crate) old_heating: S,
+    pub(super) old_heating: S,
+    /// The trial variables `(π, γ, τ)`.
+    pub(super) x: M::Variables,
+    /// The trial variables before the last correction, and the correction.
+    pub(super) previous: M::Variables,
+    pub(super) correction: M::Variables,
+    /// The trial Δs, before the last correction, and the correction, J/K.
+    pub(super) entropy_change: S,
+    pub(super) previous_entropy_change: S,
+    pub(super) entropy_correction: S,
+    /// Corner temperatures, kept as starting values.
+    pub(super) corners: M::Corners,
+    pub(super) response: M::Response,
+    pub(super) tangent: M::Tangent,
     /// `η_k` and `dη_k/dθ` at θ*.
-    pub(crate) viscosities: (M::Viscosities, M::Viscosities),
-    /// The entropy that dashpots and conduction gave it in the step, J/K.
-    pub(crate) entropy_received: S,
+    pub(super) viscosities: (M::Viscosities, M::Viscosities),
+    /// The derivative of the measures by the new arms.
+    pub(super) sensitivity: Gradient<K, S, D>,
+    /// For a scheme in temperature: the derivative of Δs by the new arms through the increments
+    /// of the measures.
+    pub(super) by_increment: Arms<K, S, D>,
     /// Local unknowns as functions of the global ones.
-    pub(crate) condensed: Condensed<S, M>,
+    pub(super) condensed: Condensed<S, M>,
+    /// The entropy that dashpots and conduction gave it in the step, J/K.
+    pub(super) entropy_received: S,
 }
 
-/// The solved local system: `δu = −(constant + Σ_a by_measure_a δπ_a + by_heat δr_s)`, where the
-/// first entries of each array are used.
+/// The solved local system: `δu = −(constant + by_measure δπ + by_heat δr_s)`, a row per local
+/// unknown, of which there are fewer than variables: the first entries and rows are used.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Condensed<S: Real, M: FreeEnergy<S>> {
-    pub(crate) constant: M::Variables,
-    pub(crate) by_measure: M::Hessian,
-    pub(crate) by_heat: M::Variables,
+pub(super) struct Condensed<S: Real, M: FreeEnergy<S>> {
+    pub(super) constant: M::Variables,
+    pub(super) by_measure: M::Hessian,
+    pub(super) by_heat: M::Variables,
 }
 
-impl<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>> Member<S, M, C> {
-    pub(crate) fn new(element: Element, model: M, slots: Slots) -> Self {
+impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S>,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// Number of variables.
+    pub(super) const VARIABLES: usize = M::Variables::LEN;
+
+    /// Number of variables that are eliminated within the element: viscous stretches, temperature.
+    pub(super) const UNKNOWNS: usize = M::Variables::LEN - M::MEASURES;
+
+    /// The index of the temperature among the variables, and of θ* in the response.
+    pub(super) const TEMPERATURE: usize = M::MEASURES + M::DASHPOTS;
+
+    /// The index of Δs in the response.
+    pub(super) const ENTROPY: usize = Self::TEMPERATURE + 1;
+
+    pub(super) fn new(element: Element, model: M, slots: Slots, nodes: &[usize]) -> Self {
         let zeros = M::Variables::filled(S::zero());
         let viscosities = M::Viscosities::filled(S::zero());
+        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
+        let old = C::old(&model, &zeros);
         Self {
             element,
             model,
             slots,
-            start: None,
+            site: Site::unconnected(nodes),
+            start: Start {
+                x0: zeros,
+                entropy: S::zero(),
+                old,
+            },
             old_rates: zeros,
+            old_heating: S::zero(),
             x: zeros,
+            previous: zeros,
+            correction: zeros,
             entropy_change: S::zero(),
             previous_entropy_change: S::zero(),
             entropy_correction: S::zero(),
-            previous: zeros,
-            correction: zeros,
             corners: M::Corners::filled(S::zero()),
             response: M::Response::filled(S::zero()),
             tangent: M::Tangent::filled(zeros),
-            by_increment: zeros,
-            old_heating: S::zero(),
             viscosities: (viscosities, viscosities),
-            entropy_received: S::zero(),
+            sensitivity: Gradient::<K, S, D>::filled(nowhere),
+            by_increment: nowhere,
             condensed: Condensed {
                 constant: zeros,
                 by_measure: M::Hessian::filled(zeros),
                 by_heat: zeros,
             },
+            entropy_received: S::zero(),
         }
     }
 
-    /// The old variables x⁰.
-    pub(crate) fn old_variables(&self) -> M::Variables {
-        let Some(start) = &self.start else {
-            unreachable!("a step begins before its old state is used");
-        };
-        start.x0
-    }
-
-    /// The index of the temperature among the variables, and of θ* in the response.
-    pub(crate) const fn temperature_index() -> usize {
-        M::MEASURES + M::DASHPOTS
-    }
-
     /// The new temperature that τ stands for, given the old one, K.
-    pub(crate) fn new_temperature(&self, old: S) -> S {
-        let theta = self.x.as_ref()[M::Variables::LEN - 1];
+    pub(super) fn new_temperature(&self, old: S) -> S {
+        let theta = self.x[Self::TEMPERATURE];
         match C::PLACEMENT {
             Placement::Ends | Placement::End => theta,
             Placement::Middle | Placement::Start => theta + theta - old,
@@ -105,29 +130,27 @@ impl<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>> Member<S, M, C> {
     }
 
     /// The algorithmic temperature θ*, K; zero without temperature.
-    pub(crate) fn temperature(&self) -> S {
+    #[inline]
+    pub(super) fn temperature(&self) -> S {
         if M::THERMAL {
-            self.response.as_ref()[Self::temperature_index()]
+            self.response[Self::TEMPERATURE]
         } else {
             S::zero()
         }
     }
 
     /// The power of the dashpots that the scheme takes from the old state, `Σ g⁰ (1 − w) γ̇⁰`, W.
-    pub(crate) fn old_dissipation(&self) -> S {
-        let Some(start) = self.start.as_ref().filter(|_| C::IMPLICIT < 1.0) else {
+    pub(super) fn old_dissipation(&self) -> S {
+        if C::IMPLICIT >= 1.0 || M::DASHPOTS == 0 {
             return S::zero();
-        };
-        let dashpots = M::MEASURES..M::MEASURES + M::DASHPOTS;
-        let forces = self.model.gradient(&start.x0);
-        let pairs = forces.as_ref()[dashpots.clone()]
-            .iter()
-            .zip(&self.old_rates.as_ref()[dashpots]);
-        pairs.fold(S::zero(), |sum, (&force, &rate)| sum - force * rate)
+        }
+        let forces = self.model.gradient(&self.start.x0);
+        let dashpots = M::MEASURES..Self::TEMPERATURE;
+        dashpots.fold(S::zero(), |sum, k| sum - forces[k] * self.old_rates[k])
     }
 
     /// The free energy is finite.
-    pub(crate) fn check_energy(&self, x: &M::Variables) -> Result<(), StateError> {
+    pub(super) fn check_energy(&self, x: &M::Variables) -> Result<(), StateError> {
         let psi = self.model.free_energy(x);
         if psi.is_finite() {
             return Ok(());
@@ -140,27 +163,26 @@ impl<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>> Member<S, M, C> {
     }
 
     /// The viscosities at a temperature, all positive.
-    pub(crate) fn find_viscosities(&mut self, theta: S) -> Result<(), StateError> {
+    #[inline]
+    pub(super) fn find_viscosities(&mut self, theta: S) -> Result<(), StateError> {
+        if M::DASHPOTS == 0 {
+            return Ok(());
+        }
         self.viscosities = self.model.viscosity(theta);
-        let bad = self
-            .viscosities
-            .0
-            .as_ref()
-            .iter()
-            .position(|&eta| !is_positive(eta));
-        match bad {
+        let viscosities = self.viscosities.0.as_ref();
+        match viscosities.iter().position(|&eta| !is_positive(eta)) {
             None => Ok(()),
             Some(dashpot) => Err(StateError::Viscosity {
                 element: self.element,
                 dashpot,
-                value: self.viscosities.0.as_ref()[dashpot].to_f64(),
+                value: viscosities[dashpot].to_f64(),
                 temperature: M::THERMAL.then(|| theta.to_f64()),
             }),
         }
     }
 
     /// Starts the next correction from the present trial, with none.
-    pub(crate) fn hold(&mut self) {
+    pub(super) fn hold(&mut self) {
         self.previous = self.x;
         self.correction = M::Variables::filled(S::zero());
         self.previous_entropy_change = self.entropy_change;
@@ -169,27 +191,55 @@ impl<S: Real, M: FreeEnergy<S>, C: ElementScheme<S, M>> Member<S, M, C> {
 
     /// Applies the fraction `share` of the correction: viscous stretches linearly, the temperature
     /// in its logarithm, so that it stays positive.
-    pub(crate) fn apply(&mut self, share: S) {
-        for index in M::MEASURES..M::MEASURES + M::DASHPOTS {
-            let change = share * self.correction.as_ref()[index];
-            self.x.as_mut()[index] = self.previous.as_ref()[index] + change;
+    #[inline]
+    pub(super) fn apply(&mut self, share: S) {
+        for index in M::MEASURES..Self::TEMPERATURE {
+            self.x[index] = self.previous[index] + share * self.correction[index];
         }
         if M::THERMAL {
-            let index = Self::temperature_index();
-            let theta = self.previous.as_ref()[index];
-            let change = share * self.correction.as_ref()[index] / theta;
-            self.x.as_mut()[index] = theta * limited(change).exp();
+            let theta = self.previous[Self::TEMPERATURE];
+            let change = share * self.correction[Self::TEMPERATURE] / theta;
+            self.x[Self::TEMPERATURE] = theta * growth(change);
             self.entropy_change = self.previous_entropy_change + share * self.entropy_correction;
+        }
+    }
+
+    /// Applies the correction to the measures and, through the tangent, to forces and temperature.
+    ///
+    /// What that leaves out is of second order in the correction.
+    #[inline]
+    pub(super) fn extrapolate(&mut self) {
+        self.apply(S::one());
+        for a in 0..M::MEASURES {
+            self.x[a] = self.previous[a] + self.correction[a];
+        }
+        let mut heating = S::zero();
+        for row in 0..Self::VARIABLES {
+            let mut change = S::zero();
+            for column in 0..Self::VARIABLES {
+                change += self.tangent[row][column] * self.correction[column];
+            }
+            self.response[row] += change;
+            heating = change;
+        }
+        if M::THERMAL {
+            for k in 0..M::DASHPOTS {
+                self.viscosities.0[k] += self.viscosities.1[k] * heating;
+            }
         }
     }
 }
 
-/// A change of ln θ, at most the largest that one iteration may make.
-pub(super) fn limited<S: Real>(change: S) -> S {
-    let most = S::from_f64(LARGEST_LOGARITHMIC_CHANGE);
-    change.minimum(most).maximum(-most)
+/// The factor by which a correction of ln θ changes θ, `(1 + ½x)/(1 − ½x)`.
+///
+/// It is eˣ up to x³/12, positive, and limited to what one iteration may do.
+#[inline]
+pub(super) fn growth<S: Real>(change: S) -> S {
+    let most = S::from_f64(LARGEST_HALF_CHANGE);
+    let half = (S::from_f64(0.5) * change).minimum(most).maximum(-most);
+    (S::one() + half) / (S::one() - half)
 }
 
-/// The largest change of ln θ in one Newton iteration: a factor of about 7. It bounds the reach of
+/// Half the largest change of ln θ in one Newton iteration: a factor of 7. It bounds the reach of
 /// a wild first iteration and is never met near the solution.
-const LARGEST_LOGARITHMIC_CHANGE: f64 = 2.0;
+const LARGEST_HALF_CHANGE: f64 = 0.75;

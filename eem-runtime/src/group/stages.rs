@@ -5,28 +5,28 @@
 //! 0, 1, 2 for the start, the middle and the end of the step.
 //!
 //! ```text
-//! begin     look at the old state, once
-//! evaluate  free energy at the three stages, local unknowns condensed      (point, local)
-//! assemble  contributions to the global residual and tangent               (assemble)
-//! correct   local unknowns from the global solution                        (assemble)
-//! close     increments of the internal variables from the found stages     (closing)
+//! begin     look at the old state, once                                     (member)
+//! evaluate  free energy at the three stages, local unknowns eliminated      (point, local)
+//! assemble  contributions to the global residual and tangent                (assemble, heat)
+//! correct   local unknowns from the global solution                         (correct, heat)
+//! close     increments of the internal variables, and the new state         (closing)
 //! ```
 
 mod assemble;
 mod closing;
+mod correct;
+mod heat;
 mod local;
 mod member;
 mod point;
+mod site;
 
-use super::geometry::Geometry;
-use super::{ElementGeneric, ElementGroup, ElementView, Elements, Group, GroupTotals, Placed};
-use super::{StepView, variables};
+use super::{ElementGeneric, ElementGroup, ElementView, Elements, GroupTotals, Placed, StepView};
 use crate::conduction::Conduction;
 use crate::error::StateError;
-use crate::free_energy::{Array, FreeEnergy};
+use crate::free_energy::FreeEnergy;
 use crate::handle::Element;
 use crate::kinematics::Kinematics;
-use crate::layout::Layout;
 use crate::loads::StepLoads;
 use crate::scalar::Real;
 use crate::scheme::{Phase, Variational};
@@ -34,6 +34,8 @@ use crate::state::State;
 use crate::system::LinearSystem;
 use local::LocalStages;
 use member::StageMember;
+
+use site::{Quarters, StageSite};
 
 /// The stage in the middle of the step.
 const MIDDLE: usize = 1;
@@ -48,7 +50,6 @@ pub(crate) struct StageView<'a, S> {
     /// The old state.
     pub(crate) state: &'a State<S>,
     pub(crate) conduction: &'a Conduction<S>,
-    pub(crate) layout: &'a Layout,
     /// What acts at the times of the stages.
     pub(crate) loads: &'a [StepLoads<S>; 3],
     /// m per node, kg; `None` for anchors.
@@ -63,7 +64,6 @@ impl<'a, S: Real> StageView<'a, S> {
             step: self.step,
             state: self.state,
             conduction: self.conduction,
-            layout: self.layout,
             loads: &self.loads[END],
             masses: self.masses,
         }
@@ -78,11 +78,11 @@ impl<'a, S: Real> StageView<'a, S> {
 
 /// The global part of the stages that Newton's method tries.
 #[derive(Clone, Debug)]
-pub(crate) struct StageTrial<S> {
+pub(crate) struct StageTrial<S, const D: usize> {
     /// `q_m − q⁰` and `q¹ − q⁰` of all nodes, m.
-    pub(crate) displacements: [Vec<S>; 2],
+    pub(crate) displacements: [Vec<[S; D]>; 2],
     /// Positions of all nodes at the stages, m.
-    pub(crate) positions: [Vec<S>; 3],
+    pub(crate) positions: [Vec<[S; D]>; 3],
     /// The temperatures of the stages as elements in contact see them, per thermal slot, K; where a
     /// slot is coupled, the first and the last are unknowns.
     pub(crate) seen_temperatures: [Vec<S>; 3],
@@ -90,30 +90,34 @@ pub(crate) struct StageTrial<S> {
 
 /// Elements of one model, stepped through three stages, whatever model and kinematics are.
 ///
-/// Global unknowns are numbered as in the [`Layout`], first all displacements `q_m − q⁰` and seen
-/// temperatures `Θ_0`, then all `q¹ − q⁰` and `Θ_1`.
+/// Global unknowns are numbered as in the [`Layout`](crate::layout::Layout), first all displacements
+/// `q_m − q⁰` and seen temperatures `Θ_0`, then all `q¹ − q⁰` and `Θ_1`.
 pub(crate) trait StageGroup<S: Real, const D: usize>: Elements<S, D> {
-    /// Looks at the old state.
-    fn begin(&mut self, view: &StageView<'_, S>);
+    /// Learns where its elements write in the global systems; once per scene.
+    fn connect(&mut self, quarters: &Quarters<'_, S, D>);
+
+    /// Looks at the old state, starts the trial there, and reduces the unit of length of each node
+    /// to the shortest measure.
+    fn begin(&mut self, view: &StageView<'_, S>, lengths: &mut [S]);
 
     /// Computes everything that depends on the trial stages, element by element.
     fn evaluate(
         &mut self,
         view: &StageView<'_, S>,
-        trial: &StageTrial<S>,
+        trial: &StageTrial<S, D>,
     ) -> Result<(), StateError>;
 
-    /// Adds residual and tangent of the elements, local unknowns condensed.
+    /// Adds residual and tangent of the elements, local unknowns eliminated.
     fn assemble(
         &mut self,
         view: &StageView<'_, S>,
-        trial: &StageTrial<S>,
-        system: &mut LinearSystem<S>,
+        trial: &StageTrial<S, D>,
+        system: &mut LinearSystem<S, 1>,
     );
 
     /// Local corrections that go with the global ones; the largest, in units of the measure (viscous
     /// stretches) and of the temperature.
-    fn correct(&mut self, view: &StageView<'_, S>, solution: &[S]) -> S;
+    fn correct(&mut self, view: &StageView<'_, S>, solution: &[[S; 1]]) -> S;
 
     /// Applies the fraction `share` of the last local corrections.
     fn apply(&mut self, share: S);
@@ -126,109 +130,89 @@ pub(crate) trait StageGroup<S: Real, const D: usize>: Elements<S, D> {
     fn add_secant(
         &mut self,
         view: &StageView<'_, S>,
-        trial: &StageTrial<S>,
-        system: &mut LinearSystem<S>,
+        trial: &StageTrial<S, D>,
+        system: &mut LinearSystem<S, D>,
     );
 
     /// Subtracts the nodal forces of the elements at a stage, N: their magnitudes as found, their
     /// directions from the positions of the trial.
-    fn subtract_forces(&mut self, stage: usize, trial: &StageTrial<S>, forces: &mut [S]);
+    fn subtract_forces(&mut self, stage: usize, trial: &StageTrial<S, D>, forces: &mut [[S; D]]);
 
-    /// Adds the increments of the internal variables and of the reservoirs' entropies.
-    fn close(&mut self, view: &StageView<'_, S>, next: &mut State<S>);
-
-    /// Reduces the unit of length of each node to the shortest measure of the old state.
-    fn shorten(&self, lengths: &mut [S]);
+    /// Adds the increments of the internal variables and of the reservoirs' entropies to a new state
+    /// whose positions are known, and finds its temperatures.
+    fn close(&mut self, view: &StageView<'_, S>, next: &mut State<S>) -> Result<(), StateError>;
 }
 
 /// Elements of the model `M` with the kinematics `K`.
-pub(crate) struct ThreeStageGroup<S: Real, M: FreeEnergy<S> + Send + Sync + 'static, K> {
+pub(crate) struct ThreeStageGroup<S, M, K, const D: usize>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+{
     /// What they are in a state.
-    elements: ElementGroup<S, M, K, Variational>,
-    members: Vec<StageMember<S, M>>,
-    /// The elements at each stage.
-    geometry: [Geometry<S>; 3],
+    elements: ElementGroup<S, M, K, Variational, D>,
+    members: Vec<StageMember<S, M, K, D>>,
     local: LocalStages<S>,
 }
 
-impl<S, M, K> ThreeStageGroup<S, M, K>
+impl<S, M, K, const D: usize> ThreeStageGroup<S, M, K, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S>,
+    K: Kinematics<S, D>,
 {
-    pub(crate) fn new<const D: usize>(
-        kinematics: K,
-        models: Vec<(Element, M)>,
-        placed: Placed<'_>,
-    ) -> Self {
-        let elements = ElementGroup::new::<D>(kinematics, models, placed);
-        let geometry = &elements.geometry;
-        let count = elements.members.len();
-        let members = (0..count).map(|_| StageMember::new());
+    pub(crate) fn new(kinematics: K, models: Vec<(Element, M)>, placed: Placed<'_>) -> Self {
+        let elements = ElementGroup::new(kinematics, models, placed);
+        let members = elements.members.iter();
+        let members = members.map(|member| StageMember::new(&member.site.nodes));
+        let unknowns = StageMember::<S, M, K, D>::UNKNOWNS;
+        let inputs = StageMember::<S, M, K, D>::INPUTS;
         Self {
             members: members.collect(),
-            geometry: [(); 3].map(|()| geometry.clone()),
-            local: LocalStages::new::<M>(),
+            local: LocalStages::new(unknowns, inputs),
             elements,
-        }
-    }
-
-    /// See [`StageGroup::begin`].
-    fn begin_step(&mut self, view: &StageView<'_, S>) {
-        let positions = view.state.positions.values();
-        let kinematics = self.elements.kinematics;
-        for (i, stages) in self.members.iter_mut().enumerate() {
-            let geometry = &mut self.elements.geometry;
-            geometry.measure_at(kinematics, i, positions);
-            self.geometry[0].aim(kinematics, i, positions);
-            let slots = self.elements.members[i].slots;
-            let measures = &geometry.old_measures[geometry.measures_range(i)];
-            stages.x = [variables::<S, M>(measures, slots, view.state); 3];
-            stages.hold();
-            let Some(slot) = slots.thermal else { continue };
-            stages.entropy = view.state.entropies.values()[slot];
-            stages.prescribed = view.prescribed(slot);
-            for (x, theta) in stages
-                .x
-                .iter_mut()
-                .zip(stages.prescribed.into_iter().flatten())
-            {
-                x.as_mut()[M::Variables::LEN - 1] = theta;
-            }
-            stages.hold();
         }
     }
 }
 
-impl<S, M, K, const D: usize> StageGroup<S, D> for ThreeStageGroup<S, M, K>
+impl<S, M, K, const D: usize> StageGroup<S, D> for ThreeStageGroup<S, M, K, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S>,
+    K: Kinematics<S, D>,
 {
-    fn begin(&mut self, view: &StageView<'_, S>) {
-        self.begin_step(view);
+    fn connect(&mut self, quarters: &Quarters<'_, S, D>) {
+        for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
+            stages.site = StageSite::new(&member.site.nodes, member.slots.thermal, quarters);
+        }
+    }
+
+    fn begin(&mut self, view: &StageView<'_, S>, lengths: &mut [S]) {
+        let kinematics = self.elements.kinematics;
+        for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
+            stages.begin(kinematics, member, view, lengths);
+        }
     }
 
     fn evaluate(
         &mut self,
         view: &StageView<'_, S>,
-        trial: &StageTrial<S>,
+        trial: &StageTrial<S, D>,
     ) -> Result<(), StateError> {
-        self.evaluate_trial(view, trial)
+        self.evaluate_all(view, trial)
     }
 
     fn assemble(
         &mut self,
         view: &StageView<'_, S>,
-        trial: &StageTrial<S>,
-        system: &mut LinearSystem<S>,
+        trial: &StageTrial<S, D>,
+        system: &mut LinearSystem<S, 1>,
     ) {
         self.assemble_all(view, trial, system);
     }
 
-    fn correct(&mut self, view: &StageView<'_, S>, solution: &[S]) -> S {
+    fn correct(&mut self, view: &StageView<'_, S>, solution: &[[S; 1]]) -> S {
         self.correct_all(view, solution)
     }
 
@@ -247,48 +231,40 @@ where
     fn add_secant(
         &mut self,
         view: &StageView<'_, S>,
-        trial: &StageTrial<S>,
-        system: &mut LinearSystem<S>,
+        trial: &StageTrial<S, D>,
+        system: &mut LinearSystem<S, D>,
     ) {
         self.add_secant_all(view, trial, system);
     }
 
-    fn subtract_forces(&mut self, stage: usize, trial: &StageTrial<S>, forces: &mut [S]) {
+    fn subtract_forces(&mut self, stage: usize, trial: &StageTrial<S, D>, forces: &mut [[S; D]]) {
         self.subtract_all_forces(stage, trial, forces);
     }
 
-    fn close(&mut self, view: &StageView<'_, S>, next: &mut State<S>) {
-        self.close_all(view, next);
-    }
-
-    fn shorten(&self, lengths: &mut [S]) {
-        Group::<S, D>::shorten(&self.elements, lengths);
+    fn close(&mut self, view: &StageView<'_, S>, next: &mut State<S>) -> Result<(), StateError> {
+        self.close_all(view, next)
     }
 }
 
-impl<S, M, K, const D: usize> Elements<S, D> for ThreeStageGroup<S, M, K>
+impl<S, M, K, const D: usize> Elements<S, D> for ThreeStageGroup<S, M, K, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S>,
+    K: Kinematics<S, D>,
 {
     fn initialize(&mut self, state: &mut State<S>) -> Result<(), StateError> {
-        Elements::<S, D>::initialize(&mut self.elements, state)
-    }
-
-    fn settle(&mut self, view: &StepView<'_, S>, next: &mut State<S>) -> Result<(), StateError> {
-        self.settle_all(view, next)
+        self.elements.initialize(state)
     }
 
     fn totals(&self, state: &State<S>) -> GroupTotals<S> {
-        Elements::<S, D>::totals(&self.elements, state)
+        self.elements.totals(state)
     }
 
     fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>> {
-        Elements::<S, D>::generic_in(&mut self.elements, state)
+        self.elements.generic_in(state)
     }
 
     fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {
-        Elements::<S, D>::inspect(&self.elements, place, state)
+        self.elements.inspect(place, state)
     }
 }

@@ -1,6 +1,9 @@
 //! The distance of two nodes.
 
+use core::array;
+
 use super::{Ends, Kinematics};
+use crate::free_energy::Entry;
 use crate::scalar::{Real, Scalar};
 
 /// The stretch `λ = |r|`, `r = q_j − q_i`, of two nodes in `D` dimensions, m.
@@ -16,109 +19,95 @@ use crate::scalar::{Real, Scalar};
 /// ```
 /// use eem_runtime::kinematics::{Kinematics, Stretch};
 ///
-/// let mut stretch = [0.0];
-/// Kinematics::<f64>::measure(&Stretch::<2>, &[1.0, 1.0, 4.0, 5.0], &mut stretch);
+/// let stretch = Stretch::<2>.measure(&[[3.0, 4.0]]);
 /// assert_eq!(stretch, [5.0]);
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Stretch<const D: usize>;
 
-/// `q_j − q_i` of coordinates `[q_i, q_j]`.
+/// `t (1 − a bᵀ)`.
 #[inline]
-fn difference<S: Scalar, const D: usize>(q: &[S]) -> [S; D] {
-    core::array::from_fn(|axis| q[D + axis] - q[axis])
-}
-
-/// Writes `[−v, v]`, the derivative along `r` as a derivative along `[q_i, q_j]`.
-#[inline]
-fn spread<S: Scalar, const D: usize>(v: [S; D], gradient: &mut [S]) {
-    for (axis, &component) in v.iter().enumerate() {
-        gradient[axis] = -component;
-        gradient[D + axis] = component;
-    }
-}
-
-/// Adds `[K, −K; −K, K]`.
-#[inline]
-fn add_blocks<S: Scalar, const D: usize>(k: impl Fn(usize, usize) -> S, matrix: &mut [S]) {
-    let width = 2 * D;
+fn block<S: Scalar, const D: usize>(t: S, a: [S; D], b: [S; D]) -> [[S; D]; D] {
+    let mut block = [[S::zero(); D]; D];
     for row in 0..D {
+        let along = t * a[row];
         for column in 0..D {
-            let entry = k(row, column);
-            matrix[row * width + column] += entry;
-            matrix[row * width + D + column] -= entry;
-            matrix[(D + row) * width + column] -= entry;
-            matrix[(D + row) * width + D + column] += entry;
+            block[row][column] = -(along * b[column]);
         }
+        block[row][row] += t;
     }
+    block
 }
 
-#[inline]
-fn identity<S: Scalar>(row: usize, column: usize) -> S {
-    if row == column { S::one() } else { S::zero() }
-}
+impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
+    type PerNode<T: Entry> = [T; 2];
+    type PerArm<T: Entry> = [T; 1];
+    type PerMeasure<T: Entry> = [T; 1];
 
-impl<S: Real, const D: usize> Kinematics<S> for Stretch<D> {
-    const NODES: usize = 2;
-    const MEASURES: usize = 1;
-
+    #[inline]
     fn is_admissible(&self, measure: S) -> bool {
         measure.is_finite() && measure > S::zero()
     }
 
     #[inline]
-    fn measure(&self, q: &[S], measures: &mut [S]) {
-        let r: [S; D] = difference(q);
+    fn measure(&self, [r]: &[[S; D]; 1]) -> [S; 1] {
         let square = r
             .iter()
             .fold(S::zero(), |sum, &component| sum + component * component);
-        measures[0] = square.sqrt();
+        [square.sqrt()]
     }
 
     #[inline]
-    fn gradient(&self, q: &[S], measures: &[S], gradient: &mut [S]) {
-        let r: [S; D] = difference(q);
-        spread(r.map(|component| component / measures[0]), gradient);
+    fn gradient(&self, [r]: &[[S; D]; 1], &[lambda]: &[S; 1]) -> [[[S; D]; 1]; 1] {
+        [[scaled(r, lambda.recip())]]
     }
 
     #[inline]
-    fn add_curvature(&self, q: &[S], measures: &[S], force: &[S], matrix: &mut [S]) {
-        let n = difference::<S, D>(q).map(|component| component / measures[0]);
-        let tension = force[0] / measures[0];
-        add_blocks::<S, D>(
-            |row, column| tension * (identity::<S>(row, column) - n[row] * n[column]),
-            matrix,
-        );
+    fn curvature(
+        &self,
+        [r]: &[[S; D]; 1],
+        &[lambda]: &[S; 1],
+        &[force]: &[S; 1],
+    ) -> [[[[S; D]; D]; 1]; 1] {
+        let shrink = lambda.recip();
+        let n = scaled(r, shrink);
+        [[block(force * shrink, n, n)]]
     }
 
     #[inline]
-    fn discrete_gradient(&self, ends: Ends<'_, S>, gradient: &mut [S]) {
-        let (r0, r1): ([S; D], [S; D]) = (difference(ends.q0), difference(ends.q1));
-        let sum = ends.measures0[0] + ends.measures1[0];
-        spread::<S, D>(
-            core::array::from_fn(|axis| (r0[axis] + r1[axis]) / sum),
-            gradient,
-        );
+    fn discrete_gradient(&self, ends: &Ends<Self, S, D>) -> [[[S; D]; 1]; 1] {
+        [[mean_direction(ends)]]
     }
 
     // ∂(f 2r_m/(λ⁰ + λ¹))/∂r¹ = f/(λ⁰ + λ¹) (1 − 2r_m/(λ⁰ + λ¹) n¹ᵀ)
     #[inline]
-    fn add_discrete_curvature(&self, ends: Ends<'_, S>, force: &[S], matrix: &mut [S]) {
-        let (r0, r1): ([S; D], [S; D]) = (difference(ends.q0), difference(ends.q1));
-        let sum = ends.measures0[0] + ends.measures1[0];
-        let n1 = r1.map(|component| component / ends.measures1[0]);
-        let mean: [S; D] = core::array::from_fn(|axis| (r0[axis] + r1[axis]) / sum);
-        let tension = force[0] / sum;
-        add_blocks::<S, D>(
-            |row, column| tension * (identity::<S>(row, column) - mean[row] * n1[column]),
-            matrix,
-        );
+    fn discrete_curvature(
+        &self,
+        ends: &Ends<Self, S, D>,
+        &[force]: &[S; 1],
+    ) -> [[[[S; D]; D]; 1]; 1] {
+        let ([lambda0], [lambda1]) = (ends.measures0, ends.measures1);
+        let n1 = scaled(&ends.r1[0], lambda1.recip());
+        let tension = force * (lambda0 + lambda1).recip();
+        [[block(tension, mean_direction(ends), n1)]]
     }
 
     #[inline]
-    fn add_secant(&self, measures0: &[S], measures1: &[S], force: &[S], matrix: &mut [S]) {
-        let sum = measures0[0] + measures1[0];
-        let tension = (force[0] + force[0]) / sum;
-        add_blocks::<S, D>(|row, column| tension * identity::<S>(row, column), matrix);
+    fn secant(&self, &[lambda0]: &[S; 1], &[lambda1]: &[S; 1], &[force]: &[S; 1]) -> [[S; 1]; 1] {
+        [[(force + force) / (lambda0 + lambda1)]]
     }
+}
+
+/// `2 r_m/(λ⁰ + λ¹)`.
+#[inline]
+fn mean_direction<S: Real, const D: usize>(ends: &Ends<Stretch<D>, S, D>) -> [S; D] {
+    let (r0, r1) = (&ends.r0[0], &ends.r1[0]);
+    let shrink = (ends.measures0[0] + ends.measures1[0]).recip();
+    array::from_fn(|axis| (r0[axis] + r1[axis]) * shrink)
+}
+
+/// `factor r`.
+#[inline]
+fn scaled<S: Scalar, const D: usize>(r: &[S; D], factor: S) -> [S; D] {
+    array::from_fn(|axis| r[axis] * factor)
 }

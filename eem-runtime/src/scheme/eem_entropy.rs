@@ -11,9 +11,8 @@
 //! The local unknown is the new temperature. The temperatures of the mixed states on the way from
 //! old to new come from the Legendre inversion θ̂, by Newton's method, for any free energy.
 
-use super::{Answer, ElementScheme, ElementTrial, Infeasible, Placement, Start};
+use super::{Answer, ElementScheme, ElementTrial, Infeasible, Placement, Start, temperature_at};
 use crate::free_energy::{Array, FreeEnergy};
-use crate::inversion::invert;
 use crate::scalar::Real;
 
 /// See the module.
@@ -57,7 +56,7 @@ fn find_corners<S: Real, M: FreeEnergy<S>, Old>(
     let steps = M::Variables::LEN - 1;
     let (ascending, descending) = corners.as_mut().split_at_mut(steps);
     let caloric1 = model.caloric(x1);
-    Infeasible::unless_stable(&caloric1, x1.as_ref()[steps])?;
+    Infeasible::unless_stable(caloric1.heat_capacity, x1[steps])?;
     for k in 1..=steps {
         let mut x = start.x0;
         x.as_mut()[..k].copy_from_slice(&x1.as_ref()[..k]);
@@ -67,20 +66,4 @@ fn find_corners<S: Real, M: FreeEnergy<S>, Old>(
         descending[k - 1] = temperature_at(model, x, caloric1.entropy, descending[k - 1])?;
     }
     Ok(())
-}
-
-/// θ̂ at the configuration of `x`, whose own temperature does not matter.
-pub(crate) fn temperature_at<S: Real, M: FreeEnergy<S>>(
-    model: &M,
-    x: M::Variables,
-    entropy: S,
-    guess: S,
-) -> Result<S, Infeasible> {
-    match invert(model.caloric_at(x), entropy, guess) {
-        Ok(found) => Ok(found.temperature),
-        Err(source) => Err(Infeasible::Entropy {
-            entropy: entropy.to_f64(),
-            source,
-        }),
-    }
 }

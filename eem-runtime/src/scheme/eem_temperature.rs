@@ -33,11 +33,13 @@ impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for 
         trial: &ElementTrial<S, M>,
         _: &mut M::Corners,
     ) -> Result<Answer<S, M>, Infeasible> {
+        let (response, tangent) = model.temperature_form(&start.old, &trial.x);
         if M::THERMAL {
-            let theta = trial.x.as_ref()[M::Variables::LEN - 1];
-            Infeasible::unless_stable(&model.caloric(&trial.x), theta)?;
+            // ∂Δs/∂θ¹ = C/θ¹
+            let last = M::Variables::LEN - 1;
+            let theta = trial.x[last];
+            Infeasible::unless_stable(theta * tangent[last + 1][last], theta)?;
         }
-        let form = model.temperature_form(&start.old, &trial.x);
-        Ok(Answer::new(form))
+        Ok(Answer::new((response, tangent)))
     }
 }

@@ -29,6 +29,7 @@ where
     const IMPLICIT: f64 = R::IMPLICIT;
     const IN_TEMPERATURE: bool = R::IN_TEMPERATURE;
     const SCALES_HEAT: bool = false;
+    const FINDS_TEMPERATURE: bool = !R::IN_TEMPERATURE;
 
     type Old = ();
 

@@ -80,7 +80,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let elements: Vec<_> = self
             .groups
             .iter()
-            .flat_map(|group| group.generic_of_step())
+            .flat_map(|group| group.generic_of_step([&self.next, &self.state]))
             .collect();
         let half = S::from_f64(0.5);
         let (new, old) = (self.state.momenta.values(), self.next.momenta.values());

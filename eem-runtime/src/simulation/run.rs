@@ -4,6 +4,7 @@ use core::mem;
 use core::ops::ControlFlow;
 
 use super::Simulation;
+use crate::compensated::Sum;
 use crate::error::{StepError, StepFailure};
 use crate::newton::StepReport;
 use crate::scalar::Real;
@@ -107,15 +108,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         let is_full = (left - full).abs() <= rounding;
         let mut report = self.step_by(if is_full { full } else { left })?;
-        self.state.time.set(0, end);
+        self.state.time = Sum::new(end);
         report.time = end;
         Ok(report)
     }
 
     /// `end − t`, with t to twice the precision, s.
     fn time_left(&self, end: S) -> S {
-        let time = self.state.time.sums().next();
-        let (value, carry) = time.unwrap_or((S::zero(), S::zero()));
+        let Sum { value, carry } = self.state.time;
         (end - value) - carry
     }
 

@@ -7,13 +7,18 @@ mod assemble;
 mod closing;
 mod linearize;
 
+use super::begin::invert_lengths;
+use super::places::{MovingNode, Seen, moving, seen};
 use super::{HALVINGS, Iteration, STAGES as PARTS};
+use crate::conduction::Conduction;
 use crate::error::{StateError, StepFailure};
-use crate::group::{StageGroup, StageTrial, StageView};
+use crate::group::{Sites, StageGroup, StageTrial, StageView, points};
 use crate::layout::Layout;
 use crate::loads::{Loads, StepLoads};
 use crate::newton::{NewtonSettings, is_last};
+use crate::pattern::Pattern;
 use crate::scalar::Real;
+use crate::scene::ElementEntry;
 use crate::scheme::Scheme;
 use crate::state::State;
 use crate::system::LinearSystem;
@@ -21,22 +26,50 @@ use crate::system::LinearSystem;
 /// A scene that is stepped through stages.
 pub(crate) struct Staged<S: Real, const D: usize> {
     pub(crate) groups: Vec<Box<dyn StageGroup<S, D>>>,
-    pub(crate) solver: StageSolver<S>,
+    pub(crate) solver: StageSolver<S, D>,
     /// What acts at the times of the stages of the next step.
     pub(crate) loads: [StepLoads<S>; 3],
 }
 
 impl<S: Real, const D: usize> Staged<S, D> {
     pub(crate) fn new(
-        groups: Vec<Box<dyn StageGroup<S, D>>>,
-        masses: Vec<Option<S>>,
+        mut groups: Vec<Box<dyn StageGroup<S, D>>>,
+        masses: &[Option<S>],
+        elements: &[ElementEntry<S>],
         layout: &Layout,
+        conduction: &Conduction<S>,
+        loads: &Loads<S, D>,
     ) -> Self {
-        let loads = [(); 3].map(|()| StepLoads::new(masses.len() * D, layout));
+        let stage = || StepLoads::new(masses.len() * D, layout, loads);
+        let pattern = Pattern::of_tangent(elements, layout, conduction, D).doubled();
+        let tangent = LinearSystem::new(&pattern, D);
+        let secant = LinearSystem::new(&Pattern::of_secant(elements, layout, D), 1);
+        let shifts = [0, layout.unknowns];
+        let quarters = shifts.map(|down| {
+            shifts.map(|right| Sites {
+                layout,
+                conduction,
+                tangent: &tangent,
+                secant: &secant,
+                shift: [down, right],
+            })
+        });
+        for group in &mut groups {
+            group.connect(&quarters);
+        }
+        let halves = [&quarters[0][0], &quarters[1][1]];
+        let moving = halves.map(|sites| moving(masses, sites));
+        let seen = halves.map(|sites| seen(sites));
         Self {
             groups,
-            solver: StageSolver::new(masses, D, layout),
-            loads,
+            solver: StageSolver::new(
+                moving,
+                seen,
+                tangent,
+                secant,
+                [masses.len(), layout.coupled.len()],
+            ),
+            loads: [stage(), stage(), stage()],
         }
     }
 
@@ -66,56 +99,63 @@ pub(crate) struct Effort<'a, S> {
 }
 
 /// Working memory of a step; nothing in it outlives the step.
+///
+/// Pairs are those of the two halves of the unknowns: displacements of the middle with the seen
+/// temperatures of the start, displacements and seen temperatures of the end.
 #[derive(Clone, Debug)]
-pub(crate) struct StageSolver<S> {
-    /// m per node; `None` for anchors.
-    masses: Vec<Option<S>>,
-    dimension: usize,
-    system: LinearSystem<S>,
+pub(crate) struct StageSolver<S, const D: usize> {
+    /// The nodes that move.
+    masses: [Vec<MovingNode<S, D>>; 2],
+    /// The rows of the temperatures that neighbours see, and their thermal slots.
+    seen: [Vec<Seen>; 2],
+    /// The system of an iteration.
+    tangent: LinearSystem<S, 1>,
     /// The system of the closing solution for the middle.
-    closing: LinearSystem<S>,
-    trial: StageTrial<S>,
-    /// Displacements of the middle and the end, seen temperatures of the start and the end: before
-    /// the last update, and the update.
-    previous: [[Vec<S>; 2]; 2],
-    correction: [[Vec<S>; 2]; 2],
+    secant: LinearSystem<S, D>,
+    trial: StageTrial<S, D>,
+    /// Displacements and seen temperatures before the last update, and the update.
+    previous: [(Vec<[S; D]>, Vec<S>); 2],
+    correction: [(Vec<[S; D]>, Vec<S>); 2],
     /// Loads less forces of the elements at the stages, N.
-    forces: [Vec<S>; 3],
-    /// The unit of length of each node: its shortest element in the old state; 1 m without.
-    lengths: Vec<S>,
+    forces: [Vec<[S; D]>; 3],
+    /// The reciprocal of the unit of length of each node: its shortest element in the old state;
+    /// 1 m without.
+    per_length: Vec<S>,
     /// What kept the last update from being applied in full.
     obstacle: Option<StateError>,
 }
 
-impl<S: Real> StageSolver<S> {
-    fn new(masses: Vec<Option<S>>, dimension: usize, layout: &Layout) -> Self {
-        let lengths = vec![S::one(); masses.len()];
-        let coordinates = || vec![S::zero(); masses.len() * dimension];
-        let temperatures = || vec![S::zero(); layout.coupled.len()];
-        let unknowns = || {
-            let pair = |of: &dyn Fn() -> Vec<S>| [of(), of()];
-            [pair(&coordinates), pair(&temperatures)]
-        };
+impl<S: Real, const D: usize> StageSolver<S, D> {
+    fn new(
+        masses: [Vec<MovingNode<S, D>>; 2],
+        seen: [Vec<Seen>; 2],
+        tangent: LinearSystem<S, 1>,
+        secant: LinearSystem<S, D>,
+        [nodes, slots]: [usize; 2],
+    ) -> Self {
+        let points = || vec![[S::zero(); D]; nodes];
+        let temperatures = || vec![S::zero(); slots];
+        let halves = [(); 2].map(|()| (points(), temperatures()));
         Self {
-            dimension,
-            system: LinearSystem::new(2 * layout.unknowns),
-            closing: LinearSystem::new(layout.unknowns),
+            masses,
+            seen,
+            tangent,
+            secant,
             trial: StageTrial {
-                displacements: [(); 2].map(|()| coordinates()),
-                positions: [(); 3].map(|()| coordinates()),
+                displacements: [(); 2].map(|()| points()),
+                positions: [(); 3].map(|()| points()),
                 seen_temperatures: [(); 3].map(|()| temperatures()),
             },
-            previous: unknowns(),
-            correction: unknowns(),
-            forces: [(); 3].map(|()| coordinates()),
-            lengths,
+            previous: halves.clone(),
+            correction: halves,
+            forces: [(); 3].map(|()| points()),
+            per_length: vec![S::one(); nodes],
             obstacle: None,
-            masses,
         }
     }
 
     /// The state after the step.
-    pub(crate) fn solve<const D: usize>(
+    pub(crate) fn solve(
         &mut self,
         groups: &mut [Box<dyn StageGroup<S, D>>],
         view: &StageView<'_, S>,
@@ -128,7 +168,7 @@ impl<S: Real> StageSolver<S> {
         self.close(groups, view, next)
     }
 
-    fn start_and_converge<const D: usize>(
+    fn start_and_converge(
         &mut self,
         groups: &mut [Box<dyn StageGroup<S, D>>],
         view: &StageView<'_, S>,
@@ -140,7 +180,7 @@ impl<S: Real> StageSolver<S> {
     }
 
     /// The solution for growing parts of the step, each starting from the one before.
-    fn follow<const D: usize>(
+    fn follow(
         &mut self,
         groups: &mut [Box<dyn StageGroup<S, D>>],
         view: &StageView<'_, S>,
@@ -164,16 +204,15 @@ impl<S: Real> StageSolver<S> {
     }
 
     /// Makes displacements larger by a factor and leaves everything else.
-    fn extrapolate<const D: usize>(&mut self, groups: &mut [Box<dyn StageGroup<S, D>>], factor: S) {
+    fn extrapolate(&mut self, groups: &mut [Box<dyn StageGroup<S, D>>], factor: S) {
         self.remember();
-        for half in 0..2 {
-            for (node, mass) in self.masses.iter().enumerate() {
-                let growth = mass.map_or(S::zero(), |_| factor - S::one());
-                for at in node * self.dimension..(node + 1) * self.dimension {
-                    self.correction[0][half][at] = growth * self.previous[0][half][at];
-                }
+        let growth = factor - S::one();
+        for (half, masses) in self.masses.iter().enumerate() {
+            let (from, by) = (&self.previous[half], &mut self.correction[half]);
+            for mass in masses {
+                by.0[mass.node] = from.0[mass.node].map(|component| growth * component);
             }
-            self.correction[1][half].fill(S::zero());
+            by.1.fill(S::zero());
         }
         for group in groups {
             group.hold();
@@ -181,7 +220,7 @@ impl<S: Real> StageSolver<S> {
     }
 
     /// Newton's method from the trial stages, which were reached by the given share of a correction.
-    fn converge<const D: usize>(
+    fn converge(
         &mut self,
         groups: &mut [Box<dyn StageGroup<S, D>>],
         view: &StageView<'_, S>,
@@ -191,7 +230,7 @@ impl<S: Real> StageSolver<S> {
         let mut before = None;
         for _ in 0..effort.settings.max_iterations {
             let residual = self.assemble(groups, view);
-            let solved = self.system.solve();
+            let solved = self.tangent.solve();
             solved.map_err(|_| StepFailure::SingularTangent)?;
             let update = self.correct(groups, view);
             effort.history.push(Iteration { residual, update });
@@ -214,25 +253,23 @@ impl<S: Real> StageSolver<S> {
     }
 
     /// Starts at the old state, with free flight as the first correction.
-    fn begin<const D: usize>(
-        &mut self,
-        groups: &mut [Box<dyn StageGroup<S, D>>],
-        view: &StageView<'_, S>,
-    ) {
-        self.lengths.fill(S::MAX);
+    fn begin(&mut self, groups: &mut [Box<dyn StageGroup<S, D>>], view: &StageView<'_, S>) {
+        self.per_length.fill(S::MAX);
         for group in groups.iter_mut() {
-            group.begin(view);
-            group.shorten(&mut self.lengths);
+            group.begin(view, &mut self.per_length);
         }
-        for length in &mut self.lengths {
-            if *length == S::MAX {
-                *length = S::one();
-            }
-        }
+        invert_lengths(&mut self.per_length);
+        let old = points::<S, D>(view.state.positions.values());
         let trial = &mut self.trial;
-        trial.positions[0].copy_from_slice(view.state.positions.values());
-        for (displacements, loads) in trial.displacements.iter_mut().zip(&view.loads[1..]) {
-            displacements.copy_from_slice(&loads.motion);
+        trial.positions[0].copy_from_slice(old);
+        for (half, loads) in view.loads[1..].iter().enumerate() {
+            let motion = points::<S, D>(&loads.motion);
+            trial.displacements[half].copy_from_slice(motion);
+            for (node, motion) in motion.iter().enumerate() {
+                for axis in 0..D {
+                    trial.positions[1 + half][node][axis] = old[node][axis] + motion[axis];
+                }
+            }
         }
         for (seen, loads) in trial.seen_temperatures.iter_mut().zip(view.loads) {
             seen.copy_from_slice(&view.state.temperatures);
@@ -241,28 +278,27 @@ impl<S: Real> StageSolver<S> {
             }
         }
         self.remember();
-        let momenta = view.state.momenta.values();
+        let momenta = points::<S, D>(view.state.momenta.values());
         for (half, share) in [0.5, 1.0].map(S::from_f64).into_iter().enumerate() {
-            let flight = self.correction[0][half].iter_mut().zip(momenta);
-            for (at, (change, &p)) in flight.enumerate() {
-                let mass = self.masses[at / self.dimension];
-                *change = mass.map_or(S::zero(), |m| share * view.step * p / m);
+            for mass in &self.masses[half] {
+                let mobility = share * view.step / mass.mass;
+                let flight = momenta[mass.node].map(|momentum| mobility * momentum);
+                self.correction[half].0[mass.node] = flight;
             }
-            self.correction[1][half].fill(S::zero());
+            self.correction[half].1.fill(S::zero());
         }
     }
 
     fn remember(&mut self) {
-        let trial = &self.trial;
-        for half in 0..2 {
-            self.previous[0][half].copy_from_slice(&trial.displacements[half]);
-            self.previous[1][half].copy_from_slice(&trial.seen_temperatures[2 * half]);
+        for (half, (displacements, seen)) in self.previous.iter_mut().enumerate() {
+            displacements.copy_from_slice(&self.trial.displacements[half]);
+            seen.copy_from_slice(&self.trial.seen_temperatures[2 * half]);
         }
     }
 
     /// Applies the correction, or as much of it as leaves every element in admissible states, and
     /// evaluates there. Returns the share that was applied.
-    fn advance<const D: usize>(
+    fn advance(
         &mut self,
         groups: &mut [Box<dyn StageGroup<S, D>>],
         view: &StageView<'_, S>,
@@ -291,23 +327,26 @@ impl<S: Real> StageSolver<S> {
         }
     }
 
+    /// The trial a share of the correction away from where it was.
     fn apply(&mut self, share: S, view: &StageView<'_, S>) {
         let trial = &mut self.trial;
-        let old = view.state.positions.values();
-        for half in 0..2 {
-            let displacements = &mut trial.displacements[half];
-            for (at, &old) in old.iter().enumerate() {
-                let change = share * self.correction[0][half][at];
-                displacements[at] = self.previous[0][half][at] + change;
-                trial.positions[1 + half][at] = old + displacements[at];
+        let old = points::<S, D>(view.state.positions.values());
+        for (half, masses) in self.masses.iter().enumerate() {
+            let (from, by) = (&self.previous[half], &self.correction[half]);
+            for &MovingNode { node, .. } in masses {
+                for axis in 0..D {
+                    let displacement = from.0[node][axis] + share * by.0[node][axis];
+                    trial.displacements[half][node][axis] = displacement;
+                    trial.positions[1 + half][node][axis] = old[node][axis] + displacement;
+                }
             }
-            let seen = &mut trial.seen_temperatures[2 * half];
-            for (slot, seen) in seen.iter_mut().enumerate() {
-                *seen = self.previous[1][half][slot] + share * self.correction[1][half][slot];
+            for &Seen { slot, .. } in &self.seen[half] {
+                trial.seen_temperatures[2 * half][slot] = from.1[slot] + share * by.1[slot];
             }
         }
         let [start, middle, end] = &mut trial.seen_temperatures;
-        for (slot, prescribed) in view.loads[1].prescribed.iter().enumerate() {
+        for &Seen { slot, .. } in &self.seen[0] {
+            let prescribed = view.loads[1].prescribed[slot];
             let mean = S::from_f64(0.5) * (start[slot] + end[slot]);
             middle[slot] = prescribed.map_or(mean, |prescribed| prescribed.end);
         }

@@ -13,9 +13,10 @@
 
 use super::member::StageMember;
 use super::point::Point;
-use super::{END, MIDDLE, ThreeStageGroup};
+use super::{END, MIDDLE};
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
+use crate::handle::Element;
 use crate::kinematics::Kinematics;
 use crate::lu;
 use crate::scalar::Real;
@@ -23,7 +24,7 @@ use crate::scheme::variational_4;
 
 /// Working memory for the local systems of one group.
 #[derive(Clone, Debug)]
-pub(crate) struct LocalStages<S> {
+pub(super) struct LocalStages<S> {
     /// `∂r/∂u`, row-major.
     matrix: Vec<S>,
     pivots: Vec<usize>,
@@ -43,10 +44,8 @@ enum Column {
 }
 
 impl<S: Real> LocalStages<S> {
-    /// Memory for elements of a model.
-    pub(crate) fn new<M: FreeEnergy<S>>() -> Self {
-        let unknowns = StageMember::<S, M>::UNKNOWNS;
-        let inputs = StageMember::<S, M>::INPUTS;
+    /// Memory for elements with so many local unknowns and inputs.
+    pub(super) fn new(unknowns: usize, inputs: usize) -> Self {
         let zeros = |length: usize| vec![S::zero(); length];
         Self {
             matrix: zeros(unknowns * unknowns),
@@ -56,114 +55,10 @@ impl<S: Real> LocalStages<S> {
             inputs: zeros(inputs),
         }
     }
-
-    /// Adds `weight` times a quantity of a stage, of which the derivative by `x` is given, to equation
-    /// `equation`.
-    fn add<M: FreeEnergy<S>>(
-        &mut self,
-        stages: &mut StageMember<S, M>,
-        equation: usize,
-        stage: usize,
-        by: &M::Variables,
-        weight: S,
-    ) {
-        let unknowns = self.pivots.len();
-        let free = stages.prescribed.is_none();
-        spread::<S, M>(stage, by, free, |column, entry| match column {
-            Column::Input(j) => stages.solved[(1 + j) * unknowns + equation] += weight * entry,
-            Column::Unknown(u) => self.matrix[equation * unknowns + u] += weight * entry,
-        });
-    }
-
-    /// The equations of the viscous stretches.
-    fn creep<M: FreeEnergy<S>>(&mut self, h: S, stages: &mut StageMember<S, M>) {
-        let schedule = [variational_4::TO_MIDDLE, variational_4::STEP];
-        for (half, weights) in schedule.into_iter().enumerate() {
-            for k in 0..M::DASHPOTS {
-                let (equation, index) = (half * M::DASHPOTS + k, M::MEASURES + k);
-                let [old, new] = [0, 1 + half].map(|stage| stages.x[stage].as_ref()[index]);
-                let mut rest = new - old;
-                self.matrix[equation * self.pivots.len() + equation] = S::one();
-                for (stage, weight) in weights.map(S::from_f64).into_iter().enumerate() {
-                    rest -= h * weight * stages.points[stage].rates.as_ref()[index];
-                    let by = stages.points[stage].rates_by.as_ref()[index];
-                    self.add(stages, equation, stage, &by, -h * weight);
-                }
-                stages.solved[equation] = rest;
-            }
-        }
-    }
-
-    /// The equations of the entropies, of an element whose temperature is free.
-    fn warm<M: FreeEnergy<S>>(&mut self, h: S, stages: &mut StageMember<S, M>) {
-        let (unknowns, last) = (self.pivots.len(), M::Variables::LEN - 1);
-        let (start, end) = (unknowns - 2, unknowns - 1);
-        let entropies = stages.points.each_ref().map(Point::entropy);
-        let slopes = stages.points.each_ref().map(Point::entropy_by);
-        let [rate, middle_rate] = [0, MIDDLE].map(|i| stages.points[i].rates.as_ref()[last]);
-        let [rate_by, middle_rate_by] =
-            [0, MIDDLE].map(|i| stages.points[i].rates_by.as_ref()[last]);
-        let sixth = h * S::from_f64(variational_4::STEP[0]);
-
-        let mut rest = -stages.entropy - sixth * rate;
-        for stage in 0..=END {
-            let weight = S::from_f64(variational_4::START[stage]);
-            rest += weight * entropies[stage];
-            self.add(stages, start, stage, &slopes[stage], weight);
-        }
-        self.add(stages, start, 0, &rate_by, -sixth);
-        stages.solved[start] = rest;
-
-        stages.solved[end] = entropies[END] - entropies[0] - h * middle_rate;
-        self.add(stages, end, END, &slopes[END], S::one());
-        self.add(stages, end, 0, &slopes[0], -S::one());
-        self.add(stages, end, MIDDLE, &middle_rate_by, -h);
-
-        let [theta, middle] = [0, MIDDLE].map(|stage| stages.temperature(stage));
-        stages.solved[(1 + 2 * M::MEASURES) * unknowns + start] = -sixth / theta;
-        stages.solved[(2 + 2 * M::MEASURES) * unknowns + end] = -h / middle;
-        self.scale_heat(stages, [theta, middle]);
-    }
-
-    /// Makes it Newton's method on `θ_0 r_s0` and `θ_m r_s1`, which are far less curved than `r`
-    /// where conduction is stiff, and zero where it is.
-    fn scale_heat<M: FreeEnergy<S>>(&mut self, stages: &StageMember<S, M>, theta: [S; 2]) {
-        let unknowns = self.pivots.len();
-        let (start, end) = (unknowns - 2, unknowns - 1);
-        self.matrix[start * unknowns + start] += stages.solved[start] / theta[0];
-        let half = S::from_f64(0.5) * stages.solved[end] / theta[1];
-        self.matrix[end * unknowns + start] += half;
-        self.matrix[end * unknowns + end] += half;
-    }
-
-    /// A quantity of a stage, of which the derivative by `x` is given, with the local unknowns
-    /// eliminated, into `row`.
-    pub(super) fn eliminate<M: FreeEnergy<S>>(
-        &mut self,
-        stages: &StageMember<S, M>,
-        stage: usize,
-        by: &M::Variables,
-    ) {
-        self.by_unknown.fill(S::zero());
-        self.row.fill(S::zero());
-        let free = stages.prescribed.is_none();
-        spread::<S, M>(stage, by, free, |column, entry| match column {
-            Column::Input(j) => self.row[1 + j] += entry,
-            Column::Unknown(u) => self.by_unknown[u] += entry,
-        });
-        if self.by_unknown.is_empty() {
-            return;
-        }
-        let solved = stages.solved.chunks_exact(self.by_unknown.len());
-        for (entry, solved) in self.row.iter_mut().zip(solved) {
-            let pairs = self.by_unknown.iter().zip(solved);
-            *entry -= pairs.fold(S::zero(), |sum, (&a, &b)| sum + a * b);
-        }
-    }
 }
 
-/// The derivative by inputs and unknowns of a quantity of a stage, from that by `x`.
-fn spread<S: Real, M: FreeEnergy<S>>(
+/// Sorts the derivative of a quantity of a stage by `x` into those by inputs and by unknowns.
+fn sort<S: Real, M: FreeEnergy<S>>(
     stage: usize,
     by: &M::Variables,
     is_free: bool,
@@ -191,24 +86,28 @@ fn spread<S: Real, M: FreeEnergy<S>>(
     }
 }
 
-impl<S, M, K> ThreeStageGroup<S, M, K>
+impl<S, M, K, const D: usize> StageMember<S, M, K, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S>,
+    K: Kinematics<S, D>,
 {
-    /// Eliminates the internal variables of element `i`, whose stages have been evaluated.
-    pub(super) fn condense(&mut self, h: S, i: usize) -> Result<(), StateError> {
-        let (local, stages) = (&mut self.local, &mut self.members[i]);
+    /// Eliminates the internal variables of an element whose stages have been evaluated.
+    pub(super) fn condense(
+        &mut self,
+        local: &mut LocalStages<S>,
+        h: S,
+        element: Element,
+    ) -> Result<(), StateError> {
         let unknowns = local.pivots.len();
         if unknowns == 0 {
             return Ok(());
         }
         local.matrix.fill(S::zero());
-        stages.solved.fill(S::zero());
-        local.creep(h, stages);
-        if M::THERMAL && stages.prescribed.is_none() {
-            local.warm(h, stages);
+        self.solved.fill(S::zero());
+        self.creep(local, h);
+        if M::THERMAL && self.prescribed.is_none() {
+            self.warm(local, h);
         } else if M::THERMAL {
             // δθ = 0
             for row in [unknowns - 2, unknowns - 1] {
@@ -218,14 +117,112 @@ where
         if lu::factor(&mut local.matrix, &mut local.pivots).is_err() {
             // A finite local system is singular only where the model has no derivative.
             return Err(StateError::NotFinite {
-                element: self.elements.members[i].element,
+                element,
                 quantity: "inverse of the local tangent",
                 value: f64::INFINITY,
             });
         }
-        for column in stages.solved.chunks_exact_mut(unknowns) {
-            lu::solve(&local.matrix, &local.pivots, column);
+        for column in self.solved.chunks_exact_mut(unknowns) {
+            lu::solve::<S, 1>(&local.matrix, &local.pivots, column.as_chunks_mut().0);
         }
         Ok(())
+    }
+
+    /// Adds `weight` times a quantity of a stage, of which the derivative by `x` is given, to equation
+    /// `equation`.
+    fn add(
+        &mut self,
+        local: &mut LocalStages<S>,
+        equation: usize,
+        stage: usize,
+        by: &M::Variables,
+        weight: S,
+    ) {
+        let unknowns = local.pivots.len();
+        let free = self.prescribed.is_none();
+        sort::<S, M>(stage, by, free, |column, entry| match column {
+            Column::Input(j) => self.solved[(1 + j) * unknowns + equation] += weight * entry,
+            Column::Unknown(u) => local.matrix[equation * unknowns + u] += weight * entry,
+        });
+    }
+
+    /// The equations of the viscous stretches.
+    fn creep(&mut self, local: &mut LocalStages<S>, h: S) {
+        let schedule = [variational_4::TO_MIDDLE, variational_4::STEP];
+        for (half, weights) in schedule.into_iter().enumerate() {
+            for k in 0..M::DASHPOTS {
+                let (equation, index) = (half * M::DASHPOTS + k, M::MEASURES + k);
+                let [old, new] = [0, 1 + half].map(|stage| self.x[stage][index]);
+                let mut rest = new - old;
+                local.matrix[equation * local.pivots.len() + equation] = S::one();
+                for (stage, weight) in weights.map(S::from_f64).into_iter().enumerate() {
+                    rest -= h * weight * self.points[stage].rates[index];
+                    let by = self.points[stage].rates_by[index];
+                    self.add(local, equation, stage, &by, -h * weight);
+                }
+                self.solved[equation] = rest;
+            }
+        }
+    }
+
+    /// The equations of the entropies, of an element whose temperature is free.
+    fn warm(&mut self, local: &mut LocalStages<S>, h: S) {
+        let (unknowns, last) = (local.pivots.len(), M::Variables::LEN - 1);
+        let (start, end) = (unknowns - 2, unknowns - 1);
+        let entropies = self.points.each_ref().map(Point::entropy);
+        let slopes = self.points.each_ref().map(Point::entropy_by);
+        let [rate, middle_rate] = [0, MIDDLE].map(|i| self.points[i].rates[last]);
+        let [rate_by, middle_rate_by] = [0, MIDDLE].map(|i| self.points[i].rates_by[last]);
+        let sixth = h * S::from_f64(variational_4::STEP[0]);
+
+        let mut rest = -self.entropy - sixth * rate;
+        for stage in 0..=END {
+            let weight = S::from_f64(variational_4::START[stage]);
+            rest += weight * entropies[stage];
+            self.add(local, start, stage, &slopes[stage], weight);
+        }
+        self.add(local, start, 0, &rate_by, -sixth);
+        self.solved[start] = rest;
+
+        self.solved[end] = entropies[END] - entropies[0] - h * middle_rate;
+        self.add(local, end, END, &slopes[END], S::one());
+        self.add(local, end, 0, &slopes[0], -S::one());
+        self.add(local, end, MIDDLE, &middle_rate_by, -h);
+
+        let [theta, middle] = [0, MIDDLE].map(|stage| self.temperature(stage));
+        self.solved[(1 + 2 * M::MEASURES) * unknowns + start] = -sixth / theta;
+        self.solved[(2 + 2 * M::MEASURES) * unknowns + end] = -h / middle;
+        self.scale_heat(local, [theta, middle]);
+    }
+
+    /// Makes it Newton's method on `θ_0 r_s0` and `θ_m r_s1`, which are far less curved than `r`
+    /// where conduction is stiff, and zero where it is.
+    fn scale_heat(&self, local: &mut LocalStages<S>, theta: [S; 2]) {
+        let unknowns = local.pivots.len();
+        let (start, end) = (unknowns - 2, unknowns - 1);
+        local.matrix[start * unknowns + start] += self.solved[start] / theta[0];
+        let half = S::from_f64(0.5) * self.solved[end] / theta[1];
+        local.matrix[end * unknowns + start] += half;
+        local.matrix[end * unknowns + end] += half;
+    }
+
+    /// A quantity of a stage, of which the derivative by `x` is given, with the local unknowns
+    /// eliminated, into `row`.
+    pub(super) fn eliminate(&self, local: &mut LocalStages<S>, stage: usize, by: &M::Variables) {
+        local.by_unknown.fill(S::zero());
+        local.row.fill(S::zero());
+        let free = self.prescribed.is_none();
+        sort::<S, M>(stage, by, free, |column, entry| match column {
+            Column::Input(j) => local.row[1 + j] += entry,
+            Column::Unknown(u) => local.by_unknown[u] += entry,
+        });
+        if local.by_unknown.is_empty() {
+            return;
+        }
+        let solved = self.solved.chunks_exact(local.by_unknown.len());
+        for (entry, solved) in local.row.iter_mut().zip(solved) {
+            let pairs = local.by_unknown.iter().zip(solved);
+            *entry -= pairs.fold(S::zero(), |sum, (&a, &b)| sum + a * b);
+        }
     }
 }

@@ -1,30 +1,33 @@
 //! One element at one stage: forces, rates of its internal variables, and their derivatives.
 
-use super::{StageTrial, StageView, ThreeStageGroup};
+use super::member::{StageMember, StateMember};
+use super::{END, StageTrial, StageView, ThreeStageGroup};
+use crate::conduction::HeatFlow;
 use crate::error::StateError;
-use crate::free_energy::{Array, Caloric, FreeEnergy};
+use crate::free_energy::{Array, FreeEnergy};
 use crate::group::evaluate::{check_measures, check_temperature};
+use crate::group::pose::arms;
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
 use crate::scheme::Infeasible;
 
 /// What a model says at a stage.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Point<S: Real, M: FreeEnergy<S>> {
+pub(super) struct Point<S: Real, M: FreeEnergy<S>> {
     /// `∂ψ/∂x = (f, −g, −s)`.
-    pub(crate) gradient: M::Variables,
+    pub(super) gradient: M::Variables,
     /// `∂²ψ/∂x²`.
-    pub(crate) hessian: M::Hessian,
+    pub(super) hessian: M::Hessian,
     /// At the place of each dashpot `γ̇ = g/η`, m/s, at that of the temperature `Φ`, W/K.
-    pub(crate) rates: M::Variables,
+    pub(super) rates: M::Variables,
     /// Their derivatives by x, a row each; heat from other elements held.
-    pub(crate) rates_by: M::Hessian,
+    pub(super) rates_by: M::Hessian,
     /// `Σ g γ̇`, W.
-    pub(crate) dissipation: S,
+    pub(super) dissipation: S,
 }
 
 impl<S: Real, M: FreeEnergy<S>> Point<S, M> {
-    pub(crate) fn zero() -> Self {
+    pub(super) fn zero() -> Self {
         let zeros = M::Variables::filled(S::zero());
         Self {
             gradient: zeros,
@@ -36,13 +39,13 @@ impl<S: Real, M: FreeEnergy<S>> Point<S, M> {
     }
 
     /// s, J/K; only with a temperature.
-    pub(crate) fn entropy(&self) -> S {
-        -self.gradient.as_ref()[M::Variables::LEN - 1]
+    pub(super) fn entropy(&self) -> S {
+        -self.gradient[M::Variables::LEN - 1]
     }
 
     /// `∂s/∂x`.
-    pub(crate) fn entropy_by(&self) -> M::Variables {
-        let mut row = self.hessian.as_ref()[M::Variables::LEN - 1];
+    pub(super) fn entropy_by(&self) -> M::Variables {
+        let mut row = self.hessian[M::Variables::LEN - 1];
         for entry in row.as_mut() {
             *entry = -*entry;
         }
@@ -55,81 +58,102 @@ impl<S: Real, M: FreeEnergy<S>> Point<S, M> {
         self.dissipation = S::zero();
         for k in 0..M::DASHPOTS {
             let index = M::MEASURES + k;
-            let (eta, slope) = (viscosities.0.as_ref()[k], viscosities.1.as_ref()[k]);
-            let g = -self.gradient.as_ref()[index];
+            let (eta, slope) = (viscosities.0[k], viscosities.1[k]);
+            let g = -self.gradient[index];
             let rate = g / eta;
-            self.rates.as_mut()[index] = rate;
+            self.rates[index] = rate;
             self.dissipation += g * rate;
             for column in 0..M::Variables::LEN {
-                let g_by = -self.hessian.as_ref()[index].as_ref()[column];
+                let g_by = -self.hessian[index][column];
                 let is_temperature = M::THERMAL && column == M::Variables::LEN - 1;
                 let eta_by = if is_temperature { slope } else { S::zero() };
                 let rate_by = (g_by - rate * eta_by) / eta;
-                self.rates_by.as_mut()[index].as_mut()[column] = rate_by;
-                dissipation_by.as_mut()[column] += g_by * rate + g * rate_by;
+                self.rates_by[index][column] = rate_by;
+                dissipation_by[column] += g_by * rate + g * rate_by;
             }
         }
         dissipation_by
     }
 
-    /// The rate `Φ` of the entropy at the temperature θ, with the heat Q received, of which
-    /// `∂Q/∂θ = −κ`, and the derivative of the dissipation.
-    fn warm(&mut self, theta: S, heat: S, conductance: S, dissipation_by: &M::Variables) {
+    /// The rate `Φ` of the entropy at the temperature θ, with the heat received and the derivative
+    /// of the dissipation.
+    fn warm(&mut self, theta: S, flow: &HeatFlow<S>, dissipation_by: &M::Variables) {
         let last = M::Variables::LEN - 1;
-        let rate = (self.dissipation + heat) / theta;
-        self.rates.as_mut()[last] = rate;
+        let rate = (self.dissipation + flow.heat) / theta;
+        self.rates[last] = rate;
         for (column, &power_by) in dissipation_by.as_ref().iter().enumerate() {
             let by = if column == last {
-                power_by - conductance - rate
+                power_by - flow.conductance - rate
             } else {
                 power_by
             };
-            self.rates_by.as_mut()[last].as_mut()[column] = by / theta;
+            self.rates_by[last][column] = by / theta;
         }
     }
 }
 
-impl<S, M, K> ThreeStageGroup<S, M, K>
+impl<S, M, K, const D: usize> ThreeStageGroup<S, M, K, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S>,
+    K: Kinematics<S, D>,
 {
     /// See [`StageGroup::evaluate`](super::StageGroup::evaluate).
-    pub(super) fn evaluate_trial(
+    pub(super) fn evaluate_all(
         &mut self,
         view: &StageView<'_, S>,
-        trial: &StageTrial<S>,
+        trial: &StageTrial<S, D>,
     ) -> Result<(), StateError> {
         let kinematics = self.elements.kinematics;
-        for i in 0..self.members.len() {
-            for stage in 0..self.geometry.len() {
-                let geometry = &mut self.geometry[stage];
+        let members = self.elements.members.iter_mut().zip(&mut self.members);
+        for (member, stages) in members {
+            for stage in 0..=END {
+                // The measures of the start are those of the old state.
                 if stage > 0 {
-                    geometry.aim(kinematics, i, &trial.positions[stage]);
+                    stages.move_to(kinematics, member, stage, &trial.positions[stage])?;
                 }
-                let measures = &geometry.measures[geometry.measures_range(i)];
-                check_measures(kinematics, self.elements.members[i].element, measures)?;
-                let x = &mut self.members[i].x[stage];
-                x.as_mut()[..M::MEASURES].copy_from_slice(measures);
-                self.evaluate_stage(view, trial, i, stage)?;
+                stages.evaluate(member, view, trial, stage)?;
             }
-            self.condense(view.step, i)?;
+            stages.condense(&mut self.local, view.step, member.element)?;
+        }
+        Ok(())
+    }
+}
+
+impl<S, M, K, const D: usize> StageMember<S, M, K, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+{
+    /// Measures and their gradients at a stage.
+    fn move_to(
+        &mut self,
+        kinematics: K,
+        member: &StateMember<S, M, K, D>,
+        stage: usize,
+        positions: &[[S; D]],
+    ) -> Result<(), StateError> {
+        let r = arms::<K, S, D>(&member.site.nodes, positions);
+        let measures = kinematics.measure(&r);
+        check_measures::<K, S, D>(kinematics, member.element, &measures)?;
+        self.gradients[stage] = kinematics.gradient(&r, &measures);
+        for (a, &measure) in measures.as_ref().iter().enumerate() {
+            self.x[stage][a] = measure;
         }
         Ok(())
     }
 
-    /// The model of element `i` at a stage whose variables are known.
-    fn evaluate_stage(
+    /// The model at a stage whose variables are known.
+    fn evaluate(
         &mut self,
+        member: &mut StateMember<S, M, K, D>,
         view: &StageView<'_, S>,
-        trial: &StageTrial<S>,
-        i: usize,
+        trial: &StageTrial<S, D>,
         stage: usize,
     ) -> Result<(), StateError> {
-        let (member, stages) = (&mut self.elements.members[i], &mut self.members[i]);
-        let (x, point) = (&stages.x[stage], &mut stages.points[stage]);
-        let theta = x.as_ref()[M::Variables::LEN - 1];
+        let (x, point) = (&self.x[stage], &mut self.points[stage]);
+        let theta = x[M::Variables::LEN - 1];
         if M::THERMAL {
             check_temperature(member.element, theta)?;
         }
@@ -147,18 +171,12 @@ where
         let Some(slot) = member.slots.thermal else {
             return Ok(());
         };
-        let slope = point.entropy_by().as_ref()[M::Variables::LEN - 1];
-        let caloric = Caloric {
-            entropy: point.entropy(),
-            heat_capacity: theta * slope,
-            magnitude: S::zero(),
-        };
-        Infeasible::unless_stable(&caloric, theta)
+        let slope = point.entropy_by()[M::Variables::LEN - 1];
+        Infeasible::unless_stable(theta * slope, theta)
             .map_err(|infeasible| infeasible.of(member.element))?;
         let seen = &trial.seen_temperatures[stage];
-        let heat = view.conduction.heat_flow(slot, theta, seen);
-        let conductance = view.conduction.reservoir_conductance(slot);
-        point.warm(theta, heat, conductance, &dissipation_by);
+        let flow = view.conduction.heat_flow(slot, theta, seen);
+        point.warm(theta, &flow, &dissipation_by);
         Ok(())
     }
 }

@@ -1,11 +1,11 @@
 //! The global system of an iteration over the stages, and what its solution means.
 
 use super::StageSolver;
-use crate::group::{StageGroup, StageView};
+use crate::group::{StageGroup, StageView, points};
 use crate::scalar::Real;
 use crate::scheme::variational_4;
 
-impl<S: Real> StageSolver<S> {
+impl<S: Real, const D: usize> StageSolver<S, D> {
     /// Residual and tangent of the motions to the middle and to the end,
     ///
     /// ```text
@@ -14,81 +14,65 @@ impl<S: Real> StageSolver<S> {
     /// ```
     ///
     /// and of `Θ_i − θ_i = 0` for the temperatures that neighbours see. Returns the largest entry of R.
-    pub(super) fn assemble<const D: usize>(
+    pub(super) fn assemble(
         &mut self,
         groups: &mut [Box<dyn StageGroup<S, D>>],
         view: &StageView<'_, S>,
     ) -> S {
-        self.system.clear();
+        self.tangent.clear();
         for group in groups.iter_mut() {
-            group.assemble(view, &self.trial, &mut self.system);
+            group.assemble(view, &self.trial, &mut self.tangent);
         }
         let mut largest = S::zero();
-        let momenta = view.state.momenta.values();
-        for half in 0..2 {
-            for (node, first) in view.layout.nodes.iter().enumerate() {
-                let (Some(mass), Some(first)) = (self.masses[node], *first) else {
-                    continue;
-                };
-                let inertia = inertia(mass, half, view.step);
-                for axis in 0..self.dimension {
-                    let at = node * self.dimension + axis;
-                    let row = half * view.layout.unknowns + first + axis;
-                    let rest = momenta[at] + loads(view, half, at);
-                    let displacement = self.trial.displacements[half][at];
-                    self.system.add(row, row, inertia);
-                    self.system.add_right(row, rest - inertia * displacement);
-                    largest = largest.maximum(self.system.right()[row].abs());
+        let (values, right) = self.tangent.parts();
+        let momenta = points::<S, D>(view.state.momenta.values());
+        for (half, masses) in self.masses.iter().enumerate() {
+            for mass in masses {
+                let inertia = inertia(mass.mass, half, view.step);
+                let displacement = &self.trial.displacements[half][mass.node];
+                let loads = loads::<S, D>(view, half, mass.node);
+                for (axis, &place) in mass.diagonal.iter().enumerate() {
+                    values[place] += inertia;
+                    let rest = momenta[mass.node][axis] + loads[axis];
+                    let residual = &mut right[mass.row + axis][0];
+                    *residual += rest - inertia * displacement[axis];
+                    largest = largest.maximum(residual.abs());
                 }
             }
         }
         largest
     }
 
-    /// Makes the corrections of Θ those that rounding to `Θ + δΘ` leaves of them.
-    ///
-    /// With a large conductance a rounding of Θ is a large heat; the local unknowns
-    /// must answer to the Θ that will be used.
-    fn round_seen_temperatures(&mut self, view: &StageView<'_, S>) {
-        let solution = self.system.right_mut();
-        for half in 0..2 {
-            let seen = &self.trial.seen_temperatures[2 * half];
-            for (unknown, &seen) in view.layout.coupled.iter().zip(seen) {
-                if let Some(at) = *unknown {
-                    let at = half * view.layout.unknowns + at;
-                    solution[at] = (seen + solution[at]) - seen;
-                }
-            }
-        }
-    }
-
     /// Distributes the solution; the largest scaled update.
-    pub(super) fn correct<const D: usize>(
+    pub(super) fn correct(
         &mut self,
         groups: &mut [Box<dyn StageGroup<S, D>>],
         view: &StageView<'_, S>,
     ) -> S {
         self.remember();
-        self.round_seen_temperatures(view);
+        let solution = self.tangent.right_mut();
         let mut largest = S::zero();
-        for half in 0..2 {
-            let solution = &self.system.right()[half * view.layout.unknowns..];
-            for (node, first) in view.layout.nodes.iter().enumerate() {
-                let Some(first) = *first else { continue };
-                for axis in 0..self.dimension {
-                    let change = solution[first + axis];
-                    self.correction[0][half][node * self.dimension + axis] = change;
-                    largest = largest.maximum((change / self.lengths[node]).abs());
+        for (half, masses) in self.masses.iter().enumerate() {
+            let correction = &mut self.correction[half];
+            for mass in masses {
+                let per_length = self.per_length[mass.node];
+                let displacement = &mut correction.0[mass.node];
+                for (component, &[change]) in displacement.iter_mut().zip(&solution[mass.row..]) {
+                    *component = change;
+                    largest = largest.maximum((change * per_length).abs());
                 }
             }
-            let seen = &self.trial.seen_temperatures[2 * half];
-            for (slot, unknown) in view.layout.coupled.iter().enumerate() {
-                let change = unknown.map_or(S::zero(), |at| solution[at]);
-                self.correction[1][half][slot] = change;
-                largest = largest.maximum((change / seen[slot]).abs());
+            for seen in &self.seen[half] {
+                // What rounding to Θ + δΘ leaves of δΘ: with a large conductance a rounding of Θ is
+                // a large heat; the local unknowns must answer to the Θ that will be used.
+                let theta = self.trial.seen_temperatures[2 * half][seen.slot];
+                let change = (theta + solution[seen.row][0]) - theta;
+                solution[seen.row][0] = change;
+                correction.1[seen.slot] = change;
+                largest = largest.maximum((change / theta).abs());
             }
         }
-        largest.maximum(correct_locally(groups, view, self.system.right()))
+        largest.maximum(correct_locally(groups, view, self.tangent.right()))
     }
 }
 
@@ -96,7 +80,7 @@ impl<S: Real> StageSolver<S> {
 pub(super) fn correct_locally<S: Real, const D: usize>(
     groups: &mut [Box<dyn StageGroup<S, D>>],
     view: &StageView<'_, S>,
-    solution: &[S],
+    solution: &[[S; 1]],
 ) -> S {
     let updates = groups.iter_mut().map(|group| group.correct(view, solution));
     updates.fold(S::zero(), S::maximum)
@@ -112,10 +96,19 @@ pub(super) fn inertia<S: Real>(mass: S, half: usize, step: S) -> S {
     }
 }
 
-/// The impulse of the loads on a coordinate in the equation of one half, N s.
-pub(super) fn loads<S: Real>(view: &StageView<'_, S>, half: usize, at: usize) -> S {
-    let weights = variational_4::MIDDLE_AND_END[half].iter().zip(view.loads);
-    weights.fold(S::zero(), |sum, (&weight, loads)| {
-        sum + view.step * S::from_f64(weight) * loads.total_force[at]
-    })
+/// The impulse of the loads on a node in the equation of one half, N s.
+pub(super) fn loads<S: Real, const D: usize>(
+    view: &StageView<'_, S>,
+    half: usize,
+    node: usize,
+) -> [S; D] {
+    let mut impulse = [S::zero(); D];
+    for (&weight, loads) in variational_4::MIDDLE_AND_END[half].iter().zip(view.loads) {
+        let share = view.step * S::from_f64(weight);
+        let force = &points::<S, D>(&loads.total_force)[node];
+        for (impulse, &force) in impulse.iter_mut().zip(force) {
+            *impulse += share * force;
+        }
+    }
+    impulse
 }

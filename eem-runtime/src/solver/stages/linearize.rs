@@ -1,15 +1,18 @@
 //! The global system over the stages at a trial state of choice.
 
+use core::array;
+
 use super::assemble::correct_locally;
 use super::{Effort, StageSolver};
 use crate::error::StepFailure;
 use crate::group::{StageGroup, StageView};
 use crate::scalar::Real;
 use crate::solver::Iteration;
+use crate::solver::places::Seen;
 
-impl<S: Real> StageSolver<S> {
+impl<S: Real, const D: usize> StageSolver<S, D> {
     /// Residual and tangent at given global unknowns, with the local ones solved for.
-    pub(crate) fn linearize<const D: usize>(
+    pub(crate) fn linearize(
         &mut self,
         groups: &mut [Box<dyn StageGroup<S, D>>],
         view: &StageView<'_, S>,
@@ -17,8 +20,8 @@ impl<S: Real> StageSolver<S> {
         effort: &mut Effort<'_, S>,
     ) -> Result<(Vec<S>, Vec<S>), StepFailure> {
         self.begin(groups, view);
-        self.distribute(view, unknowns);
-        let no_change = vec![S::zero(); unknowns.len()];
+        self.distribute(unknowns);
+        let no_change = vec![[S::zero()]; self.tangent.right().len()];
         let mut before = None;
         loop {
             self.advance(groups, view)?;
@@ -27,8 +30,9 @@ impl<S: Real> StageSolver<S> {
                 break;
             }
             self.remember();
-            for correction in self.correction.iter_mut().flatten() {
-                correction.fill(S::zero());
+            for (displacements, seen) in &mut self.correction {
+                displacements.fill([S::zero(); D]);
+                seen.fill(S::zero());
             }
             let update = correct_locally(groups, view, &no_change);
             effort.history.push(Iteration { residual, update });
@@ -42,24 +46,19 @@ impl<S: Real> StageSolver<S> {
             }
             before = Some(update);
         }
-        let residual = self.system.right().iter().map(|&entry| -entry).collect();
-        Ok((residual, self.system.matrix().to_vec()))
+        let right = &self.tangent.right()[..unknowns.len()];
+        let residual = right.iter().map(|&[entry]| -entry).collect();
+        Ok((residual, self.tangent.dense()))
     }
 
     /// Makes the correction the one that leads to these unknowns.
-    fn distribute(&mut self, view: &StageView<'_, S>, unknowns: &[S]) {
-        for half in 0..2 {
-            let unknowns = &unknowns[half * view.layout.unknowns..];
-            for (node, first) in view.layout.nodes.iter().enumerate() {
-                let own = node * self.dimension..(node + 1) * self.dimension;
-                for (axis, change) in self.correction[0][half][own].iter_mut().enumerate() {
-                    *change = first.map_or(S::zero(), |first| unknowns[first + axis]);
-                }
+    fn distribute(&mut self, unknowns: &[S]) {
+        for (half, (displacements, seen)) in self.correction.iter_mut().enumerate() {
+            for mass in &self.masses[half] {
+                displacements[mass.node] = array::from_fn(|axis| unknowns[mass.row + axis]);
             }
-            for (slot, unknown) in view.layout.coupled.iter().enumerate() {
-                let old = self.previous[1][half][slot];
-                let change = unknown.map_or(S::zero(), |at| unknowns[at] - old);
-                self.correction[1][half][slot] = change;
+            for &Seen { slot, row } in &self.seen[half] {
+                seen[slot] = unknowns[row] - self.previous[half].1[slot];
             }
         }
     }

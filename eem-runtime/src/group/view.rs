@@ -1,0 +1,149 @@
+//! What a group and the solver tell each other.
+
+use crate::conduction::Conduction;
+use crate::handle::Element;
+use crate::layout::Layout;
+use crate::loads::StepLoads;
+use crate::scalar::Real;
+use crate::scene::ElementEntry;
+use crate::scheme::{Phase, Placement};
+use crate::state::State;
+use crate::system::LinearSystem;
+
+/// What all elements share during one step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StepView<'a, S> {
+    /// What changes.
+    pub(crate) phase: Phase,
+    /// h, s.
+    pub(crate) step: S,
+    /// The old state.
+    pub(crate) state: &'a State<S>,
+    pub(crate) conduction: &'a Conduction<S>,
+    pub(crate) loads: &'a StepLoads<S>,
+    /// m per node, kg; `None` for anchors.
+    pub(crate) masses: &'a [Option<S>],
+}
+
+impl<S: Real> StepView<'_, S> {
+    /// The time during which internal variables evolve, s.
+    pub(super) fn thermal_step(&self) -> S {
+        if self.phase.heats() {
+            self.step
+        } else {
+            S::zero()
+        }
+    }
+
+    /// The temperature prescribed on a thermal slot, as a scheme with this placement sees it.
+    pub(super) fn prescribed(&self, slot: Option<usize>, at: Placement) -> Option<S> {
+        if !self.phase.heats() {
+            return None;
+        }
+        let prescribed = self.loads.prescribed[slot?]?;
+        Some(match at {
+            Placement::Ends | Placement::End => prescribed.end,
+            Placement::Middle | Placement::Start => prescribed.middle,
+        })
+    }
+}
+
+/// The global part of the new state that Newton's method tries.
+#[derive(Clone, Debug)]
+pub(crate) struct Trial<S, const D: usize> {
+    /// q¹ − q⁰ of all nodes, m.
+    pub(crate) displacements: Vec<[S; D]>,
+    /// q¹ of all nodes, m.
+    pub(crate) positions: Vec<[S; D]>,
+    /// θ* as elements in contact see it, Θ, per thermal slot, K; an unknown where the slot is
+    /// coupled.
+    pub(crate) seen_temperatures: Vec<S>,
+}
+
+/// Internal energy (J) and entropy (J/K) of a group.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GroupTotals<S> {
+    pub(crate) energy: S,
+    pub(crate) entropy: S,
+}
+
+/// One element in a state, from the definitions.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ElementView<S> {
+    /// First measure: the stretch of a spring, m.
+    pub(crate) measure: S,
+    /// First component of ∂ψ/∂π: the force of a spring, N.
+    pub(crate) force: S,
+    /// `ψ + θ s`, J.
+    pub(crate) internal_energy: S,
+}
+
+/// What the old state gives to the nodes.
+#[derive(Debug)]
+pub(crate) struct Old<'a, S, const D: usize> {
+    /// The part of the nodal forces that it alone decides, N.
+    pub(crate) force: &'a mut [[S; D]],
+    /// The unit of length of each node: the shortest measure of its elements, m.
+    pub(crate) lengths: &'a mut [S],
+}
+
+/// Along which gradient the found forces act.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Along {
+    /// That of the scheme, as the force `A q_m`.
+    Secant,
+    /// That of the scheme.
+    Scheme,
+    /// That of the new configuration.
+    Gradient,
+}
+
+/// Where the elements of a group are.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Placed<'a> {
+    pub(crate) nodes: &'a dyn NodesOf,
+    pub(crate) layout: &'a Layout,
+}
+
+/// The nodes of an element of the scene.
+pub(crate) trait NodesOf: core::fmt::Debug {
+    fn nodes_of(&self, element: Element) -> &[usize];
+}
+
+impl<S: core::fmt::Debug> NodesOf for Vec<ElementEntry<S>> {
+    fn nodes_of(&self, element: Element) -> &[usize] {
+        &self[element.index].nodes
+    }
+}
+
+/// What decides where an element writes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sites<'a, S, const D: usize> {
+    pub(crate) layout: &'a Layout,
+    pub(crate) conduction: &'a Conduction<S>,
+    /// The system of an iteration.
+    pub(crate) tangent: &'a LinearSystem<S, 1>,
+    /// The system that closes a step.
+    pub(crate) secant: &'a LinearSystem<S, D>,
+    /// How far rows and columns of the tangent lie behind where the layout has them: a scheme with
+    /// several stages has as many copies of the unknowns.
+    pub(crate) shift: [usize; 2],
+}
+
+impl<S: Real, const D: usize> Sites<'_, S, D> {
+    /// The row of an unknown of the layout in the tangent.
+    pub(crate) fn row(&self, unknown: Option<usize>) -> usize {
+        let [shift, _] = self.shift;
+        self.tangent.row(unknown.map(|unknown| unknown + shift))
+    }
+
+    /// The place of the entry of two unknowns of the layout in the tangent.
+    pub(crate) fn place(&self, row: Option<usize>, column: Option<usize>) -> usize {
+        let [down, right] = self.shift;
+        let (row, column) = (
+            row.map(|row| row + down),
+            column.map(|column| column + right),
+        );
+        self.tangent.place(row, column)
+    }
+}

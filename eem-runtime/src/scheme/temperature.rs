@@ -1,0 +1,64 @@
+//! The temperature that belongs to an entropy, from a temperature that is nearly right.
+//!
+//! Newton's method in ln θ, as long as it contracts; anything else is left to
+//! [`invert`], which finds the temperature from any start on the same stable branch.
+
+use super::Infeasible;
+use crate::free_energy::{Caloric, FreeEnergy};
+use crate::inversion::invert;
+use crate::scalar::Real;
+
+/// The largest correction of ln θ, in units of √ε, after which the entropy need not be evaluated
+/// again. Newton's method in ln θ leaves half the square of the correction, times the slope
+/// of ln C over ln θ: ε/32 for C ∝ θ, and as much for eˣ.
+const LAST_CORRECTION: f64 = 0.25;
+
+/// A first correction of ln θ for which the start is not nearly right.
+const LARGEST_CORRECTION: f64 = 0.25;
+
+/// The least by which a correction must be smaller than the one before.
+const CONTRACTION: f64 = 0.25;
+
+/// θ̂ at the configuration of `x`, whose own temperature does not matter; stable.
+#[inline]
+pub(crate) fn temperature_at<S: Real, M: FreeEnergy<S>>(
+    model: &M,
+    x: M::Variables,
+    entropy: S,
+    guess: S,
+) -> Result<S, Infeasible> {
+    let caloric_at = model.caloric_at(x);
+    let enough = S::from_f64(LAST_CORRECTION) * S::EPSILON.sqrt();
+    let mut limit = S::from_f64(LARGEST_CORRECTION);
+    let mut theta = guess;
+    loop {
+        let caloric = caloric_at(theta);
+        let correction = (entropy - caloric.entropy) / caloric.heat_capacity;
+        let size = correction.abs();
+        let is_near = caloric.heat_capacity > S::zero() && size <= limit;
+        if !is_near {
+            return search(caloric_at, entropy, guess);
+        }
+        if size <= enough {
+            return Ok(theta + theta * correction);
+        }
+        theta *= correction.exp();
+        limit = S::from_f64(CONTRACTION) * size;
+    }
+}
+
+/// The same from any start.
+#[cold]
+fn search<S: Real>(
+    caloric_at: impl Fn(S) -> Caloric<S>,
+    entropy: S,
+    guess: S,
+) -> Result<S, Infeasible> {
+    match invert(caloric_at, entropy, guess) {
+        Ok(found) => Ok(found.temperature),
+        Err(source) => Err(Infeasible::Entropy {
+            entropy: entropy.to_f64(),
+            source,
+        }),
+    }
+}
