@@ -52,8 +52,8 @@ fn set_up() -> Pendulum {
 
 /// The temperature θ of the state (λ, γ, θ) with the entropy of another, from a start.
 fn temperature([lambda, gamma, _]: Variables, entropy: f64, start: f64) -> f64 {
-    let evaluate = |theta| LAW.caloric(&[lambda, gamma, theta]);
-    invert(evaluate, entropy, start).unwrap().temperature
+    let caloric = LAW.caloric_at([lambda, gamma, start]);
+    invert(caloric, entropy, start).unwrap().temperature
 }
 
 /// The corner temperatures of the step from [`OLD`] to [`NEW`].
@@ -114,11 +114,31 @@ mod generated {
         });
     }
 
+    /// Once per step.
+    #[divan::bench]
+    fn entropy_form_response(bencher: Bencher<'_, '_>) {
+        let old = LAW.entropy_form_old(&OLD);
+        let corners = super::corners();
+        bencher.bench_local(|| {
+            let (old, new, corners) = (black_box(&old), black_box(&NEW), black_box(&corners));
+            black_box(&LAW).entropy_form_response(old, new, corners)
+        });
+    }
+
     /// Once per iteration.
     #[divan::bench]
     fn temperature_form(bencher: Bencher<'_, '_>) {
         let old = LAW.temperature_form_old(&OLD);
         bencher.bench_local(|| black_box(&LAW).temperature_form(black_box(&old), black_box(&NEW)));
+    }
+
+    /// Once per step.
+    #[divan::bench]
+    fn temperature_form_response(bencher: Bencher<'_, '_>) {
+        let old = LAW.temperature_form_old(&OLD);
+        bencher.bench_local(|| {
+            black_box(&LAW).temperature_form_response(black_box(&old), black_box(&NEW))
+        });
     }
 }
 

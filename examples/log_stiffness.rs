@@ -92,11 +92,17 @@ const FAR_STARTS: [f64; 2] = [30.0, 1e6];
         + capacity * (theta - theta_ref - theta * ln(theta / theta_ref))
 })]
 struct SofteningSpring {
+    #[unit("J")]
     stiffness: f64,
+    #[unit("J/K")]
     softening: f64,
+    #[unit("J/K")]
     coupling: f64,
+    #[unit("J/K")]
     capacity: f64,
+    #[unit("m")]
     natural_length: f64,
+    #[unit("K")]
     theta_ref: f64,
 }
 

@@ -71,7 +71,7 @@ use road::Track;
 use support::claims::{self, Claims};
 use support::command_line::CommandLine;
 use support::record::Record;
-use support::simulate::{self, Watched};
+use support::simulate::{self, Columns, Watched};
 use support::time_grid::TimeGrid;
 use support::{output, terminal};
 
@@ -127,7 +127,9 @@ const LONGEST_STEP: f64 = 10.0 * STEP;
 #[derive(Clone, Debug, FreeEnergy)]
 #[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - natural_length).powi(2))]
 struct Spring {
+    #[unit("N/m")]
     stiffness: f64,
+    #[unit("m")]
     natural_length: f64,
 }
 
@@ -141,12 +143,19 @@ struct Spring {
 })]
 #[viscosity(gamma = eta0 * exp(a * (1 / theta - 1 / theta_ref)))]
 pub(crate) struct Damper {
+    #[unit("m")]
     natural_length: f64,
+    #[unit("K")]
     theta_ref: f64,
+    #[unit("N/m")]
     mount: f64,
+    #[unit("N")]
     gas_force: f64,
+    #[unit("J/K")]
     capacity: f64,
+    #[unit("N s/m")]
     eta0: f64,
+    #[unit("K")]
     a: f64,
 }
 
@@ -178,7 +187,12 @@ impl Damper {
 }
 
 /// Drives the quarter car, at rest at first, and records what the tables and pictures show.
-fn drive(name: &str, scheme: Scheme, damper: Damper, grid: TimeGrid) -> Result<Record, SceneError> {
+fn drive(
+    name: &str,
+    scheme: Scheme,
+    damper: Damper,
+    grid: TimeGrid,
+) -> Result<Record, Box<dyn Error>> {
     let gas_force = damper.gas_force * WINTER / damper.theta_ref;
     let spring = Spring {
         stiffness: SUSPENSION,
@@ -210,20 +224,37 @@ fn drive(name: &str, scheme: Scheme, damper: Damper, grid: TimeGrid) -> Result<R
         has_reservoirs: true,
     };
     let mut simulation = Simulation::new(scene, scheme, grid.step)?;
-    simulate::record_with(name, &mut simulation, &watched, grid, |simulation| {
-        let ledger = simulation.ledger();
-        let strut = simulation.force(spring)? + simulation.force(damper)?;
-        Ok(vec![
-            ("road", simulation.position(contact)?[0]),
-            ("travel", simulation.stretch(spring)? - CLEARANCE),
-            ("acceleration", -strut / BODY - GRAVITY),
-            ("tyre_force", -simulation.force(tyre)?),
-            ("damper_energy", simulation.internal_energy(damper)?),
-            ("reservoir_heat", ledger.reservoir_heat),
-            ("work", ledger.work),
-            ("balance", ledger.balance),
-        ])
-    })
+    let parts = [tyre, spring, damper];
+    let further = further(contact, parts);
+    simulate::record_with(name, &mut simulation, &watched, grid, further)
+}
+
+/// Columns of this example's own. A handle that is not of the scene would show as not a number.
+fn further(contact: Node, [tyre, spring, damper]: [Element; 3]) -> Columns<1> {
+    let value = |result: Result<f64, SceneError>| result.unwrap_or(f64::NAN);
+    let road = move |run: &Simulation<1>| value(run.position(contact).map(|road| road[0]));
+    let travel = move |run: &Simulation<1>| value(run.stretch(spring)) - CLEARANCE;
+    let acceleration = move |run: &Simulation<1>| {
+        let strut = value(run.force(spring)) + value(run.force(damper));
+        -strut / BODY - GRAVITY
+    };
+    let tyre_force = move |run: &Simulation<1>| -value(run.force(tyre));
+    let columns = [
+        ("road", Quantity::custom(road)),
+        ("travel", Quantity::custom(travel)),
+        ("acceleration", Quantity::custom(acceleration)),
+        ("tyre_force", Quantity::custom(tyre_force)),
+        ("damper_energy", Quantity::InternalEnergy(damper)),
+        (
+            "reservoir_heat",
+            Quantity::Ledger(|ledger| ledger.reservoir_heat),
+        ),
+        ("work", Quantity::Ledger(|ledger| ledger.work)),
+        ("balance", Quantity::Ledger(|ledger| ledger.balance)),
+    ];
+    columns
+        .map(|(name, quantity)| (name.to_owned(), quantity))
+        .into()
 }
 
 fn main() -> ExitCode {
@@ -292,7 +323,7 @@ fn check_ride(run: &Record, [warming, constant]: [&[Lap]; 2], grid: TimeGrid, cl
         1.1,
     );
     let tyre = run.column("tyre_force").unwrap_or_default();
-    let lightest = tyre.into_iter().reduce(f64::min);
+    let lightest = tyre.iter().copied().reduce(f64::min);
     claims.at_least("the least load on the road (N)", lightest, 0.0);
     let share = balance::mean_power(run).map(|power| (power / TRACK.power(TYRE) - 1.0).abs());
     claims.at_most("the road's power, off that of all waves", share, 0.1);

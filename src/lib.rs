@@ -16,14 +16,21 @@ pub mod prelude {
     pub use core::ops::ControlFlow;
 
     pub use crate::{
-        Checkpoint, Element, FreeEnergy, Ledger, NewtonSettings, Node, Quantity, Recorder,
-        Reservoir, RunEnd, Scene, SceneError, Scheme, Simulation, StepError, StepReport,
+        Checkpoint, Describe, Element, Ensemble, FreeEnergy, Ledger, NewtonSettings, Node,
+        Quantity, Recorder, Reservoir, RunEnd, Scene, SceneError, Scheme, Simulation, StepError,
+        StepReport,
     };
 }
+
+/// Guide: how a material is written, in stages, and how it is checked.
+#[doc = include_str!("../docs/guide.md")]
+pub mod guide {}
 
 /// What generated code names. Not part of the public interface.
 #[doc(hidden)]
 pub mod __private {
     pub use core;
-    pub use eem_runtime::{Array, Caloric, FreeEnergy, Scalar, kernel};
+    pub use eem_runtime::{
+        Array, Caloric, Describe, Description, FreeEnergy, Scalar, describe, kernel,
+    };
 }

@@ -1,10 +1,12 @@
 //! The legal forms of a model: type parameters, lifetimes, constants, bounds, unused fields,
-//! scalars, blocks and shadowing.
+//! scalars and blocks.
 
 // The data are small integers: every result is exact.
 #![allow(clippy::float_cmp)]
 
+use std::fmt::Debug;
 use std::marker::PhantomData;
+use std::ops::Mul;
 
 use eem::FreeEnergy;
 
@@ -21,7 +23,7 @@ struct Generic<T> {
 #[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - length).powi(2) / scale)]
 struct Mixed<'a, T: Copy + 'a, const N: usize>
 where
-    T: PartialOrd,
+    T: PartialOrd + Mul<f64, Output = T> + Mul<T, Output = T>,
 {
     stiffness: T,
     length: f64,
@@ -45,22 +47,59 @@ struct Labelled<'a, L: ?Sized> {
 #[free_energy(|lambda: Stretch| lambda.powi(2) / 2)]
 struct Bare {}
 
-/// Inner names hide outer ones: a `let` the argument, the argument the field, a block its outside.
+/// No parameters, and no braces.
 #[derive(FreeEnergy)]
-#[free_energy(|lambda: Stretch| {
-    let k = k / 2;
-    let square = lambda * lambda;
-    let force = diff(square, lambda);
-    let lambda = {
-        let k = 100;
-        k * lambda
+#[free_energy(|lambda: Stretch| lambda.powi(2) / 2)]
+struct Unit;
+
+/// Blocks that are not inside of one another can use the same names, and so can a law.
+#[derive(FreeEnergy)]
+#[free_energy(|lambda: Stretch, gamma: Viscous| {
+    let soft = {
+        let square = lambda.powi(2);
+        k * square
     };
-    k * lambda + force
+    let stiff = {
+        let square = gamma.powi(2);
+        let _kept = square * square;
+        100 * k * square
+    };
+    soft + stiff + diff(soft, lambda)
 })]
-struct Shadowed {
+#[viscosity(gamma = { let square = k * k; let soft = square; soft })]
+struct Blocks {
+    k: f64,
+}
+
+/// Numbers that are no parameters.
+#[derive(FreeEnergy)]
+#[free_energy(|lambda: Stretch| k * lambda)]
+#[allow(dead_code)]
+struct Marked<T> {
+    k: T,
+    /// Hidden by the argument, which is allowed because it is no parameter.
+    #[free_energy(unused)]
+    lambda: f64,
+    #[doc = "Not compiled at all."]
+    #[cfg(any())]
+    absent: f64,
+    #[cfg_attr(all(), free_energy(unused))]
+    density: T,
+    _padding: f64,
+}
+
+/// Parameters of the struct with the names that generated code gives to its own.
+#[derive(FreeEnergy)]
+#[free_energy(|lambda: Stretch| k * lambda)]
+struct Reserved<'__s, __S: Copy + Debug = u8, const __S_: usize = 2>
+where
+    Self: Sized,
+    [__S; __S_]: Debug,
+    for<'a> &'a __S: Debug,
+{
     k: f64,
     #[allow(dead_code)]
-    lambda: f64,
+    data: &'__s [__S; __S_],
 }
 
 /// Raw identifiers name what they say.
@@ -78,7 +117,7 @@ struct Raw {
 /// Any order of arguments; the state is measures, dashpots, temperature.
 #[derive(FreeEnergy)]
 #[free_energy(|theta: Temperature, b: Viscous, a: Viscous, lambda: Stretch| {
-    lambda + 10 * a + 100 * b + 1000 * theta.powi(2)
+    lambda + 10 * a + 100 * b - 1000 * theta.powi(2)
 })]
 #[viscosity(a = 1, b = 2 * theta)]
 struct Order {}
@@ -121,6 +160,7 @@ fn floats_are_converted_to_the_scalar() {
     let bare = Bare {};
     assert_eq!(bare.free_energy(&[3.0_f32]), 4.5_f32);
     assert_eq!(bare.free_energy(&[3.0_f64]), 4.5_f64);
+    assert_eq!(Unit.free_energy(&[3.0_f64]), 4.5_f64);
 }
 
 #[test]
@@ -138,14 +178,33 @@ fn unused_fields_are_no_parameters() {
 }
 
 #[test]
-fn inner_names_hide_outer_names() {
-    let shadowed = Shadowed {
-        k: 4.0,
+fn names_live_as_long_as_their_block() {
+    let blocks = Blocks { k: 4.0 };
+    // k λ² + 100 k γ² + 2 k λ at λ = 3, γ = 1
+    assert_eq!(energy(&blocks, [3.0, 1.0]), 36.0 + 400.0 + 24.0);
+    assert_eq!(blocks.viscosity(1.0_f64), ([16.0], [0.0]));
+}
+
+#[test]
+fn marked_fields_are_no_parameters() {
+    let marked = Marked {
+        k: 2.0,
         lambda: f64::NAN,
+        density: f64::NAN,
+        _padding: f64::NAN,
     };
-    // (k/2)·(100 λ) + 2 λ at λ = 3
-    assert_eq!(energy(&shadowed, [3.0]), 606.0);
-    assert_eq!(<Shadowed as FreeEnergy<f64>>::PARAMETERS, ["k"]);
+    assert_eq!(energy(&marked, [3.0]), 6.0);
+    assert_eq!(<Marked<f64> as FreeEnergy<f64>>::PARAMETERS, ["k"]);
+}
+
+#[test]
+fn type_parameters_do_not_meet_the_generated_one() {
+    let data = [1, 2];
+    let reserved = Reserved {
+        k: 2.0,
+        data: &data,
+    };
+    assert_eq!(energy(&reserved, [3.0]), 6.0);
 }
 
 #[test]
@@ -164,7 +223,7 @@ fn the_state_is_measures_dashpots_temperature() {
     // λ = 1, b = 2, a = 3, θ = 4: dashpots keep the order of the closure.
     assert_eq!(
         energy(&order, [1.0, 2.0, 3.0, 4.0]),
-        1.0 + 200.0 + 30.0 + 16000.0
+        1.0 + 200.0 + 30.0 - 16000.0
     );
     let (eta, eta_theta) = order.viscosity(4.0_f64);
     assert_eq!((eta, eta_theta), ([8.0, 1.0], [2.0, 0.0]));

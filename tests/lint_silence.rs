@@ -2,6 +2,11 @@
 
 #![deny(warnings)]
 #![deny(
+    future_incompatible,
+    let_underscore,
+    nonstandard_style,
+    rust_2018_idioms,
+    unused,
     missing_docs,
     missing_debug_implementations,
     non_snake_case,
@@ -58,8 +63,59 @@ pub struct Bare<T> {
     stiffness: T,
 }
 
+/// No parameters at all.
+#[derive(Clone, Copy, Debug, FreeEnergy)]
+#[free_energy(|lambda: Stretch| lambda.powi(2) / 2)]
+pub struct Unit;
+
+/// Dashpots without temperature, and a number that is no parameter.
+#[derive(Clone, Copy, Debug, FreeEnergy)]
+#[free_energy(|lambda: Stretch, a: Viscous, b: Viscous| k * (lambda - a - b).powi(2))]
+#[viscosity(a = 2, b = eta)]
+pub struct Viscous {
+    k: f64,
+    eta: f64,
+    #[free_energy(unused)]
+    /// Density, kg/m³.
+    pub density: f64,
+}
+
+/// Temperature without dashpots, in the scalar of the struct.
+#[derive(Clone, Debug, FreeEnergy)]
+#[free_energy(|lambda: Stretch, theta: Temperature| k * theta * lambda - c * theta * ln(theta))]
+pub struct Entropic<'a, T: Clone, const N: usize>
+where
+    [T; N]: Sized,
+{
+    k: T,
+    c: T,
+    /// Name, for humans.
+    pub name: &'a [&'a str; N],
+}
+
+#[test]
+fn strict_functions_can_derive() {
+    #[derive(FreeEnergy)]
+    #[free_energy(|lambda: Stretch| lambda / 2)]
+    struct Local;
+    assert!((Local.free_energy(&[4.0_f64]) - 2.0).abs() < f64::EPSILON);
+}
+
 #[test]
 fn strict_crates_can_derive() {
     let bare = Bare { stiffness: 2.0_f64 };
     assert!((bare.free_energy(&[3.0]) - 6.0).abs() < f64::EPSILON);
+    assert!((Unit.free_energy(&[2.0_f64]) - 2.0).abs() < f64::EPSILON);
+    let viscous = Viscous {
+        k: 1.0,
+        eta: 3.0,
+        density: 0.0,
+    };
+    assert!((viscous.viscosity(0.0_f64).0[1] - 3.0).abs() < f64::EPSILON);
+    let entropic = Entropic {
+        k: 2.0_f64,
+        c: 1.0,
+        name: &["rubber"],
+    };
+    assert!((entropic.free_energy(&[3.0, 1.0]) - 6.0).abs() < f64::EPSILON);
 }

@@ -53,18 +53,8 @@ fn tetrahedron(scheme: Scheme, step: f64) -> Simulation<3> {
 }
 
 #[test]
-fn a_free_body_of_three_models_keeps_all_laws() {
-    for scheme in [
-        Scheme::EemEntropy,
-        Scheme::EemTemperature,
-        Scheme::Staggered,
-    ] {
-        keeps_all_laws(scheme);
-    }
-}
-
-fn keeps_all_laws(scheme: Scheme) {
-    let mut run = tetrahedron(scheme, 0.02);
+fn a_free_body_of_three_models_keeps_all_laws_in_staggered_steps() {
+    let mut run = tetrahedron(Scheme::Staggered, 0.02);
     // 4 masses in space and the temperatures that 4 elements in contact see; nothing for Hencky.
     assert_eq!(run.unknowns(), 12 + 4);
     let first = run.ledger();
@@ -79,6 +69,31 @@ fn keeps_all_laws(scheme: Scheme) {
     let angular = (last.angular_momentum - first.angular_momentum).norm();
     println!("linear momentum off by {linear:e}, angular by {angular:e}");
     assert!(laws.energy <= ENERGY_TOLERANCE);
+    assert!(laws.entropy_ulps >= ENTROPY_TOLERANCE);
+    assert!(linear <= FREE_MOMENTUM_TOLERANCE * first.linear_momentum.norm());
+    assert!(angular <= FREE_MOMENTUM_TOLERANCE * first.angular_momentum.norm());
+}
+
+// Without the first law: the energy of the variational integrator is only near its value.
+#[test]
+fn a_free_body_keeps_its_momenta_with_stages_too() {
+    let mut run = tetrahedron(Scheme::Variational4, 0.02);
+    assert_eq!(run.unknowns(), 2 * (12 + 4));
+    let first = run.ledger();
+    let mut laws = Laws::new(&run);
+    let iterations: usize = (0..500)
+        .map(|_| {
+            let report = run.step().unwrap();
+            laws.watch(&run);
+            report.iterations
+        })
+        .sum();
+    let last = run.ledger();
+    println!("{iterations} iterations, {laws:?}");
+    let linear = (last.linear_momentum - first.linear_momentum).norm();
+    let angular = (last.angular_momentum - first.angular_momentum).norm();
+    println!("linear momentum off by {linear:e}, angular by {angular:e}");
+    assert!(iterations <= 2_500);
     assert!(laws.entropy_ulps >= ENTROPY_TOLERANCE);
     assert!(linear <= FREE_MOMENTUM_TOLERANCE * first.linear_momentum.norm());
     assert!(angular <= FREE_MOMENTUM_TOLERANCE * first.angular_momentum.norm());

@@ -1,7 +1,8 @@
 //! What the compiler says about a wrong model.
 //!
-//! The folders are those of the catalogue of messages. All errors here are ours, so that their
-//! text depends little on the compiler. `TRYBUILD=overwrite cargo test --test ui` refreshes them.
+//! The folders are those of the catalogue of messages, and `use` is about models where they are
+//! used. Almost all text here is ours, so that it depends little on the compiler.
+//! `TRYBUILD=overwrite cargo test --test ui` refreshes it.
 
 #[test]
 fn wrong_models_are_explained() {

@@ -1,7 +1,9 @@
 //! What was written, reduced to what a free energy can contain.
 //!
 //! Output of the parse phase. The nodes borrow the syntax they come from, so that later phases can
-//! point at the guilty token. Names are not resolved here.
+//! point at the guilty token. Names are not resolved here. What could not be read has been reported
+//! and leaves a hole behind ([`ExprKind::Wrong`], [`Argument::role`], [`Binding::ident`]): the phases
+//! after it go on around the hole and say nothing about it.
 
 use eem_symbolic::Number;
 use proc_macro2::Ident;
@@ -13,28 +15,37 @@ pub(crate) struct Input<'a> {
     pub(crate) original: &'a syn::DeriveInput,
     /// The path of the crate `eem`.
     pub(crate) krate: &'a syn::Path,
-    /// All named fields, in order of declaration.
-    pub(crate) fields: Vec<Field<'a>>,
+    /// All named fields, in order of declaration; nothing if the item has no such fields.
+    pub(crate) fields: Option<Vec<Field<'a>>>,
     /// The arguments of the closure, in the order of the closure.
     pub(crate) arguments: Vec<Argument<'a>>,
+    /// Every argument has a name and a role.
+    pub(crate) arguments_complete: bool,
     /// The body of the closure: ψ.
     pub(crate) energy: Block<'a>,
     /// The closure as written, for errors about the whole of it.
     pub(crate) closure: &'a syn::ExprClosure,
     /// The viscosity laws, in order of appearance.
     pub(crate) laws: Vec<Law<'a>>,
+    /// Every `viscosity` attribute could be read.
+    pub(crate) laws_complete: bool,
 }
 
 /// A named field: a parameter if its type allows and an expression mentions it.
 pub(crate) struct Field<'a> {
     pub(crate) ident: &'a Ident,
     pub(crate) ty: &'a syn::Type,
+    /// Marked with `#[free_energy(unused)]`: no parameter, whatever its type.
+    pub(crate) unused: bool,
+    /// A mark that could not be read has been reported.
+    pub(crate) wrong: bool,
 }
 
 /// `name: Role` in the closure.
 pub(crate) struct Argument<'a> {
     pub(crate) ident: &'a Ident,
-    pub(crate) role: Role,
+    /// Nothing if the role could not be read.
+    pub(crate) role: Option<Role>,
 }
 
 /// What an argument of the closure stands for.
@@ -76,7 +87,8 @@ pub(crate) struct Block<'a> {
 
 /// `let name = value;`
 pub(crate) struct Binding<'a> {
-    pub(crate) ident: &'a Ident,
+    /// Nothing if a statement could not be read that may have declared names.
+    pub(crate) ident: Option<&'a Ident>,
     pub(crate) value: Expr<'a>,
 }
 
@@ -84,6 +96,14 @@ pub(crate) struct Binding<'a> {
 pub(crate) struct Expr<'a> {
     pub(crate) original: &'a syn::Expr,
     pub(crate) kind: ExprKind<'a>,
+}
+
+impl<'a> Expr<'a> {
+    /// In place of an expression that could not be read at all.
+    pub(crate) fn hole(original: &'a syn::Expr) -> Self {
+        let kind = ExprKind::Wrong(Vec::new());
+        Self { original, kind }
+    }
 }
 
 /// The expressions of a free energy.
@@ -100,6 +120,8 @@ pub(crate) enum ExprKind<'a> {
     Call(&'a Ident, Vec<Expr<'a>>),
     /// `{ let …; value }`
     Block(Block<'a>),
+    /// Something that has been reported, and the expressions in it.
+    Wrong(Vec<Expr<'a>>),
 }
 
 /// The arithmetic operators.
@@ -109,6 +131,11 @@ pub(crate) enum Operator {
     Subtract,
     Multiply,
     Divide,
+}
+
+/// The name starts with an underscore: it may be without use.
+pub(crate) fn is_underscored(ident: &Ident) -> bool {
+    name(ident).starts_with('_')
 }
 
 /// The name without `r#`: `r#type` and `type` are the same name.

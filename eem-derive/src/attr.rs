@@ -3,8 +3,12 @@
 //! Nothing here fails: what cannot be read is reported and left out, so that all attributes are
 //! seen and an implementation of the trait can be written whatever happens.
 
-use proc_macro2::Ident;
+mod depth;
+
+use proc_macro2::{Ident, Span, TokenStream, TokenTree};
+use syn::ext::IdentExt as _;
 use syn::parse::ParseStream;
+use syn::parse::discouraged::Speculative as _;
 use syn::punctuated::Punctuated;
 use syn::{Attribute, DeriveInput, Expr, ExprClosure, Meta, Path, Token, parse_quote};
 
@@ -19,11 +23,17 @@ pub(crate) struct Attributes {
     pub(crate) closure: Option<ExprClosure>,
     /// The laws of all `#[viscosity(…)]`.
     pub(crate) laws: Vec<(Ident, Expr)>,
+    /// Every `#[viscosity(…)]` could be read.
+    pub(crate) laws_complete: bool,
 }
 
 /// One entry of `#[free_energy(…)]`.
 enum Entry {
     Crate(Token![crate], Path),
+    /// `crate = …` with something else than a path.
+    WrongCrate(Span),
+    /// `name = …` with another name.
+    Option(Ident),
     Closure(ExprClosure),
     Other(Expr),
 }
@@ -32,12 +42,15 @@ impl Attributes {
     /// Reads all attributes of `input`.
     pub(crate) fn from_syn(cx: &Ctxt, input: &DeriveInput) -> Self {
         let mut energy = FreeEnergy::default();
-        let mut laws = Vec::new();
+        let (mut laws, mut laws_complete) = (Vec::new(), true);
         for attribute in &input.attrs {
             if attribute.path().is_ident("free_energy") {
                 energy.read(cx, attribute);
             } else if attribute.path().is_ident("viscosity") {
-                laws.extend(read_laws(cx, attribute));
+                match read_laws(cx, attribute) {
+                    Some(read) => laws.extend(read),
+                    None => laws_complete = false,
+                }
             }
         }
         if energy.closure.is_none() && !energy.failed {
@@ -47,6 +60,7 @@ impl Attributes {
             krate: energy.krate.unwrap_or_else(|| parse_quote!(::eem)),
             closure: energy.closure,
             laws,
+            laws_complete,
         }
     }
 }
@@ -62,11 +76,20 @@ struct FreeEnergy {
 
 impl FreeEnergy {
     fn read(&mut self, cx: &Ctxt, attribute: &Attribute) {
+        if is_too_deep(cx, attribute) {
+            self.failed = true;
+            return;
+        }
         let entries = match entries(attribute) {
             Ok(entries) => entries,
             Err(error) => {
                 self.failed = true;
-                return cx.error_at(error.span(), &message::unreadable_free_energy(&error));
+                let message = if has_closure(attribute) {
+                    message::unreadable_formula(&error)
+                } else {
+                    message::unreadable_free_energy(&error)
+                };
+                return cx.error_at(error.span(), &message);
             }
         };
         if entries.is_empty() {
@@ -84,16 +107,60 @@ impl FreeEnergy {
                 cx.error(token, &message::second_crate());
             }
             Entry::Crate(_, path) => self.krate = Some(path),
+            Entry::WrongCrate(span) => {
+                self.failed = true;
+                cx.error_at(span, &message::crate_is_not_a_path());
+            }
             Entry::Closure(_) if self.closure.is_some() => {
                 cx.error(attribute.path(), &message::second_free_energy());
             }
             Entry::Closure(closure) => self.closure = Some(closure),
+            Entry::Option(name) => {
+                self.failed = true;
+                cx.error(&name, &message::unknown_option(&name));
+            }
+            Entry::Other(expr) if self.closure.is_some() => {
+                cx.error(expr, &message::after_the_closure());
+            }
             Entry::Other(expr) => {
                 self.failed = true;
                 cx.error(expr, &message::free_energy_is_not_a_closure());
             }
         }
     }
+}
+
+fn is_too_deep(cx: &Ctxt, attribute: &Attribute) -> bool {
+    let place = depth::too_deep(tokens(attribute));
+    if let Some(span) = place {
+        cx.error_at(span, &message::too_deep());
+    }
+    place.is_some()
+}
+
+/// There is a `|` in the attribute: a closure has been begun.
+fn has_closure(attribute: &Attribute) -> bool {
+    tokens(attribute)
+        .into_iter()
+        .any(|token| is_punct(&token, '|'))
+}
+
+/// The attribute begins with `name =`.
+fn has_law(attribute: &Attribute) -> bool {
+    let mut tokens = tokens(attribute).into_iter();
+    let name = tokens.next();
+    matches!(name, Some(TokenTree::Ident(_))) && tokens.next().is_some_and(|t| is_punct(&t, '='))
+}
+
+fn tokens(attribute: &Attribute) -> TokenStream {
+    match &attribute.meta {
+        Meta::List(list) => list.tokens.clone(),
+        Meta::Path(_) | Meta::NameValue(_) => TokenStream::new(),
+    }
+}
+
+fn is_punct(token: &TokenTree, character: char) -> bool {
+    matches!(token, TokenTree::Punct(punct) if punct.as_char() == character)
 }
 
 fn entries(attribute: &Attribute) -> syn::Result<Punctuated<Entry, Token![,]>> {
@@ -109,7 +176,21 @@ fn parse_entry(input: ParseStream<'_>) -> syn::Result<Entry> {
     if input.peek(Token![crate]) && input.peek2(Token![=]) {
         let token = input.parse()?;
         input.parse::<Token![=]>()?;
-        return Ok(Entry::Crate(token, Path::parse_mod_style(input)?));
+        let ahead = input.fork();
+        let path = Path::parse_mod_style(&ahead);
+        return match path {
+            Ok(path) if ahead.is_empty() || ahead.peek(Token![,]) => {
+                input.advance_to(&ahead);
+                Ok(Entry::Crate(token, path))
+            }
+            _ => Ok(Entry::WrongCrate(skip_entry(input)?)),
+        };
+    }
+    if input.peek(Ident::peek_any) && input.peek2(Token![=]) && !input.peek2(Token![==]) {
+        let name = Ident::parse_any(input)?;
+        input.parse::<Token![=]>()?;
+        input.parse::<Expr>()?;
+        return Ok(Entry::Option(name));
     }
     Ok(match input.parse()? {
         Expr::Closure(closure) => Entry::Closure(closure),
@@ -117,16 +198,35 @@ fn parse_entry(input: ParseStream<'_>) -> syn::Result<Entry> {
     })
 }
 
-fn read_laws(cx: &Ctxt, attribute: &Attribute) -> Vec<(Ident, Expr)> {
+/// Goes to the comma that ends an entry; a closure without a comma before it belongs to the entry.
+fn skip_entry(input: ParseStream<'_>) -> syn::Result<Span> {
+    let span = input.span();
+    let mut closure = false;
+    while !input.is_empty() && (closure || !input.peek(Token![,])) {
+        closure |= is_punct(&input.parse()?, '|');
+    }
+    Ok(span)
+}
+
+/// The laws of one attribute; nothing if they cannot be read.
+fn read_laws(cx: &Ctxt, attribute: &Attribute) -> Option<Vec<(Ident, Expr)>> {
+    if is_too_deep(cx, attribute) {
+        return None;
+    }
     match laws(attribute) {
         Ok(laws) if laws.is_empty() => {
             cx.error(attribute.path(), &message::empty_viscosity());
-            Vec::new()
+            None
         }
-        Ok(laws) => laws.into_iter().collect(),
+        Ok(laws) => Some(laws.into_iter().collect()),
         Err(error) => {
-            cx.error_at(error.span(), &message::unreadable_viscosity(&error));
-            Vec::new()
+            let message = if has_law(attribute) {
+                message::unreadable_formula(&error)
+            } else {
+                message::unreadable_viscosity(&error)
+            };
+            cx.error_at(error.span(), &message);
+            None
         }
     }
 }

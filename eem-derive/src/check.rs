@@ -4,6 +4,7 @@
 
 mod call;
 mod laws;
+mod names;
 mod parameters;
 mod resolve;
 mod roles;
@@ -13,27 +14,31 @@ use crate::ast::Input;
 use crate::checked::Checked;
 use crate::ctxt::Ctxt;
 
-/// Resolves all names and checks that the roles and the laws are complete. Nothing only if
-/// something was reported.
-pub(crate) fn check<'a>(cx: &Ctxt, input: &'a Input<'a>) -> Option<Checked<'a>> {
+/// Resolves all names and checks that the roles and the laws are complete.
+///
+/// What is wrong has been reported and is a hole in the result, so that the phases after this one
+/// can look at the rest.
+pub(crate) fn check<'a>(cx: &Ctxt, input: &'a Input<'a>) -> Checked<'a> {
     let variables = roles::variables(input);
     roles::check_stretch(cx, input);
     roles::check_counts(cx, input);
-    roles::check_distinct(cx, input);
-    let mut used = parameters::Used::none(&input.fields);
+    names::check_arguments(cx, input);
+    let mut used = parameters::Used::none(input);
     let energy = resolve::energy(cx, input, &variables, &mut used);
     let viscosities = laws::viscosities(cx, input, &variables, &mut used);
     laws::check_names(cx, input);
     laws::check_complete(cx, input);
-    let parameters = parameters::parameters(cx, input, &used);
+    let sound = used.is_complete() && roles::are_sound(input);
     let scalar = parameters::scalar(cx, input, &used);
-    Some(Checked {
+    parameters::check_used(cx, input, &used, scalar);
+    Checked {
         original: input.original,
         krate: input.krate,
         scalar,
-        parameters,
+        parameters: parameters::parameters(cx, input, &used),
         variables,
-        energy: energy?,
-        viscosities: viscosities?,
-    })
+        energy,
+        viscosities,
+        sound,
+    }
 }

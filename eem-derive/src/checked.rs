@@ -1,7 +1,8 @@
-//! A model whose names are resolved and whose roles and laws are complete.
+//! A model whose names are resolved.
 //!
-//! Output of the check phase: nothing in here can be wrong in a way that names, arguments or types
-//! could show. Indices are valid by construction.
+//! Output of the check phase. Indices are valid by construction. What names, arguments or types
+//! showed to be wrong has been reported and is a hole: [`ExprKind::Wrong`], or a dashpot without a
+//! law. If nothing has been reported, there are no holes, and roles and laws are complete.
 
 use eem_symbolic::{Function, Number};
 use proc_macro2::Ident;
@@ -22,8 +23,10 @@ pub(crate) struct Checked<'a> {
     pub(crate) variables: Vec<Variable<'a>>,
     /// The free energy.
     pub(crate) energy: Body<'a>,
-    /// One viscosity per dashpot, in the order of the dashpots.
-    pub(crate) viscosities: Vec<Body<'a>>,
+    /// One viscosity per dashpot, in the order of the dashpots; nothing where it is missing.
+    pub(crate) viscosities: Vec<Option<Body<'a>>>,
+    /// The roles are complete, and no expression has a hole: this is the model that was meant.
+    pub(crate) sound: bool,
 }
 
 /// The scalar that the implementation is for.
@@ -97,4 +100,6 @@ pub(crate) enum ExprKind<'a> {
     Powf(Box<Expr<'a>>, Box<Expr<'a>>),
     /// The derivative with respect to a variable.
     Diff(Box<Expr<'a>>, usize),
+    /// Something that has been reported, and the expressions in it.
+    Wrong(Vec<Expr<'a>>),
 }

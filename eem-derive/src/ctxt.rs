@@ -1,4 +1,4 @@
-//! Collects the errors of a phase, so that a user sees all of them at once.
+//! Collects the errors of all phases, so that a user sees them at once.
 
 use std::cell::RefCell;
 
@@ -10,7 +10,7 @@ use crate::message::Message;
 /// The errors found so far.
 ///
 /// Every phase takes a `&Ctxt`, reports what is wrong and goes on as far as it can; the end of
-/// the phase is a [`Ctxt::barrier`].
+/// the last phase is a [`Ctxt::barrier`].
 #[derive(Debug, Default)]
 pub(crate) struct Ctxt {
     errors: RefCell<Vec<syn::Error>>,
@@ -36,14 +36,25 @@ impl Ctxt {
         self.errors.borrow_mut().push(error);
     }
 
-    /// Ends a phase: its value if nothing was reported, otherwise all errors in one.
+    /// The value if nothing was reported, otherwise all errors in one, in the order of the source.
     pub(crate) fn barrier<T>(&self, value: Option<T>) -> syn::Result<T> {
-        let errors = self.errors.take();
+        let mut errors = self.errors.take();
+        // Stable: errors at one place stay in the order of the phases.
+        errors.sort_by_cached_key(|error| position(error.span()));
         match errors.into_iter().reduce(combined) {
             Some(error) => Err(error),
             None => Ok(value.unwrap_or_else(|| unreachable!("a phase without a value says why"))),
         }
     }
+}
+
+/// Line and column, where there is a compiler that knows them.
+fn position(span: Span) -> (usize, usize) {
+    if proc_macro::is_available() {
+        let span = span.unwrap();
+        return (span.line(), span.column());
+    }
+    (0, 0)
 }
 
 fn combined(mut first: syn::Error, second: syn::Error) -> syn::Error {

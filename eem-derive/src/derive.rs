@@ -1,24 +1,33 @@
-//! Runs the phases one after the other, with a barrier after each.
+//! Runs the phases one after the other, with one barrier before the code is written.
 
 use proc_macro2::TokenStream;
 use syn::DeriveInput;
 
 use crate::attr::Attributes;
 use crate::ctxt::Ctxt;
-use crate::{check, expand, fallback, model, parse};
+use crate::fallback::Shape;
+use crate::{check, expand, fallback, model, parse, physics, units};
 
-/// The implementation of the trait, or all errors of the first phase that found any together with
-/// an implementation that does nothing.
+/// The implementation of the trait, or the errors of all phases together with an implementation
+/// that does nothing.
+///
+/// A phase leaves a hole where it reported something, and the phases after it look at the rest.
 pub(crate) fn derive(input: &DeriveInput) -> TokenStream {
     let cx = Ctxt::new();
     let attributes = Attributes::from_syn(&cx, input);
-    try_derive(&cx, input, &attributes)
-        .unwrap_or_else(|error| fallback::expand(input, &attributes.krate, &error))
-}
-
-fn try_derive(cx: &Ctxt, input: &DeriveInput, attributes: &Attributes) -> syn::Result<TokenStream> {
-    let parsed = cx.barrier(parse::input(cx, input, attributes))?;
-    let checked = cx.barrier(check::check(cx, &parsed))?;
-    let model = cx.barrier(model::lower(cx, &checked))?;
-    Ok(expand::expand(&checked, &model))
+    let parsed = parse::input(&cx, input, &attributes);
+    let shape = parsed.as_ref().map_or_else(Shape::default, Shape::new);
+    let checked = parsed.as_ref().map(|parsed| check::check(&cx, parsed));
+    let model = checked.as_ref().and_then(|checked| {
+        let units = units::check(&cx, checked);
+        let model = model::lower(&cx, checked)?;
+        if checked.sound {
+            physics::check(&cx, checked, &model);
+        }
+        Some((model, units))
+    });
+    match cx.barrier(checked.as_ref().zip(model)) {
+        Ok((checked, (model, units))) => expand::expand(checked, &model, &units),
+        Err(error) => fallback::expand(input, &attributes.krate, shape, &error),
+    }
 }

@@ -1,15 +1,17 @@
-//! Expand phase: the programs of a model → one `impl FreeEnergy`.
+//! Expand phase: the programs of a model → one `impl FreeEnergy` and one `impl Describe`.
 //!
 //! Prints and decides nothing: which values exist, in which order and at which stage they are
 //! computed, is the business of [`eem_symbolic::Program`].
 
 mod constants;
+pub(crate) mod description;
 mod docs;
 mod forms;
 mod header;
 mod inputs;
 mod points;
 mod statements;
+mod together;
 
 use eem_symbolic::Model;
 use proc_macro2::TokenStream;
@@ -17,21 +19,25 @@ use quote::quote;
 use syn::Path;
 
 use crate::checked::Checked;
+use crate::units::Units;
 pub(crate) use header::Header;
 use inputs::Inputs;
 
-/// The implementation of the trait.
-pub(crate) fn expand(checked: &Checked<'_>, model: &Model) -> TokenStream {
+/// The implementations of the traits.
+pub(crate) fn expand(checked: &Checked<'_>, model: &Model, units: &Units) -> TokenStream {
     let header = Header::new(checked.original, checked.scalar);
     let programs = model.programs();
     let inputs = Inputs::new(checked, &header.scalar);
     let constants = constants::constants(checked, &programs, &inputs);
     let points = points::points(&programs, &inputs);
     let forms = forms::forms(&programs, &inputs);
-    let formulas = docs::formulas(checked, model);
+    let equations = description::equations(checked, &model.formulas());
+    let formulas = docs::formulas(checked, &equations, units);
+    let description = description::description(checked, model, &programs, &equations, units);
     let body = quote! { #constants #points #forms };
     let implementation = header.implementation(&body);
-    wrap(checked.krate, &quote! { #formulas #implementation })
+    let both = quote! { #formulas #implementation #description };
+    wrap(checked.krate, &both)
 }
 
 // Expands to: a scope of its own, in which `__eem` is the private module of the crate. Everything
@@ -40,6 +46,7 @@ pub(crate) fn expand(checked: &Checked<'_>, model: &Model) -> TokenStream {
 //     const _: () = {
 //         use ::eem::__private as __eem;
 //         impl __eem::FreeEnergy<f64> for Spring { … }
+//         impl __eem::Describe for Spring { … }
 //     };
 pub(crate) fn wrap(krate: &Path, implementation: &TokenStream) -> TokenStream {
     quote! {

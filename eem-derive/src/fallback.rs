@@ -1,42 +1,71 @@
 //! What a wrong model expands to: its errors, and an implementation that does nothing.
 //!
 //! Without the implementation every use of the type would add "the trait `FreeEnergy` is not
-//! implemented" to the one message that matters.
+//! implemented" to the messages that matter; with another shape than the closure says, every
+//! array of a state would add a mismatch.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use syn::{DeriveInput, Path};
 
+use crate::ast::{self, Input, Role};
 use crate::checked::Scalar;
-use crate::expand::{Header, wrap};
+use crate::expand::{Header, description, wrap};
+
+/// The numbers of variables that the closure declares, as far as it could be read.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Shape {
+    dashpots: usize,
+    thermal: bool,
+}
+
+impl Shape {
+    /// The shape of the model that was meant.
+    pub(crate) fn new(input: &Input<'_>) -> Self {
+        let count = |role| {
+            input
+                .arguments
+                .iter()
+                .filter(|a| a.role == Some(role))
+                .count()
+        };
+        Self {
+            dashpots: count(Role::Viscous),
+            thermal: count(Role::Temperature) > 0,
+        }
+    }
+}
 
 /// The errors and a stub.
-pub(crate) fn expand(input: &DeriveInput, krate: &Path, error: &syn::Error) -> TokenStream {
+pub(crate) fn expand(
+    input: &DeriveInput,
+    krate: &Path,
+    shape: Shape,
+    error: &syn::Error,
+) -> TokenStream {
     let errors = error.to_compile_error();
     let header = Header::new(input, Scalar::Any);
-    let stub = wrap(krate, &header.implementation(&body(&header.scalar)));
+    let implementation = header.implementation(&body(&header.scalar, shape));
+    let description = empty_description(input);
+    let stub = wrap(krate, &quote! { #implementation #description });
     quote! { #errors #stub }
 }
 
-// Expands to: the smallest model there can be, whose functions are never run because the program
-// does not compile.
-fn body(scalar: &TokenStream) -> TokenStream {
+// Expands to: a description without content.
+fn empty_description(input: &DeriveInput) -> TokenStream {
+    let name = ast::name(&input.ident);
+    let body = quote! {
+        const DESCRIPTION: __eem::Description = __eem::Description::new(#name);
+    };
+    description::implementation(input, &body)
+}
+
+// Expands to: a model whose functions are never run because the program does not compile.
+fn body(scalar: &TokenStream, shape: Shape) -> TokenStream {
+    let shape = constants(scalar, shape);
     let never = quote! { __eem::core::panic!("the free energy has errors") };
     quote! {
-        const MEASURES: __eem::core::primitive::usize = 1;
-        const DASHPOTS: __eem::core::primitive::usize = 0;
-        const THERMAL: __eem::core::primitive::bool = false;
-        const PARAMETERS: &'static [&'static __eem::core::primitive::str] = &[];
-
-        type Variables = [#scalar; 1];
-        type Hessian = [[#scalar; 1]; 1];
-        type Viscosities = [#scalar; 0];
-        type Corners = [#scalar; 0];
-        type Response = [#scalar; 1];
-        type Tangent = [[#scalar; 1]; 1];
-        type EntropyFormOld = [#scalar; 0];
-        type TemperatureFormOld = [#scalar; 0];
-
+        #shape
         fn parameter(&self, _: __eem::core::primitive::usize) -> #scalar { #never }
         fn free_energy(&self, _: &Self::Variables) -> #scalar { #never }
         fn internal_energy(&self, _: &Self::Variables) -> #scalar { #never }
@@ -58,5 +87,39 @@ fn body(scalar: &TokenStream) -> TokenStream {
             _: &Self::TemperatureFormOld,
             _: &Self::Variables,
         ) -> (Self::Response, Self::Tangent) { #never }
+    }
+}
+
+fn constants(scalar: &TokenStream, shape: Shape) -> TokenStream {
+    let Shape { dashpots, thermal } = shape;
+    let variables = 1 + dashpots + usize::from(thermal);
+    let array = |length: usize| {
+        let length = Literal::usize_unsuffixed(length);
+        quote!([#scalar; #length])
+    };
+    let matrix = |rows: usize| {
+        let (row, rows) = (array(variables), Literal::usize_unsuffixed(rows));
+        quote!([#row; #rows])
+    };
+    let corners = if thermal { 2 * (variables - 1) } else { 0 };
+    let responses = variables + usize::from(thermal);
+    let (state, hessian, viscosities) = (array(variables), matrix(variables), array(dashpots));
+    let (corners, nothing) = (array(corners), array(0));
+    let (response, tangent) = (array(responses), matrix(responses));
+    let dashpots = Literal::usize_unsuffixed(dashpots);
+    quote! {
+        const MEASURES: __eem::core::primitive::usize = 1;
+        const DASHPOTS: __eem::core::primitive::usize = #dashpots;
+        const THERMAL: __eem::core::primitive::bool = #thermal;
+        const PARAMETERS: &'static [&'static __eem::core::primitive::str] = &[];
+
+        type Variables = #state;
+        type Hessian = #hessian;
+        type Viscosities = #viscosities;
+        type Corners = #corners;
+        type Response = #response;
+        type Tangent = #tangent;
+        type EntropyFormOld = #nothing;
+        type TemperatureFormOld = #nothing;
     }
 }

@@ -3,17 +3,21 @@
 //! The input is a struct whose fields are the parameters of a material and whose attribute is its
 //! free energy; the output is one `impl FreeEnergy`. There is no mathematics in this crate. It
 //! reads tokens, checks them, hands a model to [`eem_symbolic`] and prints the programs that come
-//! back. The phases, each of which reports everything it finds before the next one starts:
+//! back. The phases:
 //!
 //! | phase | module | from → to |
 //! |---|---|---|
 //! | parse | `attr`, `parse` | tokens → `ast` |
 //! | check | `check` | `ast` → `checked`: names resolved, roles and laws complete |
-//! | model | `model` | `checked` → [`eem_symbolic::Model`] |
+//! | units | `units` | `checked` → the units of its fields, every operation in order |
+//! | model | `model` | `checked` → [`eem_symbolic::Model`]: every subexpression has a value |
+//! | physics | `physics` | the model can be one of a material |
 //! | expand | `expand` | programs → tokens |
 //!
-//! A phase that fails yields its errors and, from `fallback`, an implementation that does nothing,
-//! so that a wrong model causes one message and not twenty.
+//! A phase leaves a hole where it reports something, and the phases after it look at the rest: the
+//! mistakes of all phases come out together, and none of them causes a second message. Beside them
+//! stands an implementation that does nothing, from `fallback`, so that uses of a wrong model cause
+//! no messages either. `message` is the catalogue of all messages.
 
 mod ast;
 mod attr;
@@ -27,8 +31,10 @@ mod message;
 mod model;
 mod nearest;
 mod parse;
+mod physics;
 #[cfg(test)]
 mod tests;
+mod units;
 
 use proc_macro::TokenStream;
 use syn::{DeriveInput, parse_macro_input};
@@ -45,15 +51,25 @@ use syn::{DeriveInput, parse_macro_input};
 /// })]
 /// #[viscosity(gamma = eta_ref * exp(activation / theta))]
 /// pub struct Spring {
-///     pub natural_length: f64, // m
-///     pub stiffness: f64,      // J
-///     pub branch: f64,         // N/m
-///     pub capacity: f64,       // J/K
-///     pub theta_ref: f64,      // K
-///     pub eta_ref: f64,        // N s/m
-///     pub activation: f64,     // K
+///     #[unit("m")]
+///     pub natural_length: f64,
+///     #[unit("J")]
+///     pub stiffness: f64,
+///     #[unit("N/m")]
+///     pub branch: f64,
+///     #[unit("J/K")]
+///     pub capacity: f64,
+///     #[unit("K")]
+///     pub theta_ref: f64,
+///     #[unit("N s/m")]
+///     pub eta_ref: f64,
+///     #[unit("K")]
+///     pub activation: f64,
 /// }
 /// ```
+///
+/// Beside `FreeEnergy`, which the schemes use, this implements `Describe`: the formulas, units and
+/// operation counts of the model in print, `Spring::DESCRIPTION`.
 ///
 /// # Arguments
 ///
@@ -68,8 +84,9 @@ use syn::{DeriveInput, parse_macro_input};
 ///
 /// # Expressions
 ///
-/// * names: arguments, fields of type `f64`, `f32` or of a type parameter, and `let` bindings. An
-///   inner name hides an outer one as in Rust: `let` hides arguments, arguments hide fields.
+/// * names: arguments, fields of type `f64`, `f32` or of a type parameter, and `let` bindings. A
+///   name means one thing: no argument has the name of a field, and no `let` a name that can be seen
+///   where it stands.
 /// * numbers: `2`, `2.0`, `1e-3`, `1_000.0`, all exact: `1 / 2` is one half.
 /// * `+`, `-`, `*`, `/`, unary minus, parentheses, blocks with `let`.
 /// * `diff(expression, argument)`: the partial derivative, anywhere in an expression.
@@ -82,11 +99,60 @@ use syn::{DeriveInput, parse_macro_input};
 /// `#[viscosity(gamma = law)]`, one law per dashpot in N s/m, separated by commas or in several
 /// attributes. A law may use the temperature and the fields.
 ///
+/// # Units
+///
+/// `#[unit("J/K")]` on a field says what it is measured in. A model whose formulas use no field
+/// with a unit is not looked at; otherwise all fields that they use need one, and the compiler
+/// checks every operation and says which unit a field without one needs. Lengths and viscous
+/// stretches are in m, the temperature is in K, the free energy has to come out in J and a
+/// viscosity in N s/m.
+///
+/// | in a formula | is right if |
+/// |---|---|
+/// | `a + b`, `a - b` | `a` and `b` have the same unit |
+/// | `exp(x)`, `ln(x)`, `sin(x)` … | `x` is a pure number |
+/// | `x.powi(n)`, `x.powf(y)` | the exponent is a pure number, and one that is written out unless `x` is a pure number, too |
+/// | a number | a pure number; zero has any unit |
+///
+/// All others multiply and divide units; `diff(e, x)` has the unit of `e/x`. Exponents are exact
+/// rationals.
+///
+/// A unit is a product of symbols: `N s/m`, `kg*m^2/(s^2 K)`, `J·K⁻¹`, `m^(1/2)`, `1/s`, and `1` for a
+/// pure number. Known are the units of the SI (`rad` and `sr` are 1, `ohm` stands for Ω), with
+/// their prefixes, and `min`, `h`, `d`, `L`, `t`, `bar`. What can be read in two ways is refused:
+/// write `J/(kg K)`, not `J/kg K`, and `m^2`, not `m2`.
+///
+/// Prefixes are factors of the value, and a formula works with values: 5 kN/m times 2 m is 10 only in
+/// kN. That is why the scale of a unit counts as the rest of it does, numbers in a formula do not
+/// stand for prefixes, and a field in mm cannot be added to a length in m: give it in m, or multiply
+/// it by a field in `m/mm`, of value 0.001.
+///
+/// # Fields that are no parameters
+///
+/// Fields of other types may be there for any purpose. A number that neither the free energy nor a
+/// viscosity uses is an error, because a parameter without effect is most often a term that was
+/// forgotten. `#[free_energy(unused)]` on the field says that it is no parameter; a name that
+/// starts with an underscore says so too.
+///
+/// # What is refused
+///
+/// Everything wrong with a model is a compile-time error at the token that is wrong, with a line
+/// that says what to write instead. Beside syntax, names and arguments of functions these are
+///
+/// * constants that do not fit an `f64`, divisors that are zero, and arguments outside of the domain
+///   of a function: `ln(-1)`, `sqrt(-lambda)`;
+/// * a free energy that does not depend on one of its arguments, or is linear in the temperature:
+///   its heat capacity `c = -θ ∂²ψ/∂θ²` is zero, and no temperature belongs to an entropy;
+/// * a heat capacity or a viscosity that is nowhere positive.
+///
+/// These follow from the formulas alone, given that lengths and temperatures are positive. What
+/// depends on the values of the parameters shows only at run time.
+///
 /// # Another path to the crate
 ///
-/// `#[free_energy(crate = path)]`, alone or in front of the closure, for a renamed or re-exported
+/// `#[free_energy(crate = path)]`, alone or beside the closure, for a renamed or re-exported
 /// `eem`.
-#[proc_macro_derive(FreeEnergy, attributes(free_energy, viscosity))]
+#[proc_macro_derive(FreeEnergy, attributes(free_energy, viscosity, unit))]
 pub fn derive_free_energy(input: TokenStream) -> TokenStream {
     let input = parse_macro_input!(input as DeriveInput);
     derive::derive(&input).into()

@@ -1,16 +1,19 @@
 //! Model phase: [`checked`](crate::checked) → [`eem_symbolic::Model`].
 //!
 //! A fold that calls one constructor of the graph per node. What can be wrong here shows only once
-//! the expressions exist: exponents, dependences and values of constants.
+//! the expressions exist: exponents, dependences and domains.
 
-use eem_symbolic::{ExprId, F64, Graph, Model, Number, Symbol, diff, schedule};
+mod domain;
+mod smooth;
+
+use eem_symbolic::{ExprId, Graph, Model, Number, Symbol, diff};
 
 use crate::ast::{self, Operator, Role};
 use crate::checked::{Body, Checked, Expr, ExprKind};
 use crate::ctxt::Ctxt;
 use crate::message::expression as message;
 
-/// Builds the model. Nothing only if something was reported.
+/// Builds the model. Nothing only if something was reported, here or before.
 pub(crate) fn lower(cx: &Ctxt, checked: &Checked<'_>) -> Option<Model> {
     let mut graph = Graph::new();
     let variables = checked.variables.iter();
@@ -30,7 +33,8 @@ pub(crate) fn lower(cx: &Ctxt, checked: &Checked<'_>) -> Option<Model> {
         bindings: Vec::new(),
     };
     let psi = lowering.body(&checked.energy);
-    let viscosities = checked.viscosities.iter().map(|law| lowering.body(law));
+    let laws = checked.viscosities.iter();
+    let viscosities = laws.map(|law| lowering.body(law.as_ref()?));
     let viscosities: Vec<Option<ExprId>> = viscosities.collect();
     Some(Model {
         measures: lowering.of_role(Role::Stretch),
@@ -71,45 +75,10 @@ impl Lowering<'_> {
         self.expr(&body.value)
     }
 
+    /// The expression in the graph; nothing if something in it was reported.
     fn expr(&mut self, expr: &Expr<'_>) -> Option<ExprId> {
         let value = self.value(expr)?;
-        self.check_finite(expr, value)
-    }
-
-    /// A constant outside of the domain of a function has no value: `ln(-1)`, `1 / 0`.
-    fn check_finite(&self, expr: &Expr<'_>, value: ExprId) -> Option<ExprId> {
-        if self
-            .constant(value)
-            .is_some_and(|constant| !constant.is_finite())
-        {
-            self.cx.error(expr.original, &message::not_finite());
-            return None;
-        }
-        Some(value)
-    }
-
-    fn check_divisor(&self, expr: &Expr<'_>, value: ExprId) -> Option<ExprId> {
-        if self
-            .constant(value)
-            .is_some_and(|constant| !constant.recip().is_finite())
-        {
-            self.cx.error(expr.original, &message::divisor_is_zero());
-            return None;
-        }
-        Some(value)
-    }
-
-    /// The value of an expression, if there are no symbols in it.
-    fn constant(&self, e: ExprId) -> Option<f64> {
-        if let Some(number) = self.graph.as_number(e) {
-            return Some(number.to_f64());
-        }
-        let mut symbols = self.variables.iter().chain(&self.parameters);
-        if symbols.any(|&symbol| self.graph.depends_on(e, symbol)) {
-            return None;
-        }
-        let program = schedule(&self.graph, Vec::new(), &[e]);
-        program.interpret(&F64, &[]).first().copied()
+        self.check_size(expr, value)
     }
 
     fn value(&mut self, expr: &Expr<'_>) -> Option<ExprId> {
@@ -128,26 +97,42 @@ impl Lowering<'_> {
             }
             ExprKind::Binary(operator, left, right) => self.binary(*operator, left, right)?,
             ExprKind::Sqrt(inner) => {
-                let inner = self.expr(inner)?;
-                self.graph.sqrt(inner)
+                let value = self.expr(inner)?;
+                self.check_root(inner, value)?;
+                self.check_square(inner, value)?;
+                self.graph.sqrt(value)
             }
             ExprKind::Recip(inner) => {
-                let inner = self.expr(inner)?;
-                self.graph.recip(inner)
+                let value = self.expr(inner)?;
+                self.check_divisor(inner, value)?;
+                self.graph.recip(value)
             }
             ExprKind::Abs(token, inner) => self.abs(token, inner)?,
             ExprKind::Apply(function, inner) => {
-                let inner = self.expr(inner)?;
-                self.graph.apply(*function, inner)
+                let value = self.expr(inner)?;
+                self.check_argument(*function, inner, value)?;
+                self.graph.apply(*function, value)
             }
             ExprKind::Powi(base, exponent) => self.powi(base, exponent)?,
             ExprKind::Powf(base, exponent) => {
-                let (base, exponent) = (self.expr(base), self.expr(exponent));
-                self.graph.power(base?, exponent?)
+                let (value, exponent) = (self.expr(base), self.expr(exponent));
+                let (value, exponent) = (value?, exponent?);
+                self.check_base(base, value, exponent)?;
+                if self.graph.as_number(exponent) == Some(Number::HALF) {
+                    self.check_square(base, value)?;
+                }
+                self.graph.power(value, exponent)
             }
             ExprKind::Diff(inner, variable) => {
-                let inner = self.expr(inner)?;
-                diff(&mut self.graph, inner, self.variables[*variable])
+                let value = self.expr(inner)?;
+                self.check_derivative(inner, value)?;
+                diff(&mut self.graph, value, self.variables[*variable])
+            }
+            ExprKind::Wrong(parts) => {
+                for part in parts {
+                    self.expr(part);
+                }
+                return None;
             }
         })
     }
@@ -155,10 +140,10 @@ impl Lowering<'_> {
     fn binary(&mut self, operator: Operator, left: &Expr<'_>, right: &Expr<'_>) -> Option<ExprId> {
         let divisor = right;
         let (left, right) = (self.expr(left), self.expr(right));
-        let (left, right) = (left?, right?);
-        if operator == Operator::Divide {
+        if let (Operator::Divide, Some(right)) = (operator, right) {
             self.check_divisor(divisor, right)?;
         }
+        let (left, right) = (left?, right?);
         Some(match operator {
             Operator::Add => self.graph.add(left, right),
             Operator::Subtract => self.graph.sub(left, right),
@@ -167,30 +152,28 @@ impl Lowering<'_> {
         })
     }
 
-    /// |x| has no derivative at zero, so that only parameters may be inside.
-    fn abs(&mut self, token: &syn::Ident, inner: &Expr<'_>) -> Option<ExprId> {
-        let inner = self.expr(inner)?;
-        for (variable, &symbol) in self.checked.variables.iter().zip(&self.variables) {
-            if self.graph.depends_on(inner, symbol) {
-                let name = ast::name(variable.ident);
-                self.cx.error(token, &message::abs_of_state(&name));
+    fn powi(&mut self, base: &Expr<'_>, exponent: &Expr<'_>) -> Option<ExprId> {
+        let (value, power) = (self.expr(base), self.expr(exponent));
+        let integer = match self.graph.as_number(power?) {
+            Some(Number::Exact(power)) if power.is_integer() => Ok(power.to_i32()),
+            Some(Number::Exact(_) | Number::Float(_)) | None => Err(()),
+        };
+        let n = match integer {
+            Ok(Some(n)) => n,
+            Ok(None) => {
+                let message = message::exponent_is_too_large();
+                self.cx.error(exponent.original, &message);
                 return None;
             }
-        }
-        Some(self.graph.apply(eem_symbolic::Function::Abs, inner))
-    }
-
-    fn powi(&mut self, base: &Expr<'_>, exponent: &Expr<'_>) -> Option<ExprId> {
-        let (base, value) = (self.expr(base), self.expr(exponent));
-        let (base, value) = (base?, value?);
-        let integer = match self.graph.as_number(value) {
-            Some(Number::Exact(rational)) => rational.to_i32(),
-            Some(Number::Float(_)) | None => None,
+            Err(()) => {
+                let message = message::exponent_is_not_an_integer();
+                self.cx.error(exponent.original, &message);
+                return None;
+            }
         };
-        if integer.is_none() {
-            let message = message::exponent_is_not_an_integer();
-            self.cx.error(exponent.original, &message);
+        if n < 0 {
+            self.check_divisor(base, value?)?;
         }
-        Some(self.graph.powi(base, integer?))
+        Some(self.graph.powi(value?, n))
     }
 }

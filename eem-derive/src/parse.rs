@@ -1,7 +1,7 @@
 //! Parse phase: syntax trees → [`ast`](crate::ast).
 //!
-//! Refuses everything a free energy cannot contain, at the token that is in the way. What comes
-//! out is complete; whether the names in it mean something is the question of the check phase.
+//! Refuses everything a free energy cannot contain, at the token that is in the way. Whether the
+//! names mean something is the question of the check phase.
 
 mod block;
 mod closure;
@@ -16,38 +16,32 @@ use crate::ast::{Input, Law};
 use crate::attr::Attributes;
 use crate::ctxt::Ctxt;
 
-/// Reads a whole item. Nothing only if something was reported.
+/// Reads a whole item. Nothing only if there is no closure to read, which has been reported.
 pub(crate) fn input<'a>(
     cx: &Ctxt,
     input: &'a DeriveInput,
     attributes: &'a Attributes,
 ) -> Option<Input<'a>> {
     let fields = item::fields(cx, input);
-    let laws = laws(cx, attributes);
+    let laws = attributes.laws.iter();
+    let laws = laws.map(|(dashpot, value)| Law {
+        dashpot,
+        value: expr::expr(cx, value),
+    });
+    let laws = laws.collect();
     let closure = attributes.closure.as_ref()?;
     let arguments = closure::arguments(cx, closure);
-    let energy = closure::body(cx, closure);
+    let arguments_complete = arguments.len() == closure.inputs.len()
+        && arguments.iter().all(|argument| argument.role.is_some());
     Some(Input {
         original: input,
         krate: &attributes.krate,
-        fields: fields?,
+        fields,
         arguments,
-        energy: energy?,
+        arguments_complete,
+        energy: closure::body(cx, closure),
         closure,
         laws,
+        laws_complete: attributes.laws_complete,
     })
-}
-
-fn laws<'a>(cx: &Ctxt, attributes: &'a Attributes) -> Vec<Law<'a>> {
-    let law = |(dashpot, value)| {
-        Some(Law {
-            dashpot,
-            value: expr::expr(cx, value)?,
-        })
-    };
-    let pairs = attributes
-        .laws
-        .iter()
-        .map(|(dashpot, value)| (dashpot, value));
-    pairs.filter_map(law).collect()
 }

@@ -5,6 +5,8 @@ use quote::quote;
 use syn::{DeriveInput, parse_quote};
 
 mod golden;
+mod mutation;
+mod units;
 
 /// The expansion of an item.
 fn expand(item: TokenStream) -> TokenStream {
@@ -34,8 +36,8 @@ fn spring() -> TokenStream {
     }
 }
 
-/// The thermo-visco-elastic pendulum of García Orden & Romero (2012), §4.1.
-fn pendulum() -> TokenStream {
+/// The thermo-visco-elastic pendulum of García Orden & Romero (2012), §4.1, and its units.
+pub(crate) fn pendulum() -> TokenStream {
     quote! {
         #[free_energy(|lambda: Stretch, gamma: Viscous, theta: Temperature| {
             let strain = ln(lambda / length);
@@ -47,17 +49,17 @@ fn pendulum() -> TokenStream {
         })]
         #[viscosity(gamma = eta0 * exp(activation * (1.0 / theta - 1.0 / theta_ref)))]
         struct Pendulum {
-            length: f64,
-            k0: f64,
-            k1: f64,
-            ratio: f64,
-            beta: f64,
-            capacity: f64,
-            mu0: f64,
-            mu1: f64,
-            eta0: f64,
-            activation: f64,
-            theta_ref: f64,
+            #[unit("m")] length: f64,
+            #[unit("J")] k0: f64,
+            #[unit("J/K")] k1: f64,
+            #[unit("1")] ratio: f64,
+            #[unit("J/K")] beta: f64,
+            #[unit("J/K")] capacity: f64,
+            #[unit("N/m")] mu0: f64,
+            #[unit("N/(m K)")] mu1: f64,
+            #[unit("N s/m")] eta0: f64,
+            #[unit("K")] activation: f64,
+            #[unit("K")] theta_ref: f64,
         }
     }
 }

@@ -5,7 +5,7 @@ use core::fmt::{self, Debug};
 
 use crate::error::SceneError;
 use crate::free_energy::FreeEnergy;
-use crate::group::{ElementGroup, Group, Placed};
+use crate::group::{ElementGroup, Group, Placed, StageGroup, ThreeStageGroup};
 use crate::handle::Element;
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
@@ -31,7 +31,15 @@ pub(crate) trait Blueprint<S: Real, const D: usize>: Any + Debug + Send + Sync {
     /// All parameters of the element at `place` are finite.
     fn check_parameters(&self, place: usize, element: Element) -> Result<(), SceneError>;
     /// The elements, ready to be stepped by `scheme`.
-    fn build(self: Box<Self>, scheme: Scheme, placed: Placed<'_>) -> Box<dyn Group<S, D>>;
+    fn build(self: Box<Self>, scheme: Scheme, placed: Placed<'_>) -> Built<S, D>;
+}
+
+/// A group of elements, ready to be stepped.
+pub(crate) enum Built<S: Real, const D: usize> {
+    /// With one set of forces per step.
+    AtOnce(Box<dyn Group<S, D>>),
+    /// Through three stages.
+    InStages(Box<dyn StageGroup<S, D>>),
 }
 
 /// Elements of the model `M` with the kinematics `K`.
@@ -102,7 +110,7 @@ where
         Ok(())
     }
 
-    fn build(self: Box<Self>, scheme: Scheme, placed: Placed<'_>) -> Box<dyn Group<S, D>> {
+    fn build(self: Box<Self>, scheme: Scheme, placed: Placed<'_>) -> Built<S, D> {
         let Self { kinematics, models } = *self;
         match scheme {
             Scheme::EemEntropy | Scheme::Staggered => {
@@ -112,6 +120,9 @@ where
                 boxed::<S, M, K, EemTemperature, D>(kinematics, models, placed)
             }
             Scheme::Variational => boxed::<S, M, K, Variational, D>(kinematics, models, placed),
+            Scheme::Variational4 => Built::InStages(Box::new(ThreeStageGroup::<S, M, K, D>::new(
+                kinematics, models, placed,
+            ))),
             Scheme::MidpointTemperature => {
                 boxed::<S, M, K, MidpointTemperature, D>(kinematics, models, placed)
             }
@@ -129,14 +140,14 @@ fn boxed<S, M, K, C, const D: usize>(
     kinematics: K,
     models: Vec<(Element, M)>,
     placed: Placed<'_>,
-) -> Box<dyn Group<S, D>>
+) -> Built<S, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    Box::new(ElementGroup::<S, M, K, C, D>::new(
+    Built::AtOnce(Box::new(ElementGroup::<S, M, K, C, D>::new(
         kinematics, models, placed,
-    ))
+    )))
 }

@@ -74,6 +74,11 @@ pub struct Caloric<S> {
 ///
 /// with the symmetrised partitioned discrete derivatives D of García Orden &
 /// Romero (2012), eq. (28). A model without temperature has `D ψ` instead.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no free energy in the scalar `{S}`",
+    label = "no material for `{S}`",
+    note = "write `#[derive(FreeEnergy)]` and `#[free_energy(|lambda: Stretch| …)]` on top of the struct"
+)]
 pub trait FreeEnergy<S: Scalar> {
     /// Number of measures of the deformation, M.
     const MEASURES: usize;
@@ -119,6 +124,19 @@ pub trait FreeEnergy<S: Scalar> {
     /// Entropy and heat capacity; zero without temperature.
     fn caloric(&self, x: &Self::Variables) -> Caloric<S>;
 
+    /// [`caloric`](Self::caloric) as a function of the temperature, with the other variables of
+    /// `x`: for inversions, which evaluate it several times. What does not depend on the temperature
+    /// is computed once. The results of both differ by rounding.
+    fn caloric_at(&self, x: Self::Variables) -> impl Fn(S) -> Caloric<S> {
+        move |theta| {
+            let mut x = x;
+            if let Some(last) = x.as_mut().last_mut() {
+                *last = theta;
+            }
+            self.caloric(&x)
+        }
+    }
+
     /// `∂²s/∂x²`, what the ordinary rules in temperature variables need for their tangent; zero
     /// without temperature.
     fn entropy_hessian(&self, x: &Self::Variables) -> Self::Hessian;
@@ -142,6 +160,17 @@ pub trait FreeEnergy<S: Scalar> {
         corners: &Self::Corners,
     ) -> (Self::Response, Self::Tangent);
 
+    /// The response of [`entropy_form`](Self::entropy_form) without the tangent: the same bits, for
+    /// less work.
+    fn entropy_form_response(
+        &self,
+        old: &Self::EntropyFormOld,
+        x1: &Self::Variables,
+        corners: &Self::Corners,
+    ) -> Self::Response {
+        self.entropy_form(old, x1, corners).0
+    }
+
     /// What [`temperature_form`](Self::temperature_form) needs of the old state.
     fn temperature_form_old(&self, x0: &Self::Variables) -> Self::TemperatureFormOld;
 
@@ -153,4 +182,14 @@ pub trait FreeEnergy<S: Scalar> {
         old: &Self::TemperatureFormOld,
         x1: &Self::Variables,
     ) -> (Self::Response, Self::Tangent);
+
+    /// The response of [`temperature_form`](Self::temperature_form) without the tangent: the same
+    /// bits, for less work.
+    fn temperature_form_response(
+        &self,
+        old: &Self::TemperatureFormOld,
+        x1: &Self::Variables,
+    ) -> Self::Response {
+        self.temperature_form(old, x1).0
+    }
 }

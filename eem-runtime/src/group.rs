@@ -21,6 +21,7 @@ mod member;
 mod pose;
 mod settle;
 mod site;
+mod stages;
 mod view;
 
 use crate::error::StateError;
@@ -36,10 +37,26 @@ pub(crate) use generic::ElementGeneric;
 use member::Member;
 pub(crate) use pose::points;
 use site::{Contact, Site};
+pub(crate) use stages::{StageGroup, StageTrial, StageView, ThreeStageGroup};
 pub(crate) use view::{Along, ElementView, GroupTotals, Old, Placed, Sites, StepView, Trial};
 
+/// Elements of one model in a state, whatever steps them.
+pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
+    /// Entropies of an initial state whose temperatures are given.
+    fn initialize(&mut self, state: &mut State<S>) -> Result<(), StateError>;
+
+    /// Energy and entropy, from their definitions.
+    fn totals(&self, state: &State<S>) -> GroupTotals<S>;
+
+    /// What the elements contribute to the GENERIC form in a state.
+    fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>>;
+
+    /// The element at `place` in a state.
+    fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S>;
+}
+
 /// Elements of one model, whatever model, kinematics and scheme are.
-pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
+pub(crate) trait Group<S: Real, const D: usize>: Elements<S, D> {
     /// Learns where its elements write in the global systems; once per scene.
     fn connect(&mut self, sites: &Sites<'_, S, D>);
 
@@ -95,20 +112,8 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
         next: &mut State<S>,
     ) -> Result<(), StateError>;
 
-    /// Entropies of an initial state whose temperatures are given.
-    fn initialize(&mut self, state: &mut State<S>) -> Result<(), StateError>;
-
-    /// Energy and entropy, from their definitions.
-    fn totals(&self, state: &State<S>) -> GroupTotals<S>;
-
-    /// What the elements contribute to the GENERIC form in a state.
-    fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>>;
-
     /// What they contributed to the discrete GENERIC form of the last step, between two states.
     fn generic_of_step(&self, ends: [&State<S>; 2]) -> Vec<ElementGeneric<S>>;
-
-    /// The element at `place` in a state.
-    fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S>;
 }
 
 /// Elements of the model `M` with the kinematics `K`, stepped by the scheme `C`.
@@ -141,6 +146,30 @@ where
             members: members.collect(),
             contacts: Vec::new(),
         }
+    }
+}
+
+impl<S, M, K, C, const D: usize> Elements<S, D> for ElementGroup<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    fn initialize(&mut self, state: &mut State<S>) -> Result<(), StateError> {
+        self.initialize_all(state)
+    }
+
+    fn totals(&self, state: &State<S>) -> GroupTotals<S> {
+        self.sum(state)
+    }
+
+    fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>> {
+        self.generic_in_all(state)
+    }
+
+    fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {
+        self.inspect_at(place, state)
     }
 }
 
@@ -226,24 +255,8 @@ where
         self.close_all(view, trial, next)
     }
 
-    fn initialize(&mut self, state: &mut State<S>) -> Result<(), StateError> {
-        self.initialize_all(state)
-    }
-
-    fn totals(&self, state: &State<S>) -> GroupTotals<S> {
-        self.sum(state)
-    }
-
-    fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>> {
-        self.generic_in_all(state)
-    }
-
     fn generic_of_step(&self, ends: [&State<S>; 2]) -> Vec<ElementGeneric<S>> {
         self.generic_of_step_all(ends)
-    }
-
-    fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {
-        self.inspect_at(place, state)
     }
 }
 

@@ -11,6 +11,7 @@
 mod error;
 mod point;
 mod search;
+mod warm;
 
 use crate::free_energy::Caloric;
 use crate::scalar::Real;
@@ -18,6 +19,7 @@ use crate::scalar::Real;
 pub use error::InversionError;
 use point::Point;
 use search::Search;
+use warm::Warm;
 
 /// A temperature found by [`invert`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,14 +85,29 @@ pub fn invert<S: Real>(
             start: start.to_f64(),
         });
     }
-    let first = Point::new(start.ln(), start, evaluate(start), entropy);
+    match warm::start(&mut evaluate, entropy, start) {
+        Warm::Found(inversion) => Ok(inversion),
+        Warm::Cold(first, evaluations) => cold(evaluate, entropy, start, first, evaluations),
+    }
+}
+
+/// The search from a start that is not known to be close; `first` is the entropy there.
+#[cold]
+fn cold<S: Real>(
+    mut evaluate: impl FnMut(S) -> Caloric<S>,
+    entropy: S,
+    start: S,
+    first: Caloric<S>,
+    evaluations: usize,
+) -> Result<Inversion<S>, InversionError> {
+    let first = Point::new(start.ln(), start, first, entropy);
     if !first.stable() {
         return Err(InversionError::UnstableStart {
             start: start.to_f64(),
             heat_capacity: first.heat_capacity.to_f64(),
         });
     }
-    let mut search = Search::new(entropy, first);
+    let mut search = Search::new(entropy, first, evaluations);
     while !search.converged() {
         let mut step = search.step();
         loop {

@@ -4,7 +4,7 @@
 
 use nalgebra::SVector;
 
-use crate::group::Group;
+use crate::group::Elements;
 use crate::kernel::two_sum;
 use crate::scalar::Real;
 use crate::state::State;
@@ -54,10 +54,10 @@ pub struct Ledger<S: Real, const D: usize> {
 
 impl<S: Real, const D: usize> Ledger<S, D> {
     /// The balance sheet of a state.
-    pub(crate) fn of(
+    pub(crate) fn of<'a>(
         state: &State<S>,
         masses: &[Option<S>],
-        groups: &[Box<dyn Group<S, D>>],
+        groups: impl Iterator<Item = &'a dyn Elements<S, D>>,
         reservoirs: &[S],
         gravity: &SVector<S, D>,
     ) -> Self {

@@ -20,6 +20,7 @@
 //!
 //! Index 0 is the old, 1 the new state of a step, `m` their mean, `*` an algorithmic quantity.
 
+pub mod describe;
 pub mod kernel;
 pub mod kinematics;
 
@@ -27,6 +28,8 @@ mod blueprint;
 mod checkpoint;
 mod compensated;
 mod conduction;
+mod domain;
+mod ensemble;
 mod error;
 mod free_energy;
 mod group;
@@ -50,6 +53,9 @@ mod state;
 mod system;
 
 pub use checkpoint::{Checkpoint, RestoreError};
+pub use describe::{Describe, Description};
+pub use domain::{Domain, DomainError, DomainPoint, DomainReport, Least, check_domain};
+pub use ensemble::{Ensemble, MemberError, MemberFailure};
 pub use error::{NewtonIteration, SceneError, StateError, StepError, StepFailure};
 pub use free_energy::{Array, Caloric, Entry, FreeEnergy};
 pub use handle::{Element, HeatPartner, Node, Reservoir};

@@ -1,7 +1,8 @@
 //! What acts on a scene from outside: forces, moved anchors, prescribed temperatures.
 //!
 //! The forces of a step are constant over it, so that their work `F·Δq` is exact; a moved anchor
-//! does the work of the force it needs; a thermostat gives the heat that its element needs.
+//! does the work of the force it needs; a thermostat gives the heat that its element needs. A scheme with
+//! stages evaluates them at the time of each, as steps of no length.
 
 use std::collections::BTreeSet;
 
@@ -104,6 +105,7 @@ impl<S: Real> StepLoads<S> {
     /// Evaluates the loads of the step from `time` by `step` at the positions `q0`.
     ///
     /// A force of time is taken in the middle of the step; the trapezoidal rule takes the mean of both ends.
+    /// A step of no length evaluates everything at one time.
     pub(crate) fn evaluate<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,

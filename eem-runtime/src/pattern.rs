@@ -130,6 +130,23 @@ impl Pattern {
         })
     }
 
+    /// The pattern with each unknown twice, first all of them, then all again: every copy of a row
+    /// has both copies of its columns.
+    pub(crate) fn doubled(&self) -> Self {
+        let unknowns = self.unknowns();
+        Self::new(2 * unknowns, |pair| {
+            for row in 0..unknowns {
+                for &column in self.row(row) {
+                    let column = column as usize;
+                    for shift in [0, unknowns] {
+                        pair(row, column + shift);
+                        pair(row + unknowns, column + shift);
+                    }
+                }
+            }
+        })
+    }
+
     /// Number of rows and of columns.
     pub(crate) fn unknowns(&self) -> usize {
         self.starts.len() - 1
@@ -154,7 +171,6 @@ impl Pattern {
     }
 
     /// The columns of a row, ascending.
-    #[cfg(test)]
     pub(crate) fn row(&self, row: usize) -> &[u32] {
         &self.columns[self.starts[row]..self.starts[row + 1]]
     }
@@ -182,6 +198,13 @@ mod tests {
         assert_eq!((pattern.unknowns(), pattern.entries()), (3, 7));
         assert_eq!(pattern.row(0), [0, 1, 2]);
         assert_eq!(pattern.row(1), [0, 1]);
+        assert_eq!(pattern.row(2), [0, 2]);
+    }
+    #[test]
+    fn a_doubled_pattern_has_every_entry_four_times() {
+        let pattern = Pattern::new(2, []).doubled();
+        assert_eq!(pattern.unknowns(), 4);
+        assert_eq!(pattern.row(1), [1, 3]);
         assert_eq!(pattern.row(2), [0, 2]);
     }
 }

@@ -9,11 +9,11 @@ mod run;
 
 use core::fmt;
 
-use crate::blueprint::Shape;
+use crate::blueprint::{Built, Shape};
 use crate::compensated::{Compensated, Sum};
 use crate::conduction::Conduction;
 use crate::error::{SceneError, StepError, StepFailure};
-use crate::group::{Group, Placed, StepView};
+use crate::group::{Group, Placed, StageView, StepView};
 use crate::handle::SceneId;
 use crate::layout::Layout;
 use crate::loads::{Loads, StepLoads};
@@ -21,7 +21,7 @@ use crate::newton::{NewtonSettings, StepReport};
 use crate::scalar::Real;
 use crate::scene::{Scene, is_positive};
 use crate::scheme::{Phase, Scheme};
-use crate::solver::Solver;
+use crate::solver::{Effort, Solver, Staged};
 use crate::state::{Past, State};
 
 pub use generic::Generic;
@@ -43,6 +43,31 @@ macro_rules! view {
 }
 use view;
 
+/// What the elements share during the next step through stages; borrows only the fields that it names.
+macro_rules! stage_view {
+    ($simulation:ident, $loads:expr) => {
+        StageView {
+            step: $simulation.step,
+            state: &$simulation.state,
+            conduction: &$simulation.conduction,
+            loads: &$loads,
+            masses: &$simulation.masses,
+        }
+    };
+}
+use stage_view;
+
+/// How hard the next step tries; borrows only the solver.
+macro_rules! effort {
+    ($simulation:ident) => {
+        Effort {
+            settings: $simulation.solver.settings,
+            history: &mut $simulation.solver.history,
+        }
+    };
+}
+use effort;
+
 /// A scene that is stepped through time by one scheme.
 ///
 /// A step either succeeds, or returns an error and leaves everything as it was.
@@ -55,6 +80,8 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     places: Vec<(usize, usize)>,
     shapes: Vec<Shape>,
     groups: Vec<Box<dyn Group<S, D>>>,
+    /// The groups and the solver of a scheme with stages; then `groups` is empty.
+    staged: Option<Staged<S, D>>,
     layout: Layout,
     conduction: Conduction<S>,
     loads: Loads<S, D>,
@@ -107,14 +134,30 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             nodes: &scene.elements,
             layout: &layout,
         };
-        let blueprints = scene.groups.into_iter();
-        let mut groups: Vec<_> = blueprints
-            .map(|blueprint| blueprint.build(scheme, placed))
-            .collect();
-        for group in &mut groups {
-            group.initialize(&mut state)?;
+        let (mut groups, mut stage_groups) = (Vec::new(), Vec::new());
+        for blueprint in scene.groups {
+            match blueprint.build(scheme, placed) {
+                Built::AtOnce(mut group) => {
+                    group.initialize(&mut state)?;
+                    groups.push(group);
+                }
+                Built::InStages(mut group) => {
+                    group.initialize(&mut state)?;
+                    stage_groups.push(group);
+                }
+            }
         }
         let elements = &scene.elements;
+        let staged = (scheme == Scheme::Variational4).then(|| {
+            Staged::new(
+                stage_groups,
+                &masses,
+                elements,
+                &layout,
+                &conduction,
+                &scene.loads,
+            )
+        });
         let solver = Solver::new(scheme, &masses, elements, &layout, &conduction);
         for group in &mut groups {
             group.connect(&solver.sites(&layout, &conduction));
@@ -128,6 +171,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             places,
             shapes,
             groups,
+            staged,
             layout,
             conduction,
             loads: scene.loads,
@@ -150,6 +194,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.has_stepped = false;
         self.solver.restart();
         let done = self.evaluate_loads().and_then(|()| {
+            if let Some(staged) = &mut self.staged {
+                let view = stage_view!(self, staged.loads);
+                let (groups, mut effort) = (&mut staged.groups, effort!(self));
+                let solver = &mut staged.solver;
+                return solver.solve(groups, &view, &mut effort, &mut self.next);
+            }
             if self.scheme != Scheme::Staggered {
                 let view = view!(self, Phase::Whole, &self.state);
                 return self.solver.solve(&mut self.groups, &view, &mut self.next);
@@ -180,6 +230,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let span = [self.time(), self.step];
         let (masses, layout) = (&self.masses, &self.layout);
         let positions = self.state.positions.values();
+        if let Some(staged) = &mut self.staged {
+            return staged.evaluate_loads(&self.loads, masses, layout, span, positions);
+        }
         self.step_loads
             .evaluate(&self.loads, masses, layout, self.scheme, span, positions)
     }
@@ -258,7 +311,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Number of unknowns of the global system of one Newton iteration.
     #[must_use]
     pub const fn unknowns(&self) -> usize {
-        self.layout.unknowns
+        match self.staged {
+            Some(_) => 2 * self.layout.unknowns,
+            None => self.layout.unknowns,
+        }
     }
 }
 

@@ -5,6 +5,7 @@ mod closing;
 mod iteration;
 mod linearize;
 mod places;
+mod stages;
 
 use crate::conduction::Conduction;
 use crate::error::{NewtonIteration, StateError, StepFailure};
@@ -18,6 +19,7 @@ use crate::scheme::Scheme;
 use crate::state::State;
 use crate::system::LinearSystem;
 use places::{MovingNode, Seen, moving, seen};
+pub(crate) use stages::{Effort, Staged};
 
 /// How often an update is halved to bring all elements back to admissible states.
 const HALVINGS: u32 = 30;
@@ -92,13 +94,21 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let pattern = Pattern::of_tangent(elements, layout, conduction, D);
         let tangent = LinearSystem::new(&pattern, D);
         let secant = LinearSystem::new(&Pattern::of_secant(elements, layout, D), 1);
+        let sites = Sites {
+            layout,
+            conduction,
+            tangent: &tangent,
+            secant: &secant,
+            shift: [0; 2],
+        };
+        let (moving, seen) = (moving(masses, &sites), seen(&sites));
         let points = vec![[S::zero(); D]; masses.len()];
         let temperatures = vec![S::zero(); layout.coupled.len()];
         Self {
             settings: NewtonSettings::default(),
             scheme,
-            masses: moving(masses, layout, &tangent, &secant),
-            seen: seen(layout),
+            masses: moving,
+            seen,
             tangent,
             secant,
             trial: Trial {
@@ -127,6 +137,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             conduction,
             tangent: &self.tangent,
             secant: &self.secant,
+            shift: [0; 2],
         }
     }
 

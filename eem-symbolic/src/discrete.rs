@@ -12,6 +12,7 @@
 mod edge;
 mod elastic;
 mod entropy_form;
+mod latent;
 mod temperature_form;
 
 pub(crate) use elastic::elastic_form;
@@ -20,6 +21,7 @@ pub(crate) use temperature_form::temperature_form;
 
 use crate::diff::diff;
 use crate::divided_difference::divided_difference;
+use crate::factor::Factoring;
 use crate::graph::Graph;
 use crate::model::Model;
 use crate::node::{ExprId, Symbol};
@@ -116,13 +118,21 @@ impl Step {
     }
 
     /// Schedules a form.
-    pub(crate) fn program(&self, form: &Form) -> Program {
+    pub(crate) fn program(mut self, form: &Form) -> Program {
+        let inputs = self.inputs();
+        let mut factoring = Factoring::default();
+        let mut outputs = [&form.response[..], &form.tangent].concat();
+        for output in &mut outputs {
+            *output = factoring.of(&mut self.graph, *output);
+        }
+        self.locals
+            .redefine(|value| factoring.of(&mut self.graph, value));
         let schedule = Schedule {
             graph: &self.graph,
             locals: &self.locals,
             parameters: self.parameters.len(),
         };
-        schedule.program(self.inputs(), &form.response, &form.tangent)
+        schedule.program(inputs, &outputs)
     }
 
     /// `F` at a state.
@@ -135,11 +145,43 @@ impl Step {
     }
 
     /// `F[x_i: a, b]` with the other variables at a state, as a local.
-    fn along(&mut self, f: ExprId, i: usize, [a, b]: [Symbol; 2], point: &[Symbol]) -> ExprId {
-        let x = self.variables[i];
-        let mut others = point.to_vec();
-        others[i] = x;
+    fn along(&mut self, f: ExprId, i: usize, ends: [Symbol; 2], point: &[Symbol]) -> ExprId {
+        let f = self.at(f, &self.except(i, point));
+        self.difference(f, i, ends)
+    }
+
+    /// The same at another temperature.
+    fn along_at(
+        &mut self,
+        f: ExprId,
+        i: usize,
+        ends: [Symbol; 2],
+        point: &[Symbol],
+        theta: ExprId,
+    ) -> ExprId {
+        let last = self.mechanical;
+        let mut others = self.except(i, point);
+        others[last] = self.variables[last];
         let f = self.at(f, &others);
+        let f = substitute(&mut self.graph, f, &[(self.variables[last], theta)]);
+        self.difference(f, i, ends)
+    }
+
+    /// A state whose variable `i` is not replaced.
+    fn except(&self, i: usize, point: &[Symbol]) -> Point {
+        let mut others = point.to_vec();
+        others[i] = self.variables[i];
+        others
+    }
+
+    /// Whether a divided difference depends on the temperature of a state.
+    fn feels_temperature(&self, difference: ExprId, point: &[Symbol]) -> bool {
+        let value = self.locals.resolve(&self.graph, difference);
+        self.graph.depends_on(value, point[self.mechanical])
+    }
+
+    fn difference(&mut self, f: ExprId, i: usize, [a, b]: [Symbol; 2]) -> ExprId {
+        let x = self.variables[i];
         let (a, b) = (self.graph.variable(a), self.graph.variable(b));
         let quotient = divided_difference(&mut self.graph, f, x, a, b);
         self.name(quotient)

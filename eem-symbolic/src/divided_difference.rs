@@ -93,7 +93,7 @@ impl Differences {
             } => self.of_sum(graph, constant, terms),
             Node::Product(ref factors) => self.of_product(graph, factors),
             Node::Power(base, exponent) => self.of_power(graph, base, exponent),
-            Node::Apply(function, argument) => apply(graph, function, self.get(argument)),
+            Node::Apply(function, argument) => self.of_apply(graph, function, argument),
             Node::PairSum(first, second) => {
                 let (first, second) = (self.get(first), self.get(second));
                 Difference {
@@ -135,8 +135,46 @@ impl Differences {
         }
     }
 
+    /// `(f∘g)[·] = f[g_a, g_b]·g[·]`; for a logarithm the factors of g without `x` drop out,
+    /// `ln(c·g)[·] = ln[g_a, g_b]·g[·]`.
+    fn of_apply(&self, graph: &mut Graph, function: Function, argument: ExprId) -> Difference {
+        let whole = apply(graph, function, self.get(argument));
+        let (Function::Ln | Function::Log2 | Function::Log10) = function else {
+            return whole;
+        };
+        let (_, term) = graph.as_scaled(argument).unwrap_or((Number::ONE, argument));
+        let factors = if let Node::Product(factors) = graph.node(term) {
+            factors.clone()
+        } else {
+            vec![(term, Rational::ONE)]
+        };
+        let (_, varying) = self.split(graph, &factors);
+        let Some(varying) = self.multiply_all(graph, &varying) else {
+            return whole;
+        };
+        let slope = apply(graph, function, varying).slope;
+        Difference { slope, ..whole }
+    }
+
     /// Takes out the factors without `x`; multiplies the others pairwise.
     fn of_product(&self, graph: &mut Graph, factors: &[(ExprId, Rational)]) -> Difference {
+        let (constant, varying) = self.split(graph, factors);
+        let constant = graph.power_product(&constant);
+        let constant = Difference {
+            a: constant,
+            b: constant,
+            slope: self.zero,
+        };
+        let varying = self.multiply_all(graph, &varying).unwrap_or(constant);
+        self.multiply(graph, constant, varying)
+    }
+
+    /// The factors without `x`, and the differences of the others.
+    fn split(
+        &self,
+        graph: &mut Graph,
+        factors: &[(ExprId, Rational)],
+    ) -> (Vec<(ExprId, Rational)>, Vec<Difference>) {
         let mut constant = Vec::new();
         let mut varying = Vec::new();
         for &(base, exponent) in factors {
@@ -147,14 +185,7 @@ impl Differences {
                 varying.push(rational_power(graph, difference, exponent));
             }
         }
-        let constant = graph.power_product(&constant);
-        let constant = Difference {
-            a: constant,
-            b: constant,
-            slope: self.zero,
-        };
-        let varying = self.multiply_all(graph, &varying).unwrap_or(constant);
-        self.multiply(graph, constant, varying)
+        (constant, varying)
     }
 
     /// Balanced, so that a product of n factors has partial products of total length n·log n.

@@ -42,11 +42,15 @@ mod sum;
 mod diff;
 mod display;
 mod divided_difference;
+mod factor;
 mod internal_energy;
+mod sign;
 mod substitute;
 
 // Programs.
+mod cost;
 mod discrete;
+mod flaw;
 mod interpret;
 mod model;
 mod program;
@@ -63,13 +67,14 @@ pub use graph::Graph;
 pub use internal_energy::internal_energy;
 pub use node::{ExprId, Kernel, Node, Symbol};
 pub use number::{Number, Rational};
+pub use sign::{Sign, sign};
 pub use substitute::substitute;
 
+pub use cost::{OperationCount, StageCount, TranscendentalCount};
+pub use flaw::Flaw;
 pub use interpret::{Arithmetic, F64};
-pub use model::{Formulas, Model, Programs};
-pub use program::{
-    Input, Instruction, Operation, OperationCount, Program, ProgramKernel, Stage, StageCount, Value,
-};
+pub use model::{DifferenceFormula, Formulas, Model, Programs};
+pub use program::{Input, Instruction, Operation, Program, ProgramKernel, Stage, Value};
 pub use running_error::{Bounded, RunningError};
 pub use schedule::schedule;
 pub use verify::VerifyError;

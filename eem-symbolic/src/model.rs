@@ -1,5 +1,6 @@
 //! From one free energy to all programs of a constitutive law.
 
+mod difference_formulas;
 mod point;
 
 use crate::diff::diff;
@@ -8,6 +9,7 @@ use crate::display::format;
 use crate::graph::Graph;
 use crate::node::{ExprId, Symbol};
 use crate::program::Program;
+pub use difference_formulas::DifferenceFormula;
 use point::{PointPrograms, heat_capacity};
 
 /// A free energy ψ(x; parameters) and its dashpots, x = (measures …, dashpots …, temperature).
@@ -46,6 +48,8 @@ pub struct Programs {
     pub internal_energy: Program,
     /// `[s, θ ∂s/∂θ, Σ |terms of s|]`; none without a temperature.
     pub caloric: Option<Program>,
+    /// The same outputs, everything that does not depend on θ at [`Stage::Old`](crate::Stage::Old).
+    pub caloric_at: Option<Program>,
     /// `[∂²s/∂x_i∂x_j …]` by rows; none without a temperature.
     pub entropy_hessian: Option<Program>,
     /// `[η_k …, dη_k/dθ …]`, inputs parameters and θ (if there is one); none without dashpots.
@@ -93,6 +97,7 @@ impl Model {
             hessian: point.hessian(),
             internal_energy: point.internal_energy(),
             caloric: self.temperature.map(|theta| point.caloric(theta)),
+            caloric_at: self.temperature.map(|theta| point.caloric_at(theta)),
             entropy_hessian: self.temperature.map(|theta| point.entropy_hessian(theta)),
             viscosity: (!self.dashpots.is_empty()).then(|| point.viscosity()),
             entropy_form: self.entropy_form(),

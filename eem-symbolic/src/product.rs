@@ -7,6 +7,10 @@ use crate::node::{ExprId, Node};
 use crate::number::{Number, Rational};
 use crate::order::compare;
 
+/// A product of more factors, or a sum of more terms, stays one operand of what it is a part of:
+/// repeated products of growing products would have lengths that add up to a square.
+pub(crate) const WIDTH: usize = 8;
+
 impl Graph {
     /// `Π base ^ exponent`.
     ///
@@ -15,7 +19,8 @@ impl Graph {
     ///   `√x·√x = x` also below 0), never shrinks it;
     /// * `(x^a)^n = x^(a·n)` and `(x·y)^n = xⁿ·yⁿ` for integers n only: `√(x²)` is not x;
     /// * numbers to integer powers move to the coefficient, except 0 to a negative one;
-    /// * square roots of rational squares are exact.
+    /// * square roots of rational squares are exact;
+    /// * a product of more than 8 factors is not taken apart.
     ///
     /// Products are not distributed over sums.
     pub fn power_product(&mut self, factors: &[(ExprId, Rational)]) -> ExprId {
@@ -184,7 +189,7 @@ fn expand(graph: &Graph, base: ExprId, exponent: Rational) -> Option<Expansion> 
             })
         }
         Node::Product(factors) => {
-            exponent.is_integer().then_some(())?;
+            (exponent.is_integer() && factors.len() <= WIDTH).then_some(())?;
             let powers = factors
                 .iter()
                 .map(|&(b, r)| Some((b, r.checked_mul(exponent)?)));

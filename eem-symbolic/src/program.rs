@@ -143,6 +143,31 @@ impl Operation {
     }
 }
 
+impl Operation {
+    /// The same operation of other values.
+    fn map(&self, of: impl Fn(Value) -> Value) -> Self {
+        match *self {
+            Self::Input(index) => Self::Input(index),
+            Self::Constant(number) => Self::Constant(number),
+            Self::Add(a, b) => Self::Add(of(a), of(b)),
+            Self::Sub(a, b) => Self::Sub(of(a), of(b)),
+            Self::Mul(a, b) => Self::Mul(of(a), of(b)),
+            Self::Div(a, b) => Self::Div(of(a), of(b)),
+            Self::Neg(a) => Self::Neg(of(a)),
+            Self::Powi(a, n) => Self::Powi(of(a), n),
+            Self::Sqrt(a) => Self::Sqrt(of(a)),
+            Self::Power(a, b) => Self::Power(of(a), of(b)),
+            Self::Apply(function, a) => Self::Apply(function, of(a)),
+            Self::DividedDifference(kernel, a, b) => {
+                Self::DividedDifference(kernel.map(&of), of(a), of(b))
+            }
+            Self::SecondDividedDifference(kernel, a, b) => {
+                Self::SecondDividedDifference(kernel.map(&of), of(a), of(b))
+            }
+        }
+    }
+}
+
 impl<V: Copy> ProgramKernel<V> {
     /// The values that f itself depends on.
     #[must_use]
@@ -188,68 +213,53 @@ impl Program {
         hoisted.map(|(index, _)| Value::new(index)).collect()
     }
 
-    /// Counts the operations of each stage.
+    /// Which instructions some values depend on.
     #[must_use]
-    pub fn operation_count(&self) -> OperationCount {
-        let mut count = OperationCount::default();
-        for instruction in &self.instructions {
-            match instruction.stage {
-                Stage::Old => count.old.add(&instruction.operation),
-                Stage::New => count.new.add(&instruction.operation),
+    pub fn needed_by(&self, values: &[Value]) -> Vec<bool> {
+        let mut needed = vec![false; self.instructions.len()];
+        for value in values {
+            needed[value.index()] = true;
+        }
+        for (index, instruction) in self.instructions.iter().enumerate().rev() {
+            if needed[index] {
+                for operand in instruction.operation.operands() {
+                    needed[operand.index()] = true;
+                }
             }
         }
-        count
+        needed
     }
-}
 
-/// Operations of both stages of a [`Program`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct OperationCount {
-    /// Once per step.
-    pub old: StageCount,
-    /// Once per iteration.
-    pub new: StageCount,
-}
-
-/// Operations of one stage.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct StageCount {
-    /// Sums, differences, changes of sign and magnitudes.
-    pub additions: usize,
-    /// Products, those of integer powers included.
-    pub multiplications: usize,
-    /// Quotients.
-    pub divisions: usize,
-    /// Elementary functions, roots and general powers.
-    pub functions: usize,
-    /// First and second divided differences of elementary functions.
-    pub kernels: usize,
-}
-
-impl StageCount {
-    /// All operations, each counted once.
+    /// The program of the first `outputs` outputs: the same instructions in the same order, without
+    /// those that only the others depend on.
+    ///
+    /// # Panics
+    ///
+    /// If there are fewer outputs.
     #[must_use]
-    pub fn total(&self) -> usize {
-        self.additions + self.multiplications + self.divisions + self.functions + self.kernels
-    }
-
-    fn add(&mut self, operation: &Operation) {
-        match operation {
-            Operation::Input(_) | Operation::Constant(_) => {}
-            Operation::Add(..)
-            | Operation::Sub(..)
-            | Operation::Neg(_)
-            | Operation::Apply(Function::Abs, _) => self.additions += 1,
-            Operation::Mul(..) => self.multiplications += 1,
-            Operation::Div(..) => self.divisions += 1,
-            Operation::Powi(_, n) => {
-                let n = n.unsigned_abs().max(1);
-                self.multiplications += (n.ilog2() + n.count_ones() - 1) as usize;
-            }
-            Operation::Sqrt(_) | Operation::Power(..) | Operation::Apply(..) => self.functions += 1,
-            Operation::DividedDifference(..) | Operation::SecondDividedDifference(..) => {
-                self.kernels += 1;
-            }
+    pub fn restricted_to(&self, outputs: usize) -> Program {
+        let needed = self.needed_by(&self.outputs[..outputs]);
+        let mut moved = Vec::with_capacity(needed.len());
+        let mut next = 0;
+        for &needed in &needed {
+            moved.push(Value::new(next));
+            next += usize::from(needed);
+        }
+        let of = |value: Value| moved[value.index()];
+        let kept = self.instructions.iter().zip(&needed);
+        let kept = kept.filter(|(_, needed)| **needed);
+        Program {
+            inputs: self.inputs.clone(),
+            instructions: kept
+                .map(|(instruction, _)| Instruction {
+                    operation: instruction.operation.map(of),
+                    stage: instruction.stage,
+                })
+                .collect(),
+            outputs: self.outputs[..outputs]
+                .iter()
+                .map(|&value| of(value))
+                .collect(),
         }
     }
 }

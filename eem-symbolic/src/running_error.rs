@@ -103,7 +103,12 @@ impl Arithmetic for RunningError {
 
     fn apply(&self, function: Function, a: &Bounded) -> Bounded {
         let value = F64.apply(function, &a.value);
-        let slope = F64.divided_difference(ProgramKernel::Function(function), &a.value, &a.value);
+        // |a| has no derivative at zero, and passes errors on as they are.
+        let slope = if function == Function::Abs {
+            1.0
+        } else {
+            F64.divided_difference(ProgramKernel::Function(function), &a.value, &a.value)
+        };
         Bounded::rounded(value, slope.abs() * a.error, FUNCTION)
     }
 

@@ -2,17 +2,22 @@
 //!
 //! * Equal expressions are one instruction, whichever outputs they belong to, and so are equal
 //!   beginnings of sums and products.
-//! * A product is a numerator over a denominator: one division. Whole powers are products, halves
-//!   square roots. Coefficients ±1 cost a sign, which a sum absorbs.
-//! * Of derivatives that serve Newton's method alone, a relative error of some roundings more is no
-//!   loss: what only they need multiplies by shared reciprocals instead of dividing.
-//! * Factors and terms of parameters alone come first, so that they are old-stage values. The others
-//!   stay in structural order whatever their stage is: an expression takes the same operations at
-//!   the old and at the new state, and what is symmetric in the two is symmetric bit by bit.
+//! * Whole powers are products, halves square roots. Coefficients ±1 cost a sign, which a sum
+//!   absorbs.
+//! * [`schedule`] keeps the structural order and divides once per product: an expression takes the
+//!   same operations at the old and at the new state, and what is symmetric in the two is symmetric
+//!   bit by bit. Only factors and terms of parameters alone come first.
+//! * The programs of a [`Model`](crate::Model) take the freedom that rounding leaves: what depends
+//!   on parameters alone comes first, operands that many products or sums have in common next, and
+//!   quotients are products with shared reciprocals. Arguments of functions are still divided, so
+//!   that ln(λ/λ₀) vanishes where λ = λ₀.
 
 mod builder;
+mod difference;
 mod locals;
+mod plan;
 mod power;
+mod sharing;
 mod sum;
 
 pub(crate) use locals::Locals;
@@ -21,6 +26,7 @@ use crate::graph::Graph;
 use crate::node::{ExprId, Node};
 use crate::program::{Input, Program};
 use builder::{Builder, Operand, Signed};
+use plan::Plan;
 
 /// Schedules expressions as the outputs of one program.
 ///
@@ -47,34 +53,38 @@ pub fn schedule(graph: &Graph, inputs: Vec<Input>, outputs: &[ExprId]) -> Progra
         locals: &Locals::default(),
         parameters: 0,
     };
-    schedule.program(inputs, outputs, &[])
+    schedule.in_order(inputs, outputs)
 }
 
 /// What a schedule is made from besides inputs and outputs.
 pub(crate) struct Schedule<'g> {
     pub(crate) graph: &'g Graph,
     pub(crate) locals: &'g Locals,
-    /// How many of the first inputs are parameters.
+    /// How many of the first inputs are parameters, or like parameters: known before all others.
     pub(crate) parameters: usize,
 }
 
 impl Schedule<'_> {
-    /// Outputs are the values and then their tangents, for which rounding matters less.
-    pub(crate) fn program(
-        &self,
-        inputs: Vec<Input>,
-        values: &[ExprId],
-        tangents: &[ExprId],
-    ) -> Program {
+    /// Every operation in structural order.
+    fn in_order(&self, inputs: Vec<Input>, outputs: &[ExprId]) -> Program {
+        self.emit_all(Builder::new(self, inputs), outputs)
+    }
+
+    /// Operations in the order that shares the most.
+    pub(crate) fn program(&self, inputs: Vec<Input>, outputs: &[ExprId]) -> Program {
+        let new = inputs.iter().skip(self.parameters);
+        let new = new.map(|input| input.symbol).collect();
+        let plan = Plan::new(self, &new, outputs);
         let mut builder = Builder::new(self, inputs);
-        for &value in values {
-            self.visit(&mut builder, value);
+        builder.plan = Some(plan);
+        self.emit_all(builder, outputs)
+    }
+
+    fn emit_all(&self, mut builder: Builder<'_>, outputs: &[ExprId]) -> Program {
+        for &output in outputs {
+            self.visit(&mut builder, output);
         }
-        builder.reciprocals = true;
-        for &tangent in tangents {
-            self.visit(&mut builder, tangent);
-        }
-        let program = builder.finish(&[values, tangents].concat());
+        let program = builder.finish(outputs);
         debug_assert_eq!(program.verify(), Ok(()));
         program
     }
@@ -92,16 +102,29 @@ impl Schedule<'_> {
                 continue;
             }
             pending.push((e, true));
-            let first = pending.len();
-            if let Some(definition) = self.definition(e) {
-                pending.push((definition, false));
-            } else {
-                let node = self.graph.node(e);
-                node.for_each_operand(|operand| pending.push((operand, false)));
+            for operand in self.operands(e).into_iter().rev() {
+                // A planned product is a part of the sum.
+                if builder.is_part_of_sum(e, operand) {
+                    let factors = self.operands(operand).into_iter().rev();
+                    pending.extend(factors.map(|factor| (factor, false)));
+                } else {
+                    pending.push((operand, false));
+                }
             }
-            // The first operand is on top, and done first.
-            pending[first..].reverse();
         }
+    }
+
+    /// What an expression is computed from.
+    fn operands(&self, e: ExprId) -> Vec<ExprId> {
+        let mut operands = Vec::new();
+        match self.definition(e) {
+            Some(definition) => operands.push(definition),
+            None => self
+                .graph
+                .node(e)
+                .for_each_operand(|operand| operands.push(operand)),
+        }
+        operands
     }
 
     /// The expression that a local stands for.
@@ -115,16 +138,18 @@ impl Schedule<'_> {
             return builder.signed(definition);
         }
         match self.graph.node(e) {
-            Node::Sum { constant, terms } => return builder.sum(*constant, terms),
-            Node::Product(factors) => return builder.product(factors),
+            Node::Sum { constant, terms } => return builder.sum(e, *constant, terms),
+            Node::Product(factors) => return builder.product(e, factors),
             Node::Number(number) => Operand::Number(*number),
             Node::Variable(symbol) => builder.input(*symbol),
             Node::Power(base, exponent) => builder.power(*base, *exponent),
             Node::Apply(function, x) => builder.apply(*function, *x),
             Node::PairSum(a, b) => builder.pair_sum(*a, *b),
-            Node::DividedDifference(kernel, a, b) => builder.divided_difference(*kernel, *a, *b),
+            Node::DividedDifference(kernel, a, b) => {
+                return builder.divided_difference(*kernel, *a, *b);
+            }
             Node::SecondDividedDifference(kernel, a, b) => {
-                builder.second_divided_difference(*kernel, *a, *b)
+                return builder.second_divided_difference(*kernel, *a, *b);
             }
             Node::PowerDifference { values, logarithms } => {
                 builder.power_difference(*values, *logarithms)

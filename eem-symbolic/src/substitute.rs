@@ -52,7 +52,7 @@ pub(crate) fn image(images: &HashMap<ExprId, ExprId>, e: ExprId) -> ExprId {
 }
 
 /// Passes a node with new operands through its constructor.
-fn rebuild(graph: &mut Graph, node: Node) -> ExprId {
+pub(crate) fn rebuild(graph: &mut Graph, node: Node) -> ExprId {
     match node {
         Node::Number(number) => graph.number(number),
         Node::Variable(symbol) => graph.variable(symbol),

@@ -6,6 +6,7 @@ use crate::graph::Graph;
 use crate::node::{ExprId, Node};
 use crate::number::Number;
 use crate::order::compare;
+use crate::product::WIDTH;
 
 impl Graph {
     /// `constant + Σ coefficient · term`.
@@ -13,7 +14,7 @@ impl Graph {
     /// Laws, none of which changes the domain:
     /// * `c·t + d·t = (c + d)·t` and `0·t = 0` (t finite);
     /// * sums inside sums are flattened under coefficients ±1. Under another coefficient they stay:
-    ///   `c·(θ − θ_r)` loses digits when it is distributed;
+    ///   `c·(θ − θ_r)` loses digits when it is distributed. So do sums of more than 8 terms;
     /// * `c·(d·t) = (c·d)·t`.
     pub fn weighted_sum(&mut self, constant: Number, terms: &[(Number, ExprId)]) -> ExprId {
         let mut collected = Collected {
@@ -137,7 +138,8 @@ impl Collected {
             else {
                 return true;
             };
-            if coefficient != Number::ONE && coefficient != Number::MINUS_ONE {
+            let plain = coefficient == Number::ONE || coefficient == Number::MINUS_ONE;
+            if !plain || terms.len() > WIDTH {
                 return true;
             }
             *constant = *constant + coefficient * *inner;

@@ -262,6 +262,12 @@ impl Arithmetic for Symmetric {
         F64.apply(function, a)
     }
     fn divided_difference(&self, kernel: ProgramKernel<&f64>, a: &f64, b: &f64) -> f64 {
+        let kernel = match kernel {
+            ProgramKernel::Power(value_a, value_b) if b < a => {
+                ProgramKernel::Power(value_b, value_a)
+            }
+            kernel => kernel,
+        };
         F64.divided_difference(kernel, &a.min(*b), &a.max(*b))
     }
     fn second_divided_difference(&self, kernel: ProgramKernel<&f64>, a: &f64, b: &f64) -> f64 {

@@ -79,7 +79,7 @@ pub(crate) fn check(run: &Record, claims: &mut Claims) {
         format!("{scheme} does not reach the end time"),
     );
     let temperatures = run.column("theta_1").unwrap_or_default();
-    let heat = DAMPER.capacity * temperatures.into_iter().fold(0.0, f64::max);
+    let heat = DAMPER.capacity * temperatures.iter().copied().fold(0.0, f64::max);
     claims.at_most(
         &format!("{scheme}: the defect of the balance (J)"),
         balance_defect(run),

@@ -63,24 +63,23 @@ impl Plot {
             ..Self::history(file, title, y_label, points)
         }
     }
+}
 
-    /// The curve of a run.
-    fn curve(&self, look: usize, run: &Record) -> Curve {
-        let is_logarithmic = self.axes == Axes::Logarithmic;
-        let mut points = (self.points)(run);
-        if is_logarithmic {
-            let [least, most] = DRAWN_DEFECTS;
-            for (_, defect) in &mut points {
-                *defect = defect.clamp(least, most);
-            }
+/// The curve of a run through `points`, clamped where only powers of ten are drawn.
+pub(crate) fn curve(run: &Record, mut points: Vec<(f64, f64)>, look: usize, axes: Axes) -> Curve {
+    let is_logarithmic = axes == Axes::Logarithmic;
+    if is_logarithmic {
+        let [least, most] = DRAWN_DEFECTS;
+        for (_, defect) in &mut points {
+            *defect = defect.clamp(least, most);
         }
-        Curve {
-            label: label(run, is_logarithmic),
-            points,
-            look,
-            trusted: is_logarithmic || is_sound(run),
-            decisive: lost(run).filter(|_| !is_logarithmic).unwrap_or(usize::MAX),
-        }
+    }
+    Curve {
+        label: label(run, is_logarithmic),
+        points,
+        look,
+        trusted: is_logarithmic || is_sound(run),
+        decisive: lost(run).filter(|_| !is_logarithmic).unwrap_or(usize::MAX),
     }
 }
 
@@ -109,7 +108,9 @@ impl Comparison<'_> {
             x_label: plot.x_label.to_owned(),
             y_label: plot.y_label.to_owned(),
             axes: plot.axes,
-            curves: curves.map(|(look, run)| plot.curve(look, run)).collect(),
+            curves: curves
+                .map(|(look, run)| curve(run, (plot.points)(run), look, plot.axes))
+                .collect(),
         }
     }
 }
@@ -140,5 +141,10 @@ fn label(run: &Record, shows_it: bool) -> String {
 pub(crate) fn look(name: &str) -> usize {
     let mut schemes = Scheme::ALL.iter();
     let known = schemes.position(|scheme| scheme.name() == name);
-    1 + known.unwrap_or(Scheme::ALL.len())
+    known.map_or(0, |scheme| 1 + scheme)
+}
+
+/// The `index`-th look that neither a scheme nor the reference has.
+pub(crate) fn look_beside_schemes(index: usize) -> usize {
+    1 + Scheme::ALL.len() + index
 }

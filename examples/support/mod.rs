@@ -9,6 +9,7 @@ pub(crate) mod comparison;
 pub(crate) mod figures;
 pub(crate) mod output;
 pub(crate) mod progress;
+pub(crate) mod published;
 pub(crate) mod record;
 pub(crate) mod simulate;
 pub(crate) mod statistics;

@@ -4,7 +4,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::record::Record;
+use super::record::{Column, Record};
 
 /// Creates the output directory, so that a wrong path is reported before the run.
 pub(crate) fn prepare(directory: &Path) -> io::Result<()> {
@@ -12,7 +12,7 @@ pub(crate) fn prepare(directory: &Path) -> io::Result<()> {
 }
 
 /// Writes `SCHEME.csv`: the record's columns with 17 significant digits, which identify a
-/// double, and the Newton iterations as the last column.
+/// double; the Newton iterations are whole numbers.
 pub(crate) fn write_csv(directory: &Path, record: &Record) -> io::Result<PathBuf> {
     let path = directory.join(format!("{}.csv", record.scheme));
     write_rows(&path, record).map_err(|error| naming(&path, &error))?;
@@ -26,12 +26,24 @@ pub(crate) fn write_numbers(
     heads: &[&str],
     rows: &[Vec<f64>],
 ) -> io::Result<PathBuf> {
+    let text = |row: &Vec<f64>| row.iter().map(|value| format!("{value:.16e}")).collect();
+    let rows: Vec<Vec<String>> = rows.iter().map(text).collect();
+    write_texts(directory, name, heads, &rows)
+}
+
+/// Writes `NAME.csv` with these column heads and rows of cells.
+pub(crate) fn write_texts(
+    directory: &Path,
+    name: &str,
+    heads: &[&str],
+    rows: &[Vec<String>],
+) -> io::Result<PathBuf> {
     let path = directory.join(format!("{name}.csv"));
     let write = || {
         let mut writer = csv::Writer::from_path(&path)?;
         writer.write_record(heads)?;
         for row in rows {
-            writer.write_record(row.iter().map(|value| format!("{value:.16e}")))?;
+            writer.write_record(row)?;
         }
         writer.flush()
     };
@@ -41,13 +53,23 @@ pub(crate) fn write_numbers(
 
 fn write_rows(path: &Path, record: &Record) -> io::Result<()> {
     let mut writer = csv::Writer::from_path(path)?;
-    let names = record.columns().iter().map(String::as_str);
-    writer.write_record(names.chain(["newton_iterations"]))?;
-    for row in record.rows() {
-        let values = row.values.iter().map(|value| format!("{value:.16e}"));
-        writer.write_record(values.chain([row.newton_iterations.to_string()]))?;
+    let columns = record.columns();
+    writer.write_record(columns.iter().map(|column| column.name.as_str()))?;
+    for row in 0..record.times().len() {
+        writer.write_record(columns.iter().map(|column| column.text(row)))?;
     }
     writer.flush()
+}
+
+impl Column {
+    fn text(&self, row: usize) -> String {
+        let value = self.values[row];
+        if self.name == "newton_iterations" {
+            format!("{value}")
+        } else {
+            format!("{value:.16e}")
+        }
+    }
 }
 
 /// The operating system's error does not say which file it is about.

@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+use eem::Recorder;
+
 /// How a run ended.
 #[derive(Clone, Debug)]
 pub(crate) enum Outcome {
@@ -16,7 +18,7 @@ pub(crate) enum Outcome {
     },
 }
 
-/// The state after every step, the initial state first.
+/// The columns of a recorder, and how the run ended; the initial state comes first.
 #[derive(Clone, Debug)]
 pub(crate) struct Record {
     /// Name of the scheme, as on the command line; also the name of the CSV file.
@@ -25,48 +27,51 @@ pub(crate) struct Record {
     pub(crate) outcome: Outcome,
     /// Wall time spent in the steps, recording excluded.
     pub(crate) elapsed: Duration,
-    columns: Vec<String>,
-    rows: Vec<Row>,
+    columns: Vec<Column>,
 }
 
-/// One state.
+/// A quantity in all states.
 #[derive(Clone, Debug)]
-pub(crate) struct Row {
-    /// One value per column.
+pub(crate) struct Column {
+    /// The name in the CSV file.
+    pub(crate) name: String,
+    /// One value per state.
     pub(crate) values: Vec<f64>,
-    /// Newton iterations of the step that led here; 0 for the initial state.
-    pub(crate) newton_iterations: usize,
 }
 
 impl Record {
-    /// An empty record; `columns` are named as in the CSV file, in its order, `time` first.
-    pub(crate) fn new(scheme: impl Into<String>, columns: Vec<String>) -> Self {
+    /// What `recorder` kept of a run.
+    pub(crate) fn of<const D: usize>(
+        scheme: &str,
+        recorder: &Recorder<D>,
+        outcome: Outcome,
+        elapsed: Duration,
+    ) -> Self {
+        let column = |column: &eem::Column| Column {
+            name: column.name().to_owned(),
+            values: column.values().to_vec(),
+        };
         Self {
-            scheme: scheme.into(),
-            outcome: Outcome::Completed,
-            elapsed: Duration::ZERO,
-            columns,
-            rows: Vec::new(),
+            scheme: scheme.to_owned(),
+            outcome,
+            elapsed,
+            columns: recorder.columns().iter().map(column).collect(),
         }
     }
 
-    /// Appends a state: one value per column.
-    pub(crate) fn push(&mut self, values: Vec<f64>, newton_iterations: usize) {
-        assert_eq!(values.len(), self.columns.len(), "one value per column");
-        self.rows.push(Row {
-            values,
-            newton_iterations,
-        });
-    }
-
-    /// Names of the columns.
-    pub(crate) fn columns(&self) -> &[String] {
+    /// All columns; the first is the time.
+    pub(crate) fn columns(&self) -> &[Column] {
         &self.columns
     }
 
-    /// All states, the initial one first.
-    pub(crate) fn rows(&self) -> &[Row] {
-        &self.rows
+    /// The time (s) of all states.
+    pub(crate) fn times(&self) -> &[f64] {
+        self.columns.first().map_or(&[], |time| &time.values)
+    }
+
+    /// The time (s) of the last state.
+    pub(crate) fn end(&self) -> f64 {
+        self.times().last().copied().unwrap_or(0.0)
     }
 
     /// Whether the end time was reached.
@@ -76,47 +81,40 @@ impl Record {
 
     /// Number of recorded steps.
     pub(crate) fn steps(&self) -> usize {
-        self.rows.len().saturating_sub(1)
+        self.times().len().saturating_sub(1)
     }
 
-    /// Time (s) of a state; the columns begin with it.
+    /// Time (s) of a state.
     pub(crate) fn time(&self, row: usize) -> f64 {
-        self.rows[row].values[0]
+        self.times()[row]
     }
 
     /// The part of the run up to `time` (s), without the outcome of what follows.
     pub(crate) fn until(&self, time: f64) -> Self {
-        let is_early = |row: &&Row| row.values[0] <= time;
-        let rows: Vec<Row> = self.rows.iter().take_while(is_early).cloned().collect();
-        let outcome = if rows.len() < self.rows.len() {
-            Outcome::Completed
-        } else {
-            self.outcome.clone()
-        };
-        Self {
-            scheme: self.scheme.clone(),
-            outcome,
-            elapsed: self.elapsed,
-            columns: self.columns.clone(),
-            rows,
+        let rows = self.times().partition_point(|&own| own <= time);
+        let mut early = self.clone();
+        if rows < self.times().len() {
+            early.outcome = Outcome::Completed;
         }
+        for column in &mut early.columns {
+            column.values.truncate(rows);
+        }
+        early
     }
 
     /// The values of one column; `None` when the scene has no such quantity.
-    pub(crate) fn column(&self, name: &str) -> Option<Vec<f64>> {
-        let index = self.columns.iter().position(|column| column == name)?;
-        Some(self.rows.iter().map(|row| row.values[index]).collect())
+    pub(crate) fn column(&self, name: &str) -> Option<&[f64]> {
+        let mut columns = self.columns.iter();
+        let column = columns.find(|column| column.name == name)?;
+        Some(&column.values)
     }
 
     /// The columns whose name satisfies `choose`, as one vector per state.
     pub(crate) fn vectors(&self, choose: impl Fn(&str) -> bool) -> Vec<Vec<f64>> {
-        let chosen: Vec<usize> = (0..self.columns.len())
-            .filter(|&index| choose(&self.columns[index]))
-            .collect();
-        self.rows
-            .iter()
-            .map(|row| chosen.iter().map(|&index| row.values[index]).collect())
-            .collect()
+        let chosen = |column: &&Column| choose(&column.name);
+        let chosen: Vec<&Column> = self.columns.iter().filter(chosen).collect();
+        let vector = |row| chosen.iter().map(|column| column.values[row]).collect();
+        (0..self.times().len()).map(vector).collect()
     }
 
     /// |v| over time, where the columns that begin with `v` are the components of v.
@@ -136,10 +134,17 @@ impl Record {
         self.over_time(from.iter().zip(&to).map(distance))
     }
 
+    /// E − E₀ (J) over time.
+    pub(crate) fn energy_changes(&self) -> Vec<(f64, f64)> {
+        let energies = self.points("time", "energy");
+        let first = energies.first().map_or(0.0, |&(_, energy)| energy);
+        let change = |(time, energy)| (time, energy - first);
+        energies.into_iter().map(change).collect()
+    }
+
     /// A value per state, with the time of the state.
     pub(crate) fn over_time(&self, values: impl Iterator<Item = f64>) -> Vec<(f64, f64)> {
-        let times = self.rows.iter().map(|row| row.values[0]);
-        times.zip(values).collect()
+        self.times().iter().copied().zip(values).collect()
     }
 
     /// The points (x, y) of two columns, for a figure; empty when one of them is missing.
@@ -147,6 +152,6 @@ impl Record {
         let (Some(x), Some(y)) = (self.column(x), self.column(y)) else {
             return Vec::new();
         };
-        x.into_iter().zip(y).collect()
+        x.iter().copied().zip(y.iter().copied()).collect()
     }
 }

@@ -1,5 +1,7 @@
 //! Stepping a simulation through its time grid while recording what the CSV files hold.
 
+use std::error::Error;
+use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use eem::prelude::*;
@@ -8,8 +10,8 @@ use super::progress::Progress;
 use super::record::{Outcome, Record};
 use super::time_grid::TimeGrid;
 
-/// Names of the axes in the columns.
-const AXES: [&str; 3] = ["x", "y", "z"];
+/// Columns: their name, to which vectors append `_x`, `_y`, `_z`, and what they hold.
+pub(crate) type Columns<const D: usize> = Vec<(String, Quantity<D>)>;
 
 /// What is recorded of a scene; columns are numbered in this order, from 1.
 #[derive(Clone, Debug, Default)]
@@ -33,8 +35,8 @@ pub(crate) fn record<const D: usize>(
     simulation: &mut Simulation<D>,
     watched: &Watched,
     grid: TimeGrid,
-) -> Result<Record, SceneError> {
-    record_with(name, simulation, watched, grid, |_| Ok(Vec::new()))
+) -> Result<Record, Box<dyn Error>> {
+    record_with(name, simulation, watched, grid, Vec::new())
 }
 
 /// The same, with further columns of the example's own.
@@ -47,38 +49,33 @@ pub(crate) fn record_with<const D: usize>(
     simulation: &mut Simulation<D>,
     watched: &Watched,
     grid: TimeGrid,
-    further: impl Fn(&Simulation<D>) -> Result<Vec<(&'static str, f64)>, SceneError>,
-) -> Result<Record, SceneError> {
-    let state = |simulation: &Simulation<D>| -> Result<_, SceneError> {
-        let mut columns: Vec<(String, f64)> = state(simulation, watched)?;
-        let own = further(simulation)?.into_iter();
-        columns.extend(own.map(|(name, value)| (name.to_owned(), value)));
-        Ok(columns)
-    };
-    let (names, values): (Vec<_>, Vec<_>) = state(simulation)?.into_iter().unzip();
-    let mut record = Record::new(name, names);
-    record.push(values, 0);
+    further: Columns<D>,
+) -> Result<Record, Box<dyn Error>> {
+    let mut columns = columns(simulation, watched);
+    columns.extend(further);
+    columns.push(("newton_iterations".to_owned(), Quantity::NewtonIterations));
+    let mut recorder = Recorder::new(simulation, columns)?.every(grid.stride);
+    recorder.reserve(grid.steps / grid.stride);
     let mut progress = Progress::new(name, grid.steps);
-    let (mut elapsed, mut iterations) = (Duration::ZERO, 0);
+    let (mut outcome, mut elapsed) = (Outcome::Completed, Duration::ZERO);
     for step in 1..=grid.steps {
         let start = Instant::now();
-        let outcome = simulation.step();
+        let result = simulation.step();
         elapsed += start.elapsed();
-        match outcome {
-            Ok(report) => iterations += report.iterations,
+        match result {
+            Ok(report) => {
+                let ControlFlow::Continue(()) = recorder.observe(simulation, &report) else {
+                    break;
+                };
+            }
             Err(error) => {
-                record.outcome = failure(&error);
+                outcome = failure(&error);
                 break;
             }
         }
         progress.advance(step);
-        if step.is_multiple_of(grid.stride) {
-            let values = state(simulation)?.into_iter().map(|column| column.1);
-            record.push(values.collect(), std::mem::take(&mut iterations));
-        }
     }
-    record.elapsed = elapsed;
-    Ok(record)
+    Ok(Record::of(name, &recorder, outcome, elapsed))
 }
 
 fn failure(error: &StepError) -> Outcome {
@@ -89,75 +86,52 @@ fn failure(error: &StepError) -> Outcome {
     }
 }
 
-/// The columns with their present values; energy, entropy and momenta come from the ledger.
-fn state<const D: usize>(
-    simulation: &Simulation<D>,
-    watched: &Watched,
-) -> Result<Vec<(String, f64)>, SceneError> {
-    let ledger = simulation.ledger();
-    let mut columns = vec![("time".to_owned(), simulation.time())];
-    nodes(simulation, watched, &mut columns)?;
-    let has_entropy = internal_variables(simulation, watched, &mut columns);
-    if watched.has_reservoirs {
-        columns.push(("reservoir_entropy".to_owned(), ledger.reservoir_entropy));
-    }
-    columns.push(("energy".to_owned(), ledger.energy));
-    if has_entropy {
-        columns.push(("entropy".to_owned(), ledger.entropy));
-    }
-    let momentum = ledger.angular_momentum;
-    if D == 2 {
-        columns.push(("angular_momentum".to_owned(), momentum[2]));
-    } else if D == 3 {
-        let named = AXES.iter().zip(momentum.iter());
-        columns.extend(named.map(|(axis, &value)| (format!("angular_momentum_{axis}"), value)));
-    }
-    Ok(columns)
-}
-
-/// Appends `q1_x, …, q2_x, …, p1_x, …`.
-fn nodes<const D: usize>(
-    simulation: &Simulation<D>,
-    watched: &Watched,
-    columns: &mut Vec<(String, f64)>,
-) -> Result<(), SceneError> {
-    let mut append = |name: String, vector: &[f64]| {
-        let named = AXES.iter().zip(vector);
-        columns.extend(named.map(|(axis, &value)| (format!("{name}_{axis}"), value)));
-    };
-    for (number, &mass) in (1..).zip(&watched.masses) {
-        append(format!("q{number}"), simulation.position(mass)?.as_slice());
-    }
-    for (number, &mass) in (1..).zip(&watched.masses) {
-        append(format!("p{number}"), simulation.momentum(mass)?.as_slice());
-    }
-    Ok(())
-}
-
-/// Appends `theta_1, …, gamma_1, …`, where an element with several dashpots has `gamma_1_1, …`;
-/// returns whether there is a temperature at all.
-fn internal_variables<const D: usize>(
-    simulation: &Simulation<D>,
-    watched: &Watched,
-    columns: &mut Vec<(String, f64)>,
-) -> bool {
+/// `q1`, …, `p1`, …, `theta_1`, …, `gamma_1`, …, `reservoir_entropy`, `energy`, `entropy`,
+/// `angular_momentum`, as far as the scene has them.
+fn columns<const D: usize>(simulation: &Simulation<D>, watched: &Watched) -> Columns<D> {
+    let nodes = || (1..).zip(watched.masses.iter().copied());
+    let positions = nodes().map(|(i, mass)| (format!("q{i}"), Quantity::Position(mass)));
+    let momenta = nodes().map(|(i, mass)| (format!("p{i}"), Quantity::Momentum(mass)));
+    let mut columns: Columns<D> = positions.chain(momenta).collect();
+    let elements = || (1..).zip(watched.elements.iter().copied());
+    let thermal = elements().filter(|&(_, element)| simulation.temperature(element).is_ok());
+    let temperature = |(i, element)| (format!("theta_{i}"), Quantity::Temperature(element));
     let before = columns.len();
-    for (number, &element) in (1..).zip(&watched.elements) {
-        if let Ok(theta) = simulation.temperature(element) {
-            columns.push((format!("theta_{number}"), theta));
-        }
+    columns.extend(thermal.map(temperature));
+    let has_entropy = columns.len() > before;
+    for (i, element) in elements() {
+        columns.extend(dashpots(simulation, i, element));
     }
-    let is_thermal = columns.len() > before;
-    for (number, &element) in (1..).zip(&watched.elements) {
-        let stretch = |dashpot| simulation.viscous_stretch(element, dashpot).ok();
-        let stretches: Vec<f64> = (0..).map_while(stretch).collect();
-        if let [gamma] = stretches[..] {
-            columns.push((format!("gamma_{number}"), gamma));
-            continue;
-        }
-        for (dashpot, gamma) in (1..).zip(stretches) {
-            columns.push((format!("gamma_{number}_{dashpot}"), gamma));
-        }
+    if watched.has_reservoirs {
+        let received = Quantity::Ledger(|ledger| ledger.reservoir_entropy);
+        columns.push(("reservoir_entropy".to_owned(), received));
     }
-    is_thermal
+    columns.push(("energy".to_owned(), Quantity::TotalEnergy));
+    if has_entropy {
+        columns.push(("entropy".to_owned(), Quantity::TotalEntropy));
+    }
+    if D > 1 {
+        columns.push(("angular_momentum".to_owned(), Quantity::AngularMomentum));
+    }
+    columns
+}
+
+/// `gamma_1`, or `gamma_1_1`, `gamma_1_2`, … of an element with several dashpots.
+fn dashpots<const D: usize>(
+    simulation: &Simulation<D>,
+    number: usize,
+    element: Element,
+) -> Columns<D> {
+    let stretch = |dashpot| simulation.viscous_stretch(element, dashpot).ok();
+    let stretches: Vec<f64> = (0..).map_while(stretch).collect();
+    let count = stretches.len();
+    let column = |dashpot| {
+        let name = if count == 1 {
+            format!("gamma_{number}")
+        } else {
+            format!("gamma_{number}_{}", dashpot + 1)
+        };
+        (name, Quantity::ViscousStretch(element, dashpot))
+    };
+    (0..count).map(column).collect()
 }

@@ -32,17 +32,18 @@ pub(crate) struct Statistics {
 impl Statistics {
     /// The figures of `record`.
     pub(crate) fn of(record: &Record) -> Self {
-        let rows = record.rows();
-        let iterations = rows.iter().map(|row| row.newton_iterations).sum();
+        let iterations = record
+            .column("newton_iterations")
+            .map(|own| own.iter().sum());
         let energy = record.vectors(|name| name == "energy");
         let entropy = record.column("entropy");
         Self {
             breakdown: first_energy_beyond(record, BREAKDOWN).map(|row| record.time(row)),
             energy_defect: largest(defects(&energy)),
-            entropy_increment: smallest_increment(entropy.as_deref(), |_| 1.0),
-            entropy_increment_ulps: smallest_increment(entropy.as_deref(), ulp),
+            entropy_increment: smallest_increment(entropy, |_| 1.0),
+            entropy_increment_ulps: smallest_increment(entropy, ulp),
             angular_momentum_defect: largest(defects(&record.vectors(is_angular_momentum))),
-            newton_iterations: ratio(iterations, record.steps()),
+            newton_iterations: iterations.and_then(|sum| mean(sum, record.steps())),
             time_per_step: u32::try_from(record.steps())
                 .ok()
                 .and_then(|steps| record.elapsed.checked_div(steps)),
@@ -75,6 +76,17 @@ pub(crate) fn position_error(record: &Record, exact: &Record) -> Option<f64> {
         }
     }
     (size > 0.0).then(|| (difference / size).sqrt())
+}
+
+/// The points of a curve over time minus those of the exact curve at the same times; a point whose
+/// time the exact curve does not have is left out.
+pub(crate) fn deviations(curve: &[(f64, f64)], exact: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let deviation = |&(time, value): &(f64, f64)| {
+        let later = exact.partition_point(|(exact, _)| *exact < time - TIME_TOLERANCE);
+        let &(same, exact) = exact.get(later)?;
+        ((same - time).abs() <= TIME_TOLERANCE).then_some((time, value - exact))
+    };
+    curve.iter().filter_map(deviation).collect()
 }
 
 /// The largest |E − E₀| / |E₀| so far, over time from the first step on.
@@ -115,10 +127,10 @@ fn largest(values: impl Iterator<Item = f64>) -> Option<f64> {
     values.reduce(larger)
 }
 
-/// The quotient of two counts; `None` when the second is zero.
-fn ratio(count: usize, total: usize) -> Option<f64> {
-    let (count, total) = (u32::try_from(count).ok()?, u32::try_from(total).ok()?);
-    (total > 0).then(|| f64::from(count) / f64::from(total))
+/// The mean of so many values with that sum; `None` when there are none.
+fn mean(sum: f64, count: usize) -> Option<f64> {
+    let count = u32::try_from(count).ok().filter(|&count| count > 0)?;
+    Some(sum / f64::from(count))
 }
 
 /// The smallest increment from one value to the next, in units of `unit` of the old one.

@@ -52,9 +52,8 @@ pub(crate) fn print(records: &[Record], reference: Option<&Record>) {
 
 /// The times over which positions are compared.
 fn compared(records: &[Record], reference: &Record) -> String {
-    let end = |record: &Record| record.rows().last().map_or(0.0, |row| row.values[0]);
-    let longest = records.iter().map(end).fold(0.0, f64::max);
-    let end = end(reference);
+    let longest = records.iter().map(Record::end).fold(0.0, f64::max);
+    let end = reference.end();
     if end < longest - TIME_TOLERANCE {
         format!("the first {end:.1} s")
     } else {

@@ -54,16 +54,26 @@ pub(crate) fn corners<L: Law>(law: &L, x0: &[f64], x1: &[f64]) -> Vec<f64> {
     ascending.chain(descending).collect()
 }
 
-/// The responses of both forms.
+fn bits(values: &[f64]) -> Vec<u64> {
+    values.iter().map(|value| value.to_bits()).collect()
+}
+
+/// The responses of both forms, the same bits with and without the tangent.
 fn responses<L: Law>(law: &L, x0: &[f64], x1: &[f64]) -> [Vec<f64>; 2] {
     let corners = array(&corners(law, x0, x1));
     let (old, new) = (array(x0), array(x1));
-    let entropy = law
-        .entropy_form(&law.entropy_form_old(&old), &new, &corners)
-        .0;
-    let temperature = law
-        .temperature_form(&law.temperature_form_old(&old), &new)
-        .0;
+    let kept = law.entropy_form_old(&old);
+    let entropy = law.entropy_form(&kept, &new, &corners).0;
+    let alone = law.entropy_form_response(&kept, &new, &corners);
+    assert_eq!(bits(entropy.as_ref()), bits(alone.as_ref()), "entropy form");
+    let kept = law.temperature_form_old(&old);
+    let temperature = law.temperature_form(&kept, &new).0;
+    let alone = law.temperature_form_response(&kept, &new);
+    assert_eq!(
+        bits(temperature.as_ref()),
+        bits(alone.as_ref()),
+        "temperature form"
+    );
     [entropy.as_ref().to_vec(), temperature.as_ref().to_vec()]
 }
 

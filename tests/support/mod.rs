@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "every test file uses its own part of this module")]
 
+pub(crate) mod dashpots;
+
 use eem::prelude::*;
 
 /// Thermo-visco-elastic element of García Orden & Romero (2012), §4.1.
@@ -17,16 +19,27 @@ use eem::prelude::*;
 })]
 #[viscosity(gamma = eta0 * exp(a * (1.0 / theta - 1.0 / theta_ref)))]
 pub(crate) struct ThermoViscoElastic {
+    #[unit("N m")]
     pub(crate) k0: f64,
+    #[unit("N m/K")]
     pub(crate) k1: f64,
+    #[unit("1")]
     pub(crate) ratio: f64,
+    #[unit("N m/K")]
     pub(crate) coupling: f64,
+    #[unit("N m/K")]
     pub(crate) capacity: f64,
+    #[unit("N/m")]
     pub(crate) mu0: f64,
+    #[unit("N/(m K)")]
     pub(crate) mu1: f64,
+    #[unit("N s/m")]
     pub(crate) eta0: f64,
+    #[unit("K")]
     pub(crate) a: f64,
+    #[unit("m")]
     pub(crate) natural_length: f64,
+    #[unit("K")]
     pub(crate) theta_ref: f64,
 }
 
@@ -57,11 +70,17 @@ impl ThermoViscoElastic {
         + capacity * (theta - theta_ref - theta * ln(theta / theta_ref))
 })]
 pub(crate) struct LogarithmicStiffness {
+    #[unit("J")]
     pub(crate) stiffness: f64,
+    #[unit("J/K")]
     pub(crate) softening: f64,
+    #[unit("J/K")]
     pub(crate) coupling: f64,
+    #[unit("J/K")]
     pub(crate) capacity: f64,
+    #[unit("m")]
     pub(crate) natural_length: f64,
+    #[unit("K")]
     pub(crate) theta_ref: f64,
 }
 
@@ -81,7 +100,9 @@ impl LogarithmicStiffness {
 #[derive(Clone, Debug, FreeEnergy)]
 #[free_energy(|lambda: Stretch| 0.5 * stiffness * ln(lambda / natural_length).powi(2))]
 pub(crate) struct Hencky {
+    #[unit("J")]
     pub(crate) stiffness: f64,
+    #[unit("m")]
     pub(crate) natural_length: f64,
 }
 

@@ -6,7 +6,7 @@ use proc_macro2::Ident;
 use super::resolve::Resolver;
 use super::scope::Meaning;
 use crate::ast;
-use crate::checked::{Expr, ExprKind};
+use crate::checked::ExprKind;
 use crate::message::expression as message;
 use crate::nearest::nearest;
 
@@ -68,52 +68,50 @@ pub(super) fn call<'a>(
     resolver: &mut Resolver<'_, 'a>,
     function: &'a Ident,
     arguments: &'a [ast::Expr<'a>],
-) -> Option<ExprKind<'a>> {
+) -> ExprKind<'a> {
     let name = ast::name(function);
     let Some(callee) = Callee::from_name(&name) else {
         report_unknown(resolver, function, &name);
-        // The arguments may be wrong as well.
-        for argument in arguments {
-            resolver.expr(argument);
-        }
-        return None;
+        return resolver.wrong(arguments);
     };
     let (expected, form) = callee.form();
     if arguments.len() != expected {
         let message = message::argument_count(&name, &form, expected, arguments.len());
         resolver.cx.error(function, &message);
+        return resolver.wrong(arguments);
     }
-    if let (Callee::Diff, [expression, variable]) = (callee, arguments) {
-        let expression = resolver.expr(expression);
-        let variable = diff_variable(resolver, variable);
-        return Some(ExprKind::Diff(Box::new(expression?), variable?));
-    }
-    let resolved = arguments.iter().map(|argument| resolver.expr(argument));
-    let resolved: Vec<Option<Expr<'a>>> = resolved.collect();
-    let mut resolved = resolved
-        .into_iter()
-        .collect::<Option<Vec<_>>>()?
-        .into_iter();
-    match (callee, resolved.next(), resolved.next(), resolved.next()) {
-        (Callee::Powi, Some(x), Some(n), None) => Some(ExprKind::Powi(x.into(), n.into())),
-        (Callee::Powf, Some(x), Some(y), None) => Some(ExprKind::Powf(x.into(), y.into())),
-        (Callee::Sqrt, Some(x), None, None) => Some(ExprKind::Sqrt(x.into())),
-        (Callee::Recip, Some(x), None, None) => Some(ExprKind::Recip(x.into())),
-        (Callee::Unary(Function::Abs), Some(x), None, None) => {
-            Some(ExprKind::Abs(function, x.into()))
+    match (callee, arguments) {
+        (Callee::Diff, [expression, variable]) => match diff_variable(resolver, variable) {
+            Some(variable) => ExprKind::Diff(resolver.expr(expression).into(), variable),
+            None => resolver.wrong([expression]),
+        },
+        (Callee::Powi, [x, n]) => {
+            let (x, n) = (resolver.expr(x), resolver.expr(n));
+            ExprKind::Powi(x.into(), n.into())
         }
-        (Callee::Unary(function), Some(x), None, None) => Some(ExprKind::Apply(function, x.into())),
-        // The wrong number of arguments has been reported.
-        _ => None,
+        (Callee::Powf, [x, y]) => {
+            let (x, y) = (resolver.expr(x), resolver.expr(y));
+            ExprKind::Powf(x.into(), y.into())
+        }
+        (Callee::Sqrt, [x]) => ExprKind::Sqrt(resolver.expr(x).into()),
+        (Callee::Recip, [x]) => ExprKind::Recip(resolver.expr(x).into()),
+        (Callee::Unary(Function::Abs), [x]) => ExprKind::Abs(function, resolver.expr(x).into()),
+        (Callee::Unary(function), [x]) => ExprKind::Apply(function, resolver.expr(x).into()),
+        _ => unreachable!("the number of arguments has been checked"),
     }
 }
 
 fn report_unknown(resolver: &Resolver<'_, '_>, function: &Ident, name: &str) {
-    let message = if resolver.scope.resolve(function).is_some() {
-        message::name_is_not_a_function(name)
-    } else {
-        let nearest = nearest(name, Callee::names());
-        message::unknown_function(name, message::function_help(name, nearest, Callee::names()))
+    let nearest = nearest(name, Callee::names());
+    let message = match resolver.scope.resolve(function) {
+        // A closure, which has been reported.
+        Some(Meaning::Binding(index)) if resolver.is_wrong(index) => return,
+        // It may be declared by what could not be read.
+        Some(Meaning::Unreadable) if nearest.is_none() => return,
+        None | Some(Meaning::Unreadable) => {
+            message::unknown_function(name, message::function_help(name, nearest, Callee::names()))
+        }
+        Some(_) => message::name_is_not_a_function(name),
     };
     resolver.cx.error(function, &message);
 }
@@ -121,30 +119,33 @@ fn report_unknown(resolver: &Resolver<'_, '_>, function: &Ident, name: &str) {
 /// The argument of the free energy that the second argument of `diff` names.
 fn diff_variable<'a>(resolver: &Resolver<'_, 'a>, variable: &'a ast::Expr<'a>) -> Option<usize> {
     let cx = resolver.cx;
-    let ast::ExprKind::Name(ident) = variable.kind else {
-        cx.error(variable.original, &message::diff_variable_is_not_a_name());
-        return None;
+    let ident = match variable.kind {
+        ast::ExprKind::Name(ident) => ident,
+        ast::ExprKind::Wrong(_) => return None,
+        _ => {
+            cx.error(variable.original, &message::diff_variable_is_not_a_name());
+            return None;
+        }
     };
     let refuse = |kind| {
-        let names: Vec<String> = resolver
-            .variables
-            .iter()
-            .map(|v| ast::name(v.ident))
-            .collect();
+        let variables = resolver.variables.iter();
+        let names: Vec<String> = variables.map(|v| ast::name(v.ident)).collect();
         let names = names.iter().map(String::as_str);
         cx.error(ident, &message::diff_variable(ident, kind, names));
     };
     match resolver.scope.resolve(ident) {
         Some(Meaning::Argument(index)) => return Some(index),
-        Some(Meaning::ForeignArgument(role)) => {
-            cx.error(ident, &message::law_of_state(ident, role));
-        }
         Some(Meaning::Field(_)) => refuse("parameter"),
-        Some(Meaning::Binding(_) | Meaning::ForeignBinding) => refuse("`let` binding"),
-        None => {
-            let nearest = resolver.scope.nearest(ident);
-            cx.error(ident, &message::unknown_name(ident, nearest));
-        }
+        // That it hides an argument has been reported.
+        Some(Meaning::Binding(_)) if is_argument(resolver, ident) => {}
+        Some(Meaning::Binding(_)) => refuse("`let` binding"),
+        Some(meaning) => resolver.refuse(ident, meaning),
+        None => resolver.unknown(ident),
     }
     None
+}
+
+fn is_argument(resolver: &Resolver<'_, '_>, ident: &Ident) -> bool {
+    let mut variables = resolver.variables.iter();
+    variables.any(|variable| ast::name(variable.ident) == ast::name(ident))
 }

@@ -1,7 +1,7 @@
 //! The viscosity laws: one per dashpot, of the temperature and the parameters.
 
 use super::parameters::Used;
-use super::resolve::Resolver;
+use super::resolve::{self, Resolver};
 use super::scope::{Meaning, Scope};
 use crate::ast::{self, Argument, Block, Expr, ExprKind, Input, Law, Role};
 use crate::checked::{Body, Variable};
@@ -15,7 +15,7 @@ pub(super) fn viscosities<'a>(
     input: &'a Input<'a>,
     variables: &[Variable<'a>],
     used: &mut Used,
-) -> Option<Vec<Body<'a>>> {
+) -> Vec<Option<Body<'a>>> {
     let mut bodies = Vec::new();
     for law in &input.laws {
         let mut resolver = Resolver::new(cx, scope(input, variables), variables, used);
@@ -26,8 +26,11 @@ pub(super) fn viscosities<'a>(
     dashpots
         .map(|dashpot| {
             let name = ast::name(dashpot.ident);
-            let position = bodies.iter().position(|(n, _)| *n == name)?;
-            bodies.swap_remove(position).1
+            let position = bodies.iter().position(|(n, _)| *n == name);
+            if position.is_none() {
+                used.give_up();
+            }
+            Some(bodies.remove(position?).1)
         })
         .collect()
 }
@@ -37,22 +40,28 @@ pub(super) fn viscosities<'a>(
 fn scope(input: &Input<'_>, variables: &[Variable<'_>]) -> Scope {
     let mut scope = Scope::default();
     declare_bindings(&mut scope, &input.energy);
-    for (index, field) in input.fields.iter().enumerate() {
-        scope.declare(field.ident, Meaning::Field(index));
-    }
-    for (index, variable) in variables.iter().enumerate() {
-        let meaning = match variable.role {
-            Role::Temperature => Meaning::Argument(index),
-            role @ (Role::Stretch | Role::Viscous) => Meaning::ForeignArgument(role),
+    resolve::declare_fields(&mut scope, input);
+    for argument in &input.arguments {
+        let index = variables.iter().position(|v| v.ident == argument.ident);
+        let meaning = match (index, argument.role) {
+            (Some(index), Some(Role::Temperature)) => Meaning::Argument(index),
+            (_, Some(role)) => Meaning::ForeignArgument(role),
+            (_, None) => Meaning::WrongArgument,
         };
-        scope.declare(variable.ident, meaning);
+        scope.declare(argument.ident, meaning);
+    }
+    if input.arguments.len() < input.closure.inputs.len() {
+        scope.declare_unreadable();
     }
     scope
 }
 
 fn declare_bindings(scope: &mut Scope, block: &Block<'_>) {
     for binding in &block.bindings {
-        scope.declare(binding.ident, Meaning::ForeignBinding);
+        match binding.ident {
+            Some(ident) => scope.declare(ident, Meaning::ForeignBinding),
+            None => scope.declare_unreadable(),
+        }
         declare_inner(scope, &binding.value);
     }
     declare_inner(scope, &block.value);
@@ -66,7 +75,7 @@ fn declare_inner(scope: &mut Scope, expr: &Expr<'_>) {
             declare_inner(scope, left);
             declare_inner(scope, right);
         }
-        ExprKind::Call(_, arguments) => {
+        ExprKind::Call(_, arguments) | ExprKind::Wrong(arguments) => {
             for argument in arguments {
                 declare_inner(scope, argument);
             }
@@ -81,15 +90,18 @@ pub(super) fn check_names(cx: &Ctxt, input: &Input<'_>) {
         let name = ast::name(dashpot);
         let same = |ident| ast::name(ident) == name;
         match input.arguments.iter().find(|a| same(a.ident)) {
-            Some(&Argument {
-                role: Role::Viscous,
+            Some(Argument {
+                role: Some(Role::Viscous) | None,
                 ..
             }) => {}
-            Some(argument) => {
-                let message = message::viscosity_of_another_role(dashpot, argument.role);
+            Some(&Argument {
+                role: Some(role), ..
+            }) => {
+                let message = message::viscosity_of_another_role(dashpot, role);
                 cx.error(dashpot, &message);
             }
-            None => report_unknown(cx, input, dashpot),
+            None if input.arguments_complete => report_unknown(cx, input, dashpot),
+            None => {}
         }
         if input.laws[..i].iter().any(|law| same(law.dashpot)) {
             cx.error(dashpot, &message::second_viscosity(dashpot));
@@ -98,7 +110,8 @@ pub(super) fn check_names(cx: &Ctxt, input: &Input<'_>) {
 }
 
 fn report_unknown(cx: &Ctxt, input: &Input<'_>, name: &syn::Ident) {
-    let viscous = input.arguments.iter().filter(|a| a.role == Role::Viscous);
+    let viscous = input.arguments.iter();
+    let viscous = viscous.filter(|a| a.role == Some(Role::Viscous));
     let dashpots: Vec<String> = viscous.map(|a| ast::name(a.ident)).collect();
     let dashpots = || dashpots.iter().map(String::as_str);
     let nearest = nearest(&ast::name(name), dashpots());
@@ -106,12 +119,19 @@ fn report_unknown(cx: &Ctxt, input: &Input<'_>, name: &syn::Ident) {
     cx.error(name, &message);
 }
 
-/// Every dashpot has a law.
+/// Every dashpot has a law. A law for a misspelt dashpot is taken for the missing one.
 pub(super) fn check_complete(cx: &Ctxt, input: &Input<'_>) {
+    let known = |law: &Law<'_>| {
+        let mut arguments = input.arguments.iter();
+        arguments.any(|argument| ast::name(argument.ident) == ast::name(law.dashpot))
+    };
+    if !input.laws_complete || !input.laws.iter().all(known) {
+        return;
+    }
     for argument in &input.arguments {
         let name = ast::name(argument.ident);
         let has_law = input.laws.iter().any(|law| ast::name(law.dashpot) == name);
-        if argument.role == Role::Viscous && !has_law {
+        if argument.role == Some(Role::Viscous) && !has_law {
             cx.error(argument.ident, &message::missing_viscosity(argument.ident));
         }
     }

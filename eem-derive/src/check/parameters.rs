@@ -1,36 +1,54 @@
 //! Which fields are parameters, and what scalar they make the model work in.
 //!
-//! Only fields that an expression mentions count: a struct may carry anything else.
+//! Only fields that an expression mentions count: a struct may carry anything else. But a number
+//! that no expression mentions is a parameter without effect, unless the struct says so.
 
 use proc_macro2::Ident;
 use syn::Type;
 
-use crate::ast::{Field, Input};
+use crate::ast::{self, Field, Input};
 use crate::checked::{Parameter, ParameterKind, Scalar};
 use crate::ctxt::Ctxt;
 use crate::message::field as message;
 
 /// The fields that expressions have mentioned so far.
 #[derive(Debug)]
-pub(super) struct Used(Vec<bool>);
+pub(super) struct Used {
+    fields: Vec<bool>,
+    /// Nothing has been reported that may have hidden the use of a field.
+    complete: bool,
+}
 
 impl Used {
     /// No field has been mentioned.
-    pub(super) fn none(fields: &[Field<'_>]) -> Self {
-        Self(vec![false; fields.len()])
+    pub(super) fn none(input: &Input<'_>) -> Self {
+        Self {
+            fields: vec![false; input.fields.iter().flatten().count()],
+            complete: input.laws_complete,
+        }
+    }
+
+    /// Nothing has been reported that may have hidden the use of a field.
+    pub(super) fn is_complete(&self) -> bool {
+        self.complete
+    }
+
+    /// Some expression has been reported: it might have mentioned any field.
+    pub(super) fn give_up(&mut self) {
+        self.complete = false;
     }
 
     /// An expression mentions field `index`.
     pub(super) fn mark(&mut self, index: usize) {
-        self.0[index] = true;
+        self.fields[index] = true;
     }
 
     fn fields<'i, 'a>(
         &'i self,
         input: &'i Input<'a>,
     ) -> impl Iterator<Item = (usize, &'i Field<'a>)> {
-        let fields = input.fields.iter().enumerate();
-        fields.filter(|&(index, _)| self.0[index])
+        let fields = input.fields.iter().flatten().enumerate();
+        fields.filter(|&(index, _)| self.fields[index])
     }
 }
 
@@ -78,6 +96,32 @@ pub(super) fn scalar<'a>(cx: &Ctxt, input: &Input<'a>, used: &Used) -> Scalar<'a
         }
     }
     scalar
+}
+
+/// Every number is a parameter that an expression mentions, or is marked as unused.
+///
+/// Fields of other types are no numbers, and so is a type parameter that is not the scalar.
+pub(super) fn check_used(cx: &Ctxt, input: &Input<'_>, used: &Used, scalar: Scalar<'_>) {
+    if !used.complete {
+        return;
+    }
+    for (index, field) in input.fields.iter().flatten().enumerate() {
+        let number = match kind(input, field.ty) {
+            Kind::Double | Kind::Single => true,
+            Kind::TypeParameter(parameter) => scalar == Scalar::Parameter(parameter),
+            Kind::Other => false,
+        };
+        let marked = field.unused || field.wrong || ast::is_underscored(field.ident);
+        if number && !marked && !used.fields[index] && !is_hidden(input, field) {
+            cx.error(field.ident, &message::unused(field.ident));
+        }
+    }
+}
+
+/// An argument has the same name, which has been reported.
+fn is_hidden(input: &Input<'_>, field: &Field<'_>) -> bool {
+    let mut arguments = input.arguments.iter();
+    arguments.any(|argument| ast::name(argument.ident) == ast::name(field.ident))
 }
 
 fn kind<'a>(input: &Input<'a>, ty: &Type) -> Kind<'a> {

@@ -1,5 +1,7 @@
 //! The arguments of the free energy: how many of each role, and in which order they are stored.
 
+use std::collections::BTreeSet;
+
 use crate::ast::{self, Argument, Input, Role};
 use crate::checked::Variable;
 use crate::ctxt::Ctxt;
@@ -10,14 +12,14 @@ use crate::message::attribute as message;
 pub(super) fn variables<'a>(input: &Input<'a>) -> Vec<Variable<'a>> {
     let by_role = Role::ALL.into_iter().flat_map(|role| of_role(input, role));
     by_role
-        .map(|&Argument { ident, role }| Variable { ident, role })
+        .filter_map(|&Argument { ident, role }| Some(Variable { ident, role: role? }))
         .collect()
 }
 
 /// Without a length there is no spring.
 pub(super) fn check_stretch(cx: &Ctxt, input: &Input<'_>) {
     let closure = input.closure;
-    if of_role(input, Role::Stretch).next().is_some() {
+    if of_role(input, Role::Stretch).next().is_some() || !input.arguments_complete {
         return;
     }
     if closure.inputs.is_empty() {
@@ -40,20 +42,18 @@ pub(super) fn check_counts(cx: &Ctxt, input: &Input<'_>) {
     }
 }
 
-/// Two arguments with one name: the second would hide the first, also from `diff`.
-pub(super) fn check_distinct(cx: &Ctxt, input: &Input<'_>) {
-    for (i, argument) in input.arguments.iter().enumerate() {
-        let name = ast::name(argument.ident);
-        if input.arguments[..i]
-            .iter()
-            .any(|a| ast::name(a.ident) == name)
-        {
-            cx.error(argument.ident, &message::second_argument(argument.ident));
-        }
-    }
+/// One stretch, at most one temperature, and all names differ.
+pub(super) fn are_sound(input: &Input<'_>) -> bool {
+    let count = |role| of_role(input, role).count();
+    let names = input.arguments.iter().map(|argument| argument.ident);
+    let names: BTreeSet<String> = names.map(ast::name).collect();
+    input.arguments_complete
+        && count(Role::Stretch) == 1
+        && count(Role::Temperature) <= 1
+        && names.len() == input.arguments.len()
 }
 
 fn of_role<'i, 'a>(input: &'i Input<'a>, role: Role) -> impl Iterator<Item = &'i Argument<'a>> {
     let arguments = input.arguments.iter();
-    arguments.filter(move |argument| argument.role == role)
+    arguments.filter(move |argument| argument.role == Some(role))
 }

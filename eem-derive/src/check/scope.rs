@@ -1,7 +1,6 @@
 //! What a name means at a point of an expression.
 //!
-//! The inner name hides the outer one, as in Rust: a `let` hides whatever came before it,
-//! arguments included; an argument hides a field.
+//! The inner name hides the outer one, as in Rust; [`names`](super::names) reports where it does.
 
 use proc_macro2::Ident;
 
@@ -13,22 +12,31 @@ use crate::nearest::nearest;
 pub(super) enum Meaning {
     /// Field of the struct.
     Field(usize),
+    /// Field that is marked as unused.
+    UnusedField,
     /// Argument of the free energy, in the order of the state.
     Argument(usize),
-    /// `let` binding; nothing if its value was wrong, which has been reported.
-    Binding(Option<usize>),
+    /// Argument whose role could not be read.
+    WrongArgument,
+    /// `let` binding.
+    Binding(usize),
     /// An argument that a viscosity must not use.
     ForeignArgument(Role),
     /// A `let` of the free energy, which a viscosity does not see.
     ForeignBinding,
+    /// Any name: something that declares names could not be read.
+    Unreadable,
 }
 
 impl Meaning {
     /// May be suggested in place of a wrong name.
     fn visible(self) -> bool {
         match self {
-            Self::Field(_) | Self::Argument(_) | Self::Binding(_) => true,
-            Self::ForeignArgument(_) | Self::ForeignBinding => false,
+            Self::Field(_) | Self::Argument(_) | Self::WrongArgument | Self::Binding(_) => true,
+            Self::UnusedField
+            | Self::ForeignArgument(_)
+            | Self::ForeignBinding
+            | Self::Unreadable => false,
         }
     }
 }
@@ -45,14 +53,23 @@ impl Scope {
         self.names.push((ast::name(ident), meaning));
     }
 
+    /// From here on, unknown names may be due to what could not be read.
+    pub(super) fn declare_unreadable(&mut self) {
+        self.names.push((String::new(), Meaning::Unreadable));
+    }
+
     /// What `ident` stands for here.
     pub(super) fn resolve(&self, ident: &Ident) -> Option<Meaning> {
         let wanted = ast::name(ident);
-        let inner_first = self.names.iter().rev();
-        inner_first
-            .filter(|(name, _)| *name == wanted)
-            .map(|&(_, meaning)| meaning)
-            .next()
+        let mut inner_first = self.names.iter().rev();
+        let found = inner_first.find(|(name, _)| *name == wanted);
+        let unreadable = || self.names.iter().find(|(_, m)| *m == Meaning::Unreadable);
+        found.or_else(unreadable).map(|&(_, meaning)| meaning)
+    }
+
+    /// The name is taken.
+    pub(super) fn contains(&self, name: &str) -> bool {
+        self.names.iter().any(|(known, _)| known == name)
     }
 
     /// The visible name most like `ident`.

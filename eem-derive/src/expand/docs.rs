@@ -1,11 +1,13 @@
 //! The documentation of the generated code: the model as formulas, each function with its cost.
 
-use eem_symbolic::{Formulas, Model, Program, StageCount};
+use eem_symbolic::{Program, StageCount, TranscendentalCount};
 use proc_macro2::TokenStream;
 use quote::quote;
 
-use crate::ast::{self, Role};
+use super::description::Equation;
+use crate::ast;
 use crate::checked::Checked;
+use crate::units::Units;
 
 /// Columns of a line in a formula block.
 const WIDTH: usize = 96;
@@ -20,99 +22,117 @@ const INDENT: usize = 4;
 //     /// ψ = …
 //     /// f = ∂ψ/∂lambda = …
 //     /// ```
-pub(super) fn formulas(checked: &Checked<'_>, model: &Model) -> TokenStream {
+//     ///
+//     /// | parameter | unit |
+//     /// |---|---|
+//     /// | `stiffness` | `N/m` |
+pub(super) fn formulas(
+    checked: &Checked<'_>,
+    equations: &[Equation],
+    units: &Units,
+) -> TokenStream {
     let mut lines = vec![
         "Generated from the free energy of the model:".to_owned(),
         String::new(),
         "```text".to_owned(),
     ];
-    for (left, right) in equations(checked, &model.formulas()) {
-        // A long formula comes with a list of definitions, one per line.
-        for line in format!("{left} = {right}").lines() {
-            wrap(line, &mut lines);
-        }
-    }
+    let equations = equations.iter().flat_map(|equation| &equation.lines);
+    lines.extend(equations.cloned());
     lines.push("```".to_owned());
+    lines.extend(table_of_units(checked, units));
     doc(lines)
 }
 
-/// Left and right sides, in the order in which a reader wants them.
-fn equations(checked: &Checked<'_>, formulas: &Formulas) -> Vec<(String, String)> {
-    let names = |role| {
-        let variables = checked.variables.iter().filter(move |v| v.role == role);
-        variables.map(|v| ast::name(v.ident))
-    };
-    let theta = names(Role::Temperature).next().unwrap_or_default();
-    let mut equations = vec![("ψ".to_owned(), formulas.free_energy.clone())];
-    if let Some(entropy) = &formulas.entropy {
-        equations.push((format!("s = −∂ψ/∂{theta}"), entropy.clone()));
-        let energy = formulas.internal_energy.clone();
-        equations.push((format!("e = ψ + {theta} s"), energy));
+/// Nothing for a model without units.
+fn table_of_units(checked: &Checked<'_>, units: &Units) -> Vec<String> {
+    let parameters = checked.parameters.iter();
+    let rows = parameters.filter_map(|parameter| {
+        let unit = units.of_field(parameter.field)?;
+        Some(format!("| `{}` | `{unit}` |", ast::name(parameter.ident)))
+    });
+    let rows: Vec<String> = rows.collect();
+    if rows.is_empty() {
+        return rows;
     }
-    for (name, force) in names(Role::Stretch).zip(&formulas.forces) {
-        equations.push((format!("f = ∂ψ/∂{name}"), force.clone()));
-    }
-    for (k, (name, force)) in names(Role::Viscous)
-        .zip(&formulas.dashpot_forces)
-        .enumerate()
-    {
-        let g = subscript("g", k, formulas.dashpot_forces.len());
-        equations.push((format!("{g} = −∂ψ/∂{name}"), force.clone()));
-    }
-    if let Some(capacity) = &formulas.heat_capacity {
-        equations.push((format!("c = {theta} ∂s/∂{theta}"), capacity.clone()));
-    }
-    for (k, viscosity) in formulas.viscosities.iter().enumerate() {
-        let eta = subscript("η", k, formulas.viscosities.len());
-        equations.push((eta, viscosity.clone()));
-    }
-    equations
+    let head = ["", "| parameter | unit |", "|---|---|"].map(str::to_owned);
+    head.into_iter().chain(rows).collect()
 }
 
-/// `symbol`, numbered from 1 if there are several.
-fn subscript(symbol: &str, index: usize, count: usize) -> String {
-    if count == 1 {
-        symbol.to_owned()
-    } else {
-        format!("{symbol}_{}", index + 1)
+/// A formula in lines; a long one comes with a list of definitions, one per line.
+pub(super) fn lines(formula: &str) -> Vec<String> {
+    let mut lines = Vec::new();
+    for line in formula.lines() {
+        wrap(line, &mut lines);
     }
+    lines
 }
 
 /// Appends a formula, broken in front of operators into lines of at most [`WIDTH`] columns where
-/// possible: outside of parentheses rather than inside, late rather than early. What is deeper in
-/// parentheses is indented more.
+/// possible: outside of parentheses rather than inside, sums rather than products, late rather than
+/// early. What is deeper in parentheses is indented more.
 fn wrap(formula: &str, lines: &mut Vec<String>) {
     let mut rest: Vec<char> = formula.chars().collect();
     let (mut indent, mut depth) = (0, 0);
     while rest.len() > WIDTH {
-        let Some((deeper, at)) = break_point(&rest, indent) else {
+        let Some(Break {
+            deeper,
+            product,
+            at,
+        }) = break_point(&rest, indent)
+        else {
             break;
         };
         depth += deeper;
         indent = INDENT * usize::try_from(1 + depth).unwrap_or(1);
+        if product {
+            indent += INDENT / 2;
+        }
         lines.push(rest[..at].iter().collect());
-        // The blank goes, the operator leads the next line.
-        rest = [vec![' '; indent], rest.split_off(at + 1)].concat();
+        let tail = rest.split_off(at).into_iter().skip_while(|&c| c == ' ');
+        // The operator leads the next line.
+        rest = vec![' '; indent];
+        rest.extend(tail);
     }
     lines.push(rest.into_iter().collect());
 }
 
-/// The best blank to break at, and how many more parentheses are open there than at the start.
-fn break_point(line: &[char], indent: usize) -> Option<(i32, usize)> {
-    let mut depth = 0;
-    let mut best: Option<(i32, usize)> = None;
-    for at in indent + 1..=WIDTH {
-        match line[at] {
-            '(' | '[' => depth += 1,
-            ')' | ']' => depth -= 1,
-            ' ' if matches!(line[at + 1..], ['+' | '-', ' ', ..]) => {
-                // In the first half only what is outside of everything.
-                let late = 2 * at > WIDTH;
-                if (late || depth <= 0) && best.is_none_or(|(best, _)| depth <= best) {
-                    best = Some((depth, at));
-                }
+/// A place to break a line.
+#[derive(Clone, Copy)]
+struct Break {
+    /// How many more parentheses are open there than at the start.
+    deeper: i32,
+    /// In front of `*` and not of `+` or `-`.
+    product: bool,
+    at: usize,
+}
+
+/// The best place to break a line; the first one if all are too late.
+fn break_point(line: &[char], indent: usize) -> Option<Break> {
+    let mut deeper = 0;
+    let mut best: Option<Break> = None;
+    for at in indent + 1..line.len() {
+        if at > WIDTH && best.is_some() {
+            break;
+        }
+        let product = match line[at..] {
+            [' ', '+' | '-', ' ', ..] => false,
+            ['*', ..] => true,
+            [c, ..] => {
+                deeper += i32::from("([".contains(c)) - i32::from(")]".contains(c));
+                continue;
             }
-            _ => {}
+            [] => break,
+        };
+        // Early breaks are for what is outside of everything, and not for single letters.
+        let early = if product { 4 * at <= WIDTH } else { false };
+        let late = 2 * at > WIDTH;
+        let better = |best: Break| (deeper, product) <= (best.deeper, best.product);
+        if (late || (deeper <= 0 && !early)) && best.is_none_or(better) {
+            best = Some(Break {
+                deeper,
+                product,
+                at,
+            });
         }
     }
     best
@@ -138,7 +158,24 @@ pub(super) fn old_stage(purpose: &str, program: &Program) -> TokenStream {
 
 /// `purpose` and what the part that runs once per iteration costs.
 pub(super) fn new_stage(purpose: &str, program: &Program) -> TokenStream {
-    paragraphs(purpose, &operations(&program.operation_count().new))
+    let cost = operations(&program.operation_count().new);
+    let transcendental = transcendental(program.transcendental_count());
+    paragraphs(purpose, &format!("{cost}{transcendental}"))
+}
+
+/// How many transcendental functions are called, beside how many arguments they have.
+fn transcendental(count: TranscendentalCount) -> String {
+    let TranscendentalCount { calls, arguments } = count;
+    let plural = |n: usize, noun: &str| match n {
+        1 => format!("1 {noun}"),
+        n => format!("{n} {noun}s"),
+    };
+    if calls == 0 && arguments == 0 {
+        return String::new();
+    }
+    let calls = plural(calls, "call");
+    let arguments = plural(arguments, "argument");
+    format!(" Transcendental functions: {calls} for {arguments}.")
 }
 
 /// `12 operations: 5 additions, 6 multiplications, 1 function.`

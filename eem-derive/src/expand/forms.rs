@@ -1,11 +1,11 @@
 //! The algorithmic quantities of a step, in entropy and in temperature form.
 //!
-//! Each form is two functions: one that runs once per step, of the old state, and one that runs
-//! once per iteration and starts from what the first has left.
+//! Each form is three functions: one that runs once per step, of the old state; one that runs once
+//! per iteration and starts from what the first has left; and the latter without the tangent.
 
 use eem_symbolic::{Program, Programs, Stage};
 use proc_macro2::TokenStream;
-use quote::quote;
+use quote::{ToTokens as _, quote};
 
 use super::docs;
 use super::inputs::Inputs;
@@ -28,6 +28,11 @@ fn entropy_form(program: &Program, inputs: &Inputs) -> TokenStream {
         "Entropy form: algorithmic quantities and their tangent.",
         program,
     );
+    let response = response(program, inputs);
+    let response_docs = docs::new_stage(
+        "Entropy form: the same algorithmic quantities without their tangent.",
+        &program.restricted_to(inputs.responses()),
+    );
     let corners = if inputs.thermal {
         quote!(__corners)
     } else {
@@ -43,6 +48,13 @@ fn entropy_form(program: &Program, inputs: &Inputs) -> TokenStream {
             __x1: &Self::Variables,
             #corners: &Self::Corners,
         ) -> (Self::Response, Self::Tangent) { #new }
+        #response_docs
+        fn entropy_form_response(
+            &self,
+            __old: &Self::EntropyFormOld,
+            __x1: &Self::Variables,
+            #corners: &Self::Corners,
+        ) -> Self::Response { #response }
     }
 }
 
@@ -53,6 +65,11 @@ fn temperature_form(program: &Program, inputs: &Inputs) -> TokenStream {
         "Temperature form: algorithmic quantities and their tangent.",
         program,
     );
+    let response = response(program, inputs);
+    let response_docs = docs::new_stage(
+        "Temperature form: the same algorithmic quantities without their tangent.",
+        &program.restricted_to(inputs.responses()),
+    );
     quote! {
         #old_docs
         fn temperature_form_old(&self, __x0: &Self::Variables) -> Self::TemperatureFormOld { #old }
@@ -62,6 +79,12 @@ fn temperature_form(program: &Program, inputs: &Inputs) -> TokenStream {
             __old: &Self::TemperatureFormOld,
             __x1: &Self::Variables,
         ) -> (Self::Response, Self::Tangent) { #new }
+        #response_docs
+        fn temperature_form_response(
+            &self,
+            __old: &Self::TemperatureFormOld,
+            __x1: &Self::Variables,
+        ) -> Self::Response { #response }
     }
 }
 
@@ -80,12 +103,20 @@ fn the_same_form() -> TokenStream {
         ) -> (Self::Response, Self::Tangent) {
             __eem::FreeEnergy::entropy_form(self, __old, __x1, &[])
         }
+        /// There is no temperature: the same as the entropy form.
+        fn temperature_form_response(
+            &self,
+            __old: &Self::TemperatureFormOld,
+            __x1: &Self::Variables,
+        ) -> Self::Response {
+            __eem::FreeEnergy::entropy_form_response(self, __old, __x1, &[])
+        }
     }
 }
 
 // Expands to: `let __v0 = __x0[0]; … [__v3, __v5]`.
 fn old_stage(program: &Program, inputs: &Inputs) -> TokenStream {
-    let lets = statements(program, inputs, Stage::Old);
+    let lets = statements(program, inputs, |_, stage| stage == Stage::Old);
     let hoisted = program.hoisted().into_iter().map(value);
     quote! { #lets [#(#hoisted),*] }
 }
@@ -93,7 +124,7 @@ fn old_stage(program: &Program, inputs: &Inputs) -> TokenStream {
 // Expands to: `let [__v3, __v5] = *__old; let __v6 = __x1[0]; … ([…], [[…], …])`.
 fn new_stage(program: &Program, inputs: &Inputs) -> TokenStream {
     let hoisted = program.hoisted().into_iter().map(value);
-    let lets = statements(program, inputs, Stage::New);
+    let lets = statements(program, inputs, |_, stage| stage == Stage::New);
     let outputs: Vec<_> = program
         .outputs
         .iter()
@@ -110,11 +141,39 @@ fn new_stage(program: &Program, inputs: &Inputs) -> TokenStream {
     }
 }
 
-fn statements(program: &Program, inputs: &Inputs, stage: Stage) -> TokenStream {
+// Expands to: `let [__v3, _] = *__old; let __v6 = __x1[0]; … […]`: those statements of the full
+// function that the response depends on, hence the same bits.
+fn response(program: &Program, inputs: &Inputs) -> TokenStream {
+    let outputs = &program.outputs[..inputs.responses()];
+    let needed = program.needed_by(outputs);
+    let hoisted = program.hoisted().into_iter();
+    let hoisted = hoisted.map(|hoisted| {
+        if needed[hoisted.index()] {
+            value(hoisted).to_token_stream()
+        } else {
+            quote!(_)
+        }
+    });
+    let lets = statements(program, inputs, |index, stage| {
+        stage == Stage::New && needed[index]
+    });
+    let outputs = outputs.iter().map(|&output| value(output));
+    quote! {
+        let [#(#hoisted),*] = *__old;
+        #lets
+        [#(#outputs),*]
+    }
+}
+
+fn statements(
+    program: &Program,
+    inputs: &Inputs,
+    keep: impl Fn(usize, Stage) -> bool,
+) -> TokenStream {
     Statements {
         program,
         scalar: &inputs.scalar,
         input: &|index| inputs.form(index),
     }
-    .lets(|instruction| instruction.stage == stage)
+    .lets(|index, instruction| keep(index, instruction.stage))
 }

@@ -1,8 +1,8 @@
 //! The head of the implementation: generics, bounds and the scalar.
 
-use proc_macro2::TokenStream;
-use quote::{ToTokens as _, quote};
-use syn::{DeriveInput, Generics, Ident, parse_quote};
+use proc_macro2::{Span, TokenStream};
+use quote::{ToTokens as _, format_ident, quote};
+use syn::{DeriveInput, GenericParam, Generics, Ident, parse_quote};
 
 use crate::checked::Scalar;
 
@@ -11,7 +11,8 @@ pub(crate) struct Header<'a> {
     ident: &'a Ident,
     original: &'a Generics,
     generics: Generics,
-    /// The type that stands for the scalar: a parameter of the struct or `__S`.
+    /// The type that stands for the scalar: a parameter of the struct, or `__S` unless it
+    /// has a parameter of that name.
     pub(crate) scalar: TokenStream,
 }
 
@@ -21,8 +22,9 @@ impl<'a> Header<'a> {
         let mut generics = input.generics.clone();
         let scalar = match scalar {
             Scalar::Any => {
-                generics.params.push(parse_quote!(__S: __eem::Scalar));
-                quote! { __S }
+                let scalar = unused(&generics);
+                generics.params.push(parse_quote!(#scalar: __eem::Scalar));
+                scalar.to_token_stream()
             }
             Scalar::Parameter(parameter) => {
                 let bound = parse_quote!(#parameter: __eem::Scalar);
@@ -50,4 +52,17 @@ impl<'a> Header<'a> {
             }
         }
     }
+}
+
+/// A name for the scalar that the struct has not given to a parameter of its own.
+fn unused(generics: &Generics) -> Ident {
+    let mut scalar = Ident::new("__S", Span::call_site());
+    while generics.params.iter().any(|parameter| match parameter {
+        GenericParam::Type(parameter) => parameter.ident == scalar,
+        GenericParam::Const(parameter) => parameter.ident == scalar,
+        GenericParam::Lifetime(_) => false,
+    }) {
+        scalar = format_ident!("{scalar}_");
+    }
+    scalar
 }

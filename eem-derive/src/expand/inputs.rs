@@ -58,6 +58,18 @@ impl Inputs {
         self.parameter_or(index, |index| element(&quote!(__x), index))
     }
 
+    /// Input `index` of a program of the temperature: parameters, x without θ, θ.
+    pub(super) fn at_temperature(&self, index: usize) -> TokenStream {
+        let last = self.variables - 1;
+        self.parameter_or(index, |index| {
+            if index == last {
+                quote!(__theta)
+            } else {
+                element(&quote!(__x), index)
+            }
+        })
+    }
+
     /// Input `index` of a viscosity: parameters, θ.
     pub(super) fn viscosity(&self, index: usize) -> TokenStream {
         self.parameter_or(index, |_| quote!(__theta))

@@ -1,6 +1,6 @@
 //! The functions of one state: ψ, e, gradient, Hessian, caloric quantities, viscosities.
 
-use eem_symbolic::{Program, Programs};
+use eem_symbolic::{Program, Programs, Stage};
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -21,6 +21,7 @@ pub(super) fn points(programs: &Programs, inputs: &Inputs) -> TokenStream {
     let gradient = gradient(&programs.gradient, inputs);
     let hessian = hessian(&programs.hessian, inputs);
     let caloric = caloric(programs.caloric.as_ref(), inputs);
+    let caloric_at = caloric_at(programs.caloric_at.as_ref(), inputs);
     let entropy_hessian = entropy_hessian(programs.entropy_hessian.as_ref(), inputs);
     let viscosity = viscosity(programs.viscosity.as_ref(), inputs);
     quote! {
@@ -31,6 +32,7 @@ pub(super) fn points(programs: &Programs, inputs: &Inputs) -> TokenStream {
         #gradient
         #hessian
         #caloric
+        #caloric_at
         #entropy_hessian
         #viscosity
     }
@@ -109,6 +111,42 @@ fn caloric(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
     }
 }
 
+// Expands to: `let __v0 = …; move |__theta| { let __v5 = __theta; … __eem::Caloric { … } }`.
+fn caloric_at(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
+    let Some(program) = program else {
+        return TokenStream::new();
+    };
+    let scalar = &inputs.scalar;
+    let lets = |stage| {
+        let statements = Statements {
+            program,
+            scalar,
+            input: &|index| inputs.at_temperature(index),
+        };
+        statements.lets(|_, instruction| instruction.stage == stage)
+    };
+    let (old, new) = (lets(Stage::Old), lets(Stage::New));
+    let [entropy, heat_capacity, magnitude] = [0, 1, 2].map(|i| value(program.outputs[i]));
+    let docs = docs::new_stage("The same as a function of the temperature.", program);
+    quote! {
+        #docs
+        fn caloric_at(
+            &self,
+            __x: Self::Variables,
+        ) -> impl __eem::core::ops::Fn(#scalar) -> __eem::Caloric<#scalar> {
+            #old
+            move |__theta| {
+                #new
+                __eem::Caloric {
+                    entropy: #entropy,
+                    heat_capacity: #heat_capacity,
+                    magnitude: #magnitude,
+                }
+            }
+        }
+    }
+}
+
 // Expands to: `let __v0 = …; [[__v9, __v10], [__v10, __v11]]`.
 fn entropy_hessian(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
     let scalar = &inputs.scalar;
@@ -156,7 +194,7 @@ fn viscosity(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
         scalar,
         input: &|index| inputs.viscosity(index),
     }
-    .lets(|_| true);
+    .lets(|_, _| true);
     let outputs: Vec<_> = program
         .outputs
         .iter()
@@ -184,5 +222,5 @@ fn lets(program: &Program, inputs: &Inputs) -> TokenStream {
         scalar: &inputs.scalar,
         input: &|index| inputs.point(index),
     }
-    .lets(|_| true)
+    .lets(|_, _| true)
 }

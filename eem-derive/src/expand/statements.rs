@@ -4,6 +4,8 @@ use eem_symbolic::{Instruction, Number, Operation, Program, ProgramKernel, Value
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{format_ident, quote};
 
+use super::together::Together;
+
 /// Prints the instructions of one program.
 pub(super) struct Statements<'p> {
     pub(super) program: &'p Program,
@@ -15,14 +17,23 @@ pub(super) struct Statements<'p> {
 
 impl Statements<'_> {
     // Expands to: `let __v7 = __v3 * __v5;` for every instruction that `keep` selects.
-    pub(super) fn lets(&self, keep: impl Fn(&Instruction) -> bool) -> TokenStream {
+    pub(super) fn lets(&self, keep: impl Fn(usize, &Instruction) -> bool) -> TokenStream {
         let mut tokens = TokenStream::new();
-        for (index, instruction) in self.program.instructions.iter().enumerate() {
-            if keep(instruction) {
-                let name = name(index);
-                let value = self.operation(&instruction.operation);
-                tokens.extend(quote! { let #name = #value; });
-            }
+        let instructions = self.program.instructions.iter().enumerate();
+        let kept: Vec<_> = instructions
+            .filter(|(index, instruction)| keep(*index, instruction))
+            .collect();
+        let together = Together::of(kept.iter().copied());
+        for (index, instruction) in kept {
+            let name = name(index);
+            let value = match together.member(index, &instruction.operation) {
+                Some(member) => {
+                    tokens.extend(member.evaluation);
+                    member.value
+                }
+                None => self.operation(&instruction.operation),
+            };
+            tokens.extend(quote! { let #name = #value; });
         }
         tokens
     }
@@ -76,7 +87,12 @@ impl Statements<'_> {
 
 // Expands to: `__eem::kernel::ln_dd(__v3, __v5)`; first and second divided differences differ in
 // the suffix of the name only.
-fn divided_difference(suffix: &str, kernel: ProgramKernel, a: Value, b: Value) -> TokenStream {
+pub(super) fn divided_difference(
+    suffix: &str,
+    kernel: ProgramKernel,
+    a: Value,
+    b: Value,
+) -> TokenStream {
     let (a, b) = (value(a), value(b));
     let (name, arguments) = match kernel {
         ProgramKernel::Function(function) => (function.name(), quote!(#a, #b)),
@@ -104,7 +120,7 @@ pub(super) fn value(value: Value) -> Ident {
     name(value.index())
 }
 
-fn name(index: usize) -> Ident {
+pub(super) fn name(index: usize) -> Ident {
     format_ident!("__v{}", index, span = Span::mixed_site())
 }
 

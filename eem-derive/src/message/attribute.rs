@@ -5,6 +5,8 @@ use proc_macro2::Ident;
 use super::{Message, list};
 use crate::ast::{self, Role};
 
+pub(crate) mod physics;
+
 const CLOSURE: &str = "`#[free_energy(|lambda: Stretch, theta: Temperature| …)]`";
 
 pub(crate) fn missing_free_energy(item: &Ident) -> Message {
@@ -35,10 +37,46 @@ pub(crate) fn unreadable_free_energy(error: &syn::Error) -> Message {
     )
 }
 
+pub(crate) fn unreadable_formula(error: &syn::Error) -> Message {
+    let error = error.to_string();
+    // What the parser expects between the entries of an attribute and between statements: here it
+    // is the formula that should have gone on.
+    let text = if error.ends_with("expected `,`") || error.ends_with("expected `;`") {
+        "cannot read the formula from here on".to_owned()
+    } else {
+        format!("cannot read the formula: {error}")
+    };
+    Message::new(
+        text,
+        "between two values is an operator, `2 * x`; a function has parentheses, `ln(x)`; `let` and `;` need braces, `|…| { let …; value }`; `|x|` is `abs(x)`",
+    )
+}
+
+pub(crate) fn too_deep() -> Message {
+    Message::new(
+        "the formula is nested too deeply to be read",
+        "bind its parts with `let`",
+    )
+}
+
+pub(crate) fn after_the_closure() -> Message {
+    Message::new(
+        "the free energy is complete before this",
+        "nothing follows the closure; the decimal point is `.`",
+    )
+}
+
 pub(crate) fn free_energy_is_not_a_closure() -> Message {
     Message::new(
-        "the free energy is a closure, so that its arguments have names and roles",
+        "this is not a closure, and says nothing about the arguments and their roles",
         format!("write {CLOSURE}"),
+    )
+}
+
+pub(crate) fn unknown_option(name: &Ident) -> Message {
+    Message::new(
+        format!("`#[free_energy]` has no option `{name}`"),
+        format!("there is `crate = path`, and the closure: {CLOSURE}"),
     )
 }
 
@@ -46,6 +84,13 @@ pub(crate) fn second_crate() -> Message {
     Message::new(
         "a second `crate = …`",
         "the path of the crate is given once per struct",
+    )
+}
+
+pub(crate) fn crate_is_not_a_path() -> Message {
+    Message::new(
+        "this is not the path of a crate",
+        "write `crate = ::eem` without quotes, and a comma before the closure",
     )
 }
 
@@ -74,7 +119,7 @@ pub(crate) fn argument_without_role(argument: &str) -> Message {
 
 pub(crate) fn argument_pattern() -> Message {
     Message::new(
-        "an argument of a free energy is a plain name",
+        "this argument of the free energy is not a plain name",
         "write `name: Role`, for example `lambda: Stretch`",
     )
 }
@@ -82,7 +127,10 @@ pub(crate) fn argument_pattern() -> Message {
 pub(crate) fn unknown_role(role: &str, nearest: Option<&str>) -> Message {
     let help = match nearest {
         Some(nearest) => format!("did you mean `{nearest}`?"),
-        None => format!("the roles are {}", list(Role::ALL.map(Role::name))),
+        None => format!(
+            "the roles are {}, as bare words",
+            list(Role::ALL.map(Role::name))
+        ),
     };
     Message::new(format!("unknown role `{role}`"), help)
 }
@@ -115,6 +163,14 @@ pub(crate) fn second_argument(argument: &Ident) -> Message {
     )
 }
 
+pub(crate) fn argument_hides_field(argument: &Ident) -> Message {
+    let name = ast::name(argument);
+    Message::new(
+        format!("`{name}` is an argument here and a field of the struct"),
+        "rename one of them; a field that is no parameter can be marked with `#[free_energy(unused)]`",
+    )
+}
+
 pub(crate) fn empty_viscosity() -> Message {
     Message::new(
         "`#[viscosity]` without a law",
@@ -132,7 +188,7 @@ pub(crate) fn unreadable_viscosity(error: &syn::Error) -> Message {
 pub(crate) fn missing_viscosity(dashpot: &Ident) -> Message {
     let name = ast::name(dashpot);
     Message::new(
-        format!("the dashpot `{name}` has no viscosity"),
+        format!("the dashpot `{name}` has no viscosity law"),
         format!("write `#[viscosity({name} = …)]` on top of the struct, in N s/m"),
     )
 }

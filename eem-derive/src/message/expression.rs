@@ -9,13 +9,46 @@ pub(crate) mod syntax;
 
 pub(crate) fn unknown_name(name: &Ident, nearest: Option<&str>) -> Message {
     let name = ast::name(name);
-    let help = match nearest {
-        Some(nearest) => format!("did you mean `{nearest}`?"),
-        None => format!(
-            "known are the arguments, the fields and earlier `let` bindings; a parameter is a field, `{name}: f64`"
+    let help = match (nearest, usual_role(&name)) {
+        (Some(nearest), _) => format!("did you mean `{nearest}`?"),
+        (None, Some(role)) => format!(
+            "declare it as an argument, `{name}: {}`, or as a field, `{name}: f64`",
+            role.name()
+        ),
+        (None, None) if name.len() > 1 && !name.contains(char::is_lowercase) => {
+            "constants of the program are not seen: write the value, or make it a field".to_owned()
+        }
+        (None, None) => format!(
+            "known are the arguments of the closure, the fields and earlier `let` bindings; a parameter is a field, `{name}: f64`"
         ),
     };
     Message::new(format!("unknown name `{name}`"), help)
+}
+
+/// What the literature means by a name.
+fn usual_role(name: &str) -> Option<Role> {
+    match name {
+        "lambda" | "λ" => Some(Role::Stretch),
+        "gamma" | "γ" => Some(Role::Viscous),
+        "theta" | "θ" | "temperature" => Some(Role::Temperature),
+        _ => None,
+    }
+}
+
+pub(crate) fn binding_hides(binding: &Ident, what: &str, free: &str) -> Message {
+    let name = ast::name(binding);
+    Message::new(
+        format!("`{name}` is the name of {what} already"),
+        format!("a name means one thing in a formula: write `let {free} = …;`"),
+    )
+}
+
+pub(crate) fn unused_binding(binding: &Ident) -> Message {
+    let name = ast::name(binding);
+    Message::new(
+        format!("nothing uses `{name}`"),
+        format!("use it, remove it, or call it `_{name}` to keep it"),
+    )
 }
 
 pub(crate) fn unknown_function(name: &str, advice: String) -> Message {
@@ -23,25 +56,41 @@ pub(crate) fn unknown_function(name: &str, advice: String) -> Message {
 }
 
 /// What to write for a function that is known elsewhere, if there is a good answer.
-pub(crate) fn function_advice(name: &str) -> Option<&'static str> {
+fn function_advice(name: &str) -> Option<&'static str> {
     Some(match name {
         "log" => "the natural logarithm is `ln(x)`; there are `log2(x)` and `log10(x)` too",
+        "lg" => "write `log10(x)`",
         "log1p" => "write `ln_1p(x)`",
         "expm1" => "write `exp_m1(x)`",
         "exp2" => "write `powf(2, x)`",
-        "pow" => "write `powi(x, 2)` for an integer power and `powf(x, y)` for any other",
-        "sqr" | "square" => "write `powi(x, 2)`",
+        "pow" | "power" => "write `powi(x, 2)` for an integer power and `powf(x, y)` for any other",
+        "sq" | "sqr" | "square" => "write `powi(x, 2)`",
         "cube" => "write `powi(x, 3)`",
+        "inv" | "reciprocal" => "write `recip(x)` or `1 / x`",
         "asin" | "arcsin" => "write `atan(x / sqrt(1 - x * x))`",
         "acos" | "arccos" => "write `2 * atan(sqrt((1 - x) / (1 + x)))`",
         "arctan" => "write `atan(x)`",
+        "arsinh" | "arcsinh" => "write `asinh(x)`",
+        "artanh" | "arctanh" => "write `atanh(x)`",
         "atan2" => "write `atan(y / x)` where `x` is positive",
-        "acosh" => "write `ln(x + sqrt(x * x - 1))`",
+        "acosh" | "arcosh" | "arccosh" => "write `ln(x + sqrt(x * x - 1))`",
+        "sec" => "write `1 / cos(x)`",
+        "csc" => "write `1 / sin(x)`",
+        "cot" => "write `1 / tan(x)`",
+        "sech" => "write `1 / cosh(x)`",
+        "csch" => "write `1 / sinh(x)`",
+        "coth" => "write `1 / tanh(x)`",
+        "sin_cos" => "write `sin(x)` and `cos(x)`",
         "hypot" => "write `sqrt(x * x + y * y)`",
         "mul_add" => "write `a * b + c`",
-        "min" | "max" | "clamp" | "signum" | "copysign" | "floor" | "ceil" | "round" | "trunc"
-        | "fract" | "rem_euclid" => {
-            "forces are derivatives of the free energy, and this one has none at its kinks: use a smooth function"
+        "d" | "D" | "grad" | "gradient" | "derivative" | "partial" | "derive" => {
+            "a derivative is `diff(expression, lambda)`"
+        }
+        "from" | "into" | "clone" | "to_owned" => "remove it: all values are numbers of one kind",
+        "sum" | "map" | "fold" | "iter" => "write the terms out",
+        "min" | "max" | "clamp" | "sign" | "sgn" | "signum" | "copysign" | "heaviside" | "step"
+        | "floor" | "ceil" | "round" | "trunc" | "fract" | "rem_euclid" => {
+            "forces are derivatives of the free energy, and this one has none at its kinks: use a smooth function such as `tanh`"
         }
         _ => return None,
     })
@@ -63,7 +112,7 @@ pub(crate) fn function_help<'n>(
 pub(crate) fn argument_count(function: &str, form: &str, expected: usize, found: usize) -> Message {
     let plural = if expected == 1 { "" } else { "s" };
     Message::new(
-        format!("`{function}` takes {expected} argument{plural}, and here are {found}"),
+        format!("`{function}` takes {expected} argument{plural}, not {found}"),
         format!("write `{form}`"),
     )
 }
@@ -84,14 +133,21 @@ pub(crate) fn name_is_not_a_function(name: &str) -> Message {
 
 pub(crate) fn exponent_is_not_an_integer() -> Message {
     Message::new(
-        "the exponent of `powi` is an integer known at compile time",
+        "the exponent of `powi` is not an integer known at compile time",
         "write `powf(x, y)` for any other exponent",
+    )
+}
+
+pub(crate) fn exponent_is_too_large() -> Message {
+    Message::new(
+        "the exponent of `powi` does not fit an `i32`",
+        "write `powf(x, y)`",
     )
 }
 
 pub(crate) fn diff_variable_is_not_a_name() -> Message {
     Message::new(
-        "the second argument of `diff` is the name of an argument of the free energy",
+        "the second argument of `diff` is not the name of an argument of the free energy",
         "write `diff(expression, lambda)`",
     )
 }
@@ -117,6 +173,22 @@ pub(crate) fn abs_of_state(argument: &str) -> Message {
     )
 }
 
+pub(crate) fn root_of_square(argument: &str) -> Message {
+    Message::new(
+        format!(
+            "the root of a square is an absolute value, and it depends on `{argument}`: there is no derivative at zero"
+        ),
+        "write the square without the root, or add a small constant under it: `sqrt(x * x + c * c)`",
+    )
+}
+
+pub(crate) fn diff_of_number() -> Message {
+    Message::new(
+        "this depends on no argument of the free energy, and its derivative is zero",
+        "the first argument of `diff` is an expression of the state, such as a part of the energy",
+    )
+}
+
 pub(crate) fn law_of_state(name: &Ident, role: Role) -> Message {
     let name = ast::name(name);
     Message::new(
@@ -139,14 +211,28 @@ pub(crate) fn law_of_binding(name: &Ident) -> Message {
 pub(crate) fn number_out_of_range() -> Message {
     Message::new(
         "this number does not fit an `f64`",
-        "they reach from about `2.3e-308` to `1.8e308`; choose other units",
+        "an `f64` reaches from about `2.3e-308` to `1.8e308`; choose other units",
     )
 }
 
-pub(crate) fn not_finite() -> Message {
+pub(crate) fn constant_too_large() -> Message {
     Message::new(
-        "this constant is not a finite number",
-        "check the domain: `ln(0)` and `sqrt(-1)` have no value",
+        "this constant does not fit an `f64`",
+        "an `f64` reaches to about `1.8e308`; choose other units",
+    )
+}
+
+pub(crate) fn outside_domain(function: &str, what: &str, domain: &str) -> Message {
+    Message::new(
+        format!("`{function}` has no value here: its argument is {what}"),
+        format!("`{function}(x)` is defined for `{domain}`"),
+    )
+}
+
+pub(crate) fn negative_base() -> Message {
+    Message::new(
+        "`powf` has no value here: its base is negative",
+        "`powf(x, y)` is defined for `x > 0`; an integer power is `powi(x, n)`",
     )
 }
 
@@ -161,5 +247,12 @@ pub(crate) fn number_suffix(suffix: &str) -> Message {
     Message::new(
         format!("a number in a free energy has no type `{suffix}`"),
         "write it without suffix: all numbers are exact",
+    )
+}
+
+pub(crate) fn number_and_name(digits: &str, name: &str) -> Message {
+    Message::new(
+        format!("`{digits}{name}` is not a number"),
+        format!("for a product write `{digits} * {name}`"),
     )
 }

@@ -22,10 +22,3 @@ pub(crate) fn tuple_struct() -> Message {
         "name them: `{ pub stiffness: f64, pub rest_length: f64 }`",
     )
 }
-
-pub(crate) fn unit_struct() -> Message {
-    Message::new(
-        "a unit struct has no place for parameters",
-        "add braces: `struct Name {}` is a material without parameters",
-    )
-}

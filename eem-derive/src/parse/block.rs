@@ -1,69 +1,78 @@
 //! Blocks: `let` bindings followed by a value.
 
-use syn::{ExprBlock, Local, Pat, PatIdent, Stmt};
+use syn::{Expr as Syntax, ExprBlock, Local, Pat, PatIdent, Stmt};
 
 use super::expr::expr;
-use crate::ast::{Binding, Block};
+use crate::ast::{Binding, Block, Expr, ExprKind};
 use crate::ctxt::Ctxt;
 use crate::message::expression::syntax as message;
 
 /// Reads a block; reports every statement that is neither a `let` nor the value at the end.
-pub(super) fn block<'a>(cx: &Ctxt, block: &'a ExprBlock) -> Option<Block<'a>> {
+pub(super) fn block<'a>(cx: &Ctxt, original: &'a Syntax, block: &'a ExprBlock) -> Block<'a> {
     if let Some(label) = &block.label {
         cx.error(label, &message::label_or_modifier());
     }
     if let Some(attribute) = block.attrs.first() {
         cx.error(attribute, &message::attribute());
     }
-    let (value, statements) = match block.block.stmts.split_last() {
-        Some((value, statements)) if is_value(value) => (Some(value), statements),
+    let (last, statements) = match block.block.stmts.split_last() {
+        Some((last, statements)) if stands_for_value(last) => (Some(last), statements),
         _ => (None, &*block.block.stmts),
     };
-    let bindings = statements.iter().filter_map(|stmt| statement(cx, stmt));
-    let bindings = bindings.collect();
-    let value = match value {
-        Some(Stmt::Expr(value, _)) => expr(cx, value),
-        Some(other) => {
-            statement(cx, other);
-            None
+    let statements = statements.iter();
+    let bindings = statements
+        .map(|stmt| statement(cx, original, stmt))
+        .collect();
+    let value = match last {
+        Some(Stmt::Expr(syntax, semicolon)) => {
+            let value = expr(cx, syntax);
+            // Of `return x;` the keyword is what is wrong.
+            if let (Some(token), false) = (semicolon, matches!(value.kind, ExprKind::Wrong(_))) {
+                cx.error(token, &message::semicolon_after_value());
+            }
+            value
         }
+        Some(other) => statement(cx, original, other).value,
         None => {
             let end = block.block.brace_token.span.close();
             cx.error_at(end, &message::block_without_value());
-            None
+            Expr::hole(original)
         }
     };
-    Some(Block {
+    Block {
         bindings,
-        value: Box::new(value?),
-    })
+        value: Box::new(value),
+    }
 }
 
-/// Stands where the value of a block stands.
-fn is_value(statement: &Stmt) -> bool {
+/// Stands where the value of a block stands, if there is no `;` by mistake.
+fn stands_for_value(statement: &Stmt) -> bool {
     match statement {
-        Stmt::Expr(_, semicolon) => semicolon.is_none(),
+        Stmt::Expr(..) => true,
         Stmt::Macro(invocation) => invocation.semi_token.is_none(),
         Stmt::Local(_) | Stmt::Item(_) => false,
     }
 }
 
-fn statement<'a>(cx: &Ctxt, statement: &'a Stmt) -> Option<Binding<'a>> {
+/// A binding, or the hole that a statement leaves which is none.
+fn statement<'a>(cx: &Ctxt, block: &'a Syntax, statement: &'a Stmt) -> Binding<'a> {
+    let mut value = Expr::hole(block);
     match statement {
-        Stmt::Local(local) => return binding(cx, local),
+        Stmt::Local(local) => return binding(cx, block, local),
         Stmt::Item(item) => cx.error(item, &message::item_in_block()),
-        Stmt::Expr(value, _) => {
-            // Says what is wrong inside first: an assignment is not merely without effect.
-            if expr(cx, value).is_some() {
-                cx.error(value, &message::statement_without_effect());
+        Stmt::Macro(invocation) => cx.error(&invocation.mac.path, &message::invocation()),
+        Stmt::Expr(syntax, _) => {
+            value = expr(cx, syntax);
+            // An assignment is not merely without effect.
+            if !matches!(value.kind, ExprKind::Wrong(_)) {
+                cx.error(syntax, &message::statement_without_effect());
             }
         }
-        Stmt::Macro(invocation) => cx.error(&invocation.mac.path, &message::invocation()),
     }
-    None
+    Binding { ident: None, value }
 }
 
-fn binding<'a>(cx: &Ctxt, local: &'a Local) -> Option<Binding<'a>> {
+fn binding<'a>(cx: &Ctxt, block: &'a Syntax, local: &'a Local) -> Binding<'a> {
     if let Some(attribute) = local.attrs.first() {
         cx.error(attribute, &message::attribute());
     }
@@ -77,11 +86,16 @@ fn binding<'a>(cx: &Ctxt, local: &'a Local) -> Option<Binding<'a>> {
     let ident = match pat {
         Pat::Ident(PatIdent {
             by_ref: None,
-            mutability: None,
+            mutability,
             subpat: None,
             ident,
             ..
-        }) => Some(ident),
+        }) => {
+            if let Some(token) = mutability {
+                cx.error(token, &message::mutable());
+            }
+            Some(ident)
+        }
         other => {
             cx.error(other, &message::let_pattern());
             None
@@ -89,14 +103,12 @@ fn binding<'a>(cx: &Ctxt, local: &'a Local) -> Option<Binding<'a>> {
     };
     let Some(init) = &local.init else {
         cx.error(local, &message::let_without_value());
-        return None;
+        let value = Expr::hole(block);
+        return Binding { ident, value };
     };
     if let Some((token, _)) = &init.diverge {
         cx.error(token, &message::let_else());
     }
     let value = expr(cx, &init.expr);
-    Some(Binding {
-        ident: ident?,
-        value: value?,
-    })
+    Binding { ident, value }
 }

@@ -7,9 +7,10 @@ use super::{block, expr};
 use crate::ast::{Argument, Block, Role};
 use crate::ctxt::Ctxt;
 use crate::message::attribute as message;
+use crate::message::expression::syntax::mutable;
 use crate::nearest::nearest;
 
-/// The arguments that can be read; reports the others.
+/// The arguments whose names can be read; reports the others.
 pub(super) fn arguments<'a>(cx: &Ctxt, closure: &'a ExprClosure) -> Vec<Argument<'a>> {
     check_modifiers(cx, closure);
     let arguments = closure.inputs.iter();
@@ -17,14 +18,14 @@ pub(super) fn arguments<'a>(cx: &Ctxt, closure: &'a ExprClosure) -> Vec<Argument
 }
 
 /// The body, which is a block or a bare expression.
-pub(super) fn body<'a>(cx: &Ctxt, closure: &'a ExprClosure) -> Option<Block<'a>> {
+pub(super) fn body<'a>(cx: &Ctxt, closure: &'a ExprClosure) -> Block<'a> {
     if let syn::Expr::Block(body) = &*closure.body {
-        return block::block(cx, body);
+        return block::block(cx, &closure.body, body);
     }
-    Some(Block {
+    Block {
         bindings: Vec::new(),
-        value: Box::new(expr::expr(cx, &closure.body)?),
-    })
+        value: Box::new(expr::expr(cx, &closure.body)),
+    }
 }
 
 fn check_modifiers(cx: &Ctxt, closure: &ExprClosure) {
@@ -47,15 +48,12 @@ fn argument<'a>(cx: &Ctxt, pat: &'a Pat) -> Option<Argument<'a>> {
         Pat::Type(PatType { pat, ty, .. }) => {
             let ident = plain_name(cx, pat);
             let role = role(cx, ident, ty);
-            Some(Argument {
-                ident: ident?,
-                role: role?,
-            })
+            ident.map(|ident| Argument { ident, role })
         }
         Pat::Ident(PatIdent { ident, .. }) => {
             let name = crate::ast::name(ident);
             cx.error(ident, &message::argument_without_role(&name));
-            None
+            Some(Argument { ident, role: None })
         }
         other => {
             cx.error(other, &message::argument_pattern());
@@ -69,17 +67,36 @@ fn plain_name<'a>(cx: &Ctxt, pat: &'a Pat) -> Option<&'a syn::Ident> {
     match pat {
         Pat::Ident(PatIdent {
             by_ref: None,
-            mutability: None,
+            mutability,
             subpat: None,
             ident,
             ..
-        }) => Some(ident),
+        }) => {
+            if let Some(token) = mutability {
+                cx.error(token, &mutable());
+            }
+            Some(ident)
+        }
         other => {
             cx.error(other, &message::argument_pattern());
             None
         }
     }
 }
+
+/// Other words for the roles.
+const SYNONYMS: [(&str, Role); 10] = [
+    ("Length", Role::Stretch),
+    ("Strain", Role::Stretch),
+    ("Elongation", Role::Stretch),
+    ("Lambda", Role::Stretch),
+    ("Dashpot", Role::Viscous),
+    ("Internal", Role::Viscous),
+    ("Damper", Role::Viscous),
+    ("Gamma", Role::Viscous),
+    ("Temp", Role::Temperature),
+    ("Theta", Role::Temperature),
+];
 
 fn role(cx: &Ctxt, argument: Option<&syn::Ident>, ty: &Type) -> Option<Role> {
     let name = match ty {
@@ -99,9 +116,22 @@ fn role(cx: &Ctxt, argument: Option<&syn::Ident>, ty: &Type) -> Option<Role> {
             cx.error(ty, &message::argument_without_role(&name));
         }
         _ => {
-            let nearest = nearest(&text, Role::ALL.map(Role::name));
+            let word = last_word(ty).unwrap_or_default();
+            let role_of = |(synonym, role): &(&str, Role)| (word == *synonym).then(|| role.name());
+            let synonym = SYNONYMS.iter().find_map(role_of);
+            let nearest = synonym.or_else(|| nearest(&word, Role::ALL.map(Role::name)));
             cx.error(ty, &message::unknown_role(&text, nearest));
         }
     }
     None
+}
+
+/// The name at the end of a path, also behind a reference.
+fn last_word(ty: &Type) -> Option<String> {
+    match ty {
+        Type::Group(group) => last_word(&group.elem),
+        Type::Reference(reference) => last_word(&reference.elem),
+        Type::Path(path) => Some(path.path.segments.last()?.ident.to_string()),
+        _ => None,
+    }
 }

@@ -7,25 +7,33 @@ use crate::ast::ExprKind;
 use crate::ctxt::Ctxt;
 use crate::message::expression::{self as message, syntax};
 
+/// The number types of Rust that a literal may not name.
+const RUST_NUMBERS: [&str; 14] = [
+    "f32", "f16", "i8", "i16", "i32", "i64", "i128", "isize", "u8", "u16", "u32", "u64", "u128",
+    "usize",
+];
+
 /// The value of a numeric literal; reports every other literal.
-pub(super) fn literal<'a>(cx: &Ctxt, literal: &Lit) -> Option<ExprKind<'a>> {
+pub(super) fn literal<'a>(cx: &Ctxt, literal: &Lit) -> ExprKind<'a> {
     let (digits, suffix) = match literal {
         Lit::Int(int) => (int.base10_digits(), int.suffix()),
         Lit::Float(float) => (float.base10_digits(), float.suffix()),
         other => {
             cx.error(other, &syntax::literal(kind(other)));
-            return None;
+            return ExprKind::Wrong(Vec::new());
         }
     };
-    if !matches!(suffix, "" | "f64") {
+    if RUST_NUMBERS.contains(&suffix) {
         cx.error(literal, &message::number_suffix(suffix));
-        return None;
+    } else if !matches!(suffix, "" | "f64") {
+        cx.error(literal, &message::number_and_name(digits, suffix));
+        return ExprKind::Wrong(Vec::new());
     }
-    let number = number(digits);
-    if number.is_none() {
-        cx.error(literal, &message::number_out_of_range());
+    if let Some(number) = number(digits) {
+        return ExprKind::Number(number);
     }
-    number.map(ExprKind::Number)
+    cx.error(literal, &message::number_out_of_range());
+    ExprKind::Wrong(Vec::new())
 }
 
 /// The value of decimal digits: exact if 128-bit rationals can hold it, else the nearest `f64`.

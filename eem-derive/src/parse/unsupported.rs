@@ -7,33 +7,75 @@ use crate::ast;
 use crate::ctxt::Ctxt;
 use crate::message::expression::syntax as message;
 
-/// Reports an expression of a kind that a free energy does not have.
-pub(super) fn report(cx: &Ctxt, expr: &Expr) {
+/// Reports an expression of a kind that a free energy does not have. Returns the formulas in it
+/// that stand for numbers all the same, so that they are read as well.
+pub(super) fn report<'a>(cx: &Ctxt, expr: &'a Expr) -> Vec<&'a Expr> {
+    match expr {
+        Expr::Assign(e) => {
+            cx.error(e.eq_token, &message::assignment("="));
+            vec![&e.right]
+        }
+        Expr::Cast(e) => {
+            cx.error(e.as_token, &message::cast());
+            vec![&e.expr]
+        }
+        Expr::Reference(e) => {
+            cx.error(e.and_token, &message::reference());
+            vec![&e.expr]
+        }
+        Expr::RawAddr(e) => {
+            cx.error(e.and_token, &message::reference());
+            vec![&e.expr]
+        }
+        Expr::Try(e) => {
+            cx.error(e.question_token, &message::question_mark());
+            vec![&e.expr]
+        }
+        Expr::Await(e) => {
+            cx.error(e.await_token, &message::waiting());
+            vec![&e.base]
+        }
+        Expr::Array(e) => {
+            cx.error(e, &message::aggregate("an array"));
+            e.elems.iter().collect()
+        }
+        Expr::Tuple(e) => {
+            cx.error(e, &message::aggregate("a tuple"));
+            e.elems.iter().collect()
+        }
+        Expr::Range(e) => {
+            cx.error(e.limits, &message::range());
+            e.start.iter().chain(&e.end).map(|end| &**end).collect()
+        }
+        other => {
+            report_opaque(cx, other);
+            Vec::new()
+        }
+    }
+}
+
+/// The kinds that contain no formula, or none worth reading before they are gone.
+fn report_opaque(cx: &Ctxt, expr: &Expr) {
     match expr {
         Expr::If(e) => cx.error(e.if_token, &message::control_flow("if")),
         Expr::Match(e) => cx.error(e.match_token, &message::control_flow("match")),
-        Expr::Let(e) => cx.error(e.let_token, &message::control_flow("let")),
+        Expr::Let(e) => cx.error(e.let_token, &message::let_without_block()),
         Expr::ForLoop(e) => cx.error(e.for_token, &message::repetition("for")),
         Expr::While(e) => cx.error(e.while_token, &message::repetition("while")),
         Expr::Loop(e) => cx.error(e.loop_token, &message::repetition("loop")),
         Expr::Return(e) => cx.error(e.return_token, &message::jump("return")),
         Expr::Break(e) => cx.error(e.break_token, &message::jump("break")),
         Expr::Continue(e) => cx.error(e.continue_token, &message::jump("continue")),
-        Expr::Assign(e) => cx.error(e.eq_token, &message::assignment("=")),
-        Expr::Cast(e) => cx.error(e.as_token, &message::cast()),
         Expr::Closure(e) => cx.error(e, &message::closure()),
         Expr::Index(e) => cx.error_at(e.bracket_token.span.join(), &message::index()),
         Expr::Macro(e) => cx.error(&e.mac.path, &message::invocation()),
-        Expr::Reference(e) => cx.error(e.and_token, &message::reference()),
-        Expr::Try(e) => cx.error(e.question_token, &message::question_mark()),
-        Expr::Array(e) => cx.error(e, &message::aggregate("an array")),
         Expr::Repeat(e) => cx.error(e, &message::aggregate("an array")),
-        Expr::Tuple(e) => cx.error(e, &message::aggregate("a tuple")),
         Expr::Struct(e) => cx.error(&e.path, &message::aggregate("a struct")),
-        Expr::Range(e) => cx.error(e.limits, &message::aggregate("a range")),
         Expr::Unsafe(e) => cx.error(e.unsafe_token, &message::label_or_modifier()),
         Expr::Async(e) => cx.error(e.async_token, &message::label_or_modifier()),
         Expr::Const(e) => cx.error(e.const_token, &message::label_or_modifier()),
+        Expr::TryBlock(e) => cx.error(e.try_token, &message::label_or_modifier()),
+        Expr::Infer(e) => cx.error(e, &message::placeholder()),
         Expr::Field(e) => report_field(cx, e),
         other => cx.error(other, &message::unsupported()),
     }
@@ -75,14 +117,15 @@ pub(super) fn report_operator(cx: &Ctxt, operator: BinOp) {
 /// Reports `a::b`, `a::<T>` and `<T>::a` where a bare name is expected.
 pub(super) fn report_path(cx: &Ctxt, path: &ExprPath) {
     let last = path.path.segments.last();
-    let last = last.map(|segment| ast::name(&segment.ident));
-    match last {
-        Some(_) if path.path.segments.len() == 1 && path.qself.is_none() => {
-            cx.error(path, &message::generic_arguments());
+    let last = last.map_or_else(String::new, |segment| ast::name(&segment.ident));
+    let message = if path.path.segments.len() == 1 && path.qself.is_none() {
+        message::generic_arguments()
+    } else {
+        let text = path.to_token_stream().to_string().replace(' ', "");
+        match message::constant_value(&last) {
+            Some(value) => message::constant(&text, value),
+            None => message::path(&text, &last),
         }
-        last => {
-            let text = path.to_token_stream().to_string().replace(' ', "");
-            cx.error(path, &message::path(&text, &last.unwrap_or_default()));
-        }
-    }
+    };
+    cx.error(path, &message);
 }

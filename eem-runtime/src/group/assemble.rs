@@ -2,7 +2,7 @@
 
 use super::member::Member;
 use super::pose::{Pose, spread};
-use super::site::Contact;
+use super::site::{Column, Contact, Site};
 use super::{ElementGroup, StepView, Trial};
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
@@ -166,26 +166,7 @@ where
         }
         for (i, row) in blocks.as_ref().iter().enumerate() {
             for (j, block) in row.as_ref().iter().enumerate() {
-                self.add_block([i + 1, j + 1], block, target.values);
-            }
-        }
-    }
-
-    /// Adds the block of the arms to two nodes: to the rows and columns of the nodes, and with the
-    /// other sign to those of the first node.
-    #[inline]
-    fn add_block(&self, [i, j]: [usize; 2], block: &[[S; D]; D], values: &mut [S]) {
-        let site = &self.site;
-        if site.is_mass[i] && site.is_mass[j] {
-            add_rows(values, &site.blocks[i][j], block);
-        }
-        if site.is_mass[0] {
-            add_rows(values, &site.blocks[0][0], block);
-            if site.is_mass[i] {
-                subtract_rows(values, &site.blocks[i][0], block);
-            }
-            if site.is_mass[j] {
-                subtract_rows(values, &site.blocks[0][j], block);
+                self.site.add_block([i + 1, j + 1], block, target.values);
             }
         }
     }
@@ -217,6 +198,26 @@ where
             diagonal -= entry;
         }
         target.values[contact.diagonal] += diagonal;
+    }
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
+    /// Adds the block of the arms to two nodes: to the rows and columns of the nodes, and with the
+    /// other sign to those of the first node.
+    #[inline]
+    pub(super) fn add_block(&self, [i, j]: [usize; 2], block: &[[S; D]; D], values: &mut [S]) {
+        if self.is_mass[i] && self.is_mass[j] {
+            add_rows(values, &self.blocks[i][j], block);
+        }
+        if self.is_mass[0] {
+            add_rows(values, &self.blocks[0][0], block);
+            if self.is_mass[i] {
+                subtract_rows(values, &self.blocks[i][0], block);
+            }
+            if self.is_mass[j] {
+                subtract_rows(values, &self.blocks[0][j], block);
+            }
+        }
     }
 }
 
@@ -259,7 +260,7 @@ fn subtract_rows<S: Real, const D: usize>(
 
 /// Subtracts from consecutive entries.
 #[inline]
-fn subtract<S: Real, const D: usize>(values: &mut [S], place: usize, entries: &[S; D]) {
+pub(super) fn subtract<S: Real, const D: usize>(values: &mut [S], place: usize, entries: &[S; D]) {
     for (value, &entry) in values[place..place + D].iter_mut().zip(entries) {
         *value -= entry;
     }
@@ -267,9 +268,9 @@ fn subtract<S: Real, const D: usize>(values: &mut [S], place: usize, entries: &[
 
 /// Adds a column, `factor` times the direction of each node.
 #[inline]
-fn add_column<K: Kinematics<S, D>, S: Real, const D: usize>(
+pub(super) fn add_column<K: Kinematics<S, D>, S: Real, const D: usize>(
     values: &mut [S],
-    column: &super::site::Column<K, S, D>,
+    column: &Column<K, S, D>,
     factor: S,
     direction: &K::PerNode<[S; D]>,
 ) {

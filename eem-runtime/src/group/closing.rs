@@ -5,11 +5,12 @@
 //! entropy hold to rounding whatever that error is, and leaves the energy with its square.
 
 use super::member::Member;
-use super::pose::{Pose, arms, points, spread};
+use super::pose::{Pose, arms, measures_in, points, resultant, spread};
+use super::site::Site;
 use super::{Along, ElementGroup, StepView, Trial};
 use crate::conduction::Partner;
 use crate::free_energy::{Array, FreeEnergy};
-use crate::kinematics::{Arms, Kinematics, Measures, Weights};
+use crate::kinematics::{Arms, Kinematics, Weights};
 use crate::scalar::Real;
 use crate::scheme::{ElementScheme, Placement};
 use crate::state::State;
@@ -29,39 +30,17 @@ where
         trial: &Trial<S, D>,
         system: &mut LinearSystem<S, D>,
     ) {
-        let h = view.step;
-        let half = S::from_f64(0.5);
+        let share = S::from_f64(0.5);
         let old = points(view.state.positions.values());
         let (values, right) = system.parts();
-        for member in &mut self.members {
-            let site = &member.site;
-            // r⁰, with the mean positions of anchors.
-            let mut known = arms::<K, S, D>(&site.nodes, old);
-            for (i, known) in known.as_mut().iter_mut().enumerate() {
-                for (axis, known) in known.iter_mut().enumerate() {
-                    let shift = |i: usize| {
-                        let moved = trial.displacements[site.nodes[i]][axis];
-                        if site.is_mass[i] { S::zero() } else { moved }
-                    };
-                    *known += half * (shift(i + 1) - shift(0));
-                }
-            }
+        for member in &self.members {
             let weights = member.secant(self.kinematics);
-            let force = pull::<K, S, D>(&weights, &known);
-            for (&row, force) in site.secant_rows.as_ref().iter().zip(force.as_ref()) {
-                for (right, &force) in right[row].iter_mut().zip(force) {
-                    *right -= h * force;
-                }
-            }
-            for (i, row) in weights.as_ref().iter().enumerate() {
-                for (j, &weight) in row.as_ref().iter().enumerate() {
-                    let entry = half * h * weight;
-                    values[site.secant[i + 1][j + 1]] += entry;
-                    values[site.secant[i + 1][0]] -= entry;
-                    values[site.secant[0][j + 1]] -= entry;
-                    values[site.secant[0][0]] += entry;
-                }
-            }
+            let known = member.site.known(old, &trial.displacements, share);
+            let matrix = share * view.step;
+            member.site.add_secant(&weights, matrix, &mut *values);
+            member
+                .site
+                .subtract_known(&weights, &known, view.step, &mut *right);
         }
     }
 
@@ -106,7 +85,7 @@ where
 
 /// The nodal forces `A r`, which sum to zero exactly and do not depend on where the origin is.
 #[inline]
-fn pull<K: Kinematics<S, D>, S: Real, const D: usize>(
+pub(super) fn pull<K: Kinematics<S, D>, S: Real, const D: usize>(
     weights: &Weights<K, S, D>,
     r: &Arms<K, S, D>,
 ) -> K::PerNode<[S; D]> {
@@ -121,6 +100,55 @@ fn pull<K: Kinematics<S, D>, S: Real, const D: usize>(
     spread::<K, S, D>(&force)
 }
 
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
+    /// The old arms, with the fraction `share` of the motion of anchors, which is known.
+    #[inline]
+    pub(super) fn known(&self, old: &[[S; D]], moved: &[[S; D]], share: S) -> Arms<K, S, D> {
+        let mut known = arms::<K, S, D>(&self.nodes, old);
+        for (i, known) in known.as_mut().iter_mut().enumerate() {
+            for (axis, known) in known.iter_mut().enumerate() {
+                let shift = |i: usize| {
+                    let moved = moved[self.nodes[i]][axis];
+                    if self.is_mass[i] { S::zero() } else { moved }
+                };
+                *known += share * (shift(i + 1) - shift(0));
+            }
+        }
+        known
+    }
+
+    /// Adds the matrix `factor A` of nodal forces `A r`.
+    #[inline]
+    pub(super) fn add_secant(&self, weights: &Weights<K, S, D>, factor: S, values: &mut [S]) {
+        for (i, row) in weights.as_ref().iter().enumerate() {
+            for (j, &weight) in row.as_ref().iter().enumerate() {
+                let entry = factor * weight;
+                values[self.secant[i + 1][j + 1]] += entry;
+                values[self.secant[i + 1][0]] -= entry;
+                values[self.secant[0][j + 1]] -= entry;
+                values[self.secant[0][0]] += entry;
+            }
+        }
+    }
+
+    /// Subtracts the impulse `h A r` of known arms.
+    #[inline]
+    pub(super) fn subtract_known(
+        &self,
+        weights: &Weights<K, S, D>,
+        known: &Arms<K, S, D>,
+        h: S,
+        right: &mut [[S; D]],
+    ) {
+        let force = pull::<K, S, D>(weights, known);
+        for (&row, force) in self.secant_rows.as_ref().iter().zip(force.as_ref()) {
+            for (right, &force) in right[row].iter_mut().zip(force) {
+                *right -= h * force;
+            }
+        }
+    }
+}
+
 impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
 where
     S: Real,
@@ -128,27 +156,17 @@ where
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    /// Numbers per measure, from the first of an array.
-    #[inline]
-    pub(super) fn measures_in<A: Array<S>>(values: &A) -> Measures<K, S, D> {
-        let mut measures = Measures::<K, S, D>::filled(S::zero());
-        for (a, measure) in measures.as_mut().iter_mut().enumerate() {
-            *measure = values[a];
-        }
-        measures
-    }
-
     /// A of the force `A r_m` at the found response.
     #[inline]
     fn secant(&self, kinematics: K) -> Weights<K, S, D> {
-        let measures = Self::measures_in(&self.x);
+        let measures = measures_in::<K, S, D>(&self.x);
         let old = match C::PLACEMENT {
             Placement::Middle => measures,
             Placement::Ends | Placement::End | Placement::Start => {
-                Self::measures_in(&self.start.x0)
+                measures_in::<K, S, D>(&self.start.x0)
             }
         };
-        kinematics.secant(&old, &measures, &Self::measures_in(&self.response))
+        kinematics.secant(&old, &measures, &measures_in::<K, S, D>(&self.response))
     }
 
     /// The nodal forces of the found response along the gradient between two configurations, N.
@@ -158,17 +176,9 @@ where
         at: Placement,
         ends: [&Arms<K, S, D>; 2],
     ) -> K::PerNode<[S; D]> {
-        let measures0 = Self::measures_in(&self.start.x0);
+        let measures0 = measures_in::<K, S, D>(&self.start.x0);
         let pose = Pose::new(kinematics, at, ends, measures0);
-        let mut force = Arms::<K, S, D>::filled([S::zero(); D]);
-        for (a, row) in pose.direction.as_ref().iter().enumerate() {
-            for (force, entry) in force.as_mut().iter_mut().zip(row.as_ref()) {
-                for (force, &entry) in force.iter_mut().zip(entry) {
-                    *force += self.response[a] * entry;
-                }
-            }
-        }
-        spread::<K, S, D>(&force)
+        resultant::<K, S, D>(&pose.direction, &measures_in::<K, S, D>(&self.response))
     }
 
     /// The increments of the internal variables and of the reservoirs' entropies.

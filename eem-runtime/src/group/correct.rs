@@ -2,7 +2,7 @@
 
 use super::member::Member;
 use super::pose::along;
-use super::site::Contact;
+use super::site::{Contact, Site};
 use super::{ElementGroup, StepView};
 use crate::free_energy::{Array, FreeEnergy};
 use crate::kinematics::{Arms, Kinematics};
@@ -43,7 +43,7 @@ where
         contact: Option<&Contact<K, S, D>>,
         solution: &[[S; 1]],
     ) -> S {
-        let motion = self.motion_in(solution);
+        let motion = self.site.motion_in(solution);
         let mut heat = contact.map_or(S::zero(), |contact| {
             self.heat_factor(view) * contact.heat(solution)
         });
@@ -80,12 +80,14 @@ where
         }
         largest
     }
+}
 
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
     /// The corrections of the arms.
     #[inline]
-    fn motion_in(&self, solution: &[[S; 1]]) -> Arms<K, S, D> {
+    pub(super) fn motion_in(&self, solution: &[[S; 1]]) -> Arms<K, S, D> {
         let mut motion = Arms::<K, S, D>::filled([S::zero(); D]);
-        let rows = self.site.rows.as_ref();
+        let rows = self.rows.as_ref();
         let first = &solution[rows[0]..][..D];
         for (arm, &row) in motion.as_mut().iter_mut().zip(&rows[1..]) {
             let other = &solution[row..][..D];

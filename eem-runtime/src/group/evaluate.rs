@@ -1,7 +1,7 @@
 //! Old state and trial state of the elements: responses, viscosities, condensed local systems.
 
 use super::member::Member;
-use super::pose::{Pose, along, arms, points, spread};
+use super::pose::{Pose, along, arms, measures_in, points, spread};
 use super::{ElementGroup, Old, StepView, Trial, variables};
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
@@ -32,15 +32,22 @@ where
             if C::IMPLICIT < 1.0 {
                 member.old_share(self.kinematics, view, &r0, old.force)?;
             }
-            for &node in member.site.nodes.as_ref() {
-                let shortest = &mut old.lengths[node];
-                *shortest = measures
-                    .as_ref()
-                    .iter()
-                    .fold(*shortest, |s, &m| s.minimum(m));
-            }
+            shorten::<K, S, D>(&member.site.nodes, &measures, old.lengths);
         }
         Ok(())
+    }
+}
+
+/// Reduces the unit of length of each node to the shortest measure of its elements.
+#[inline]
+pub(super) fn shorten<K: Kinematics<S, D>, S: Real, const D: usize>(
+    nodes: &K::PerNode<usize>,
+    measures: &Measures<K, S, D>,
+    lengths: &mut [S],
+) {
+    for &node in nodes.as_ref() {
+        let own = measures.as_ref().iter();
+        lengths[node] = own.fold(lengths[node], |least, &own| least.minimum(own));
     }
 }
 
@@ -99,10 +106,7 @@ where
             heat += view.conduction.heat_flow(slot, theta, temperatures).heat;
             self.old_rates[Self::TEMPERATURE] = share * heat / theta;
         }
-        let mut measures0 = Measures::<K, S, D>::filled(S::zero());
-        measures0
-            .as_mut()
-            .copy_from_slice(&x0.as_ref()[..M::MEASURES]);
+        let measures0 = measures_in::<K, S, D>(&x0);
         let pose = Pose::new(kinematics, C::PLACEMENT, [r0, r0], measures0);
         if M::THERMAL && C::IN_TEMPERATURE {
             let at_rest = Pose::new(kinematics, Placement::End, [r0, r0], measures0);
@@ -181,10 +185,7 @@ where
         let old = points(view.state.positions.values());
         let r0 = arms::<K, S, D>(&self.site.nodes, old);
         let r1 = arms::<K, S, D>(&self.site.nodes, &trial.positions);
-        let mut measures0 = Measures::<K, S, D>::filled(S::zero());
-        for (a, measure) in measures0.as_mut().iter_mut().enumerate() {
-            *measure = self.start.x0[a];
-        }
+        let measures0 = measures_in::<K, S, D>(&self.start.x0);
         let pose = Pose::new(kinematics, C::PLACEMENT, [&r0, &r1], measures0);
         let element = self.element;
         check_measures::<K, S, D>(kinematics, element, &pose.measures)?;

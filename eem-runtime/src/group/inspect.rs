@@ -18,7 +18,7 @@ where
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    /// See [`Group::initialize`](super::Group::initialize).
+    /// See [`Elements::initialize`](super::Elements::initialize).
     pub(super) fn initialize_all(&mut self, state: &mut State<S>) -> Result<(), StateError> {
         for member in &mut self.members {
             let x = member.locate(self.kinematics, state)?;
@@ -38,7 +38,7 @@ where
         Ok(())
     }
 
-    /// See [`Group::totals`](super::Group::totals).
+    /// See [`Elements::totals`](super::Elements::totals).
     pub(super) fn sum(&self, state: &State<S>) -> GroupTotals<S> {
         let (mut energy, mut entropy) = (S::zero(), S::zero());
         for member in &self.members {
@@ -51,7 +51,7 @@ where
         GroupTotals { energy, entropy }
     }
 
-    /// See [`Group::inspect`](super::Group::inspect).
+    /// See [`Elements::inspect`](super::Elements::inspect).
     pub(super) fn inspect_at(&self, place: usize, state: &State<S>) -> ElementView<S> {
         let member = &self.members[place];
         let x = member.variables_in(self.kinematics, state);

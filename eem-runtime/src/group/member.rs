@@ -234,7 +234,7 @@ where
 ///
 /// It is eˣ up to x³/12, positive, and limited to what one iteration may do.
 #[inline]
-fn growth<S: Real>(change: S) -> S {
+pub(super) fn growth<S: Real>(change: S) -> S {
     let most = S::from_f64(LARGEST_HALF_CHANGE);
     let half = (S::from_f64(0.5) * change).minimum(most).maximum(-most);
     (S::one() + half) / (S::one() - half)

@@ -159,6 +159,35 @@ pub(super) fn spread<K: Kinematics<S, D>, S: Real, const D: usize>(
     by_node
 }
 
+/// The nodal forces `Σ_a f_a g_a` along a gradient.
+#[inline]
+pub(super) fn resultant<K: Kinematics<S, D>, S: Real, const D: usize>(
+    gradient: &Gradient<K, S, D>,
+    force: &Measures<K, S, D>,
+) -> K::PerNode<[S; D]> {
+    let mut sum = Arms::<K, S, D>::filled([S::zero(); D]);
+    for (row, &magnitude) in gradient.as_ref().iter().zip(force.as_ref()) {
+        for (sum, entry) in sum.as_mut().iter_mut().zip(row.as_ref()) {
+            for (sum, &entry) in sum.iter_mut().zip(entry) {
+                *sum += magnitude * entry;
+            }
+        }
+    }
+    spread::<K, S, D>(&sum)
+}
+
+/// Numbers per measure, the first of an array.
+#[inline]
+pub(super) fn measures_in<K: Kinematics<S, D>, S: Real, const D: usize>(
+    values: &impl Array<S>,
+) -> Measures<K, S, D> {
+    let mut measures = Measures::<K, S, D>::filled(S::zero());
+    for (a, measure) in measures.as_mut().iter_mut().enumerate() {
+        *measure = values[a];
+    }
+    measures
+}
+
 /// Coordinates as points.
 #[inline]
 pub(crate) fn points<S, const D: usize>(coordinates: &[S]) -> &[[S; D]] {

@@ -5,7 +5,7 @@ use super::member::Member;
 use super::pose::{arms, points};
 use super::{ElementGroup, StepView, Trial, variables};
 use crate::error::StateError;
-use crate::free_energy::{Caloric, FreeEnergy};
+use crate::free_energy::{Array, Caloric, FreeEnergy};
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
 use crate::scheme::{ElementScheme, Infeasible, Placement, temperature_at};
@@ -27,7 +27,10 @@ where
     ) -> Result<(), StateError> {
         for member in &mut self.members {
             member.close(view, &trial.seen_temperatures, next);
-            member.settle(self.kinematics, view, next)?;
+            let near = member.x[M::Variables::LEN - 1];
+            if let Some(entropy) = member.settle(self.kinematics, view, near, next)? {
+                member.book_thermostat(view, entropy, next);
+            }
         }
         Ok(())
     }
@@ -53,31 +56,35 @@ where
         Ok(variables::<S, M>(measures.as_ref(), self.slots, state))
     }
 
-    /// The new temperature from the new entropy, or the other way round where the scheme
-    /// integrates the temperature or it is prescribed.
+    /// The new temperature, which is near a given one, from the new entropy, or the other way round
+    /// where the scheme integrates the temperature or it is prescribed.
+    ///
+    /// Returns the new entropy where a thermostat decides it.
     #[inline]
-    fn settle(
+    pub(super) fn settle(
         &mut self,
         kinematics: K,
         view: &StepView<'_, S>,
+        near: S,
         state: &mut State<S>,
-    ) -> Result<(), StateError> {
+    ) -> Result<Option<S>, StateError> {
         let mut x = self.locate(kinematics, state)?;
         self.check_viscous(&x)?;
         let Some(slot) = self.slots.thermal else {
-            return self.check_energy(&x);
+            self.check_energy(&x)?;
+            return Ok(None);
         };
         let prescribed = view.prescribed(Some(slot), Placement::End);
         if let (false, None) = (C::IN_TEMPERATURE, prescribed) {
             // The trial is nearly right: one evaluation is enough, as a rule.
-            let trial = self.x[Self::TEMPERATURE];
             let entropy = state.entropies.values()[slot];
-            let theta = temperature_at(&self.model, x, entropy, trial)
+            let theta = temperature_at(&self.model, x, entropy, near)
                 .map_err(|infeasible| infeasible.of(self.element))?;
             check_temperature(self.element, theta)?;
             state.temperatures[slot] = theta;
             x[Self::TEMPERATURE] = theta;
-            return self.check_energy(&x);
+            self.check_energy(&x)?;
+            return Ok(None);
         }
         let old = view.state.temperatures[slot];
         let theta = prescribed.unwrap_or_else(|| self.new_temperature(old));
@@ -88,13 +95,18 @@ where
         let caloric = self.model.caloric(&x);
         self.check_stable(&caloric, theta)?;
         state.entropies.set(slot, caloric.entropy);
-        if prescribed.is_some() {
-            let change = caloric.entropy - view.state.entropies.values()[slot];
-            let given = change - self.entropy_received;
-            state.heat.add(self.temperature() * given);
-            state.thermostat_entropy.add(-given);
-        }
-        Ok(())
+        Ok(prescribed.map(|_| caloric.entropy))
+    }
+
+    /// The heat of the thermostat that brought the entropy to a new one.
+    fn book_thermostat(&self, view: &StepView<'_, S>, entropy: S, state: &mut State<S>) {
+        let Some(slot) = self.slots.thermal else {
+            return;
+        };
+        let change = entropy - view.state.entropies.values()[slot];
+        let given = change - self.entropy_received;
+        state.heat.add(self.temperature() * given);
+        state.thermostat_entropy.add(-given);
     }
 
     fn check_stable(&self, caloric: &Caloric<S>, theta: S) -> Result<(), StateError> {

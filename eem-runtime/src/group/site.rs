@@ -76,7 +76,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
         let mut site = Self::unconnected(nodes);
         for i in 0..nodes.len() {
             site.is_mass[i] = unknown(i).is_some();
-            site.rows[i] = sites.tangent.row(unknown(i));
+            site.rows[i] = sites.row(unknown(i));
             site.secant_rows[i] = sites.secant.row(mass(i));
             for j in 0..nodes.len() {
                 site.blocks[i][j] = column::<S, D>(unknown(i), unknown(j), sites);
@@ -105,7 +105,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
         };
         let mut row = K::PerNode::filled(0);
         for (place, &node) in row.as_mut().iter_mut().zip(nodes) {
-            *place = sites.tangent.place(Some(unknown), sites.layout.nodes[node]);
+            *place = sites.place(Some(unknown), sites.layout.nodes[node]);
         }
         let partners = sites.conduction.links(slot).iter().filter_map(|link| {
             let Partner::Slot(partner) = link.partner else {
@@ -113,15 +113,15 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
             };
             let theta = sites.layout.coupled[partner]?;
             Some(PartnerSite {
-                unknown: theta,
+                unknown: sites.row(Some(theta)),
                 conductance: link.conductance,
                 column: column_of(theta),
-                entry: sites.tangent.place(Some(unknown), Some(theta)),
+                entry: sites.place(Some(unknown), Some(theta)),
             })
         });
         Some(Self {
-            unknown,
-            diagonal: sites.tangent.place(Some(unknown), Some(unknown)),
+            unknown: sites.row(Some(unknown)),
+            diagonal: sites.place(Some(unknown), Some(unknown)),
             row,
             column: column_of(unknown),
             partners: partners.collect(),
@@ -137,6 +137,6 @@ fn column<S: Real, const D: usize>(
 ) -> [usize; D] {
     core::array::from_fn(|axis| {
         let row = first.map(|first| first + axis);
-        sites.tangent.place(row, column)
+        sites.place(row, column)
     })
 }

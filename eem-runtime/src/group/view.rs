@@ -125,4 +125,25 @@ pub(crate) struct Sites<'a, S, const D: usize> {
     pub(crate) tangent: &'a LinearSystem<S, 1>,
     /// The system that closes a step.
     pub(crate) secant: &'a LinearSystem<S, D>,
+    /// How far rows and columns of the tangent lie behind where the layout has them: a scheme with
+    /// several stages has as many copies of the unknowns.
+    pub(crate) shift: [usize; 2],
+}
+
+impl<S: Real, const D: usize> Sites<'_, S, D> {
+    /// The row of an unknown of the layout in the tangent.
+    pub(crate) fn row(&self, unknown: Option<usize>) -> usize {
+        let [shift, _] = self.shift;
+        self.tangent.row(unknown.map(|unknown| unknown + shift))
+    }
+
+    /// The place of the entry of two unknowns of the layout in the tangent.
+    pub(crate) fn place(&self, row: Option<usize>, column: Option<usize>) -> usize {
+        let [down, right] = self.shift;
+        let (row, column) = (
+            row.map(|row| row + down),
+            column.map(|column| column + right),
+        );
+        self.tangent.place(row, column)
+    }
 }

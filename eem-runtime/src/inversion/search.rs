@@ -42,8 +42,8 @@ pub(super) struct Search<S> {
 }
 
 impl<S: Real> Search<S> {
-    /// Starts from a stable point.
-    pub(super) fn new(target: S, first: Point<S>) -> Self {
+    /// Starts from a stable point, after some evaluations.
+    pub(super) fn new(target: S, first: Point<S>, evaluations: usize) -> Self {
         let infinity = S::one() / S::zero();
         // All normal numbers with normal reciprocals, but for a factor e².
         let widest = S::MAX.ln() - S::from_f64(2.0);
@@ -62,7 +62,7 @@ impl<S: Real> Search<S> {
             modelled: false,
             failures: 0,
             bisections_due: 0,
-            evaluations: 1,
+            evaluations,
         };
         search.narrow();
         search

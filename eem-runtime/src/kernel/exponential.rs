@@ -1,5 +1,6 @@
 //! The exponential function, and powers in which base and exponent both vary.
 
+use super::Differences;
 use super::primitives::{ends, phi, phi2, phi3};
 use crate::scalar::Scalar;
 
@@ -78,7 +79,7 @@ pub fn exp_m1_dd2<S: Scalar>(a: S, b: S) -> S {
 /// ```
 #[inline]
 pub fn power_dd<S: Scalar>(value_a: S, value_b: S, x_a: S, x_b: S) -> S {
-    value_a.maximum(value_b) * phi((x_b - x_a).abs())
+    power_dds(value_a, value_b, x_a, x_b).first
 }
 
 /// `exp[X_a, X_b, X_b]` from values `e^X` that are already known.
@@ -96,9 +97,29 @@ pub fn power_dd<S: Scalar>(value_a: S, value_b: S, x_a: S, x_b: S) -> S {
 /// ```
 #[inline]
 pub fn power_dd2<S: Scalar>(value_a: S, value_b: S, x_a: S, x_b: S) -> S {
-    S::branch(
-        x_b.less(x_a),
-        || value_a * phi3(x_a - x_b),
-        || value_b * phi2(x_b - x_a),
-    )
+    power_dds(value_a, value_b, x_a, x_b).second_b
+}
+
+/// All differences of the exponential function from values `e^X` that are already known:
+/// [`power_dd`] and both [`power_dd2`].
+///
+/// ```
+/// let all = eem_runtime::kernel::power_dds(1.0, 1.0, 0.0, 0.0);
+/// assert_eq!((all.first, all.second_a, all.second_b), (1.0, 0.5, 0.5));
+/// ```
+#[expect(
+    clippy::inline_always,
+    reason = "what the caller does not use must not be computed"
+)]
+#[inline(always)]
+pub fn power_dds<S: Scalar>(value_a: S, value_b: S, x_a: S, x_b: S) -> Differences<S> {
+    let high = value_a.maximum(value_b);
+    let distance = (x_b - x_a).abs();
+    let [at_low, at_high] = [phi3(distance), phi2(distance)];
+    let rising = x_a.less(x_b);
+    Differences {
+        first: high * phi(distance),
+        second_a: S::branch(rising, || high * at_low, || high * at_high),
+        second_b: S::branch(x_b.less(x_a), || high * at_low, || high * at_high),
+    }
 }

@@ -1,13 +1,52 @@
-//! Logarithms, based at the smaller end.
+//! Logarithms, summed up between close ends and based at the smaller of distant ones.
 
-use super::primitives::{by_definition, ends, log_difference, near_or_far, phi2_near};
+use super::Differences;
+use super::primitives::{
+    area_tangent_slope, area_tangent_tail, by_definition, half, log_difference,
+};
 use crate::scalar::Scalar;
 
-/// `f[a,b]` of the natural logarithm, for `a, b > 0`.
+/// Up to this |z| = |b − a|/(a + b), a ratio of 3/2, differences are sums of series.
+const CLOSE: f64 = 0.2;
+
+/// All differences of the natural logarithm: [`ln_dd`] and both [`ln_dd2`].
+///
+/// ```
+/// let all = eem_runtime::kernel::ln_dds(2.0, 2.0);
+/// assert_eq!((all.first, all.second_a, all.second_b), (0.5, -0.125, -0.125));
+/// ```
+#[expect(
+    clippy::inline_always,
+    reason = "what the caller does not use must not be computed"
+)]
+#[inline(always)]
+pub fn ln_dds<S: Scalar>(a: S, b: S) -> Differences<S> {
+    differences(a.minimum(b), S::zero(), a, b)
+}
+
+/// All differences of `ln(1 + x)`: [`ln_1p_dd`] and both [`ln_1p_dd2`].
+///
+/// ```
+/// let all = eem_runtime::kernel::ln_1p_dds(1.0, 1.0);
+/// assert_eq!((all.first, all.second_a, all.second_b), (0.5, -0.125, -0.125));
+/// ```
+#[expect(
+    clippy::inline_always,
+    reason = "what the caller does not use must not be computed"
+)]
+#[inline(always)]
+pub fn ln_1p_dds<S: Scalar>(a: S, b: S) -> Differences<S> {
+    differences(S::one() + a.minimum(b), S::one(), a, b)
+}
+
+/// `f[a,b]` of the natural logarithm, for `a, b > 0`; of `ln |x|` if both are negative.
 ///
 /// ```text
-/// f = ln x:  f[a,b] = L(d/m)/m,  m = min(a,b),  d = |b − a|,  L(u) = ln(1 + u)/u
+/// f = ln x:  f[a,b] = (artanh z)/(zμ),  μ = ½(a + b),  z = (b − a)/(2μ)
 /// ```
+///
+/// summed up for |z| < 1/5, which needs no function of the library, and `ln(1 + d/m)/d` with
+/// m = min(a,b) and d = |b − a| for larger ratios.
 ///
 /// ```
 /// use eem_runtime::kernel::ln_dd;
@@ -17,30 +56,29 @@ use crate::scalar::Scalar;
 /// ```
 #[inline]
 pub fn ln_dd<S: Scalar>(a: S, b: S) -> S {
-    let (low, _, d) = ends(a, b);
-    log_difference(d, low)
+    ln_dds(a, b).first
 }
 
-/// `f[a,b,b]` of the natural logarithm, for `a, b > 0`.
+/// `f[a,b,b]` of the natural logarithm, for `a, b > 0`; of `ln |x|` if both are negative.
 ///
 /// ```text
-/// f = ln x:  f[a,b,b] = −F²φ₂(δ),  F = ln[a,b],  δ = (b − a)F = ln(b/a),  |δ| < 1
+/// f = ln x:  f[a,b,b] = ((1 − z)g′ − g)/(2μ²),  g = (artanh z)/z,  |z| < 1/5
 /// ```
 ///
-/// with `φ₂(x) = (e^(−x) − 1 + x)/x²`; by definition for |δ| ≥ 1.
+/// with μ and z of [`ln_dd`]; by definition for larger ratios.
 ///
 /// ```
 /// assert_eq!(eem_runtime::kernel::ln_dd2(2.0, 2.0), -0.125);
 /// ```
 #[inline]
 pub fn ln_dd2<S: Scalar>(a: S, b: S) -> S {
-    logarithm_dd2(a, b, b, ln_dd(a, b))
+    ln_dds(a, b).second_b
 }
 
 /// `f[a,b]` of `ln(1 + x)`, for `a, b > −1`.
 ///
 /// ```text
-/// f = ln(1 + x):  f[a,b] = L(d/w)/w,  w = 1 + min(a,b),  d = |b − a|
+/// f = ln(1 + x):  f[a,b] = ln(1 + d/w)/d,  w = 1 + min(a,b),  d = |b − a|
 /// ```
 ///
 /// ```
@@ -49,8 +87,7 @@ pub fn ln_dd2<S: Scalar>(a: S, b: S) -> S {
 /// ```
 #[inline]
 pub fn ln_1p_dd<S: Scalar>(a: S, b: S) -> S {
-    let (low, _, d) = ends(a, b);
-    log_difference(d, S::one() + low)
+    ln_1p_dds(a, b).first
 }
 
 /// `f[a,b,b]` of `ln(1 + x)`, for `a, b > −1`: [`ln_dd2`] with the base `1 + b`.
@@ -60,7 +97,7 @@ pub fn ln_1p_dd<S: Scalar>(a: S, b: S) -> S {
 /// ```
 #[inline]
 pub fn ln_1p_dd2<S: Scalar>(a: S, b: S) -> S {
-    logarithm_dd2(a, b, S::one() + b, ln_1p_dd(a, b))
+    ln_1p_dds(a, b).second_b
 }
 
 /// `f[a,b]` of the binary logarithm, for `a, b > 0`: [`ln_dd`]` / ln 2`.
@@ -107,13 +144,54 @@ pub fn log10_dd2<S: Scalar>(a: S, b: S) -> S {
     ln_dd2(a, b) * S::from_f64(core::f64::consts::LOG10_E)
 }
 
-/// The second difference of a logarithm with `f′(b) = 1/base` and `difference = f[a,b]`.
-#[inline]
-fn logarithm_dd2<S: Scalar>(a: S, b: S, base: S, difference: S) -> S {
-    let step = (b - a) * difference;
-    near_or_far(
-        step,
-        || -(difference * difference) * phi2_near(step),
-        || by_definition(base.recip(), difference, a, b),
-    )
+/// All differences of `ln(x + c)` with `base = c + min(a, b)`.
+///
+/// ```text
+/// μ = base + ½|b − a|,  z = (b − a)/(2μ),  |z| < 1/5,  ln(b/a) = 2 artanh z
+/// ln[a,b]   = g/μ                       g  = artanh z/z = 1 + z²/3 + z⁴/5 + …
+/// ln[a,b,b] = ((1 − z)g′ − g)/(2μ²)     g′ = ⅔z + ⅘z³ + …
+/// ```
+///
+/// Nothing cancels: all terms of g are positive, and `(1 − z)|g′| < ⅙ g`.
+#[expect(
+    clippy::inline_always,
+    reason = "what the caller does not use must not be computed"
+)]
+#[inline(always)]
+fn differences<S: Scalar>(base: S, c: S, a: S, b: S) -> Differences<S> {
+    let increment = b - a;
+    let inverse = (base + half(increment.abs())).recip();
+    let z = half(increment) * inverse;
+    let square = z * z;
+    let g = S::one() + square * area_tangent_tail(square);
+    let slope = z * area_tangent_slope(square);
+    let curvature = half(inverse) * inverse;
+    let near = z.abs().less(S::from_f64(CLOSE));
+    Differences {
+        first: S::branch(near, || inverse * g, || distant(base, a, b)),
+        second_a: S::branch(
+            near,
+            || -(curvature * ((S::one() + z) * slope + g)),
+            || distant_second(base, c, b, a),
+        ),
+        second_b: S::branch(
+            near,
+            || curvature * ((S::one() - z) * slope - g),
+            || distant_second(base, c, a, b),
+        ),
+    }
+}
+
+/// `ln[a,b]` of ends of a large ratio.
+#[cold]
+#[inline(never)]
+fn distant<S: Scalar>(base: S, a: S, b: S) -> S {
+    log_difference((b - a).abs(), base)
+}
+
+/// `ln[a,b,b]` of ends of a large ratio.
+#[cold]
+#[inline(never)]
+fn distant_second<S: Scalar>(base: S, c: S, a: S, b: S) -> S {
+    by_definition((c + b).recip(), distant(base, a, b), a, b)
 }

@@ -23,7 +23,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// A force on a mass as a function of time, N of s. Its work is booked.
     ///
     /// Several forces on one mass add up. Over a step the force is that in the middle of the
-    /// step; the trapezoidal rule takes the mean of both ends.
+    /// step; the trapezoidal rule takes the mean of both ends, the variational integrator of fourth
+    /// order all three of them.
     pub fn force(&mut self, node: Node, force: impl Fn(S) -> [S; D] + Send + Sync + 'static) {
         if self.expect_kind(node, true, "a force") {
             let force = move |time| SVector::from(force(time));

@@ -4,7 +4,7 @@
 //! [`invert`], which finds the temperature from any start on the same stable branch.
 
 use super::Infeasible;
-use crate::free_energy::{Array, FreeEnergy};
+use crate::free_energy::{Caloric, FreeEnergy};
 use crate::inversion::invert;
 use crate::scalar::Real;
 
@@ -23,22 +23,21 @@ const CONTRACTION: f64 = 0.25;
 #[inline]
 pub(crate) fn temperature_at<S: Real, M: FreeEnergy<S>>(
     model: &M,
-    mut x: M::Variables,
+    x: M::Variables,
     entropy: S,
     guess: S,
 ) -> Result<S, Infeasible> {
-    let index = M::Variables::LEN - 1;
+    let caloric_at = model.caloric_at(x);
     let enough = S::from_f64(LAST_CORRECTION) * S::EPSILON.sqrt();
     let mut limit = S::from_f64(LARGEST_CORRECTION);
     let mut theta = guess;
     loop {
-        x[index] = theta;
-        let caloric = model.caloric(&x);
+        let caloric = caloric_at(theta);
         let correction = (entropy - caloric.entropy) / caloric.heat_capacity;
         let size = correction.abs();
         let is_near = caloric.heat_capacity > S::zero() && size <= limit;
         if !is_near {
-            return search(model, x, entropy, guess);
+            return search(caloric_at, entropy, guess);
         }
         if size <= enough {
             return Ok(theta + theta * correction);
@@ -50,18 +49,12 @@ pub(crate) fn temperature_at<S: Real, M: FreeEnergy<S>>(
 
 /// The same from any start.
 #[cold]
-fn search<S: Real, M: FreeEnergy<S>>(
-    model: &M,
-    mut x: M::Variables,
+fn search<S: Real>(
+    caloric_at: impl Fn(S) -> Caloric<S>,
     entropy: S,
     guess: S,
 ) -> Result<S, Infeasible> {
-    let index = M::Variables::LEN - 1;
-    let evaluate = |theta| {
-        x[index] = theta;
-        model.caloric(&x)
-    };
-    match invert(evaluate, entropy, guess) {
+    match invert(caloric_at, entropy, guess) {
         Ok(found) => Ok(found.temperature),
         Err(source) => Err(Infeasible::Entropy {
             entropy: entropy.to_f64(),

@@ -61,8 +61,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         // The elements look at another configuration than that of their last step.
         self.has_stepped = false;
         let state = &self.state;
-        let groups = self.groups.iter_mut();
-        let elements: Vec<_> = groups.flat_map(|group| group.generic_in(state)).collect();
+        let staged = self.staged.iter_mut().flat_map(|staged| &mut staged.groups);
+        let at_once = self.groups.iter_mut().map(|group| group.generic_in(state));
+        let staged = staged.map(|group| group.generic_in(state));
+        let elements: Vec<_> = at_once.chain(staged).flatten().collect();
         let momenta = self.state.momenta.values().to_vec();
         self.generic_from(&elements, &momenta)
     }

@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use super::Simulation;
 use crate::error::SceneError;
-use crate::group::ElementView;
+use crate::group::{ElementView, Elements};
 use crate::handle::{Element, Node, Reservoir, SceneId};
 use crate::ledger::Ledger;
 use crate::scalar::Real;
@@ -137,16 +137,30 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ledger::of(
             &self.state,
             &self.masses,
-            &self.groups,
+            self.elements(),
             &self.conduction.reservoirs,
             &self.loads.gravity,
         )
     }
 
+    /// All groups, whatever steps them.
+    fn elements(&self) -> impl Iterator<Item = &dyn Elements<S, D>> {
+        let at_once = self
+            .groups
+            .iter()
+            .map(|group| -> &dyn Elements<S, D> { &**group });
+        let staged = self.staged.iter().flat_map(|staged| &staged.groups);
+        at_once.chain(staged.map(|group| -> &dyn Elements<S, D> { &**group }))
+    }
+
     fn view(&self, element: Element) -> Result<ElementView<S>, SceneError> {
         self.expect_own(element.scene, &element)?;
         let (group, place) = self.places[element.index];
-        Ok(self.groups[group].inspect(place, &self.state))
+        let elements: &dyn Elements<S, D> = match &self.staged {
+            Some(staged) => &*staged.groups[group],
+            None => &*self.groups[group],
+        };
+        Ok(elements.inspect(place, &self.state))
     }
 
     fn thermal_slot(&self, element: Element) -> Result<usize, SceneError> {

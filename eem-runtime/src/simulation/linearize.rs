@@ -1,10 +1,11 @@
 //! The system that Newton's method solves, for those who want to look at it.
 
-use super::{Simulation, view};
+use super::{Simulation, effort, stage_view, view};
 use crate::error::{StepError, StepFailure};
-use crate::group::StepView;
+use crate::group::{StageView, StepView};
 use crate::scalar::Real;
 use crate::scheme::Phase;
+use crate::solver::Effort;
 
 /// Residual and tangent of a step at a trial state.
 ///
@@ -26,8 +27,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// R = (2m/h)(q¹ − q⁰) − 2p⁰ + h F(u),      u = (q¹ − q⁰ of the masses, Θ of elements in contact)
     /// ```
     ///
-    /// in the order of creation, [`unknowns`](Self::unknowns) of them. The tangent is exact to
-    /// rounding: it does not come from differences.
+    /// in the order of creation, [`unknowns`](Self::unknowns) of them. For [`Scheme::Variational4`] they
+    /// are those of the middle and then those of the end, `(q_m − q⁰, Θ_0, q¹ − q⁰, Θ_1)`, and
+    ///
+    /// ```text
+    /// R_m = (2m/h)(q_m − q⁰) − p⁰ + (h/12)(2F_0 + F_m),   R_1 = (m/h)(q¹ − q⁰) − p⁰ + (h/6)(F_0 + 2F_m)
+    /// ```
+    ///
+    /// The tangent is exact to rounding: it does not come from differences.
+    ///
+    /// [`Scheme::Variational4`]: crate::Scheme::Variational4
     ///
     /// # Errors
     ///
@@ -35,17 +44,27 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// another one ([`StepFailure::Unknowns`]).
     pub fn linearize(&mut self, unknowns: &[S]) -> Result<StepTangent<S>, StepError> {
         self.solver.restart();
-        if unknowns.len() != self.layout.unknowns {
+        if unknowns.len() != self.unknowns() {
             return Err(self.failed(StepFailure::Unknowns {
                 given: unknowns.len(),
-                expected: self.layout.unknowns,
+                expected: self.unknowns(),
             }));
         }
         if let Err(failure) = self.evaluate_loads() {
             return Err(self.failed(failure));
         }
-        let view = view!(self, Phase::Whole, &self.state);
-        match self.solver.linearize(&mut self.groups, &view, unknowns) {
+        let linearized = if let Some(staged) = &mut self.staged {
+            let view = stage_view!(self, staged.loads);
+            let mut effort = effort!(self);
+            let groups = &mut staged.groups;
+            staged
+                .solver
+                .linearize(groups, &view, unknowns, &mut effort)
+        } else {
+            let view = view!(self, Phase::Whole, &self.state);
+            self.solver.linearize(&mut self.groups, &view, unknowns)
+        };
+        match linearized {
             Ok((residual, tangent)) => Ok(StepTangent { residual, tangent }),
             Err(failure) => Err(self.failed(failure)),
         }

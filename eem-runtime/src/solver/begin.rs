@@ -32,13 +32,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for group in groups.iter_mut() {
             group.begin(view, &mut old)?;
         }
-        for length in &mut self.per_length {
-            *length = if *length == S::MAX {
-                S::one()
-            } else {
-                length.recip()
-            };
-        }
+        invert_lengths(&mut self.per_length);
         self.start(view);
         Ok(())
     }
@@ -104,5 +98,17 @@ impl<S: Real, const D: usize> Solver<S, D> {
             }
         }
         next.errors = errors;
+    }
+}
+
+/// Makes units of length their reciprocals; nodes without elements, which have the largest number
+/// there is, get 1 m.
+pub(super) fn invert_lengths<S: Real>(lengths: &mut [S]) {
+    for length in lengths {
+        *length = if *length == S::MAX {
+            S::one()
+        } else {
+            length.recip()
+        };
     }
 }

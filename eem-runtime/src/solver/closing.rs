@@ -61,25 +61,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
             );
             for axis in 0..D {
                 let at = mass.node * D + axis;
-                next.positions
-                    .advance(at, &old.positions, displacement[axis]);
-                next.momenta.advance(at, &old.momenta, impulse[axis]);
                 let force = view.loads.force[at];
                 if force != S::zero() {
                     next.work.add(force * displacement[axis]);
                 }
-                let values = [next.positions.values()[at], next.momenta.values()[at]];
-                for (quantity, value) in ["position", "momentum"].into_iter().zip(values) {
-                    if !value.is_finite() {
-                        return Err(StepFailure::Unbounded {
-                            node: mass.node,
-                            axis,
-                            quantity,
-                            value: value.to_f64(),
-                        });
-                    }
-                }
             }
+            move_node(mass.node, [displacement, impulse], old, next)?;
         }
         Ok(())
     }
@@ -164,4 +151,32 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         Ok(())
     }
+}
+
+/// The new position and the new momentum of a node, all finite, from its displacement and impulse.
+#[inline]
+pub(super) fn move_node<S: Real, const D: usize>(
+    node: usize,
+    [displacement, impulse]: [&[S; D]; 2],
+    old: &State<S>,
+    next: &mut State<S>,
+) -> Result<(), StepFailure> {
+    for axis in 0..D {
+        let at = node * D + axis;
+        next.positions
+            .advance(at, &old.positions, displacement[axis]);
+        next.momenta.advance(at, &old.momenta, impulse[axis]);
+        let values = [next.positions.values()[at], next.momenta.values()[at]];
+        for (quantity, value) in ["position", "momentum"].into_iter().zip(values) {
+            if !value.is_finite() {
+                return Err(StepFailure::Unbounded {
+                    node,
+                    axis,
+                    quantity,
+                    value: value.to_f64(),
+                });
+            }
+        }
+    }
+    Ok(())
 }

@@ -2,9 +2,8 @@
 
 use core::array;
 
-use crate::layout::Layout;
+use crate::group::Sites;
 use crate::scalar::Real;
-use crate::system::LinearSystem;
 
 /// A node that moves.
 #[derive(Clone, Copy, Debug)]
@@ -30,29 +29,31 @@ pub(super) struct Seen {
 /// The nodes with a mass, and where they write.
 pub(super) fn moving<S: Real, const D: usize>(
     masses: &[Option<S>],
-    layout: &Layout,
-    tangent: &LinearSystem<S, 1>,
-    secant: &LinearSystem<S, D>,
+    sites: &Sites<'_, S, D>,
 ) -> Vec<MovingNode<S, D>> {
-    let nodes = masses.iter().zip(&layout.nodes).enumerate();
-    let moving = nodes.filter_map(|(node, (mass, row))| Some((node, (*mass)?, (*row)?)));
-    let moving = moving.map(|(node, mass, row)| {
-        let own = Some(row / D);
+    let nodes = masses.iter().zip(&sites.layout.nodes).enumerate();
+    let moving = nodes.filter_map(|(node, (mass, first))| Some((node, (*mass)?, (*first)?)));
+    let moving = moving.map(|(node, mass, first)| {
+        let own = Some(first / D);
         MovingNode {
             node,
             mass,
-            row,
-            diagonal: array::from_fn(|axis| tangent.place(Some(row + axis), Some(row + axis))),
-            secant_row: row / D,
-            secant_diagonal: secant.place(own, own),
+            row: sites.row(Some(first)),
+            diagonal: array::from_fn(|axis| sites.place(Some(first + axis), Some(first + axis))),
+            secant_row: first / D,
+            secant_diagonal: sites.secant.place(own, own),
         }
     });
     moving.collect()
 }
 
 /// The temperatures that neighbours see.
-pub(super) fn seen(layout: &Layout) -> Vec<Seen> {
-    let coupled = layout.coupled.iter().enumerate();
-    let seen = coupled.filter_map(|(slot, row)| row.map(|row| Seen { slot, row }));
+pub(super) fn seen<S: Real, const D: usize>(sites: &Sites<'_, S, D>) -> Vec<Seen> {
+    let coupled = sites.layout.coupled.iter().enumerate();
+    let seen = coupled.filter(|(_, unknown)| unknown.is_some());
+    let seen = seen.map(|(slot, unknown)| Seen {
+        slot,
+        row: sites.row(*unknown),
+    });
     seen.collect()
 }

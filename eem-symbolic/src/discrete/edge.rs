@@ -11,6 +11,7 @@
 
 use std::collections::BTreeSet;
 
+use super::latent::Latent;
 use super::{Point, Step};
 use crate::node::{ExprId, Symbol};
 
@@ -49,29 +50,17 @@ pub(super) fn thermal(step: &mut Step, a: &Point, b: &Point) -> Edge {
 pub(super) fn mechanical(step: &mut Step, i: usize, a: &Point, b: &Point) -> Edge {
     let mean = mean(step, a, b);
     let ends = [step.old[i], step.new[i]];
-    let psi = step.along(step.psi, i, ends, b);
-    let entropy = step.along(step.entropy, i, ends, b);
-    let theta = *b.last().expect("the last variable is the temperature");
-    let top = step.graph.variable(theta);
-    let gap = step.graph.sub(top, mean.value);
-    let gap = step.name(gap);
-    let latent = step.graph.mul(gap, entropy);
-    let value = step.graph.add(psi, latent);
-    let weight = step.quotient(entropy, mean.entropy);
+    let latent = Latent::new(step, i, ends, b, mean.value);
+    let value = latent.value(step);
+    let value = step.graph.sum(&value);
+    let weight = step.quotient(latent.entropy, mean.entropy);
     let mut partials = Vec::new();
     for symbol in step.moving(a, b) {
         let change = mean.change(step, symbol);
         let change = step.graph.mul(weight, change);
-        let entropy = step.partial(entropy, symbol);
-        let latent = step.graph.mul(gap, entropy);
-        let partial = step.graph.sub(latent, change);
-        // ∂ψ[y_i⁰, y_i¹; θ_b]/∂θ_b = −S[y_i⁰, y_i¹; θ_b] cancels the derivative of θ_b itself.
-        let partial = if symbol == theta {
-            partial
-        } else {
-            let psi = step.partial(psi, symbol);
-            step.graph.add(psi, partial)
-        };
+        let mut terms = latent.partials(step, symbol);
+        terms.push(step.graph.neg(change));
+        let partial = step.graph.sum(&terms);
         partials.push((symbol, step.name(partial)));
     }
     Edge {

@@ -7,8 +7,9 @@
 //! ```
 //!
 //! (Conde Martín, Betsch & García Orden 2016, eqs. 37–39.) Energy is written by ψ and S, so that
-//! nothing cancels between D e and θ* D s but the gap of two temperatures.
+//! nothing cancels between D e and θ* D s but the gap of two temperatures, see `latent`.
 
+use super::latent::Latent;
 use super::{Form, Step, mixed};
 use crate::node::ExprId;
 
@@ -55,11 +56,16 @@ fn mean(step: &mut Step) -> Star {
     let entropies = states
         .each_ref()
         .map(|y| step.along(step.entropy, last, ends, y));
-    let energy = step.graph.sum(&energies);
     let entropy = step.graph.sum(&entropies);
     let entropy = step.name(entropy);
-    let energy = step.name(energy);
-    let value = step.quotient(energy, entropy);
+    // Where nothing depends on the other variables, the heat capacity drops out of the quotient.
+    let value = if energies[0] == energies[1] && entropies[0] == entropies[1] {
+        step.quotient(energies[0], entropies[0])
+    } else {
+        let energy = step.graph.sum(&energies);
+        let energy = step.name(energy);
+        step.quotient(energy, entropy)
+    };
     let reciprocal = step.reciprocal(entropy);
     let mut partials = Vec::new();
     for symbol in step.new.clone() {
@@ -81,10 +87,7 @@ fn mean(step: &mut Step) -> Star {
 
 /// The two edges in `y_i`, one at θ¹ and one at θ⁰.
 struct Pair {
-    psi: [ExprId; 2],
-    entropy: [ExprId; 2],
-    /// θ − θ*.
-    gap: [ExprId; 2],
+    edges: [Latent; 2],
     /// The sum of both entropy differences.
     entropies: ExprId,
 }
@@ -94,45 +97,30 @@ impl Pair {
         let (old, new) = (step.old.clone(), step.new.clone());
         let ends = [old[i], new[i]];
         let states = [mixed(i, &old, &new), mixed(i, &new, &old)];
-        let psi = states
-            .each_ref()
-            .map(|state| step.along(step.psi, i, ends, state));
-        let entropy = states
-            .each_ref()
-            .map(|state| step.along(step.entropy, i, ends, state));
-        let gap = states.map(|state| {
-            let theta = step.graph.variable(state[step.mechanical]);
-            let gap = step.graph.sub(theta, star);
-            step.name(gap)
-        });
-        let entropies = step.graph.sum(&entropy);
+        let edges = states.map(|state| Latent::new(step, i, ends, &state, star));
+        let entropies = edges.each_ref().map(|edge| edge.entropy);
+        let entropies = entropies.map(|value| step.locals.resolve(&step.graph, value));
+        let entropies = step.graph.sum(&entropies);
         let entropies = step.name(entropies);
-        Self {
-            psi,
-            entropy,
-            gap,
-            entropies,
-        }
+        Self { edges, entropies }
     }
 
     fn value(&self, step: &mut Step) -> ExprId {
-        let latent = [0, 1].map(|at| step.graph.mul(self.gap[at], self.entropy[at]));
-        // In pairs, so that exchanging the states changes no bit.
-        let pairs = [self.psi, latent].map(|[a, b]| step.graph.pair_sum(a, b));
-        step.half(&pairs)
+        let [first, second] = self.edges.each_ref().map(|edge| edge.value(step));
+        // Looked through: the two edges have most of their terms in common.
+        let terms = [first, second].concat();
+        let terms: Vec<_> = terms
+            .into_iter()
+            .map(|term| step.locals.resolve(&step.graph, term))
+            .collect();
+        step.half(&terms)
     }
 
     /// The derivative with respect to `x_j¹`, where θ* changes by `change`.
     fn partial(&self, step: &mut Step, j: usize, change: ExprId) -> ExprId {
-        let symbol = step.new[j];
         let mut terms = Vec::new();
-        for at in [0, 1] {
-            let entropy = step.partial(self.entropy[at], symbol);
-            terms.push(step.graph.mul(self.gap[at], entropy));
-            // ∂ψ[y_i⁰, y_i¹; θ¹]/∂θ¹ = −S[y_i⁰, y_i¹; θ¹] cancels the derivative of θ¹ itself.
-            if j < step.mechanical {
-                terms.push(step.partial(self.psi[at], symbol));
-            }
+        for edge in &self.edges {
+            terms.extend(edge.partials(step, step.new[j]));
         }
         let shift = step.graph.mul(self.entropies, change);
         terms.push(step.graph.neg(shift));

@@ -29,12 +29,12 @@ impl<'m> PointPrograms<'m> {
     }
 
     pub(super) fn free_energy(&self) -> Program {
-        self.program(&self.variables, &[self.model.psi], &[])
+        self.program(&self.variables, &[self.model.psi])
     }
 
     pub(super) fn gradient(&mut self) -> Program {
         let gradient = self.slopes(self.model.psi);
-        self.program(&self.variables, &gradient, &[])
+        self.program(&self.variables, &gradient)
     }
 
     pub(super) fn hessian(&mut self) -> Program {
@@ -43,19 +43,33 @@ impl<'m> PointPrograms<'m> {
             .iter()
             .flat_map(|&force| self.slopes(force))
             .collect::<Vec<_>>();
-        self.program(&self.variables, &gradient, &hessian)
+        self.program(&self.variables, &[gradient, hessian].concat())
     }
 
     pub(super) fn internal_energy(&mut self) -> Program {
         let energy = self.model.internal_energy(&mut self.graph);
-        self.program(&self.variables, &[energy], &[])
+        self.program(&self.variables, &[energy])
     }
 
     pub(super) fn caloric(&mut self, theta: Symbol) -> Program {
+        let outputs = self.caloric_quantities(theta);
+        self.program(&self.variables, &outputs)
+    }
+
+    /// The same with everything but the temperature at the old stage.
+    pub(super) fn caloric_at(&mut self, theta: Symbol) -> Program {
+        let outputs = self.caloric_quantities(theta);
+        let known = self.variables.iter().filter(|&&symbol| symbol != theta);
+        let known = self.model.parameters.iter().chain(known);
+        let known: Vec<_> = known.copied().collect();
+        self.staged(&known, &[theta], &outputs)
+    }
+
+    fn caloric_quantities(&mut self, theta: Symbol) -> [ExprId; 3] {
         let entropy = self.model.entropy(&mut self.graph, theta);
         let capacity = heat_capacity(&mut self.graph, entropy, theta);
         let magnitude = magnitude(&mut self.graph, entropy, theta);
-        self.program(&self.variables, &[entropy, capacity, magnitude], &[])
+        [entropy, capacity, magnitude]
     }
 
     pub(super) fn entropy_hessian(&mut self, theta: Symbol) -> Program {
@@ -65,7 +79,7 @@ impl<'m> PointPrograms<'m> {
             .iter()
             .flat_map(|&slope| self.slopes(slope))
             .collect::<Vec<_>>();
-        self.program(&self.variables, &[], &hessian)
+        self.program(&self.variables, &hessian)
     }
 
     pub(super) fn viscosity(&mut self) -> Program {
@@ -77,7 +91,10 @@ impl<'m> PointPrograms<'m> {
                 None => self.graph.integer(0),
             });
         }
-        self.program(theta.as_slice(), &self.model.viscosities, &slopes)
+        self.program(
+            theta.as_slice(),
+            &[&self.model.viscosities[..], &slopes].concat(),
+        )
     }
 
     fn slopes(&mut self, e: ExprId) -> Vec<ExprId> {
@@ -85,14 +102,15 @@ impl<'m> PointPrograms<'m> {
         variables.map(|&x| diff(&mut self.graph, e, x)).collect()
     }
 
-    fn program(&self, variables: &[Symbol], values: &[ExprId], tangents: &[ExprId]) -> Program {
-        let parameters = self
-            .model
-            .parameters
-            .iter()
-            .map(|&symbol| (symbol, Stage::Old));
-        let variables = variables.iter().map(|&symbol| (symbol, Stage::New));
-        let inputs = parameters.chain(variables).map(|(symbol, stage)| Input {
+    fn program(&self, variables: &[Symbol], outputs: &[ExprId]) -> Program {
+        self.staged(&self.model.parameters, variables, outputs)
+    }
+
+    /// What depends on `known` alone is of the old stage.
+    fn staged(&self, known: &[Symbol], unknown: &[Symbol], outputs: &[ExprId]) -> Program {
+        let old = known.iter().map(|&symbol| (symbol, Stage::Old));
+        let new = unknown.iter().map(|&symbol| (symbol, Stage::New));
+        let inputs = old.chain(new).map(|(symbol, stage)| Input {
             symbol,
             name: self.graph.name(symbol).to_owned(),
             stage,
@@ -100,9 +118,9 @@ impl<'m> PointPrograms<'m> {
         let schedule = Schedule {
             graph: &self.graph,
             locals: &Locals::default(),
-            parameters: self.model.parameters.len(),
+            parameters: known.len(),
         };
-        schedule.program(inputs.collect(), values, tangents)
+        schedule.program(inputs.collect(), outputs)
     }
 }
 

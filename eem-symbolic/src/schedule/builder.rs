@@ -3,10 +3,12 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::Schedule;
+use super::plan::Plan;
+use super::sharing::Token;
 use crate::function::Function;
-use crate::node::{ExprId, Kernel, Symbol};
+use crate::node::{ExprId, Node, Symbol};
 use crate::number::Number;
-use crate::program::{Input, Instruction, Operation, Program, ProgramKernel, Stage, Value};
+use crate::program::{Input, Instruction, Operation, Program, Stage, Value};
 
 /// A result: an instruction, or a number that becomes a constant of the stage that uses it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -39,8 +41,13 @@ pub(super) struct Builder<'s> {
     /// Looked up, never iterated.
     numbering: HashMap<(Stage, Operation), Value>,
     results: BTreeMap<ExprId, Signed>,
-    /// Whether quotients are products with shared reciprocals.
-    pub(super) reciprocals: bool,
+    /// The order of operations, if it is not the structural one.
+    pub(super) plan: Option<Plan>,
+    /// Products that are terms of sums, with their coefficients. Looked up, never iterated.
+    pub(super) scaled: HashMap<(Number, ExprId), Signed>,
+    /// The tokens of the plan that have been emitted: factors and terms.
+    pub(super) factors: HashMap<Token, Signed>,
+    pub(super) terms: HashMap<Token, Signed>,
 }
 
 impl<'s> Builder<'s> {
@@ -57,7 +64,10 @@ impl<'s> Builder<'s> {
             of_state: Vec::new(),
             numbering: HashMap::new(),
             results: BTreeMap::new(),
-            reciprocals: false,
+            plan: None,
+            scaled: HashMap::new(),
+            factors: HashMap::new(),
+            terms: HashMap::new(),
         }
     }
 
@@ -77,6 +87,19 @@ impl<'s> Builder<'s> {
     /// Whether an expression has been emitted.
     pub(super) fn has(&self, e: ExprId) -> bool {
         self.results.contains_key(&e)
+    }
+
+    /// Whether `operand` is a product that the sum `e` evaluates with its coefficient.
+    pub(super) fn is_part_of_sum(&self, e: ExprId, operand: ExprId) -> bool {
+        let graph = self.schedule.graph;
+        let Node::Sum { terms, .. } = graph.node(e) else {
+            return false;
+        };
+        let Some(plan) = &self.plan else {
+            return false;
+        };
+        let term = terms.iter().find(|(_, term)| *term == operand);
+        term.is_some_and(|&(coefficient, term)| plan.factors(coefficient.abs(), term).is_some())
     }
 
     /// The result of an expression that comes earlier, up to its sign.
@@ -121,54 +144,6 @@ impl<'s> Builder<'s> {
     pub(super) fn pair_sum(&mut self, a: ExprId, b: ExprId) -> Operand {
         let (a, b) = (self.done(a), self.done(b));
         self.add(a, b)
-    }
-
-    pub(super) fn divided_difference(&mut self, kernel: Kernel, a: ExprId, b: ExprId) -> Operand {
-        self.difference(kernel, a, b, Operation::DividedDifference)
-    }
-
-    pub(super) fn second_divided_difference(
-        &mut self,
-        kernel: Kernel,
-        a: ExprId,
-        b: ExprId,
-    ) -> Operand {
-        self.difference(kernel, a, b, Operation::SecondDividedDifference)
-    }
-
-    fn difference(
-        &mut self,
-        kernel: Kernel,
-        a: ExprId,
-        b: ExprId,
-        operation: fn(ProgramKernel, Value, Value) -> Operation,
-    ) -> Operand {
-        let [a, b] = [self.done(a), self.done(b)];
-        let plain = match kernel {
-            Kernel::Function(function) => ProgramKernel::Function(function),
-            Kernel::Sqrt => ProgramKernel::Sqrt,
-            Kernel::Recip => ProgramKernel::Powi(-1),
-            Kernel::Powi(n) => ProgramKernel::Powi(n),
-            Kernel::Powf(exponent) => {
-                let exponent = self.done(exponent);
-                return self.emit([exponent, a, b], |[exponent, a, b]| {
-                    operation(ProgramKernel::Powf(exponent), a, b)
-                });
-            }
-        };
-        self.emit([a, b], |[a, b]| operation(plain, a, b))
-    }
-
-    pub(super) fn power_difference(
-        &mut self,
-        values: [ExprId; 2],
-        logarithms: [ExprId; 2],
-    ) -> Operand {
-        let [value_a, value_b] = values.map(|value| self.done(value));
-        let [a, b] = logarithms.map(|logarithm| self.done(logarithm));
-        self.emit([value_a, value_b, a, b], |[value_a, value_b, a, b]| {
-            Operation::DividedDifference(ProgramKernel::Power(value_a, value_b), a, b)
-        })
     }
 
     pub(super) fn add(&mut self, a: Operand, b: Operand) -> Operand {

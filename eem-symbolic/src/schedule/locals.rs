@@ -13,6 +13,8 @@ use crate::node::{ExprId, Node, Symbol};
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Locals {
     definitions: BTreeMap<Symbol, ExprId>,
+    /// The other way round: equal values have one name.
+    names: BTreeMap<ExprId, ExprId>,
 }
 
 impl Locals {
@@ -29,12 +31,24 @@ impl Locals {
             | Node::PowerDifference { .. }
             | Node::DividedDifference(..)
             | Node::SecondDividedDifference(..) => {
+                if let Some(&local) = self.names.get(&value) {
+                    return local;
+                }
                 // No identifier of a formula contains `#`.
                 let name = format!("#{}", self.definitions.len());
                 let symbol = graph.symbol(&name);
                 self.definitions.insert(symbol, value);
-                graph.variable(symbol)
+                let local = graph.variable(symbol);
+                self.names.insert(value, local);
+                local
             }
+        }
+    }
+
+    /// Replaces every definition by an equal expression.
+    pub(crate) fn redefine(&mut self, mut image: impl FnMut(ExprId) -> ExprId) {
+        for definition in self.definitions.values_mut() {
+            *definition = image(*definition);
         }
     }
 

@@ -1,6 +1,8 @@
 //! A product of powers as numerator over denominator.
 
 use super::builder::{Builder, Operand, Signed};
+use super::plan::Factor;
+use super::sharing::Token;
 use crate::node::ExprId;
 use crate::number::{Number, Rational};
 use crate::program::Operation;
@@ -16,26 +18,90 @@ enum Exponent {
 }
 
 impl Builder<'_> {
-    /// `Π base ^ exponent`: one division, or products with reciprocals.
-    pub(super) fn product(&mut self, factors: &[(ExprId, Rational)]) -> Signed {
+    /// `Π base ^ exponent`.
+    pub(super) fn product(&mut self, e: ExprId, factors: &[(ExprId, Rational)]) -> Signed {
+        if let Some(product) = self.planned_product(Number::ONE, e) {
+            return product;
+        }
+        let plan = self.plan.as_ref();
+        let whole = plan.is_none_or(|plan| plan.arguments.contains(&e));
+        self.in_order(Number::ONE, factors, whole)
+    }
+
+    /// `coefficient · e` for a product e that has been planned.
+    pub(super) fn planned_product(&mut self, coefficient: Number, e: ExprId) -> Option<Signed> {
+        let entries = self.plan.as_ref()?.factors(coefficient, e)?;
+        if let Some(&product) = self.scaled.get(&(coefficient, e)) {
+            return Some(product);
+        }
+        let factors: Vec<_> = entries
+            .iter()
+            .map(|entry| self.planned_factor(entry.token))
+            .collect();
+        let negative = factors
+            .iter()
+            .fold(false, |sign, factor| sign ^ factor.negative);
+        let operands = factors.into_iter().map(|factor| factor.operand).collect();
+        let operand = self.multiply(operands).unwrap_or(ONE);
+        let product = Signed { negative, operand };
+        self.scaled.insert((coefficient, e), product);
+        Some(product)
+    }
+
+    fn planned_factor(&mut self, token: Token) -> Signed {
+        if let Some(&factor) = self.factors.get(&token) {
+            return factor;
+        }
+        let plan = self.plan.as_ref().expect("tokens are those of a plan");
+        let factor = if let Some(pair) = plan.products.sharing.pair(token) {
+            let [a, b] = [pair.first, pair.second].map(|token| self.planned_factor(token));
+            let operand = self.mul(a.operand, b.operand);
+            let negative = a.negative != b.negative;
+            Signed { negative, operand }
+        } else {
+            match plan.products.leaf(token).cloned() {
+                Some(Factor::Power(base, exponent)) => {
+                    self.in_order(Number::ONE, &[(base, exponent)], false)
+                }
+                Some(Factor::Hoisted(coefficient, factors)) => {
+                    self.in_order(coefficient, &factors, false)
+                }
+                None => unreachable!("a token is a pair or a factor"),
+            }
+        };
+        self.factors.insert(token, factor);
+        factor
+    }
+
+    /// `coefficient · Π base ^ exponent` in structural order: divided once as a whole, or multiplied
+    /// by reciprocals.
+    fn in_order(
+        &mut self,
+        coefficient: Number,
+        factors: &[(ExprId, Rational)],
+        whole: bool,
+    ) -> Signed {
         let (mut numerator, mut denominator) = (Vec::new(), Vec::new());
+        if coefficient != Number::ONE {
+            numerator.push(Operand::Number(coefficient));
+        }
         let mut negative = false;
         for &(base, exponent) in factors {
             match classify(exponent) {
-                Exponent::Algebraic { whole, root } => {
+                Exponent::Algebraic { whole: n, root } => {
                     let base = if root {
                         self.done(base).into()
                     } else {
                         self.signed(base)
                     };
-                    negative ^= base.negative && whole % 2 == 1;
+                    negative ^= base.negative && n % 2 == 1;
                     if !exponent.is_negative() {
-                        numerator.push(self.algebraic(base.operand, whole, root));
-                    } else if self.reciprocals {
-                        let inverse = self.reciprocal(base.operand);
-                        numerator.push(self.algebraic(inverse, whole, root));
+                        numerator.push(self.algebraic(base.operand, n, root));
+                    } else if whole {
+                        denominator.push(self.algebraic(base.operand, n, root));
                     } else {
-                        denominator.push(self.algebraic(base.operand, whole, root));
+                        let inverse = self.reciprocal(base.operand);
+                        numerator.push(self.algebraic(inverse, n, root));
                     }
                 }
                 Exponent::General => {
@@ -55,7 +121,8 @@ impl Builder<'_> {
         Signed { negative, operand }
     }
 
-    fn reciprocal(&mut self, x: Operand) -> Operand {
+    /// `1/x`.
+    pub(super) fn reciprocal(&mut self, x: Operand) -> Operand {
         self.emit([ONE, x], |[a, b]| Operation::Div(a, b))
     }
 

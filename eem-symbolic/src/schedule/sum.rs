@@ -1,13 +1,71 @@
 //! A sum as additions and subtractions.
 
 use super::builder::{Builder, Operand, Signed};
+use super::plan::Term;
+use super::sharing::Token;
 use crate::node::ExprId;
 use crate::number::Number;
 use crate::program::Operation;
 
 impl Builder<'_> {
     /// `constant + Σ coefficient · term`.
-    pub(super) fn sum(&mut self, constant: Number, terms: &[(Number, ExprId)]) -> Signed {
+    pub(super) fn sum(
+        &mut self,
+        e: ExprId,
+        constant: Number,
+        terms: &[(Number, ExprId)],
+    ) -> Signed {
+        match self.planned_sum(e) {
+            Some(sum) => sum,
+            None => self.sum_in_order(constant, terms),
+        }
+    }
+
+    fn planned_sum(&mut self, e: ExprId) -> Option<Signed> {
+        let entries = self.plan.as_ref()?.sums.entries(&e)?;
+        let summands = entries.iter().map(|entry| {
+            let Signed { negative, operand } = self.planned_term(entry.token);
+            let negative = negative != entry.negative;
+            Signed { negative, operand }
+        });
+        let summands = summands.collect();
+        Some(self.accumulate(summands))
+    }
+
+    fn planned_term(&mut self, token: Token) -> Signed {
+        if let Some(&term) = self.terms.get(&token) {
+            return term;
+        }
+        let plan = self.plan.as_ref().expect("tokens are those of a plan");
+        let term = if let Some(pair) = plan.sums.sharing.pair(token) {
+            let [a, mut b] = [pair.first, pair.second].map(|token| self.planned_term(token));
+            b.negative ^= pair.opposite;
+            self.accumulate(vec![a, b])
+        } else {
+            match plan.sums.leaf(token).cloned() {
+                Some(Term::Scaled(coefficient, term)) => self.scaled_term(coefficient, term),
+                Some(Term::Hoisted(constant, terms)) => self.sum_in_order(constant, &terms),
+                None => unreachable!("a token is a pair or a term"),
+            }
+        };
+        self.terms.insert(token, term);
+        term
+    }
+
+    /// `coefficient · term` with a positive coefficient.
+    fn scaled_term(&mut self, coefficient: Number, term: ExprId) -> Signed {
+        if let Some(product) = self.planned_product(coefficient, term) {
+            return product;
+        }
+        let term = self.signed(term);
+        if coefficient == Number::ONE {
+            return term;
+        }
+        let operand = self.mul(Operand::Number(coefficient), term.operand);
+        Signed { operand, ..term }
+    }
+
+    fn sum_in_order(&mut self, constant: Number, terms: &[(Number, ExprId)]) -> Signed {
         if let Some(common) = common_magnitude(constant, terms) {
             let signs = terms
                 .iter()

@@ -63,7 +63,7 @@ pub(super) fn draw(figure: &Figure, path: &Path) -> Result<(), Box<dyn Error>> {
         )?;
     draw_axes(&mut chart, figure)?;
     for curve in &curves {
-        draw_curve(&mut chart, curve, &window)?;
+        draw_curve(&mut chart, curve, look_among(&curves, curve), &window)?;
     }
     canvas.present()?;
     Ok(())
@@ -115,12 +115,22 @@ fn draw_axes(chart: &mut Chart<'_, '_>, figure: &Figure) -> Result<(), Box<dyn E
     Ok(())
 }
 
+/// A curve's look; alone it needs neither dash nor marker to be told from others.
+fn look_among(curves: &[Curve], curve: &Curve) -> Look {
+    let look = Look::of(curve.look);
+    if curves.len() == 1 {
+        look.plain()
+    } else {
+        look
+    }
+}
+
 fn draw_curve(
     chart: &mut Chart<'_, '_>,
     curve: &Curve,
+    look: Look,
     window: &Window,
 ) -> Result<(), Box<dyn Error>> {
-    let look = Look::of(curve.look);
     let style = look.colour.stroke_width(look.width);
     for part in window.clip(&curve.points) {
         let part = part.into_iter();
@@ -147,7 +157,7 @@ fn draw_legend(canvas: &Canvas<'_>, curves: &[Curve], width: i32) -> Result<i32,
     let places = legend::places(&labels, width);
     let text = font(f64::from(legend::FONT)).pos(Pos::new(HPos::Left, VPos::Center));
     for (curve, &(x, y)) in curves.iter().zip(&places) {
-        let look = Look::of(curve.look);
+        let look = look_among(curves, curve);
         let style = look.colour.stroke_width(look.width);
         let middle = TITLE_HEIGHT + y + legend::ROW / 2;
         let end = x + legend::SAMPLE;

@@ -55,7 +55,7 @@ const DOTS: Dash = Dash::Dashed { length: 3, gap: 8 };
 
 /// The first look is the reference's; the colours are those of Okabe & Ito (2008), which
 /// colour-blind readers can tell apart.
-const LOOKS: [Look; 10] = [
+const LOOKS: [Look; 12] = [
     look((0, 0, 0), Dash::Solid, Marker::None),
     look((0, 114, 178), Dash::Solid, Marker::Plus),
     look((213, 94, 0), LONG, Marker::Cross),
@@ -66,6 +66,8 @@ const LOOKS: [Look; 10] = [
     look((140, 80, 20), DOTS, Marker::Cross),
     look((110, 110, 110), LONG, Marker::Triangle),
     look((120, 60, 160), DOTS, Marker::Diamond),
+    look((190, 170, 0), Dash::Solid, Marker::Triangle),
+    look((0, 80, 60), LONG, Marker::Square),
 ];
 
 const fn look((red, green, blue): (u8, u8, u8), dash: Dash, marker: Marker) -> Look {
@@ -84,5 +86,14 @@ impl Look {
             return LOOKS[index];
         }
         LOOKS[1 + (index - 1) % (LOOKS.len() - 1)]
+    }
+
+    /// The same colour without dash and marker.
+    pub(super) const fn plain(self) -> Self {
+        Self {
+            dash: Dash::Solid,
+            marker: Marker::None,
+            ..self
+        }
     }
 }

@@ -12,4 +12,10 @@ struct Name {
     k: f64,
 }
 
+#[derive(FreeEnergy)]
+#[free_energy(|lambda: Stretch| k * lambda * 1,5)]
+struct Comma {
+    k: f64,
+}
+
 fn main() {}

@@ -6,4 +6,10 @@ struct Model {
     k: f64,
 }
 
+#[derive(FreeEnergy)]
+#[free_energy(|lambda: Length, gamma: Dashpot, theta: eem::Temperature, rest: Volume| k * lambda)]
+struct OtherWords {
+    k: f64,
+}
+
 fn main() {}

@@ -28,4 +28,11 @@ struct Colon {
     k: f64,
 }
 
+#[derive(FreeEnergy)]
+#[free_energy(|lambda: Stretch, gamma: Viscous| k * lambda * gamma)]
+#[viscosity(gamma = 2 k)]
+struct MissingOperator {
+    k: f64,
+}
+
 fn main() {}

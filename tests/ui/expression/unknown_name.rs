@@ -11,4 +11,10 @@ struct Model {
     rest_length: f64,
 }
 
+#[derive(FreeEnergy)]
+#[free_energy(|x: Stretch| stiffness * x.powi(2) * theta * (THETA_REF - gamma))]
+struct Undeclared {
+    stiffness: f64,
+}
+
 fn main() {}

@@ -36,7 +36,7 @@ pub(crate) fn bit_operator(operator: &str) -> Message {
 pub(crate) fn assignment(operator: &str) -> Message {
     Message::new(
         format!("`{operator}` changes a value, and values do not change in a formula"),
-        "bind a new name: `let x = x + …;`",
+        "bind another name: `let y = x + …;`",
     )
 }
 
@@ -82,7 +82,7 @@ pub(crate) fn cast() -> Message {
 
 pub(crate) fn closure() -> Message {
     Message::new(
-        "a closure inside a free energy",
+        "a closure is not part of a formula",
         "bind the value with `let`; a derivative is `diff(expression, argument)`",
     )
 }
@@ -108,6 +108,25 @@ pub(crate) fn invocation() -> Message {
     )
 }
 
+pub(crate) fn waiting() -> Message {
+    Message::new("`.await` is not part of a formula", "remove `.await`")
+}
+
+pub(crate) fn range() -> Message {
+    Message::new(
+        "a range is not a number",
+        "one `.` is a decimal point; a sum over a range is written out",
+    )
+}
+
+pub(crate) fn placeholder() -> Message {
+    Message::new("`_` has no value", "write the expression that belongs here")
+}
+
+pub(crate) fn mutable() -> Message {
+    Message::new("values do not change in a formula", "remove `mut`")
+}
+
 pub(crate) fn question_mark() -> Message {
     Message::new("`?` is not part of a formula", "remove `?`")
 }
@@ -115,15 +134,35 @@ pub(crate) fn question_mark() -> Message {
 pub(crate) fn field_access(name: Option<&str>) -> Message {
     let help = match name {
         Some(name) => format!("fields are used by bare name: write `{name}`"),
-        None => "use one field per parameter, by bare name".to_owned(),
+        None => "a parameter is a field of its own, used by bare name; a method has parentheses, `x.sqrt()`".to_owned(),
     };
-    Message::new("a field access", help)
+    Message::new("a field access is not part of a formula", help)
 }
 
 pub(crate) fn path(path: &str, last: &str) -> Message {
     Message::new(
         format!("`{path}` is outside of the free energy"),
         format!("names are bare: write `{last}` for a field or a function, or the number itself"),
+    )
+}
+
+/// The constants that `std` has under a name, with all digits of an `f64`.
+pub(crate) fn constant_value(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "PI" | "pi" => "3.141592653589793",
+        "TAU" => "6.283185307179586",
+        "E" | "e" => "2.718281828459045",
+        "SQRT_2" => "sqrt(2)",
+        "LN_2" => "ln(2)",
+        "LN_10" => "ln(10)",
+        _ => return None,
+    })
+}
+
+pub(crate) fn constant(path: &str, value: &str) -> Message {
+    Message::new(
+        format!("the constant `{path}` is outside of the free energy"),
+        format!("write `{value}`"),
     )
 }
 
@@ -136,7 +175,7 @@ pub(crate) fn generic_arguments() -> Message {
 
 pub(crate) fn callee() -> Message {
     Message::new(
-        "only a named function can be called",
+        "this is not the name of a function",
         "for a product write `*`",
     )
 }
@@ -156,10 +195,7 @@ pub(crate) fn attribute() -> Message {
 }
 
 pub(crate) fn label_or_modifier() -> Message {
-    Message::new(
-        "only plain blocks belong into a formula",
-        "write `{ let …; value }`",
-    )
+    Message::new("this is not a plain block", "write `{ let …; value }`")
 }
 
 pub(crate) fn unsupported() -> Message {
@@ -176,6 +212,20 @@ pub(crate) fn block_without_value() -> Message {
     )
 }
 
+pub(crate) fn semicolon_after_value() -> Message {
+    Message::new(
+        "a `;` after the value of a block throws it away",
+        "remove `;`",
+    )
+}
+
+pub(crate) fn let_without_block() -> Message {
+    Message::new(
+        "a `let` needs a block around it",
+        "write `{ let name = value; … }`",
+    )
+}
+
 pub(crate) fn statement_without_effect() -> Message {
     Message::new(
         "the value of this expression is not used",
@@ -185,21 +235,21 @@ pub(crate) fn statement_without_effect() -> Message {
 
 pub(crate) fn item_in_block() -> Message {
     Message::new(
-        "an item inside a free energy",
+        "an item is not part of a formula",
         "use `let` for an intermediate value and a field for a parameter",
     )
 }
 
 pub(crate) fn let_pattern() -> Message {
     Message::new(
-        "a `let` of a free energy binds one plain name",
+        "this pattern is not a plain name",
         "write `let name = value;`",
     )
 }
 
 pub(crate) fn let_type() -> Message {
     Message::new(
-        "a `let` of a free energy has no type",
+        "a `let` in a formula has no type",
         "write `let name = value;`",
     )
 }

@@ -25,8 +25,8 @@ const _: () = {
         type Corners = [__S; 0];
         type Response = [__S; 1];
         type Tangent = [[__S; 1]; 1];
-        type EntropyFormOld = [__S; 4];
-        type TemperatureFormOld = [__S; 4];
+        type EntropyFormOld = [__S; 3];
+        type TemperatureFormOld = [__S; 3];
         fn parameter(&self, __index: __eem::core::primitive::usize) -> __S {
             let __parameters: [__S; 2] = [
                 <__S as __eem::Scalar>::from_f64(self.stiffness),
@@ -42,9 +42,9 @@ const _: () = {
             let __v1 = __x[0];
             let __v2 = <__S as __eem::Scalar>::from_f64(self.length);
             let __v3 = __v1 - __v2;
-            let __v4 = __v3 * __v3;
+            let __v4 = <__S as __eem::Scalar>::from_f64(0.5);
             let __v5 = __v0 * __v4;
-            let __v6 = <__S as __eem::Scalar>::from_f64(0.5);
+            let __v6 = __v3 * __v3;
             let __v7 = __v5 * __v6;
             __v7
         }
@@ -56,9 +56,9 @@ const _: () = {
             let __v1 = __x[0];
             let __v2 = <__S as __eem::Scalar>::from_f64(self.length);
             let __v3 = __v1 - __v2;
-            let __v4 = __v3 * __v3;
+            let __v4 = <__S as __eem::Scalar>::from_f64(0.5);
             let __v5 = __v0 * __v4;
-            let __v6 = <__S as __eem::Scalar>::from_f64(0.5);
+            let __v6 = __v3 * __v3;
             let __v7 = __v5 * __v6;
             __v7
         }
@@ -110,29 +110,41 @@ const _: () = {
             let __v1 = __x0[0];
             let __v2 = <__S as __eem::Scalar>::from_f64(self.length);
             let __v3 = __v1 - __v2;
-            let __v12 = <__S as __eem::Scalar>::from_f64(0.5);
-            let __v13 = __v0 * __v12;
-            [__v0, __v2, __v3, __v13]
+            let __v7 = <__S as __eem::Scalar>::from_f64(0.5);
+            let __v8 = __v0 * __v7;
+            [__v2, __v3, __v8]
         }
         /// Entropy form: algorithmic quantities and their tangent.
         ///
-        /// 6 operations: 3 additions, 3 multiplications.
+        /// 3 operations: 2 additions, 1 multiplication.
         fn entropy_form(
             &self,
             __old: &Self::EntropyFormOld,
             __x1: &Self::Variables,
             _: &Self::Corners,
         ) -> (Self::Response, Self::Tangent) {
-            let [__v0, __v2, __v3, __v13] = *__old;
+            let [__v2, __v3, __v8] = *__old;
             let __v4 = __x1[0];
             let __v5 = __v4 - __v2;
             let __v6 = __v3 + __v5;
-            let __v7 = __v0 * __v6;
-            let __v8 = <__S as __eem::Scalar>::from_f64(0.5);
-            let __v9 = __v7 * __v8;
-            let __v10 = __v9 + __v9;
-            let __v11 = __v8 * __v10;
-            ([__v11], [[__v13]])
+            let __v9 = __v6 * __v8;
+            ([__v9], [[__v8]])
+        }
+        /// Entropy form: the same algorithmic quantities without their tangent.
+        ///
+        /// 3 operations: 2 additions, 1 multiplication.
+        fn entropy_form_response(
+            &self,
+            __old: &Self::EntropyFormOld,
+            __x1: &Self::Variables,
+            _: &Self::Corners,
+        ) -> Self::Response {
+            let [__v2, __v3, __v8] = *__old;
+            let __v4 = __x1[0];
+            let __v5 = __v4 - __v2;
+            let __v6 = __v3 + __v5;
+            let __v9 = __v6 * __v8;
+            [__v9]
         }
         /// There is no temperature: the same as the entropy form.
         fn temperature_form_old(
@@ -149,5 +161,50 @@ const _: () = {
         ) -> (Self::Response, Self::Tangent) {
             __eem::FreeEnergy::entropy_form(self, __old, __x1, &[])
         }
+        /// There is no temperature: the same as the entropy form.
+        fn temperature_form_response(
+            &self,
+            __old: &Self::TemperatureFormOld,
+            __x1: &Self::Variables,
+        ) -> Self::Response {
+            __eem::FreeEnergy::entropy_form_response(self, __old, __x1, &[])
+        }
+    }
+    #[automatically_derived]
+    impl __eem::Describe for ElasticSpring {
+        const DESCRIPTION: __eem::Description = __eem::Description {
+            name: "ElasticSpring",
+            arguments: &[__eem::describe::Argument::new("lambda", "Stretch", "m")],
+            parameters: &[
+                __eem::describe::Parameter::without_unit("stiffness"),
+                __eem::describe::Parameter::without_unit("length"),
+            ],
+            formulas: &[
+                __eem::describe::Formula::new(
+                    "ψ",
+                    "ψ = 0.5*stiffness*(lambda - length)^2",
+                    "J",
+                ),
+                __eem::describe::Formula::new(
+                    "f",
+                    "f = ∂ψ/∂lambda = stiffness*(lambda - length)",
+                    "N",
+                ),
+            ],
+            divided_differences: &[
+                __eem::describe::Formula::new(
+                    "ψ[lambda]",
+                    "ψ[lambda⁰, lambda¹] = 0.5*stiffness*(lambda⁰ - length + lambda¹ - length)",
+                    "N",
+                ),
+            ],
+            costs: &[
+                __eem::describe::Cost::new("free_energy", 0, 4),
+                __eem::describe::Cost::new("internal_energy", 0, 4),
+                __eem::describe::Cost::new("gradient", 0, 2),
+                __eem::describe::Cost::new("hessian", 0, 2),
+                __eem::describe::Cost::new("entropy_form", 2, 3),
+            ],
+        };
     }
 };

@@ -1,0 +1,67 @@
+//! A formula is not nested so deeply that reading it would exhaust the stack of the compiler.
+//!
+//! Reading is recursive, here and in `syn`: every operator of a chain and every pair of brackets is
+//! a level. The levels are counted in the tokens, before anything recursive sees them.
+
+use proc_macro2::{Span, TokenStream, TokenTree};
+
+/// Levels that a formula may have. Twice as many still fit the 8 MiB of the compiler's threads in a
+/// debug build, where they are operators between two values.
+const LIMIT: usize = 4000;
+
+/// Levels of a pair of brackets: the functions of the parser between two expressions.
+const BRACKETS: usize = 20;
+/// Levels of a sign or of a method.
+const PREFIX: usize = 2;
+
+/// The place where the tokens become too deep.
+pub(super) fn too_deep(tokens: TokenStream) -> Option<Span> {
+    // Groups that are yet to be looked into, with the level at which they stand.
+    let mut pending = vec![(tokens, 0)];
+    while let Some((tokens, outside)) = pending.pop() {
+        let (mut level, mut after_value) = (outside, false);
+        for token in tokens {
+            if level > LIMIT {
+                return Some(token.span());
+            }
+            let value = !matches!(token, TokenTree::Punct(_));
+            match token {
+                TokenTree::Group(group) => pending.push((group.stream(), level + BRACKETS)),
+                // The next statement or argument does not stand inside of this one.
+                TokenTree::Punct(punct) if matches!(punct.as_char(), ';' | ',') => level = outside,
+                TokenTree::Punct(punct) if after_value && punct.as_char() != '.' => level += 1,
+                TokenTree::Punct(_) => level += PREFIX,
+                TokenTree::Ident(_) | TokenTree::Literal(_) => {}
+            }
+            after_value = value;
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LIMIT, too_deep};
+    use proc_macro2::TokenStream;
+
+    fn is_too_deep(text: &str) -> bool {
+        let tokens: TokenStream = text.parse().expect("the text is made of tokens");
+        too_deep(tokens).is_some()
+    }
+
+    #[test]
+    fn chains_and_brackets_are_counted() {
+        assert!(!is_too_deep(&format!("x{}", " + x".repeat(LIMIT))));
+        assert!(is_too_deep(&format!("x{}", " + x".repeat(2 * LIMIT))));
+        let brackets = |n| format!("{}x{}", "(".repeat(n), ")".repeat(n));
+        assert!(!is_too_deep(&brackets(100)));
+        assert!(is_too_deep(&brackets(1000)));
+        assert!(is_too_deep(&"-".repeat(LIMIT)));
+    }
+
+    #[test]
+    fn statements_and_arguments_start_anew() {
+        assert!(!is_too_deep(&"let y = x + x + x; ".repeat(LIMIT)));
+        assert!(!is_too_deep(&"x + x + x, ".repeat(LIMIT)));
+    }
+}

@@ -1,0 +1,50 @@
+//! Messages about free energies and viscosities that no material can have.
+
+use super::Message;
+use crate::ast::{self, Role};
+use crate::checked::Variable;
+
+pub(crate) fn independent(variable: &Variable<'_>) -> Message {
+    let name = ast::name(variable.ident);
+    let help = match variable.role {
+        Role::Stretch => format!(
+            "there is no force; add its term, for example `0.5 * stiffness * ({name} - length).powi(2)`"
+        ),
+        Role::Viscous => format!(
+            "nothing drives the dashpot; add its term, for example `0.5 * branch * (lambda - {name}).powi(2)`, or remove the argument and its viscosity"
+        ),
+        Role::Temperature => format!(
+            "there is no entropy; add a heat capacity, for example `capacity * ({name} - {name} * ln({name} / theta_ref))`, or remove the argument"
+        ),
+    };
+    Message::new(format!("the free energy does not depend on `{name}`"), help)
+}
+
+pub(crate) fn no_heat_capacity(theta: &Variable<'_>) -> Message {
+    let name = ast::name(theta.ident);
+    Message::new(
+        format!(
+            "the free energy is linear in `{name}`: its heat capacity is zero, and no temperature belongs to an entropy"
+        ),
+        format!(
+            "add a heat capacity, for example `capacity * ({name} - {name} * ln({name} / theta_ref))`"
+        ),
+    )
+}
+
+pub(crate) fn negative_heat_capacity(theta: &Variable<'_>) -> Message {
+    let name = ast::name(theta.ident);
+    Message::new(
+        "the heat capacity is nowhere positive",
+        format!(
+            "it is `-{name}` times the second derivative by `{name}`: check the signs; it usually comes from a term `-capacity * {name} * ln({name})`"
+        ),
+    )
+}
+
+pub(crate) fn no_viscosity() -> Message {
+    Message::new(
+        "this viscosity is nowhere positive",
+        "a dashpot needs one above zero; without it, remove the argument from the free energy",
+    )
+}

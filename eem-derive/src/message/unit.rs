@@ -1,0 +1,228 @@
+//! Messages about units.
+
+use proc_macro2::Ident;
+
+use super::Message;
+use crate::ast;
+use crate::units::Unit;
+
+const EXAMPLE: &str = "`#[unit(\"J/K\")]`";
+
+pub(crate) fn not_on_a_field() -> Message {
+    Message::new(
+        "`#[unit]` is not expected on a struct",
+        format!("write {EXAMPLE} above a field"),
+    )
+}
+
+pub(crate) fn not_a_string() -> Message {
+    Message::new(
+        "`#[unit]` takes one string",
+        format!("write {EXAMPLE}, or `#[unit(\"1\")]` for a pure number"),
+    )
+}
+
+pub(crate) fn second() -> Message {
+    Message::new("a second unit", "a field has one unit; remove one of them")
+}
+
+pub(crate) fn empty() -> Message {
+    Message::new(
+        "a unit without a symbol",
+        "write `#[unit(\"1\")]` for a pure number",
+    )
+}
+
+pub(crate) fn unknown(symbol: &str, advice: String) -> Message {
+    Message::new(format!("unknown unit `{symbol}`"), advice)
+}
+
+fn unreadable(text: &str, help: impl Into<String>) -> Message {
+    Message::new(format!("cannot read the unit `{text}`"), help)
+}
+
+pub(crate) fn unexpected(text: &str, character: char) -> Message {
+    unreadable(
+        text,
+        format!("`{character}` is not expected; write for example `kg m^2/(s^2 K)`"),
+    )
+}
+
+pub(crate) fn unfinished(text: &str) -> Message {
+    unreadable(text, "a symbol is missing at the end")
+}
+
+pub(crate) fn parenthesis(text: &str) -> Message {
+    unreadable(text, "the parentheses do not match")
+}
+
+pub(crate) fn power_stars(text: &str) -> Message {
+    unreadable(text, "a power is written with `^`, as in `m^2`")
+}
+
+pub(crate) fn minus(text: &str, symbol: &str) -> Message {
+    unreadable(
+        text,
+        format!("a negative power is written `{symbol}^-1` or `1/{symbol}`"),
+    )
+}
+
+pub(crate) fn number(text: &str, number: &str) -> Message {
+    unreadable(
+        text,
+        format!("`{number}` belongs to the value; a unit may have a prefix, as in `kN/m`"),
+    )
+}
+
+pub(crate) fn ambiguous_quotient(text: &str) -> Message {
+    unreadable(
+        text,
+        "say what is divided by: `J/(kg K)` or `J K/kg`, not `J/kg K`",
+    )
+}
+
+pub(crate) fn exponent(text: &str, largest: i64) -> Message {
+    unreadable(
+        text,
+        format!(
+            "an exponent is an integer or a fraction, `m^2` or `m^(1/2)`, of at most {largest}"
+        ),
+    )
+}
+
+pub(crate) fn missing(field: &Ident, unit: Option<&Unit>) -> Message {
+    let name = ast::name(field);
+    let help = match unit {
+        Some(unit) => format!("the formula needs `#[unit(\"{unit}\")]` above it"),
+        None => "write `#[unit(\"…\")]` above it, `#[unit(\"1\")]` for a pure number".to_owned(),
+    };
+    Message::new(
+        format!("`{name}` has no unit, but other fields of the formula have one"),
+        help,
+    )
+}
+
+/// A part of an expression as quoted, and its unit.
+pub(crate) struct Side<'m> {
+    pub(crate) text: &'m str,
+    pub(crate) unit: &'m Unit,
+}
+
+impl Side<'_> {
+    /// `in N/m`, `a pure number`
+    fn phrase(&self) -> String {
+        match (self.unit.is_one(), self.unit.coherent().is_one()) {
+            (true, _) => "a pure number".to_owned(),
+            (false, true) => format!("{} times a pure number", self.unit.expanded()),
+            (false, false) => format!("in {}", self.unit),
+        }
+    }
+
+    fn name(&self) -> String {
+        if self.unit.coherent().is_one() {
+            self.phrase()
+        } else {
+            self.unit.to_string()
+        }
+    }
+}
+
+pub(crate) fn sum(difference: bool, left: &Side<'_>, right: &Side<'_>, help: String) -> Message {
+    let verb = if difference {
+        format!("subtract {} from {}", right.name(), left.name())
+    } else {
+        format!("add {} and {}", left.name(), right.name())
+    };
+    Message::new(
+        format!(
+            "cannot {verb}: the left side `{}` is {}, the right side `{}` is {}",
+            left.text,
+            left.phrase(),
+            right.text,
+            right.phrase()
+        ),
+        help,
+    )
+}
+
+/// Help for a number beside a quantity: `theta - 300`.
+pub(crate) fn number_with_unit(number: &str, unit: &Unit) -> String {
+    format!("make `{number}` a field with `#[unit(\"{unit}\")]`: numbers in a formula have no unit")
+}
+
+/// Help for units that differ by a factor, which a field brings in.
+pub(crate) fn field_with_scale(field: &str, unit: &Unit) -> String {
+    let coherent = unit.coherent();
+    if coherent.is_one() {
+        let scale = unit.expanded();
+        return format!("the factor comes with `{field}`, whose unit is {scale}: use it once");
+    }
+    let scaled = unit.expanded();
+    format!("`{field}` is in {unit}, and 1 {unit} is {scaled}: give it in {coherent}")
+}
+
+/// Help for units that differ: the quotient of what is wanted and what is `found`, by name.
+pub(crate) fn factor_is_missing(found: &str, wanted: &Unit, unit: &Unit) -> String {
+    let lacks = |what: &str, unit: Option<Unit>| {
+        unit.map(|unit| format!("{found} lacks a {what} in {unit}"))
+    };
+    let divisor = unit.over(wanted).filter(|u| !u.to_string().contains('/'));
+    let help = match divisor {
+        Some(divisor) => lacks("divisor", Some(divisor)),
+        None => lacks("factor", wanted.over(unit)),
+    };
+    help.unwrap_or_default()
+}
+
+pub(crate) fn function_of_unit(function: &str, argument: &Side<'_>, help: String) -> Message {
+    Message::new(
+        format!(
+            "`{function}` takes a pure number, and `{}` is {}",
+            argument.text,
+            argument.phrase()
+        ),
+        help,
+    )
+}
+
+/// Help for the argument of a function.
+pub(crate) fn divide_by_reference(argument: &Side<'_>) -> String {
+    let Side { text, unit } = argument;
+    format!("divide `{text}` by a reference in {unit}")
+}
+
+pub(crate) fn exponent_with_unit(exponent: &Side<'_>) -> Message {
+    Message::new(
+        format!(
+            "an exponent is a pure number, and `{}` is {}",
+            exponent.text,
+            exponent.phrase()
+        ),
+        divide_by_reference(exponent),
+    )
+}
+
+pub(crate) fn power_of_unit(base: &Side<'_>, exponent: &str) -> Message {
+    Message::new(
+        format!(
+            "`{}` is {}, and the unit of its power would depend on the value of `{exponent}`",
+            base.text,
+            base.phrase()
+        ),
+        divide_by_reference(base),
+    )
+}
+
+pub(crate) fn whole(what: &str, wanted: &str, found: &Side<'_>, help: String) -> Message {
+    Message::new(
+        format!("{what} is in {wanted}, and this is {}", found.phrase()),
+        help,
+    )
+}
+
+pub(crate) fn beyond_measure() -> Message {
+    Message::new(
+        "the exponents of the unit of this expression do not fit 128 bits",
+        "use smaller powers",
+    )
+}

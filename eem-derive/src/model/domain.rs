@@ -1,0 +1,129 @@
+//! Domains: a subexpression that has no value, whatever the parameters and the state are.
+//!
+//! Decided by the value of constants, and for other expressions by their sign, given that lengths
+//! and temperatures are positive.
+
+use eem_symbolic::{ExprId, F64, Function, Sign, Symbol, schedule, sign};
+
+use super::Lowering;
+use crate::ast::Role;
+use crate::checked::Expr;
+use crate::message::expression as message;
+
+impl Lowering<'_> {
+    /// A constant is finite: `exp(1000)` is not.
+    pub(super) fn check_size(&self, expr: &Expr<'_>, value: ExprId) -> Option<ExprId> {
+        let infinite = self.constant(value).is_some_and(|c| !c.is_finite());
+        self.unless(infinite, expr, &message::constant_too_large)?;
+        Some(value)
+    }
+
+    /// A divisor is not identically zero, nor so small that its inverse overflows.
+    pub(super) fn check_divisor(&self, expr: &Expr<'_>, value: ExprId) -> Option<()> {
+        let zero = self.constant(value).is_some_and(|c| !c.recip().is_finite());
+        self.unless(zero, expr, &message::divisor_is_zero)
+    }
+
+    /// `√x`, x ≥ 0.
+    pub(super) fn check_root(&self, expr: &Expr<'_>, value: ExprId) -> Option<()> {
+        let sign = self.sign(value);
+        let outside = !sign.zero && !sign.positive;
+        self.unless(outside, expr, &|| {
+            message::outside_domain("sqrt", "negative", "x >= 0")
+        })
+    }
+
+    /// `x^y`, x > 0, unless y is an integer.
+    pub(super) fn check_base(&self, expr: &Expr<'_>, base: ExprId, exponent: ExprId) -> Option<()> {
+        let exponent = self.constant(exponent);
+        if exponent.is_some_and(|y| y < 0.0) {
+            self.check_divisor(expr, base)?;
+        }
+        let integer = exponent.is_some_and(|y| y.fract() == 0.0);
+        let sign = self.sign(base);
+        let outside = !integer && !sign.zero && !sign.positive;
+        self.unless(outside, expr, &message::negative_base)
+    }
+
+    /// The functions that are not defined everywhere.
+    pub(super) fn check_argument(
+        &self,
+        function: Function,
+        expr: &Expr<'_>,
+        value: ExprId,
+    ) -> Option<()> {
+        let constant = self.constant(value);
+        let (outside, what, domain) = match function {
+            Function::Ln | Function::Log2 | Function::Log10 => {
+                (!self.sign(value).positive, "never positive", "x > 0")
+            }
+            Function::Ln1p => (
+                constant.is_some_and(|c| c <= -1.0),
+                "not above -1",
+                "x > -1",
+            ),
+            Function::Atanh => (
+                constant.is_some_and(|c| c.abs() >= 1.0),
+                "not between -1 and 1",
+                "-1 < x < 1",
+            ),
+            Function::Exp
+            | Function::ExpM1
+            | Function::Sin
+            | Function::Cos
+            | Function::Tan
+            | Function::Sinh
+            | Function::Cosh
+            | Function::Tanh
+            | Function::Asinh
+            | Function::Atan
+            | Function::Cbrt
+            | Function::Abs => return Some(()),
+        };
+        self.unless(outside, expr, &|| {
+            message::outside_domain(function.name(), what, domain)
+        })
+    }
+
+    fn unless(
+        &self,
+        wrong: bool,
+        expr: &Expr<'_>,
+        message: &dyn Fn() -> crate::message::Message,
+    ) -> Option<()> {
+        if wrong {
+            self.cx.error(expr.original, &message());
+            return None;
+        }
+        Some(())
+    }
+
+    /// The value of an expression, if there are no symbols in it.
+    fn constant(&self, e: ExprId) -> Option<f64> {
+        if let Some(number) = self.graph.as_number(e) {
+            return Some(number.to_f64());
+        }
+        let mut symbols = self.variables.iter().chain(&self.parameters);
+        if symbols.any(|&symbol| self.graph.depends_on(e, symbol)) {
+            return None;
+        }
+        let program = schedule(&self.graph, Vec::new(), &[e]);
+        program.interpret(&F64, &[]).first().copied()
+    }
+
+    /// The signs of an expression, given that lengths and temperatures are positive.
+    pub(super) fn sign(&self, e: ExprId) -> Sign {
+        if let Some(constant) = self.constant(e) {
+            return Sign {
+                negative: constant < 0.0,
+                zero: constant == 0.0,
+                positive: constant > 0.0,
+            };
+        }
+        let positive: Vec<Symbol> = [Role::Stretch, Role::Temperature]
+            .into_iter()
+            .flat_map(|role| self.of_role(role))
+            .collect();
+        sign(&self.graph, e, &positive)
+    }
+}

@@ -1,0 +1,45 @@
+//! Physics phase: a model that is complete may still be none of a material.
+//!
+//! [`eem_symbolic::Flaw`] says what is wrong; here it gets its place and its words.
+
+use eem_symbolic::{Flaw, Model};
+
+use crate::ast::{self, Role};
+use crate::checked::{Checked, Variable};
+use crate::ctxt::Ctxt;
+use crate::message::{Message, attribute::physics as message};
+
+/// Reports every flaw of a sound model: at the argument of the free energy that it is about, or at the
+/// viscosity law.
+pub(crate) fn check(cx: &Ctxt, checked: &Checked<'_>, model: &Model) {
+    for flaw in model.flaws() {
+        match flaw {
+            Flaw::Independent(symbol) => {
+                report(cx, checked, model.graph.name(symbol), message::independent);
+            }
+            Flaw::NoHeatCapacity => report_thermal(cx, checked, message::no_heat_capacity),
+            Flaw::NegativeHeatCapacity => {
+                report_thermal(cx, checked, message::negative_heat_capacity);
+            }
+            Flaw::NoViscosity(dashpot) => {
+                if let Some(Some(law)) = checked.viscosities.get(dashpot) {
+                    cx.error(law.value.original, &message::no_viscosity());
+                }
+            }
+        }
+    }
+}
+
+fn report(cx: &Ctxt, checked: &Checked<'_>, name: &str, message: fn(&Variable<'_>) -> Message) {
+    let mut variables = checked.variables.iter();
+    if let Some(variable) = variables.find(|variable| ast::name(variable.ident) == name) {
+        cx.error(variable.ident, &message(variable));
+    }
+}
+
+fn report_thermal(cx: &Ctxt, checked: &Checked<'_>, message: fn(&Variable<'_>) -> Message) {
+    let mut variables = checked.variables.iter();
+    if let Some(theta) = variables.find(|variable| variable.role == Role::Temperature) {
+        cx.error(theta.ident, &message(theta));
+    }
+}

@@ -1,0 +1,204 @@
+//! The rules: what every operation demands of the units of its operands, and the unit it yields.
+
+mod function;
+mod sum;
+
+use eem_symbolic::{Function, Rational};
+
+use super::excerpt::excerpt;
+use super::fields::Declaration;
+use super::unit::Unit;
+use super::unknowns::Unknowns;
+use super::{Units, of_role};
+use crate::ast::{self, Operator};
+use crate::checked::{Body, Checked, Expr, ExprKind};
+use crate::ctxt::Ctxt;
+use crate::message::unit::{self as message, Side};
+
+/// What is known of an expression.
+#[derive(Clone, Debug)]
+struct Quantity {
+    unit: Unit,
+    /// Its value, if it is a number.
+    value: Option<Rational>,
+    /// The first field in it that has a scale, to blame where scales differ.
+    scaled: Option<usize>,
+}
+
+impl Quantity {
+    fn new(unit: Unit) -> Self {
+        Self {
+            unit,
+            value: None,
+            scaled: None,
+        }
+    }
+
+    fn number(value: Option<Rational>) -> Self {
+        Self {
+            value,
+            ..Self::new(Unit::one())
+        }
+    }
+
+    /// Zero has any unit.
+    fn is_zero(&self) -> bool {
+        self.value.is_some_and(Rational::is_zero)
+    }
+}
+
+/// Walks the bodies of a model.
+pub(super) struct Rules<'r> {
+    cx: &'r Ctxt,
+    checked: &'r Checked<'r>,
+    units: &'r Units,
+    /// The units of fields that have none, as far as the formulas say them.
+    pub(super) unknowns: Unknowns,
+    /// The bindings of the current body; nothing where an error was reported.
+    bindings: Vec<Option<Quantity>>,
+}
+
+impl<'r> Rules<'r> {
+    pub(super) fn new(cx: &'r Ctxt, checked: &'r Checked<'r>, units: &'r Units) -> Self {
+        Self {
+            cx,
+            checked,
+            units,
+            unknowns: Unknowns::default(),
+            bindings: Vec::new(),
+        }
+    }
+
+    /// A free energy is in J, a viscosity in N s/m.
+    pub(super) fn body(&mut self, what: &str, wanted_text: &str, wanted: &Unit, body: &Body<'_>) {
+        self.bindings.clear();
+        for binding in &body.bindings {
+            let quantity = self.quantity(binding);
+            self.bindings.push(quantity);
+        }
+        let Some(found) = self.quantity(&body.value) else {
+            return;
+        };
+        if found.is_zero() || self.agree(&body.value, &found.unit, wanted) != Some(false) {
+            return;
+        }
+        let text = excerpt(body.value.original);
+        let side = Side {
+            text: &text,
+            unit: &found.unit,
+        };
+        let same = found.unit.coherent() == *wanted;
+        let scale = same.then(|| self.scale_help(found.scaled)).flatten();
+        let help = scale.unwrap_or_else(|| message::factor_is_missing("it", wanted, &found.unit));
+        let message = message::whole(what, wanted_text, &side, help);
+        self.cx.error(body.value.original, &message);
+    }
+
+    /// Nothing if something in the expression was reported, here or by another phase.
+    fn quantity(&mut self, expr: &Expr<'_>) -> Option<Quantity> {
+        match &expr.kind {
+            ExprKind::Number(number) => Some(Quantity::number(number.exact())),
+            ExprKind::Parameter(field) => match self.units.declarations.get(*field)? {
+                Declaration::Unit(unit, _) => Some(Quantity {
+                    scaled: (!unit.scale().is_one()).then_some(*field),
+                    ..Quantity::new(unit.clone())
+                }),
+                Declaration::Missing => Some(Quantity::new(Unit::unknown(*field))),
+                Declaration::Unreadable => None,
+            },
+            ExprKind::Variable(index) => {
+                let role = self.checked.variables.get(*index)?.role;
+                Some(Quantity::new(of_role(role)))
+            }
+            ExprKind::Binding(index) => self.bindings.get(*index)?.clone(),
+            ExprKind::Negate(inner) => {
+                let inner = self.quantity(inner)?;
+                let value = inner.value.map(|value| -value);
+                Some(Quantity { value, ..inner })
+            }
+            ExprKind::Binary(operator, left, right) => {
+                let (a, b) = (self.quantity(left), self.quantity(right));
+                match operator {
+                    Operator::Add | Operator::Subtract => {
+                        self.sum(expr, *operator, [left, right], [a?, b?])
+                    }
+                    Operator::Multiply | Operator::Divide => {
+                        self.product(expr, *operator, &a?, &b?)
+                    }
+                }
+            }
+            ExprKind::Wrong(parts) => {
+                for part in parts {
+                    self.quantity(part);
+                }
+                None
+            }
+            ExprKind::Sqrt(inner) => self.root(expr, inner, 2),
+            ExprKind::Recip(inner) => {
+                let one = Quantity::number(Some(Rational::ONE));
+                let inner = self.quantity(inner)?;
+                self.product(expr, Operator::Divide, &one, &inner)
+            }
+            ExprKind::Abs(_, inner) => {
+                let inner = self.quantity(inner)?;
+                let value = inner.value.map(|value| value.max(-value));
+                Some(Quantity { value, ..inner })
+            }
+            ExprKind::Apply(Function::Cbrt, inner) => self.root(expr, inner, 3),
+            ExprKind::Apply(function, inner) => {
+                self.argument(function.name(), inner);
+                Some(Quantity::number(None))
+            }
+            ExprKind::Powi(base, exponent) | ExprKind::Powf(base, exponent) => {
+                let (b, e) = (self.quantity(base), self.quantity(exponent));
+                self.power(expr, [base, exponent], &b?, &e?)
+            }
+            ExprKind::Diff(inner, variable) => {
+                let role = self.checked.variables.get(*variable)?.role;
+                let inner = self.quantity(inner)?;
+                let unit = self.fits(expr, inner.unit.over(&of_role(role)))?;
+                // The derivative of a number is zero.
+                let value = inner.value.map(|_| Rational::ZERO);
+                let scaled = inner.scaled;
+                Some(Quantity {
+                    unit,
+                    value,
+                    scaled,
+                })
+            }
+        }
+    }
+
+    /// Whether two units are equal. Where the unit of a field is unknown they are, and this says
+    /// something about it; nothing if what it says is not consistent.
+    fn agree(&mut self, expr: &Expr<'_>, a: &Unit, b: &Unit) -> Option<bool> {
+        if a.first_unknown().or(b.first_unknown()).is_none() {
+            return Some(a == b);
+        }
+        let learned = self.unknowns.equate(a, b);
+        self.fits(expr, learned)?;
+        let (a, b) = (self.unknowns.resolve(a)?, self.unknowns.resolve(b)?);
+        (a == b).then_some(true)
+    }
+
+    /// Help where units differ by a factor only: the field that brings it in.
+    fn scale_help(&self, scaled: Option<usize>) -> Option<String> {
+        let mut parameters = self.checked.parameters.iter();
+        let parameter = parameters.find(|parameter| Some(parameter.field) == scaled)?;
+        match self.units.declarations.get(parameter.field)? {
+            Declaration::Unit(unit, _) => {
+                let name = ast::name(parameter.ident);
+                Some(message::field_with_scale(&name, unit))
+            }
+            Declaration::Missing | Declaration::Unreadable => None,
+        }
+    }
+
+    /// Exponents beyond 128 bits are reported.
+    fn fits<T>(&self, expr: &Expr<'_>, unit: Option<T>) -> Option<T> {
+        if unit.is_none() {
+            self.cx.error(expr.original, &message::beyond_measure());
+        }
+        unit
+    }
+}

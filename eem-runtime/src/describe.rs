@@ -1,0 +1,226 @@
+//! What a model is, in print: its arguments, parameters, formulas and costs as static text.
+
+use core::fmt::{self, Display, Formatter};
+
+/// A model that can say what it is.
+///
+/// `#[derive(FreeEnergy)]` implements this trait, too. The description does not depend on the
+/// scalar, and costs nothing until it is asked for.
+///
+/// ```
+/// use eem_runtime::{Describe, Description, describe};
+///
+/// struct Rubber;
+///
+/// impl Describe for Rubber {
+///     const DESCRIPTION: Description = Description {
+///         arguments: &[describe::Argument::new("lambda", "Stretch", "m")],
+///         formulas: &[describe::Formula::new("ψ", "ψ = 5*lambda^2", "J")],
+///         ..Description::new("Rubber")
+///     };
+/// }
+///
+/// let description = Rubber::DESCRIPTION;
+/// assert_eq!(description.equation("ψ"), Some("ψ = 5*lambda^2"));
+/// assert!(description.to_string().contains("lambda"));
+/// ```
+pub trait Describe {
+    /// What the model is.
+    const DESCRIPTION: Description;
+}
+
+/// A model in print; `Display` shows all of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Description {
+    /// The name of the type.
+    pub name: &'static str,
+    /// The variables in the order of the state: lengths, viscous stretches, temperature.
+    pub arguments: &'static [Argument],
+    /// The fields that the formulas use.
+    pub parameters: &'static [Parameter],
+    /// ψ, s, e, f, g, c and η, as far as the model has them.
+    pub formulas: &'static [Formula],
+    /// The divided differences that discrete derivatives are made of: of ψ and s along lengths and
+    /// viscous stretches, of e and s along the temperature, `F[x⁰, x¹] = (F(x¹) − F(x⁰))/(x¹ − x⁰)`.
+    pub divided_differences: &'static [Formula],
+    /// The generated functions and what they cost.
+    pub costs: &'static [Cost],
+}
+
+/// An argument of the free energy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Argument {
+    /// Its name in the formulas.
+    pub name: &'static str,
+    /// `Stretch`, `Viscous` or `Temperature`.
+    pub role: &'static str,
+    /// Its unit.
+    pub unit: &'static str,
+}
+
+/// A field that the formulas use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Parameter {
+    /// Its name in the formulas.
+    pub name: &'static str,
+    /// Its unit as written, if the model has units.
+    pub unit: Option<&'static str>,
+}
+
+/// A formula.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Formula {
+    /// What the formula is for: `ψ`, `f`, `g_2`, `s[theta]`.
+    pub symbol: &'static str,
+    /// Both sides; a long one is broken into lines.
+    pub equation: &'static str,
+    /// The unit of both sides.
+    pub unit: &'static str,
+}
+
+/// What a generated function costs, in operations: additions, multiplications, divisions,
+/// elementary functions and their divided differences each count one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cost {
+    /// The function of [`FreeEnergy`](crate::FreeEnergy).
+    pub function: &'static str,
+    /// Operations of the part that depends on the old state only, once per step.
+    pub per_step: usize,
+    /// Operations of each call, once per iteration in a step.
+    pub per_call: usize,
+}
+
+impl Description {
+    /// The description of a model about which no more than its name is known.
+    #[must_use]
+    pub const fn new(name: &'static str) -> Self {
+        Self {
+            name,
+            arguments: &[],
+            parameters: &[],
+            formulas: &[],
+            divided_differences: &[],
+            costs: &[],
+        }
+    }
+
+    /// The equation for `symbol`, for example `"ψ"`, `"s"` or `"ψ[lambda]"`.
+    #[must_use]
+    pub fn equation(&self, symbol: &str) -> Option<&'static str> {
+        let mut formulas = self.formulas.iter().chain(self.divided_differences);
+        let formula = formulas.find(|formula| formula.symbol == symbol);
+        formula.map(|formula| formula.equation)
+    }
+}
+
+impl Argument {
+    /// An argument and its unit.
+    #[must_use]
+    pub const fn new(name: &'static str, role: &'static str, unit: &'static str) -> Self {
+        Self { name, role, unit }
+    }
+}
+
+impl Parameter {
+    /// A parameter with a unit.
+    #[must_use]
+    pub const fn new(name: &'static str, unit: &'static str) -> Self {
+        let unit = Some(unit);
+        Self { name, unit }
+    }
+
+    /// A parameter of a model without units.
+    #[must_use]
+    pub const fn without_unit(name: &'static str) -> Self {
+        Self { name, unit: None }
+    }
+}
+
+impl Formula {
+    /// A formula and the unit of both sides.
+    #[must_use]
+    pub const fn new(symbol: &'static str, equation: &'static str, unit: &'static str) -> Self {
+        Self {
+            symbol,
+            equation,
+            unit,
+        }
+    }
+}
+
+impl Cost {
+    /// Operations of a function.
+    #[must_use]
+    pub const fn new(function: &'static str, per_step: usize, per_call: usize) -> Self {
+        Self {
+            function,
+            per_step,
+            per_call,
+        }
+    }
+}
+
+/// Columns of a name in a list.
+const NAME: usize = 20;
+/// Columns of a number or a role in a list.
+const COLUMN: usize = 14;
+
+impl Display for Description {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}", self.name)?;
+        heading(f, "Arguments", self.arguments.len())?;
+        for Argument { name, role, unit } in self.arguments {
+            writeln!(f, "  {name:NAME$}{role:COLUMN$}{unit}")?;
+        }
+        heading(f, "Parameters", self.parameters.len())?;
+        for Parameter { name, unit } in self.parameters {
+            match unit {
+                Some(unit) => writeln!(f, "  {name:NAME$}{unit}")?,
+                None => writeln!(f, "  {name}")?,
+            }
+        }
+        heading(f, "Formulas", self.formulas.len())?;
+        formulas(f, self.formulas)?;
+        let differences = self.divided_differences;
+        heading(
+            f,
+            "Divided differences between two states",
+            differences.len(),
+        )?;
+        formulas(f, differences)?;
+        heading(f, "Operations", self.costs.len())?;
+        if !self.costs.is_empty() {
+            writeln!(
+                f,
+                "  {:NAME$}{:>COLUMN$}{:>COLUMN$}",
+                "", "per step", "per call"
+            )?;
+        }
+        for cost in self.costs {
+            let (function, step, call) = (cost.function, cost.per_step, cost.per_call);
+            writeln!(f, "  {function:NAME$}{step:>COLUMN$}{call:>COLUMN$}")?;
+        }
+        Ok(())
+    }
+}
+
+/// The title of a section, unless there is nothing in it.
+fn heading(f: &mut Formatter<'_>, title: &str, entries: usize) -> fmt::Result {
+    if entries == 0 {
+        return Ok(());
+    }
+    writeln!(f, "\n{title}")
+}
+
+fn formulas(f: &mut Formatter<'_>, formulas: &[Formula]) -> fmt::Result {
+    for Formula { equation, unit, .. } in formulas {
+        let mut lines = equation.lines().peekable();
+        while let Some(line) = lines.next() {
+            match lines.peek() {
+                Some(_) => writeln!(f, "  {line}")?,
+                None => writeln!(f, "  {line}   [{unit}]")?,
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,170 @@
+//! Many independent scenes in one call: on all cores, with the numbers of one after the other.
+
+mod error;
+mod progress;
+mod threads;
+
+use core::fmt;
+use core::ops::ControlFlow;
+
+use crate::newton::NewtonSettings;
+use crate::scalar::Real;
+use crate::scene::Scene;
+use crate::scheme::Scheme;
+use crate::simulation::Simulation;
+
+pub use error::{MemberError, MemberFailure};
+
+use progress::{Progress, Watch};
+
+/// Runs of the same kind that know nothing of each other: parameter sweeps, random starts.
+///
+/// One member of the ensemble is one scene, built from one input. With the feature `parallel` the
+/// members are spread over all cores, without it they run one by one; as no number passes from one
+/// member to another, every bit of every result is the same, for any number of threads.
+///
+/// Stones thrown at different speeds, one of them by mistake:
+///
+/// ```
+/// use eem_runtime::{Ensemble, MemberFailure, Scene, Scheme};
+///
+/// let speeds = [5.0, 10.0, f64::NAN, 20.0];
+/// let heights = Ensemble::new(Scheme::EemEntropy, 0.1).run(
+///     &speeds,
+///     |&speed| {
+///         let mut scene = Scene::<2>::new();
+///         let stone = scene.mass(0.5, [0.0, 0.0], [0.0, speed]);
+///         scene.set_gravity([0.0, -10.0]);
+///         (scene, stone)
+///     },
+///     |run, stone, _| {
+///         for _ in 0..10 {
+///             run.step()?;
+///         }
+///         Ok(run.position(stone)?.y)
+///     },
+/// );
+///
+/// // y = v t − g t²/2 at t = 1 s.
+/// for (speed, height) in [(5.0, &heights[0]), (10.0, &heights[1]), (20.0, &heights[3])] {
+///     assert!((height.as_ref().unwrap() - (speed - 5.0)).abs() < 1e-14);
+/// }
+/// let refused = heights[2].as_ref().unwrap_err();
+/// assert_eq!(refused.member, 2);
+/// assert!(matches!(refused.failure, MemberFailure::Scene(_)));
+/// ```
+pub struct Ensemble<'w, S: Real = f64> {
+    scheme: Scheme,
+    step: S,
+    newton: NewtonSettings<S>,
+    threads: usize,
+    watch: Option<Watch<'w>>,
+}
+
+impl<S: Real> fmt::Debug for Ensemble<'_, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Ensemble")
+            .field("scheme", &self.scheme)
+            .field("step", &self.step)
+            .field("newton", &self.newton)
+            .field("threads", &self.threads)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<S: Real> Ensemble<'_, S> {
+    /// An ensemble whose members are stepped by `scheme` with the time step `step`, s.
+    #[must_use]
+    pub fn new(scheme: Scheme, step: S) -> Self {
+        Self {
+            scheme,
+            step,
+            newton: NewtonSettings::default(),
+            threads: 0,
+            watch: None,
+        }
+    }
+
+    /// How many threads work; with 1 it is the calling one. Default 0: those of rayon's pool, one
+    /// for each core unless the program or `RAYON_NUM_THREADS` says otherwise.
+    ///
+    /// Results do not depend on it. Without the feature `parallel`, or where the system refuses the
+    /// threads, it is always one.
+    #[must_use]
+    pub fn threads(mut self, threads: usize) -> Self {
+        self.threads = threads;
+        self
+    }
+
+    /// How hard the steps of all members try. Settings that cannot work are the failure of every
+    /// member.
+    #[must_use]
+    pub fn newton(mut self, settings: NewtonSettings<S>) -> Self {
+        self.newton = settings;
+        self
+    }
+
+    /// Calls `watch` with the number of finished members and that of all members, each time one
+    /// has finished or failed: 1, 2, 3 … in this order, one call at a time, but from any thread.
+    ///
+    /// It decides with [`ControlFlow`] whether members that have not begun still do; those that do
+    /// not fail with [`MemberFailure::Stopped`], and those at work finish first. With several
+    /// threads it depends on chance which these are.
+    #[must_use]
+    pub fn watch<'v>(
+        self,
+        watch: impl FnMut(usize, usize) -> ControlFlow<()> + Send + 'v,
+    ) -> Ensemble<'v, S> {
+        Ensemble {
+            scheme: self.scheme,
+            step: self.step,
+            newton: self.newton,
+            threads: self.threads,
+            watch: Some(Box::new(watch)),
+        }
+    }
+
+    /// Runs one member for each input and returns the results in the order of the inputs.
+    ///
+    /// `build` makes the scene of an input, and with it whatever `observe` needs to find its way
+    /// in it: the handles, or `()`. `observe` steps the simulation and returns what is to be kept of
+    /// it. Its errors are [`MemberFailure`]s, into which `?` turns those of this crate, and
+    /// [`MemberFailure::other`] any error of the caller's own.
+    ///
+    /// # Errors
+    ///
+    /// [`MemberError`] in the place of a member whose scene is refused, whose run fails, or which
+    /// never began. The others do not notice.
+    ///
+    /// # Panics
+    ///
+    /// When a closure does: the panic goes on in the caller as soon as all threads have left the
+    /// members they were at. Members that had not begun may then be left out, and the other results
+    /// are lost.
+    pub fn run<const D: usize, I, H, T>(
+        self,
+        inputs: &[I],
+        build: impl Fn(&I) -> (Scene<D, S>, H) + Sync,
+        observe: impl Fn(&mut Simulation<D, S>, H, &I) -> Result<T, MemberFailure> + Sync,
+    ) -> Vec<Result<T, MemberError>>
+    where
+        I: Sync,
+        T: Send,
+    {
+        let member = |input: &I| {
+            let (scene, handles) = build(input);
+            let mut simulation = Simulation::new(scene, self.scheme, self.step)?;
+            simulation.set_newton_settings(self.newton)?;
+            observe(&mut simulation, handles, input)
+        };
+        let progress = Progress::new(self.watch, inputs.len());
+        threads::map(self.threads, inputs, |index, input| {
+            progress
+                .follow(|| member(input))
+                .map_err(|failure| MemberError {
+                    member: index,
+                    failure,
+                })
+        })
+    }
+}

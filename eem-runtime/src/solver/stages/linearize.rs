@@ -1,0 +1,65 @@
+//! The global system over the stages at a trial state of choice.
+
+use core::array;
+
+use super::assemble::correct_locally;
+use super::{Effort, StageSolver};
+use crate::error::StepFailure;
+use crate::group::{StageGroup, StageView};
+use crate::scalar::Real;
+use crate::solver::Iteration;
+use crate::solver::places::Seen;
+
+impl<S: Real, const D: usize> StageSolver<S, D> {
+    /// Residual and tangent at given global unknowns, with the local ones solved for.
+    pub(crate) fn linearize(
+        &mut self,
+        groups: &mut [Box<dyn StageGroup<S, D>>],
+        view: &StageView<'_, S>,
+        unknowns: &[S],
+        effort: &mut Effort<'_, S>,
+    ) -> Result<(Vec<S>, Vec<S>), StepFailure> {
+        self.begin(groups, view);
+        self.distribute(unknowns);
+        let no_change = vec![[S::zero()]; self.tangent.right().len()];
+        let mut before = None;
+        loop {
+            self.advance(groups, view)?;
+            let residual = self.assemble(groups, view);
+            if before.is_some_and(|update| update <= S::EPSILON) {
+                break;
+            }
+            self.remember();
+            for (displacements, seen) in &mut self.correction {
+                displacements.fill([S::zero(); D]);
+                seen.fill(S::zero());
+            }
+            let update = correct_locally(groups, view, &no_change);
+            effort.history.push(Iteration { residual, update });
+            let stagnated = before.is_some_and(|before| update >= before);
+            if !update.is_finite() || effort.history.len() > effort.settings.max_iterations {
+                let update = update.to_f64();
+                return Err(StepFailure::NotConverged { update });
+            }
+            if stagnated && update <= effort.settings.tolerance {
+                break;
+            }
+            before = Some(update);
+        }
+        let right = &self.tangent.right()[..unknowns.len()];
+        let residual = right.iter().map(|&[entry]| -entry).collect();
+        Ok((residual, self.tangent.dense()))
+    }
+
+    /// Makes the correction the one that leads to these unknowns.
+    fn distribute(&mut self, unknowns: &[S]) {
+        for (half, (displacements, seen)) in self.correction.iter_mut().enumerate() {
+            for mass in &self.masses[half] {
+                displacements[mass.node] = array::from_fn(|axis| unknowns[mass.row + axis]);
+            }
+            for &Seen { slot, row } in &self.seen[half] {
+                seen[slot] = unknowns[row] - self.previous[half].1[slot];
+            }
+        }
+    }
+}

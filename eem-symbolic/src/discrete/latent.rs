@@ -1,0 +1,79 @@
+//! What an edge in `y_i` at one temperature contributes to a force that belongs to another one.
+//!
+//! ```text
+//! ψ[y_i⁰, y_i¹; θ] + (θ − θ̄) S[y_i⁰, y_i¹; θ]
+//! ```
+//!
+//! Where `S[y_i⁰, y_i¹]` does not depend on θ, ψ is linear in it and the sum is `ψ[y_i⁰, y_i¹; θ̄]`:
+//! one evaluation, and no gap of temperatures.
+
+use super::Step;
+use crate::node::{ExprId, Symbol};
+use crate::number::Number;
+
+/// The contribution of one edge.
+pub(super) struct Latent {
+    /// `ψ[y_i⁰, y_i¹]` at θ, or at θ̄ where there is no gap.
+    psi: ExprId,
+    /// `S[y_i⁰, y_i¹; θ]`.
+    pub(super) entropy: ExprId,
+    gap: Option<Gap>,
+}
+
+struct Gap {
+    theta: Symbol,
+    /// `θ − θ̄`.
+    value: ExprId,
+}
+
+impl Latent {
+    /// The edge from `ends[0]` to `ends[1]` at the other variables of `state`; `mean` is θ̄.
+    pub(super) fn new(
+        step: &mut Step,
+        i: usize,
+        ends: [Symbol; 2],
+        state: &[Symbol],
+        mean: ExprId,
+    ) -> Self {
+        let entropy = step.along(step.entropy, i, ends, state);
+        if !step.feels_temperature(entropy, state) {
+            return Self {
+                psi: step.along_at(step.psi, i, ends, state, mean),
+                entropy,
+                gap: None,
+            };
+        }
+        let theta = state[step.mechanical];
+        let top = step.graph.variable(theta);
+        let value = step.graph.sub(top, mean);
+        let value = step.name(value);
+        Self {
+            psi: step.along(step.psi, i, ends, state),
+            entropy,
+            gap: Some(Gap { theta, value }),
+        }
+    }
+
+    /// `ψ[…]` and `(θ − θ̄) S[…]`.
+    pub(super) fn value(&self, step: &mut Step) -> [ExprId; 2] {
+        let latent = match &self.gap {
+            Some(gap) => step.graph.mul(gap.value, self.entropy),
+            None => step.graph.number(Number::ZERO),
+        };
+        [self.psi, latent]
+    }
+
+    /// The derivative of the sum with respect to a symbol while θ̄ is kept, as terms.
+    pub(super) fn partials(&self, step: &mut Step, symbol: Symbol) -> Vec<ExprId> {
+        let Some(gap) = &self.gap else {
+            return vec![step.partial(self.psi, symbol)];
+        };
+        let entropy = step.partial(self.entropy, symbol);
+        let latent = step.graph.mul(gap.value, entropy);
+        // ∂ψ[y_i⁰, y_i¹; θ]/∂θ = −S[y_i⁰, y_i¹; θ] cancels the derivative of θ itself.
+        if symbol == gap.theta {
+            return vec![latent];
+        }
+        vec![latent, step.partial(self.psi, symbol)]
+    }
+}

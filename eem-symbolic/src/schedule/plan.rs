@@ -1,0 +1,237 @@
+//! In which order products and sums are evaluated so that they share the most.
+//!
+//! What depends on parameters alone is taken together first, coefficients included: it is computed
+//! once per step. The rest is left to [`Sharing`].
+
+use std::collections::{BTreeSet, HashMap};
+
+use super::Schedule;
+use super::sharing::{Entry, Sharing, Token};
+use crate::node::{ExprId, Node, Symbol};
+use crate::number::{Number, Rational};
+
+/// A factor of a product, or all that depend on parameters alone.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Factor {
+    /// `base ^ exponent` of a state.
+    Power(ExprId, Rational),
+    /// `coefficient · Π base ^ exponent` of parameters.
+    Hoisted(Number, Vec<(ExprId, Rational)>),
+}
+
+/// A term of a sum, or all that depend on parameters alone.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Term {
+    /// `coefficient · term` with a positive coefficient.
+    Scaled(Number, ExprId),
+    /// `constant + Σ coefficient · term` of parameters.
+    Hoisted(Number, Vec<(Number, ExprId)>),
+}
+
+/// Operands by their tokens. Maps are looked up, never iterated.
+#[derive(Debug)]
+pub(super) struct Operands<K, L> {
+    pub(super) sharing: Sharing,
+    tokens: HashMap<L, Token>,
+    leaves: Vec<Option<L>>,
+    lists: HashMap<K, usize>,
+}
+
+impl<K: Eq + std::hash::Hash, L: Clone + Eq + std::hash::Hash> Operands<K, L> {
+    fn new() -> Self {
+        Self {
+            sharing: Sharing::default(),
+            tokens: HashMap::new(),
+            leaves: Vec::new(),
+            lists: HashMap::new(),
+        }
+    }
+
+    fn entry(&mut self, leaf: L, negative: bool) -> Entry {
+        let token = if let Some(&token) = self.tokens.get(&leaf) {
+            token
+        } else {
+            let token = self.sharing.token();
+            self.leaves.push(Some(leaf.clone()));
+            self.tokens.insert(leaf, token);
+            token
+        };
+        Entry { token, negative }
+    }
+
+    /// The entries of what `key` stands for, if it has been planned.
+    pub(super) fn entries(&self, key: &K) -> Option<Vec<Entry>> {
+        let list = *self.lists.get(key)?;
+        Some(self.sharing.entries(list).to_vec())
+    }
+
+    /// The operand of a token that is no pair.
+    pub(super) fn leaf(&self, token: Token) -> Option<&L> {
+        self.leaves.get(token)?.as_ref()
+    }
+}
+
+/// Which operands are combined first, for all outputs of a program.
+#[derive(Debug)]
+pub(super) struct Plan {
+    /// Products times positive coefficients.
+    pub(super) products: Operands<(Number, ExprId), Factor>,
+    pub(super) sums: Operands<ExprId, Term>,
+    /// Arguments of functions: quotients that are rounded once.
+    pub(super) arguments: BTreeSet<ExprId>,
+}
+
+impl Plan {
+    /// Looks at everything that the roots depend on.
+    pub(super) fn new(schedule: &Schedule<'_>, new: &BTreeSet<Symbol>, roots: &[ExprId]) -> Self {
+        let mut plan = Self {
+            products: Operands::new(),
+            sums: Operands::new(),
+            arguments: BTreeSet::new(),
+        };
+        let mut collector = Collector {
+            schedule,
+            new,
+            changing: HashMap::new(),
+        };
+        for e in collector.visit(roots) {
+            plan.look_at(&collector, e);
+        }
+        for &root in roots {
+            plan.product(&collector, Number::ONE, root);
+        }
+        plan.products.sharing.solve();
+        plan.sums.sharing.solve();
+        plan
+    }
+
+    /// Where the factors of `coefficient · e` are listed; not for an argument of a function, which
+    /// is divided as a whole.
+    pub(super) fn factors(&self, coefficient: Number, e: ExprId) -> Option<Vec<Entry>> {
+        if coefficient == Number::ONE && self.arguments.contains(&e) {
+            return None;
+        }
+        self.products.entries(&(coefficient, e))
+    }
+
+    fn look_at(&mut self, collector: &Collector<'_>, e: ExprId) {
+        let graph = collector.schedule.graph;
+        let resolved = collector.schedule.locals.resolve(graph, e);
+        if resolved != e {
+            self.product(collector, Number::ONE, resolved);
+            return;
+        }
+        if let Node::Sum { constant, terms } = graph.node(e) {
+            for &(coefficient, term) in terms {
+                self.product(collector, coefficient.abs(), term);
+            }
+            self.sum(collector, e, *constant, terms);
+            return;
+        }
+        let of_function = !matches!(graph.node(e), Node::Product(_) | Node::PairSum(..));
+        graph.node(e).for_each_operand(|operand| {
+            if of_function {
+                self.arguments.insert(operand);
+            } else {
+                self.product(collector, Number::ONE, operand);
+            }
+        });
+    }
+
+    /// Plans `coefficient · e` if e is a product that depends on a state.
+    fn product(&mut self, collector: &Collector<'_>, coefficient: Number, e: ExprId) {
+        let Node::Product(factors) = collector.schedule.graph.node(e) else {
+            return;
+        };
+        let key = (coefficient, e);
+        if !collector.changes(e) || self.products.lists.contains_key(&key) {
+            return;
+        }
+        let (new, old): (Vec<_>, Vec<_>) = factors
+            .iter()
+            .partition(|(base, _)| collector.changes(*base));
+        let mut entries = Vec::with_capacity(new.len() + 1);
+        if !old.is_empty() || coefficient != Number::ONE {
+            let hoisted = Factor::Hoisted(coefficient, old);
+            entries.push(self.products.entry(hoisted, false));
+        }
+        for (base, exponent) in new {
+            let power = Factor::Power(base, exponent);
+            entries.push(self.products.entry(power, false));
+        }
+        let list = self.products.sharing.list(entries);
+        self.products.lists.insert(key, list);
+    }
+
+    /// Plans a sum that depends on a state.
+    fn sum(
+        &mut self,
+        collector: &Collector<'_>,
+        e: ExprId,
+        constant: Number,
+        terms: &[(Number, ExprId)],
+    ) {
+        if !collector.changes(e) {
+            return;
+        }
+        let (new, old): (Vec<_>, Vec<_>) =
+            terms.iter().partition(|(_, term)| collector.changes(*term));
+        let mut entries = Vec::with_capacity(new.len() + 1);
+        let mut single = Vec::new();
+        if let ([term], true) = (&old[..], constant.is_zero()) {
+            single.push(*term);
+        } else if !old.is_empty() || !constant.is_zero() {
+            entries.push(self.sums.entry(Term::Hoisted(constant, old), false));
+        }
+        for (coefficient, term) in single.into_iter().chain(new) {
+            let leaf = Term::Scaled(coefficient.abs(), term);
+            entries.push(self.sums.entry(leaf, coefficient.is_negative()));
+        }
+        let list = self.sums.sharing.list(entries);
+        self.sums.lists.insert(e, list);
+    }
+}
+
+/// Finds what the outputs depend on, and what of it depends on a state.
+struct Collector<'s> {
+    schedule: &'s Schedule<'s>,
+    /// The variables of the states.
+    new: &'s BTreeSet<Symbol>,
+    /// Looked up, never iterated.
+    changing: HashMap<ExprId, bool>,
+}
+
+impl Collector<'_> {
+    fn changes(&self, e: ExprId) -> bool {
+        self.changing.get(&e).copied().unwrap_or(false)
+    }
+
+    /// All expressions below the roots, operands first.
+    fn visit(&mut self, roots: &[ExprId]) -> Vec<ExprId> {
+        let schedule = self.schedule;
+        let mut found = Vec::new();
+        for &root in roots {
+            let mut pending = vec![(root, false)];
+            while let Some((e, operands_done)) = pending.pop() {
+                if self.changing.contains_key(&e) {
+                    continue;
+                }
+                let operands = schedule.operands(e);
+                if operands_done {
+                    let mut changes = operands.iter().any(|&operand| self.changes(operand));
+                    if let (Node::Variable(symbol), true) =
+                        (schedule.graph.node(e), operands.is_empty())
+                    {
+                        changes = self.new.contains(symbol);
+                    }
+                    self.changing.insert(e, changes);
+                    found.push(e);
+                    continue;
+                }
+                pending.push((e, true));
+                pending.extend(operands.into_iter().rev().map(|operand| (operand, false)));
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,156 @@
+//! Signs an expression can have: certain statements only, from the signs of its parts.
+
+use std::collections::HashMap;
+
+use crate::function::Function;
+use crate::graph::Graph;
+use crate::node::{ExprId, Node, Symbol};
+use crate::number::{Number, Rational};
+
+/// The signs that a real expression may take where it is defined.
+///
+/// A sign that is ruled out cannot occur, in exact arithmetic; one that is not ruled out need not
+/// occur either.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sign {
+    /// It may be below zero.
+    pub negative: bool,
+    /// It may be zero.
+    pub zero: bool,
+    /// It may be above zero.
+    pub positive: bool,
+}
+
+/// The signs of `e`, given symbols that are positive; all other symbols may have any sign.
+///
+/// ```
+/// use eem_symbolic::{Graph, sign};
+///
+/// let mut graph = Graph::new();
+/// let (theta, eta) = (graph.symbol("theta"), graph.symbol("eta"));
+/// let (at, factor) = (graph.variable(theta), graph.variable(eta));
+/// let square = graph.powi(factor, 2);
+/// let law = graph.product(&[square, at]);
+/// let law = graph.neg(law);
+/// assert!(!sign(&graph, law, &[theta]).positive);
+/// assert!(sign(&graph, law, &[]).positive);
+/// ```
+#[must_use]
+pub fn sign(graph: &Graph, e: ExprId, positive: &[Symbol]) -> Sign {
+    let mut known = HashMap::new();
+    for id in graph.reachable(e, |_| true) {
+        let sign = of_node(graph.node(id), positive, |operand| {
+            known.get(&operand).copied().unwrap_or(Sign::ANY)
+        });
+        known.insert(id, sign);
+    }
+    known.get(&e).copied().unwrap_or(Sign::ANY)
+}
+
+fn of_node(node: &Node, positive: &[Symbol], sign: impl Fn(ExprId) -> Sign) -> Sign {
+    match *node {
+        Node::Number(number) => Sign::of_number(number),
+        Node::Variable(symbol) if positive.contains(&symbol) => Sign::POSITIVE,
+        Node::Sum {
+            constant,
+            ref terms,
+        } => {
+            let terms = terms.iter();
+            let terms = terms.map(|&(c, term)| Sign::of_number(c).times(sign(term)));
+            terms.fold(Sign::of_number(constant), Sign::plus)
+        }
+        Node::Product(ref factors) => {
+            let factors = factors.iter();
+            let factors = factors.map(|&(base, exponent)| sign(base).to_the(exponent));
+            factors.fold(Sign::POSITIVE, Sign::times)
+        }
+        // Defined for a positive base only.
+        Node::Power(..) => Sign::POSITIVE,
+        Node::Apply(function, argument) => sign(argument).under(function),
+        Node::PairSum(a, b) => sign(a).plus(sign(b)),
+        Node::Variable(_)
+        | Node::DividedDifference(..)
+        | Node::SecondDividedDifference(..)
+        | Node::PowerDifference { .. } => Sign::ANY,
+    }
+}
+
+impl Sign {
+    /// Nothing is known.
+    const ANY: Sign = Sign {
+        negative: true,
+        zero: true,
+        positive: true,
+    };
+    /// Above zero.
+    const POSITIVE: Sign = Sign {
+        negative: false,
+        zero: false,
+        positive: true,
+    };
+
+    fn of_number(number: Number) -> Sign {
+        if number.to_f64().is_nan() {
+            return Sign::ANY;
+        }
+        Sign {
+            negative: number.is_negative() && !number.is_zero(),
+            zero: number.is_zero(),
+            positive: !number.is_negative() && !number.is_zero(),
+        }
+    }
+
+    fn plus(self, other: Sign) -> Sign {
+        let cancel = self.negative && other.positive || self.positive && other.negative;
+        Sign {
+            negative: self.negative || other.negative,
+            zero: self.zero && other.zero || cancel,
+            positive: self.positive || other.positive,
+        }
+    }
+
+    fn times(self, other: Sign) -> Sign {
+        Sign {
+            negative: self.negative && other.positive || self.positive && other.negative,
+            zero: self.zero || other.zero,
+            positive: self.positive && other.positive || self.negative && other.negative,
+        }
+    }
+
+    /// `xʳ`: even powers are not negative, roots need a base that is not; `1/0` is not defined.
+    fn to_the(self, exponent: Rational) -> Sign {
+        let even = exponent.is_integer() && exponent.numerator() % 2 == 0;
+        let odd = exponent.is_integer() && !even;
+        Sign {
+            negative: odd && self.negative,
+            zero: self.zero && !exponent.is_negative(),
+            positive: self.positive || even && self.negative,
+        }
+    }
+
+    /// The signs of a function whose argument has these signs.
+    fn under(self, function: Function) -> Sign {
+        match function {
+            Function::Exp | Function::Cosh => Sign::POSITIVE,
+            Function::Abs => Sign {
+                negative: false,
+                zero: self.zero,
+                positive: self.negative || self.positive,
+            },
+            Function::ExpM1
+            | Function::Ln1p
+            | Function::Sinh
+            | Function::Tanh
+            | Function::Asinh
+            | Function::Atan
+            | Function::Atanh
+            | Function::Cbrt => self,
+            Function::Ln
+            | Function::Log2
+            | Function::Log10
+            | Function::Sin
+            | Function::Cos
+            | Function::Tan => Sign::ANY,
+        }
+    }
+}

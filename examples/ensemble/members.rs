@@ -1,0 +1,239 @@
+//! The members: drawn at random, run as an ensemble, and what is kept of each.
+
+use std::time::{Duration, Instant};
+
+use eem::prelude::*;
+use eem::{MemberError, MemberFailure};
+use rand::rngs::ChaCha8Rng;
+use rand::{RngExt, SeedableRng};
+
+use super::report::real;
+use super::support::progress::Progress;
+use super::support::time_grid::TimeGrid;
+
+/// Any number would do; the same one draws the same springs.
+const SEED: u64 = 2012;
+
+/// Nonlinear in length and temperature, viscous, softening when hot.
+#[derive(Clone, Debug, FreeEnergy)]
+#[free_energy(|lambda: Stretch, gamma: Viscous, theta: Temperature| {
+    let strain = ln(lambda / natural_length);
+    let heating = theta - theta_ref;
+    let elastic = 0.5 * (k0 - k1 * heating) * strain.powi(2)
+        - thermal_coupling * heating * strain
+        + capacity * (heating - theta * ln(theta / theta_ref));
+    (1 + viscous_coupling) * elastic
+        + (mu0 - mu1 * heating) * gamma.powi(2)
+        - viscous_coupling * gamma * diff(elastic, lambda)
+})]
+#[viscosity(gamma = eta0 * exp(a * (1 / theta - 1 / theta_ref)))]
+struct CreepingSpring {
+    natural_length: f64,
+    theta_ref: f64,
+    k0: f64,
+    k1: f64,
+    thermal_coupling: f64,
+    capacity: f64,
+    viscous_coupling: f64,
+    mu0: f64,
+    mu1: f64,
+    eta0: f64,
+    a: f64,
+}
+
+/// The temperature of the surroundings, K.
+const SURROUNDINGS: f64 = 300.0;
+
+/// A quantity that is known to lie within `mean ± spread`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Unknown {
+    pub(crate) name: &'static str,
+    pub(crate) label: &'static str,
+    mean: f64,
+    spread: f64,
+}
+
+/// What the members differ in.
+#[derive(Clone, Debug)]
+pub(crate) struct Spring {
+    /// Stiffness (N m), viscosity (N s/m), conductance (W/K), initial temperature (K) and speed
+    /// (m/s): the values of [`Spring::UNKNOWNS`].
+    pub(crate) values: [f64; 5],
+}
+
+impl Spring {
+    /// What is not known well.
+    pub(crate) const UNKNOWNS: [Unknown; 5] = [
+        unknown("stiffness", "stiffness k0 (N m)", 100.0, 10.0),
+        unknown("viscosity", "viscosity η0 (N s/m)", 100.0, 30.0),
+        unknown("conductance", "conductance κ (W/K)", 0.1, 0.05),
+        unknown(
+            "initial_temperature",
+            "initial temperature (K)",
+            300.0,
+            10.0,
+        ),
+        unknown("initial_speed", "initial speed (m/s)", 1.0, 0.5),
+    ];
+
+    /// So many springs; the first ones are always the same.
+    pub(crate) fn draw(members: usize) -> Vec<Self> {
+        let mut random = ChaCha8Rng::seed_from_u64(SEED);
+        let mut spring = || Self {
+            values: Self::UNKNOWNS.map(|unknown| {
+                let position: f64 = random.random();
+                unknown.mean + unknown.spread * (2.0 * position - 1.0)
+            }),
+        };
+        (0..members).map(|_| spring()).collect()
+    }
+
+    /// The pendulum at t = 0.
+    fn scene(&self) -> (Scene<2>, Element) {
+        let [k0, eta0, conductance, temperature, speed] = self.values;
+        let mut scene = Scene::<2>::new();
+        let pivot = scene.anchor([0.0, 0.0]);
+        let bob = scene.mass(1.0, [3.0, 0.0], [0.0, speed]);
+        let law = CreepingSpring {
+            natural_length: 1.0,
+            theta_ref: SURROUNDINGS,
+            k0,
+            k1: 0.5,
+            thermal_coupling: 4.0,
+            capacity: 1.0,
+            viscous_coupling: 0.1,
+            mu0: 5.0,
+            mu1: 0.1,
+            eta0,
+            a: 10.0,
+        };
+        let spring = scene.spring(law, [pivot, bob]);
+        scene.set_temperature(spring, temperature);
+        let surroundings = scene.reservoir(SURROUNDINGS);
+        scene.conduct(spring, surroundings, conductance);
+        (scene, spring)
+    }
+}
+
+const fn unknown(name: &'static str, label: &'static str, mean: f64, spread: f64) -> Unknown {
+    Unknown {
+        name,
+        label,
+        mean,
+        spread,
+    }
+}
+
+/// What is kept of a member.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct End {
+    /// The mean of θ over the last quarter of the run, K: the spring is colder when it is long.
+    pub(crate) temperature: f64,
+    /// S − S₀ of spring and surroundings, J/K.
+    pub(crate) entropy: f64,
+    /// The largest |E − E₀|/|E₀| along the run.
+    pub(crate) energy_defect: f64,
+    /// The largest loss of S in a step, J/K: negative by the second law.
+    pub(crate) entropy_loss: f64,
+}
+
+impl End {
+    /// Steps a member to its end.
+    fn of(run: &mut Simulation<2>, spring: Element, steps: usize) -> Result<Self, MemberFailure> {
+        let start = run.ledger();
+        let mut end = Self {
+            temperature: 0.0,
+            entropy: 0.0,
+            energy_defect: 0.0,
+            entropy_loss: f64::NEG_INFINITY,
+        };
+        let mut entropy = start.entropy;
+        let last_quarter = steps - steps.div_ceil(4);
+        let mut temperatures = Vec::with_capacity(steps - last_quarter);
+        for step in 0..steps {
+            run.step()?;
+            let ledger = run.ledger();
+            let defect = (ledger.energy - start.energy).abs() / start.energy.abs();
+            end.energy_defect = larger(end.energy_defect, defect);
+            end.entropy_loss = larger(end.entropy_loss, entropy - ledger.entropy);
+            entropy = ledger.entropy;
+            if step >= last_quarter {
+                temperatures.push(run.temperature(spring)?);
+            }
+        }
+        end.temperature = temperatures.iter().sum::<f64>() / real(temperatures.len());
+        end.entropy = entropy - start.entropy;
+        Ok(end)
+    }
+}
+
+/// The larger of two numbers; not a number if one of them is not.
+fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
+}
+
+/// The ensemble of one scheme.
+#[derive(Debug)]
+pub(crate) struct Sample {
+    pub(crate) scheme: Scheme,
+    grid: TimeGrid,
+    pub(crate) ends: Vec<Result<End, MemberError>>,
+    pub(crate) elapsed: Duration,
+}
+
+impl Sample {
+    /// Runs all members.
+    pub(crate) fn run(scheme: Scheme, grid: TimeGrid, threads: usize, springs: &[Spring]) -> Self {
+        let mut progress = Progress::new(scheme.name(), springs.len() * grid.steps);
+        let start = Instant::now();
+        let ends = Ensemble::new(scheme, grid.step)
+            .threads(threads)
+            .watch(|done, _| {
+                progress.advance(done * grid.steps);
+                ControlFlow::Continue(())
+            })
+            .run(springs, Spring::scene, |run, spring, _| {
+                End::of(run, spring, grid.steps)
+            });
+        let elapsed = start.elapsed();
+        Self {
+            scheme,
+            grid,
+            ends,
+            elapsed,
+        }
+    }
+
+    /// A quantity of the members that reached the end, in ascending order.
+    pub(crate) fn sorted(&self, quantity: fn(&End) -> f64) -> Vec<f64> {
+        let mut values: Vec<f64> = self.ends.iter().flatten().map(quantity).collect();
+        values.sort_by(f64::total_cmp);
+        values
+    }
+
+    /// The largest value of a quantity; not a number if one is not; `None` without members.
+    pub(crate) fn largest(&self, quantity: fn(&End) -> f64) -> Option<f64> {
+        self.ends.iter().flatten().map(quantity).reduce(larger)
+    }
+
+    /// Why members have no end.
+    pub(crate) fn failures(&self) -> impl Iterator<Item = &MemberError> {
+        self.ends.iter().filter_map(|end| end.as_ref().err())
+    }
+
+    /// Whether the first members end alone as they did among the others.
+    pub(crate) fn has_the_bits_of_single_runs(
+        &self,
+        springs: &[Spring],
+    ) -> Result<bool, MemberFailure> {
+        for (spring, end) in springs.iter().zip(&self.ends) {
+            let (scene, handle) = spring.scene();
+            let mut run = Simulation::new(scene, self.scheme, self.grid.step)?;
+            let alone = End::of(&mut run, handle, self.grid.steps)?;
+            if end.as_ref().ok() != Some(&alone) {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+}

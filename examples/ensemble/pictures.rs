@@ -1,0 +1,142 @@
+//! The pictures: how the temperature is distributed, and how it depends on the stiffness;
+//! and all members as CSV.
+
+use std::error::Error;
+use std::path::Path;
+
+use super::members::{Sample, Spring};
+use super::report::{QUANTILES, quantile, real};
+use super::support::comparison;
+use super::support::figures::{Axes, Curve, Figure};
+use super::support::output;
+
+/// Bars of the histogram, over the members between the outermost thousandths.
+const BARS: usize = 20;
+const OUTERMOST: f64 = 0.001;
+
+/// Parts of the range of the stiffness in each of which quantiles are taken.
+const PARTS: usize = 15;
+
+/// The stiffness among the unknowns.
+const STIFFNESS: usize = 0;
+
+/// Writes a CSV file for each scheme, and the pictures.
+pub(crate) fn write(
+    directory: &Path,
+    springs: &[Spring],
+    samples: &[Sample],
+    end: f64,
+) -> Result<(), Box<dyn Error>> {
+    for sample in samples {
+        write_csv(directory, springs, sample)?;
+    }
+    let svg = |name: &str| directory.join(format!("{name}.svg"));
+    distribution(samples, end).write_svg(&svg("distribution"))?;
+    if let Some(sample) = samples.first() {
+        over_stiffness(springs, sample, end).write_svg(&svg("temperature_over_stiffness"))?;
+    }
+    Ok(())
+}
+
+/// A row for each member: its unknowns and its end, not a number where there is none.
+fn write_csv(directory: &Path, springs: &[Spring], sample: &Sample) -> Result<(), Box<dyn Error>> {
+    let unknowns = Spring::UNKNOWNS.iter().map(|unknown| unknown.name);
+    let ends = ["temperature", "entropy", "energy_defect", "entropy_loss"];
+    let heads: Vec<&str> = unknowns.chain(ends).collect();
+    let members = springs.iter().zip(&sample.ends);
+    let rows: Vec<Vec<f64>> = members
+        .map(|(spring, end)| {
+            let end = end.as_ref().map_or([f64::NAN; 4], |end| {
+                [
+                    end.temperature,
+                    end.entropy,
+                    end.energy_defect,
+                    end.entropy_loss,
+                ]
+            });
+            spring.values.into_iter().chain(end).collect()
+        })
+        .collect();
+    output::write_numbers(directory, sample.scheme.name(), &heads, &rows)?;
+    Ok(())
+}
+
+/// The histogram of the temperature as an outline, for each scheme.
+fn distribution(samples: &[Sample], end: f64) -> Figure {
+    let curve = |sample: &Sample| {
+        let points = outline(&sample.sorted(|end| end.temperature));
+        Curve {
+            label: sample.scheme.name().to_owned(),
+            look: comparison::look(sample.scheme.name()),
+            trusted: sample.scheme.name().starts_with("eem-") || samples.len() == 1,
+            decisive: points.len(),
+            points,
+        }
+    };
+    Figure {
+        title: format!("Mean temperature of the spring in the last quarter of {end} s"),
+        x_label: "temperature θ (K)".to_owned(),
+        y_label: "members per kelvin (%)".to_owned(),
+        curves: samples.iter().map(curve).collect(),
+        axes: Axes::Even,
+    }
+}
+
+/// The corners of the bars: how many percent of the members there are per kelvin.
+fn outline(ascending: &[f64]) -> Vec<(f64, f64)> {
+    let ends = [OUTERMOST, 1.0 - OUTERMOST].map(|share| quantile(ascending, share));
+    let [Some(low), Some(high)] = ends else {
+        return Vec::new();
+    };
+    let width = (high - low) / real(BARS);
+    let edge = |bar: usize| low + real(bar) * width;
+    let below = |value: f64| ascending.partition_point(|&member| member < value);
+    let bars = (0..BARS).flat_map(|bar| {
+        let (left, right) = (edge(bar), edge(bar + 1));
+        let members = real(below(right) - below(left));
+        let height = 100.0 * members / real(ascending.len()) / width;
+        [(left, height), (right, height)]
+    });
+    let first = core::iter::once((low, 0.0));
+    first.chain(bars).chain([(high, 0.0)]).collect()
+}
+
+/// Quantiles of the temperature over the stiffness.
+fn over_stiffness(springs: &[Spring], sample: &Sample, end: f64) -> Figure {
+    let members = springs.iter().zip(&sample.ends);
+    let mut pairs: Vec<(f64, f64)> = members
+        .filter_map(|(spring, end)| {
+            Some((spring.values[STIFFNESS], end.as_ref().ok()?.temperature))
+        })
+        .collect();
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let labels = [
+        "5 % of the members are below",
+        "half of them",
+        "95 % of them",
+    ];
+    let parts: Vec<&[(f64, f64)]> = pairs.chunks(pairs.len().div_ceil(PARTS).max(1)).collect();
+    let curve = |index: usize| {
+        let point = |part: &&[(f64, f64)]| {
+            let stiffness = part.iter().map(|pair| pair.0).sum::<f64>() / real(part.len());
+            let mut temperatures: Vec<f64> = part.iter().map(|pair| pair.1).collect();
+            temperatures.sort_by(f64::total_cmp);
+            Some((stiffness, quantile(&temperatures, QUANTILES[index])?))
+        };
+        let points: Vec<_> = parts.iter().filter_map(point).collect();
+        Curve {
+            label: labels[index].to_owned(),
+            look: index + 1,
+            trusted: true,
+            decisive: points.len(),
+            points,
+        }
+    };
+    Figure {
+        title: format!("Mean temperature in the last quarter of {end} s, by stiffness"),
+        x_label: Spring::UNKNOWNS[STIFFNESS].label.to_owned(),
+        y_label: "temperature θ (K)".to_owned(),
+        curves: (0..QUANTILES.len()).map(curve).collect(),
+        axes: Axes::Even,
+    }
+}

@@ -1,0 +1,21 @@
+use eem::FreeEnergy;
+
+#[derive(FreeEnergy)]
+#[free_energy(|lambda: Stretch, gamma: Viscous, theta: Temperature| k)]
+#[viscosity(gamma = k * theta)]
+struct Nothing {
+    k: f64,
+}
+
+// They are mentioned, and cancel.
+#[derive(FreeEnergy)]
+#[free_energy(|lambda: Stretch, gamma: Viscous, theta: Temperature| {
+    let strain = 2 * lambda - lambda - lambda;
+    k * strain + diff(gamma, gamma) + theta / theta
+})]
+#[viscosity(gamma = k)]
+struct Cancelled {
+    k: f64,
+}
+
+fn main() {}

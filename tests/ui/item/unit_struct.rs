@@ -1,7 +1,0 @@
-use eem::FreeEnergy;
-
-#[derive(FreeEnergy)]
-#[free_energy(|lambda: Stretch| lambda)]
-struct Spring;
-
-fn main() {}
