@@ -202,7 +202,7 @@ mod tests {
     }
     #[test]
     fn a_doubled_pattern_has_every_entry_four_times() {
-        let pattern = Pattern::new(2, []).doubled();
+        let pattern = Pattern::new(2, |_| {}).doubled();
         assert_eq!(pattern.unknowns(), 4);
         assert_eq!(pattern.row(1), [1, 3]);
         assert_eq!(pattern.row(2), [0, 2]);
