@@ -100,8 +100,7 @@ impl Builder<'_> {
                     } else if whole {
                         denominator.push(self.algebraic(base.operand, n, root));
                     } else {
-                        let inverse = self.reciprocal(base.operand);
-                        numerator.push(self.algebraic(inverse, n, root));
+                        self.inverse_algebraic(base.operand, n, root, &mut numerator);
                     }
                 }
                 Exponent::General => {
@@ -124,6 +123,18 @@ impl Builder<'_> {
     /// `1/x`.
     pub(super) fn reciprocal(&mut self, x: Operand) -> Operand {
         self.emit([ONE, x], |[a, b]| Operation::Div(a, b))
+    }
+
+    /// `x⁻ⁿ` or `x⁻ⁿ/√x`, n ≥ 0, as factors.
+    fn inverse_algebraic(&mut self, x: Operand, n: i32, root: bool, factors: &mut Vec<Operand>) {
+        if n > 0 {
+            let inverse = self.reciprocal(x);
+            factors.push(self.algebraic(inverse, n, false));
+        }
+        if root {
+            let root = self.algebraic(x, 0, true);
+            factors.push(self.reciprocal(root));
+        }
     }
 
     /// `xⁿ` or `xⁿ √x`, n ≥ 0.
