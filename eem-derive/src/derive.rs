@@ -26,8 +26,12 @@ pub(crate) fn derive(input: &DeriveInput) -> TokenStream {
         }
         Some((model, units))
     });
-    match cx.barrier(checked.as_ref().zip(model)) {
-        Ok((checked, (model, units))) => expand::expand(checked, &model, &units),
-        Err(error) => fallback::expand(input, &attributes.krate, shape, &error),
-    }
+    cx.barrier(checked.as_ref().zip(model))
+        .and_then(|(checked, (model, units))| {
+            let programs = model.programs();
+            physics::check_programs(&cx, checked, &programs);
+            cx.barrier(Some(()))?;
+            Ok(expand::expand(checked, &model, &programs, &units))
+        })
+        .unwrap_or_else(|error| fallback::expand(input, &attributes.krate, shape, &error))
 }

@@ -13,7 +13,7 @@ mod points;
 mod statements;
 mod together;
 
-use eem_symbolic::Model;
+use eem_symbolic::{Model, Programs};
 use proc_macro2::TokenStream;
 use quote::quote;
 use syn::Path;
@@ -24,16 +24,20 @@ pub(crate) use header::Header;
 use inputs::Inputs;
 
 /// The implementations of the traits.
-pub(crate) fn expand(checked: &Checked<'_>, model: &Model, units: &Units) -> TokenStream {
+pub(crate) fn expand(
+    checked: &Checked<'_>,
+    model: &Model,
+    programs: &Programs,
+    units: &Units,
+) -> TokenStream {
     let header = Header::new(checked.original, checked.scalar);
-    let programs = model.programs();
     let inputs = Inputs::new(checked, &header.scalar);
-    let constants = constants::constants(checked, &programs, &inputs);
-    let points = points::points(&programs, &inputs);
-    let forms = forms::forms(&programs, &inputs);
+    let constants = constants::constants(checked, programs, &inputs);
+    let points = points::points(programs, &inputs);
+    let forms = forms::forms(programs, &inputs);
     let equations = description::equations(checked, &model.formulas());
     let formulas = docs::formulas(checked, &equations, units);
-    let description = description::description(checked, model, &programs, &equations, units);
+    let description = description::description(checked, model, programs, &equations, units);
     let body = quote! { #constants #points #forms };
     let implementation = header.implementation(&body);
     let both = quote! { #formulas #implementation #description };

@@ -2,7 +2,7 @@
 //!
 //! [`eem_symbolic::Flaw`] says what is wrong; here it gets its place and its words.
 
-use eem_symbolic::{Flaw, Model};
+use eem_symbolic::{Flaw, Model, Programs};
 
 use crate::ast::{self, Role};
 use crate::checked::{Checked, Variable};
@@ -27,6 +27,14 @@ pub(crate) fn check(cx: &Ctxt, checked: &Checked<'_>, model: &Model) {
                 }
             }
         }
+    }
+}
+
+/// Reports factors that are too large only when they come together; constants that are written out
+/// have been looked at one by one.
+pub(crate) fn check_programs(cx: &Ctxt, checked: &Checked<'_>, programs: &Programs) {
+    if programs.verify().is_err() {
+        cx.error(checked.energy.value.original, &message::factor_too_large());
     }
 }
 

@@ -9,6 +9,7 @@ use crate::display::format;
 use crate::graph::Graph;
 use crate::node::{ExprId, Symbol};
 use crate::program::Program;
+use crate::verify::VerifyError;
 pub use difference_formulas::DifferenceFormula;
 use point::{PointPrograms, heat_capacity};
 
@@ -58,6 +59,35 @@ pub struct Programs {
     pub entropy_form: Program,
     /// The same outputs in temperature form, without corners; none without a temperature.
     pub temperature_form: Option<Program>,
+}
+
+impl Programs {
+    /// Checks all programs; see [`Program::verify`].
+    ///
+    /// # Errors
+    ///
+    /// [`VerifyError::NonFiniteConstant`] if a derivative has a factor that does not fit an `f64`.
+    pub fn verify(&self) -> Result<(), VerifyError> {
+        let always = [
+            &self.free_energy,
+            &self.gradient,
+            &self.hessian,
+            &self.internal_energy,
+            &self.entropy_form,
+        ];
+        let sometimes = [
+            &self.caloric,
+            &self.caloric_at,
+            &self.entropy_hessian,
+            &self.viscosity,
+            &self.temperature_form,
+        ];
+        let sometimes = sometimes.into_iter().flatten();
+        always
+            .into_iter()
+            .chain(sometimes)
+            .try_for_each(Program::verify)
+    }
 }
 
 /// The constitutive law in print.

@@ -48,3 +48,10 @@ pub(crate) fn no_viscosity() -> Message {
         "a dashpot needs one above zero; without it, remove the argument from the free energy",
     )
 }
+
+pub(crate) fn factor_too_large() -> Message {
+    Message::new(
+        "the free energy, or a derivative of it, has a factor that does not fit an `f64`",
+        "an `f64` reaches to about `1.8e308`; choose other units",
+    )
+}
