@@ -1,6 +1,8 @@
 //! Calls of the library's transcendental functions: as many as the programs say, and no more than
 //! the formulas ask for.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
 mod support;
 
 use core::cell::Cell;
