@@ -59,11 +59,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 &self.trial.displacements[mass.node],
                 &self.impulse[mass.node],
             );
-            for axis in 0..D {
-                let at = mass.node * D + axis;
-                let force = view.loads.force[at];
+            for (axis, &displacement) in displacement.iter().enumerate() {
+                let force = view.loads.force[mass.node * D + axis];
                 if force != S::zero() {
-                    next.work.add(force * displacement[axis]);
+                    next.work.add(force * displacement);
                 }
             }
             move_node(mass.node, [displacement, impulse], old, next)?;

@@ -7,6 +7,8 @@ mod assemble;
 mod closing;
 mod linearize;
 
+use core::array;
+
 use super::begin::invert_lengths;
 use super::places::{MovingNode, Seen, moving, seen};
 use super::{HALVINGS, Iteration, STAGES as PARTS};
@@ -265,10 +267,9 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         for (half, loads) in view.loads[1..].iter().enumerate() {
             let motion = points::<S, D>(&loads.motion);
             trial.displacements[half].copy_from_slice(motion);
-            for (node, motion) in motion.iter().enumerate() {
-                for axis in 0..D {
-                    trial.positions[1 + half][node][axis] = old[node][axis] + motion[axis];
-                }
+            let positions = trial.positions[1 + half].iter_mut();
+            for (position, (old, motion)) in positions.zip(old.iter().zip(motion)) {
+                *position = array::from_fn(|axis| old[axis] + motion[axis]);
             }
         }
         for (seen, loads) in trial.seen_temperatures.iter_mut().zip(view.loads) {
@@ -334,11 +335,10 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         for (half, masses) in self.masses.iter().enumerate() {
             let (from, by) = (&self.previous[half], &self.correction[half]);
             for &MovingNode { node, .. } in masses {
-                for axis in 0..D {
-                    let displacement = from.0[node][axis] + share * by.0[node][axis];
-                    trial.displacements[half][node][axis] = displacement;
-                    trial.positions[1 + half][node][axis] = old[node][axis] + displacement;
-                }
+                let (from, by, old) = (&from.0[node], &by.0[node], &old[node]);
+                let moved: [S; D] = array::from_fn(|axis| from[axis] + share * by[axis]);
+                trial.displacements[half][node] = moved;
+                trial.positions[1 + half][node] = array::from_fn(|axis| old[axis] + moved[axis]);
             }
             for &Seen { slot, .. } in &self.seen[half] {
                 trial.seen_temperatures[2 * half][slot] = from.1[slot] + share * by.1[slot];

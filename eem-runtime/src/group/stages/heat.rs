@@ -4,7 +4,7 @@
 //! Q_0 = Σ κ (Θ_0,partner − Θ_0),   Q_m = Σ κ (Θ_m,partner − Θ_m),   Θ_m = ½(Θ_0 + Θ_1)
 //! ```
 //!
-//! except that a thermostat gives its Θ_m directly.
+//! except that a thermostat gives its `Θ_m` directly.
 
 use super::StageView;
 use super::member::StageMember;

@@ -1,5 +1,7 @@
 //! The end of a step: the new state from the found forces, temperatures and rates of the stages.
 
+use core::array;
+
 use super::StageSolver;
 use super::assemble::{inertia, loads};
 use crate::error::StepFailure;
@@ -154,9 +156,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
     fn place(&mut self, view: &StageView<'_, S>, half: usize, node: usize, displacement: [S; D]) {
         let old = &points::<S, D>(view.state.positions.values())[node];
         self.trial.displacements[half][node] = displacement;
-        let position = &mut self.trial.positions[1 + half][node];
-        for axis in 0..D {
-            position[axis] = old[axis] + displacement[axis];
-        }
+        let position = array::from_fn(|axis| old[axis] + displacement[axis]);
+        self.trial.positions[1 + half][node] = position;
     }
 }
