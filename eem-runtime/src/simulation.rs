@@ -6,6 +6,7 @@ mod inspect;
 mod linearize;
 mod resume;
 mod run;
+mod threads;
 
 use core::fmt;
 

@@ -128,6 +128,13 @@ pub(crate) struct StageSolver<S, const D: usize> {
 }
 
 impl<S: Real, const D: usize> StageSolver<S, D> {
+    /// From here on, solves linear systems with this many threads where it pays.
+    #[cfg(all(feature = "parallel", feature = "sparse"))]
+    pub(crate) fn set_threads(&mut self, threads: core::num::NonZero<usize>) {
+        self.tangent.set_threads(threads);
+        self.secant.set_threads(threads);
+    }
+
     fn new(
         masses: [Vec<MovingNode<S, D>>; 2],
         seen: [Vec<Seen>; 2],
