@@ -3,17 +3,17 @@
 //! A message is one lower-case sentence about what is wrong, with the offending text in
 //! backticks, and a line `help: …` that says what to write instead. There is one function per
 //! message. The modules are the folders of the compile-fail tests in `tests/ui` of the root crate;
-//! `catalogue` sees to it that every message has a case there.
+//! `tests::catalogue` sees to it that every message has a case there.
 
 use std::fmt::{self, Display, Formatter};
 
 pub(crate) mod attribute;
-#[cfg(test)]
-mod catalogue;
 pub(crate) mod expression;
 pub(crate) mod field;
 pub(crate) mod item;
 pub(crate) mod unit;
+#[cfg(test)]
+pub(crate) mod written;
 
 /// What is wrong and what to write.
 #[derive(Debug)]
@@ -26,7 +26,7 @@ impl Message {
     #[cfg_attr(test, track_caller)]
     fn new(text: impl Into<String>, help: impl Into<String>) -> Self {
         #[cfg(test)]
-        catalogue::record(std::panic::Location::caller());
+        written::record(std::panic::Location::caller());
         Self {
             text: text.into(),
             help: help.into(),

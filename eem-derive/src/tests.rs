@@ -4,6 +4,7 @@ use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
 use syn::{DeriveInput, parse_quote};
 
+mod catalogue;
 mod golden;
 mod mutation;
 mod units;

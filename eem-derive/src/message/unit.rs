@@ -37,6 +37,7 @@ pub(crate) fn unknown(symbol: &str, advice: String) -> Message {
     Message::new(format!("unknown unit `{symbol}`"), advice)
 }
 
+#[cfg_attr(test, track_caller)]
 fn unreadable(text: &str, help: impl Into<String>) -> Message {
     Message::new(format!("cannot read the unit `{text}`"), help)
 }

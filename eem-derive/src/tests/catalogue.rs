@@ -1,29 +1,18 @@
 //! Every message has a compile-fail case, in the folder of its module.
 //!
-//! Messages record where they are written while the cases are expanded here. That the compiler
+//! Messages remember where they were written while the cases are expanded here. That the compiler
 //! shows them at the right tokens is tested by `tests/ui.rs` of the root crate.
 
-use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
-use std::panic::Location;
+use std::fs;
 use std::path::{Path, PathBuf};
-use std::{fs, mem};
 
 use syn::{DeriveInput, Item};
 
-thread_local! {
-    /// File and line of the messages written since the last look.
-    static WRITTEN: RefCell<BTreeSet<(String, u32)>> = const { RefCell::new(BTreeSet::new()) };
-}
-
-/// Remembers that a message was written.
-pub(super) fn record(location: &'static Location<'static>) {
-    let place = (location.file().to_owned(), location.line());
-    WRITTEN.with_borrow_mut(|written| written.insert(place));
-}
+use crate::message::written;
 
 /// The folders of the cases and the modules of the catalogue.
-const SUBJECTS: [&str; 4] = ["attribute", "expression", "field", "item"];
+const SUBJECTS: [&str; 5] = ["attribute", "expression", "field", "item", "unit"];
 
 /// The Rust files of a folder and of the folders in it, in order.
 fn sources(folder: &Path) -> Vec<PathBuf> {
@@ -70,7 +59,7 @@ fn catalogue() -> BTreeMap<(String, u32, u32), String> {
         files.extend(sources(&module.join(subject)));
         for file in files {
             let source = fs::read_to_string(&file).expect("the catalogue can be read");
-            let writes = |body: &str| body.contains("Message::new");
+            let writes = |body: &str| body.contains("-> Message {");
             let lines: Vec<&str> = source.lines().collect();
             for (first, last, name) in messages(&source) {
                 let body = &lines[first as usize - 1..last as usize];
@@ -112,13 +101,13 @@ fn every_message_has_a_case_in_its_folder() {
     let catalogue = catalogue();
     let mut missing: BTreeSet<&String> = catalogue.values().collect();
     for subject in SUBJECTS {
-        WRITTEN.take();
+        written::take();
         for case in sources(&cases.join(subject)) {
             let expansion = expand_case(&case);
             let shows = expansion.contains("compile_error");
             assert!(shows, "{} is without errors", case.display());
         }
-        for (file, line) in WRITTEN.with_borrow_mut(mem::take) {
+        for (file, line) in written::take() {
             let file = file_key(Path::new(&file));
             let found = catalogue
                 .iter()
