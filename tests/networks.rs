@@ -12,6 +12,10 @@ const ENTROPY_TOLERANCE: f64 = -2.0;
 /// Momenta of a free body: what the rounding of N steps adds up to, as a random walk of one
 /// rounding of each force per step, √N ε; a factor for the number of forces.
 const FREE_MOMENTUM_TOLERANCE: f64 = 1e-14;
+/// What each mass has in the beginning, up to 0.9 kg m/s; their sum nearly cancels.
+const MOMENTUM: f64 = 1.0;
+/// Energy after 1000 steps: a random walk of two roundings per step, 2√N ε.
+const WALK_TOLERANCE: f64 = 64.0 * f64::EPSILON;
 
 /// A free triangle and a mass on top: six springs of three models, all thermal ones in contact.
 fn tetrahedron(scheme: Scheme, step: f64) -> Simulation<3> {
@@ -70,7 +74,7 @@ fn a_free_body_of_three_models_keeps_all_laws_in_staggered_steps() {
     println!("linear momentum off by {linear:e}, angular by {angular:e}");
     assert!(laws.energy <= ENERGY_TOLERANCE);
     assert!(laws.entropy_ulps >= ENTROPY_TOLERANCE);
-    assert!(linear <= FREE_MOMENTUM_TOLERANCE * first.linear_momentum.norm());
+    assert!(linear <= FREE_MOMENTUM_TOLERANCE * MOMENTUM);
     assert!(angular <= FREE_MOMENTUM_TOLERANCE * first.angular_momentum.norm());
 }
 
@@ -95,7 +99,7 @@ fn a_free_body_keeps_its_momenta_with_stages_too() {
     println!("linear momentum off by {linear:e}, angular by {angular:e}");
     assert!(iterations <= 2_500);
     assert!(laws.entropy_ulps >= ENTROPY_TOLERANCE);
-    assert!(linear <= FREE_MOMENTUM_TOLERANCE * first.linear_momentum.norm());
+    assert!(linear <= FREE_MOMENTUM_TOLERANCE * MOMENTUM);
     assert!(angular <= FREE_MOMENTUM_TOLERANCE * first.angular_momentum.norm());
 }
 
@@ -175,7 +179,7 @@ fn an_elastic_spring_has_no_thermal_unknown_and_keeps_its_energy() {
         run.step().unwrap();
     }
     let last = run.ledger();
-    approx::assert_relative_eq!(last.energy, first.energy, max_relative = ENERGY_TOLERANCE);
+    approx::assert_relative_eq!(last.energy, first.energy, max_relative = WALK_TOLERANCE);
     assert!(last.entropy.abs() <= 0.0);
 }
 

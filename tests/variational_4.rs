@@ -92,7 +92,8 @@ fn double_pendulums_keep_momenta_and_the_second_law_and_stay_near_their_energies
     let bounds = [
         (DoublePendulum::ROMERO, 0.3, 2e-3),
         (DoublePendulum::ROMERO, 0.075, 5e-5),
-        (DoublePendulum::KRUEGER, 0.05, 2e-4),
+        // Chaotic: with twice the step, what is found depends on the roundings.
+        (DoublePendulum::KRUEGER, 0.025, 2e-6),
         (DoublePendulum::LOGARITHMIC, 0.05, 1e-4),
         (DoublePendulum::LOGARITHMIC, 0.025, 2e-6),
     ];

@@ -238,6 +238,17 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static
         trial: &ElementTrial<S, M>,
         corners: &mut M::Corners,
     ) -> Result<Answer<S, M>, Infeasible>;
+
+    /// The response without the tangent, for the last look at a step.
+    fn respond_alone(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        trial: &ElementTrial<S, M>,
+        corners: &mut M::Corners,
+    ) -> Result<M::Response, Infeasible> {
+        let answer = Self::respond(model, start, trial, corners)?;
+        Ok(answer.response)
+    }
 }
 
 /// The old state of an element as its scheme sees it.

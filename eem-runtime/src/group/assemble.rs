@@ -28,7 +28,7 @@ where
         let kinematics = self.kinematics;
         let mut parts = system.map(LinearSystem::parts);
         for member in &mut self.members {
-            let pose = member.respond(kinematics, view, trial)?;
+            let pose = member.respond(kinematics, view, trial, parts.is_some())?;
             let Some((values, right)) = &mut parts else {
                 continue;
             };

@@ -174,13 +174,14 @@ where
         motion
     }
 
-    /// The response at the trial state.
+    /// The response at the trial state, and its tangent if Newton's method goes on from there.
     #[inline]
     pub(super) fn respond(
         &mut self,
         kinematics: K,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
+        goes_on: bool,
     ) -> Result<Pose<K, S, D>, StateError> {
         let old = points(view.state.positions.values());
         let r0 = arms::<K, S, D>(&self.site.nodes, old);
@@ -210,12 +211,18 @@ where
             x: self.x,
             increments,
         };
-        let answer = C::respond(&self.model, &self.start, &asked, &mut self.corners);
-        let answer = answer.map_err(|infeasible| infeasible.of(element))?;
-        self.response = answer.response;
-        self.tangent = answer.tangent;
-        if C::IN_TEMPERATURE {
-            self.by_increment = combined::<K, S, M, D>(&answer.by_increment, by_arm.as_ref());
+        let (model, start) = (&self.model, &self.start);
+        if goes_on {
+            let answer = C::respond(model, start, &asked, &mut self.corners);
+            let answer = answer.map_err(|infeasible| infeasible.of(element))?;
+            self.response = answer.response;
+            self.tangent = answer.tangent;
+            if C::IN_TEMPERATURE {
+                self.by_increment = combined::<K, S, M, D>(&answer.by_increment, by_arm.as_ref());
+            }
+        } else {
+            let response = C::respond_alone(model, start, &asked, &mut self.corners);
+            self.response = response.map_err(|infeasible| infeasible.of(element))?;
         }
         check_response::<S, M>(element, &self.response)?;
         self.find_viscosities(self.temperature())?;

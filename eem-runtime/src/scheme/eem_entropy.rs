@@ -41,6 +41,18 @@ impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for 
         let form = model.entropy_form(&start.old, &trial.x, corners);
         Ok(Answer::new(form))
     }
+
+    fn respond_alone(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        trial: &ElementTrial<S, M>,
+        corners: &mut M::Corners,
+    ) -> Result<M::Response, Infeasible> {
+        if M::THERMAL {
+            find_corners(model, start, &trial.x, corners)?;
+        }
+        Ok(model.entropy_form_response(&start.old, &trial.x, corners))
+    }
 }
 
 /// The temperatures of the mixed states: first the ascending chain, where the first k variables

@@ -42,4 +42,14 @@ impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for 
         }
         Ok(Answer::new((response, tangent)))
     }
+
+    // That the new state is stable is left to the one who finds its temperature.
+    fn respond_alone(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        trial: &ElementTrial<S, M>,
+        _: &mut M::Corners,
+    ) -> Result<M::Response, Infeasible> {
+        Ok(model.temperature_form_response(&start.old, &trial.x))
+    }
 }
