@@ -75,15 +75,15 @@ where
         let index = M::MEASURES + k;
         let per_eta = self.viscosities.0[k].recip();
         let slope = self.viscosities.1[k];
-        let g = self.response[index];
+        let g = self.answer.response[index];
         let rate = g * per_eta;
         dissipation.power += g * rate;
         let change = self.x[index] - self.start.x0[index];
         self.condensed.constant[k] = change - h * (share * rate + self.old_rates[index]);
         for column in 0..Self::VARIABLES {
-            let g_by = self.tangent[index][column];
+            let g_by = self.answer.tangent[index][column];
             let theta_by = if M::THERMAL {
-                self.tangent[Self::TEMPERATURE][column]
+                self.answer.tangent[Self::TEMPERATURE][column]
             } else {
                 S::zero()
             };
@@ -103,7 +103,7 @@ where
         dissipation: &Dissipation<S, M>,
     ) {
         let (h, share) = (view.thermal_step(), S::from_f64(C::IMPLICIT));
-        let theta = self.response[Self::TEMPERATURE];
+        let theta = self.answer.response[Self::TEMPERATURE];
         let per_theta = theta.recip();
         let (mut heat, mut conductance) = (dissipation.power, S::zero());
         if let Some(slot) = self.slots.thermal {
@@ -114,13 +114,13 @@ where
         let rate = heat * per_theta;
         let old_rate = self.old_rates[Self::TEMPERATURE];
         let row = M::DASHPOTS;
-        let residual = self.response[Self::ENTROPY] - h * (share * rate + old_rate);
+        let residual = self.answer.response[Self::ENTROPY] - h * (share * rate + old_rate);
         self.condensed.constant[row] = residual;
         for column in 0..Self::VARIABLES {
-            let theta_by = self.tangent[Self::TEMPERATURE][column];
+            let theta_by = self.answer.tangent[Self::TEMPERATURE][column];
             let power_by = dissipation.by[column] - conductance * theta_by;
             let rate_by = (power_by - rate * theta_by) * per_theta;
-            let mut entry = self.tangent[Self::ENTROPY][column] - h * share * rate_by;
+            let mut entry = self.answer.tangent[Self::ENTROPY][column] - h * share * rate_by;
             if C::SCALES_HEAT {
                 // Newton's method on θ* r_s, which is far less curved than r_s where conduction is
                 // stiff, and the same where r_s = 0.
@@ -165,18 +165,17 @@ fn eliminate<S: Real, M: FreeEnergy<S>>(system: &mut Condensed<S, M>) -> Result<
             by_heat.as_mut().swap(pivot, k);
         }
         let inverse = value.recip();
-        // Columns that have been eliminated are not read again.
-        let live = || (0..M::MEASURES).chain(at + 1..M::Variables::LEN);
-        for column in live() {
-            rows[k][column] *= inverse;
+        // Whole rows, which is faster: columns that have been eliminated are not read again.
+        for entry in rows[k].as_mut() {
+            *entry *= inverse;
         }
+        let pivot_row = rows[k];
         constant[k] *= inverse;
         by_heat[k] *= inverse;
         for row in (0..unknowns).filter(|&row| row != k) {
             let factor = rows[row][at];
-            for column in live() {
-                let entry = rows[k][column];
-                rows[row][column] -= factor * entry;
+            for (entry, &pivot) in rows[row].as_mut().iter_mut().zip(pivot_row.as_ref()) {
+                *entry -= factor * pivot;
             }
             let (own, heat) = (constant[k], by_heat[k]);
             constant[row] -= factor * own;

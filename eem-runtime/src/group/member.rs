@@ -8,7 +8,7 @@ use crate::kinematics::{Arms, Gradient, Kinematics};
 use crate::layout::Slots;
 use crate::scalar::Real;
 use crate::scene::is_positive;
-use crate::scheme::{ElementScheme, Placement, Start};
+use crate::scheme::{Answer, ElementScheme, Placement, Start};
 
 /// An element, with everything that one step of the scheme `C` needs to remember of it.
 pub(crate) struct Member<S, M, K, C, const D: usize>
@@ -39,8 +39,8 @@ where
     pub(super) entropy_correction: S,
     /// Corner temperatures, kept as starting values.
     pub(super) corners: M::Corners,
-    pub(super) response: M::Response,
-    pub(super) tangent: M::Tangent,
+    /// The response at the trial and its tangent.
+    pub(super) answer: Answer<S, M>,
     /// `η_k` and `dη_k/dθ` at θ*.
     pub(super) viscosities: (M::Viscosities, M::Viscosities),
     /// The derivative of the measures by the new arms.
@@ -106,8 +106,7 @@ where
             previous_entropy_change: S::zero(),
             entropy_correction: S::zero(),
             corners: M::Corners::filled(S::zero()),
-            response: M::Response::filled(S::zero()),
-            tangent: M::Tangent::filled(zeros),
+            answer: Answer::none(),
             viscosities: (viscosities, viscosities),
             sensitivity: Gradient::<K, S, D>::filled(nowhere),
             by_increment: nowhere,
@@ -133,7 +132,7 @@ where
     #[inline]
     pub(super) fn temperature(&self) -> S {
         if M::THERMAL {
-            self.response[Self::TEMPERATURE]
+            self.answer.response[Self::TEMPERATURE]
         } else {
             S::zero()
         }
@@ -217,9 +216,9 @@ where
         for row in 0..Self::VARIABLES {
             let mut change = S::zero();
             for column in 0..Self::VARIABLES {
-                change += self.tangent[row][column] * self.correction[column];
+                change += self.answer.tangent[row][column] * self.correction[column];
             }
-            self.response[row] += change;
+            self.answer.response[row] += change;
             heating = change;
         }
         if M::THERMAL {
