@@ -149,20 +149,16 @@ fn eliminate<S: Real, M: FreeEnergy<S>>(system: &mut Condensed<S, M>) -> Result<
     let unknowns = M::Variables::LEN - M::MEASURES;
     for k in 0..unknowns {
         let at = M::MEASURES + k;
-        let mut pivot = k;
-        for row in k + 1..unknowns {
-            if rows[row][at].abs() > rows[pivot][at].abs() {
-                pivot = row;
-            }
-        }
-        let value = rows[pivot][at];
-        if !value.is_finite() || value == S::zero() {
-            return Err(Singular);
-        }
+        let pivot = largest_row::<S, M>(rows, k);
+        // As a rule it stays, and a branch is foretold where a place would be waited for.
         if pivot != k {
             rows.as_mut().swap(pivot, k);
             constant.as_mut().swap(pivot, k);
             by_heat.as_mut().swap(pivot, k);
+        }
+        let value = rows[k][at];
+        if !value.is_finite() || value == S::zero() {
+            return Err(Singular);
         }
         let inverse = value.recip();
         // Whole rows, which is faster: columns that have been eliminated are not read again.
@@ -183,4 +179,17 @@ fn eliminate<S: Real, M: FreeEnergy<S>>(system: &mut Condensed<S, M>) -> Result<
         }
     }
     Ok(())
+}
+
+/// The row with the largest entry in the column of the local unknown `k`, from its own row on.
+#[inline]
+fn largest_row<S: Real, M: FreeEnergy<S>>(rows: &M::Hessian, k: usize) -> usize {
+    let (at, unknowns) = (M::MEASURES + k, M::Variables::LEN - M::MEASURES);
+    let mut largest = k;
+    for row in k + 1..unknowns {
+        if rows[row][at].abs() > rows[largest][at].abs() {
+            largest = row;
+        }
+    }
+    largest
 }

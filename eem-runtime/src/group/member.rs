@@ -197,8 +197,8 @@ where
         }
         if M::THERMAL {
             let theta = self.previous[Self::TEMPERATURE];
-            let change = share * self.correction[Self::TEMPERATURE] / theta;
-            self.x[Self::TEMPERATURE] = theta * growth(change);
+            let change = share * self.correction[Self::TEMPERATURE];
+            self.x[Self::TEMPERATURE] = grown(theta, change);
             self.entropy_change = self.previous_entropy_change + share * self.entropy_correction;
         }
     }
@@ -229,14 +229,14 @@ where
     }
 }
 
-/// The factor by which a correction of ln θ changes θ, `(1 + ½x)/(1 − ½x)`.
+/// A temperature after the correction δθ, `θ (θ + ½δθ)/(θ − ½δθ)`.
 ///
-/// It is eˣ up to x³/12, positive, and limited to what one iteration may do.
+/// It is `θ e^(δθ/θ)` up to `(δθ/θ)³/12`, positive, and limited to what one iteration may do.
 #[inline]
-pub(super) fn growth<S: Real>(change: S) -> S {
-    let most = S::from_f64(LARGEST_HALF_CHANGE);
+pub(super) fn grown<S: Real>(theta: S, change: S) -> S {
+    let most = S::from_f64(LARGEST_HALF_CHANGE) * theta;
     let half = (S::from_f64(0.5) * change).minimum(most).maximum(-most);
-    (S::one() + half) / (S::one() - half)
+    theta * ((theta + half) / (theta - half))
 }
 
 /// Half the largest change of ln θ in one Newton iteration: a factor of 7. It bounds the reach of

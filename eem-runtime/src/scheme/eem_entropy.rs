@@ -39,7 +39,9 @@ impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for 
         if M::THERMAL {
             find_corners(model, start, trial.x, corners)?;
         }
-        (answer.response, answer.tangent) = model.entropy_form(&start.old, trial.x, corners);
+        let form = model.entropy_form(&start.old, trial.x, corners);
+        answer.response = form.0;
+        answer.tangent = form.1;
         Ok(())
     }
 

@@ -34,7 +34,9 @@ impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for 
         _: &mut M::Corners,
         answer: &mut Answer<S, M>,
     ) -> Result<(), Infeasible> {
-        (answer.response, answer.tangent) = model.temperature_form(&start.old, trial.x);
+        let form = model.temperature_form(&start.old, trial.x);
+        answer.response = form.0;
+        answer.tangent = form.1;
         if M::THERMAL {
             // ∂Δs/∂θ¹ = C/θ¹
             let last = M::Variables::LEN - 1;
