@@ -84,16 +84,8 @@ pub(crate) fn solve_fixed<S: Real, const N: usize, const W: usize>(
     };
     let mut inverse = [S::zero(); N];
     for column in 0..N {
-        let (mut pivot, mut size) = (column, a[column][column].abs());
-        for (row, entries) in a.iter().enumerate().skip(column + 1) {
-            if entries[column].abs() > size {
-                (pivot, size) = (row, entries[column].abs());
-            }
-        }
-        if !(size.is_finite() && size > S::zero()) {
-            return Err(Singular);
-        }
-        if pivot != column {
+        if !dominates(a, column) {
+            let pivot = pivot_row(a, column)?;
             a.swap(pivot, column);
             b.swap(pivot, column);
         }
@@ -110,7 +102,8 @@ pub(crate) fn solve_fixed<S: Real, const N: usize, const W: usize>(
     }
     for row in (0..N).rev() {
         let (head, known) = b.split_at_mut(row + 1);
-        for (known, &factor) in known.iter().zip(&a[row][row + 1..]) {
+        // The latest is the last to be waited for.
+        for (known, &factor) in known.iter().zip(&a[row][row + 1..]).rev() {
             subtract(&mut head[row], factor, known);
         }
         for entry in &mut head[row] {
@@ -118,6 +111,39 @@ pub(crate) fn solve_fixed<S: Real, const N: usize, const W: usize>(
         }
     }
     Ok(())
+}
+
+/// Whether the diagonal entry of a column will do as its pivot: it is at least a quarter of what is
+/// below it, which bounds the growth of entries nearly as well as the largest one does.
+#[inline]
+fn dominates<S: Real, const N: usize>(a: &[[S; N]; N], column: usize) -> bool {
+    let below = a[column + 1..].iter();
+    let largest = below.fold(S::zero(), |largest, row| larger(row[column].abs(), largest));
+    let own = a[column][column].abs();
+    own > S::zero() && own <= S::MAX && own >= S::from_f64(0.25) * largest
+}
+
+/// The row of the largest entry of a column, on the diagonal or below.
+#[cold]
+#[inline(never)]
+fn pivot_row<S: Real, const N: usize>(a: &[[S; N]; N], column: usize) -> Result<usize, Singular> {
+    let (mut pivot, mut size) = (column, a[column][column].abs());
+    for (row, entries) in a.iter().enumerate().skip(column + 1) {
+        if entries[column].abs() > size {
+            (pivot, size) = (row, entries[column].abs());
+        }
+    }
+    if size.is_finite() && size > S::zero() {
+        Ok(pivot)
+    } else {
+        Err(Singular)
+    }
+}
+
+/// The larger of two, the second if the first is NaN.
+#[inline]
+fn larger<S: Real>(a: S, b: S) -> S {
+    if a > b { a } else { b }
 }
 
 /// `x −= factor y`.

@@ -229,25 +229,26 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static
         Ok(x.as_ref()[M::Variables::LEN - 1])
     }
 
-    /// The response `(f*…, g*…, θ*, Δs)` and its tangent.
+    /// Writes the response `(f*…, g*…, θ*, Δs)` and its tangent.
     ///
     /// `corners` keeps temperatures from one call to the next as starting values.
     fn respond(
         model: &M,
         start: &Start<S, M, Self::Old>,
-        trial: &ElementTrial<S, M>,
+        trial: &ElementTrial<'_, S, M>,
         corners: &mut M::Corners,
-    ) -> Result<Answer<S, M>, Infeasible>;
+        answer: &mut Answer<S, M>,
+    ) -> Result<(), Infeasible>;
 
-    /// The response without the tangent, for the last look at a step.
+    /// Writes the response; the tangent is of no use afterwards. For the last look at a step.
     fn respond_alone(
         model: &M,
         start: &Start<S, M, Self::Old>,
-        trial: &ElementTrial<S, M>,
+        trial: &ElementTrial<'_, S, M>,
         corners: &mut M::Corners,
-    ) -> Result<M::Response, Infeasible> {
-        let answer = Self::respond(model, start, trial, corners)?;
-        Ok(answer.response)
+        answer: &mut Answer<S, M>,
+    ) -> Result<(), Infeasible> {
+        Self::respond(model, start, trial, corners, answer)
     }
 }
 
@@ -264,12 +265,12 @@ pub(crate) struct Start<S: Real, M: FreeEnergy<S>, Old> {
 
 /// What a scheme is asked about.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ElementTrial<S: Real, M: FreeEnergy<S>> {
+pub(crate) struct ElementTrial<'a, S: Real, M: FreeEnergy<S>> {
     /// `(π…, γ…, τ)`.
-    pub(crate) x: M::Variables,
+    pub(crate) x: &'a M::Variables,
     /// For a scheme in temperature: by how much the rates along the step change measures, viscous
     /// stretches and temperature, apart from what the old state contributes.
-    pub(crate) increments: M::Variables,
+    pub(crate) increments: &'a M::Variables,
 }
 
 /// What a scheme answers.
@@ -278,17 +279,19 @@ pub(crate) struct Answer<S: Real, M: FreeEnergy<S>> {
     pub(crate) response: M::Response,
     /// The derivative of the response by `x`.
     pub(crate) tangent: M::Tangent,
-    /// For a scheme in temperature: the derivative of Δs by the increments of the measures.
+    /// The derivative of Δs by the increments of the measures, zero unless the scheme is one in
+    /// temperature.
     pub(crate) by_increment: M::Variables,
 }
 
 impl<S: Real, M: FreeEnergy<S>> Answer<S, M> {
-    /// The answer of a scheme that does not look at increments.
-    fn new((response, tangent): (M::Response, M::Tangent)) -> Self {
+    /// Before anything has been asked.
+    pub(crate) fn none() -> Self {
+        let zeros = M::Variables::filled(S::zero());
         Self {
-            response,
-            tangent,
-            by_increment: M::Variables::filled(S::zero()),
+            response: M::Response::filled(S::zero()),
+            tangent: M::Tangent::filled(zeros),
+            by_increment: zeros,
         }
     }
 }

@@ -82,7 +82,7 @@ where
 
     #[inline]
     fn condensed_row(&self, row: usize) -> CondensedRow<K, S, D> {
-        let tangent = &self.tangent[row];
+        let tangent = &self.answer.tangent[row];
         let mut condensed = CondensedRow::<K, S, D> {
             constant: S::zero(),
             by_measure: Measures::<K, S, D>::filled(S::zero()),
@@ -136,7 +136,7 @@ where
         let impulse = view.step * S::from_f64(C::IMPLICIT);
         let mut forces = Measures::<K, S, D>::filled(S::zero());
         for (a, force) in forces.as_mut().iter_mut().enumerate() {
-            *force = impulse * self.response[a];
+            *force = impulse * self.answer.response[a];
         }
         let mut blocks = pose.curvature(kinematics, C::PLACEMENT, &forces);
         for a in 0..M::MEASURES {
@@ -240,7 +240,10 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
 #[inline]
 fn add_rows<S: Real, const D: usize>(values: &mut [S], places: &[usize; D], block: &[[S; D]; D]) {
     for (entries, &place) in block.iter().zip(places) {
-        for (value, &entry) in values[place..place + D].iter_mut().zip(entries) {
+        let Some(values) = values[place..].first_chunk_mut::<D>() else {
+            continue;
+        };
+        for (value, &entry) in values.iter_mut().zip(entries) {
             *value += entry;
         }
     }
@@ -261,7 +264,10 @@ fn subtract_rows<S: Real, const D: usize>(
 /// Subtracts from consecutive entries.
 #[inline]
 pub(super) fn subtract<S: Real, const D: usize>(values: &mut [S], place: usize, entries: &[S; D]) {
-    for (value, &entry) in values[place..place + D].iter_mut().zip(entries) {
+    let Some(values) = values[place..].first_chunk_mut::<D>() else {
+        return;
+    };
+    for (value, &entry) in values.iter_mut().zip(entries) {
         *value -= entry;
     }
 }

@@ -166,7 +166,11 @@ where
                 measures_in::<K, S, D>(&self.start.x0)
             }
         };
-        kinematics.secant(&old, &measures, &measures_in::<K, S, D>(&self.response))
+        kinematics.secant(
+            &old,
+            &measures,
+            &measures_in::<K, S, D>(&self.answer.response),
+        )
     }
 
     /// The nodal forces of the found response along the gradient between two configurations, N.
@@ -178,7 +182,10 @@ where
     ) -> K::PerNode<[S; D]> {
         let measures0 = measures_in::<K, S, D>(&self.start.x0);
         let pose = Pose::new(kinematics, at, ends, measures0);
-        resultant::<K, S, D>(&pose.direction, &measures_in::<K, S, D>(&self.response))
+        resultant::<K, S, D>(
+            &pose.direction,
+            &measures_in::<K, S, D>(&self.answer.response),
+        )
     }
 
     /// The increments of the internal variables and of the reservoirs' entropies.
@@ -192,7 +199,7 @@ where
         let (h, share) = (view.thermal_step(), S::from_f64(C::IMPLICIT));
         let mut heat = S::zero();
         for k in 0..M::DASHPOTS {
-            let g = self.response[M::MEASURES + k];
+            let g = self.answer.response[M::MEASURES + k];
             let rate = g / self.viscosities.0[k];
             heat += g * rate;
             let old_rate = self.old_rates[M::MEASURES + k];

@@ -64,8 +64,8 @@ where
         self.previous = self.x;
         self.correction = correction;
         if M::THERMAL && C::FINDS_TEMPERATURE {
-            self.previous_entropy_change = self.response[Self::ENTROPY];
-            let row = &self.tangent[Self::ENTROPY];
+            self.previous_entropy_change = self.answer.response[Self::ENTROPY];
+            let row = &self.answer.tangent[Self::ENTROPY];
             let terms = row.as_ref().iter().zip(correction.as_ref());
             self.entropy_correction = terms.fold(S::zero(), |sum, (&a, &b)| sum + a * b);
         }

@@ -208,23 +208,21 @@ where
             by_arm = by;
         }
         let asked = ElementTrial {
-            x: self.x,
-            increments,
+            x: &self.x,
+            increments: &increments,
         };
         let (model, start) = (&self.model, &self.start);
-        if goes_on {
-            let answer = C::respond(model, start, &asked, &mut self.corners);
-            let answer = answer.map_err(|infeasible| infeasible.of(element))?;
-            self.response = answer.response;
-            self.tangent = answer.tangent;
-            if C::IN_TEMPERATURE {
-                self.by_increment = combined::<K, S, M, D>(&answer.by_increment, by_arm.as_ref());
-            }
+        let (corners, answer) = (&mut self.corners, &mut self.answer);
+        let done = if goes_on {
+            C::respond(model, start, &asked, corners, answer)
         } else {
-            let response = C::respond_alone(model, start, &asked, &mut self.corners);
-            self.response = response.map_err(|infeasible| infeasible.of(element))?;
+            C::respond_alone(model, start, &asked, corners, answer)
+        };
+        done.map_err(|infeasible| infeasible.of(element))?;
+        if C::IN_TEMPERATURE {
+            self.by_increment = combined::<K, S, M, D>(&answer.by_increment, by_arm.as_ref());
         }
-        check_response::<S, M>(element, &self.response)?;
+        check_response::<S, M>(element, &self.answer.response)?;
         self.find_viscosities(self.temperature())?;
         Ok(pose)
     }

@@ -42,10 +42,10 @@ where
             for index in 0..M::MEASURES + M::DASHPOTS {
                 let is_force = index < M::MEASURES;
                 let sign = if is_force { S::one() } else { -S::one() };
-                member.response[index] = sign * gradient[index];
+                member.answer.response[index] = sign * gradient[index];
             }
             if M::THERMAL {
-                member.response[M::MEASURES + M::DASHPOTS] = theta;
+                member.answer.response[M::MEASURES + M::DASHPOTS] = theta;
             }
             let force = member.force(self.kinematics, Placement::End, [&r, &r]);
             elements.push(member.generic(&force));
@@ -79,7 +79,7 @@ where
             axes.map(move |(axis, &entry)| (node * D + axis, entry))
         });
         let dashpots = (0..M::DASHPOTS).map(|k| {
-            let g = self.response[M::MEASURES + k];
+            let g = self.answer.response[M::MEASURES + k];
             (self.slots.viscous + k, g, self.viscosities.0[k])
         });
         ElementGeneric {

@@ -75,15 +75,15 @@ where
         let index = M::MEASURES + k;
         let per_eta = self.viscosities.0[k].recip();
         let slope = self.viscosities.1[k];
-        let g = self.response[index];
+        let g = self.answer.response[index];
         let rate = g * per_eta;
         dissipation.power += g * rate;
         let change = self.x[index] - self.start.x0[index];
         self.condensed.constant[k] = change - h * (share * rate + self.old_rates[index]);
         for column in 0..Self::VARIABLES {
-            let g_by = self.tangent[index][column];
+            let g_by = self.answer.tangent[index][column];
             let theta_by = if M::THERMAL {
-                self.tangent[Self::TEMPERATURE][column]
+                self.answer.tangent[Self::TEMPERATURE][column]
             } else {
                 S::zero()
             };
@@ -103,7 +103,7 @@ where
         dissipation: &Dissipation<S, M>,
     ) {
         let (h, share) = (view.thermal_step(), S::from_f64(C::IMPLICIT));
-        let theta = self.response[Self::TEMPERATURE];
+        let theta = self.answer.response[Self::TEMPERATURE];
         let per_theta = theta.recip();
         let (mut heat, mut conductance) = (dissipation.power, S::zero());
         if let Some(slot) = self.slots.thermal {
@@ -114,13 +114,13 @@ where
         let rate = heat * per_theta;
         let old_rate = self.old_rates[Self::TEMPERATURE];
         let row = M::DASHPOTS;
-        let residual = self.response[Self::ENTROPY] - h * (share * rate + old_rate);
+        let residual = self.answer.response[Self::ENTROPY] - h * (share * rate + old_rate);
         self.condensed.constant[row] = residual;
         for column in 0..Self::VARIABLES {
-            let theta_by = self.tangent[Self::TEMPERATURE][column];
+            let theta_by = self.answer.tangent[Self::TEMPERATURE][column];
             let power_by = dissipation.by[column] - conductance * theta_by;
             let rate_by = (power_by - rate * theta_by) * per_theta;
-            let mut entry = self.tangent[Self::ENTROPY][column] - h * share * rate_by;
+            let mut entry = self.answer.tangent[Self::ENTROPY][column] - h * share * rate_by;
             if C::SCALES_HEAT {
                 // Newton's method on θ* r_s, which is far less curved than r_s where conduction is
                 // stiff, and the same where r_s = 0.
@@ -149,34 +149,29 @@ fn eliminate<S: Real, M: FreeEnergy<S>>(system: &mut Condensed<S, M>) -> Result<
     let unknowns = M::Variables::LEN - M::MEASURES;
     for k in 0..unknowns {
         let at = M::MEASURES + k;
-        let mut pivot = k;
-        for row in k + 1..unknowns {
-            if rows[row][at].abs() > rows[pivot][at].abs() {
-                pivot = row;
-            }
-        }
-        let value = rows[pivot][at];
-        if !value.is_finite() || value == S::zero() {
-            return Err(Singular);
-        }
+        let pivot = largest_row::<S, M>(rows, k);
+        // As a rule it stays, and a branch is foretold where a place would be waited for.
         if pivot != k {
             rows.as_mut().swap(pivot, k);
             constant.as_mut().swap(pivot, k);
             by_heat.as_mut().swap(pivot, k);
         }
-        let inverse = value.recip();
-        // Columns that have been eliminated are not read again.
-        let live = || (0..M::MEASURES).chain(at + 1..M::Variables::LEN);
-        for column in live() {
-            rows[k][column] *= inverse;
+        let value = rows[k][at];
+        if !value.is_finite() || value == S::zero() {
+            return Err(Singular);
         }
+        let inverse = value.recip();
+        // Whole rows, which is faster: columns that have been eliminated are not read again.
+        for entry in rows[k].as_mut() {
+            *entry *= inverse;
+        }
+        let pivot_row = rows[k];
         constant[k] *= inverse;
         by_heat[k] *= inverse;
         for row in (0..unknowns).filter(|&row| row != k) {
             let factor = rows[row][at];
-            for column in live() {
-                let entry = rows[k][column];
-                rows[row][column] -= factor * entry;
+            for (entry, &pivot) in rows[row].as_mut().iter_mut().zip(pivot_row.as_ref()) {
+                *entry -= factor * pivot;
             }
             let (own, heat) = (constant[k], by_heat[k]);
             constant[row] -= factor * own;
@@ -184,4 +179,17 @@ fn eliminate<S: Real, M: FreeEnergy<S>>(system: &mut Condensed<S, M>) -> Result<
         }
     }
     Ok(())
+}
+
+/// The row with the largest entry in the column of the local unknown `k`, from its own row on.
+#[inline]
+fn largest_row<S: Real, M: FreeEnergy<S>>(rows: &M::Hessian, k: usize) -> usize {
+    let (at, unknowns) = (M::MEASURES + k, M::Variables::LEN - M::MEASURES);
+    let mut largest = k;
+    for row in k + 1..unknowns {
+        if rows[row][at].abs() > rows[largest][at].abs() {
+            largest = row;
+        }
+    }
+    largest
 }

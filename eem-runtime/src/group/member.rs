@@ -8,7 +8,7 @@ use crate::kinematics::{Arms, Gradient, Kinematics};
 use crate::layout::Slots;
 use crate::scalar::Real;
 use crate::scene::is_positive;
-use crate::scheme::{ElementScheme, Placement, Start};
+use crate::scheme::{Answer, ElementScheme, Placement, Start};
 
 /// An element, with everything that one step of the scheme `C` needs to remember of it.
 pub(crate) struct Member<S, M, K, C, const D: usize>
@@ -39,8 +39,8 @@ where
     pub(super) entropy_correction: S,
     /// Corner temperatures, kept as starting values.
     pub(super) corners: M::Corners,
-    pub(super) response: M::Response,
-    pub(super) tangent: M::Tangent,
+    /// The response at the trial and its tangent.
+    pub(super) answer: Answer<S, M>,
     /// `η_k` and `dη_k/dθ` at θ*.
     pub(super) viscosities: (M::Viscosities, M::Viscosities),
     /// The derivative of the measures by the new arms.
@@ -106,8 +106,7 @@ where
             previous_entropy_change: S::zero(),
             entropy_correction: S::zero(),
             corners: M::Corners::filled(S::zero()),
-            response: M::Response::filled(S::zero()),
-            tangent: M::Tangent::filled(zeros),
+            answer: Answer::none(),
             viscosities: (viscosities, viscosities),
             sensitivity: Gradient::<K, S, D>::filled(nowhere),
             by_increment: nowhere,
@@ -133,7 +132,7 @@ where
     #[inline]
     pub(super) fn temperature(&self) -> S {
         if M::THERMAL {
-            self.response[Self::TEMPERATURE]
+            self.answer.response[Self::TEMPERATURE]
         } else {
             S::zero()
         }
@@ -198,8 +197,8 @@ where
         }
         if M::THERMAL {
             let theta = self.previous[Self::TEMPERATURE];
-            let change = share * self.correction[Self::TEMPERATURE] / theta;
-            self.x[Self::TEMPERATURE] = theta * growth(change);
+            let change = share * self.correction[Self::TEMPERATURE];
+            self.x[Self::TEMPERATURE] = grown(theta, change);
             self.entropy_change = self.previous_entropy_change + share * self.entropy_correction;
         }
     }
@@ -217,9 +216,9 @@ where
         for row in 0..Self::VARIABLES {
             let mut change = S::zero();
             for column in 0..Self::VARIABLES {
-                change += self.tangent[row][column] * self.correction[column];
+                change += self.answer.tangent[row][column] * self.correction[column];
             }
-            self.response[row] += change;
+            self.answer.response[row] += change;
             heating = change;
         }
         if M::THERMAL {
@@ -230,14 +229,14 @@ where
     }
 }
 
-/// The factor by which a correction of ln θ changes θ, `(1 + ½x)/(1 − ½x)`.
+/// A temperature after the correction δθ, `θ (θ + ½δθ)/(θ − ½δθ)`.
 ///
-/// It is eˣ up to x³/12, positive, and limited to what one iteration may do.
+/// It is `θ e^(δθ/θ)` up to `(δθ/θ)³/12`, positive, and limited to what one iteration may do.
 #[inline]
-pub(super) fn growth<S: Real>(change: S) -> S {
-    let most = S::from_f64(LARGEST_HALF_CHANGE);
+pub(super) fn grown<S: Real>(theta: S, change: S) -> S {
+    let most = S::from_f64(LARGEST_HALF_CHANGE) * theta;
     let half = (S::from_f64(0.5) * change).minimum(most).maximum(-most);
-    (S::one() + half) / (S::one() - half)
+    theta * ((theta + half) / (theta - half))
 }
 
 /// Half the largest change of ln θ in one Newton iteration: a factor of 7. It bounds the reach of

@@ -46,7 +46,7 @@ impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
 
     #[inline]
     fn is_admissible(&self, measure: S) -> bool {
-        measure.is_finite() && measure > S::zero()
+        measure > S::zero() && measure <= S::MAX
     }
 
     #[inline]

@@ -7,8 +7,9 @@ use crate::handle::{Element, HeatPartner, Node, Reservoir};
 use crate::scalar::Real;
 
 /// Finite and greater than zero.
+#[inline]
 pub(crate) fn is_positive<S: Real>(value: S) -> bool {
-    value.is_finite() && value > S::zero()
+    value > S::zero() && value <= S::MAX
 }
 
 impl<const D: usize, S: Real> Scene<D, S> {

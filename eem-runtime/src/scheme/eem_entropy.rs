@@ -32,26 +32,31 @@ impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for 
     fn respond(
         model: &M,
         start: &Start<S, M, Self::Old>,
-        trial: &ElementTrial<S, M>,
+        trial: &ElementTrial<'_, S, M>,
         corners: &mut M::Corners,
-    ) -> Result<Answer<S, M>, Infeasible> {
+        answer: &mut Answer<S, M>,
+    ) -> Result<(), Infeasible> {
         if M::THERMAL {
-            find_corners(model, start, &trial.x, corners)?;
+            find_corners(model, start, trial.x, corners)?;
         }
-        let form = model.entropy_form(&start.old, &trial.x, corners);
-        Ok(Answer::new(form))
+        let form = model.entropy_form(&start.old, trial.x, corners);
+        answer.response = form.0;
+        answer.tangent = form.1;
+        Ok(())
     }
 
     fn respond_alone(
         model: &M,
         start: &Start<S, M, Self::Old>,
-        trial: &ElementTrial<S, M>,
+        trial: &ElementTrial<'_, S, M>,
         corners: &mut M::Corners,
-    ) -> Result<M::Response, Infeasible> {
+        answer: &mut Answer<S, M>,
+    ) -> Result<(), Infeasible> {
         if M::THERMAL {
-            find_corners(model, start, &trial.x, corners)?;
+            find_corners(model, start, trial.x, corners)?;
         }
-        Ok(model.entropy_form_response(&start.old, &trial.x, corners))
+        answer.response = model.entropy_form_response(&start.old, trial.x, corners);
+        Ok(())
     }
 }
 

@@ -30,26 +30,32 @@ impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for 
     fn respond(
         model: &M,
         start: &Start<S, M, Self::Old>,
-        trial: &ElementTrial<S, M>,
+        trial: &ElementTrial<'_, S, M>,
         _: &mut M::Corners,
-    ) -> Result<Answer<S, M>, Infeasible> {
-        let (response, tangent) = model.temperature_form(&start.old, &trial.x);
+        answer: &mut Answer<S, M>,
+    ) -> Result<(), Infeasible> {
+        let form = model.temperature_form(&start.old, trial.x);
+        answer.response = form.0;
+        answer.tangent = form.1;
         if M::THERMAL {
             // ∂Δs/∂θ¹ = C/θ¹
             let last = M::Variables::LEN - 1;
             let theta = trial.x[last];
-            Infeasible::unless_stable(theta * tangent[last + 1][last], theta)?;
+            let slope = answer.tangent[last + 1][last];
+            Infeasible::unless_stable(theta * slope, theta)?;
         }
-        Ok(Answer::new((response, tangent)))
+        Ok(())
     }
 
     // That the new state is stable is left to the one who finds its temperature.
     fn respond_alone(
         model: &M,
         start: &Start<S, M, Self::Old>,
-        trial: &ElementTrial<S, M>,
+        trial: &ElementTrial<'_, S, M>,
         _: &mut M::Corners,
-    ) -> Result<M::Response, Infeasible> {
-        Ok(model.temperature_form_response(&start.old, &trial.x))
+        answer: &mut Answer<S, M>,
+    ) -> Result<(), Infeasible> {
+        answer.response = model.temperature_form_response(&start.old, trial.x);
+        Ok(())
     }
 }

@@ -54,16 +54,17 @@ where
     fn respond(
         model: &M,
         start: &Start<S, M, Self::Old>,
-        trial: &ElementTrial<S, M>,
+        trial: &ElementTrial<'_, S, M>,
         _: &mut M::Corners,
-    ) -> Result<Answer<S, M>, Infeasible> {
+        answer: &mut Answer<S, M>,
+    ) -> Result<(), Infeasible> {
         let c = S::from_f64(R::AT);
-        let mut answer = Answer::new(respond(model, start, &trial.x, c));
+        (answer.response, answer.tangent) = respond(model, start, trial.x, c);
         if M::THERMAL && R::IN_TEMPERATURE {
-            let point = point(start, &trial.x, c);
-            change_entropy_at_rates(model, &point, &trial.increments, c, &mut answer);
+            let point = point(start, trial.x, c);
+            change_entropy_at_rates(model, &point, trial.increments, c, answer);
         }
-        Ok(answer)
+        Ok(())
     }
 }
 

@@ -28,12 +28,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// ```
     #[cfg_attr(
         not(all(feature = "parallel", feature = "sparse")),
-        expect(
-            unused_variables,
-            clippy::needless_pass_by_ref_mut,
-            clippy::unused_self,
-            reason = "one thread"
-        )
+        expect(unused_variables, reason = "one thread does it all")
     )]
     pub fn set_threads(&mut self, threads: NonZero<usize>) {
         #[cfg(all(feature = "parallel", feature = "sparse"))]

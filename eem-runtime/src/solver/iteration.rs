@@ -27,10 +27,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let inertia = (mass.mass + mass.mass) * per_step;
             let (momentum, force) = (&momenta[mass.node], &self.old_force[mass.node]);
             let displacement = &self.trial.displacements[mass.node];
-            for (axis, &place) in mass.diagonal.iter().enumerate() {
+            for &place in &mass.diagonal {
                 values[place] += inertia;
+            }
+            let rows = right[mass.row..].iter_mut().take(D);
+            for (axis, [residual]) in rows.enumerate() {
                 let rest = momentum[axis] + momentum[axis] - view.step * force[axis];
-                let residual = &mut right[mass.row + axis][0];
                 *residual += rest - inertia * displacement[axis];
                 largest = largest.maximum(residual.abs());
             }

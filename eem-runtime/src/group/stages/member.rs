@@ -5,7 +5,7 @@ use super::site::StageSite;
 use super::{END, MIDDLE, StageView};
 use crate::free_energy::{Array, FreeEnergy};
 use crate::group::evaluate::shorten;
-use crate::group::member::{Member, growth};
+use crate::group::member::{Member, grown};
 use crate::group::pose::{arms, points};
 use crate::group::variables;
 use crate::kinematics::{Arms, Gradient, Kinematics};
@@ -114,7 +114,7 @@ where
             }
             if M::THERMAL && stage != MIDDLE {
                 let theta = previous[last];
-                x[last] = theta * growth(share * change[last] / theta);
+                x[last] = grown(theta, share * change[last]);
             }
         }
         if M::THERMAL && self.prescribed.is_none() {
