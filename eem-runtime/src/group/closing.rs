@@ -166,7 +166,11 @@ where
                 measures_in::<K, S, D>(&self.start.x0)
             }
         };
-        kinematics.secant(&old, &measures, &measures_in::<K, S, D>(&self.answer.response))
+        kinematics.secant(
+            &old,
+            &measures,
+            &measures_in::<K, S, D>(&self.answer.response),
+        )
     }
 
     /// The nodal forces of the found response along the gradient between two configurations, N.
@@ -178,7 +182,10 @@ where
     ) -> K::PerNode<[S; D]> {
         let measures0 = measures_in::<K, S, D>(&self.start.x0);
         let pose = Pose::new(kinematics, at, ends, measures0);
-        resultant::<K, S, D>(&pose.direction, &measures_in::<K, S, D>(&self.answer.response))
+        resultant::<K, S, D>(
+            &pose.direction,
+            &measures_in::<K, S, D>(&self.answer.response),
+        )
     }
 
     /// The increments of the internal variables and of the reservoirs' entropies.
