@@ -83,16 +83,25 @@ pub(crate) fn solve_fixed<S: Real, const N: usize, const W: usize>(
         return Err(Singular);
     };
     let mut inverse = [S::zero(); N];
+    let mut pivot = a
+        .first()
+        .and_then(|row| row.first())
+        .map_or(S::zero(), |&first| first);
     for column in 0..N {
         if !dominates(a, column) {
-            let pivot = pivot_row(a, column)?;
-            a.swap(pivot, column);
-            b.swap(pivot, column);
+            let row = pivot_row(a, column)?;
+            a.swap(row, column);
+            b.swap(row, column);
+            pivot = a[column][column];
         }
         let (above, below) = a.split_at_mut(column + 1);
         let (above_b, below_b) = b.split_at_mut(column + 1);
         let (pivot_row, pivot_b) = (&above[column], &above_b[column]);
-        inverse[column] = pivot_row[column].recip();
+        inverse[column] = pivot.recip();
+        // The next pivot first: its division is what everything waits for.
+        if let ([row, ..], Some(&right)) = (&*below, pivot_row.get(column + 1)) {
+            pivot = row[column + 1] - row[column] * inverse[column] * right;
+        }
         for (row, b) in below.iter_mut().zip(below_b) {
             let factor = row[column] * inverse[column];
             // Whole rows, which is faster: the entries before the column are not read again.

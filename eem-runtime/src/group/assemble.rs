@@ -161,7 +161,7 @@ where
             }
             if let Some(contact) = target.contact {
                 let heat = impulse * row.by_heat * self.heat_factor(view);
-                contact.add_partners(heat, &direction, target.values);
+                contact.add_partners(&self.site, heat, &direction, target.values);
             }
         }
         for (i, row) in blocks.as_ref().iter().enumerate() {
@@ -219,20 +219,46 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
             }
         }
     }
+
+    /// Adds a column, `factor` times the direction of each node.
+    #[inline]
+    pub(super) fn add_column(
+        &self,
+        column: &Column<K, S, D>,
+        factor: S,
+        direction: &K::PerNode<[S; D]>,
+        values: &mut [S],
+    ) {
+        let nodes = column.as_ref().iter().zip(direction.as_ref());
+        for ((places, direction), &is_mass) in nodes.zip(self.is_mass.as_ref()) {
+            if !is_mass {
+                continue;
+            }
+            for (&place, &entry) in places.iter().zip(direction) {
+                values[place] += factor * entry;
+            }
+        }
+    }
 }
 
 impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
     /// Adds the derivatives of `factor Σ κ (Θ_partner − Θ)` to the rows of the nodes, each with its
     /// direction.
     #[inline]
-    fn add_partners(&self, factor: S, direction: &K::PerNode<[S; D]>, values: &mut [S]) {
+    fn add_partners(
+        &self,
+        site: &Site<K, S, D>,
+        factor: S,
+        direction: &K::PerNode<[S; D]>,
+        values: &mut [S],
+    ) {
         let mut own = S::zero();
         for partner in &self.partners {
             let entry = factor * partner.conductance;
             own -= entry;
-            add_column::<K, S, D>(values, &partner.column, entry, direction);
+            site.add_column(&partner.column, entry, direction, values);
         }
-        add_column::<K, S, D>(values, &self.column, own, direction);
+        site.add_column(&self.column, own, direction, values);
     }
 }
 
@@ -269,20 +295,5 @@ pub(super) fn subtract<S: Real, const D: usize>(values: &mut [S], place: usize, 
     };
     for (value, &entry) in values.iter_mut().zip(entries) {
         *value -= entry;
-    }
-}
-
-/// Adds a column, `factor` times the direction of each node.
-#[inline]
-pub(super) fn add_column<K: Kinematics<S, D>, S: Real, const D: usize>(
-    values: &mut [S],
-    column: &Column<K, S, D>,
-    factor: S,
-    direction: &K::PerNode<[S; D]>,
-) {
-    for (places, direction) in column.as_ref().iter().zip(direction.as_ref()) {
-        for (&place, &entry) in places.iter().zip(direction) {
-            values[place] += factor * entry;
-        }
     }
 }

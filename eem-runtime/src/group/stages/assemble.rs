@@ -4,7 +4,7 @@ use super::local::LocalStages;
 use super::member::StageMember;
 use super::{END, MIDDLE, StageTrial, StageView, ThreeStageGroup, heat};
 use crate::free_energy::{Array, FreeEnergy};
-use crate::group::assemble::{add_column, subtract};
+use crate::group::assemble::subtract;
 use crate::group::pose::{arms, measures_in, spread};
 use crate::kinematics::{Arms, Kinematics};
 use crate::scalar::Real;
@@ -128,11 +128,12 @@ where
         let (Some(slot), Some(contacts)) = (target.slot, &self.site.contacts) else {
             return;
         };
+        let site = &self.site.quarters[half][0];
         for (column, contact) in contacts[half].iter().enumerate() {
             let (own, partners) = heat::slopes(target.view, slot, contact, column, factors);
-            add_column::<K, S, D>(target.values, &contact.column, own, direction);
+            site.add_column(&contact.column, own, direction, target.values);
             for (by, partner) in partners {
-                add_column::<K, S, D>(target.values, &partner.column, by, direction);
+                site.add_column(&partner.column, by, direction, target.values);
             }
         }
     }
