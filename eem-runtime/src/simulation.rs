@@ -6,7 +6,6 @@ mod inspect;
 mod linearize;
 mod resume;
 mod run;
-mod threads;
 
 use core::fmt;
 

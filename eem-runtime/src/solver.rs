@@ -141,13 +141,6 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
-    /// From here on, solves linear systems with this many threads where it pays.
-    #[cfg(all(feature = "parallel", feature = "sparse"))]
-    pub(crate) fn set_threads(&mut self, threads: core::num::NonZero<usize>) {
-        self.tangent.set_threads(threads);
-        self.secant.set_threads(threads);
-    }
-
     /// Forgets the last step.
     pub(crate) fn restart(&mut self) {
         // Two parts of a staggered step, each followed through all stages at worst.

@@ -7,8 +7,6 @@
 //! they only correct, and the next residual judges the correction.
 
 use core::fmt;
-#[cfg(feature = "parallel")]
-use core::num::NonZero;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::factor::PartialPivLuParams;
@@ -35,7 +33,6 @@ pub(crate) struct SparseLu {
     right: Vec<f64>,
     factor_memory: MemBuffer,
     solve_memory: MemBuffer,
-    threads: Par,
 }
 
 impl fmt::Debug for SparseLu {
@@ -69,17 +66,7 @@ impl SparseLu {
             pattern,
             symbolic,
             numeric: NumericLu::new(),
-            threads: Par::Seq,
         })
-    }
-
-    /// From here on, dense blocks of the factors are computed by this many threads.
-    #[cfg(feature = "parallel")]
-    pub(crate) fn set_threads(&mut self, threads: NonZero<usize>) {
-        self.threads = match threads.get() {
-            1 => Par::Seq,
-            threads => Par::rayon(threads),
-        };
     }
 
     /// Number of entries.
@@ -125,7 +112,7 @@ impl SparseLu {
         let factors = self.symbolic.factorize_numeric_lu(
             &mut self.numeric,
             transposed,
-            self.threads,
+            Par::Seq,
             memory,
             parameters(),
         );
@@ -133,7 +120,7 @@ impl SparseLu {
         let memory = MemStack::new(&mut self.solve_memory);
         let unknowns = self.pattern.ncols();
         let right = MatMut::from_column_major_slice_mut(&mut self.right, unknowns, columns);
-        factors.solve_transpose_in_place_with_conj(Conj::No, right, self.threads, memory);
+        factors.solve_transpose_in_place_with_conj(Conj::No, right, Par::Seq, memory);
         // A pivot that is zero divides by zero.
         if self.right.iter().all(|entry| entry.is_finite()) {
             Ok(())

@@ -14,9 +14,6 @@
 //! one is another variant there, with its answers to `new` (from the pattern), `entries`, `position`
 //! and `solve`.
 
-#[cfg(all(feature = "parallel", feature = "sparse"))]
-use core::num::NonZero;
-
 use crate::lu::{self, Singular};
 use crate::pattern::Pattern;
 use crate::scalar::Real;
@@ -147,14 +144,6 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
             values: vec![S::zero(); storage.entries() + run],
             right: vec![[S::zero(); W]; pattern.unknowns() + run],
             storage,
-        }
-    }
-
-    /// From here on, solves with this many threads where it pays.
-    #[cfg(all(feature = "parallel", feature = "sparse"))]
-    pub(crate) fn set_threads(&mut self, threads: NonZero<usize>) {
-        if let Storage::Sparse(sparse) = &mut self.storage {
-            sparse.set_threads(threads);
         }
     }
 

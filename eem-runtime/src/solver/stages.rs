@@ -1,7 +1,8 @@
 //! One step of a whole scene through three stages: Newton's method, then the closing evaluation.
 //!
 //! What [`Solver`](super::Solver) is to the schemes with one set of forces per step this is to
-//! [`Scheme::Variational4`]; they start, converge, follow a solution and give up alike.
+//! [`Scheme::Variational4`]; they converge, follow a solution and give up alike. The start is free
+//! flight.
 
 mod assemble;
 mod closing;
@@ -128,13 +129,6 @@ pub(crate) struct StageSolver<S, const D: usize> {
 }
 
 impl<S: Real, const D: usize> StageSolver<S, D> {
-    /// From here on, solves linear systems with this many threads where it pays.
-    #[cfg(all(feature = "parallel", feature = "sparse"))]
-    pub(crate) fn set_threads(&mut self, threads: core::num::NonZero<usize>) {
-        self.tangent.set_threads(threads);
-        self.secant.set_threads(threads);
-    }
-
     fn new(
         masses: [Vec<MovingNode<S, D>>; 2],
         seen: [Vec<Seen>; 2],
