@@ -5,7 +5,7 @@
 mod support;
 
 use eem::prelude::*;
-use support::{Hencky, Laws, LogarithmicStiffness, ThermoViscoElastic};
+use support::{Hencky, Laws, LogarithmicStiffness, ThermoViscoElastic, pendulums_in_contact};
 
 const ENERGY_TOLERANCE: f64 = 4e-15;
 const ENTROPY_TOLERANCE: f64 = -2.0;
@@ -213,26 +213,7 @@ fn lengths_of_very_different_size_do_not_loosen_the_laws() {
 #[test]
 fn stiff_conduction_converges_and_keeps_the_laws() {
     for conductance in [1e3, 1e4, 1e5, 1e6] {
-        let mut scene = Scene::<2>::new();
-        let pivot = scene.anchor([0.0, 0.0]);
-        let nodes = [
-            scene.mass(1.0, [1.2, 0.0], [0.0, 1.0]),
-            scene.mass(1.0, [2.3, 0.3], [0.0, 0.0]),
-        ];
-        let ends = [[pivot, nodes[0]], [nodes[0], nodes[1]]];
-        let springs = ends.map(|ends| scene.spring(ThermoViscoElastic::PENDULUM, ends));
-        scene.set_temperature(springs[0], 380.0);
-        scene.set_temperature(springs[1], 300.0);
-        scene.conduct(springs[0], springs[1], conductance);
-        let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap();
-        let mut laws = Laws::new(&run);
-        let iterations: usize = (0..100)
-            .map(|_| {
-                let report = run.step().unwrap();
-                laws.watch(&run);
-                report.iterations
-            })
-            .sum();
+        let (iterations, laws) = pendulums_in_contact(Scheme::EemEntropy, 0.1, conductance);
         println!("{conductance:e} W/K: {iterations} iterations, {laws:?}");
         assert!(iterations <= 800);
         assert!(laws.energy <= ENERGY_TOLERANCE * conductance * 0.1 / 1.1);

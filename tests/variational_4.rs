@@ -5,7 +5,10 @@
 mod support;
 
 use eem::prelude::*;
-use support::{DoublePendulum, Hencky, Laws, ThermoViscoElastic, reference, single_pendulum};
+use support::{
+    DoublePendulum, Hencky, Laws, ThermoViscoElastic, pendulums_in_contact, reference,
+    single_pendulum,
+};
 
 const SCHEME: Scheme = Scheme::Variational4;
 
@@ -154,26 +157,7 @@ fn vibrations_are_stable_up_to_the_square_root_of_eight() {
 #[test]
 fn stiff_conduction_converges_and_keeps_momenta_and_the_second_law() {
     for conductance in [1e3, 1e4, 1e5, 1e6] {
-        let mut scene = Scene::<2>::new();
-        let pivot = scene.anchor([0.0, 0.0]);
-        let nodes = [
-            scene.mass(1.0, [1.2, 0.0], [0.0, 1.0]),
-            scene.mass(1.0, [2.3, 0.3], [0.0, 0.0]),
-        ];
-        let ends = [[pivot, nodes[0]], [nodes[0], nodes[1]]];
-        let springs = ends.map(|ends| scene.spring(ThermoViscoElastic::PENDULUM, ends));
-        scene.set_temperature(springs[0], 380.0);
-        scene.set_temperature(springs[1], 300.0);
-        scene.conduct(springs[0], springs[1], conductance);
-        let mut run = Simulation::new(scene, SCHEME, 0.02).unwrap();
-        let mut laws = Laws::new(&run);
-        let iterations: usize = (0..100)
-            .map(|_| {
-                let report = run.step().unwrap();
-                laws.watch(&run);
-                report.iterations
-            })
-            .sum();
+        let (iterations, laws) = pendulums_in_contact(SCHEME, 0.02, conductance);
         println!("{conductance:e} W/K: {iterations} iterations, {laws:?}");
         assert!(iterations <= 600);
         assert_momenta_and_entropy(&laws);

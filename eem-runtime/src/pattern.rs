@@ -92,10 +92,8 @@ impl Pattern {
                     positions.chain(slot.and_then(|slot| layout.coupled[slot]))
                 };
                 let links = slot.map_or(&[][..], |slot| conduction.links(slot));
+                pair_all(own, pair);
                 for row in own() {
-                    own()
-                        .filter(|&column| column < row)
-                        .for_each(|column| pair(row, column));
                     for link in links {
                         if let Partner::Slot(partner) = link.partner
                             && let Some(column) = layout.coupled[partner]
@@ -121,11 +119,7 @@ impl Pattern {
                     let nodes = entry.nodes.iter().filter_map(|&node| layout.nodes[node]);
                     nodes.map(|first| first / dimension)
                 };
-                for row in masses() {
-                    masses()
-                        .filter(|&column| column < row)
-                        .for_each(|column| pair(row, column));
-                }
+                pair_all(masses, pair);
             }
         })
     }
@@ -173,6 +167,15 @@ impl Pattern {
     /// The columns of a row, ascending.
     pub(crate) fn row(&self, row: usize) -> &[u32] {
         &self.columns[self.starts[row]..self.starts[row + 1]]
+    }
+}
+
+/// Names every pair of some unknowns.
+fn pair_all<I: Iterator<Item = usize>>(own: impl Fn() -> I, pair: &mut dyn FnMut(usize, usize)) {
+    for row in own() {
+        own()
+            .filter(|&column| column < row)
+            .for_each(|column| pair(row, column));
     }
 }
 

@@ -91,8 +91,8 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     has_stepped: bool,
     /// Where the next state is written.
     next: State<S>,
-    /// The state between the two parts of a staggered step.
-    between: State<S>,
+    /// The state between the two parts of a step of the staggered scheme.
+    between: Option<State<S>>,
     solver: Solver<S, D>,
 }
 
@@ -178,7 +178,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             step_loads,
             has_stepped: false,
             next: state.clone(),
-            between: state.clone(),
+            between: (scheme == Scheme::Staggered).then(|| state.clone()),
             state,
             solver,
         })
@@ -200,14 +200,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 let solver = &mut staged.solver;
                 return solver.solve(groups, &view, &mut effort, &mut self.next);
             }
-            if self.scheme != Scheme::Staggered {
+            let Some(between) = &mut self.between else {
                 let view = view!(self, Phase::Whole, &self.state);
                 return self.solver.solve(&mut self.groups, &view, &mut self.next);
-            }
+            };
             let view = view!(self, Phase::Mechanics, &self.state);
-            self.solver
-                .solve(&mut self.groups, &view, &mut self.between)?;
-            let view = view!(self, Phase::Heat, &self.between);
+            self.solver.solve(&mut self.groups, &view, between)?;
+            let view = view!(self, Phase::Heat, between);
             self.solver.solve(&mut self.groups, &view, &mut self.next)
         });
         if let Err(failure) = done {

@@ -333,3 +333,27 @@ pub(crate) fn reference(name: &str) -> Vec<Vec<f64>> {
     let row = |line: &str| line.split(',').map(|cell| cell.parse().unwrap()).collect();
     text.lines().skip(1).map(row).collect()
 }
+
+/// A hundred steps of a chain of two thermo-visco-elastic springs that hangs on one end, one hot, with
+/// a conductance (W/K) between them: Newton iterations in all, and the laws.
+pub(crate) fn pendulums_in_contact(scheme: Scheme, step: f64, conductance: f64) -> (usize, Laws) {
+    let mut scene = Scene::<2>::new();
+    let pivot = scene.anchor([0.0, 0.0]);
+    let nodes = [
+        scene.mass(1.0, [1.2, 0.0], [0.0, 1.0]),
+        scene.mass(1.0, [2.3, 0.3], [0.0, 0.0]),
+    ];
+    let ends = [[pivot, nodes[0]], [nodes[0], nodes[1]]];
+    let springs = ends.map(|ends| scene.spring(ThermoViscoElastic::PENDULUM, ends));
+    scene.set_temperature(springs[0], 380.0);
+    scene.set_temperature(springs[1], 300.0);
+    scene.conduct(springs[0], springs[1], conductance);
+    let mut run = Simulation::new(scene, scheme, step).unwrap();
+    let mut laws = Laws::new(&run);
+    let steps = (0..100).map(|_| {
+        let report = run.step().unwrap();
+        laws.watch(&run);
+        report.iterations
+    });
+    (steps.sum(), laws)
+}
