@@ -17,6 +17,9 @@ use growing::{FAMILIES, Family};
 const NODES: [usize; 3] = [100, 300, 1000];
 
 fn main() {
+    for law in [laws::pendulum(), laws::logarithmic_stiffness()] {
+        print_calls(law.name, &law.model);
+    }
     for family in FAMILIES {
         for model in NODES.map(|nodes| member(&family, nodes)) {
             print_size(family.name, &model);
@@ -33,6 +36,26 @@ fn member(family: &Family, nodes: usize) -> Model {
         count += count.div_ceil(16);
     }
     (family.model)(count)
+}
+
+/// Transcendental functions per iteration, beside the calls that differences made from values at
+/// their ends would take at least.
+fn print_calls(name: &str, model: &Model) {
+    let programs = model.programs();
+    let temperature = programs.temperature_form.as_ref();
+    let forms = [
+        ("temperature", temperature),
+        ("entropy", Some(&programs.entropy_form)),
+    ];
+    for (form, program) in forms {
+        let Some(program) = program else { continue };
+        let count = program.transcendental_count();
+        println!(
+            "{name:22} {form:11} form: {} transcendental calls per iteration; from values at the ends \
+             {} at least",
+            count.calls, count.arguments
+        );
+    }
 }
 
 /// Nodes and operations per iteration.
