@@ -13,6 +13,7 @@ mod edge;
 mod elastic;
 mod entropy_form;
 mod latent;
+mod logarithm;
 mod temperature_form;
 
 pub(crate) use elastic::elastic_form;
@@ -122,17 +123,23 @@ impl Step {
         let inputs = self.inputs();
         let mut factoring = Factoring::default();
         let mut outputs = [&form.response[..], &form.tangent].concat();
+        for (logarithm, carried) in self.carried_logarithms(&outputs) {
+            factoring.replace(logarithm, carried);
+        }
         for output in &mut outputs {
             *output = factoring.of(&mut self.graph, *output);
         }
         self.locals
             .redefine(|value| factoring.of(&mut self.graph, value));
-        let schedule = Schedule {
+        self.schedule().program(inputs, &outputs)
+    }
+
+    fn schedule(&self) -> Schedule<'_> {
+        Schedule {
             graph: &self.graph,
             locals: &self.locals,
             parameters: self.parameters.len(),
-        };
-        schedule.program(inputs, &outputs)
+        }
     }
 
     /// `F` at a state.

@@ -13,6 +13,7 @@
 //!   that ln(λ/λ₀) vanishes where λ = λ₀.
 
 mod builder;
+mod dependence;
 mod difference;
 mod locals;
 mod plan;
@@ -20,6 +21,7 @@ mod power;
 mod sharing;
 mod sum;
 
+pub(crate) use dependence::Dependence;
 pub(crate) use locals::Locals;
 
 use crate::graph::Graph;
