@@ -236,6 +236,17 @@ impl Step {
         self.graph.scale(Number::HALF, sum)
     }
 
+    /// The sum of differences along several edges as a local. They are looked through, because they
+    /// have most of their terms in common.
+    fn sum_of(&mut self, values: &[ExprId]) -> ExprId {
+        let values: Vec<_> = values
+            .iter()
+            .map(|&value| self.locals.resolve(&self.graph, value))
+            .collect();
+        let sum = self.graph.sum(&values);
+        self.name(sum)
+    }
+
     /// `x_i¹ − x_i⁰`.
     fn increment(&mut self, i: usize) -> ExprId {
         let (old, new) = (

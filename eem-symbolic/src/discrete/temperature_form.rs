@@ -56,14 +56,12 @@ fn mean(step: &mut Step) -> Star {
     let entropies = states
         .each_ref()
         .map(|y| step.along(step.entropy, last, ends, y));
-    let entropy = step.graph.sum(&entropies);
-    let entropy = step.name(entropy);
+    let entropy = step.sum_of(&entropies);
     // Where nothing depends on the other variables, the heat capacity drops out of the quotient.
     let value = if energies[0] == energies[1] && entropies[0] == entropies[1] {
         step.quotient(energies[0], entropies[0])
     } else {
-        let energy = step.graph.sum(&energies);
-        let energy = step.name(energy);
+        let energy = step.sum_of(&energies);
         step.quotient(energy, entropy)
     };
     let reciprocal = step.reciprocal(entropy);
@@ -99,9 +97,7 @@ impl Pair {
         let states = [mixed(i, &old, &new), mixed(i, &new, &old)];
         let edges = states.map(|state| Latent::new(step, i, ends, &state, star));
         let entropies = edges.each_ref().map(|edge| edge.entropy);
-        let entropies = entropies.map(|value| step.locals.resolve(&step.graph, value));
-        let entropies = step.graph.sum(&entropies);
-        let entropies = step.name(entropies);
+        let entropies = step.sum_of(&entropies);
         Self { edges, entropies }
     }
 
