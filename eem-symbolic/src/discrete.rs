@@ -232,8 +232,9 @@ impl Step {
             return *a;
         }
         let sum = self.graph.sum(terms);
-        let sum = self.name(sum);
-        self.graph.scale(Number::HALF, sum)
+        let (coefficient, term) = self.graph.as_scaled(sum).unwrap_or((Number::ONE, sum));
+        let term = self.name(term);
+        self.graph.scale(coefficient * Number::HALF, term)
     }
 
     /// The sum of differences along several edges as a local. They are looked through, because they

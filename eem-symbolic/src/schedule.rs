@@ -151,7 +151,7 @@ impl Schedule<'_> {
             Node::Variable(symbol) => builder.input(*symbol),
             Node::Power(base, exponent) => builder.power(*base, *exponent),
             Node::Apply(function, x) => builder.apply(*function, *x),
-            Node::PairSum(a, b) => builder.pair_sum(*a, *b),
+            Node::PairSum(a, b) => return builder.pair_sum(*a, *b),
             Node::DividedDifference(kernel, a, b) => {
                 return builder.divided_difference(*kernel, *a, *b);
             }

@@ -58,12 +58,20 @@ fn mean(step: &mut Step) -> Star {
         .map(|y| step.along(step.entropy, last, ends, y));
     let entropy = step.sum_of(&entropies);
     // Where nothing depends on the other variables, the heat capacity drops out of the quotient.
-    let value = if energies[0] == energies[1] && entropies[0] == entropies[1] {
-        step.quotient(energies[0], entropies[0])
-    } else {
-        let energy = step.sum_of(&energies);
-        step.quotient(energy, entropy)
-    };
+    if energies[0] == energies[1] && entropies[0] == entropies[1] {
+        let value = step.quotient(energies[0], entropies[0]);
+        let partials = step.new.clone().into_iter().map(|symbol| {
+            let partial = step.partial(value, symbol);
+            step.name(partial)
+        });
+        return Star {
+            partials: partials.collect(),
+            value,
+            entropy,
+        };
+    }
+    let energy = step.sum_of(&energies);
+    let value = step.quotient(energy, entropy);
     let reciprocal = step.reciprocal(entropy);
     let mut partials = Vec::new();
     for symbol in step.new.clone() {
