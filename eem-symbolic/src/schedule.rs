@@ -10,7 +10,8 @@
 //! * The programs of a [`Model`](crate::Model) take the freedom that rounding leaves: what depends
 //!   on parameters alone comes first, operands that many products or sums have in common next, and
 //!   quotients are products with shared reciprocals. Arguments of functions are still divided, so
-//!   that ln(λ/λ₀) vanishes where λ = λ₀.
+//!   that ln(λ/λ₀) vanishes where λ = λ₀. In the end functions come first, so that few values have
+//!   to outlive a call.
 
 mod builder;
 mod dependence;
@@ -80,7 +81,7 @@ impl Schedule<'_> {
         let plan = Plan::new(self, &new, outputs);
         let mut builder = Builder::new(self, inputs);
         builder.plan = Some(plan);
-        self.emit_all(builder, outputs)
+        self.emit_all(builder, outputs).functions_first()
     }
 
     fn emit_all(&self, mut builder: Builder<'_>, outputs: &[ExprId]) -> Program {

@@ -121,7 +121,8 @@ fn caloric_at(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
         let statements = Statements {
             program,
             scalar,
-            input: &|index| inputs.at_temperature(index),
+            input: Box::new(|index| inputs.at_temperature(index)),
+            hoisted: &[],
         };
         statements.lets(|_, instruction| instruction.stage == stage)
     };
@@ -192,7 +193,8 @@ fn viscosity(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
     let lets = Statements {
         program,
         scalar,
-        input: &|index| inputs.viscosity(index),
+        input: Box::new(|index| inputs.viscosity(index)),
+            hoisted: &[],
     }
     .lets(|_, _| true);
     let outputs: Vec<_> = program
@@ -220,7 +222,8 @@ fn lets(program: &Program, inputs: &Inputs) -> TokenStream {
     Statements {
         program,
         scalar: &inputs.scalar,
-        input: &|index| inputs.point(index),
+        input: Box::new(|index| inputs.point(index)),
+            hoisted: &[],
     }
     .lets(|_, _| true)
 }

@@ -19,7 +19,7 @@ const CLOSE: f64 = 0.2;
 )]
 #[inline(always)]
 pub fn ln_dds<S: Scalar>(a: S, b: S) -> Differences<S> {
-    differences(a + half(b - a), [a, b], [a, b])
+    differences(a + half(b - a), S::zero(), [a, b], [a, b])
 }
 
 /// All differences of `ln(1 + x)`: [`ln_1p_dd`] and both [`ln_1p_dd2`].
@@ -35,7 +35,7 @@ pub fn ln_dds<S: Scalar>(a: S, b: S) -> Differences<S> {
 #[inline(always)]
 pub fn ln_1p_dds<S: Scalar>(a: S, b: S) -> Differences<S> {
     let mean = S::one() + a.minimum(b) + half(b - a).abs();
-    differences(mean, [S::one() + a, S::one() + b], [a, b])
+    differences(mean, S::one(), [S::one() + a, S::one() + b], [a, b])
 }
 
 /// `f[a,b]` of the natural logarithm, for `a, b > 0`; of `ln |x|` if both are negative.
@@ -158,23 +158,23 @@ pub fn log10_dd2<S: Scalar>(a: S, b: S) -> S {
     reason = "what the caller does not use must not be computed"
 )]
 #[inline(always)]
-fn differences<S: Scalar>(mean: S, [u, v]: [S; 2], [a, b]: [S; 2]) -> Differences<S> {
+fn differences<S: Scalar>(mean: S, c: S, [u, v]: [S; 2], [a, b]: [S; 2]) -> Differences<S> {
     let inverse = mean.recip();
     let z = half(b - a) * inverse;
     let tail = z * area_tangent_tail(z * z);
     let [shift, weight] = [inverse * tail, -half(inverse)];
     let near = z.abs().less(S::from_f64(CLOSE));
     Differences {
-        first: S::branch(near, || inverse + z * shift, || distant([u, v], [a, b])),
+        first: S::branch(near, || inverse + z * shift, move || distant(c, a, b)),
         second_a: S::branch(
             near,
             || weight * (u.recip() - shift),
-            || distant_second([v, u], [b, a]),
+            move || distant_second(c, b, a),
         ),
         second_b: S::branch(
             near,
             || weight * (v.recip() + shift),
-            || distant_second([u, v], [a, b]),
+            move || distant_second(c, a, b),
         ),
     }
 }
@@ -182,13 +182,13 @@ fn differences<S: Scalar>(mean: S, [u, v]: [S; 2], [a, b]: [S; 2]) -> Difference
 /// `ln[a,b]` of ends of a large ratio.
 #[cold]
 #[inline(never)]
-fn distant<S: Scalar>([u, v]: [S; 2], [a, b]: [S; 2]) -> S {
-    log_difference((b - a).abs(), u.minimum(v))
+fn distant<S: Scalar>(c: S, a: S, b: S) -> S {
+    log_difference((b - a).abs(), c + a.minimum(b))
 }
 
 /// `ln[a,b,b]` of ends of a large ratio.
 #[cold]
 #[inline(never)]
-fn distant_second<S: Scalar>(shifted: [S; 2], [a, b]: [S; 2]) -> S {
-    by_definition(shifted[1].recip(), distant(shifted, [a, b]), a, b)
+fn distant_second<S: Scalar>(c: S, a: S, b: S) -> S {
+    by_definition((c + b).recip(), distant(c, a, b), a, b)
 }
