@@ -149,8 +149,8 @@ fn response(program: &Program, inputs: &Inputs) -> TokenStream {
     let needed = program.needed_by(outputs);
     let hoisted = program.hoisted();
     let statements = statements(program, inputs, &hoisted);
-    let lets = statements
-        .lets(|index, instruction| instruction.stage == Stage::New && needed[index]);
+    let lets =
+        statements.lets(|index, instruction| instruction.stage == Stage::New && needed[index]);
     let outputs = outputs.iter().map(|&output| statements.read(output));
     quote! {
         #lets
@@ -158,7 +158,11 @@ fn response(program: &Program, inputs: &Inputs) -> TokenStream {
     }
 }
 
-fn statements<'p>(program: &'p Program, inputs: &'p Inputs, hoisted: &'p [Value]) -> Statements<'p> {
+fn statements<'p>(
+    program: &'p Program,
+    inputs: &'p Inputs,
+    hoisted: &'p [Value],
+) -> Statements<'p> {
     Statements {
         program,
         scalar: &inputs.scalar,

@@ -194,7 +194,7 @@ fn viscosity(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
         program,
         scalar,
         input: Box::new(|index| inputs.viscosity(index)),
-            hoisted: &[],
+        hoisted: &[],
     }
     .lets(|_, _| true);
     let outputs: Vec<_> = program
@@ -223,7 +223,7 @@ fn lets(program: &Program, inputs: &Inputs) -> TokenStream {
         program,
         scalar: &inputs.scalar,
         input: Box::new(|index| inputs.point(index)),
-            hoisted: &[],
+        hoisted: &[],
     }
     .lets(|_, _| true)
 }

@@ -54,8 +54,9 @@ impl Latent {
         }
     }
 
-    /// `ψ[…]` and `(θ − θ̄) S[…]`.
+    /// `ψ[…]` and `(θ − θ̄) S[…]`, looked through: they have most of their factors in common.
     pub(super) fn value(&self, step: &mut Step) -> [ExprId; 2] {
+        let psi = step.locals.resolve(&step.graph, self.psi);
         let latent = match &self.gap {
             Some(gap) => {
                 let entropy = step.locals.resolve(&step.graph, self.entropy);
@@ -63,7 +64,7 @@ impl Latent {
             }
             None => step.graph.number(Number::ZERO),
         };
-        [self.psi, latent]
+        [psi, latent]
     }
 
     /// The derivative of the sum with respect to a symbol while θ̄ is kept, as terms.

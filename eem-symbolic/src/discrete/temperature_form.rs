@@ -111,13 +111,7 @@ impl Pair {
 
     fn value(&self, step: &mut Step) -> ExprId {
         let [first, second] = self.edges.each_ref().map(|edge| edge.value(step));
-        // Looked through: the two edges have most of their terms in common.
-        let terms = [first, second].concat();
-        let terms: Vec<_> = terms
-            .into_iter()
-            .map(|term| step.locals.resolve(&step.graph, term))
-            .collect();
-        step.half(&terms)
+        step.half(&[first, second].concat())
     }
 
     /// The derivative with respect to `x_j¹`, where θ* changes by `change`.

@@ -54,7 +54,8 @@ impl<'s> Dependence<'s> {
             let operands = schedule.operands(e);
             if operands_done {
                 let mut dependent = operands.iter().any(|&operand| self.on(operand));
-                if let (Node::Variable(symbol), true) = (schedule.graph.node(e), operands.is_empty())
+                if let (Node::Variable(symbol), true) =
+                    (schedule.graph.node(e), operands.is_empty())
                 {
                     dependent = self.symbols.contains(symbol);
                 }

@@ -144,9 +144,8 @@ impl Plan {
         if !dependence.on(e) || self.products.lists.contains_key(&key) {
             return;
         }
-        let (new, old): (Vec<_>, Vec<_>) = factors
-            .iter()
-            .partition(|(base, _)| dependence.on(*base));
+        let (new, old): (Vec<_>, Vec<_>) =
+            factors.iter().partition(|(base, _)| dependence.on(*base));
         let mut entries = Vec::with_capacity(new.len() + 1);
         if !old.is_empty() || coefficient != Number::ONE {
             let hoisted = Factor::Hoisted(coefficient, old);
@@ -171,8 +170,7 @@ impl Plan {
         if !dependence.on(e) {
             return;
         }
-        let (new, old): (Vec<_>, Vec<_>) =
-            terms.iter().partition(|(_, term)| dependence.on(*term));
+        let (new, old): (Vec<_>, Vec<_>) = terms.iter().partition(|(_, term)| dependence.on(*term));
         let mut entries = Vec::with_capacity(new.len() + 1);
         let mut single = Vec::new();
         if let ([term], true) = (&old[..], constant.is_zero()) {
