@@ -2,7 +2,7 @@
 //!
 //! Each removes one removable singularity. Where the library function is
 //! already right for tiny arguments (`ln_1p`, `exp_m1`, `sin`), only 0/0 is
-//! caught; where a difference would cancel, a Taylor sum of fixed length
+//! caught; where a difference would cancel, a polynomial of fixed length
 //! takes over for |x| < 1, where its remainder is below 2⁻⁵⁷ of the value.
 
 use crate::scalar::Scalar;

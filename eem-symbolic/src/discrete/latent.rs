@@ -82,6 +82,8 @@ impl Latent {
     }
 }
 
+/// `factor · sum`, multiplied out: the factors of the terms are common to response and tangent, the
+/// sum is not.
 fn distribute(step: &mut Step, factor: ExprId, sum: ExprId) -> ExprId {
     let Node::Sum { constant, terms } = step.graph.node(sum).clone() else {
         return step.graph.mul(factor, sum);
