@@ -29,7 +29,7 @@ pub(crate) use eem_temperature::EemTemperature;
 pub(crate) use midpoint::Midpoint;
 pub(crate) use midpoint_temperature::MidpointTemperature;
 pub(crate) use staggered::Phase;
-pub(crate) use temperature::temperature_at;
+pub(crate) use temperature::{temperature_and_energy_at, temperature_at};
 pub(crate) use trapezoidal::Trapezoidal;
 pub(crate) use trapezoidal_temperature::TrapezoidalTemperature;
 pub(crate) use variational::Variational;

@@ -150,7 +150,11 @@ where
 
     /// The free energy is finite.
     pub(super) fn check_energy(&self, x: &M::Variables) -> Result<(), StateError> {
-        let psi = self.model.free_energy(x);
+        self.unless_infinite(self.model.free_energy(x))
+    }
+
+    /// See [`check_energy`](Self::check_energy).
+    pub(super) fn unless_infinite(&self, psi: S) -> Result<(), StateError> {
         if psi.is_finite() {
             return Ok(());
         }

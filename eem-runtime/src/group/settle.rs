@@ -8,7 +8,7 @@ use crate::error::StateError;
 use crate::free_energy::{Array, Caloric, FreeEnergy};
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
-use crate::scheme::{ElementScheme, Infeasible, Placement, temperature_at};
+use crate::scheme::{ElementScheme, Infeasible, Placement, temperature_and_energy_at};
 use crate::state::State;
 
 impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
@@ -78,12 +78,11 @@ where
         if let (false, None) = (C::IN_TEMPERATURE, prescribed) {
             // The trial is nearly right: one evaluation is enough, as a rule.
             let entropy = state.entropies.values()[slot];
-            let theta = temperature_at(&self.model, x, entropy, near)
+            let (theta, psi) = temperature_and_energy_at(&self.model, x, entropy, near)
                 .map_err(|infeasible| infeasible.of(self.element))?;
             check_temperature(self.element, theta)?;
             state.temperatures[slot] = theta;
-            x[Self::TEMPERATURE] = theta;
-            self.check_energy(&x)?;
+            self.unless_infinite(psi)?;
             return Ok(None);
         }
         let old = view.state.temperatures[slot];
