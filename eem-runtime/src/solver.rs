@@ -2,33 +2,34 @@
 
 mod begin;
 mod closing;
+mod effort;
 mod iteration;
 mod linearize;
+mod motion;
 mod places;
 mod stages;
 
 use crate::conduction::Conduction;
-use crate::error::{NewtonIteration, StateError, StepFailure};
-use crate::group::{Group, Sites, StepView, Trial, points};
+use crate::error::{StateError, StepFailure};
+use crate::group::{Group, Sites, StepView, Trial};
 use crate::layout::Layout;
-use crate::newton::{NewtonSettings, is_last};
+use crate::newton::is_last;
 use crate::pattern::Pattern;
 use crate::scalar::Real;
 use crate::scene::ElementEntry;
-use crate::scheme::Scheme;
+use crate::scheme::{Closing, Scheme};
 use crate::state::State;
 use crate::system::LinearSystem;
-use places::{MovingNode, Seen, moving, seen};
-pub(crate) use stages::{Effort, Staged};
+pub(crate) use effort::{Effort, Iteration};
+use motion::{Glance, Motion};
+use places::{moving, seen};
+pub(crate) use stages::Staged;
 
 /// How often an update is halved to bring all elements back to admissible states.
 const HALVINGS: u32 = 30;
 
 /// Parts of a step through which a solution is followed when it is not found at once.
 const STAGES: u8 = 8;
-
-/// Iterations for which memory is kept; settings that ask for more allocate when they get there.
-const LONGEST_HISTORY: usize = 4096;
 
 /// An update whose square is below this many ε leaves nothing to correct: it is applied to the
 /// forces through the tangent. What that leaves out, the square times a curvature of the order of
@@ -38,49 +39,26 @@ const NEGLIGIBLE: f64 = 1.0 / 1024.0;
 /// Working memory of a step; nothing in it outlives the step.
 #[derive(Debug)]
 pub(crate) struct Solver<S, const D: usize> {
-    pub(crate) settings: NewtonSettings<S>,
     scheme: Scheme,
-    /// The nodes that move.
-    masses: Vec<MovingNode<S, D>>,
-    /// The rows of the temperatures that neighbours see, and their thermal slots.
-    seen: Vec<Seen>,
+    /// The nodes that move, in the order of their unknowns.
+    nodes: Vec<Motion<S, D>>,
+    /// Those that do not move by themselves.
+    anchors: Vec<usize>,
+    /// The temperatures that neighbours see.
+    seen: Vec<Glance<S>>,
     /// The system of an iteration.
     tangent: LinearSystem<S, 1>,
-    /// The system that closes a step.
-    secant: LinearSystem<S, D>,
+    /// The system that closes a step, if the scheme closes it by one.
+    secant: Option<LinearSystem<S, D>>,
     trial: Trial<S, D>,
-    /// Displacements and seen temperatures before the last update, and the update.
-    previous: (Vec<[S; D]>, Vec<S>),
-    correction: (Vec<[S; D]>, Vec<S>),
     /// The part of the nodal forces that the old state decides, N.
     old_force: Vec<[S; D]>,
+    /// The impulse of the found forces, N s.
     impulse: Vec<[S; D]>,
-    /// The reciprocal of the unit of length of each node: its shortest element in the old state;
-    /// 1 m without.
-    per_length: Vec<S>,
+    /// The unit of length of each node: its shortest element in the old state, m.
+    lengths: Vec<S>,
     /// What kept the last update from being applied in full.
     obstacle: Option<StateError>,
-    /// What each iteration did.
-    pub(crate) history: Vec<Iteration<S>>,
-}
-
-/// One iteration of Newton's method.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Iteration<S> {
-    /// The largest momentum residual before the update, N s.
-    pub(crate) residual: S,
-    /// The largest scaled update.
-    pub(crate) update: S,
-}
-
-impl<S: Real> Iteration<S> {
-    /// The same in double precision.
-    pub(crate) fn to_f64(self) -> NewtonIteration {
-        NewtonIteration {
-            residual: self.residual.to_f64(),
-            update: self.update.to_f64(),
-        }
-    }
 }
 
 impl<S: Real, const D: usize> Solver<S, D> {
@@ -93,36 +71,43 @@ impl<S: Real, const D: usize> Solver<S, D> {
     ) -> Self {
         let pattern = Pattern::of_tangent(elements, layout, conduction, D);
         let tangent = LinearSystem::new(&pattern, D);
-        let secant = LinearSystem::new(&Pattern::of_secant(elements, layout, D), 1);
+        let secant = (scheme.closing() == Closing::Secant)
+            .then(|| LinearSystem::new(&Pattern::of_secant(elements, layout, D), 1));
         let sites = Sites {
             layout,
             conduction,
             tangent: &tangent,
-            secant: &secant,
+            secant: secant.as_ref(),
             shift: [0; 2],
         };
-        let (moving, seen) = (moving(masses, &sites), seen(&sites));
+        let nodes = moving(masses, &sites).into_iter().map(Motion::new);
+        let nodes = nodes.collect();
+        let seen: Vec<_> = seen(&sites).into_iter().map(Glance::new).collect();
+        let anchors = masses.iter().enumerate();
+        let anchors = anchors.filter_map(|(node, mass)| mass.is_none().then_some(node));
         let points = vec![[S::zero(); D]; masses.len()];
-        let temperatures = vec![S::zero(); layout.coupled.len()];
+        // Nobody asks for any unless some are seen.
+        let slots = if seen.is_empty() {
+            0
+        } else {
+            layout.coupled.len()
+        };
         Self {
-            settings: NewtonSettings::default(),
             scheme,
-            masses: moving,
+            nodes,
+            anchors: anchors.collect(),
             seen,
             tangent,
             secant,
             trial: Trial {
                 displacements: points.clone(),
                 positions: points.clone(),
-                seen_temperatures: temperatures.clone(),
+                seen_temperatures: vec![S::zero(); slots],
             },
-            previous: (points.clone(), temperatures.clone()),
-            correction: (points.clone(), temperatures),
             old_force: points.clone(),
             impulse: points,
-            per_length: vec![S::one(); masses.len()],
+            lengths: vec![S::one(); masses.len()],
             obstacle: None,
-            history: Vec::new(),
         }
     }
 
@@ -136,18 +121,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
             layout,
             conduction,
             tangent: &self.tangent,
-            secant: &self.secant,
+            secant: self.secant.as_ref(),
             shift: [0; 2],
         }
-    }
-
-    /// Forgets the last step.
-    pub(crate) fn restart(&mut self) {
-        // Two parts of a staggered step, each followed through all stages at worst.
-        let parts = 2 * usize::from(STAGES + 1);
-        let most = self.settings.max_iterations.saturating_mul(parts);
-        self.history.clear();
-        self.history.reserve(most.min(LONGEST_HISTORY));
     }
 
     /// The state after the step, or after the part of it that the view names.
@@ -155,9 +131,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
+        effort: &mut Effort<S>,
         next: &mut State<S>,
     ) -> Result<(), StepFailure> {
-        self.iterate(groups, view)?;
+        self.iterate(groups, view, effort)?;
         self.close(groups, view, next)
     }
 
@@ -169,29 +146,33 @@ impl<S: Real, const D: usize> Solver<S, D> {
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
+        effort: &mut Effort<S>,
     ) -> Result<(), StepFailure> {
-        let failure = match self.start_and_converge(groups, view) {
+        let failure = match self.start_and_converge(groups, view, effort) {
             Err(failure) if self.scheme.follows_its_solution() => failure,
             done => return done,
         };
-        self.follow(groups, view).map_err(|_| failure)
+        self.follow(groups, view, effort).map_err(|_| failure)
     }
 
     fn start_and_converge(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
+        effort: &mut Effort<S>,
     ) -> Result<(), StepFailure> {
         self.begin(groups, view)?;
         let share = self.advance(groups, view, Look::On)?;
-        self.converge(groups, view, share)
+        self.converge(groups, view, share, effort)
     }
 
     /// The solution for growing parts of the step, each starting from the one before.
+    #[cold]
     fn follow(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
+        effort: &mut Effort<S>,
     ) -> Result<(), StepFailure> {
         let number = |stage: u8| S::from_f64(f64::from(stage));
         let mut before = None;
@@ -201,30 +182,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 ..*view
             };
             match before {
-                None => self.start_and_converge(groups, &part)?,
+                None => self.start_and_converge(groups, &part, effort)?,
                 Some(before) => {
-                    self.extrapolate(groups, stage / before);
+                    self.extrapolate(groups, &part, stage / before);
                     let share = self.advance(groups, &part, Look::On)?;
-                    self.converge(groups, &part, share)?;
+                    self.converge(groups, &part, share, effort)?;
                 }
             }
             before = Some(stage);
         }
         Ok(())
-    }
-
-    /// Makes displacements larger by a factor and leaves everything else.
-    fn extrapolate(&mut self, groups: &mut [Box<dyn Group<S, D>>], factor: S) {
-        self.remember();
-        for mass in &self.masses {
-            let growth = factor - S::one();
-            let moved = self.previous.0[mass.node];
-            self.correction.0[mass.node] = moved.map(|component| growth * component);
-        }
-        self.correction.1.fill(S::zero());
-        for group in groups {
-            group.hold();
-        }
     }
 
     /// Newton's method from the trial state, which was reached by the given share of a correction.
@@ -233,22 +200,22 @@ impl<S: Real, const D: usize> Solver<S, D> {
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
         mut share: S,
+        effort: &mut Effort<S>,
     ) -> Result<(), StepFailure> {
         let mut before = None;
-        for _ in 0..self.settings.max_iterations {
-            let residual = self.balance(view);
+        for _ in 0..effort.settings.max_iterations {
+            let residual = self.residual();
             let solved = self.tangent.solve();
             solved.map_err(|_| StepFailure::SingularTangent)?;
             let update = self.correct(groups, view);
-            self.history.push(Iteration { residual, update });
+            effort.history.push(Iteration { residual, update });
             if !update.is_finite() {
                 break;
             }
             let full = share == S::one();
             let before = before.replace(update).filter(|_| full);
-            let is_last = is_last(update, before, self.settings.tolerance);
+            let is_last = is_last(update, before, effort.settings.tolerance);
             if is_last && update * update <= S::from_f64(NEGLIGIBLE) * S::EPSILON {
-                self.apply(S::one(), view);
                 for group in groups.iter_mut() {
                     group.extrapolate();
                 }
@@ -268,15 +235,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         })
     }
 
-    fn remember(&mut self) {
-        self.previous.0.copy_from_slice(&self.trial.displacements);
-        self.previous
-            .1
-            .copy_from_slice(&self.trial.seen_temperatures);
-    }
-
-    /// Applies the correction, or as much of it as leaves every element in an admissible state, and
-    /// evaluates there. Returns the share that was applied.
+    /// Evaluates at the trial state, to which the correction has been applied, or as much of it as
+    /// leaves every element in an admissible state. Returns that share.
     fn advance(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
@@ -287,7 +247,6 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let mut halvings = 0;
         self.obstacle = None;
         loop {
-            self.apply(share, view);
             for group in groups.iter_mut() {
                 group.apply(share);
             }
@@ -299,6 +258,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                     self.obstacle = Some(error);
                     share *= S::from_f64(0.5);
                     halvings += 1;
+                    self.apply(share, view);
                 }
             }
         }
@@ -311,34 +271,15 @@ impl<S: Real, const D: usize> Solver<S, D> {
         view: &StepView<'_, S>,
         goes_on: bool,
     ) -> Result<(), StateError> {
+        if goes_on {
+            self.balance();
+        }
         let trial = &self.trial;
-        if !goes_on {
-            let mut groups = groups.iter_mut();
-            return groups.try_for_each(|group| group.evaluate(view, trial, None));
+        for group in groups {
+            let system = goes_on.then_some(&mut self.tangent);
+            group.evaluate(view, trial, system)?;
         }
-        self.tangent.clear();
-        let system = &mut self.tangent;
-        let mut groups = groups.iter_mut();
-        groups.try_for_each(|group| group.evaluate(view, trial, Some(system)))
-    }
-
-    /// The trial a share of the correction away from where it was.
-    fn apply(&mut self, share: S, view: &StepView<'_, S>) {
-        let trial = &mut self.trial;
-        let old = points::<S, D>(view.state.positions.values());
-        for mass in &self.masses {
-            let node = mass.node;
-            let (from, by) = (&self.previous.0[node], &self.correction.0[node]);
-            for axis in 0..D {
-                let displacement = from[axis] + share * by[axis];
-                trial.displacements[node][axis] = displacement;
-                trial.positions[node][axis] = old[node][axis] + displacement;
-            }
-        }
-        for seen in &self.seen {
-            let from = self.previous.1[seen.slot];
-            trial.seen_temperatures[seen.slot] = from + share * self.correction.1[seen.slot];
-        }
+        Ok(())
     }
 }
 

@@ -78,6 +78,16 @@ impl Forecast {
             Self::Linear => last + last - before,
         }
     }
+
+    /// The same as weights of the two forces.
+    pub(crate) fn weights<S: Real>(self) -> [S; 2] {
+        match self {
+            Self::Nothing => [0.0, 0.0],
+            Self::Constant => [1.0, 0.0],
+            Self::Linear => [2.0, -1.0],
+        }
+        .map(S::from_f64)
+    }
 }
 
 impl<S: Real> Past<S> {

@@ -147,6 +147,11 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         }
     }
 
+    /// Number of unknowns.
+    pub(crate) fn unknowns(&self) -> usize {
+        self.unknowns
+    }
+
     /// The place of a row of B: the place that nobody reads for no unknown.
     pub(crate) fn row(&self, unknown: Option<usize>) -> usize {
         unknown.unwrap_or(self.unknowns)

@@ -2,7 +2,8 @@
 //!
 //! Row by row: what lies above has been divided by its pivots, so that a row is finished, from loading it
 //! to its own division, without being stored in between. The pivot of a row is its diagonal entry
-//! wherever that is not small beside the others; otherwise the unknowns change places.
+//! as long as that is not small beside the others; from the first row on where it is, the unknowns change
+//! places.
 
 use core::array;
 
@@ -24,94 +25,127 @@ pub(crate) fn solve_fixed<S: Real, const N: usize, const W: usize>(
     let [b, ..] = b.as_chunks_mut::<N>().0 else {
         return Err(Singular);
     };
-    let mut system = System { a, b, order: None };
-    // One by one: the compiler does not unroll loops in loops, and so keeps a row in registers.
-    system.eliminate::<0>()?;
-    system.eliminate::<1>()?;
-    system.eliminate::<2>()?;
-    system.eliminate::<3>()?;
-    system.eliminate::<4>()?;
-    system.eliminate::<5>()?;
-    system.eliminate::<6>()?;
-    system.eliminate::<7>()?;
-    system.eliminate::<8>()?;
-    system.eliminate::<9>()?;
-    system.eliminate::<10>()?;
-    system.eliminate::<11>()?;
-    system.substitute();
-    if let Some(order) = system.order {
-        restore(&order, system.b);
+    // An exchange does not come back: what it changes would have to be loaded again.
+    match eliminate(a, b) {
+        Ok(()) => substitute(a, b),
+        Err(row) => exchange_from(row, a, b)?,
     }
     Ok(())
 }
 
-/// `A x = b`, on the way from A to its upper factor, whose diagonal is one, and from b to x.
-struct System<'a, S, const N: usize, const W: usize> {
-    a: &'a mut [[S; N]; N],
-    b: &'a mut [[S; W]; N],
-    /// The unknown of each column, once some have changed places.
-    order: Option<[usize; N]>,
+/// From A to its upper factor, whose diagonal is one; the first row without a good pivot, if there is one.
+#[inline]
+fn eliminate<S: Real, const N: usize, const W: usize>(
+    a: &mut [[S; N]; N],
+    b: &mut [[S; W]; N],
+) -> Result<(), usize> {
+    // One by one: the compiler does not unroll loops in loops, and so keeps rows in registers.
+    eliminate_row::<S, 0, N, W>(a, b)?;
+    eliminate_row::<S, 1, N, W>(a, b)?;
+    eliminate_row::<S, 2, N, W>(a, b)?;
+    eliminate_row::<S, 3, N, W>(a, b)?;
+    eliminate_row::<S, 4, N, W>(a, b)?;
+    eliminate_row::<S, 5, N, W>(a, b)?;
+    eliminate_row::<S, 6, N, W>(a, b)?;
+    eliminate_row::<S, 7, N, W>(a, b)?;
+    eliminate_row::<S, 8, N, W>(a, b)?;
+    eliminate_row::<S, 9, N, W>(a, b)?;
+    eliminate_row::<S, 10, N, W>(a, b)?;
+    eliminate_row::<S, 11, N, W>(a, b)?;
+    Ok(())
 }
 
-impl<S: Real, const N: usize, const W: usize> System<'_, S, N, W> {
-    /// Subtracts from row `I` what eliminates its entries before the diagonal, and divides by its pivot.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "for this the row is a constant")]
-    fn eliminate<const I: usize>(&mut self) -> Result<(), Singular> {
-        if I >= N {
-            return Ok(());
-        }
-        let (mut row, mut right) = (self.a[I], self.b[I]);
-        for k in 0..I {
-            let factor = row[k];
-            let first = even(k + 1);
-            subtract(&mut row[first..], factor, &self.a[k][first..]);
-            subtract(&mut right, factor, &self.b[k]);
-        }
-        if !dominates(&row, I) {
-            row = self.exchange(row, I)?;
-        }
-        let inverse = row[I].recip();
-        let first = even(I + 1);
-        for (entry, &value) in self.a[I][first..].iter_mut().zip(&row[first..]) {
-            *entry = value * inverse;
-        }
-        self.b[I] = right.map(|value| value * inverse);
-        Ok(())
+/// Subtracts from row `I` what eliminates its entries before the diagonal, and divides by its diagonal
+/// entry; nothing if that is no good pivot.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "for this the row is a constant")]
+fn eliminate_row<S: Real, const I: usize, const N: usize, const W: usize>(
+    a: &mut [[S; N]; N],
+    b: &mut [[S; W]; N],
+) -> Result<(), usize> {
+    if I >= N {
+        return Ok(());
     }
-
-    /// Makes the largest entry of a row, on the diagonal or behind it, its pivot: two unknowns change
-    /// places.
-    #[cold]
-    #[inline(never)]
-    fn exchange(&mut self, mut row: [S; N], diagonal: usize) -> Result<[S; N], Singular> {
-        let (mut pivot, mut size) = (diagonal, row[diagonal].abs());
-        for (column, entry) in row.iter().enumerate().skip(diagonal + 1) {
-            if entry.abs() > size {
-                (pivot, size) = (column, entry.abs());
-            }
-        }
-        if !size.is_finite() || size == S::zero() {
-            return Err(Singular);
-        }
-        row.swap(diagonal, pivot);
-        for other in self.a.iter_mut() {
-            other.swap(diagonal, pivot);
-        }
-        let order = self.order.get_or_insert_with(|| array::from_fn(|at| at));
-        order.swap(diagonal, pivot);
-        Ok(row)
+    let (mut row, mut right) = (a[I], b[I]);
+    for k in 0..I {
+        let factor = row[k];
+        let first = even(k + 1);
+        subtract(&mut row[first..], factor, &a[k][first..]);
+        subtract(&mut right, factor, &b[k]);
     }
+    if !dominates(&row, I) {
+        return Err(I);
+    }
+    let inverse = row[I].recip();
+    let first = even(I + 1);
+    for (entry, &value) in a[I][first..].iter_mut().zip(&row[first..]) {
+        *entry = value * inverse;
+    }
+    b[I] = right.map(|value| value * inverse);
+    Ok(())
+}
 
-    /// From the upper factor to the solution.
-    #[inline]
-    fn substitute(&mut self) {
-        for row in (0..N).rev() {
-            let (head, known) = self.b.split_at_mut(row + 1);
-            // The latest is the last to be waited for.
-            for (known, &factor) in known.iter().zip(&self.a[row][row + 1..]).rev() {
-                subtract(&mut head[row], factor, known);
-            }
+/// Does the rest, from row `first` on, with the largest entry of each row for its pivot: where that is not
+/// on the diagonal, two unknowns change places.
+#[cold]
+#[inline(never)]
+fn exchange_from<S: Real, const N: usize, const W: usize>(
+    first: usize,
+    a: &mut [[S; N]; N],
+    b: &mut [[S; W]; N],
+) -> Result<(), Singular> {
+    let mut order: [usize; N] = array::from_fn(|at| at);
+    for at in first..N {
+        for k in 0..at {
+            let factor = a[at][k];
+            let (above, below) = a.split_at_mut(at);
+            subtract(&mut below[0][k + 1..], factor, &above[k][k + 1..]);
+            let (above, below) = b.split_at_mut(at);
+            subtract(&mut below[0], factor, &above[k]);
+        }
+        let pivot = largest_behind(&a[at], at)?;
+        for row in a.iter_mut() {
+            row.swap(at, pivot);
+        }
+        order.swap(at, pivot);
+        let inverse = a[at][at].recip();
+        a[at] = a[at].map(|value| value * inverse);
+        b[at] = b[at].map(|value| value * inverse);
+    }
+    substitute(a, b);
+    let found = *b;
+    for (&unknown, value) in order.iter().zip(found) {
+        b[unknown] = value;
+    }
+    Ok(())
+}
+
+/// The column of the largest entry of a row, on the diagonal or behind it.
+fn largest_behind<S: Real, const N: usize>(
+    row: &[S; N],
+    diagonal: usize,
+) -> Result<usize, Singular> {
+    let (mut pivot, mut size) = (diagonal, row[diagonal].abs());
+    for (column, entry) in row.iter().enumerate().skip(diagonal + 1) {
+        if entry.abs() > size {
+            (pivot, size) = (column, entry.abs());
+        }
+    }
+    if size.is_finite() && size > S::zero() {
+        Ok(pivot)
+    } else {
+        Err(Singular)
+    }
+}
+
+/// From the upper factor, whose diagonal is one, to the solution.
+#[inline]
+fn substitute<S: Real, const N: usize, const W: usize>(a: &[[S; N]; N], b: &mut [[S; W]; N]) {
+    for (row, entries) in a.iter().enumerate().rev() {
+        let (head, known) = b.split_at_mut(row + 1);
+        // The latest is the last to be waited for.
+        for (known, &factor) in known.iter().zip(&entries[row + 1..]).rev() {
+            subtract(&mut head[row], factor, known);
         }
     }
 }
@@ -131,16 +165,6 @@ fn dominates<S: Real, const N: usize>(row: &[S; N], diagonal: usize) -> bool {
     let own = row[diagonal] * row[diagonal];
     let least = S::from_f64(1.0 / (LARGEST_RATIO * LARGEST_RATIO)) * (squares[0] + squares[1]);
     own > least && own <= S::MAX
-}
-
-/// Puts the unknowns back to their places.
-#[cold]
-#[inline(never)]
-fn restore<S: Real, const N: usize, const W: usize>(order: &[usize; N], b: &mut [[S; W]; N]) {
-    let found = *b;
-    for (&unknown, value) in order.iter().zip(found) {
-        b[unknown] = value;
-    }
 }
 
 /// `x −= factor y`.

@@ -3,6 +3,7 @@
 use super::Simulation;
 use crate::checkpoint::{Checkpoint, Outline, RestoreError};
 use crate::scalar::Real;
+use crate::state::State;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// The present state, with all that the next steps depend on.
@@ -29,7 +30,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             outline: self.outline(),
             step: self.step,
             newton: self.newton_settings(),
-            state: self.state.clone(),
+            state: State::clone(&self.state),
         }
     }
 
