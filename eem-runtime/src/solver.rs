@@ -13,7 +13,7 @@ use crate::conduction::Conduction;
 use crate::error::{StateError, StepFailure};
 use crate::group::{Group, Sites, StepView, Trial};
 use crate::layout::Layout;
-use crate::newton::is_last;
+use crate::newton::{NewtonSettings, is_last};
 use crate::pattern::Pattern;
 use crate::scalar::Real;
 use crate::scene::ElementEntry;
@@ -162,8 +162,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         effort: &mut Effort<S>,
     ) -> Result<(), StepFailure> {
         self.begin(groups, view)?;
-        let share = self.advance(groups, view, Look::On)?;
-        self.converge(groups, view, share, effort)
+        self.converge(groups, view, effort)
     }
 
     /// The solution for growing parts of the step, each starting from the one before.
@@ -185,8 +184,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 None => self.start_and_converge(groups, &part, effort)?,
                 Some(before) => {
                     self.extrapolate(groups, &part, stage / before);
-                    let share = self.advance(groups, &part, Look::On)?;
-                    self.converge(groups, &part, share, effort)?;
+                    self.converge(groups, &part, effort)?;
                 }
             }
             before = Some(stage);
@@ -194,16 +192,27 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(())
     }
 
-    /// Newton's method from the trial state, which was reached by the given share of a correction.
+    /// Newton's method from the trial state.
     fn converge(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
-        mut share: S,
         effort: &mut Effort<S>,
     ) -> Result<(), StepFailure> {
+        let NewtonSettings {
+            max_iterations,
+            tolerance,
+        } = effort.settings;
         let mut before = None;
-        for _ in 0..effort.settings.max_iterations {
+        let mut look = Look::On;
+        for iteration in 0..=max_iterations {
+            let full = self.advance(groups, view, look)? == S::one();
+            if full && look == Look::Back {
+                return Ok(());
+            }
+            if iteration == max_iterations {
+                break;
+            }
             let residual = self.residual();
             let solved = self.tangent.solve();
             solved.map_err(|_| StepFailure::SingularTangent)?;
@@ -212,19 +221,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
             if !update.is_finite() {
                 break;
             }
-            let full = share == S::one();
             let before = before.replace(update).filter(|_| full);
-            let is_last = is_last(update, before, effort.settings.tolerance);
-            if is_last && update * update <= S::from_f64(NEGLIGIBLE) * S::EPSILON {
-                for group in groups.iter_mut() {
-                    group.extrapolate();
+            look = Look::On;
+            if is_last(update, before, tolerance) {
+                if update * update <= S::from_f64(NEGLIGIBLE) * S::EPSILON {
+                    for group in groups.iter_mut() {
+                        group.extrapolate();
+                    }
+                    return Ok(());
                 }
-                return Ok(());
-            }
-            let look = if is_last { Look::Back } else { Look::On };
-            share = self.advance(groups, view, look)?;
-            if is_last && share == S::one() {
-                return Ok(());
+                look = Look::Back;
             }
         }
         Err(match self.obstacle.take() {
@@ -237,38 +243,52 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// Evaluates at the trial state, to which the correction has been applied, or as much of it as
     /// leaves every element in an admissible state. Returns that share.
+    #[inline]
     fn advance(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
         look: Look,
     ) -> Result<S, StepFailure> {
-        let mut share = S::one();
-        let mut halvings = 0;
-        self.obstacle = None;
-        loop {
-            for group in groups.iter_mut() {
-                group.apply(share);
-            }
-            let is_end = look == Look::Back && share == S::one();
-            match self.evaluate(groups, view, !is_end) {
-                Ok(()) => return Ok(share),
-                Err(error) if halvings == HALVINGS => return Err(error.into()),
-                Err(error) => {
-                    self.obstacle = Some(error);
-                    share *= S::from_f64(0.5);
-                    halvings += 1;
-                    self.apply(share, view);
-                }
-            }
+        if self.obstacle.is_some() {
+            self.obstacle = None;
+        }
+        match self.evaluate(groups, view, S::one(), look == Look::On) {
+            Ok(()) => Ok(S::one()),
+            Err(error) => self.retreat(groups, view, error),
         }
     }
 
-    /// The responses at the trial state, and the system of the next iteration if there is to be one.
+    /// Halves the correction, which failed, until every element is in an admissible state.
+    #[cold]
+    #[inline(never)]
+    fn retreat(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        mut error: StateError,
+    ) -> Result<S, StepFailure> {
+        let mut share = S::one();
+        for _ in 0..HALVINGS {
+            self.obstacle = Some(error);
+            share *= S::from_f64(0.5);
+            self.apply(share, view);
+            match self.evaluate(groups, view, share, true) {
+                Ok(()) => return Ok(share),
+                Err(next) => error = next,
+            }
+        }
+        Err(error.into())
+    }
+
+    /// The responses at the trial state, a share of the correction away from the last one, and the
+    /// system of the next iteration if there is to be one.
+    #[inline]
     fn evaluate(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
+        share: S,
         goes_on: bool,
     ) -> Result<(), StateError> {
         if goes_on {
@@ -276,6 +296,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         let trial = &self.trial;
         for group in groups {
+            group.apply(share);
             let system = goes_on.then_some(&mut self.tangent);
             group.evaluate(view, trial, system)?;
         }

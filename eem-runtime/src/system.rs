@@ -93,7 +93,8 @@ impl Storage {
         }
     }
 
-    /// Overwrites the right-hand sides with the solutions, and the values with what it likes.
+    /// Overwrites the right-hand sides with the solutions, and the values with what it likes; what
+    /// follows the values is not looked at.
     fn solve<S: Real, const W: usize>(
         &mut self,
         values: &mut [S],
@@ -102,12 +103,16 @@ impl Storage {
         match self {
             Self::Fixed { unknowns } => solve_fixed(*unknowns, values, right),
             Self::Dense { pivots } => {
+                let values = &mut values[..pivots.len() * pivots.len()];
                 lu::factor(values, pivots)?;
                 lu::solve(values, pivots, right);
                 Ok(())
             }
             #[cfg(feature = "sparse")]
-            Self::Sparse(sparse) => sparse.solve(values, right),
+            Self::Sparse(sparse) => {
+                let entries = sparse.entries();
+                sparse.solve(&mut values[..entries], right)
+            }
         }
     }
 }
@@ -170,8 +175,13 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
 
     /// Makes everything zero.
     pub(crate) fn clear(&mut self) {
-        self.values.fill(S::zero());
+        self.clear_matrix();
         self.right.fill([S::zero(); W]);
+    }
+
+    /// Makes A zero.
+    pub(crate) fn clear_matrix(&mut self) {
+        self.values.fill(S::zero());
     }
 
     /// The entries of A and the rows of B.
@@ -203,10 +213,11 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
 
     /// Replaces B by X; A is lost. The solution of what nobody reads is zero.
     pub(crate) fn solve(&mut self) -> Result<(), Singular> {
-        let entries = self.storage.entries();
         let (right, rest) = self.right.split_at_mut(self.unknowns);
-        rest.fill([S::zero(); W]);
-        self.storage.solve(&mut self.values[..entries], right)
+        for row in rest {
+            *row = [S::zero(); W];
+        }
+        self.storage.solve(&mut self.values, right)
     }
 }
 

@@ -152,7 +152,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let Some(secant) = &mut self.secant else {
             return Ok(());
         };
-        secant.clear();
+        secant.clear_matrix();
         let (values, right) = secant.parts();
         for (node, right) in self.nodes.iter().zip(right) {
             values[node.place.secant_diagonal] = node.inertia;

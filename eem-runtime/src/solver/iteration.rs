@@ -4,6 +4,7 @@ use core::array;
 
 use super::Solver;
 use crate::group::{Group, StepView, points};
+use crate::newton::Largest;
 use crate::scalar::Real;
 
 impl<S: Real, const D: usize> Solver<S, D> {
@@ -15,9 +16,13 @@ impl<S: Real, const D: usize> Solver<S, D> {
     ///
     /// to which the elements will add their share.
     pub(super) fn balance(&mut self) {
-        self.tangent.clear();
+        self.tangent.clear_matrix();
         let (values, right) = self.tangent.parts();
-        let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
+        let (rows, others) = right.split_at_mut(self.nodes.len() * D);
+        for row in others {
+            *row = [S::zero()];
+        }
+        let rows = rows.as_flattened_mut().as_chunks_mut::<D>().0;
         for (node, rows) in self.nodes.iter().zip(rows) {
             for place in node.place.diagonal {
                 values[place] = node.inertia;
@@ -29,9 +34,11 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// The largest entry of R.
     pub(super) fn residual(&self) -> S {
-        let rows = self.tangent.right().as_flattened().as_chunks::<D>().0;
-        let rows = self.nodes.iter().zip(rows).flat_map(|(_, rows)| rows);
-        rows.fold(S::zero(), |largest, row| largest.maximum(row.abs()))
+        let mut largest = Largest::none();
+        for &[row] in &self.tangent.right()[..self.nodes.len() * D] {
+            largest.see(row);
+        }
+        largest.found()
     }
 
     /// Applies the solution to the trial state, and finds the local corrections that go with it; the
@@ -44,18 +51,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let solution = self.tangent.right_mut();
         let old = points::<S, D>(view.state.positions.values());
         let trial = &mut self.trial;
-        let mut largest = S::zero();
+        let mut largest = Largest::none();
         let changes = solution.as_flattened().as_chunks::<D>().0;
         for (node, change) in self.nodes.iter_mut().zip(changes) {
             let at = node.place.node;
             let displacement = &mut trial.displacements[at];
             (node.previous, node.correction) = (*displacement, *change);
-            let mut scaled = S::zero();
-            for axis in 0..D {
-                displacement[axis] += change[axis];
-                scaled = scaled.maximum(change[axis].abs());
+            for (displacement, &change) in displacement.iter_mut().zip(change) {
+                *displacement += change;
+                largest.see(change * node.per_length);
             }
-            largest = largest.maximum(scaled * node.per_length);
             trial.positions[at] = array::from_fn(|axis| old[at][axis] + displacement[axis]);
         }
         for seen in &mut self.seen {
@@ -66,9 +71,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
             solution[seen.place.row][0] = change;
             (seen.previous, seen.correction) = (theta, change);
             trial.seen_temperatures[seen.place.slot] = theta + change;
-            largest = largest.maximum((change / theta).abs());
+            largest.see(change / theta);
         }
-        correct_locally(groups, view, self.tangent.right()).maximum(largest)
+        for group in groups.iter_mut() {
+            largest.see(group.correct(view, self.tangent.right()));
+        }
+        largest.found()
     }
 
     /// Moves the trial to a share of the correction from where it was.
@@ -117,14 +125,4 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         self.apply(S::one(), view);
     }
-}
-
-/// Corrects the local unknowns for given global corrections; the largest scaled update.
-pub(super) fn correct_locally<S: Real, const D: usize>(
-    groups: &mut [Box<dyn Group<S, D>>],
-    view: &StepView<'_, S>,
-    solution: &[[S; 1]],
-) -> S {
-    let updates = groups.iter_mut().map(|group| group.correct(view, solution));
-    updates.fold(S::zero(), S::maximum)
 }

@@ -1,6 +1,5 @@
 //! The global system at a trial state of choice.
 
-use super::iteration::correct_locally;
 use super::{Effort, Iteration, Look, Solver};
 use crate::error::StepFailure;
 use crate::group::{Group, StepView};
@@ -32,7 +31,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 break;
             }
             self.hold();
-            let update = correct_locally(groups, view, &no_change);
+            let updates = groups.iter_mut();
+            let updates = updates.map(|group| group.correct(view, &no_change));
+            let update = updates.fold(S::zero(), S::maximum);
             effort.history.push(Iteration { residual, update });
             let stagnated = before.is_some_and(|before| update >= before);
             if !update.is_finite() || effort.history.len() > effort.settings.max_iterations {
