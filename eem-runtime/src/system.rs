@@ -211,12 +211,17 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         .collect()
     }
 
-    /// Replaces B by X; A is lost. The solution of what nobody reads is zero.
-    pub(crate) fn solve(&mut self) -> Result<(), Singular> {
-        let (right, rest) = self.right.split_at_mut(self.unknowns);
-        for row in rest {
-            *row = [S::zero(); W];
+    /// Makes the last rows of B zero, where elements write what belongs to an anchor; `RUN` of them
+    /// belong to a node. As a part of X, they say that anchors do not move.
+    pub(crate) fn clear_rest<const RUN: usize>(&mut self) {
+        if let Some(rest) = self.right.last_chunk_mut::<RUN>() {
+            *rest = [[S::zero(); W]; RUN];
         }
+    }
+
+    /// Replaces B by X, but for the rows of anchors; A is lost.
+    pub(crate) fn solve(&mut self) -> Result<(), Singular> {
+        let right = &mut self.right[..self.unknowns];
         self.storage.solve(&mut self.values, right)
     }
 }

@@ -18,11 +18,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
     pub(super) fn balance(&mut self) {
         self.tangent.clear_matrix();
         let (values, right) = self.tangent.parts();
-        let (rows, others) = right.split_at_mut(self.nodes.len() * D);
-        for row in others {
-            *row = [S::zero()];
+        for seen in &self.seen {
+            right[seen.place.row] = [S::zero()];
         }
-        let rows = rows.as_flattened_mut().as_chunks_mut::<D>().0;
+        let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
         for (node, rows) in self.nodes.iter().zip(rows) {
             for place in node.place.diagonal {
                 values[place] = node.inertia;
@@ -48,6 +47,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
     ) -> S {
+        self.tangent.clear_rest::<D>();
         let solution = self.tangent.right_mut();
         let old = points::<S, D>(view.state.positions.values());
         let trial = &mut self.trial;

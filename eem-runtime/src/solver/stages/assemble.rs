@@ -50,6 +50,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         view: &StageView<'_, S>,
     ) -> S {
         self.remember();
+        self.tangent.clear_rest::<D>();
         let solution = self.tangent.right_mut();
         let mut largest = S::zero();
         for (half, masses) in self.masses.iter().enumerate() {
