@@ -97,7 +97,7 @@ impl<S: Real> StepLoads<S> {
         let slots = if loads.temperatures.is_empty() {
             0
         } else {
-            layout.coupled.len()
+            layout.thermal
         };
         let moved = loads.motions.iter().map(|(node, _)| node.index);
         let moved: BTreeSet<_> = moved.collect();
@@ -113,6 +113,11 @@ impl<S: Real> StepLoads<S> {
     /// Whether there are loads that do work on nodes.
     pub(crate) fn has_force(&self) -> bool {
         !self.force.is_empty()
+    }
+
+    /// Whether there are loads or weights.
+    pub(crate) fn has_total_force(&self) -> bool {
+        !self.total_force.is_empty()
     }
 
     /// The load on a node that does work, N.

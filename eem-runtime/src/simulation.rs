@@ -69,6 +69,7 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     masses: Vec<Option<S>>,
     /// The group and the place in it of each element.
     places: Vec<(usize, usize)>,
+    /// What the elements of each group have.
     shapes: Vec<Shape>,
     layout: Layout,
     conduction: Conduction<S>,
@@ -101,7 +102,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub fn new(scene: Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, SceneError> {
         scene.check()?;
         check_step(step)?;
-        let layout = Layout::new(&scene);
+        let mut layout = Layout::new(&scene);
         let conduction = Conduction::new(&scene, &layout);
         let mut state = Box::new(initial_state(&scene, &layout));
         let places = scene
@@ -109,12 +110,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             .iter()
             .map(|entry| (entry.group, entry.place))
             .collect();
-        let shape = |group: usize| scene.groups[group].shape();
-        let shapes = scene
-            .elements
-            .iter()
-            .map(|entry| shape(entry.group))
-            .collect();
+        let shapes = scene.groups.iter().map(|group| group.shape()).collect();
         let masses: Vec<_> = scene.nodes.iter().map(|node| node.mass).collect();
         let placed = Placed {
             nodes: &scene.elements,
@@ -131,6 +127,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             loads: &scene.loads,
         };
         let stepper = Stepper::new(built, parts, &mut state)?;
+        layout.forget_unknowns();
         Ok(Self {
             scene: scene.id,
             scheme,
@@ -315,7 +312,7 @@ fn initial_state<const D: usize, S: Real>(scene: &Scene<D, S>, layout: &Layout) 
         (0..D).map(move |axis| momentum[axis])
     });
     let mut viscous = vec![S::zero(); layout.viscous];
-    let mut temperatures = vec![S::zero(); layout.coupled.len()];
+    let mut temperatures = vec![S::zero(); layout.thermal];
     for (entry, slots) in scene.elements.iter().zip(&layout.elements) {
         for &(dashpot, stretch) in &entry.viscous_stretches {
             viscous[slots.viscous + dashpot] = stretch;

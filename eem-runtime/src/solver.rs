@@ -13,6 +13,7 @@ use crate::conduction::Conduction;
 use crate::error::{StateError, StepFailure};
 use crate::group::{Group, Sites, StepView, Trial};
 use crate::layout::Layout;
+use crate::loads::StepLoads;
 use crate::newton::{NewtonSettings, is_last};
 use crate::pattern::Pattern;
 use crate::scalar::Real;
@@ -51,7 +52,8 @@ pub(crate) struct Solver<S, const D: usize> {
     /// The system that closes a step, if the scheme closes it by one.
     secant: Option<LinearSystem<S, D>>,
     trial: Trial<S, D>,
-    /// The part of the nodal forces that the old state decides, N.
+    /// The part of the nodal forces that the old state and the loads decide, N; empty where nothing has
+    /// a part in it.
     old_force: Vec<[S; D]>,
     /// The impulse of the found forces, N s.
     impulse: Vec<[S; D]>,
@@ -68,7 +70,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
         elements: &[ElementEntry<S>],
         layout: &Layout,
         conduction: &Conduction<S>,
+        loads: &StepLoads<S>,
     ) -> Self {
+        let has_old_force = scheme.has_old_forces() || loads.has_total_force();
         let pattern = Pattern::of_tangent(elements, layout, conduction, D);
         let tangent = LinearSystem::new(&pattern, D);
         let secant = (scheme.closing() == Closing::Secant)
@@ -87,11 +91,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let anchors = anchors.filter_map(|(node, mass)| mass.is_none().then_some(node));
         let points = vec![[S::zero(); D]; masses.len()];
         // Nobody asks for any unless some are seen.
-        let slots = if seen.is_empty() {
-            0
-        } else {
-            layout.coupled.len()
-        };
+        let slots = if seen.is_empty() { 0 } else { layout.thermal };
         Self {
             scheme,
             nodes,
@@ -104,7 +104,11 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 positions: points.clone(),
                 seen_temperatures: vec![S::zero(); slots],
             },
-            old_force: points.clone(),
+            old_force: if has_old_force {
+                points.clone()
+            } else {
+                Vec::new()
+            },
             impulse: points,
             lengths: vec![S::one(); masses.len()],
             obstacle: None,

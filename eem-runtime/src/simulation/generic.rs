@@ -115,7 +115,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             energy_gradient[places.reservoirs + slot] = theta;
             entropy_gradient[places.reservoirs + slot] = S::one();
         }
-        let mut temperatures = vec![S::zero(); self.layout.coupled.len()];
+        let mut temperatures = vec![S::zero(); self.layout.thermal];
         for element in elements {
             for &(coordinate, force) in &element.forces {
                 if let Some(q) = places.positions[coordinate] {
@@ -179,7 +179,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         let viscous = 2 * masses;
         let entropies = viscous + self.layout.viscous;
-        let reservoirs = entropies + self.layout.coupled.len();
+        let reservoirs = entropies + self.layout.thermal;
         Places {
             positions,
             momenta: masses,

@@ -99,7 +99,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// For a foreign handle; [`SceneError::NoSuchDashpot`].
     pub fn viscous_stretch(&self, element: Element, dashpot: usize) -> Result<S, SceneError> {
         self.expect_own(element.scene, &element)?;
-        let dashpots = self.shapes[element.index].dashpots;
+        let (group, _) = self.places[element.index];
+        let dashpots = self.shapes[group].dashpots;
         if dashpot >= dashpots {
             return Err(SceneError::NoSuchDashpot {
                 element,

@@ -52,6 +52,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     fn outline(&self) -> Outline {
         let reservoirs = self.conduction.reservoirs.len();
-        Outline::new(D, &self.masses, &self.shapes, reservoirs)
+        let shapes = self.places.iter().map(|&(group, _)| self.shapes[group]);
+        Outline::new(D, &self.masses, shapes, reservoirs)
     }
 }

@@ -73,14 +73,15 @@ impl<S: Real, const D: usize> Stepper<S, D> {
             let staged = Staged::new(staged, masses, elements, layout, conduction, loads);
             return Ok(Self::InStages(Box::new(staged)));
         }
-        let solver = Solver::new(scheme, masses, elements, layout, conduction);
+        let loads = StepLoads::new(masses.len() * D, layout, loads);
+        let solver = Solver::new(scheme, masses, elements, layout, conduction, &loads);
         for group in &mut groups {
             group.connect(&solver.sites(layout, conduction));
         }
         Ok(Self::AtOnce(Box::new(AtOnce {
             groups,
             solver,
-            loads: StepLoads::new(masses.len() * D, layout, loads),
+            loads,
             between: (scheme == Scheme::Staggered).then(|| state.clone()),
         })))
     }

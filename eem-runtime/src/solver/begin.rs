@@ -52,7 +52,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 continue;
             }
             let at = node.place.node;
-            let (momentum, force) = (&momenta[at], &self.old_force[at]);
+            let (momentum, force) = (&momenta[at], old_force(&self.old_force, at));
             node.inertia = (node.place.mass + node.place.mass) * per_step;
             node.rest =
                 array::from_fn(|axis| momentum[axis] + momentum[axis] - view.step * force[axis]);
@@ -146,4 +146,10 @@ pub(super) fn inverse_length<S: Real>(length: S) -> S {
     } else {
         length.recip()
     }
+}
+
+/// The part of the force on a node that old state and loads decide.
+#[inline]
+pub(super) fn old_force<S: Real, const D: usize>(forces: &[[S; D]], node: usize) -> [S; D] {
+    forces.get(node).copied().unwrap_or([S::zero(); D])
 }

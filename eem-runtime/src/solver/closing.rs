@@ -3,6 +3,7 @@
 use core::array;
 
 use super::Solver;
+use super::begin::old_force;
 use crate::error::StepFailure;
 use crate::group::{Along, Group, StepView, points};
 use crate::scalar::Real;
@@ -112,8 +113,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         view: &StepView<'_, S>,
         along: Along,
     ) {
-        for (impulse, force) in self.impulse.iter_mut().zip(&self.old_force) {
-            *impulse = force.map(|force| -view.step * force);
+        for (node, impulse) in self.impulse.iter_mut().enumerate() {
+            *impulse = old_force(&self.old_force, node).map(|force| -view.step * force);
         }
         for group in groups.iter_mut() {
             group.add_impulse(view, &self.trial, along, &mut self.impulse);
@@ -137,10 +138,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for group in groups.iter_mut() {
             group.add_impulse(view, &self.trial, Along::Gradient, &mut self.impulse);
         }
-        for (impulse, force) in self.impulse.iter_mut().zip(&self.old_force) {
-            for (impulse, &force) in impulse.iter_mut().zip(force) {
-                *impulse = half * (*impulse - view.step * force);
-            }
+        for (node, impulse) in self.impulse.iter_mut().enumerate() {
+            let force = old_force(&self.old_force, node);
+            *impulse = array::from_fn(|axis| half * (impulse[axis] - view.step * force[axis]));
         }
     }
 

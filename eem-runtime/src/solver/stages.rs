@@ -70,7 +70,7 @@ impl<S: Real, const D: usize> Staged<S, D> {
                 seen,
                 tangent,
                 secant,
-                [masses.len(), layout.coupled.len()],
+                [masses.len(), layout.thermal],
             ),
             loads: [stage(), stage(), stage()],
         }
