@@ -23,7 +23,7 @@ use crate::scalar::Real;
 use crate::scene::{Scene, is_positive};
 use crate::scheme::{Phase, Scheme};
 use crate::solver::Effort;
-use crate::state::{Past, State};
+use crate::state::State;
 use stepper::{Parts, Stepper};
 
 pub use generic::Generic;
@@ -333,6 +333,5 @@ fn initial_state<const D: usize, S: Real>(scene: &Scene<D, S>, layout: &Layout) 
         heat: Sum::new(S::zero()),
         thermostat_entropy: Sum::new(S::zero()),
         dissipated: Sum::new(S::zero()),
-        past: Past::none(scene.nodes.len() * D),
     }
 }

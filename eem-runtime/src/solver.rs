@@ -6,6 +6,7 @@ mod effort;
 mod iteration;
 mod linearize;
 mod motion;
+mod past;
 mod places;
 mod stages;
 
@@ -23,6 +24,8 @@ use crate::state::State;
 use crate::system::LinearSystem;
 pub(crate) use effort::{Effort, Iteration};
 use motion::{Glance, Motion};
+use past::Past;
+pub(crate) use past::SavedPast;
 use places::{moving, seen};
 pub(crate) use stages::Staged;
 
@@ -37,7 +40,7 @@ const STAGES: u8 = 8;
 /// one, is small beside the roundings of a force.
 const NEGLIGIBLE: f64 = 1.0 / 1024.0;
 
-/// Working memory of a step; nothing in it outlives the step.
+/// Working memory of a step; nothing in it outlives the step but the forces of the last ones.
 #[derive(Debug)]
 pub(crate) struct Solver<S, const D: usize> {
     scheme: Scheme,
@@ -57,6 +60,7 @@ pub(crate) struct Solver<S, const D: usize> {
     old_force: Vec<[S; D]>,
     /// The impulse of the found forces, N s.
     impulse: Vec<[S; D]>,
+    past: Past<S, D>,
     /// The unit of length of each node: its shortest element in the old state, m.
     lengths: Vec<S>,
     /// What kept the last update from being applied in full.
@@ -110,6 +114,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 Vec::new()
             },
             impulse: points,
+            past: Past::none(masses.len()),
             lengths: vec![S::one(); masses.len()],
             obstacle: None,
         }

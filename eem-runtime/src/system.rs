@@ -285,6 +285,7 @@ mod tests {
         (values[own], values[nobody]) = (2.0, 9.0);
         (right[0], right[1]) = ([6.0], [9.0]);
         system.solve().unwrap();
+        system.clear_rest::<1>();
         assert_eq!(system.right(), [[3.0], [0.0]]);
     }
 }

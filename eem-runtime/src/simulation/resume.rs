@@ -31,6 +31,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             step: self.step,
             newton: self.newton_settings(),
             state: State::clone(&self.state),
+            past: self.stepper.past(),
         }
     }
 
@@ -42,10 +43,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// [`RestoreError`] if the checkpoint is one of another scheme or of a scene of another shape, or
     /// has values that no simulation has. The simulation is then as it was before.
     pub fn restore(&mut self, checkpoint: &Checkpoint<S>) -> Result<(), RestoreError> {
-        checkpoint.check(self.scheme, &self.outline(), &self.state)?;
+        let past = self.stepper.past();
+        checkpoint.check(self.scheme, &self.outline(), &self.state, &past)?;
         self.set_newton_settings(checkpoint.newton)?;
         self.has_stepped = false;
         self.state.copy_from(&checkpoint.state);
+        self.stepper.restore(&checkpoint.past);
         self.step = checkpoint.step;
         Ok(())
     }

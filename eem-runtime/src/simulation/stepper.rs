@@ -9,7 +9,7 @@ use crate::loads::{Loads, StepLoads};
 use crate::scalar::Real;
 use crate::scene::ElementEntry;
 use crate::scheme::Scheme;
-use crate::solver::{Solver, Staged};
+use crate::solver::{SavedPast, Solver, Staged};
 use crate::state::State;
 
 /// Elements, loads and solver of a scene.
@@ -102,6 +102,30 @@ impl<S: Real, const D: usize> Stepper<S, D> {
                 own.evaluate(loads, masses, layout, scheme, span, q0)
             }
             Self::InStages(staged) => staged.evaluate_loads(loads, masses, layout, span, q0),
+        }
+    }
+
+    /// What the start of the next step depends on besides the state.
+    pub(super) fn past(&self) -> SavedPast<S> {
+        match self {
+            Self::AtOnce(stepper) => stepper.solver.past(),
+            Self::InStages(_) => SavedPast::none(),
+        }
+    }
+
+    /// Goes on from a saved past.
+    pub(super) fn restore(&mut self, past: &SavedPast<S>) {
+        match self {
+            Self::AtOnce(stepper) => stepper.solver.restore(past),
+            Self::InStages(_) => (),
+        }
+    }
+
+    /// Takes back what the last step left for the next ones.
+    pub(super) fn undo(&mut self) {
+        match self {
+            Self::AtOnce(stepper) => stepper.solver.undo(),
+            Self::InStages(_) => (),
         }
     }
 

@@ -6,14 +6,10 @@
 
 use core::array;
 
-use super::Solver;
+use super::{SavedPast, Solver};
 use crate::error::StepFailure;
 use crate::group::{Group, Old, StepView, points};
 use crate::scalar::Real;
-use crate::state::{Forecast, Past};
-
-/// What is left of the error of a forecast one step later. Any memory of some steps will do.
-const MEMORY: f64 = 0.875;
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// Starts at the old state, or at a foretold motion away from it if the scheme wants one.
@@ -80,9 +76,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let momenta = points::<S, D>(view.state.momenta.values());
         let is_foretold = view.phase.moves() && self.scheme.foretells_its_start();
         let half_step = S::from_f64(0.5) * view.step;
-        let past = &view.state.past;
-        let [last, before] = past.forces.each_ref().map(|forces| points::<S, D>(forces));
-        let [by_last, by_before] = past.best().weights::<S>();
+        let ([by_last, by_before], [last, before]) = self.past.best();
         for node in &mut self.nodes {
             let at = node.place.node;
             node.per_length = inverse_length(self.lengths[at]);
@@ -108,32 +102,35 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
-    /// Remembers the force of a step in `next`, and how well it would have been foretold.
-    pub(super) fn remember_force(&self, view: &StepView<'_, S>, next: &mut Past<S>) {
+    /// Remembers the forces of a step that has succeeded.
+    pub(super) fn remember_forces(&mut self, step: S) {
         if !self.scheme.foretells_its_start() {
             return;
         }
-        let past = &view.state.past;
-        let mut errors = past.errors.map(|error| S::from_f64(MEMORY) * error);
-        let per_step = view.step.recip();
-        let old = past.forces.each_ref().map(|forces| points::<S, D>(forces));
-        let [next_last, next_before] = next.forces.each_mut();
-        let next_last = next_last.as_chunks_mut::<D>().0;
-        let next_before = next_before.as_chunks_mut::<D>().0;
-        for node in &self.nodes {
-            let at = node.place.node;
-            let (last, before) = (old[0][at], old[1][at]);
-            let force = self.impulse[at].map(|impulse| impulse * per_step);
-            let per_mass = node.place.mass.recip();
-            for axis in 0..D {
-                for (error, forecast) in errors.iter_mut().zip(Forecast::ALL) {
-                    let miss = (force[axis] - forecast.of(last[axis], before[axis])) * per_mass;
-                    *error += miss * miss;
-                }
-            }
-            (next_last[at], next_before[at]) = (force, last);
+        let per_step = step.recip();
+        for impulse in self.impulse.as_flattened_mut() {
+            *impulse *= per_step;
         }
-        next.errors = errors;
+        let nodes = self.nodes.iter();
+        let masses = nodes.map(|node| (node.place.node, node.place.mass));
+        self.past.remember(&mut self.impulse, masses);
+    }
+
+    /// Takes back what the last step left for the next ones.
+    pub(crate) fn undo(&mut self) {
+        if self.scheme.foretells_its_start() {
+            self.past.forget(&mut self.impulse);
+        }
+    }
+
+    /// What the start of the next step depends on besides the state.
+    pub(crate) fn past(&self) -> SavedPast<S> {
+        self.past.save()
+    }
+
+    /// Goes on from a saved past.
+    pub(crate) fn restore(&mut self, past: &SavedPast<S>) {
+        self.past.restore(past);
     }
 }
 

@@ -34,14 +34,15 @@ impl<S: Real, const D: usize> Solver<S, D> {
             self.find_motion(groups, view)?;
             self.move_masses(view, next)?;
             self.move_anchors(view, next);
-            self.remember_force(view, &mut next.past);
         } else {
             next.positions.copy_from(&view.state.positions);
             next.momenta.copy_from(&view.state.momenta);
-            next.past.copy_from(&view.state.past);
         }
         for group in groups.iter_mut() {
             group.close(view, &self.trial, next)?;
+        }
+        if view.phase.heats() {
+            self.remember_forces(view.step);
         }
         Ok(())
     }

@@ -28,7 +28,6 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         self.move_to_end(view);
         self.find_forces(groups, view, 2);
         next.copy_books(view.state);
-        next.past.copy_from(&view.state.past);
         next.time.add(view.step);
         self.move_masses(view, next)?;
         self.move_anchors(view, next);
