@@ -292,7 +292,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// The responses at the trial state, a share of the correction away from the last one, and the
     /// system of the next iteration if there is to be one.
-    #[inline]
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "one of its two callers is cold")]
     fn evaluate(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],

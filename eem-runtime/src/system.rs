@@ -95,6 +95,7 @@ impl Storage {
 
     /// Overwrites the right-hand sides with the solutions, and the values with what it likes; what
     /// follows the values is not looked at.
+    #[inline]
     fn solve<S: Real, const W: usize>(
         &mut self,
         values: &mut [S],
@@ -102,22 +103,40 @@ impl Storage {
     ) -> Result<(), Singular> {
         match self {
             Self::Fixed { unknowns } => solve_fixed(*unknowns, values, right),
-            Self::Dense { pivots } => {
-                let values = &mut values[..pivots.len() * pivots.len()];
-                lu::factor(values, pivots)?;
-                lu::solve(values, pivots, right);
-                Ok(())
-            }
+            Self::Dense { pivots } => solve_dense(values, pivots, right),
             #[cfg(feature = "sparse")]
-            Self::Sparse(sparse) => {
-                let entries = sparse.entries();
-                sparse.solve(&mut values[..entries], right)
-            }
+            Self::Sparse(sparse) => solve_sparse(values, sparse, right),
         }
     }
 }
 
+/// The elimination of a full matrix. Apart, so that small systems do not pay for its registers.
+#[inline(never)]
+fn solve_dense<S: Real, const W: usize>(
+    values: &mut [S],
+    pivots: &mut [usize],
+    right: &mut [[S; W]],
+) -> Result<(), Singular> {
+    let values = &mut values[..pivots.len() * pivots.len()];
+    lu::factor(values, pivots)?;
+    lu::solve(values, pivots, right);
+    Ok(())
+}
+
+/// The elimination by the pattern, apart for the same reason.
+#[cfg(feature = "sparse")]
+#[inline(never)]
+fn solve_sparse<S: Real, const W: usize>(
+    values: &mut [S],
+    sparse: &mut SparseLu,
+    right: &mut [[S; W]],
+) -> Result<(), Singular> {
+    let entries = sparse.entries();
+    sparse.solve(&mut values[..entries], right)
+}
+
 /// The elimination that is compiled for this number of unknowns.
+#[inline]
 fn solve_fixed<S: Real, const W: usize>(
     unknowns: usize,
     values: &mut [S],
@@ -220,6 +239,7 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
     }
 
     /// Replaces B by X, but for the rows of anchors; A is lost.
+    #[inline]
     pub(crate) fn solve(&mut self) -> Result<(), Singular> {
         let right = &mut self.right[..self.unknowns];
         self.storage.solve(&mut self.values, right)
