@@ -106,8 +106,8 @@ impl<S: Real> Largest<S> {
     /// The largest so far.
     #[inline]
     pub(crate) fn found(self) -> S {
-        // The difference is zero, or NaN.
-        self.largest + (self.sum - self.sum)
+        // The product is zero, or NaN.
+        self.largest + S::zero() * self.sum
     }
 }
 
@@ -119,7 +119,9 @@ mod tests {
     fn what_is_not_finite_is_the_largest_wherever_it_comes() {
         let largest = |values: [f64; 3]| {
             let mut largest = Largest::none();
-            values.into_iter().for_each(|value| largest.see(value));
+            for value in values {
+                largest.see(value);
+            }
             largest.found()
         };
         assert_eq!(largest([1.0, -3.0, 2.0]).to_bits(), 3.0_f64.to_bits());

@@ -127,12 +127,12 @@ fn solve_dense<S: Real, const W: usize>(
 #[cfg(feature = "sparse")]
 #[inline(never)]
 fn solve_sparse<S: Real, const W: usize>(
-    values: &mut [S],
+    values: &[S],
     sparse: &mut SparseLu,
     right: &mut [[S; W]],
 ) -> Result<(), Singular> {
     let entries = sparse.entries();
-    sparse.solve(&mut values[..entries], right)
+    sparse.solve(&values[..entries], right)
 }
 
 /// The elimination that is compiled for this number of unknowns.

@@ -52,7 +52,8 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
             move_node(node, [displacement, &impulse], view.state, next)?;
             let loads = view.loads.each_ref().map(|loads| loads.force::<D>(node));
             for axis in 0..D {
-                let work = self.work(node, axis, |stage| loads[stage][axis]);
+                let load = loads.map(|load| load[axis]);
+                let work = self.work(node, axis, |stage| load[stage]);
                 next.work.add(work);
             }
         }
