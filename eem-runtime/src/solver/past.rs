@@ -68,8 +68,8 @@ impl<S: Real, const D: usize> Past<S, D> {
         (FORECASTS[best].map(S::from_f64), forces)
     }
 
-    /// Takes the forces of another step, in which the given nodes had a part with their masses, and
-    /// gives room for the next ones.
+    /// Takes the forces of another step, given which nodes moved and their masses; leaves room for those
+    /// of the next step in their place.
     pub(super) fn remember(
         &mut self,
         forces: &mut Vec<[S; D]>,
@@ -94,7 +94,7 @@ impl<S: Real, const D: usize> Past<S, D> {
         self.forces.swap(0, 1);
     }
 
-    /// Takes back the last [`remember`](Self::remember), given the room that it gave.
+    /// Takes back the last [`remember`](Self::remember), given the room that it left.
     pub(super) fn forget(&mut self, room: &mut Vec<[S; D]>) {
         self.forces.swap(0, 1);
         mem::swap(&mut self.forces[1], room);
@@ -118,5 +118,43 @@ impl<S: Real, const D: usize> Past<S, D> {
             own.copy_from_slice(saved.as_chunks().0);
         }
         self.errors = saved.errors;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn after(forces: [f64; 3]) -> (Past<f64, 1>, Vec<[f64; 1]>) {
+        let mut past = Past::none(1);
+        let mut room = vec![[0.0]];
+        for force in forces {
+            room[0] = [force];
+            past.remember(&mut room, [(0, 2.0)].into_iter());
+        }
+        (past, room)
+    }
+
+    #[test]
+    fn the_best_forecast_is_the_one_that_was() {
+        let foretold = |forces: [f64; 3]| {
+            let (past, _) = after(forces);
+            let ([by_last, by_before], [last, before]) = past.best();
+            by_last * last[0][0] + by_before * before[0][0]
+        };
+        assert_eq!(foretold([4.0, -4.0, 4.0]).to_bits(), 0.0_f64.to_bits());
+        assert_eq!(foretold([4.0, 4.0, 4.0]).to_bits(), 4.0_f64.to_bits());
+        assert_eq!(foretold([1.0, 2.0, 3.0]).to_bits(), 4.0_f64.to_bits());
+    }
+
+    #[test]
+    fn what_was_forgotten_leaves_no_trace() {
+        let (mut past, mut room) = after([1.0, 2.0, 4.0]);
+        let before = past.save();
+        room[0] = [9.0];
+        past.remember(&mut room, [(0, 2.0)].into_iter());
+        assert_ne!(past.save(), before);
+        past.forget(&mut room);
+        assert_eq!(past.save(), before);
     }
 }
