@@ -28,6 +28,7 @@ pub(crate) struct Link<S> {
 #[derive(Clone, Debug)]
 pub(crate) struct Conduction<S> {
     links: Vec<Link<S>>,
+    /// Those of each slot; none for a scene without paths.
     ranges: Vec<Range<usize>>,
     /// `θ_r`, K.
     pub(crate) reservoirs: Vec<S>,
@@ -36,7 +37,12 @@ pub(crate) struct Conduction<S> {
 impl<S: Real> Conduction<S> {
     /// The paths of a scene.
     pub(crate) fn new<const D: usize>(scene: &Scene<D, S>, layout: &Layout) -> Self {
-        let mut by_slot = vec![Vec::new(); layout.coupled.len()];
+        let slots = if scene.conductors.is_empty() {
+            0
+        } else {
+            layout.thermal
+        };
+        let mut by_slot = vec![Vec::new(); slots];
         let slot = |index: usize| layout.elements[index].thermal;
         for conductor in &scene.conductors {
             let conductance = conductor.conductance;
@@ -78,7 +84,8 @@ impl<S: Real> Conduction<S> {
     /// The paths that end at a slot.
     #[inline]
     pub(crate) fn links(&self, slot: usize) -> &[Link<S>] {
-        &self.links[self.ranges[slot].clone()]
+        let range = self.ranges.get(slot).cloned();
+        range.map_or(&[], |range| &self.links[range])
     }
 
     /// The heat flow into a slot, `Σ κ (Θ_partner − Θ) + Σ κ (θ_r − θ)`.

@@ -148,6 +148,14 @@ impl Scheme {
     }
 }
 
+impl Scheme {
+    /// Whether nodes feel forces that the old state alone decides; see
+    /// [`IMPLICIT`](ElementScheme::IMPLICIT).
+    pub(crate) const fn has_old_forces(self) -> bool {
+        matches!(self, Self::Trapezoidal | Self::TrapezoidalTemperature)
+    }
+}
+
 /// Where along a step the measures and their gradient are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Placement {

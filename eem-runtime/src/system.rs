@@ -93,7 +93,9 @@ impl Storage {
         }
     }
 
-    /// Overwrites the right-hand sides with the solutions, and the values with what it likes.
+    /// Overwrites the right-hand sides with the solutions, and the values with what it likes; what
+    /// follows the values is not looked at.
+    #[inline]
     fn solve<S: Real, const W: usize>(
         &mut self,
         values: &mut [S],
@@ -101,18 +103,40 @@ impl Storage {
     ) -> Result<(), Singular> {
         match self {
             Self::Fixed { unknowns } => solve_fixed(*unknowns, values, right),
-            Self::Dense { pivots } => {
-                lu::factor(values, pivots)?;
-                lu::solve(values, pivots, right);
-                Ok(())
-            }
+            Self::Dense { pivots } => solve_dense(values, pivots, right),
             #[cfg(feature = "sparse")]
-            Self::Sparse(sparse) => sparse.solve(values, right),
+            Self::Sparse(sparse) => solve_sparse(values, sparse, right),
         }
     }
 }
 
+/// The elimination of a full matrix. Apart, so that small systems do not pay for its registers.
+#[inline(never)]
+fn solve_dense<S: Real, const W: usize>(
+    values: &mut [S],
+    pivots: &mut [usize],
+    right: &mut [[S; W]],
+) -> Result<(), Singular> {
+    let values = &mut values[..pivots.len() * pivots.len()];
+    lu::factor(values, pivots)?;
+    lu::solve(values, pivots, right);
+    Ok(())
+}
+
+/// The elimination by the pattern, apart for the same reason.
+#[cfg(feature = "sparse")]
+#[inline(never)]
+fn solve_sparse<S: Real, const W: usize>(
+    values: &[S],
+    sparse: &mut SparseLu,
+    right: &mut [[S; W]],
+) -> Result<(), Singular> {
+    let entries = sparse.entries();
+    sparse.solve(&values[..entries], right)
+}
+
 /// The elimination that is compiled for this number of unknowns.
+#[inline]
 fn solve_fixed<S: Real, const W: usize>(
     unknowns: usize,
     values: &mut [S],
@@ -147,6 +171,11 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         }
     }
 
+    /// Number of unknowns.
+    pub(crate) fn unknowns(&self) -> usize {
+        self.unknowns
+    }
+
     /// The place of a row of B: the place that nobody reads for no unknown.
     pub(crate) fn row(&self, unknown: Option<usize>) -> usize {
         unknown.unwrap_or(self.unknowns)
@@ -165,8 +194,13 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
 
     /// Makes everything zero.
     pub(crate) fn clear(&mut self) {
-        self.values.fill(S::zero());
+        self.clear_matrix();
         self.right.fill([S::zero(); W]);
+    }
+
+    /// Makes A zero.
+    pub(crate) fn clear_matrix(&mut self) {
+        self.values.fill(S::zero());
     }
 
     /// The entries of A and the rows of B.
@@ -196,12 +230,19 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         .collect()
     }
 
-    /// Replaces B by X; A is lost. The solution of what nobody reads is zero.
+    /// Makes the last rows of B zero, where elements write what belongs to an anchor; `RUN` of them
+    /// belong to a node. As a part of X, they say that anchors do not move.
+    pub(crate) fn clear_rest<const RUN: usize>(&mut self) {
+        if let Some(rest) = self.right.last_chunk_mut::<RUN>() {
+            *rest = [[S::zero(); W]; RUN];
+        }
+    }
+
+    /// Replaces B by X, but for the rows of anchors; A is lost.
+    #[inline]
     pub(crate) fn solve(&mut self) -> Result<(), Singular> {
-        let entries = self.storage.entries();
-        let (right, rest) = self.right.split_at_mut(self.unknowns);
-        rest.fill([S::zero(); W]);
-        self.storage.solve(&mut self.values[..entries], right)
+        let right = &mut self.right[..self.unknowns];
+        self.storage.solve(&mut self.values, right)
     }
 }
 
@@ -264,6 +305,7 @@ mod tests {
         (values[own], values[nobody]) = (2.0, 9.0);
         (right[0], right[1]) = ([6.0], [9.0]);
         system.solve().unwrap();
+        system.clear_rest::<1>();
         assert_eq!(system.right(), [[3.0], [0.0]]);
     }
 }

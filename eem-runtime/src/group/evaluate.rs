@@ -146,10 +146,9 @@ where
     /// The old velocities of the arms; those of anchors are means over the step, m/s.
     fn old_velocities(&self, view: &StepView<'_, S>) -> Arms<K, S, D> {
         let momenta = points::<S, D>(view.state.momenta.values());
-        let motion = points::<S, D>(&view.loads.motion);
         let velocity = |node: usize, axis: usize| match view.masses[node] {
             Some(mass) => momenta[node][axis] / mass,
-            None => motion[node][axis] / view.step,
+            None => view.loads.motion::<D>(node)[axis] / view.step,
         };
         let nodes = self.site.nodes.as_ref();
         let mut velocities = Arms::<K, S, D>::filled([S::zero(); D]);

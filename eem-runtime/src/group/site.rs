@@ -77,10 +77,10 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
         for i in 0..nodes.len() {
             site.is_mass[i] = unknown(i).is_some();
             site.rows[i] = sites.row(unknown(i));
-            site.secant_rows[i] = sites.secant.row(mass(i));
+            site.secant_rows[i] = sites.secant_row(mass(i));
             for j in 0..nodes.len() {
                 site.blocks[i][j] = column::<S, D>(unknown(i), unknown(j), sites);
-                site.secant[i][j] = sites.secant.place(mass(i), mass(j));
+                site.secant[i][j] = sites.secant_place(mass(i), mass(j));
             }
         }
         site

@@ -71,7 +71,7 @@ impl<'a, S: Real> StageView<'a, S> {
 
     /// The temperatures prescribed on a thermal slot at the stages, K.
     fn prescribed(&self, slot: usize) -> Option<[S; 3]> {
-        let [start, middle, end] = self.loads.each_ref().map(|loads| loads.prescribed[slot]);
+        let [start, middle, end] = self.loads.each_ref().map(|loads| loads.prescribed(slot));
         Some([start?.end, middle?.end, end?.end])
     }
 }
