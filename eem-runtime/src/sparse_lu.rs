@@ -14,6 +14,7 @@
 //! whole columns solves instead. Factors are in double precision whatever the scene is computed in:
 //! they only correct, and the next residual judges the correction.
 
+mod dissection;
 mod elimination;
 mod factors;
 mod fronts;

@@ -154,9 +154,8 @@ impl Blocks<'_> {
 
 /// Subtracts from all entries of a column but the first what its first entry times a column of L is.
 fn subtract(column: &mut [f64], lower: &[f64]) {
-    let (&mut first, rest) = match column.split_first_mut() {
-        Some(parts) => parts,
-        None => return,
+    let Some((&mut first, rest)) = column.split_first_mut() else {
+        return;
     };
     for (entry, &l) in rest.iter_mut().zip(&lower[1..]) {
         *entry -= l * first;

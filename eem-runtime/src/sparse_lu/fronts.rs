@@ -6,12 +6,14 @@
 //! ```
 //!
 //! The pattern is symmetric, so that what one unknown touches by its column it touches by its row.
-//! Order (approximate minimum degree; Amestoy, Davis & Duff 1996) and fronts come from `faer`; they
-//! depend on the pattern alone.
+//! Order and fronts depend on the pattern alone. Unknowns are ordered by approximate minimum degree
+//! (Amestoy, Davis & Duff 1996), or by nested dissection where that fills in much and the other
+//! less.
 
 use core::ops::Range;
 
 use faer::Side;
+use faer::perm::PermRef;
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
@@ -19,7 +21,14 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::linalg::{SupernodalThreshold, SymbolicSupernodalParams};
 
+use super::dissection;
 use crate::pattern::{Pattern, index};
+
+/// Factors with more than this many times the entries of their matrix are worth a better order.
+const WORTH_DISSECTING: usize = 4;
+
+/// Fronts with at most this many own unknowns are merged if no larger share of entries is then zero.
+const MERGED: &[(usize, f64)] = &[(48, 0.1), (usize::MAX, 0.05)];
 
 /// The fronts in an order in which each follows those that contribute to it, the last of them at once.
 #[derive(Debug)]
@@ -59,22 +68,36 @@ pub(super) struct Extent {
 impl Fronts {
     /// Orders and analyses a pattern; `None` if memory is missing.
     pub(super) fn new(pattern: &Pattern) -> Option<Self> {
+        let by_degree = Self::ordered(pattern, SymmetricOrdering::Amd)?;
+        let Extent { lower, upper, .. } = by_degree.extent();
+        if lower + upper <= WORTH_DISSECTING * pattern.entries() {
+            return Some(by_degree);
+        }
+        let order = dissection::order(pattern)?;
+        let mut places = vec![0; order.len()];
+        for (place, &unknown) in order.iter().enumerate() {
+            places[unknown as usize] = index(place);
+        }
+        let order = PermRef::new_checked(&order, &places, order.len());
+        let dissected = Self::ordered(pattern, SymmetricOrdering::Custom(order))?;
+        let is_better = dissected.multiplications() < by_degree.multiplications();
+        Some(if is_better { dissected } else { by_degree })
+    }
+
+    /// Analyses a pattern for an order of elimination.
+    fn ordered(pattern: &Pattern, order: SymmetricOrdering<'_, u32>) -> Option<Self> {
         let unknowns = pattern.unknowns();
-        let structure = SymbolicSparseColMatRef::new_checked(
-            unknowns,
-            unknowns,
-            pattern.starts(),
-            None,
-            pattern.columns(),
-        );
+        let (starts, rows) = (pattern.starts(), pattern.columns());
+        let structure =
+            SymbolicSparseColMatRef::new_checked(unknowns, unknowns, starts, None, rows);
         let parameters = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-            // Fronts are not merged: each entry is one that fills in.
-            supernodal_params: SymbolicSupernodalParams { relax: None },
+            supernodal_params: SymbolicSupernodalParams {
+                relax: Some(MERGED),
+            },
             ..CholeskySymbolicParams::default()
         };
-        let ordering = SymmetricOrdering::Amd;
-        let symbolic = factorize_symbolic_cholesky(structure, Side::Upper, ordering, parameters);
+        let symbolic = factorize_symbolic_cholesky(structure, Side::Upper, order, parameters);
         Self::from_faer(&symbolic.ok()?)
     }
 
@@ -140,6 +163,16 @@ impl Fronts {
         }
     }
 
+    /// How many multiplications an elimination takes.
+    fn multiplications(&self) -> u128 {
+        let fronts = (0..self.len()).map(|at| self.front(at));
+        let counts = fronts.map(|front| {
+            let [width, height] = [front.own.len(), front.rows.len()].map(|count| count as u128);
+            width * (width * width / 3 + width * height + height * height)
+        });
+        counts.sum()
+    }
+
     /// What all fronts together need.
     pub(super) fn extent(&self) -> Extent {
         let mut extent = Extent::default();
@@ -168,7 +201,7 @@ impl Fronts {
 impl Front<'_> {
     /// Whether this front, the last that waits, waits for the given one.
     pub(super) fn contributes_to(&self, front: &Front<'_>) -> bool {
-        self.rows[0] as usize <= front.own.end - 1
+        (self.rows[0] as usize) < front.own.end
     }
 }
 
