@@ -151,3 +151,83 @@ impl SparseLu {
         pivoting.solve(&self.pattern, values, &mut self.solution)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A cycle of unknowns with these entries on the diagonal and in both directions around it.
+    fn cycle(unknowns: usize, [diagonal, forth, back]: [f64; 3]) -> (SparseLu, Vec<f64>) {
+        let pattern = Pattern::new(unknowns, |pair| {
+            (0..unknowns).for_each(|row| pair(row, (row + 1) % unknowns));
+        });
+        let lu = SparseLu::new(&pattern).unwrap();
+        let mut values = vec![0.0; lu.entries()];
+        for row in 0..unknowns {
+            let next = (row + 1) % unknowns;
+            for (row, column, entry) in
+                [(row, row, diagonal), (row, next, forth), (next, row, back)]
+            {
+                values[lu.position(row, column).unwrap()] = entry;
+            }
+        }
+        (lu, values)
+    }
+
+    /// The largest error of solutions that are known.
+    fn error(lu: &mut SparseLu, values: &[f64]) -> f64 {
+        let exact = |row: usize| [1.0, if row.is_multiple_of(3) { 2.0 } else { -1.0 }];
+        let mut right = vec![[0.0; 2]; lu.pattern.unknowns()];
+        for (row, b) in right.iter_mut().enumerate() {
+            let columns = lu.pattern.row(row).iter();
+            for (&column, value) in columns.zip(&values[lu.pattern.places(row)]) {
+                let x = exact(column as usize);
+                *b = [b[0] + value * x[0], b[1] + value * x[1]];
+            }
+        }
+        lu.solve(values, &mut right).unwrap();
+        let errors = right.iter().enumerate().flat_map(|(row, x)| {
+            let exact = exact(row);
+            [x[0] - exact[0], x[1] - exact[1]]
+        });
+        errors.fold(0.0, |largest, error| largest.max(error.abs()))
+    }
+
+    // Condition numbers below 10.
+    const TOLERANCE: f64 = 1e3 * f64::EPSILON;
+
+    #[test]
+    fn pivots_near_the_diagonal_need_no_others() {
+        let (mut lu, values) = cycle(100, [4.0, -1.0, 2.0]);
+        assert!(error(&mut lu, &values) <= TOLERANCE);
+        assert!(lu.pivoting.is_none());
+    }
+
+    // Nearly a permutation: every pivot that the pattern expects is tiny.
+    #[test]
+    fn pivots_are_found_wherever_they_are() {
+        let (mut lu, values) = cycle(101, [1e-30, 1.0, 0.1]);
+        assert!(error(&mut lu, &values) <= TOLERANCE);
+        assert!(lu.pivoting.is_some());
+        let (_, values) = cycle(101, [4.0, -1.0, 2.0]);
+        assert!(error(&mut lu, &values) <= TOLERANCE);
+    }
+
+    #[test]
+    fn a_singular_matrix_is_an_error() {
+        let (mut lu, mut values) = cycle(50, [0.0, 0.0, 0.0]);
+        assert!(lu.solve(&values, &mut vec![[1.0]; 50]).is_err());
+        values.fill(f64::NAN);
+        assert!(lu.solve(&values, &mut vec![[1.0]; 50]).is_err());
+    }
+
+    // A response that decays by a digit per unknown, soon below any rounding.
+    #[test]
+    fn what_is_far_below_rounding_is_solved_too() {
+        let (mut lu, values) = cycle(2_000, [1.0, 0.1, 0.1]);
+        let mut right = vec![[0.0]; 2_000];
+        right[0] = [1.0];
+        lu.solve(&values, &mut right).unwrap();
+        assert!(lu.pivoting.is_none());
+    }
+}

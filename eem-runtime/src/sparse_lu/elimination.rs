@@ -59,6 +59,13 @@ impl Scratch {
 }
 
 impl Blocks<'_> {
+    /// Makes A zero.
+    pub(super) fn clear(&mut self) {
+        self.lower.fill(0.0);
+        self.upper.fill(0.0);
+        self.schur.fill(0.0);
+    }
+
     /// Replaces A by L, U and S. A pivot that is zero divides by zero.
     pub(super) fn eliminate(&mut self, scratch: &mut Scratch) {
         let width = self.pivots.len();

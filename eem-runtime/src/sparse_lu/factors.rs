@@ -50,8 +50,6 @@ impl Factors {
 
     /// Factors the matrix with these entries.
     pub(super) fn factor<S: Real>(&mut self, fronts: &Fronts, pattern: &Pattern, values: &[S]) {
-        self.lower.fill(0.0);
-        self.upper.fill(0.0);
         let (mut lower, mut upper, mut left) = (0, 0, 0);
         for at in 0..fronts.len() {
             let front = fronts.front(at);
@@ -67,7 +65,7 @@ impl Factors {
                 schur: &mut free[..height * height],
                 pivots: &mut self.pivots[front.own.clone()],
             };
-            blocks.schur.fill(0.0);
+            blocks.clear();
             gather(&mut blocks, &front, &self.local, fronts, pattern, values);
             let mut bottom = left;
             while let Some(child) = self
@@ -87,6 +85,8 @@ impl Factors {
             blocks.eliminate(&mut self.scratch);
             if height > 0 {
                 self.waiting.push(index(at));
+            }
+            if bottom < left {
                 self.left.copy_within(left..left + height * height, bottom);
             }
             left = bottom + height * height;
