@@ -83,6 +83,13 @@ impl Storage {
     }
 
     /// Where an entry is among the values, if the pattern has it.
+    #[cfg_attr(
+        not(feature = "sparse"),
+        expect(
+            clippy::unnecessary_wraps,
+            reason = "all that is dense has every entry"
+        )
+    )]
     fn position(&self, row: usize, column: usize) -> Option<usize> {
         match self {
             Self::Fixed { unknowns } => Some(row * unknowns + column),

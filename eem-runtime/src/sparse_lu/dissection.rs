@@ -314,7 +314,9 @@ mod tests {
         // A separator that is left out of the square leaves more than one piece of it.
         let last = &order[order.len() - side..];
         let mut reached = vec![false; order.len()];
-        last.iter().for_each(|&at| reached[at as usize] = true);
+        for &at in last {
+            reached[at as usize] = true;
+        }
         let start = order[0] as usize;
         reached[start] = true;
         let mut path = vec![start];
@@ -334,7 +336,9 @@ mod tests {
     fn what_is_not_connected_is_divided_without_a_separator() {
         let unknowns = 3 * SMALL;
         let pattern = Pattern::new(unknowns, |pair| {
-            (0..unknowns).step_by(3).for_each(|a| pair(a, a + 1))
+            for first in (0..unknowns).step_by(3) {
+                pair(first, first + 1);
+            }
         });
         assert_eq!(order(&pattern).unwrap().len(), unknowns);
     }
