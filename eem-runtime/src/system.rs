@@ -55,9 +55,8 @@ enum Storage {
 }
 
 impl Storage {
-    /// What suits the pattern, for this many right-hand sides.
-    #[cfg_attr(not(feature = "sparse"), expect(unused_variables, reason = "dense"))]
-    fn new(pattern: &Pattern, columns: usize) -> Self {
+    /// What suits the pattern.
+    fn new(pattern: &Pattern) -> Self {
         let unknowns = pattern.unknowns();
         if unknowns <= MOST_FIXED {
             return Self::Fixed { unknowns };
@@ -65,7 +64,7 @@ impl Storage {
         #[cfg(feature = "sparse")]
         if unknowns > MOST_DENSE
             && pattern.entries() < unknowns * unknowns / SPARSITY
-            && let Some(sparse) = SparseLu::new(pattern, columns)
+            && let Some(sparse) = SparseLu::new(pattern)
         {
             return Self::Sparse(Box::new(sparse));
         }
@@ -84,6 +83,13 @@ impl Storage {
     }
 
     /// Where an entry is among the values, if the pattern has it.
+    #[cfg_attr(
+        not(feature = "sparse"),
+        expect(
+            clippy::unnecessary_wraps,
+            reason = "all that is dense has every entry"
+        )
+    )]
     fn position(&self, row: usize, column: usize) -> Option<usize> {
         match self {
             Self::Fixed { unknowns } => Some(row * unknowns + column),
@@ -162,7 +168,7 @@ fn solve_fixed<S: Real, const W: usize>(
 impl<S: Real, const W: usize> LinearSystem<S, W> {
     /// A system whose unknowns come in runs of `run` for each node.
     pub(crate) fn new(pattern: &Pattern, run: usize) -> Self {
-        let storage = Storage::new(pattern, W);
+        let storage = Storage::new(pattern);
         Self {
             unknowns: pattern.unknowns(),
             values: vec![S::zero(); storage.entries() + run],
