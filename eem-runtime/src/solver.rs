@@ -239,7 +239,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let residual = self.balance(view);
             let solved = self.tangent.solve();
             solved.map_err(|_| StepFailure::SingularTangent)?;
-            let update = self.correct(groups, view);
+            let update = self.correct(groups);
             self.history.push(Iteration { residual, update });
             if !update.is_finite() {
                 break;
@@ -288,11 +288,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         self.obstacle = None;
         loop {
             self.apply(share, view);
-            for group in groups.iter_mut() {
-                group.apply(share);
-            }
             let is_end = look == Look::Back && share == S::one();
-            match self.evaluate(groups, view, !is_end) {
+            match self.evaluate(groups, view, share, !is_end) {
                 Ok(()) => return Ok(share),
                 Err(error) if halvings == HALVINGS => return Err(error.into()),
                 Err(error) => {
@@ -304,22 +301,24 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
-    /// The responses at the trial state, and the system of the next iteration if there is to be one.
+    /// The responses at the trial state, which is a share of the local corrections away, and the
+    /// system of the next iteration if there is to be one.
     fn evaluate(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
+        share: S,
         goes_on: bool,
     ) -> Result<(), StateError> {
         let trial = &self.trial;
         if !goes_on {
             let mut groups = groups.iter_mut();
-            return groups.try_for_each(|group| group.evaluate(view, trial, None));
+            return groups.try_for_each(|group| group.evaluate(view, trial, share, None));
         }
         self.tangent.clear();
         let system = &mut self.tangent;
         let mut groups = groups.iter_mut();
-        groups.try_for_each(|group| group.evaluate(view, trial, Some(system)))
+        groups.try_for_each(|group| group.evaluate(view, trial, share, Some(system)))
     }
 
     /// The trial a share of the correction away from where it was.

@@ -41,11 +41,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 
     /// Distributes the solution; the largest scaled update.
-    pub(super) fn correct(
-        &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-    ) -> S {
+    pub(super) fn correct(&mut self, groups: &mut [Box<dyn Group<S, D>>]) -> S {
         let solution = self.tangent.right_mut();
         let mut largest = S::zero();
         for mass in &self.masses {
@@ -67,16 +63,15 @@ impl<S: Real, const D: usize> Solver<S, D> {
             self.correction.1[seen.slot] = change;
             largest = largest.maximum((change / theta).abs());
         }
-        correct_locally(groups, view, self.tangent.right()).maximum(largest)
+        correct_locally(groups, self.tangent.right()).maximum(largest)
     }
 }
 
 /// Corrects the local unknowns for given global corrections; the largest scaled update.
 pub(super) fn correct_locally<S: Real, const D: usize>(
     groups: &mut [Box<dyn Group<S, D>>],
-    view: &StepView<'_, S>,
     solution: &[[S; 1]],
 ) -> S {
-    let updates = groups.iter_mut().map(|group| group.correct(view, solution));
+    let updates = groups.iter_mut().map(|group| group.correct(solution));
     updates.fold(S::zero(), S::maximum)
 }

@@ -34,7 +34,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             self.remember();
             self.correction.0.fill([S::zero(); D]);
             self.correction.1.fill(S::zero());
-            let update = correct_locally(groups, view, &no_change);
+            let update = correct_locally(groups, &no_change);
             self.history.push(Iteration { residual, update });
             let stagnated = before.is_some_and(|before| update >= before);
             if !update.is_finite() || self.history.len() > self.settings.max_iterations {
