@@ -221,7 +221,7 @@ where
             let index = M::MEASURES + k;
             let rate = self.response[index] / self.viscosities.0[k];
             heat += self.response[index] * rate;
-            let change = self.with_old_rate(index, rate, h);
+            let change = self.increment(index, rate, h);
             next.viscous
                 .advance(slots.viscous + k, &view.state.viscous, change);
         }
@@ -237,7 +237,7 @@ where
         if self.meets_reservoirs {
             self.warm_reservoirs(view, slot, next);
         }
-        let received = self.with_old_rate(Self::TEMPERATURE, heat / theta, h);
+        let received = self.increment(Self::TEMPERATURE, heat / theta, h);
         let entropies = &view.state.entropies;
         next.entropies.advance(slot, entropies, received);
         received

@@ -148,7 +148,7 @@ where
         dissipation.power += self.response[index] * rate;
         let change = self.x[index] - self.start.x0[index];
         let h = view.thermal_step();
-        system.constant[k] = change - self.with_old_rate(index, rate, h);
+        system.constant[k] = change - self.increment(index, rate, h);
         let mobility = -h * S::from_f64(C::IMPLICIT) * per_eta;
         // ∂g/∂x − γ̇ ∂η/∂x, the derivative of γ̇ times η.
         let thinning = rate * self.viscosities.1[k];
@@ -188,7 +188,7 @@ where
         let rate = (dissipation.power + flow.heat) * per_theta;
         let h = view.thermal_step();
         let row = M::DASHPOTS;
-        let received = self.with_old_rate(Self::TEMPERATURE, rate, h);
+        let received = self.increment(Self::TEMPERATURE, rate, h);
         let residual = self.response[Self::ENTROPY] - received;
         system.constant[row] = residual;
         // ∂r_s/∂(power) without the sign, and ∂r_s/∂θ*.

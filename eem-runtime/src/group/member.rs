@@ -140,15 +140,15 @@ where
         }
     }
 
-    /// What the old state alone contributes to the rate of an internal variable, times `h`, if the
-    /// scheme takes anything from it: added to the share of the response.
+    /// The increment `h (w ẋ + c)` of an internal variable with the rate `ẋ` of the response, of which
+    /// the scheme takes the share w; c is what the old state contributes.
     #[inline]
-    pub(super) fn with_old_rate(&self, index: usize, share: S, h: S) -> S {
+    pub(super) fn increment(&self, index: usize, rate: S, h: S) -> S {
         match self.at_point.as_ref() {
             [at_point] if C::IMPLICIT < 1.0 => {
-                h * (S::from_f64(C::IMPLICIT) * share + at_point.old_rates[index])
+                h * (S::from_f64(C::IMPLICIT) * rate + at_point.old_rates[index])
             }
-            _ => h * share,
+            _ => h * rate,
         }
     }
 
