@@ -1,7 +1,6 @@
 //! Fourier conduction between elements and to reservoirs.
 
-use core::ops::Range;
-
+use crate::compact::compact;
 use crate::handle::HeatPartner;
 use crate::layout::Layout;
 use crate::scalar::Real;
@@ -28,8 +27,8 @@ pub(crate) struct Link<S> {
 #[derive(Clone, Debug)]
 pub(crate) struct Conduction<S> {
     links: Vec<Link<S>>,
-    /// Those of each slot; none for a scene without paths.
-    ranges: Vec<Range<usize>>,
+    /// Where the links of each slot begin and end; none for a scene without paths.
+    ranges: Vec<[u32; 2]>,
     /// `θ_r`, K.
     pub(crate) reservoirs: Vec<S>,
 }
@@ -70,9 +69,9 @@ impl<S: Real> Conduction<S> {
         let mut links = Vec::new();
         let mut ranges = Vec::with_capacity(by_slot.len());
         for list in by_slot {
-            let start = links.len();
+            let start = compact(links.len());
             links.extend(list);
-            ranges.push(start..links.len());
+            ranges.push([start, compact(links.len())]);
         }
         Self {
             links,
@@ -84,8 +83,31 @@ impl<S: Real> Conduction<S> {
     /// The paths that end at a slot.
     #[inline]
     pub(crate) fn links(&self, slot: usize) -> &[Link<S>] {
-        let range = self.ranges.get(slot).cloned();
-        range.map_or(&[], |range| &self.links[range])
+        let Some(&[start, end]) = self.ranges.get(slot) else {
+            return &[];
+        };
+        self.links
+            .get(start as usize..end as usize)
+            .unwrap_or_default()
+    }
+
+    /// Whether a slot exchanges heat with reservoirs.
+    pub(crate) fn meets_reservoirs(&self, slot: usize) -> bool {
+        let mut links = self.links(slot).iter();
+        links.any(|link| matches!(link.partner, Partner::Reservoir(_)))
+    }
+
+    /// The heat flow from reservoirs into a slot with the temperature θ, `Σ κ (θ_r − θ)`.
+    #[inline(never)]
+    pub(crate) fn reservoir_flow(&self, slot: usize, theta: S) -> HeatFlow<S> {
+        let mut flow = HeatFlow::none();
+        for link in self.links(slot) {
+            if let Partner::Reservoir(index) = link.partner {
+                flow.conductance += link.conductance;
+                flow.heat += link.conductance * (self.reservoirs[index] - theta);
+            }
+        }
+        flow
     }
 
     /// The heat flow into a slot, `Σ κ (Θ_partner − Θ) + Σ κ (θ_r − θ)`.
@@ -93,20 +115,14 @@ impl<S: Real> Conduction<S> {
     /// Flows between elements are computed from `seen` temperatures Θ at both ends, so that one end
     /// receives exactly what the other gives, whatever rounding does to a large κ; flows
     /// from reservoirs from the temperature θ of the slot.
-    #[inline]
     pub(crate) fn heat_flow(&self, slot: usize, theta: S, seen: &[S]) -> HeatFlow<S> {
-        let (mut heat, mut conductance) = (S::zero(), S::zero());
+        let mut flow = self.reservoir_flow(slot, theta);
         for link in self.links(slot) {
-            let difference = match link.partner {
-                Partner::Slot(partner) => seen[partner] - seen[slot],
-                Partner::Reservoir(index) => {
-                    conductance += link.conductance;
-                    self.reservoirs[index] - theta
-                }
-            };
-            heat += link.conductance * difference;
+            if let Partner::Slot(partner) = link.partner {
+                flow.heat += link.conductance * (seen[partner] - seen[slot]);
+            }
         }
-        HeatFlow { heat, conductance }
+        flow
     }
 }
 
@@ -117,4 +133,15 @@ pub(crate) struct HeatFlow<S> {
     pub(crate) heat: S,
     /// `−∂Q/∂θ = Σ κ` to reservoirs, W/K.
     pub(crate) conductance: S,
+}
+
+impl<S: Real> HeatFlow<S> {
+    /// Nothing flows.
+    #[inline]
+    pub(crate) fn none() -> Self {
+        Self {
+            heat: S::zero(),
+            conductance: S::zero(),
+        }
+    }
 }

@@ -306,9 +306,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         let trial = &self.trial;
         for group in groups {
-            group.apply(share);
             let system = goes_on.then_some(&mut self.tangent);
-            group.evaluate(view, trial, system)?;
+            group.evaluate(view, trial, share, system)?;
         }
         Ok(())
     }

@@ -36,11 +36,11 @@ impl<S: Real> StepView<'_, S> {
     }
 
     /// The temperature prescribed on a thermal slot, as a scheme with this placement sees it.
-    pub(super) fn prescribed(&self, slot: Option<usize>, at: Placement) -> Option<S> {
+    pub(super) fn prescribed(&self, slot: usize, at: Placement) -> Option<S> {
         if !self.phase.heats() {
             return None;
         }
-        let prescribed = self.loads.prescribed(slot?)?;
+        let prescribed = self.loads.prescribed(slot)?;
         Some(match at {
             Placement::Ends | Placement::End => prescribed.end,
             Placement::Middle | Placement::Start => prescribed.middle,

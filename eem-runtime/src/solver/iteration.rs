@@ -74,7 +74,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             largest.see(change / theta);
         }
         for group in groups.iter_mut() {
-            largest.see(group.correct(view, self.tangent.right()));
+            largest.see(group.correct(self.tangent.right()));
         }
         largest.found()
     }

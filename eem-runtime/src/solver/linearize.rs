@@ -32,7 +32,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             }
             self.hold();
             let updates = groups.iter_mut();
-            let updates = updates.map(|group| group.correct(view, &no_change));
+            let updates = updates.map(|group| group.correct(&no_change));
             let update = updates.fold(S::zero(), S::maximum);
             effort.history.push(Iteration { residual, update });
             let stagnated = before.is_some_and(|before| update >= before);
