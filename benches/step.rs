@@ -53,7 +53,9 @@ fn set_up() -> Pendulum {
 /// The temperature θ of the state (λ, γ, θ) with the entropy of another, from a start.
 fn temperature([lambda, gamma, _]: Variables, entropy: f64, start: f64) -> f64 {
     let caloric = LAW.caloric_at([lambda, gamma, start]);
-    invert(caloric, entropy, start).unwrap().temperature
+    invert(|theta| caloric(theta).0, entropy, start)
+        .unwrap()
+        .temperature
 }
 
 /// The corner temperatures of the step from [`OLD`] to [`NEW`].

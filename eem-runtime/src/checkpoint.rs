@@ -10,6 +10,7 @@ use crate::newton::NewtonSettings;
 use crate::scalar::Real;
 use crate::scene::is_positive;
 use crate::scheme::Scheme;
+use crate::solver::SavedPast;
 use crate::state::State;
 
 pub use error::RestoreError;
@@ -59,6 +60,7 @@ pub struct Checkpoint<S = f64> {
     pub(crate) step: S,
     pub(crate) newton: NewtonSettings<S>,
     pub(crate) state: State<S>,
+    pub(crate) past: SavedPast<S>,
 }
 
 impl<S: Copy> Checkpoint<S> {
@@ -76,12 +78,13 @@ impl<S: Copy> Checkpoint<S> {
 }
 
 impl<S: Real> Checkpoint<S> {
-    /// An error unless it is one of a simulation of this scheme, outline and state.
+    /// An error unless it is one of a simulation of this scheme, outline, state and past.
     pub(crate) fn check(
         &self,
         scheme: Scheme,
         outline: &Outline,
         state: &State<S>,
+        past: &SavedPast<S>,
     ) -> Result<(), RestoreError> {
         if self.scheme != scheme {
             return Err(RestoreError::Scheme {
@@ -96,11 +99,11 @@ impl<S: Real> Checkpoint<S> {
             let numbers = own.sums().flat_map(|(value, carry)| [value, carry]);
             expect_all("finite", quantity, numbers, Real::is_finite)?;
         }
-        for (own, other) in self.state.past.forces.iter().zip(&state.past.forces) {
+        for (own, other) in self.past.forces.iter().zip(&past.forces) {
             expect_count("forces", own.len(), other.len())?;
             expect_all("finite", "forces", own.iter().copied(), Real::is_finite)?;
         }
-        let errors = self.state.past.errors.into_iter();
+        let errors = self.past.errors.into_iter();
         expect_all("finite", "forces", errors, Real::is_finite)?;
         for (quantity, sum) in single_sums(&self.state) {
             expect_all(
@@ -143,7 +146,6 @@ fn single_sums<S: Copy>(state: &State<S>) -> [(&'static str, Sum<S>); 5] {
         heat,
         thermostat_entropy,
         dissipated,
-        past: _,
     } = state;
     [
         ("time", *time),

@@ -45,6 +45,31 @@ impl<S: Scalar> Compensated<S> {
         self.carries[index] = rest;
     }
 
+    /// The sums of one point of `D` coordinates, of `old` and increments; everything that rounding took
+    /// from them, added up.
+    #[inline]
+    pub(crate) fn advance_point<const D: usize>(
+        &mut self,
+        point: usize,
+        old: &Self,
+        increments: &[S; D],
+    ) -> S {
+        let (from, rest) = (
+            old.values.as_chunks::<D>().0,
+            old.carries.as_chunks::<D>().0,
+        );
+        let (from, rest) = (&from[point], &rest[point]);
+        let values = &mut self.values.as_chunks_mut::<D>().0[point];
+        let carries = &mut self.carries.as_chunks_mut::<D>().0[point];
+        let mut taken = S::zero();
+        for axis in 0..D {
+            let (value, carry) = two_sum(from[axis], increments[axis] + rest[axis]);
+            (values[axis], carries[axis]) = (value, carry);
+            taken += carry;
+        }
+        taken
+    }
+
     /// Adds to one sum.
     pub(crate) fn add(&mut self, index: usize, increment: S) {
         let (value, rest) = two_sum(self.values[index], increment + self.carries[index]);
@@ -54,6 +79,9 @@ impl<S: Scalar> Compensated<S> {
 
     /// Takes over the sums of `other`, which has as many, without allocation.
     pub(crate) fn copy_from(&mut self, other: &Self) {
+        if self.values.is_empty() {
+            return;
+        }
         self.values.copy_from_slice(&other.values);
         self.carries.copy_from_slice(&other.carries);
     }

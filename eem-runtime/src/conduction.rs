@@ -1,7 +1,6 @@
 //! Fourier conduction between elements and to reservoirs.
 
-use core::ops::Range;
-
+use crate::compact::compact;
 use crate::handle::HeatPartner;
 use crate::layout::Layout;
 use crate::scalar::Real;
@@ -28,7 +27,8 @@ pub(crate) struct Link<S> {
 #[derive(Clone, Debug)]
 pub(crate) struct Conduction<S> {
     links: Vec<Link<S>>,
-    ranges: Vec<Range<usize>>,
+    /// Where the links of each slot begin and end; none for a scene without paths.
+    ranges: Vec<[u32; 2]>,
     /// `θ_r`, K.
     pub(crate) reservoirs: Vec<S>,
 }
@@ -36,7 +36,12 @@ pub(crate) struct Conduction<S> {
 impl<S: Real> Conduction<S> {
     /// The paths of a scene.
     pub(crate) fn new<const D: usize>(scene: &Scene<D, S>, layout: &Layout) -> Self {
-        let mut by_slot = vec![Vec::new(); layout.coupled.len()];
+        let slots = if scene.conductors.is_empty() {
+            0
+        } else {
+            layout.thermal
+        };
+        let mut by_slot = vec![Vec::new(); slots];
         let slot = |index: usize| layout.elements[index].thermal;
         for conductor in &scene.conductors {
             let conductance = conductor.conductance;
@@ -64,9 +69,9 @@ impl<S: Real> Conduction<S> {
         let mut links = Vec::new();
         let mut ranges = Vec::with_capacity(by_slot.len());
         for list in by_slot {
-            let start = links.len();
+            let start = compact(links.len());
             links.extend(list);
-            ranges.push(start..links.len());
+            ranges.push([start, compact(links.len())]);
         }
         Self {
             links,
@@ -78,7 +83,31 @@ impl<S: Real> Conduction<S> {
     /// The paths that end at a slot.
     #[inline]
     pub(crate) fn links(&self, slot: usize) -> &[Link<S>] {
-        &self.links[self.ranges[slot].clone()]
+        let Some(&[start, end]) = self.ranges.get(slot) else {
+            return &[];
+        };
+        self.links
+            .get(start as usize..end as usize)
+            .unwrap_or_default()
+    }
+
+    /// Whether a slot exchanges heat with reservoirs.
+    pub(crate) fn meets_reservoirs(&self, slot: usize) -> bool {
+        let mut links = self.links(slot).iter();
+        links.any(|link| matches!(link.partner, Partner::Reservoir(_)))
+    }
+
+    /// The heat flow from reservoirs into a slot with the temperature θ, `Σ κ (θ_r − θ)`.
+    #[inline(never)]
+    pub(crate) fn reservoir_flow(&self, slot: usize, theta: S) -> HeatFlow<S> {
+        let mut flow = HeatFlow::none();
+        for link in self.links(slot) {
+            if let Partner::Reservoir(index) = link.partner {
+                flow.conductance += link.conductance;
+                flow.heat += link.conductance * (self.reservoirs[index] - theta);
+            }
+        }
+        flow
     }
 
     /// The heat flow into a slot, `Σ κ (Θ_partner − Θ) + Σ κ (θ_r − θ)`.
@@ -86,20 +115,14 @@ impl<S: Real> Conduction<S> {
     /// Flows between elements are computed from `seen` temperatures Θ at both ends, so that one end
     /// receives exactly what the other gives, whatever rounding does to a large κ; flows
     /// from reservoirs from the temperature θ of the slot.
-    #[inline]
     pub(crate) fn heat_flow(&self, slot: usize, theta: S, seen: &[S]) -> HeatFlow<S> {
-        let (mut heat, mut conductance) = (S::zero(), S::zero());
+        let mut flow = self.reservoir_flow(slot, theta);
         for link in self.links(slot) {
-            let difference = match link.partner {
-                Partner::Slot(partner) => seen[partner] - seen[slot],
-                Partner::Reservoir(index) => {
-                    conductance += link.conductance;
-                    self.reservoirs[index] - theta
-                }
-            };
-            heat += link.conductance * difference;
+            if let Partner::Slot(partner) = link.partner {
+                flow.heat += link.conductance * (seen[partner] - seen[slot]);
+            }
         }
-        HeatFlow { heat, conductance }
+        flow
     }
 }
 
@@ -110,4 +133,15 @@ pub(crate) struct HeatFlow<S> {
     pub(crate) heat: S,
     /// `−∂Q/∂θ = Σ κ` to reservoirs, W/K.
     pub(crate) conductance: S,
+}
+
+impl<S: Real> HeatFlow<S> {
+    /// Nothing flows.
+    #[inline]
+    pub(crate) fn none() -> Self {
+        Self {
+            heat: S::zero(),
+            conductance: S::zero(),
+        }
+    }
 }

@@ -124,16 +124,17 @@ pub trait FreeEnergy<S: Scalar> {
     /// Entropy and heat capacity; zero without temperature.
     fn caloric(&self, x: &Self::Variables) -> Caloric<S>;
 
-    /// [`caloric`](Self::caloric) as a function of the temperature, with the other variables of
-    /// `x`: for inversions, which evaluate it several times. What does not depend on the temperature
-    /// is computed once. The results of both differ by rounding.
-    fn caloric_at(&self, x: Self::Variables) -> impl Fn(S) -> Caloric<S> {
+    /// [`caloric`](Self::caloric) and [`free_energy`](Self::free_energy) as functions of the
+    /// temperature, with the other variables of `x`: for inversions, which evaluate them several
+    /// times. What does not depend on the temperature is computed once. The results differ by
+    /// rounding.
+    fn caloric_at(&self, x: Self::Variables) -> impl Fn(S) -> (Caloric<S>, S) {
         move |theta| {
             let mut x = x;
             if let Some(last) = x.as_mut().last_mut() {
                 *last = theta;
             }
-            self.caloric(&x)
+            (self.caloric(&x), self.free_energy(&x))
         }
     }
 

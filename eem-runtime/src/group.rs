@@ -4,26 +4,36 @@
 //! implementation, monomorphic in model, kinematics and scheme. The phases of a step are
 //!
 //! ```text
-//! begin      look at the old state, once                                  (evaluate)
-//! evaluate   response, local unknowns eliminated, contributions written    (evaluate, local, assemble)
-//! correct    local unknowns from the global solution                       (correct)
-//! close      increments from the found forces, and the new state           (closing, settle)
+//! begin      look at the old state, once                            (begin)
+//! evaluate   last correction applied                                (evaluate, member)
+//!            response at the trial                                  (respond, pose, arms)
+//!            local unknowns eliminated                              (local, eliminate)
+//!            contributions written to their places                  (assemble, scatter, site)
+//! correct    local unknowns from the global solution                (correct)
+//! close      increments from the found forces, and the new state    (closing, settle)
 //! ```
 
+mod arms;
 mod assemble;
+mod at_point;
+mod begin;
 mod closing;
 mod correct;
+mod eliminate;
 mod evaluate;
 mod generic;
 mod inspect;
 mod local;
 mod member;
 mod pose;
+mod respond;
+mod scatter;
 mod settle;
 mod site;
 mod stages;
 mod view;
 
+use crate::compact::compact;
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
 use crate::handle::Element;
@@ -33,10 +43,10 @@ use crate::scalar::Real;
 use crate::scheme::ElementScheme;
 use crate::state::State;
 use crate::system::LinearSystem;
+pub(crate) use arms::points;
 pub(crate) use generic::ElementGeneric;
 use member::Member;
-pub(crate) use pose::points;
-use site::{Contact, Site};
+use site::{Contact, SecantSite, Site};
 pub(crate) use stages::{StageGroup, StageTrial, StageView, ThreeStageGroup};
 pub(crate) use view::{Along, ElementView, GroupTotals, Old, Placed, Sites, StepView, Trial};
 
@@ -63,21 +73,20 @@ pub(crate) trait Group<S: Real, const D: usize>: Elements<S, D> {
     /// Looks at the old state, adds to what it gives to the nodes, and starts the trial there.
     fn begin(&mut self, view: &StepView<'_, S>, old: &mut Old<'_, S, D>) -> Result<(), StateError>;
 
-    /// Applies the fraction `share` of the last local corrections.
-    fn apply(&mut self, share: S);
-
-    /// Computes everything that depends on the trial state, element by element, and adds residual
-    /// and tangent, local unknowns eliminated, to a system if there is one.
+    /// Applies the fraction `share` of the last local corrections, computes everything that depends
+    /// on the trial state, element by element, and adds residual and tangent, local unknowns
+    /// eliminated, to a system if there is one.
     fn evaluate(
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
+        share: S,
         system: Option<&mut LinearSystem<S, 1>>,
     ) -> Result<(), StateError>;
 
     /// Local corrections that go with the global ones; the largest, in units of the measure (viscous
     /// stretches) and of the temperature.
-    fn correct(&mut self, view: &StepView<'_, S>, solution: &[[S; 1]]) -> S;
+    fn correct(&mut self, solution: &[[S; 1]]) -> S;
 
     /// The present trial is where the next correction starts; no local correction.
     fn hold(&mut self);
@@ -127,6 +136,8 @@ where
     kinematics: K,
     members: Vec<Member<S, M, K, C, D>>,
     contacts: Vec<Contact<K, S, D>>,
+    /// Per member, if the scheme closes a step by the secant.
+    secants: Vec<SecantSite<K, S, D>>,
 }
 
 impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
@@ -145,6 +156,7 @@ where
             kinematics,
             members: members.collect(),
             contacts: Vec::new(),
+            secants: Vec::new(),
         }
     }
 }
@@ -181,14 +193,23 @@ where
     C: ElementScheme<S, M>,
 {
     fn connect(&mut self, sites: &Sites<'_, S, D>) {
+        self.contacts.clear();
         for member in &mut self.members {
-            let nodes = member.site.nodes;
-            member.site = Site::new(nodes.as_ref(), sites);
-            let slot = member.slots.thermal;
-            if let Some(contact) = Contact::new(nodes.as_ref(), slot, sites) {
-                member.site.contact = Some(self.contacts.len());
+            let (nodes, slot) = (member.site.nodes, member.slots().thermal);
+            member.site = Site::new(nodes, sites);
+            member.meets_reservoirs =
+                slot.is_some_and(|slot| sites.conduction.meets_reservoirs(slot));
+            if let Some(contact) = Contact::new(&nodes, slot, sites) {
+                member.contact = compact(self.contacts.len());
                 self.contacts.push(contact);
             }
+        }
+        if C::PLACEMENT.has_secant() {
+            let sites = self
+                .members
+                .iter()
+                .map(|member| SecantSite::new(&member.site.nodes, sites));
+            self.secants = sites.collect();
         }
     }
 
@@ -196,23 +217,18 @@ where
         self.begin_all(view, old)
     }
 
-    fn apply(&mut self, share: S) {
-        for member in &mut self.members {
-            member.apply(share);
-        }
-    }
-
     fn evaluate(
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
+        share: S,
         system: Option<&mut LinearSystem<S, 1>>,
     ) -> Result<(), StateError> {
-        self.evaluate_all(view, trial, system)
+        self.evaluate_all(view, trial, share, system)
     }
 
-    fn correct(&mut self, view: &StepView<'_, S>, solution: &[[S; 1]]) -> S {
-        self.correct_all(view, solution)
+    fn correct(&mut self, solution: &[[S; 1]]) -> S {
+        self.correct_all(solution)
     }
 
     fn hold(&mut self) {

@@ -15,7 +15,7 @@
 //! * First differences are right to 3 ulp (`cbrt_dd` 6, `powi_dd` ½|n| + 1), where
 //!   1 ulp is a relative error of 2⁻⁵², for any distance of the ends, and are
 //!   **bitwise symmetric**, `f_dd(a, b) == f_dd(b, a)`: a scheme built from them
-//!   is self-adjoint in floating-point arithmetic. There is no threshold on the
+//!   alone is self-adjoint in floating-point arithmetic. There is no threshold on the
 //!   increment; the only comparison with zero catches 0/0. Both hold as long as
 //!   the values of `f` at the ends are normal numbers.
 //! * Second differences are right to 16 ulp of `∫₀¹ t|f″| dt`, hence

@@ -95,11 +95,16 @@ pub trait Kinematics<S: Real, const D: usize>:
     /// The mean-value gradient `D*π` between two states.
     fn discrete_gradient(&self, ends: &Ends<Self, S, D>) -> Gradient<Self, S, D>;
 
-    /// `Σ_a f_a ∂(D*π_a)/∂r¹`.
-    fn discrete_curvature(
+    /// The derivative of `Σ_a f_a D*π_a` by `r¹`, where that of the forces is given,
+    ///
+    /// ```text
+    /// Σ_a (f_a ∂(D*π_a)/∂r¹ + D*π_a ∂f_a/∂r¹)
+    /// ```
+    fn discrete_tangent(
         &self,
         ends: &Ends<Self, S, D>,
         force: &Measures<Self, S, D>,
+        force_by_arm: &Gradient<Self, S, D>,
     ) -> Blocks<Self, S, D>;
 
     /// A of `Σ_a f_a D*π_a = A r_m`, with the measures held.

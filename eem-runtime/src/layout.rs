@@ -29,6 +29,8 @@ pub(crate) struct Layout {
     pub(crate) coupled: Vec<Option<usize>>,
     /// Number of viscous stretches.
     pub(crate) viscous: usize,
+    /// Number of thermal slots.
+    pub(crate) thermal: usize,
     /// Number of unknowns.
     pub(crate) unknowns: usize,
 }
@@ -70,7 +72,14 @@ impl Layout {
             elements,
             coupled,
             viscous,
+            thermal,
             unknowns,
         }
+    }
+
+    /// Forgets the numbers of single unknowns, for which nobody asks once all places are found.
+    pub(crate) fn forget_unknowns(&mut self) {
+        self.nodes = Vec::new();
+        self.coupled = Vec::new();
     }
 }

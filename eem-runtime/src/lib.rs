@@ -26,6 +26,7 @@ pub mod kinematics;
 
 mod blueprint;
 mod checkpoint;
+mod compact;
 mod compensated;
 mod conduction;
 mod domain;

@@ -41,10 +41,13 @@ impl<S: Real, const D: usize> Loads<S, D> {
         }
     }
 
-    fn are_none(&self) -> bool {
-        let has_weight = self.gravity.iter().any(|&component| component != S::zero());
-        let has_force = has_weight || !self.forces.is_empty();
+    pub(crate) fn are_none(&self) -> bool {
+        let has_force = self.have_weight() || !self.forces.is_empty();
         !has_force && self.motions.is_empty() && self.temperatures.is_empty()
+    }
+
+    fn have_weight(&self) -> bool {
+        self.gravity.iter().any(|&component| component != S::zero())
     }
 }
 
@@ -68,19 +71,19 @@ pub(crate) struct Prescribed<S> {
     pub(crate) end: S,
 }
 
-/// What acts during one step.
+/// What acts during one step. There is no memory for kinds of loads that the scene does not have.
 #[derive(Clone, Debug)]
 pub(crate) struct StepLoads<S> {
     /// Loads that do work, per coordinate, N.
-    pub(crate) force: Vec<S>,
+    force: Vec<S>,
     /// Loads and weight, per coordinate, N.
-    pub(crate) total_force: Vec<S>,
+    total_force: Vec<S>,
     /// Displacements of moved anchors, per coordinate, m.
-    pub(crate) motion: Vec<S>,
+    motion: Vec<S>,
     /// The nodes that are moved.
     pub(crate) moved: Vec<usize>,
     /// Per thermal slot.
-    pub(crate) prescribed: Vec<Option<Prescribed<S>>>,
+    prescribed: Vec<Option<Prescribed<S>>>,
 }
 
 impl<S: Real> StepLoads<S> {
@@ -90,16 +93,55 @@ impl<S: Real> StepLoads<S> {
         layout: &Layout,
         loads: &Loads<S, D>,
     ) -> Self {
-        let zeros = vec![S::zero(); coordinates];
+        let zeros = |needed: bool| vec![S::zero(); if needed { coordinates } else { 0 }];
+        let slots = if loads.temperatures.is_empty() {
+            0
+        } else {
+            layout.thermal
+        };
         let moved = loads.motions.iter().map(|(node, _)| node.index);
         let moved: BTreeSet<_> = moved.collect();
         Self {
             moved: moved.into_iter().collect(),
-            force: zeros.clone(),
-            total_force: zeros.clone(),
-            motion: zeros,
-            prescribed: vec![None; layout.coupled.len()],
+            force: zeros(!loads.forces.is_empty()),
+            total_force: zeros(!loads.forces.is_empty() || loads.have_weight()),
+            motion: zeros(!loads.motions.is_empty()),
+            prescribed: vec![None; slots],
         }
+    }
+
+    /// Whether there are loads that do work on nodes.
+    pub(crate) fn has_force(&self) -> bool {
+        !self.force.is_empty()
+    }
+
+    /// Whether there are loads or weights.
+    pub(crate) fn has_total_force(&self) -> bool {
+        !self.total_force.is_empty()
+    }
+
+    /// The load on a node that does work, N.
+    #[inline]
+    pub(crate) fn force<const D: usize>(&self, node: usize) -> [S; D] {
+        point(&self.force, node)
+    }
+
+    /// Load and weight of a node, N.
+    #[inline]
+    pub(crate) fn total_force<const D: usize>(&self, node: usize) -> [S; D] {
+        point(&self.total_force, node)
+    }
+
+    /// The displacement of a moved anchor, m.
+    #[inline]
+    pub(crate) fn motion<const D: usize>(&self, node: usize) -> [S; D] {
+        point(&self.motion, node)
+    }
+
+    /// The temperature prescribed on a thermal slot.
+    #[inline]
+    pub(crate) fn prescribed(&self, slot: usize) -> Option<Prescribed<S>> {
+        self.prescribed.get(slot).copied().flatten()
     }
 
     /// Evaluates the loads of the step from `time` by `step` at the positions `q0`.
@@ -115,9 +157,6 @@ impl<S: Real> StepLoads<S> {
         [time, step]: [S; 2],
         q0: &[S],
     ) -> Result<(), StepFailure> {
-        if loads.are_none() {
-            return Ok(());
-        }
         let half = S::from_f64(0.5);
         let (middle, end) = (time + half * step, time + step);
         self.force.fill(S::zero());
@@ -138,13 +177,7 @@ impl<S: Real> StepLoads<S> {
                 self.force[node.index * D + axis] += value[axis];
             }
         }
-        for (node, mass) in masses.iter().enumerate() {
-            for axis in 0..D {
-                let weight = mass.map_or(S::zero(), |mass| mass * loads.gravity[axis]);
-                let at = node * D + axis;
-                self.total_force[at] = self.force[at] + weight;
-            }
-        }
+        self.add_weights(loads, masses);
         for (node, motion) in &loads.motions {
             let position = motion(end);
             for axis in 0..D {
@@ -178,4 +211,21 @@ impl<S: Real> StepLoads<S> {
         }
         Ok(())
     }
+
+    fn add_weights<const D: usize>(&mut self, loads: &Loads<S, D>, masses: &[Option<S>]) {
+        let total = self.total_force.as_chunks_mut::<D>().0.iter_mut();
+        for (node, (total, mass)) in total.zip(masses).enumerate() {
+            *total = point(&self.force, node);
+            for (total, &acceleration) in total.iter_mut().zip(loads.gravity.iter()) {
+                *total += mass.map_or(S::zero(), |mass| mass * acceleration);
+            }
+        }
+    }
+}
+
+/// What belongs to a node, among coordinates that may all be missing.
+#[inline]
+fn point<S: Real, const D: usize>(coordinates: &[S], node: usize) -> [S; D] {
+    let points = coordinates.as_chunks::<D>().0;
+    points.get(node).copied().unwrap_or([S::zero(); D])
 }

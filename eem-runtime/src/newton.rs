@@ -64,18 +64,71 @@ const STAGNATION: f64 = 0.25;
 
 /// Whether an update is the last one, given the one before.
 pub(crate) fn is_last<S: Real>(update: S, before: Option<S>, tolerance: S) -> bool {
-    let Some(before) = before else {
-        return update <= tolerance;
-    };
-    let converged = update <= tolerance && update <= S::from_f64(CONTRACTION) * before;
-    let floor = S::from_f64(CONTRACTION) * tolerance;
-    let stagnated = update <= floor && update >= S::from_f64(STAGNATION) * before;
-    converged || stagnated
+    if update <= tolerance {
+        before.is_none_or(|before| {
+            let contracts = update <= S::from_f64(CONTRACTION) * before;
+            let is_on_floor = update <= S::from_f64(CONTRACTION) * tolerance;
+            contracts || (is_on_floor && update >= S::from_f64(STAGNATION) * before)
+        })
+    } else {
+        false
+    }
+}
+
+/// The largest magnitude of many numbers, NaN unless all of them are finite.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Largest<S> {
+    largest: S,
+    /// Of all magnitudes: it keeps a NaN, which a comparison loses.
+    sum: S,
+}
+
+impl<S: Real> Largest<S> {
+    /// Zero, of none.
+    #[inline]
+    pub(crate) fn none() -> Self {
+        Self {
+            largest: S::zero(),
+            sum: S::zero(),
+        }
+    }
+
+    /// Looks at another number.
+    #[inline]
+    pub(crate) fn see(&mut self, value: S) {
+        let size = value.abs();
+        self.sum += size;
+        if size > self.largest {
+            self.largest = size;
+        }
+    }
+
+    /// The largest so far.
+    #[inline]
+    pub(crate) fn found(self) -> S {
+        // The product is zero, or NaN.
+        self.largest + S::zero() * self.sum
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::is_last;
+    use super::{Largest, is_last};
+
+    #[test]
+    fn what_is_not_finite_is_the_largest_wherever_it_comes() {
+        let largest = |values: [f64; 3]| {
+            let mut largest = Largest::none();
+            for value in values {
+                largest.see(value);
+            }
+            largest.found()
+        };
+        assert_eq!(largest([1.0, -3.0, 2.0]).to_bits(), 3.0_f64.to_bits());
+        assert!(largest([f64::NAN, 1.0, 2.0]).is_nan());
+        assert!(largest([1.0, 2.0, f64::NAN]).is_nan());
+        assert!(largest([1.0, f64::INFINITY, 2.0]).is_nan());
+    }
 
     #[test]
     fn a_small_update_must_contract() {

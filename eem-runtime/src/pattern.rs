@@ -7,6 +7,8 @@
 //! secant    one unknown per mass, the same for every axis of space; once per step, D right sides
 //! ```
 
+use core::ops::Range;
+
 use crate::conduction::{Conduction, Partner};
 use crate::layout::Layout;
 use crate::scalar::Real;
@@ -16,7 +18,7 @@ use crate::scene::ElementEntry;
 #[derive(Clone, Debug)]
 pub(crate) struct Pattern {
     /// Row r has the columns `columns[starts[r]..starts[r + 1]]`.
-    starts: Vec<usize>,
+    starts: Vec<u32>,
     columns: Vec<u32>,
 }
 
@@ -56,7 +58,7 @@ impl Pattern {
         let mut starts = Vec::with_capacity(ends.len());
         let mut length = 0;
         for row in ends.windows(2) {
-            starts.push(length);
+            starts.push(index(length));
             columns[row[0]..row[1]].sort_unstable();
             let first = length;
             for at in row[0]..row[1] {
@@ -67,7 +69,7 @@ impl Pattern {
                 }
             }
         }
-        starts.push(length);
+        starts.push(index(length));
         columns.truncate(length);
         columns.shrink_to_fit();
         Self { starts, columns }
@@ -154,7 +156,7 @@ impl Pattern {
 
     /// Where each row starts among the entries, and where the last one ends.
     #[cfg(feature = "sparse")]
-    pub(crate) fn starts(&self) -> &[usize] {
+    pub(crate) fn starts(&self) -> &[u32] {
         &self.starts
     }
 
@@ -166,7 +168,19 @@ impl Pattern {
 
     /// The columns of a row, ascending.
     pub(crate) fn row(&self, row: usize) -> &[u32] {
-        &self.columns[self.starts[row]..self.starts[row + 1]]
+        &self.columns[self.places(row)]
+    }
+
+    /// Where the entries of a row are among all entries.
+    pub(crate) fn places(&self, row: usize) -> Range<usize> {
+        self.starts[row] as usize..self.starts[row + 1] as usize
+    }
+
+    /// Where an entry is among all entries, if it is structural.
+    #[cfg(feature = "sparse")]
+    pub(crate) fn position(&self, row: usize, column: usize) -> Option<usize> {
+        let place = self.row(row).binary_search(&index(column)).ok()?;
+        Some(self.places(row).start + place)
     }
 }
 
@@ -179,11 +193,11 @@ fn pair_all<I: Iterator<Item = usize>>(own: impl Fn() -> I, pair: &mut dyn FnMut
     }
 }
 
-/// An index in half the memory; more unknowns than it can count would need terabytes.
-fn index(unknown: usize) -> u32 {
-    match u32::try_from(unknown) {
+/// An index in half the memory; what it cannot count would need terabytes with all that belongs to it.
+pub(crate) fn index(place: usize) -> u32 {
+    match u32::try_from(place) {
         Ok(index) => index,
-        Err(_) => unreachable!("a matrix with 2³² rows does not fit any memory"),
+        Err(_) => unreachable!("a matrix with 2³² entries does not fit any memory"),
     }
 }
 

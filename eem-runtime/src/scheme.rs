@@ -18,7 +18,7 @@ mod variational;
 pub(crate) mod variational_4;
 
 use crate::error::StateError;
-use crate::free_energy::{Array, FreeEnergy};
+use crate::free_energy::{Array, Entry, FreeEnergy};
 use crate::handle::Element;
 use crate::inversion::InversionError;
 use crate::scalar::Real;
@@ -29,7 +29,7 @@ pub(crate) use eem_temperature::EemTemperature;
 pub(crate) use midpoint::Midpoint;
 pub(crate) use midpoint_temperature::MidpointTemperature;
 pub(crate) use staggered::Phase;
-pub(crate) use temperature::temperature_at;
+pub(crate) use temperature::{temperature_and_energy_at, temperature_at};
 pub(crate) use trapezoidal::Trapezoidal;
 pub(crate) use trapezoidal_temperature::TrapezoidalTemperature;
 pub(crate) use variational::Variational;
@@ -148,6 +148,14 @@ impl Scheme {
     }
 }
 
+impl Scheme {
+    /// Whether nodes feel forces that the old state alone decides; see
+    /// [`IMPLICIT`](ElementScheme::IMPLICIT).
+    pub(crate) const fn has_old_forces(self) -> bool {
+        matches!(self, Self::Trapezoidal | Self::TrapezoidalTemperature)
+    }
+}
+
 /// Where along a step the measures and their gradient are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Placement {
@@ -160,6 +168,13 @@ pub(crate) enum Placement {
     /// Means of the old and new measures; force along the gradient of the old configuration, and
     /// then along that of the new one.
     Start,
+}
+
+impl Placement {
+    /// Whether the nodal force is `A q_m` with the mean positions.
+    pub(crate) const fn has_secant(self) -> bool {
+        matches!(self, Self::Ends | Self::Middle)
+    }
 }
 
 /// How the end of a step follows from its forces.
@@ -214,8 +229,18 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static
     /// What the scheme keeps of the old state.
     type Old: Copy + Send + Sync;
 
-    /// Looks at the old variables, once per step.
-    fn old(model: &M, x0: &M::Variables) -> Self::Old;
+    /// What it keeps from one look at a step to the next, as starting values.
+    type Memory: Copy + Send + Sync;
+
+    /// `[T; 1]` for a rule that looks at one point of the step, `[T; 0]` for others: room for what
+    /// only such rules need.
+    type AtPoint<T: Entry>: Array<T>;
+
+    /// Looks at the old variables and the old entropy, once per step.
+    fn old(model: &M, x0: &M::Variables, entropy: S) -> Self::Old;
+
+    /// The first starting values of a step, from the old temperature.
+    fn memory(theta0: S) -> Self::Memory;
 
     /// The temperature τ of the trial, given its other variables and Δs.
     ///
@@ -229,71 +254,70 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static
         Ok(x.as_ref()[M::Variables::LEN - 1])
     }
 
-    /// Writes the response `(f*…, g*…, θ*, Δs)` and its tangent.
-    ///
-    /// `corners` keeps temperatures from one call to the next as starting values.
-    fn respond(
-        model: &M,
-        start: &Start<S, M, Self::Old>,
-        trial: &ElementTrial<'_, S, M>,
-        corners: &mut M::Corners,
-        answer: &mut Answer<S, M>,
-    ) -> Result<(), Infeasible>;
-
-    /// Writes the response; the tangent is of no use afterwards. For the last look at a step.
-    fn respond_alone(
-        model: &M,
-        start: &Start<S, M, Self::Old>,
-        trial: &ElementTrial<'_, S, M>,
-        corners: &mut M::Corners,
-        answer: &mut Answer<S, M>,
+    /// Finds what the form needs besides the variables.
+    #[inline]
+    fn prepare(
+        _: &M,
+        _: &Start<S, M, Self::Old>,
+        _: &M::Variables,
+        _: &mut Self::Memory,
     ) -> Result<(), Infeasible> {
-        Self::respond(model, start, trial, corners, answer)
+        Ok(())
+    }
+
+    /// The response `(f*…, g*…, θ*, Δs)` and its tangent.
+    fn form(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        x: &M::Variables,
+        memory: &Self::Memory,
+    ) -> Form<S, M>;
+
+    /// Refuses a trial that is not stable, as its form tells.
+    #[inline]
+    fn check(_: &M::Variables, _: &Form<S, M>) -> Result<(), Infeasible> {
+        Ok(())
+    }
+
+    /// For a scheme in temperature: replaces the Δs of the form by that of rates, where increments
+    /// say by how much the rates along the step change measures, viscous stretches and temperature,
+    /// apart from what the old state contributes. Returns its derivative by the increments.
+    fn change_entropy_at_rates(
+        _: &M,
+        _: &Start<S, M, Self::Old>,
+        _: &M::Variables,
+        _: &M::Variables,
+        _: &mut Form<S, M>,
+    ) -> M::Variables {
+        M::Variables::filled(S::zero())
+    }
+
+    /// The response alone: for the last look at a step. That the new state is stable is left to the
+    /// one who finds its temperature.
+    #[inline]
+    fn response(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        x: &M::Variables,
+        memory: &Self::Memory,
+    ) -> M::Response {
+        Self::form(model, start, x, memory).0
     }
 }
+
+/// A response and its derivative by the variables.
+pub(crate) type Form<S, M> = (
+    <M as FreeEnergy<S>>::Response,
+    <M as FreeEnergy<S>>::Tangent,
+);
 
 /// The old state of an element as its scheme sees it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Start<S: Real, M: FreeEnergy<S>, Old> {
     /// x⁰.
     pub(crate) x0: M::Variables,
-    /// s⁰, J/K; zero without temperature.
-    pub(crate) entropy: S,
     /// What the scheme keeps of the old state.
     pub(crate) old: Old,
-}
-
-/// What a scheme is asked about.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ElementTrial<'a, S: Real, M: FreeEnergy<S>> {
-    /// `(π…, γ…, τ)`.
-    pub(crate) x: &'a M::Variables,
-    /// For a scheme in temperature: by how much the rates along the step change measures, viscous
-    /// stretches and temperature, apart from what the old state contributes.
-    pub(crate) increments: &'a M::Variables,
-}
-
-/// What a scheme answers.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Answer<S: Real, M: FreeEnergy<S>> {
-    pub(crate) response: M::Response,
-    /// The derivative of the response by `x`.
-    pub(crate) tangent: M::Tangent,
-    /// The derivative of Δs by the increments of the measures, zero unless the scheme is one in
-    /// temperature.
-    pub(crate) by_increment: M::Variables,
-}
-
-impl<S: Real, M: FreeEnergy<S>> Answer<S, M> {
-    /// Before anything has been asked.
-    pub(crate) fn none() -> Self {
-        let zeros = M::Variables::filled(S::zero());
-        Self {
-            response: M::Response::filled(S::zero()),
-            tangent: M::Tangent::filled(zeros),
-            by_increment: zeros,
-        }
-    }
 }
 
 /// Why an element has no response.

@@ -6,23 +6,25 @@ mod inspect;
 mod linearize;
 mod resume;
 mod run;
+mod stepper;
 
 use core::fmt;
 
-use crate::blueprint::{Built, Shape};
+use crate::blueprint::Shape;
 use crate::compensated::{Compensated, Sum};
 use crate::conduction::Conduction;
 use crate::error::{SceneError, StepError, StepFailure};
-use crate::group::{Group, Placed, StageView, StepView};
+use crate::group::{Placed, StageView, StepView};
 use crate::handle::SceneId;
 use crate::layout::Layout;
-use crate::loads::{Loads, StepLoads};
+use crate::loads::Loads;
 use crate::newton::{NewtonSettings, StepReport};
 use crate::scalar::Real;
 use crate::scene::{Scene, is_positive};
 use crate::scheme::{Phase, Scheme};
-use crate::solver::{Effort, Solver, Staged};
-use crate::state::{Past, State};
+use crate::solver::Effort;
+use crate::state::State;
+use stepper::{Parts, Stepper};
 
 pub use generic::Generic;
 pub use linearize::StepTangent;
@@ -30,13 +32,13 @@ pub use run::RunEnd;
 
 /// What the elements share during the next step; borrows only the fields that it names.
 macro_rules! view {
-    ($simulation:ident, $phase:expr, $state:expr) => {
+    ($simulation:ident, $phase:expr, $state:expr, $loads:expr) => {
         StepView {
             phase: $phase,
             step: $simulation.step,
             state: $state,
             conduction: &$simulation.conduction,
-            loads: &$simulation.step_loads,
+            loads: &$loads,
             masses: &$simulation.masses,
         }
     };
@@ -57,17 +59,6 @@ macro_rules! stage_view {
 }
 use stage_view;
 
-/// How hard the next step tries; borrows only the solver.
-macro_rules! effort {
-    ($simulation:ident) => {
-        Effort {
-            settings: $simulation.solver.settings,
-            history: &mut $simulation.solver.history,
-        }
-    };
-}
-use effort;
-
 /// A scene that is stepped through time by one scheme.
 ///
 /// A step either succeeds, or returns an error and leaves everything as it was.
@@ -78,22 +69,18 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     masses: Vec<Option<S>>,
     /// The group and the place in it of each element.
     places: Vec<(usize, usize)>,
+    /// What the elements of each group have.
     shapes: Vec<Shape>,
-    groups: Vec<Box<dyn Group<S, D>>>,
-    /// The groups and the solver of a scheme with stages; then `groups` is empty.
-    staged: Option<Staged<S, D>>,
     layout: Layout,
     conduction: Conduction<S>,
     loads: Loads<S, D>,
-    step_loads: StepLoads<S>,
-    state: State<S>,
+    stepper: Stepper<S, D>,
+    effort: Effort<S>,
+    state: Box<State<S>>,
+    /// Where the next state is written.
+    next: Box<State<S>>,
     /// The last step succeeded, and the elements still know what they did in it.
     has_stepped: bool,
-    /// Where the next state is written.
-    next: State<S>,
-    /// The state between the two parts of a step of the staggered scheme.
-    between: Option<State<S>>,
-    solver: Solver<S, D>,
 }
 
 impl<const D: usize, S: Real> fmt::Debug for Simulation<D, S> {
@@ -115,54 +102,32 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub fn new(scene: Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, SceneError> {
         scene.check()?;
         check_step(step)?;
-        let layout = Layout::new(&scene);
+        let mut layout = Layout::new(&scene);
         let conduction = Conduction::new(&scene, &layout);
-        let mut state = initial_state(&scene, &layout);
+        let mut state = Box::new(initial_state(&scene, &layout));
         let places = scene
             .elements
             .iter()
             .map(|entry| (entry.group, entry.place))
             .collect();
-        let shape = |group: usize| scene.groups[group].shape();
-        let shapes = scene
-            .elements
-            .iter()
-            .map(|entry| shape(entry.group))
-            .collect();
+        let shapes = scene.groups.iter().map(|group| group.shape()).collect();
         let masses: Vec<_> = scene.nodes.iter().map(|node| node.mass).collect();
         let placed = Placed {
             nodes: &scene.elements,
             layout: &layout,
         };
-        let (mut groups, mut stage_groups) = (Vec::new(), Vec::new());
-        for blueprint in scene.groups {
-            match blueprint.build(scheme, placed) {
-                Built::AtOnce(mut group) => {
-                    group.initialize(&mut state)?;
-                    groups.push(group);
-                }
-                Built::InStages(mut group) => {
-                    group.initialize(&mut state)?;
-                    stage_groups.push(group);
-                }
-            }
-        }
-        let elements = &scene.elements;
-        let staged = (scheme == Scheme::Variational4).then(|| {
-            Staged::new(
-                stage_groups,
-                &masses,
-                elements,
-                &layout,
-                &conduction,
-                &scene.loads,
-            )
-        });
-        let solver = Solver::new(scheme, &masses, elements, &layout, &conduction);
-        for group in &mut groups {
-            group.connect(&solver.sites(&layout, &conduction));
-        }
-        let step_loads = StepLoads::new(masses.len() * D, &layout, &scene.loads);
+        let groups = scene.groups.into_iter();
+        let built = groups.map(|blueprint| blueprint.build(scheme, placed));
+        let parts = Parts {
+            scheme,
+            masses: &masses,
+            elements: &scene.elements,
+            layout: &layout,
+            conduction: &conduction,
+            loads: &scene.loads,
+        };
+        let stepper = Stepper::new(built, parts, &mut state)?;
+        layout.forget_unknowns();
         Ok(Self {
             scene: scene.id,
             scheme,
@@ -170,17 +135,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             masses,
             places,
             shapes,
-            groups,
-            staged,
             layout,
             conduction,
             loads: scene.loads,
-            step_loads,
-            has_stepped: false,
+            stepper,
+            effort: Effort::new(),
             next: state.clone(),
-            between: (scheme == Scheme::Staggered).then(|| state.clone()),
             state,
-            solver,
+            has_stepped: false,
         })
     }
 
@@ -192,57 +154,70 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// simulation is then as it was before.
     pub fn step(&mut self) -> Result<StepReport<S>, StepError> {
         self.has_stepped = false;
-        self.solver.restart();
-        let done = self.evaluate_loads().and_then(|()| {
-            if let Some(staged) = &mut self.staged {
-                let view = stage_view!(self, staged.loads);
-                let (groups, mut effort) = (&mut staged.groups, effort!(self));
-                let solver = &mut staged.solver;
-                return solver.solve(groups, &view, &mut effort, &mut self.next);
-            }
-            let Some(between) = &mut self.between else {
-                let view = view!(self, Phase::Whole, &self.state);
-                return self.solver.solve(&mut self.groups, &view, &mut self.next);
-            };
-            let view = view!(self, Phase::Mechanics, &self.state);
-            self.solver.solve(&mut self.groups, &view, between)?;
-            let view = view!(self, Phase::Heat, between);
-            self.solver.solve(&mut self.groups, &view, &mut self.next)
-        });
-        if let Err(failure) = done {
+        self.effort.restart();
+        if let Err(failure) = self.find_next() {
             return Err(self.failed(failure));
         }
         core::mem::swap(&mut self.state, &mut self.next);
         self.has_stepped = true;
-        let last = self.solver.history.last();
+        let history = &self.effort.history;
+        let last = history.last();
         Ok(StepReport {
             time: self.time(),
             step: self.step,
-            iterations: self.solver.history.len(),
+            iterations: history.len(),
             update: last.map_or(S::zero(), |last| last.update),
             residual: last.map_or(S::zero(), |last| last.residual),
         })
     }
 
-    /// The loads of the next step.
-    fn evaluate_loads(&mut self) -> Result<(), StepFailure> {
-        let span = [self.time(), self.step];
-        let (masses, layout) = (&self.masses, &self.layout);
-        let positions = self.state.positions.values();
-        if let Some(staged) = &mut self.staged {
-            return staged.evaluate_loads(&self.loads, masses, layout, span, positions);
-        }
-        self.step_loads
-            .evaluate(&self.loads, masses, layout, self.scheme, span, positions)
+    /// Writes the next state.
+    fn find_next(&mut self) -> Result<(), StepFailure> {
+        self.evaluate_loads()?;
+        let (effort, next) = (&mut self.effort, &mut *self.next);
+        let stepper = match &mut self.stepper {
+            Stepper::AtOnce(stepper) => &mut **stepper,
+            Stepper::InStages(staged) => {
+                let view = stage_view!(self, staged.loads);
+                let groups = &mut staged.groups;
+                return staged.solver.solve(groups, &view, effort, next);
+            }
+        };
+        let (groups, solver) = (&mut stepper.groups, &mut stepper.solver);
+        let Some(between) = &mut stepper.between else {
+            let view = view!(self, Phase::Whole, &self.state, stepper.loads);
+            return solver.solve(groups, &view, effort, next);
+        };
+        let view = view!(self, Phase::Mechanics, &self.state, stepper.loads);
+        solver.solve(groups, &view, effort, between)?;
+        let view = view!(self, Phase::Heat, between, stepper.loads);
+        solver.solve(groups, &view, effort, next)
     }
 
+    /// The loads of the next step.
+    fn evaluate_loads(&mut self) -> Result<(), StepFailure> {
+        if self.loads.are_none() {
+            return Ok(());
+        }
+        let span = [self.time(), self.step];
+        self.stepper.evaluate_loads(
+            &self.loads,
+            &self.masses,
+            &self.layout,
+            self.scheme,
+            span,
+            self.state.positions.values(),
+        )
+    }
+
+    #[cold]
     fn failed(&self, failure: StepFailure) -> StepError {
         StepError {
             time: self.time().to_f64(),
             step: self.step.to_f64(),
             failure,
             history: self
-                .solver
+                .effort
                 .history
                 .iter()
                 .map(|iteration| iteration.to_f64())
@@ -283,7 +258,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// How hard a step tries.
     #[must_use]
     pub const fn newton_settings(&self) -> NewtonSettings<S> {
-        self.solver.settings
+        self.effort.settings
     }
 
     /// Changes how hard a step tries.
@@ -303,17 +278,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 tolerance: tolerance.to_f64(),
             });
         }
-        self.solver.settings = settings;
+        self.effort.settings = settings;
         Ok(())
     }
 
     /// Number of unknowns of the global system of one Newton iteration.
     #[must_use]
     pub const fn unknowns(&self) -> usize {
-        match self.staged {
-            Some(_) => 2 * self.layout.unknowns,
-            None => self.layout.unknowns,
-        }
+        self.stepper.copies() * self.layout.unknowns
     }
 }
 
@@ -340,7 +312,7 @@ fn initial_state<const D: usize, S: Real>(scene: &Scene<D, S>, layout: &Layout) 
         (0..D).map(move |axis| momentum[axis])
     });
     let mut viscous = vec![S::zero(); layout.viscous];
-    let mut temperatures = vec![S::zero(); layout.coupled.len()];
+    let mut temperatures = vec![S::zero(); layout.thermal];
     for (entry, slots) in scene.elements.iter().zip(&layout.elements) {
         for &(dashpot, stretch) in &entry.viscous_stretches {
             viscous[slots.viscous + dashpot] = stretch;
@@ -361,6 +333,5 @@ fn initial_state<const D: usize, S: Real>(scene: &Scene<D, S>, layout: &Layout) 
         heat: Sum::new(S::zero()),
         thermostat_entropy: Sum::new(S::zero()),
         dissipated: Sum::new(S::zero()),
-        past: Past::none(scene.nodes.len() * D),
     }
 }

@@ -36,78 +36,6 @@ pub(crate) struct State<S> {
     pub(crate) thermostat_entropy: Sum<S>,
     /// Heat that dashpots without temperature gave to nobody in the scene, J.
     pub(crate) dissipated: Sum<S>,
-    /// What the start of the next step is extrapolated from.
-    pub(crate) past: Past<S>,
-}
-
-/// The forces of the last steps. They decide where Newton's method starts, and nothing else.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(deny_unknown_fields)
-)]
-pub(crate) struct Past<S> {
-    /// `Δp/h` of the last step and of the one before, N; zero before the first.
-    pub(crate) forces: [Vec<S>; 2],
-    /// By how much each forecast has been wrong, `Σ |ΔF/m|²`, the last steps counting most.
-    pub(crate) errors: [S; 3],
-}
-
-/// How the force of a step is foretold.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Forecast {
-    /// None: free flight.
-    Nothing,
-    /// That of the last step.
-    Constant,
-    /// On the line through those of the last two steps.
-    Linear,
-}
-
-impl Forecast {
-    /// All of them.
-    pub(crate) const ALL: [Self; 3] = [Self::Nothing, Self::Constant, Self::Linear];
-
-    /// The force, given that of the last step and of the one before.
-    #[inline]
-    pub(crate) fn of<S: Real>(self, last: S, before: S) -> S {
-        match self {
-            Self::Nothing => S::zero(),
-            Self::Constant => last,
-            Self::Linear => last + last - before,
-        }
-    }
-}
-
-impl<S: Real> Past<S> {
-    /// Nothing has happened yet.
-    pub(crate) fn none(coordinates: usize) -> Self {
-        let zeros = vec![S::zero(); coordinates];
-        Self {
-            forces: [zeros.clone(), zeros],
-            errors: [S::zero(); 3],
-        }
-    }
-
-    /// The forecast that has been best.
-    pub(crate) fn best(&self) -> Forecast {
-        match self.errors {
-            [nothing, constant, linear] if linear < constant && linear < nothing => {
-                Forecast::Linear
-            }
-            [nothing, constant, _] if constant < nothing => Forecast::Constant,
-            _ => Forecast::Nothing,
-        }
-    }
-
-    /// Takes over `other`, without allocation.
-    pub(crate) fn copy_from(&mut self, other: &Self) {
-        for (own, other) in self.forces.iter_mut().zip(&other.forces) {
-            own.copy_from_slice(other);
-        }
-        self.errors = other.errors;
-    }
 }
 
 impl<S: Real> State<S> {
@@ -129,6 +57,5 @@ impl<S: Real> State<S> {
         self.viscous.copy_from(&other.viscous);
         self.entropies.copy_from(&other.entropies);
         self.temperatures.copy_from_slice(&other.temperatures);
-        self.past.copy_from(&other.past);
     }
 }

@@ -55,9 +55,8 @@ enum Storage {
 }
 
 impl Storage {
-    /// What suits the pattern, for this many right-hand sides.
-    #[cfg_attr(not(feature = "sparse"), expect(unused_variables, reason = "dense"))]
-    fn new(pattern: &Pattern, columns: usize) -> Self {
+    /// What suits the pattern.
+    fn new(pattern: &Pattern) -> Self {
         let unknowns = pattern.unknowns();
         if unknowns <= MOST_FIXED {
             return Self::Fixed { unknowns };
@@ -65,7 +64,7 @@ impl Storage {
         #[cfg(feature = "sparse")]
         if unknowns > MOST_DENSE
             && pattern.entries() < unknowns * unknowns / SPARSITY
-            && let Some(sparse) = SparseLu::new(pattern, columns)
+            && let Some(sparse) = SparseLu::new(pattern)
         {
             return Self::Sparse(Box::new(sparse));
         }
@@ -84,6 +83,13 @@ impl Storage {
     }
 
     /// Where an entry is among the values, if the pattern has it.
+    #[cfg_attr(
+        not(feature = "sparse"),
+        expect(
+            clippy::unnecessary_wraps,
+            reason = "all that is dense has every entry"
+        )
+    )]
     fn position(&self, row: usize, column: usize) -> Option<usize> {
         match self {
             Self::Fixed { unknowns } => Some(row * unknowns + column),
@@ -93,7 +99,9 @@ impl Storage {
         }
     }
 
-    /// Overwrites the right-hand sides with the solutions, and the values with what it likes.
+    /// Overwrites the right-hand sides with the solutions, and the values with what it likes; what
+    /// follows the values is not looked at.
+    #[inline]
     fn solve<S: Real, const W: usize>(
         &mut self,
         values: &mut [S],
@@ -101,18 +109,40 @@ impl Storage {
     ) -> Result<(), Singular> {
         match self {
             Self::Fixed { unknowns } => solve_fixed(*unknowns, values, right),
-            Self::Dense { pivots } => {
-                lu::factor(values, pivots)?;
-                lu::solve(values, pivots, right);
-                Ok(())
-            }
+            Self::Dense { pivots } => solve_dense(values, pivots, right),
             #[cfg(feature = "sparse")]
-            Self::Sparse(sparse) => sparse.solve(values, right),
+            Self::Sparse(sparse) => solve_sparse(values, sparse, right),
         }
     }
 }
 
+/// The elimination of a full matrix. Apart, so that small systems do not pay for its registers.
+#[inline(never)]
+fn solve_dense<S: Real, const W: usize>(
+    values: &mut [S],
+    pivots: &mut [usize],
+    right: &mut [[S; W]],
+) -> Result<(), Singular> {
+    let values = &mut values[..pivots.len() * pivots.len()];
+    lu::factor(values, pivots)?;
+    lu::solve(values, pivots, right);
+    Ok(())
+}
+
+/// The elimination by the pattern, apart for the same reason.
+#[cfg(feature = "sparse")]
+#[inline(never)]
+fn solve_sparse<S: Real, const W: usize>(
+    values: &[S],
+    sparse: &mut SparseLu,
+    right: &mut [[S; W]],
+) -> Result<(), Singular> {
+    let entries = sparse.entries();
+    sparse.solve(&values[..entries], right)
+}
+
 /// The elimination that is compiled for this number of unknowns.
+#[inline]
 fn solve_fixed<S: Real, const W: usize>(
     unknowns: usize,
     values: &mut [S],
@@ -138,13 +168,18 @@ fn solve_fixed<S: Real, const W: usize>(
 impl<S: Real, const W: usize> LinearSystem<S, W> {
     /// A system whose unknowns come in runs of `run` for each node.
     pub(crate) fn new(pattern: &Pattern, run: usize) -> Self {
-        let storage = Storage::new(pattern, W);
+        let storage = Storage::new(pattern);
         Self {
             unknowns: pattern.unknowns(),
             values: vec![S::zero(); storage.entries() + run],
             right: vec![[S::zero(); W]; pattern.unknowns() + run],
             storage,
         }
+    }
+
+    /// Number of unknowns.
+    pub(crate) fn unknowns(&self) -> usize {
+        self.unknowns
     }
 
     /// The place of a row of B: the place that nobody reads for no unknown.
@@ -165,8 +200,13 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
 
     /// Makes everything zero.
     pub(crate) fn clear(&mut self) {
-        self.values.fill(S::zero());
+        self.clear_matrix();
         self.right.fill([S::zero(); W]);
+    }
+
+    /// Makes A zero.
+    pub(crate) fn clear_matrix(&mut self) {
+        self.values.fill(S::zero());
     }
 
     /// The entries of A and the rows of B.
@@ -196,12 +236,19 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         .collect()
     }
 
-    /// Replaces B by X; A is lost. The solution of what nobody reads is zero.
+    /// Makes the last rows of B zero, where elements write what belongs to an anchor; `RUN` of them
+    /// belong to a node. As a part of X, they say that anchors do not move.
+    pub(crate) fn clear_rest<const RUN: usize>(&mut self) {
+        if let Some(rest) = self.right.last_chunk_mut::<RUN>() {
+            *rest = [[S::zero(); W]; RUN];
+        }
+    }
+
+    /// Replaces B by X, but for the rows of anchors; A is lost.
+    #[inline]
     pub(crate) fn solve(&mut self) -> Result<(), Singular> {
-        let entries = self.storage.entries();
-        let (right, rest) = self.right.split_at_mut(self.unknowns);
-        rest.fill([S::zero(); W]);
-        self.storage.solve(&mut self.values[..entries], right)
+        let right = &mut self.right[..self.unknowns];
+        self.storage.solve(&mut self.values, right)
     }
 }
 
@@ -264,6 +311,7 @@ mod tests {
         (values[own], values[nobody]) = (2.0, 9.0);
         (right[0], right[1]) = ([6.0], [9.0]);
         system.solve().unwrap();
+        system.clear_rest::<1>();
         assert_eq!(system.right(), [[3.0], [0.0]]);
     }
 }

@@ -13,6 +13,7 @@ mod edge;
 mod elastic;
 mod entropy_form;
 mod latent;
+mod logarithm;
 mod temperature_form;
 
 pub(crate) use elastic::elastic_form;
@@ -122,17 +123,23 @@ impl Step {
         let inputs = self.inputs();
         let mut factoring = Factoring::default();
         let mut outputs = [&form.response[..], &form.tangent].concat();
+        for (logarithm, carried) in self.carried_logarithms(&outputs) {
+            factoring.replace(logarithm, carried);
+        }
         for output in &mut outputs {
             *output = factoring.of(&mut self.graph, *output);
         }
         self.locals
             .redefine(|value| factoring.of(&mut self.graph, value));
-        let schedule = Schedule {
+        self.schedule().program(inputs, &outputs)
+    }
+
+    fn schedule(&self) -> Schedule<'_> {
+        Schedule {
             graph: &self.graph,
             locals: &self.locals,
             parameters: self.parameters.len(),
-        };
-        schedule.program(inputs, &outputs)
+        }
     }
 
     /// `F` at a state.
@@ -225,8 +232,20 @@ impl Step {
             return *a;
         }
         let sum = self.graph.sum(terms);
-        let sum = self.name(sum);
-        self.graph.scale(Number::HALF, sum)
+        let (coefficient, term) = self.graph.as_scaled(sum).unwrap_or((Number::ONE, sum));
+        let term = self.name(term);
+        self.graph.scale(coefficient * Number::HALF, term)
+    }
+
+    /// The sum of differences along several edges as a local. They are looked through, because they
+    /// have most of their terms in common.
+    fn sum_of(&mut self, values: &[ExprId]) -> ExprId {
+        let values: Vec<_> = values
+            .iter()
+            .map(|&value| self.locals.resolve(&self.graph, value))
+            .collect();
+        let sum = self.graph.sum(&values);
+        self.name(sum)
     }
 
     /// `x_i¹ − x_i⁰`.

@@ -14,6 +14,11 @@ pub(crate) struct Factoring {
 }
 
 impl Factoring {
+    /// Puts `image` wherever `e` occurs.
+    pub(crate) fn replace(&mut self, e: ExprId, image: ExprId) {
+        self.images.insert(e, image);
+    }
+
     /// An equal expression in which no two terms of a sum have a factor in common.
     pub(crate) fn of(&mut self, graph: &mut Graph, e: ExprId) -> ExprId {
         let mut pending = vec![(e, false)];

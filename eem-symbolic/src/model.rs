@@ -49,7 +49,8 @@ pub struct Programs {
     pub internal_energy: Program,
     /// `[s, θ ∂s/∂θ, Σ |terms of s|]`; none without a temperature.
     pub caloric: Option<Program>,
-    /// The same outputs, everything that does not depend on θ at [`Stage::Old`](crate::Stage::Old).
+    /// The same outputs and ψ, everything that does not depend on θ at
+    /// [`Stage::Old`](crate::Stage::Old).
     pub caloric_at: Option<Program>,
     /// `[∂²s/∂x_i∂x_j …]` by rows; none without a temperature.
     pub entropy_hessian: Option<Program>,

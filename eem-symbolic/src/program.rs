@@ -239,27 +239,51 @@ impl Program {
     #[must_use]
     pub fn restricted_to(&self, outputs: usize) -> Program {
         let needed = self.needed_by(&self.outputs[..outputs]);
-        let mut moved = Vec::with_capacity(needed.len());
-        let mut next = 0;
-        for &needed in &needed {
-            moved.push(Value::new(next));
-            next += usize::from(needed);
+        let kept = (0..needed.len()).filter(|&index| needed[index]);
+        self.in_order(&kept.collect::<Vec<_>>(), outputs)
+    }
+
+    /// The same with functions and divided differences first, and what they depend on: few values
+    /// have to outlive their branches and calls.
+    pub(crate) fn functions_first(self) -> Program {
+        let is_function = |operation: &Operation| {
+            matches!(
+                operation,
+                Operation::Apply(..)
+                    | Operation::Power(..)
+                    | Operation::DividedDifference(..)
+                    | Operation::SecondDividedDifference(..)
+            )
+        };
+        let instructions = self.instructions.iter().enumerate();
+        let functions: Vec<_> = instructions
+            .filter(|(_, instruction)| is_function(&instruction.operation))
+            .map(|(index, _)| Value::new(index))
+            .collect();
+        let needed = self.needed_by(&functions);
+        let (first, rest): (Vec<_>, Vec<_>) = (0..needed.len()).partition(|&index| needed[index]);
+        self.in_order(&[first, rest].concat(), self.outputs.len())
+    }
+
+    /// The program of these instructions in this order, and of the first outputs.
+    fn in_order(&self, order: &[usize], outputs: usize) -> Program {
+        let mut moved = vec![Value::new(0); self.instructions.len()];
+        for (new, &old) in order.iter().enumerate() {
+            moved[old] = Value::new(new);
         }
         let of = |value: Value| moved[value.index()];
-        let kept = self.instructions.iter().zip(&needed);
-        let kept = kept.filter(|(_, needed)| **needed);
+        let instructions = order.iter().map(|&index| {
+            let Instruction { operation, stage } = &self.instructions[index];
+            Instruction {
+                operation: operation.map(of),
+                stage: *stage,
+            }
+        });
+        let outputs = self.outputs[..outputs].iter().map(|&value| of(value));
         Program {
             inputs: self.inputs.clone(),
-            instructions: kept
-                .map(|(instruction, _)| Instruction {
-                    operation: instruction.operation.map(of),
-                    stage: instruction.stage,
-                })
-                .collect(),
-            outputs: self.outputs[..outputs]
-                .iter()
-                .map(|&value| of(value))
-                .collect(),
+            instructions: instructions.collect(),
+            outputs: outputs.collect(),
         }
     }
 }

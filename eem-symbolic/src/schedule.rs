@@ -10,9 +10,11 @@
 //! * The programs of a [`Model`](crate::Model) take the freedom that rounding leaves: what depends
 //!   on parameters alone comes first, operands that many products or sums have in common next, and
 //!   quotients are products with shared reciprocals. Arguments of functions are still divided, so
-//!   that ln(λ/λ₀) vanishes where λ = λ₀.
+//!   that ln(λ/λ₀) vanishes where λ = λ₀. In the end functions come first, so that few values have
+//!   to outlive a call.
 
 mod builder;
+mod dependence;
 mod difference;
 mod locals;
 mod plan;
@@ -20,6 +22,7 @@ mod power;
 mod sharing;
 mod sum;
 
+pub(crate) use dependence::Dependence;
 pub(crate) use locals::Locals;
 
 use crate::graph::Graph;
@@ -78,7 +81,7 @@ impl Schedule<'_> {
         let plan = Plan::new(self, &new, outputs);
         let mut builder = Builder::new(self, inputs);
         builder.plan = Some(plan);
-        self.emit_all(builder, outputs)
+        self.emit_all(builder, outputs).functions_first()
     }
 
     fn emit_all(&self, mut builder: Builder<'_>, outputs: &[ExprId]) -> Program {
@@ -149,7 +152,7 @@ impl Schedule<'_> {
             Node::Variable(symbol) => builder.input(*symbol),
             Node::Power(base, exponent) => builder.power(*base, *exponent),
             Node::Apply(function, x) => builder.apply(*function, *x),
-            Node::PairSum(a, b) => builder.pair_sum(*a, *b),
+            Node::PairSum(a, b) => return builder.pair_sum(*a, *b),
             Node::DividedDifference(kernel, a, b) => {
                 return builder.divided_difference(*kernel, *a, *b);
             }

@@ -3,7 +3,9 @@
 mod support;
 
 use astro_float::BigFloat;
-use eem_symbolic::{Arithmetic, F64, Function, Number, ProgramKernel};
+use eem_symbolic::{
+    Arithmetic, Bounded, F64, Function, Number, Operation, ProgramKernel, RunningError,
+};
 use support::corners::Evaluated;
 use support::laws;
 use support::precise::{error, to_f64};
@@ -276,27 +278,42 @@ impl Arithmetic for Symmetric {
 }
 
 /// Exchanging the states changes no bit of f*, g*, θ*, and the sign of Δs: the scheme is
-/// self-adjoint in floating-point arithmetic.
+/// self-adjoint in floating-point arithmetic. A logarithm that one state has from the other one is
+/// the same up to its rounding.
 #[test]
 fn temperature_form_is_symmetric_bit_by_bit() {
+    let mut without_logarithm = 0;
     for law in laws() {
         let Some(program) = &law.programs.temperature_form else {
             continue;
         };
+        let carried = program
+            .instructions
+            .iter()
+            .any(|instruction| matches!(instruction.operation, Operation::Apply(Function::Ln, _)));
+        without_logarithm += usize::from(!carried);
         for increment in [1e-12, 1e-3, 0.1] {
             let x0 = law.law.state.clone();
             let x1 = moved(&x0, increment);
             let inputs = |x0: &[f64], x1: &[f64]| [&law.law.parameters, x0, x1].concat();
             let forward = program.interpret(&Symmetric, &inputs(&x0, &x1));
-            let backward = program.interpret(&Symmetric, &inputs(&x1, &x0));
+            let mut backward = program.interpret(&Symmetric, &inputs(&x1, &x0));
             let last = law.responses() - 1;
-            let name = law.law.name;
-            assert_eq!(forward[..last], backward[..last], "{name} {increment:e}");
-            assert_eq!(
-                forward[last].to_bits(),
-                (-backward[last]).to_bits(),
-                "{name}"
-            );
+            backward[last] = -backward[last];
+            let exact = inputs(&x0, &x1).into_iter().map(Bounded::exact);
+            let bounds = program.interpret(&RunningError, &exact.collect::<Vec<_>>());
+            for i in 0..=last {
+                // Both directions may be wrong by the bound.
+                let allowed = if carried { 2.0 * bounds[i].error } else { 0.0 };
+                assert!(
+                    (forward[i] - backward[i]).abs() <= allowed,
+                    "{} {increment:e}: {} and {}",
+                    law.law.name,
+                    forward[i],
+                    backward[i]
+                );
+            }
         }
     }
+    assert!(without_logarithm > 0);
 }

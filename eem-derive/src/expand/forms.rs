@@ -3,9 +3,9 @@
 //! Each form is three functions: one that runs once per step, of the old state; one that runs once
 //! per iteration and starts from what the first has left; and the latter without the tangent.
 
-use eem_symbolic::{Program, Programs, Stage};
+use eem_symbolic::{Program, Programs, Stage, Value};
 use proc_macro2::TokenStream;
-use quote::{ToTokens as _, quote};
+use quote::quote;
 
 use super::docs;
 use super::inputs::Inputs;
@@ -116,64 +116,57 @@ fn the_same_form() -> TokenStream {
 
 // Expands to: `let __v0 = __x0[0]; … [__v3, __v5]`.
 fn old_stage(program: &Program, inputs: &Inputs) -> TokenStream {
-    let lets = statements(program, inputs, |_, stage| stage == Stage::Old);
+    let statements = statements(program, inputs, &[]);
+    let lets = statements.lets(|_, instruction| instruction.stage == Stage::Old);
     let hoisted = program.hoisted().into_iter().map(value);
     quote! { #lets [#(#hoisted),*] }
 }
 
-// Expands to: `let [__v3, __v5] = *__old; let __v6 = __x1[0]; … ([…], [[…], …])`.
+// Expands to: `let __v6 = __x1[0]; let __v3 = __old[0]; … ([…], [[…], …])`.
 fn new_stage(program: &Program, inputs: &Inputs) -> TokenStream {
-    let hoisted = program.hoisted().into_iter().map(value);
-    let lets = statements(program, inputs, |_, stage| stage == Stage::New);
+    let hoisted = program.hoisted();
+    let statements = statements(program, inputs, &hoisted);
+    let lets = statements.lets(|_, instruction| instruction.stage == Stage::New);
     let outputs: Vec<_> = program
         .outputs
         .iter()
-        .map(|&output| value(output))
+        .map(|&output| statements.read(output))
         .collect();
     let (response, tangent) = outputs.split_at(inputs.responses());
     let rows = tangent
         .chunks(inputs.variables)
         .map(|row| quote!([#(#row),*]));
     quote! {
-        let [#(#hoisted),*] = *__old;
         #lets
         ([#(#response),*], [#(#rows),*])
     }
 }
 
-// Expands to: `let [__v3, _] = *__old; let __v6 = __x1[0]; … […]`: those statements of the full
-// function that the response depends on, hence the same bits.
+// Expands to: `let __v6 = __x1[0]; … […]`: those statements of the full function that the response
+// depends on, hence the same bits.
 fn response(program: &Program, inputs: &Inputs) -> TokenStream {
     let outputs = &program.outputs[..inputs.responses()];
     let needed = program.needed_by(outputs);
-    let hoisted = program.hoisted().into_iter();
-    let hoisted = hoisted.map(|hoisted| {
-        if needed[hoisted.index()] {
-            value(hoisted).to_token_stream()
-        } else {
-            quote!(_)
-        }
-    });
-    let lets = statements(program, inputs, |index, stage| {
-        stage == Stage::New && needed[index]
-    });
-    let outputs = outputs.iter().map(|&output| value(output));
+    let hoisted = program.hoisted();
+    let statements = statements(program, inputs, &hoisted);
+    let lets =
+        statements.lets(|index, instruction| instruction.stage == Stage::New && needed[index]);
+    let outputs = outputs.iter().map(|&output| statements.read(output));
     quote! {
-        let [#(#hoisted),*] = *__old;
         #lets
         [#(#outputs),*]
     }
 }
 
-fn statements(
-    program: &Program,
-    inputs: &Inputs,
-    keep: impl Fn(usize, Stage) -> bool,
-) -> TokenStream {
+fn statements<'p>(
+    program: &'p Program,
+    inputs: &'p Inputs,
+    hoisted: &'p [Value],
+) -> Statements<'p> {
     Statements {
         program,
         scalar: &inputs.scalar,
-        input: &|index| inputs.form(index),
+        input: Box::new(|index| inputs.form(index)),
+        hoisted,
     }
-    .lets(|index, instruction| keep(index, instruction.stage))
 }

@@ -111,7 +111,7 @@ fn caloric(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
     }
 }
 
-// Expands to: `let __v0 = …; move |__theta| { let __v5 = __theta; … __eem::Caloric { … } }`.
+// Expands to: `let __v0 = …; move |__theta| { let __v5 = __theta; … (__eem::Caloric { … }, __v9) }`.
 fn caloric_at(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
     let Some(program) = program else {
         return TokenStream::new();
@@ -121,27 +121,33 @@ fn caloric_at(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
         let statements = Statements {
             program,
             scalar,
-            input: &|index| inputs.at_temperature(index),
+            input: Box::new(|index| inputs.at_temperature(index)),
+            hoisted: &[],
         };
         statements.lets(|_, instruction| instruction.stage == stage)
     };
     let (old, new) = (lets(Stage::Old), lets(Stage::New));
-    let [entropy, heat_capacity, magnitude] = [0, 1, 2].map(|i| value(program.outputs[i]));
-    let docs = docs::new_stage("The same as a function of the temperature.", program);
+    let [entropy, heat_capacity, magnitude, free_energy] =
+        [0, 1, 2, 3].map(|i| value(program.outputs[i]));
+    let docs = docs::new_stage(
+        "The same, and the free energy ψ, as functions of the temperature.",
+        program,
+    );
     quote! {
         #docs
         fn caloric_at(
             &self,
             __x: Self::Variables,
-        ) -> impl __eem::core::ops::Fn(#scalar) -> __eem::Caloric<#scalar> {
+        ) -> impl __eem::core::ops::Fn(#scalar) -> (__eem::Caloric<#scalar>, #scalar) {
             #old
             move |__theta| {
                 #new
-                __eem::Caloric {
+                let __caloric = __eem::Caloric {
                     entropy: #entropy,
                     heat_capacity: #heat_capacity,
                     magnitude: #magnitude,
-                }
+                };
+                (__caloric, #free_energy)
             }
         }
     }
@@ -192,7 +198,8 @@ fn viscosity(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
     let lets = Statements {
         program,
         scalar,
-        input: &|index| inputs.viscosity(index),
+        input: Box::new(|index| inputs.viscosity(index)),
+        hoisted: &[],
     }
     .lets(|_, _| true);
     let outputs: Vec<_> = program
@@ -220,7 +227,8 @@ fn lets(program: &Program, inputs: &Inputs) -> TokenStream {
     Statements {
         program,
         scalar: &inputs.scalar,
-        input: &|index| inputs.point(index),
+        input: Box::new(|index| inputs.point(index)),
+        hoisted: &[],
     }
     .lets(|_, _| true)
 }

@@ -1,8 +1,10 @@
 //! One `let` per instruction of a program.
 
+use std::collections::BTreeSet;
+
 use eem_symbolic::{Instruction, Number, Operation, Program, ProgramKernel, Value};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
-use quote::{format_ident, quote};
+use quote::{ToTokens as _, format_ident, quote};
 
 use super::together::Together;
 
@@ -12,11 +14,14 @@ pub(super) struct Statements<'p> {
     /// The scalar of the implementation.
     pub(super) scalar: &'p TokenStream,
     /// The source of an input.
-    pub(super) input: &'p dyn Fn(usize) -> TokenStream,
+    pub(super) input: Box<dyn Fn(usize) -> TokenStream + 'p>,
+    /// Values that `__old` holds.
+    pub(super) hoisted: &'p [Value],
 }
 
 impl Statements<'_> {
-    // Expands to: `let __v7 = __v3 * __v5;` for every instruction that `keep` selects.
+    // Expands to: `let __v7 = __v3 * __v5;` for every instruction that `keep` selects. What `__old`
+    // holds is read where it is used first: `let __v3 = __old[0];`.
     pub(super) fn lets(&self, keep: impl Fn(usize, &Instruction) -> bool) -> TokenStream {
         let mut tokens = TokenStream::new();
         let instructions = self.program.instructions.iter().enumerate();
@@ -24,7 +29,14 @@ impl Statements<'_> {
             .filter(|(index, instruction)| keep(*index, instruction))
             .collect();
         let together = Together::of(kept.iter().copied());
+        let mut read = BTreeSet::new();
         for (index, instruction) in kept {
+            for operand in instruction.operation.operands() {
+                if self.hoisted.binary_search(&operand).is_ok() && read.insert(operand) {
+                    let (name, old) = (value(operand), self.read(operand));
+                    tokens.extend(quote! { let #name = #old; });
+                }
+            }
             let name = name(index);
             let value = match together.member(index, &instruction.operation) {
                 Some(member) => {
@@ -36,6 +48,17 @@ impl Statements<'_> {
             tokens.extend(quote! { let #name = #value; });
         }
         tokens
+    }
+
+    // Expands to: `__old[0]` for a value that `__old` holds, and to `__v7` for another one.
+    pub(super) fn read(&self, wanted: Value) -> TokenStream {
+        match self.hoisted.binary_search(&wanted) {
+            Ok(position) => {
+                let position = Literal::usize_unsuffixed(position);
+                quote!(__old[#position])
+            }
+            Err(_) => value(wanted).into_token_stream(),
+        }
     }
 
     fn operation(&self, operation: &Operation) -> TokenStream {

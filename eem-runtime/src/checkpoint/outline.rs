@@ -34,17 +34,17 @@ impl Outline {
     pub(crate) fn new<S>(
         dimensions: usize,
         masses: &[Option<S>],
-        shapes: &[Shape],
+        shapes: impl Iterator<Item = Shape>,
         reservoirs: usize,
     ) -> Self {
-        let element = |shape: &Shape| ElementOutline {
+        let element = |shape: Shape| ElementOutline {
             dashpots: shape.dashpots,
             thermal: shape.thermal,
         };
         Self {
             dimensions,
             anchors: masses.iter().map(Option::is_none).collect(),
-            elements: shapes.iter().map(element).collect(),
+            elements: shapes.map(element).collect(),
             reservoirs,
         }
     }

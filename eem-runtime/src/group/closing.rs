@@ -4,9 +4,10 @@
 //! evaluating the remaining relations explicitly from them makes the balances of momentum and
 //! entropy hold to rounding whatever that error is, and leaves the energy with its square.
 
+use super::arms::{arms, measures_in, resultant, spread};
 use super::member::Member;
-use super::pose::{Pose, arms, measures_in, points, resultant, spread};
-use super::site::Site;
+use super::pose::Pose;
+use super::site::{Contact, SecantSite, Site};
 use super::{Along, ElementGroup, StepView, Trial};
 use crate::conduction::Partner;
 use crate::free_energy::{Array, FreeEnergy};
@@ -31,16 +32,14 @@ where
         system: &mut LinearSystem<S, D>,
     ) {
         let share = S::from_f64(0.5);
-        let old = points(view.state.positions.values());
         let (values, right) = system.parts();
-        for member in &self.members {
+        for (member, secant) in self.members.iter().zip(&self.secants) {
             let weights = member.secant(self.kinematics);
-            let known = member.site.known(old, &trial.displacements, share);
-            let matrix = share * view.step;
-            member.site.add_secant(&weights, matrix, &mut *values);
-            member
-                .site
-                .subtract_known(&weights, &known, view.step, &mut *right);
+            let mut known = member.r0;
+            let site = &member.site;
+            site.add_anchors(&mut known, &trial.displacements, share);
+            secant.add_matrix(&site.is_mass, &weights, share * view.step, &mut *values);
+            secant.subtract_known(&site.is_mass, &weights, (&known, view.step), &mut *right);
         }
     }
 
@@ -52,10 +51,8 @@ where
         along: Along,
         impulse: &mut [[S; D]],
     ) {
-        let old = points(view.state.positions.values());
         for member in &self.members {
-            let nodes = &member.site.nodes;
-            let r0 = arms::<K, S, D>(nodes, old);
+            let (nodes, r0) = (&member.site.nodes, &member.r0);
             let (h, force) = if along == Along::Secant {
                 let mut mean = arms::<K, S, D>(nodes, &trial.displacements);
                 for (mean, old) in mean.as_mut().iter_mut().zip(r0.as_ref()) {
@@ -72,10 +69,10 @@ where
                     Along::Secant | Along::Scheme => C::PLACEMENT,
                 };
                 let share = view.step * S::from_f64(C::IMPLICIT);
-                (share, member.force(self.kinematics, at, [&r0, &r1]))
+                (share, member.force(self.kinematics, at, [r0, &r1]))
             };
             for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
-                for (impulse, &force) in impulse[node].iter_mut().zip(force) {
+                for (impulse, &force) in impulse[node as usize].iter_mut().zip(force) {
                     *impulse -= h * force;
                 }
             }
@@ -89,6 +86,15 @@ pub(super) fn pull<K: Kinematics<S, D>, S: Real, const D: usize>(
     weights: &Weights<K, S, D>,
     r: &Arms<K, S, D>,
 ) -> K::PerNode<[S; D]> {
+    spread::<K, S, D>(&pull_of_arms::<K, S, D>(weights, r))
+}
+
+/// The same per arm: those of the nodes but the first.
+#[inline]
+fn pull_of_arms<K: Kinematics<S, D>, S: Real, const D: usize>(
+    weights: &Weights<K, S, D>,
+    r: &Arms<K, S, D>,
+) -> Arms<K, S, D> {
     let mut force = Arms::<K, S, D>::filled([S::zero(); D]);
     for (force, row) in force.as_mut().iter_mut().zip(weights.as_ref()) {
         for (&weight, arm) in row.as_ref().iter().zip(r.as_ref()) {
@@ -97,53 +103,70 @@ pub(super) fn pull<K: Kinematics<S, D>, S: Real, const D: usize>(
             }
         }
     }
-    spread::<K, S, D>(&force)
+    force
 }
 
 impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
-    /// The old arms, with the fraction `share` of the motion of anchors, which is known.
+    /// Adds the fraction `share` of the motion of anchors, which is known, to arms.
     #[inline]
-    pub(super) fn known(&self, old: &[[S; D]], moved: &[[S; D]], share: S) -> Arms<K, S, D> {
-        let mut known = arms::<K, S, D>(&self.nodes, old);
-        for (i, known) in known.as_mut().iter_mut().enumerate() {
-            for (axis, known) in known.iter_mut().enumerate() {
-                let shift = |i: usize| {
-                    let moved = moved[self.nodes[i]][axis];
-                    if self.is_mass[i] { S::zero() } else { moved }
-                };
-                *known += share * (shift(i + 1) - shift(0));
+    pub(super) fn add_anchors(&self, arms: &mut Arms<K, S, D>, moved: &[[S; D]], share: S) {
+        for (i, arm) in arms.as_mut().iter_mut().enumerate() {
+            for (node, share) in [(i + 1, share), (0, -share)] {
+                if !self.is_mass[node] {
+                    let moved = &moved[self.nodes[node] as usize];
+                    for (arm, &moved) in arm.iter_mut().zip(moved) {
+                        *arm += share * moved;
+                    }
+                }
             }
         }
-        known
     }
+}
 
-    /// Adds the matrix `factor A` of nodal forces `A r`.
+impl<K: Kinematics<S, D>, S: Real, const D: usize> SecantSite<K, S, D> {
+    /// Adds the matrix `factor A` of nodal forces `A r` for the nodes that move.
     #[inline]
-    pub(super) fn add_secant(&self, weights: &Weights<K, S, D>, factor: S, values: &mut [S]) {
+    pub(super) fn add_matrix(
+        &self,
+        is_mass: &K::PerNode<bool>,
+        weights: &Weights<K, S, D>,
+        factor: S,
+        values: &mut [S],
+    ) {
+        let mut add = |[i, j]: [usize; 2], entry: S| {
+            if is_mass[i] && is_mass[j] {
+                values[self.entries[i][j] as usize] += entry;
+            }
+        };
         for (i, row) in weights.as_ref().iter().enumerate() {
             for (j, &weight) in row.as_ref().iter().enumerate() {
                 let entry = factor * weight;
-                values[self.secant[i + 1][j + 1]] += entry;
-                values[self.secant[i + 1][0]] -= entry;
-                values[self.secant[0][j + 1]] -= entry;
-                values[self.secant[0][0]] += entry;
+                add([i + 1, j + 1], entry);
+                add([i + 1, 0], -entry);
+                add([0, j + 1], -entry);
+                add([0, 0], entry);
             }
         }
     }
 
-    /// Subtracts the impulse `h A r` of known arms.
+    /// Subtracts the impulse `h A r` of known arms from the nodes that move.
     #[inline]
     pub(super) fn subtract_known(
         &self,
+        is_mass: &K::PerNode<bool>,
         weights: &Weights<K, S, D>,
-        known: &Arms<K, S, D>,
-        h: S,
+        (known, h): (&Arms<K, S, D>, S),
         right: &mut [[S; D]],
     ) {
-        let force = pull::<K, S, D>(weights, known);
-        for (&row, force) in self.secant_rows.as_ref().iter().zip(force.as_ref()) {
-            for (right, &force) in right[row].iter_mut().zip(force) {
-                *right -= h * force;
+        let force = pull_of_arms::<K, S, D>(weights, known);
+        for (i, force) in force.as_ref().iter().enumerate() {
+            for (node, h) in [(i + 1, -h), (0, h)] {
+                if is_mass[node] {
+                    let right = &mut right[self.rows[node] as usize];
+                    for (right, &force) in right.iter_mut().zip(force) {
+                        *right += h * force;
+                    }
+                }
             }
         }
     }
@@ -166,11 +189,7 @@ where
                 measures_in::<K, S, D>(&self.start.x0)
             }
         };
-        kinematics.secant(
-            &old,
-            &measures,
-            &measures_in::<K, S, D>(&self.answer.response),
-        )
+        kinematics.secant(&old, &measures, &measures_in::<K, S, D>(&self.response))
     }
 
     /// The nodal forces of the found response along the gradient between two configurations, N.
@@ -181,50 +200,57 @@ where
         ends: [&Arms<K, S, D>; 2],
     ) -> K::PerNode<[S; D]> {
         let measures0 = measures_in::<K, S, D>(&self.start.x0);
-        let pose = Pose::new(kinematics, at, ends, measures0);
-        resultant::<K, S, D>(
-            &pose.direction,
-            &measures_in::<K, S, D>(&self.answer.response),
-        )
+        let pose = Pose::between(kinematics, at, ends, measures0);
+        resultant::<K, S, D>(&pose.direction, &measures_in::<K, S, D>(&self.response))
     }
 
-    /// The increments of the internal variables and of the reservoirs' entropies.
+    /// The increments of the internal variables and of the reservoirs' entropies; returns the
+    /// entropy that dashpots and conduction gave the element, J/K.
     #[inline]
     pub(super) fn close(
-        &mut self,
+        &self,
         view: &StepView<'_, S>,
+        contact: Option<&Contact<K, S, D>>,
         seen_temperatures: &[S],
         next: &mut State<S>,
-    ) {
+    ) -> S {
         let (h, share) = (view.thermal_step(), S::from_f64(C::IMPLICIT));
+        let slots = self.slots();
         let mut heat = S::zero();
         for k in 0..M::DASHPOTS {
-            let g = self.answer.response[M::MEASURES + k];
-            let rate = g / self.viscosities.0[k];
-            heat += g * rate;
-            let old_rate = self.old_rates[M::MEASURES + k];
-            let (at, change) = (self.slots.viscous + k, h * (share * rate + old_rate));
-            next.viscous.advance(at, &view.state.viscous, change);
+            let index = M::MEASURES + k;
+            let rate = self.response[index] / self.viscosities.0[k];
+            heat += self.response[index] * rate;
+            let change = self.increment(index, rate, h);
+            next.viscous
+                .advance(slots.viscous + k, &view.state.viscous, change);
         }
-        let Some(slot) = self.slots.thermal else {
+        let Some(slot) = slots.thermal else {
             if M::DASHPOTS > 0 {
                 let lost = h * (share * heat + self.old_dissipation());
                 next.dissipated.add(lost);
             }
-            return;
+            return S::zero();
         };
         let theta = self.temperature();
-        let flow = view.conduction.heat_flow(slot, theta, seen_temperatures);
-        heat += flow.heat;
-        let old_rate = self.old_rates[Self::TEMPERATURE];
-        self.entropy_received = h * (share * heat / theta + old_rate);
+        heat += self.heat_flow(view, contact, seen_temperatures).heat;
+        if self.meets_reservoirs {
+            self.warm_reservoirs(view, slot, next);
+        }
+        let received = self.increment(Self::TEMPERATURE, heat / theta, h);
         let entropies = &view.state.entropies;
-        next.entropies
-            .advance(slot, entropies, self.entropy_received);
+        next.entropies.advance(slot, entropies, received);
+        received
+    }
+
+    /// What flows to the reservoirs.
+    fn warm_reservoirs(&self, view: &StepView<'_, S>, slot: usize, next: &mut State<S>) {
+        let (h, share) = (view.thermal_step(), S::from_f64(C::IMPLICIT));
         for link in view.conduction.links(slot) {
             if let Partner::Reservoir(index) = link.partner {
                 let theta_r = view.conduction.reservoirs[index];
-                let seen = share * theta + (S::one() - share) * view.state.temperatures[slot];
+                let old = view.state.temperatures[slot];
+                let seen = share * self.temperature() + (S::one() - share) * old;
                 let flow = link.conductance * (seen - theta_r);
                 next.reservoir_entropies.add(index, h * flow / theta_r);
             }

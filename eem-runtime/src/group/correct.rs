@@ -1,9 +1,9 @@
 //! From the solution of the global system to the internal variables of the elements.
 
+use super::ElementGroup;
+use super::arms::along;
 use super::member::Member;
-use super::pose::along;
 use super::site::{Contact, Site};
-use super::{ElementGroup, StepView};
 use crate::free_energy::{Array, FreeEnergy};
 use crate::kinematics::{Arms, Kinematics};
 use crate::scalar::Real;
@@ -17,11 +17,11 @@ where
     C: ElementScheme<S, M>,
 {
     /// See [`Group::correct`](super::Group::correct).
-    pub(super) fn correct_all(&mut self, view: &StepView<'_, S>, solution: &[[S; 1]]) -> S {
+    pub(super) fn correct_all(&mut self, solution: &[[S; 1]]) -> S {
         let mut largest = S::zero();
         for member in &mut self.members {
-            let contact = member.site.contact.map(|at| &self.contacts[at]);
-            let update = member.correct(view, contact, solution);
+            let contact = member.contact_in(&self.contacts);
+            let update = member.correct(contact, solution);
             largest = largest.maximum(update);
         }
         largest
@@ -37,45 +37,54 @@ where
 {
     /// Finds the corrections of the local unknowns; the largest in their units.
     #[inline]
-    fn correct(
-        &mut self,
-        view: &StepView<'_, S>,
-        contact: Option<&Contact<K, S, D>>,
-        solution: &[[S; 1]],
-    ) -> S {
+    fn correct(&mut self, contact: Option<&Contact<K, S, D>>, solution: &[[S; 1]]) -> S {
         let motion = self.site.motion_in(solution);
-        let mut heat = contact.map_or(S::zero(), |contact| {
-            self.heat_factor(view) * contact.heat(solution)
-        });
-        if C::IN_TEMPERATURE {
-            heat += along::<K, S, D>(&self.by_increment, &motion);
-        }
-        let mut correction = M::Variables::filled(S::zero());
         for a in 0..M::MEASURES {
-            correction[a] = along::<K, S, D>(&self.sensitivity[a], &motion);
+            self.correction[a] = along::<K, S, D>(&self.sensitivity[a], &motion);
+        }
+        let mut heat = S::zero();
+        if M::THERMAL
+            && let Some(contact) = contact
+        {
+            heat = self.condensed.heat_factor * contact.heat(solution);
+        }
+        if C::IN_TEMPERATURE {
+            for at_point in self.at_point.as_ref() {
+                heat += along::<K, S, D>(&at_point.by_increment, &motion);
+            }
         }
         for u in 0..Self::UNKNOWNS {
-            let mut change = self.condensed.constant[u] + self.condensed.by_heat[u] * heat;
+            let mut change = self.condensed.constant.get(u);
             for a in 0..M::MEASURES {
-                change += self.condensed.by_measure[u][a] * correction[a];
+                change += self.condensed.by_measure[a].get(u) * self.correction[a];
             }
-            correction[M::MEASURES + u] = -change;
+            if Self::depends_on_heat(contact.is_some()) {
+                change += self.condensed.by_heat.get(u) * heat;
+            }
+            self.correction[M::MEASURES + u] = -change;
         }
-        self.previous = self.x;
-        self.correction = correction;
+        self.remember();
         if M::THERMAL && C::FINDS_TEMPERATURE {
-            self.previous_entropy_change = self.answer.response[Self::ENTROPY];
-            let row = &self.answer.tangent[Self::ENTROPY];
-            let terms = row.as_ref().iter().zip(correction.as_ref());
-            self.entropy_correction = terms.fold(S::zero(), |sum, (&a, &b)| sum + a * b);
+            for at_point in self.at_point.as_mut() {
+                at_point.previous_entropy_change = self.response[Self::ENTROPY];
+                let terms = at_point.entropy_by.as_ref().iter();
+                let terms = terms.zip(self.correction.as_ref());
+                at_point.entropy_correction = terms.fold(S::zero(), |sum, (&a, &b)| sum + a * b);
+            }
         }
+        self.scaled_update()
+    }
+
+    /// The largest correction of a local unknown in its unit.
+    #[inline]
+    fn scaled_update(&self) -> S {
         let mut largest = S::zero();
         for index in M::MEASURES..Self::TEMPERATURE {
-            let scaled = correction[index] / self.start.x0[0];
+            let scaled = self.correction[index] / self.start.x0[0];
             largest = largest.maximum(scaled.abs());
         }
         if M::THERMAL {
-            let scaled = correction[Self::TEMPERATURE] / self.x[Self::TEMPERATURE];
+            let scaled = self.correction[Self::TEMPERATURE] / self.x[Self::TEMPERATURE];
             largest = largest.maximum(scaled.abs());
         }
         largest
@@ -88,9 +97,14 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
     pub(super) fn motion_in(&self, solution: &[[S; 1]]) -> Arms<K, S, D> {
         let mut motion = Arms::<K, S, D>::filled([S::zero(); D]);
         let rows = self.rows.as_ref();
-        let first = &solution[rows[0]..][..D];
+        let of = |row: u32| solution.get(row as usize..row as usize + D);
+        let Some(first) = of(rows[0]) else {
+            return motion;
+        };
         for (arm, &row) in motion.as_mut().iter_mut().zip(&rows[1..]) {
-            let other = &solution[row..][..D];
+            let Some(other) = of(row) else {
+                continue;
+            };
             for axis in 0..D {
                 arm[axis] = other[axis][0] - first[axis][0];
             }
@@ -103,9 +117,9 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
     /// `Σ κ (δΘ_partner − δΘ)`, W.
     #[inline]
     fn heat(&self, solution: &[[S; 1]]) -> S {
-        let own = solution[self.unknown][0];
+        let own = solution[self.unknown as usize][0];
         self.partners.iter().fold(S::zero(), |sum, partner| {
-            sum + partner.conductance * (solution[partner.unknown][0] - own)
+            sum + partner.conductance * (solution[partner.unknown as usize][0] - own)
         })
     }
 }

@@ -1,7 +1,7 @@
 //! What one element contributes to the GENERIC form of the equations.
 
+use super::arms::{arms, points};
 use super::member::Member;
-use super::pose::{arms, points};
 use super::{ElementGroup, variables};
 use crate::free_energy::{Array, FreeEnergy};
 use crate::kinematics::Kinematics;
@@ -34,7 +34,7 @@ where
         for member in &mut self.members {
             let r = arms::<K, S, D>(&member.site.nodes, positions);
             let measures = self.kinematics.measure(&r);
-            let x = variables::<S, M>(measures.as_ref(), member.slots, state);
+            let x = variables::<S, M>(measures.as_ref(), member.slots(), state);
             let gradient = member.model.gradient(&x);
             let theta = x[M::Variables::LEN - 1];
             member.viscosities = member.model.viscosity(theta);
@@ -42,10 +42,10 @@ where
             for index in 0..M::MEASURES + M::DASHPOTS {
                 let is_force = index < M::MEASURES;
                 let sign = if is_force { S::one() } else { -S::one() };
-                member.answer.response[index] = sign * gradient[index];
+                member.response[index] = sign * gradient[index];
             }
             if M::THERMAL {
-                member.answer.response[M::MEASURES + M::DASHPOTS] = theta;
+                member.response[M::MEASURES + M::DASHPOTS] = theta;
             }
             let force = member.force(self.kinematics, Placement::End, [&r, &r]);
             elements.push(member.generic(&force));
@@ -76,16 +76,16 @@ where
         let nodes = self.site.nodes.as_ref().iter().zip(force.as_ref());
         let forces = nodes.flat_map(|(&node, force)| {
             let axes = force.iter().enumerate();
-            axes.map(move |(axis, &entry)| (node * D + axis, entry))
+            axes.map(move |(axis, &entry)| (node as usize * D + axis, entry))
         });
         let dashpots = (0..M::DASHPOTS).map(|k| {
-            let g = self.answer.response[M::MEASURES + k];
-            (self.slots.viscous + k, g, self.viscosities.0[k])
+            let g = self.response[M::MEASURES + k];
+            (self.slots().viscous + k, g, self.viscosities.0[k])
         });
         ElementGeneric {
             forces: forces.collect(),
             dashpots: dashpots.collect(),
-            temperature: self.slots.thermal.map(|slot| (slot, self.temperature())),
+            temperature: self.slots().thermal.map(|slot| (slot, self.temperature())),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What the elements are in a state, from the definitions and not from what a step computed.
 
+use super::arms::{arms, points};
 use super::member::Member;
-use super::pose::{arms, points};
 use super::{ElementGroup, ElementView, GroupTotals, variables};
 use crate::error::StateError;
 use crate::free_energy::FreeEnergy;
@@ -22,7 +22,7 @@ where
     pub(super) fn initialize_all(&mut self, state: &mut State<S>) -> Result<(), StateError> {
         for member in &mut self.members {
             let x = member.locate(self.kinematics, state)?;
-            let slot = member.slots.thermal;
+            let slot = member.slots().thermal;
             let theta = slot.map_or(S::zero(), |slot| state.temperatures[slot]);
             member.find_viscosities(theta)?;
             member.check_energy(&x)?;
@@ -44,7 +44,7 @@ where
         for member in &self.members {
             let x = member.variables_in(self.kinematics, state);
             energy += member.internal_energy(&x, state);
-            if let Some(slot) = member.slots.thermal {
+            if let Some(slot) = member.slots().thermal {
                 entropy += state.entropies.values()[slot];
             }
         }
@@ -73,13 +73,13 @@ where
     /// The variables in a state.
     fn variables_in(&self, kinematics: K, state: &State<S>) -> M::Variables {
         let r = arms::<K, S, D>(&self.site.nodes, points(state.positions.values()));
-        variables::<S, M>(kinematics.measure(&r).as_ref(), self.slots, state)
+        variables::<S, M>(kinematics.measure(&r).as_ref(), self.slots(), state)
     }
 
     /// `ψ + θ s`, with the entropy that is the state, J.
     fn internal_energy(&self, x: &M::Variables, state: &State<S>) -> S {
         let psi = self.model.free_energy(x);
-        match self.slots.thermal {
+        match self.slots().thermal {
             Some(slot) => psi + state.temperatures[slot] * state.entropies.values()[slot],
             None => psi,
         }

@@ -10,13 +10,22 @@
 //! the global unknown Θ = θ*. So their corrections are eliminated here.
 
 use super::StepView;
-use super::member::{Condensed, Member};
+use super::eliminate::{LocalSystem, eliminate};
+use super::member::Member;
+use super::site::Contact;
+use crate::conduction::HeatFlow;
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
 use crate::kinematics::Kinematics;
 use crate::lu::Singular;
 use crate::scalar::Real;
 use crate::scheme::ElementScheme;
+
+/// What the dashpots turn into heat, `Σ g*²/η`, W, and its derivative by the variables.
+struct Dissipation<S: Real, M: FreeEnergy<S>> {
+    power: S,
+    by: M::Variables,
+}
 
 impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
 where
@@ -25,72 +34,143 @@ where
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    /// Eliminates the internal variables of an element whose response and viscosities are known.
+    /// Eliminates the internal variables of an element whose response, with this tangent, and
+    /// viscosities are known.
     #[inline]
     pub(super) fn condense(
         &mut self,
         view: &StepView<'_, S>,
         seen_temperatures: &[S],
+        tangent: &M::Tangent,
+        contact: Option<&Contact<K, S, D>>,
     ) -> Result<(), StateError> {
         if Self::UNKNOWNS == 0 {
             return Ok(());
         }
+        // First, while nothing else is at hand that would have to be put aside for the call.
+        let flow = self.heat_flow(view, contact, seen_temperatures);
+        let zeros = M::Variables::filled(S::zero());
+        let mut system = LocalSystem::<S, M> {
+            constant: zeros,
+            rows: M::Hessian::filled(zeros),
+            by_heat: zeros,
+        };
         let mut dissipation = Dissipation {
             power: S::zero(),
-            by: M::Variables::filled(S::zero()),
+            by: zeros,
         };
         for k in 0..M::DASHPOTS {
-            self.dashpot_balance(view, k, &mut dissipation);
+            self.dashpot_balance(view, k, tangent, &mut system, &mut dissipation);
         }
-        self.condensed.by_heat = M::Variables::filled(S::zero());
         if M::THERMAL {
             let row = M::DASHPOTS;
-            if view.prescribed(self.slots.thermal, C::PLACEMENT).is_some() {
+            if self.is_prescribed {
                 // r_s = τ − τ_prescribed, which is zero from the start.
-                self.condensed.constant[row] = S::zero();
-                self.condensed.by_measure[row] = M::Variables::filled(S::zero());
-                self.condensed.by_measure[row][Self::TEMPERATURE] = S::one();
+                self.condensed.heat_factor = S::zero();
+                system.rows[row][Self::TEMPERATURE] = S::one();
             } else {
-                self.condensed.by_heat[row] = S::one();
-                self.heat_balance(view, seen_temperatures, &dissipation);
+                system.by_heat[row] = S::one();
+                self.heat_balance(view, &flow, tangent, &mut system, &dissipation);
             }
         }
+        let depends_on_heat = Self::depends_on_heat(contact.is_some());
+        let solved = if depends_on_heat {
+            eliminate::<S, M, true>(&mut system)
+        } else {
+            eliminate::<S, M, false>(&mut system)
+        };
         // A finite local system is singular only where the response has no derivative.
-        eliminate::<S, M>(&mut self.condensed).map_err(|Singular| StateError::NotFinite {
+        solved.map_err(|Singular| StateError::NotFinite {
             element: self.element,
             quantity: "inverse of the local tangent",
             value: f64::INFINITY,
-        })
+        })?;
+        for u in 0..Self::UNKNOWNS {
+            self.condensed.constant.set(u, system.constant[u]);
+            for a in 0..M::MEASURES {
+                self.condensed.by_measure[a].set(u, system.rows[u][a]);
+            }
+            if depends_on_heat {
+                self.condensed.by_heat.set(u, system.by_heat[u]);
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether `r_s` depends on global unknowns otherwise than through the measures.
+    #[inline]
+    pub(super) fn depends_on_heat(is_coupled: bool) -> bool {
+        C::IN_TEMPERATURE || (M::THERMAL && is_coupled)
+    }
+
+    /// The heat that conduction gives it.
+    ///
+    /// Flows between elements are computed from `seen` temperatures Θ at both ends, so that one end
+    /// receives exactly what the other gives, whatever rounding does to a large κ; flows
+    /// from reservoirs from the temperature of the element.
+    #[expect(clippy::inline_always, reason = "mostly there is none")]
+    #[inline(always)]
+    pub(super) fn heat_flow(
+        &self,
+        view: &StepView<'_, S>,
+        contact: Option<&Contact<K, S, D>>,
+        seen: &[S],
+    ) -> HeatFlow<S> {
+        let mut flow = HeatFlow::none();
+        let Some(slot) = self.slots().thermal else {
+            return flow;
+        };
+        if self.meets_reservoirs {
+            flow = view.conduction.reservoir_flow(slot, self.temperature());
+        }
+        if let Some(contact) = contact {
+            let own = seen[slot];
+            for partner in &contact.partners {
+                flow.heat += partner.conductance * (seen[partner.slot as usize] - own);
+            }
+        }
+        flow
     }
 
     /// `r_γk` and its derivatives; adds to the dissipated power and its derivatives.
     #[inline]
     fn dashpot_balance(
-        &mut self,
+        &self,
         view: &StepView<'_, S>,
         k: usize,
+        tangent: &M::Tangent,
+        system: &mut LocalSystem<S, M>,
         dissipation: &mut Dissipation<S, M>,
     ) {
-        let (h, share) = (view.thermal_step(), S::from_f64(C::IMPLICIT));
         let index = M::MEASURES + k;
         let per_eta = self.viscosities.0[k].recip();
-        let slope = self.viscosities.1[k];
-        let g = self.answer.response[index];
-        let rate = g * per_eta;
-        dissipation.power += g * rate;
+        let rate = self.response[index] * per_eta;
+        dissipation.power += self.response[index] * rate;
         let change = self.x[index] - self.start.x0[index];
-        self.condensed.constant[k] = change - h * (share * rate + self.old_rates[index]);
+        let h = view.thermal_step();
+        system.constant[k] = change - self.increment(index, rate, h);
+        let mobility = -h * S::from_f64(C::IMPLICIT) * per_eta;
+        // ∂g/∂x − γ̇ ∂η/∂x, the derivative of γ̇ times η.
+        let thinning = rate * self.viscosities.1[k];
         for column in 0..Self::VARIABLES {
-            let g_by = self.answer.tangent[index][column];
-            let theta_by = if M::THERMAL {
-                self.answer.tangent[Self::TEMPERATURE][column]
+            let by = tangent[index][column];
+            let driving = if M::THERMAL {
+                by - thinning * tangent[Self::TEMPERATURE][column]
             } else {
-                S::zero()
+                by
             };
-            let rate_by = (g_by - rate * slope * theta_by) * per_eta;
-            dissipation.by[column] += g_by * rate + g * rate_by;
-            let identity = if column == index { S::one() } else { S::zero() };
-            self.condensed.by_measure[k][column] = identity - h * share * rate_by;
+            // ∂(g γ̇)/∂x = γ̇ (∂g/∂x + η ∂γ̇/∂x)
+            let power_by = rate * (by + driving);
+            dissipation.by[column] = if k == 0 {
+                power_by
+            } else {
+                dissipation.by[column] + power_by
+            };
+            system.rows[k][column] = if column == index {
+                S::one() + mobility * driving
+            } else {
+                mobility * driving
+            };
         }
     }
 
@@ -99,97 +179,34 @@ where
     fn heat_balance(
         &mut self,
         view: &StepView<'_, S>,
-        seen_temperatures: &[S],
+        flow: &HeatFlow<S>,
+        tangent: &M::Tangent,
+        system: &mut LocalSystem<S, M>,
         dissipation: &Dissipation<S, M>,
     ) {
-        let (h, share) = (view.thermal_step(), S::from_f64(C::IMPLICIT));
-        let theta = self.answer.response[Self::TEMPERATURE];
-        let per_theta = theta.recip();
-        let (mut heat, mut conductance) = (dissipation.power, S::zero());
-        if let Some(slot) = self.slots.thermal {
-            let flow = view.conduction.heat_flow(slot, theta, seen_temperatures);
-            heat += flow.heat;
-            conductance = flow.conductance;
-        }
-        let rate = heat * per_theta;
-        let old_rate = self.old_rates[Self::TEMPERATURE];
+        let per_theta = self.temperature().recip();
+        let rate = (dissipation.power + flow.heat) * per_theta;
+        let h = view.thermal_step();
         let row = M::DASHPOTS;
-        let residual = self.answer.response[Self::ENTROPY] - h * (share * rate + old_rate);
-        self.condensed.constant[row] = residual;
+        let received = self.increment(Self::TEMPERATURE, rate, h);
+        let residual = self.response[Self::ENTROPY] - received;
+        system.constant[row] = residual;
+        // ∂r_s/∂(power) without the sign, and ∂r_s/∂θ*.
+        let weight = h * S::from_f64(C::IMPLICIT) * per_theta;
+        self.condensed.heat_factor = -weight;
+        let mut by_theta = weight * (flow.conductance + rate);
+        if C::SCALES_HEAT {
+            // Newton's method on θ* r_s, which is far less curved than r_s where conduction is
+            // stiff, and the same where r_s = 0.
+            by_theta += residual * per_theta;
+        }
         for column in 0..Self::VARIABLES {
-            let theta_by = self.answer.tangent[Self::TEMPERATURE][column];
-            let power_by = dissipation.by[column] - conductance * theta_by;
-            let rate_by = (power_by - rate * theta_by) * per_theta;
-            let mut entry = self.answer.tangent[Self::ENTROPY][column] - h * share * rate_by;
-            if C::SCALES_HEAT {
-                // Newton's method on θ* r_s, which is far less curved than r_s where conduction is
-                // stiff, and the same where r_s = 0.
-                entry += theta_by * residual * per_theta;
+            let mut entry =
+                tangent[Self::ENTROPY][column] + by_theta * tangent[Self::TEMPERATURE][column];
+            if M::DASHPOTS > 0 {
+                entry -= weight * dissipation.by[column];
             }
-            self.condensed.by_measure[row][column] = entry;
+            system.rows[row][column] = entry;
         }
     }
-}
-
-/// What the dashpots turn into heat, `Σ g*²/η`, W, and its derivative by the variables.
-struct Dissipation<S: Real, M: FreeEnergy<S>> {
-    power: S,
-    by: M::Variables,
-}
-
-/// Gauss–Jordan elimination with partial pivoting: from `r` in `constant`, `∂r/∂x` in `by_measure`
-/// and `∂r/∂r_s` in `by_heat` to the solved form.
-#[inline]
-fn eliminate<S: Real, M: FreeEnergy<S>>(system: &mut Condensed<S, M>) -> Result<(), Singular> {
-    let Condensed {
-        constant,
-        by_measure: rows,
-        by_heat,
-    } = system;
-    let unknowns = M::Variables::LEN - M::MEASURES;
-    for k in 0..unknowns {
-        let at = M::MEASURES + k;
-        let pivot = largest_row::<S, M>(rows, k);
-        // As a rule it stays, and a branch is foretold where a place would be waited for.
-        if pivot != k {
-            rows.as_mut().swap(pivot, k);
-            constant.as_mut().swap(pivot, k);
-            by_heat.as_mut().swap(pivot, k);
-        }
-        let value = rows[k][at];
-        if !value.is_finite() || value == S::zero() {
-            return Err(Singular);
-        }
-        let inverse = value.recip();
-        // Whole rows, which is faster: columns that have been eliminated are not read again.
-        for entry in rows[k].as_mut() {
-            *entry *= inverse;
-        }
-        let pivot_row = rows[k];
-        constant[k] *= inverse;
-        by_heat[k] *= inverse;
-        for row in (0..unknowns).filter(|&row| row != k) {
-            let factor = rows[row][at];
-            for (entry, &pivot) in rows[row].as_mut().iter_mut().zip(pivot_row.as_ref()) {
-                *entry -= factor * pivot;
-            }
-            let (own, heat) = (constant[k], by_heat[k]);
-            constant[row] -= factor * own;
-            by_heat[row] -= factor * heat;
-        }
-    }
-    Ok(())
-}
-
-/// The row with the largest entry in the column of the local unknown `k`, from its own row on.
-#[inline]
-fn largest_row<S: Real, M: FreeEnergy<S>>(rows: &M::Hessian, k: usize) -> usize {
-    let (at, unknowns) = (M::MEASURES + k, M::Variables::LEN - M::MEASURES);
-    let mut largest = k;
-    for row in k + 1..unknowns {
-        if rows[row][at].abs() > rows[largest][at].abs() {
-            largest = row;
-        }
-    }
-    largest
 }

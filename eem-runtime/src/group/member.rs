@@ -1,6 +1,9 @@
 //! One element of a group: its model and its part of the trial state.
 
-use super::site::Site;
+use super::at_point::MemoryAtPoint;
+use super::eliminate::{Condensed, PerUnknown};
+use super::site::{Contact, Site};
+use crate::compact::compact;
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
 use crate::handle::Element;
@@ -8,7 +11,7 @@ use crate::kinematics::{Arms, Gradient, Kinematics};
 use crate::layout::Slots;
 use crate::scalar::Real;
 use crate::scene::is_positive;
-use crate::scheme::{Answer, ElementScheme, Placement, Start};
+use crate::scheme::{ElementScheme, Placement, Start};
 
 /// An element, with everything that one step of the scheme `C` needs to remember of it.
 pub(crate) struct Member<S, M, K, C, const D: usize>
@@ -20,47 +23,38 @@ where
 {
     pub(super) element: Element,
     pub(super) model: M,
-    pub(super) slots: Slots,
+    /// Its thermal slot, if it has a temperature, and the offset of its viscous stretches.
+    slot: u32,
+    viscous: u32,
+    /// Which of the contacts of the group it is, if it conducts heat to other elements; more than
+    /// there are if not.
+    pub(super) contact: u32,
+    /// Whether it exchanges heat with reservoirs.
+    pub(super) meets_reservoirs: bool,
+    /// Whether a thermostat gives its temperature.
+    pub(super) is_prescribed: bool,
     pub(super) site: Site<K, S, D>,
-    /// The old state.
+    /// The old state, and the arms there.
     pub(super) start: Start<S, M, C::Old>,
-    /// What the old state alone contributes to the rates of the internal variables.
-    pub(super) old_rates: M::Variables,
-    /// For a scheme in temperature: what the old state contributes to θ̇, K/s.
-    pub(super) old_heating: S,
+    pub(super) r0: Arms<K, S, D>,
+    /// What the scheme keeps as starting values.
+    pub(super) memory: C::Memory,
     /// The trial variables `(π, γ, τ)`.
     pub(super) x: M::Variables,
-    /// The trial variables before the last correction, and the correction.
-    pub(super) previous: M::Variables,
+    /// γ and τ before the last correction, and the correction of all variables.
+    pub(super) previous: PerUnknown<S, M::Viscosities>,
     pub(super) correction: M::Variables,
-    /// The trial Δs, before the last correction, and the correction, J/K.
-    pub(super) entropy_change: S,
-    pub(super) previous_entropy_change: S,
-    pub(super) entropy_correction: S,
-    /// Corner temperatures, kept as starting values.
-    pub(super) corners: M::Corners,
-    /// The response at the trial and its tangent.
-    pub(super) answer: Answer<S, M>,
+    /// The response at the trial, and the derivatives of `(f*, g*, θ*)` by `x`.
+    pub(super) response: M::Response,
+    pub(super) slopes: M::Hessian,
     /// `η_k` and `dη_k/dθ` at θ*.
     pub(super) viscosities: (M::Viscosities, M::Viscosities),
     /// The derivative of the measures by the new arms.
     pub(super) sensitivity: Gradient<K, S, D>,
-    /// For a scheme in temperature: the derivative of Δs by the new arms through the increments
-    /// of the measures.
-    pub(super) by_increment: Arms<K, S, D>,
     /// Local unknowns as functions of the global ones.
-    pub(super) condensed: Condensed<S, M>,
-    /// The entropy that dashpots and conduction gave it in the step, J/K.
-    pub(super) entropy_received: S,
-}
-
-/// The solved local system: `δu = −(constant + by_measure δπ + by_heat δr_s)`, a row per local
-/// unknown, of which there are fewer than variables: the first entries and rows are used.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Condensed<S: Real, M: FreeEnergy<S>> {
-    pub(super) constant: M::Variables,
-    pub(super) by_measure: M::Hessian,
-    pub(super) by_heat: M::Variables,
+    pub(super) condensed: Condensed<S, M, K, D>,
+    /// What only a rule that looks at one point needs.
+    pub(super) at_point: C::AtPoint<MemoryAtPoint<S, M, K, D>>,
 }
 
 impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
@@ -86,36 +80,75 @@ where
         let zeros = M::Variables::filled(S::zero());
         let viscosities = M::Viscosities::filled(S::zero());
         let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
-        let old = C::old(&model, &zeros);
+        let old = C::old(&model, &zeros, S::zero());
         Self {
             element,
             model,
-            slots,
+            slot: compact(slots.thermal.unwrap_or(0)),
+            viscous: compact(slots.viscous),
+            contact: u32::MAX,
+            meets_reservoirs: false,
+            is_prescribed: false,
             site: Site::unconnected(nodes),
-            start: Start {
-                x0: zeros,
-                entropy: S::zero(),
-                old,
-            },
-            old_rates: zeros,
-            old_heating: S::zero(),
+            start: Start { x0: zeros, old },
+            r0: nowhere,
+            memory: C::memory(S::zero()),
             x: zeros,
-            previous: zeros,
+            previous: PerUnknown::zero(),
             correction: zeros,
-            entropy_change: S::zero(),
-            previous_entropy_change: S::zero(),
-            entropy_correction: S::zero(),
-            corners: M::Corners::filled(S::zero()),
-            answer: Answer::none(),
+            response: M::Response::filled(S::zero()),
+            slopes: M::Hessian::filled(zeros),
             viscosities: (viscosities, viscosities),
             sensitivity: Gradient::<K, S, D>::filled(nowhere),
-            by_increment: nowhere,
-            condensed: Condensed {
-                constant: zeros,
-                by_measure: M::Hessian::filled(zeros),
-                by_heat: zeros,
-            },
-            entropy_received: S::zero(),
+            condensed: Condensed::zero(),
+            at_point: C::AtPoint::filled(MemoryAtPoint::<S, M, K, D>::zero(nowhere)),
+        }
+    }
+
+    /// Where its internal variables are in a state.
+    #[inline]
+    pub(super) fn slots(&self) -> Slots {
+        Slots {
+            viscous: self.viscous as usize,
+            thermal: M::THERMAL.then_some(self.slot as usize),
+        }
+    }
+
+    /// Its contact, if it conducts heat to other elements.
+    #[inline]
+    pub(super) fn contact_in<'a>(
+        &self,
+        contacts: &'a [Contact<K, S, D>],
+    ) -> Option<&'a Contact<K, S, D>> {
+        if M::THERMAL {
+            contacts.get(self.contact as usize)
+        } else {
+            None
+        }
+    }
+
+    /// Keeps of the tangent what is needed once the correction is known.
+    #[inline]
+    pub(super) fn keep_slopes(&mut self, tangent: &M::Tangent) {
+        for row in 0..Self::VARIABLES {
+            self.slopes[row] = tangent[row];
+        }
+        if M::THERMAL && C::FINDS_TEMPERATURE {
+            for at_point in self.at_point.as_mut() {
+                at_point.entropy_by = tangent[Self::ENTROPY];
+            }
+        }
+    }
+
+    /// The increment `h (w ẋ + c)` of an internal variable with the rate `ẋ` of the response, of which
+    /// the scheme takes the share w; c is what the old state contributes.
+    #[inline]
+    pub(super) fn increment(&self, index: usize, rate: S, h: S) -> S {
+        match self.at_point.as_ref() {
+            [at_point] if C::IMPLICIT < 1.0 => {
+                h * (S::from_f64(C::IMPLICIT) * rate + at_point.old_rates[index])
+            }
+            _ => h * rate,
         }
     }
 
@@ -132,7 +165,7 @@ where
     #[inline]
     pub(super) fn temperature(&self) -> S {
         if M::THERMAL {
-            self.answer.response[Self::TEMPERATURE]
+            self.response[Self::TEMPERATURE]
         } else {
             S::zero()
         }
@@ -145,12 +178,21 @@ where
         }
         let forces = self.model.gradient(&self.start.x0);
         let dashpots = M::MEASURES..Self::TEMPERATURE;
-        dashpots.fold(S::zero(), |sum, k| sum - forces[k] * self.old_rates[k])
+        let old = self.at_point.as_ref().iter();
+        old.fold(S::zero(), |sum, old| {
+            dashpots
+                .clone()
+                .fold(sum, |sum, k| sum - forces[k] * old.old_rates[k])
+        })
     }
 
     /// The free energy is finite.
     pub(super) fn check_energy(&self, x: &M::Variables) -> Result<(), StateError> {
-        let psi = self.model.free_energy(x);
+        self.unless_infinite(self.model.free_energy(x))
+    }
+
+    /// See [`check_energy`](Self::check_energy).
+    pub(super) fn unless_infinite(&self, psi: S) -> Result<(), StateError> {
         if psi.is_finite() {
             return Ok(());
         }
@@ -181,25 +223,40 @@ where
     }
 
     /// Starts the next correction from the present trial, with none.
+    #[inline]
     pub(super) fn hold(&mut self) {
-        self.previous = self.x;
+        self.remember();
         self.correction = M::Variables::filled(S::zero());
-        self.previous_entropy_change = self.entropy_change;
-        self.entropy_correction = S::zero();
+        for at_point in self.at_point.as_mut() {
+            at_point.previous_entropy_change = at_point.entropy_change;
+            at_point.entropy_correction = S::zero();
+        }
+    }
+
+    /// The present trial is where the next correction starts.
+    #[inline]
+    pub(super) fn remember(&mut self) {
+        for u in 0..Self::UNKNOWNS {
+            self.previous.set(u, self.x[M::MEASURES + u]);
+        }
     }
 
     /// Applies the fraction `share` of the correction: viscous stretches linearly, the temperature
     /// in its logarithm, so that it stays positive.
     #[inline]
     pub(super) fn apply(&mut self, share: S) {
-        for index in M::MEASURES..Self::TEMPERATURE {
-            self.x[index] = self.previous[index] + share * self.correction[index];
+        for k in 0..M::DASHPOTS {
+            let index = M::MEASURES + k;
+            self.x[index] = self.previous.get(k) + share * self.correction[index];
         }
         if M::THERMAL {
-            let theta = self.previous[Self::TEMPERATURE];
             let change = share * self.correction[Self::TEMPERATURE];
-            self.x[Self::TEMPERATURE] = grown(theta, change);
-            self.entropy_change = self.previous_entropy_change + share * self.entropy_correction;
+            self.x[Self::TEMPERATURE] = grown(self.previous.get(M::DASHPOTS), change);
+        }
+        if C::FINDS_TEMPERATURE {
+            for at in self.at_point.as_mut() {
+                at.entropy_change = at.previous_entropy_change + share * at.entropy_correction;
+            }
         }
     }
 
@@ -210,15 +267,15 @@ where
     pub(super) fn extrapolate(&mut self) {
         self.apply(S::one());
         for a in 0..M::MEASURES {
-            self.x[a] = self.previous[a] + self.correction[a];
+            self.x[a] += self.correction[a];
         }
         let mut heating = S::zero();
         for row in 0..Self::VARIABLES {
-            let mut change = S::zero();
-            for column in 0..Self::VARIABLES {
-                change += self.answer.tangent[row][column] * self.correction[column];
+            let mut change = self.slopes[row][0] * self.correction[0];
+            for column in 1..Self::VARIABLES {
+                change += self.slopes[row][column] * self.correction[column];
             }
-            self.answer.response[row] += change;
+            self.response[row] += change;
             heating = change;
         }
         if M::THERMAL {
@@ -235,7 +292,10 @@ where
 #[inline]
 pub(super) fn grown<S: Real>(theta: S, change: S) -> S {
     let most = S::from_f64(LARGEST_HALF_CHANGE) * theta;
-    let half = (S::from_f64(0.5) * change).minimum(most).maximum(-most);
+    let mut half = S::from_f64(0.5) * change;
+    if half.abs() > most {
+        half = if half > S::zero() { most } else { -most };
+    }
     theta * ((theta + half) / (theta - half))
 }
 

@@ -1,14 +1,14 @@
 //! The new state of each element: its temperature, and all that must be true of a state.
 
-use super::evaluate::{check_measures, check_temperature};
+use super::arms::{arms, points};
 use super::member::Member;
-use super::pose::{arms, points};
+use super::respond::{check_measures, check_temperature};
 use super::{ElementGroup, StepView, Trial, variables};
 use crate::error::StateError;
 use crate::free_energy::{Array, Caloric, FreeEnergy};
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
-use crate::scheme::{ElementScheme, Infeasible, Placement, temperature_at};
+use crate::scheme::{ElementScheme, Infeasible, Placement, temperature_and_energy_at};
 use crate::state::State;
 
 impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
@@ -26,10 +26,11 @@ where
         next: &mut State<S>,
     ) -> Result<(), StateError> {
         for member in &mut self.members {
-            member.close(view, &trial.seen_temperatures, next);
+            let contact = member.contact_in(&self.contacts);
+            let received = member.close(view, contact, &trial.seen_temperatures, next);
             let near = member.x[M::Variables::LEN - 1];
             if let Some(entropy) = member.settle(self.kinematics, view, near, next)? {
-                member.book_thermostat(view, entropy, next);
+                member.book_thermostat(view, [entropy, received], next);
             }
         }
         Ok(())
@@ -53,7 +54,7 @@ where
         let r = arms::<K, S, D>(&self.site.nodes, points(state.positions.values()));
         let measures = kinematics.measure(&r);
         check_measures::<K, S, D>(kinematics, self.element, &measures)?;
-        Ok(variables::<S, M>(measures.as_ref(), self.slots, state))
+        Ok(variables::<S, M>(measures.as_ref(), self.slots(), state))
     }
 
     /// The new temperature, which is near a given one, from the new entropy, or the other way round
@@ -70,20 +71,19 @@ where
     ) -> Result<Option<S>, StateError> {
         let mut x = self.locate(kinematics, state)?;
         self.check_viscous(&x)?;
-        let Some(slot) = self.slots.thermal else {
+        let Some(slot) = self.slots().thermal else {
             self.check_energy(&x)?;
             return Ok(None);
         };
-        let prescribed = view.prescribed(Some(slot), Placement::End);
+        let prescribed = view.prescribed(slot, Placement::End);
         if let (false, None) = (C::IN_TEMPERATURE, prescribed) {
             // The trial is nearly right: one evaluation is enough, as a rule.
             let entropy = state.entropies.values()[slot];
-            let theta = temperature_at(&self.model, x, entropy, near)
+            let (theta, psi) = temperature_and_energy_at(&self.model, x, entropy, near)
                 .map_err(|infeasible| infeasible.of(self.element))?;
             check_temperature(self.element, theta)?;
             state.temperatures[slot] = theta;
-            x[Self::TEMPERATURE] = theta;
-            self.check_energy(&x)?;
+            self.unless_infinite(psi)?;
             return Ok(None);
         }
         let old = view.state.temperatures[slot];
@@ -98,13 +98,19 @@ where
         Ok(prescribed.map(|_| caloric.entropy))
     }
 
-    /// The heat of the thermostat that brought the entropy to a new one.
-    fn book_thermostat(&self, view: &StepView<'_, S>, entropy: S, state: &mut State<S>) {
-        let Some(slot) = self.slots.thermal else {
+    /// The heat of the thermostat that brought the entropy to a new one, of an element that has
+    /// received so much entropy otherwise.
+    fn book_thermostat(
+        &self,
+        view: &StepView<'_, S>,
+        [entropy, received]: [S; 2],
+        state: &mut State<S>,
+    ) {
+        let Some(slot) = self.slots().thermal else {
             return;
         };
         let change = entropy - view.state.entropies.values()[slot];
-        let given = change - self.entropy_received;
+        let given = change - received;
         state.heat.add(self.temperature() * given);
         state.thermostat_entropy.add(-given);
     }

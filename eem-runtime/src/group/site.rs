@@ -1,86 +1,122 @@
 //! Where the elements write in the global systems, found once per scene.
 
 use super::Sites;
+use crate::compact::compact;
 use crate::conduction::Partner;
 use crate::free_energy::Array;
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
 
-/// The places of one element.
+/// The places of one element in the tangent.
+///
+/// The rows of a node have entries in the same columns, so that the entries of a column in them are
+/// equally spaced.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Site<K: Kinematics<S, D>, S: Real, const D: usize> {
-    pub(super) nodes: K::PerNode<usize>,
+    pub(super) nodes: K::PerNode<u32>,
+    /// The first row of each node.
+    pub(super) rows: K::PerNode<u32>,
+    /// The distance of the entries of one column in consecutive rows of each node.
+    pub(super) strides: K::PerNode<u32>,
+    /// The first entry of the block of two nodes, that of its first row.
+    pub(super) blocks: K::PerNode<K::PerNode<u32>>,
     /// Whether the nodes move with the unknowns; anchors do not.
     pub(super) is_mass: K::PerNode<bool>,
-    /// The first row of each node in the tangent.
-    pub(super) rows: K::PerNode<usize>,
-    /// The first entry of each row of the block of two nodes in the tangent.
-    pub(super) blocks: K::PerNode<K::PerNode<[usize; D]>>,
-    /// The row of each node in the secant system.
-    pub(super) secant_rows: K::PerNode<usize>,
-    /// The entry of two nodes in the secant matrix.
-    pub(super) secant: K::PerNode<K::PerNode<usize>>,
-    /// Which of the contacts of the group it is, if the element conducts heat to others.
-    pub(super) contact: Option<usize>,
+}
+
+/// The places of one element in the secant system.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SecantSite<K: Kinematics<S, D>, S: Real, const D: usize> {
+    /// The row of each node.
+    pub(super) rows: K::PerNode<u32>,
+    /// The entry of two nodes.
+    pub(super) entries: K::PerNode<K::PerNode<u32>>,
 }
 
 /// The places of an element whose algorithmic temperature Θ its neighbours see.
 #[derive(Clone, Debug)]
 pub(super) struct Contact<K: Kinematics<S, D>, S: Real, const D: usize> {
     /// The row of Θ.
-    pub(super) unknown: usize,
-    pub(super) diagonal: usize,
+    pub(super) unknown: u32,
+    pub(super) diagonal: u32,
     /// The first entry of each node in the row of Θ.
-    pub(super) row: K::PerNode<usize>,
-    /// The entries of the rows of each node in the column of Θ.
-    pub(super) column: Column<K, S, D>,
+    pub(super) row: K::PerNode<u32>,
+    /// The entry of the first row of each node in the column of Θ.
+    pub(super) column: K::PerNode<u32>,
     pub(super) partners: Vec<PartnerSite<K, S, D>>,
 }
-
-/// An entry per row of a node.
-pub(super) type Column<K, S, const D: usize> = <K as Kinematics<S, D>>::PerNode<[usize; D]>;
 
 /// A path of heat to another element.
 #[derive(Clone, Debug)]
 pub(super) struct PartnerSite<K: Kinematics<S, D>, S: Real, const D: usize> {
-    /// The row of the partner's Θ.
-    pub(super) unknown: usize,
+    /// The partner's thermal slot, and the row of its Θ.
+    pub(super) slot: u32,
+    pub(super) unknown: u32,
+    /// The entry of the partner's Θ in the row of the own one.
+    pub(super) entry: u32,
     /// κ, W/K.
     pub(super) conductance: S,
-    /// The entries of the rows of each node in the column of the partner's Θ.
-    pub(super) column: Column<K, S, D>,
-    /// The entry of the partner's Θ in the row of the own one.
-    pub(super) entry: usize,
+    /// The entry of the first row of each node in the column of the partner's Θ.
+    pub(super) column: K::PerNode<u32>,
 }
 
 impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
     /// The nodes, and no places yet.
     pub(super) fn unconnected(nodes: &[usize]) -> Self {
         let mut own = K::PerNode::filled(0);
-        own.as_mut().copy_from_slice(nodes);
+        for (own, &node) in own.as_mut().iter_mut().zip(nodes) {
+            *own = compact(node);
+        }
         Self {
             nodes: own,
-            is_mass: K::PerNode::filled(false),
             rows: K::PerNode::filled(0),
-            blocks: K::PerNode::filled(K::PerNode::filled([0; D])),
-            secant_rows: K::PerNode::filled(0),
-            secant: K::PerNode::filled(K::PerNode::filled(0)),
-            contact: None,
+            strides: K::PerNode::filled(0),
+            blocks: K::PerNode::filled(K::PerNode::filled(0)),
+            is_mass: K::PerNode::filled(false),
         }
     }
 
     /// The places of an element with these nodes.
-    pub(super) fn new(nodes: &[usize], sites: &Sites<'_, S, D>) -> Self {
-        let unknown = |node: usize| sites.layout.nodes[nodes[node]];
-        let mass = |node: usize| unknown(node).map(|first| first / D);
-        let mut site = Self::unconnected(nodes);
-        for i in 0..nodes.len() {
+    pub(super) fn new(nodes: K::PerNode<u32>, sites: &Sites<'_, S, D>) -> Self {
+        let unknown = |node: usize| sites.layout.nodes[nodes[node] as usize];
+        let mut site = Self {
+            nodes,
+            ..Self::unconnected(&[])
+        };
+        for i in 0..K::PerNode::<u32>::LEN {
             site.is_mass[i] = unknown(i).is_some();
-            site.rows[i] = sites.row(unknown(i));
-            site.secant_rows[i] = sites.secant.row(mass(i));
-            for j in 0..nodes.len() {
-                site.blocks[i][j] = column::<S, D>(unknown(i), unknown(j), sites);
-                site.secant[i][j] = sites.secant.place(mass(i), mass(j));
+            site.rows[i] = compact(sites.row(unknown(i)));
+            site.strides[i] = stride(unknown(i), unknown(i), sites);
+            for j in 0..K::PerNode::<u32>::LEN {
+                site.blocks[i][j] = compact(sites.place(unknown(i), unknown(j)));
+                debug_assert!(
+                    unknown(j).is_none()
+                        || stride(unknown(i), unknown(j), sites) == site.strides[i],
+                    "entries are equally spaced"
+                );
+            }
+        }
+        site
+    }
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> SecantSite<K, S, D> {
+    /// No places yet.
+    pub(super) fn unconnected() -> Self {
+        Self {
+            rows: K::PerNode::filled(0),
+            entries: K::PerNode::filled(K::PerNode::filled(0)),
+        }
+    }
+
+    /// The places of an element with these nodes.
+    pub(super) fn new(nodes: &K::PerNode<u32>, sites: &Sites<'_, S, D>) -> Self {
+        let mass = |node: usize| sites.layout.nodes[nodes[node] as usize].map(|first| first / D);
+        let mut site = Self::unconnected();
+        for i in 0..K::PerNode::<u32>::LEN {
+            site.rows[i] = compact(sites.secant_row(mass(i)));
+            for j in 0..K::PerNode::<u32>::LEN {
+                site.entries[i][j] = compact(sites.secant_place(mass(i), mass(j)));
             }
         }
         site
@@ -90,53 +126,52 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
 impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
     /// The places of an element with these nodes and the thermal slot, if it is coupled.
     pub(super) fn new(
-        nodes: &[usize],
+        nodes: &K::PerNode<u32>,
         slot: Option<usize>,
         sites: &Sites<'_, S, D>,
     ) -> Option<Self> {
         let slot = slot?;
         let unknown = sites.layout.coupled[slot]?;
-        let column_of = |theta: usize| {
-            let mut entries = K::PerNode::filled([0; D]);
-            for (entry, &node) in entries.as_mut().iter_mut().zip(nodes) {
-                *entry = column::<S, D>(sites.layout.nodes[node], Some(theta), sites);
+        let per_node = |place: &dyn Fn(Option<usize>) -> usize| {
+            let mut entries = K::PerNode::filled(0);
+            for (entry, &node) in entries.as_mut().iter_mut().zip(nodes.as_ref()) {
+                *entry = compact(place(sites.layout.nodes[node as usize]));
             }
             entries
         };
-        let mut row = K::PerNode::filled(0);
-        for (place, &node) in row.as_mut().iter_mut().zip(nodes) {
-            *place = sites.place(Some(unknown), sites.layout.nodes[node]);
-        }
+        let column_of = |theta: usize| per_node(&|node| sites.place(node, Some(theta)));
         let partners = sites.conduction.links(slot).iter().filter_map(|link| {
             let Partner::Slot(partner) = link.partner else {
                 return None;
             };
             let theta = sites.layout.coupled[partner]?;
             Some(PartnerSite {
-                unknown: sites.row(Some(theta)),
+                slot: compact(partner),
+                unknown: compact(sites.row(Some(theta))),
+                entry: compact(sites.place(Some(unknown), Some(theta))),
                 conductance: link.conductance,
                 column: column_of(theta),
-                entry: sites.place(Some(unknown), Some(theta)),
             })
         });
         Some(Self {
-            unknown: sites.row(Some(unknown)),
-            diagonal: sites.place(Some(unknown), Some(unknown)),
-            row,
+            unknown: compact(sites.row(Some(unknown))),
+            diagonal: compact(sites.place(Some(unknown), Some(unknown))),
+            row: per_node(&|node| sites.place(Some(unknown), node)),
             column: column_of(unknown),
             partners: partners.collect(),
         })
     }
 }
 
-/// The entries of the rows of a node in one column.
-fn column<S: Real, const D: usize>(
+/// How far the entries of a column in the first two rows of a node are apart.
+fn stride<S: Real, const D: usize>(
     first: Option<usize>,
     column: Option<usize>,
     sites: &Sites<'_, S, D>,
-) -> [usize; D] {
-    core::array::from_fn(|axis| {
-        let row = first.map(|first| first + axis);
-        sites.place(row, column)
-    })
+) -> u32 {
+    let place = |axis: usize| sites.place(first.map(|first| first + axis), column);
+    if D == 1 || first.is_none() {
+        return 0;
+    }
+    compact(place(1) - place(0))
 }

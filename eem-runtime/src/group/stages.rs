@@ -1,6 +1,6 @@
 //! All elements of one model, stepped together through three stages.
 //!
-//! [`StageGroup`] is to the solver of [`Scheme::Variational4`](crate::Scheme::Variational4) what [`Group`]
+//! [`StageGroup`] is to the solver of [`Scheme::Variational4`](crate::Scheme::Variational4) what [`Group`](super::Group)
 //! is to that of the other schemes; the equations are in `scheme/variational_4.rs`. Stages are numbered
 //! 0, 1, 2 for the start, the middle and the end of the step.
 //!
@@ -71,7 +71,7 @@ impl<'a, S: Real> StageView<'a, S> {
 
     /// The temperatures prescribed on a thermal slot at the stages, K.
     fn prescribed(&self, slot: usize) -> Option<[S; 3]> {
-        let [start, middle, end] = self.loads.each_ref().map(|loads| loads.prescribed[slot]);
+        let [start, middle, end] = self.loads.each_ref().map(|loads| loads.prescribed(slot));
         Some([start?.end, middle?.end, end?.end])
     }
 }
@@ -165,7 +165,7 @@ where
     pub(crate) fn new(kinematics: K, models: Vec<(Element, M)>, placed: Placed<'_>) -> Self {
         let elements = ElementGroup::new(kinematics, models, placed);
         let members = elements.members.iter();
-        let members = members.map(|member| StageMember::new(&member.site.nodes));
+        let members = members.map(StageMember::new);
         let unknowns = StageMember::<S, M, K, D>::UNKNOWNS;
         let inputs = StageMember::<S, M, K, D>::INPUTS;
         Self {
@@ -184,7 +184,7 @@ where
 {
     fn connect(&mut self, quarters: &Quarters<'_, S, D>) {
         for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
-            stages.site = StageSite::new(&member.site.nodes, member.slots.thermal, quarters);
+            stages.site = StageSite::new(&member.site.nodes, member.slots().thermal, quarters);
         }
     }
 

@@ -36,11 +36,11 @@ impl<S: Real> StepView<'_, S> {
     }
 
     /// The temperature prescribed on a thermal slot, as a scheme with this placement sees it.
-    pub(super) fn prescribed(&self, slot: Option<usize>, at: Placement) -> Option<S> {
+    pub(super) fn prescribed(&self, slot: usize, at: Placement) -> Option<S> {
         if !self.phase.heats() {
             return None;
         }
-        let prescribed = self.loads.prescribed[slot?]?;
+        let prescribed = self.loads.prescribed(slot)?;
         Some(match at {
             Placement::Ends | Placement::End => prescribed.end,
             Placement::Middle | Placement::Start => prescribed.middle,
@@ -123,8 +123,8 @@ pub(crate) struct Sites<'a, S, const D: usize> {
     pub(crate) conduction: &'a Conduction<S>,
     /// The system of an iteration.
     pub(crate) tangent: &'a LinearSystem<S, 1>,
-    /// The system that closes a step.
-    pub(crate) secant: &'a LinearSystem<S, D>,
+    /// The system that closes a step, if the scheme has one.
+    pub(crate) secant: Option<&'a LinearSystem<S, D>>,
     /// How far rows and columns of the tangent lie behind where the layout has them: a scheme with
     /// several stages has as many copies of the unknowns.
     pub(crate) shift: [usize; 2],
@@ -145,5 +145,15 @@ impl<S: Real, const D: usize> Sites<'_, S, D> {
             column.map(|column| column + right),
         );
         self.tangent.place(row, column)
+    }
+
+    /// The row of a mass, counted among the masses, in the secant system.
+    pub(crate) fn secant_row(&self, mass: Option<usize>) -> usize {
+        self.secant.map_or(0, |secant| secant.row(mass))
+    }
+
+    /// The place of the entry of two masses in the secant matrix.
+    pub(crate) fn secant_place(&self, row: Option<usize>, column: Option<usize>) -> usize {
+        self.secant.map_or(0, |secant| secant.place(row, column))
     }
 }

@@ -1,9 +1,7 @@
 //! Logarithms, summed up between close ends and based at the smaller of distant ones.
 
 use super::Differences;
-use super::primitives::{
-    area_tangent_slope, area_tangent_tail, by_definition, half, log_difference,
-};
+use super::primitives::{area_tangent_tail, by_definition, half, log_difference};
 use crate::scalar::Scalar;
 
 /// Up to this |z| = |b − a|/(a + b), a ratio of 3/2, differences are sums of series.
@@ -21,7 +19,7 @@ const CLOSE: f64 = 0.2;
 )]
 #[inline(always)]
 pub fn ln_dds<S: Scalar>(a: S, b: S) -> Differences<S> {
-    differences(a.minimum(b), S::zero(), a, b)
+    differences(a + half(b - a), S::zero(), [a, b], [a, b])
 }
 
 /// All differences of `ln(1 + x)`: [`ln_1p_dd`] and both [`ln_1p_dd2`].
@@ -36,13 +34,14 @@ pub fn ln_dds<S: Scalar>(a: S, b: S) -> Differences<S> {
 )]
 #[inline(always)]
 pub fn ln_1p_dds<S: Scalar>(a: S, b: S) -> Differences<S> {
-    differences(S::one() + a.minimum(b), S::one(), a, b)
+    let mean = S::one() + a.minimum(b) + half(b - a).abs();
+    differences(mean, S::one(), [S::one() + a, S::one() + b], [a, b])
 }
 
 /// `f[a,b]` of the natural logarithm, for `a, b > 0`; of `ln |x|` if both are negative.
 ///
 /// ```text
-/// f = ln x:  f[a,b] = (artanh z)/(zμ),  μ = ½(a + b),  z = (b − a)/(2μ)
+/// f = ln x:  f[a,b] = ν artanh z/z,  ν = 2/(a + b),  z = ½(b − a)ν
 /// ```
 ///
 /// summed up for |z| < 1/5, which needs no function of the library, and `ln(1 + d/m)/d` with
@@ -62,10 +61,10 @@ pub fn ln_dd<S: Scalar>(a: S, b: S) -> S {
 /// `f[a,b,b]` of the natural logarithm, for `a, b > 0`; of `ln |x|` if both are negative.
 ///
 /// ```text
-/// f = ln x:  f[a,b,b] = ((1 − z)g′ − g)/(2μ²),  g = (artanh z)/z,  |z| < 1/5
+/// f = ln x:  f[a,b,b] = −½ν(1/b + νt),  t = (artanh z/z − 1)/z,  |z| < 1/5
 /// ```
 ///
-/// with μ and z of [`ln_dd`]; by definition for larger ratios.
+/// with ν and z of [`ln_dd`]; by definition for larger ratios.
 ///
 /// ```
 /// assert_eq!(eem_runtime::kernel::ln_dd2(2.0, 2.0), -0.125);
@@ -144,40 +143,38 @@ pub fn log10_dd2<S: Scalar>(a: S, b: S) -> S {
     ln_dd2(a, b) * S::from_f64(core::f64::consts::LOG10_E)
 }
 
-/// All differences of `ln(x + c)` with `base = c + min(a, b)`.
+/// All differences of `ln(x + c)` with u = a + c, v = b + c and their mean ½(u + v).
 ///
 /// ```text
-/// μ = base + ½|b − a|,  z = (b − a)/(2μ),  |z| < 1/5,  ln(b/a) = 2 artanh z
-/// ln[a,b]   = g/μ                       g  = artanh z/z = 1 + z²/3 + z⁴/5 + …
-/// ln[a,b,b] = ((1 − z)g′ − g)/(2μ²)     g′ = ⅔z + ⅘z³ + …
+/// ν = 1/mean,  z = ½(b − a)ν,  |z| < 1/5,  ln(v/u) = 2 artanh z
+/// ln[a,b]   = ν artanh z/z = ν(1 + zt)         t = z/3 + z³/5 + …
+/// ln[a,b,b] = −½ν(1/v + νt)
 /// ```
 ///
-/// Nothing cancels: all terms of g are positive, and `(1 − z)|g′| < ⅙ g`.
+/// Nothing cancels: zt is positive, and |νt| is less than a tenth of 1/v. The last line is
+/// `(1/v − ln[a,b])/(b − a)` with `1/v = ν(1 − z/(1 + z))`; 1/v often occurs elsewhere.
 #[expect(
     clippy::inline_always,
     reason = "what the caller does not use must not be computed"
 )]
 #[inline(always)]
-fn differences<S: Scalar>(base: S, c: S, a: S, b: S) -> Differences<S> {
-    let increment = b - a;
-    let inverse = (base + half(increment.abs())).recip();
-    let z = half(increment) * inverse;
-    let square = z * z;
-    let g = S::one() + square * area_tangent_tail(square);
-    let slope = z * area_tangent_slope(square);
-    let curvature = half(inverse) * inverse;
+fn differences<S: Scalar>(mean: S, c: S, [u, v]: [S; 2], [a, b]: [S; 2]) -> Differences<S> {
+    let inverse = mean.recip();
+    let z = half(b - a) * inverse;
+    let tail = z * area_tangent_tail(z * z);
+    let [shift, weight] = [inverse * tail, -half(inverse)];
     let near = z.abs().less(S::from_f64(CLOSE));
     Differences {
-        first: S::branch(near, || inverse * g, || distant(base, a, b)),
+        first: S::branch(near, || inverse + z * shift, move || distant(c, a, b)),
         second_a: S::branch(
             near,
-            || -(curvature * ((S::one() + z) * slope + g)),
-            || distant_second(base, c, b, a),
+            || weight * (u.recip() - shift),
+            move || distant_second(c, b, a),
         ),
         second_b: S::branch(
             near,
-            || curvature * ((S::one() - z) * slope - g),
-            || distant_second(base, c, a, b),
+            || weight * (v.recip() + shift),
+            move || distant_second(c, a, b),
         ),
     }
 }
@@ -185,13 +182,13 @@ fn differences<S: Scalar>(base: S, c: S, a: S, b: S) -> Differences<S> {
 /// `ln[a,b]` of ends of a large ratio.
 #[cold]
 #[inline(never)]
-fn distant<S: Scalar>(base: S, a: S, b: S) -> S {
-    log_difference((b - a).abs(), base)
+fn distant<S: Scalar>(c: S, a: S, b: S) -> S {
+    log_difference((b - a).abs(), c + a.minimum(b))
 }
 
 /// `ln[a,b,b]` of ends of a large ratio.
 #[cold]
 #[inline(never)]
-fn distant_second<S: Scalar>(base: S, c: S, a: S, b: S) -> S {
-    by_definition((c + b).recip(), distant(base, a, b), a, b)
+fn distant_second<S: Scalar>(c: S, a: S, b: S) -> S {
+    by_definition((c + b).recip(), distant(c, a, b), a, b)
 }

@@ -2,16 +2,13 @@
 //!
 //! Each removes one removable singularity. Where the library function is
 //! already right for tiny arguments (`ln_1p`, `exp_m1`, `sin`), only 0/0 is
-//! caught; where a difference would cancel, a Taylor sum of fixed length
+//! caught; where a difference would cancel, a polynomial of fixed length
 //! takes over for |x| < 1, where its remainder is below 2⁻⁵⁷ of the value.
 
 use crate::scalar::Scalar;
 
 /// Number of terms of `Σ (±x)^k/(k+2)!` for |x| < 1: 1/22! = 2⁻⁶⁹.
 const EXPONENTIAL_TERMS: usize = 20;
-
-/// Number of terms of the series of `artanh` and its derivative for z² < 1/25: 25⁻¹² = 2⁻⁵⁵.
-const LOGARITHM_TERMS: usize = 12;
 
 /// Number of terms of `Σ 2k(±x²)^(k−1)/(2k+1)!` for |x| < 1: 20/21! = 2⁻⁶¹.
 const SINC_TERMS: usize = 9;
@@ -31,24 +28,17 @@ const SINHC_PRIME: [f64; SINC_TERMS] = sinc_prime_coefficients(1.0);
 /// `1/(2k+1)!` for `k = 1, 2, …`.
 const SINH_TAIL: [f64; SINC_TERMS] = sinh_tail_coefficients();
 
-/// `1/(2k+3)` for `k = 0, 1, …`.
-const AREA_TANGENT: [f64; LOGARITHM_TERMS] = area_tangent_coefficients(1.0, 0.0);
-
-/// `(2k+2)/(2k+3)` for `k = 0, 1, …`.
-const AREA_TANGENT_PRIME: [f64; LOGARITHM_TERMS] = area_tangent_coefficients(2.0, 2.0);
-
-const fn area_tangent_coefficients(first: f64, increment: f64) -> [f64; LOGARITHM_TERMS] {
-    let mut coefficients = [0.0; LOGARITHM_TERMS];
-    let (mut numerator, mut denominator) = (first, 3.0);
-    let mut k = 0;
-    while k < LOGARITHM_TERMS {
-        coefficients[k] = numerator / denominator;
-        numerator += increment;
-        denominator += 2.0;
-        k += 1;
-    }
-    coefficients
-}
+/// The polynomial of degree 7 nearest to `Σ z²ᵏ/(2k+3)` for z² < 1/25, up to 2⁻⁵⁶ (Remez 1934).
+const AREA_TANGENT: [f64; 8] = [
+    0.333_333_333_333_333_3,
+    0.200_000_000_000_039_56,
+    0.142_857_142_836_472_08,
+    0.111_111_115_222_648_6,
+    0.090_908_689_871_007_77,
+    0.076_944_261_534_507,
+    0.066_050_199_029_756_49,
+    0.068_031_535_940_109_52,
+];
 
 const fn exponential_coefficients() -> [f64; EXPONENTIAL_TERMS] {
     let mut coefficients = [0.0; EXPONENTIAL_TERMS];
@@ -125,12 +115,6 @@ fn polynomial<S: Scalar, const N: usize>(coefficients: &[f64; N], x: S) -> S {
 #[inline]
 pub(super) fn area_tangent_tail<S: Scalar>(square: S) -> S {
     polynomial(&AREA_TANGENT, square)
-}
-
-/// `(artanh z/z)′/z = 2/3 + 4z²/5 + …` of z² < 1/25.
-#[inline]
-pub(super) fn area_tangent_slope<S: Scalar>(square: S) -> S {
-    polynomial(&AREA_TANGENT_PRIME, square)
 }
 
 /// `2x`, exact.

@@ -79,17 +79,24 @@ impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
         [[mean_direction(ends)]]
     }
 
-    // ∂(f 2r_m/(λ⁰ + λ¹))/∂r¹ = f/(λ⁰ + λ¹) (1 − 2r_m/(λ⁰ + λ¹) n¹ᵀ)
+    // With d = D*λ and t = f/(λ⁰ + λ¹): ∂(f d)/∂r¹ = t (1 − d n¹ᵀ) + d (∂f/∂r¹)ᵀ
     #[inline]
-    fn discrete_curvature(
+    fn discrete_tangent(
         &self,
         ends: &Ends<Self, S, D>,
         &[force]: &[S; 1],
+        [[force_by_arm]]: &[[[S; D]; 1]; 1],
     ) -> [[[[S; D]; D]; 1]; 1] {
         let ([lambda0], [lambda1]) = (ends.measures0, ends.measures1);
         let n1 = scaled(&ends.r1[0], lambda1.recip());
+        let direction = mean_direction(ends);
         let tension = force * (lambda0 + lambda1).recip();
-        [[block(tension, mean_direction(ends), n1)]]
+        let along = array::from_fn(|axis| force_by_arm[axis] - tension * n1[axis]);
+        let mut block = direction.map(|row| scaled(&along, row));
+        for (axis, row) in block.iter_mut().enumerate() {
+            row[axis] += tension;
+        }
+        [[block]]
     }
 
     #[inline]

@@ -11,8 +11,8 @@
 //! The local unknown is the new temperature. The temperatures of the mixed states on the way from
 //! old to new come from the Legendre inversion θ̂, by Newton's method, for any free energy.
 
-use super::{Answer, ElementScheme, ElementTrial, Infeasible, Placement, Start, temperature_at};
-use crate::free_energy::{Array, FreeEnergy};
+use super::{ElementScheme, Form, Infeasible, Placement, Start, temperature_at};
+use crate::free_energy::{Array, Entry, FreeEnergy};
 use crate::scalar::Real;
 
 /// See the module.
@@ -23,40 +23,52 @@ impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for 
     const PLACEMENT: Placement = Placement::Ends;
     const IMPLICIT: f64 = 1.0;
 
-    type Old = M::EntropyFormOld;
+    /// What the form keeps, and s⁰, J/K.
+    type Old = (M::EntropyFormOld, S);
+    /// Corner temperatures.
+    type Memory = M::Corners;
+    type AtPoint<T: Entry> = [T; 0];
 
-    fn old(model: &M, x0: &M::Variables) -> Self::Old {
-        model.entropy_form_old(x0)
+    #[inline]
+    fn old(model: &M, x0: &M::Variables, entropy: S) -> Self::Old {
+        (model.entropy_form_old(x0), entropy)
     }
 
-    fn respond(
+    fn memory(theta0: S) -> Self::Memory {
+        M::Corners::filled(theta0)
+    }
+
+    #[inline]
+    fn prepare(
         model: &M,
         start: &Start<S, M, Self::Old>,
-        trial: &ElementTrial<'_, S, M>,
-        corners: &mut M::Corners,
-        answer: &mut Answer<S, M>,
+        x: &M::Variables,
+        corners: &mut Self::Memory,
     ) -> Result<(), Infeasible> {
         if M::THERMAL {
-            find_corners(model, start, trial.x, corners)?;
+            find_corners(model, start, x, corners)?;
         }
-        let form = model.entropy_form(&start.old, trial.x, corners);
-        answer.response = form.0;
-        answer.tangent = form.1;
         Ok(())
     }
 
-    fn respond_alone(
+    #[inline]
+    fn form(
         model: &M,
         start: &Start<S, M, Self::Old>,
-        trial: &ElementTrial<'_, S, M>,
-        corners: &mut M::Corners,
-        answer: &mut Answer<S, M>,
-    ) -> Result<(), Infeasible> {
-        if M::THERMAL {
-            find_corners(model, start, trial.x, corners)?;
-        }
-        answer.response = model.entropy_form_response(&start.old, trial.x, corners);
-        Ok(())
+        x: &M::Variables,
+        corners: &Self::Memory,
+    ) -> Form<S, M> {
+        model.entropy_form(&start.old.0, x, corners)
+    }
+
+    #[inline]
+    fn response(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        x: &M::Variables,
+        corners: &Self::Memory,
+    ) -> M::Response {
+        model.entropy_form_response(&start.old.0, x, corners)
     }
 }
 
@@ -64,9 +76,9 @@ impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for 
 /// are new and the entropy is old, then the descending one, the other way round.
 ///
 /// A trial beyond a spinodal is refused, so that all corners lie on the stable branch.
-fn find_corners<S: Real, M: FreeEnergy<S>, Old>(
+fn find_corners<S: Real, M: FreeEnergy<S>>(
     model: &M,
-    start: &Start<S, M, Old>,
+    start: &Start<S, M, (M::EntropyFormOld, S)>,
     x1: &M::Variables,
     corners: &mut M::Corners,
 ) -> Result<(), Infeasible> {
@@ -77,7 +89,7 @@ fn find_corners<S: Real, M: FreeEnergy<S>, Old>(
     for k in 1..=steps {
         let mut x = start.x0;
         x.as_mut()[..k].copy_from_slice(&x1.as_ref()[..k]);
-        ascending[k - 1] = temperature_at(model, x, start.entropy, ascending[k - 1])?;
+        ascending[k - 1] = temperature_at(model, x, start.old.1, ascending[k - 1])?;
         let mut x = *x1;
         x.as_mut()[..k].copy_from_slice(&start.x0.as_ref()[..k]);
         descending[k - 1] = temperature_at(model, x, caloric1.entropy, descending[k - 1])?;

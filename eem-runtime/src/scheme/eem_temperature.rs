@@ -9,8 +9,8 @@
 //! a mean of temperatures weighted with the heat capacity, hence positive, hence the second. No
 //! inversion is needed: the new temperature is the unknown.
 
-use super::{Answer, ElementScheme, ElementTrial, Infeasible, Placement, Start};
-use crate::free_energy::{Array, FreeEnergy};
+use super::{ElementScheme, Form, Infeasible, Placement, Start};
+use crate::free_energy::{Array, Entry, FreeEnergy};
 use crate::scalar::Real;
 
 /// See the module.
@@ -22,40 +22,45 @@ impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for 
     const IMPLICIT: f64 = 1.0;
 
     type Old = M::TemperatureFormOld;
+    type Memory = ();
+    type AtPoint<T: Entry> = [T; 0];
 
-    fn old(model: &M, x0: &M::Variables) -> Self::Old {
+    #[inline]
+    fn old(model: &M, x0: &M::Variables, _: S) -> Self::Old {
         model.temperature_form_old(x0)
     }
 
-    fn respond(
+    fn memory(_: S) -> Self::Memory {}
+
+    #[inline]
+    fn form(
         model: &M,
         start: &Start<S, M, Self::Old>,
-        trial: &ElementTrial<'_, S, M>,
-        _: &mut M::Corners,
-        answer: &mut Answer<S, M>,
-    ) -> Result<(), Infeasible> {
-        let form = model.temperature_form(&start.old, trial.x);
-        answer.response = form.0;
-        answer.tangent = form.1;
-        if M::THERMAL {
-            // ∂Δs/∂θ¹ = C/θ¹
-            let last = M::Variables::LEN - 1;
-            let theta = trial.x[last];
-            let slope = answer.tangent[last + 1][last];
-            Infeasible::unless_stable(theta * slope, theta)?;
-        }
-        Ok(())
+        x: &M::Variables,
+        (): &Self::Memory,
+    ) -> Form<S, M> {
+        model.temperature_form(&start.old, x)
     }
 
-    // That the new state is stable is left to the one who finds its temperature.
-    fn respond_alone(
+    #[inline]
+    fn check(x: &M::Variables, form: &Form<S, M>) -> Result<(), Infeasible> {
+        if !M::THERMAL {
+            return Ok(());
+        }
+        // ∂Δs/∂θ¹ = C/θ¹
+        let last = M::Variables::LEN - 1;
+        let theta = x[last];
+        let slope = form.1[last + 1][last];
+        Infeasible::unless_stable(theta * slope, theta)
+    }
+
+    #[inline]
+    fn response(
         model: &M,
         start: &Start<S, M, Self::Old>,
-        trial: &ElementTrial<'_, S, M>,
-        _: &mut M::Corners,
-        answer: &mut Answer<S, M>,
-    ) -> Result<(), Infeasible> {
-        answer.response = model.temperature_form_response(&start.old, trial.x);
-        Ok(())
+        x: &M::Variables,
+        (): &Self::Memory,
+    ) -> M::Response {
+        model.temperature_form_response(&start.old, x)
     }
 }

@@ -3,8 +3,8 @@
 //! They are solved by Newton's method in the variables that they integrate, hence with the entropy
 //! as unknown.
 
-use super::{Answer, ElementScheme, ElementTrial, Infeasible, Placement, Start, temperature_at};
-use crate::free_energy::{Array, FreeEnergy};
+use super::{ElementScheme, Form, Infeasible, Placement, Start, temperature_at};
+use crate::free_energy::{Array, Entry, FreeEnergy};
 use crate::scalar::Real;
 
 /// A rule that looks at one point of the step.
@@ -31,9 +31,16 @@ where
     const SCALES_HEAT: bool = false;
     const FINDS_TEMPERATURE: bool = !R::IN_TEMPERATURE;
 
-    type Old = ();
+    /// s⁰, J/K.
+    type Old = S;
+    type Memory = ();
+    type AtPoint<T: Entry> = [T; 1];
 
-    fn old(_: &M, _: &M::Variables) -> Self::Old {}
+    fn old(_: &M, _: &M::Variables, entropy: S) -> Self::Old {
+        entropy
+    }
+
+    fn memory(_: S) -> Self::Memory {}
 
     // The entropy at the point is s⁰ + c Δs.
     fn temperature(
@@ -47,30 +54,35 @@ where
         }
         let c = S::from_f64(R::AT);
         let guess = x.as_ref()[M::Variables::LEN - 1];
-        let entropy = start.entropy + c * entropy_change;
+        let entropy = start.old + c * entropy_change;
         temperature_at(model, point(start, x, c), entropy, guess)
     }
 
-    fn respond(
+    fn form(
         model: &M,
         start: &Start<S, M, Self::Old>,
-        trial: &ElementTrial<'_, S, M>,
-        _: &mut M::Corners,
-        answer: &mut Answer<S, M>,
-    ) -> Result<(), Infeasible> {
+        x: &M::Variables,
+        (): &Self::Memory,
+    ) -> Form<S, M> {
+        respond(model, start, x, S::from_f64(R::AT))
+    }
+
+    fn change_entropy_at_rates(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        x: &M::Variables,
+        increments: &M::Variables,
+        form: &mut Form<S, M>,
+    ) -> M::Variables {
         let c = S::from_f64(R::AT);
-        (answer.response, answer.tangent) = respond(model, start, trial.x, c);
-        if M::THERMAL && R::IN_TEMPERATURE {
-            let point = point(start, trial.x, c);
-            change_entropy_at_rates(model, &point, trial.increments, c, answer);
-        }
-        Ok(())
+        let point = point(start, x, c);
+        change_entropy_at_rates(model, &point, increments, c, form)
     }
 }
 
 /// `(π, γ⁰ + c (γ − γ⁰), τ)` for `x = (π, γ, τ)`.
-fn point<S: Real, M: FreeEnergy<S>, Old>(
-    start: &Start<S, M, Old>,
+fn point<S: Real, M: FreeEnergy<S>>(
+    start: &Start<S, M, S>,
     x: &M::Variables,
     c: S,
 ) -> M::Variables {
@@ -89,12 +101,12 @@ fn point<S: Real, M: FreeEnergy<S>, Old>(
 /// ```
 ///
 /// `c = ½` is the midpoint, where `s_m = s⁰ + ½Δs`; `c = 1` the end of the step.
-fn respond<S: Real, M: FreeEnergy<S>, Old>(
+fn respond<S: Real, M: FreeEnergy<S>>(
     model: &M,
-    start: &Start<S, M, Old>,
+    start: &Start<S, M, S>,
     x: &M::Variables,
     c: S,
-) -> (M::Response, M::Tangent) {
+) -> Form<S, M> {
     let variables = M::Variables::LEN;
     let dashpots = M::MEASURES..M::MEASURES + M::DASHPOTS;
     let (gradient, hessian) = model.hessian(&point(start, x, c));
@@ -124,7 +136,7 @@ fn respond<S: Real, M: FreeEnergy<S>, Old>(
         let last = variables - 1;
         response.as_mut()[last] = x.as_ref()[last];
         tangent.as_mut()[last].as_mut()[last] = S::one();
-        response.as_mut()[variables] = (-gradient[last] - start.entropy) / c;
+        response.as_mut()[variables] = (-gradient[last] - start.old) / c;
         for column in 0..variables {
             let entry = hessian[last].as_ref()[column];
             tangent.as_mut()[variables].as_mut()[column] = -by(column) * entry / c;
@@ -136,18 +148,18 @@ fn respond<S: Real, M: FreeEnergy<S>, Old>(
 /// Replaces the Δs of entropies by that of rates, `Δs = Σ_i (∂s/∂x_i) δ_i` at the point, with the
 /// increments `δ` of measures, viscous stretches and temperature along the step.
 ///
-/// With `θ ṡ = Σ g²/η + Q` written as `θ (s_λ λ̇ + s_γ γ̇ + s_θ θ̇)` this is the rule for θ̇.
+/// Returns `∂s/∂x`. With `θ ṡ = Σ g²/η + Q` written as `θ (s_λ λ̇ + s_γ γ̇ + s_θ θ̇)` this is the rule for θ̇.
 fn change_entropy_at_rates<S: Real, M: FreeEnergy<S>>(
     model: &M,
     point: &M::Variables,
     increments: &M::Variables,
     c: S,
-    answer: &mut Answer<S, M>,
-) {
+    (response, tangent): &mut Form<S, M>,
+) -> M::Variables {
     let (variables, last) = (M::Variables::LEN, M::Variables::LEN - 1);
     let entropy_hessian = model.entropy_hessian(point);
     // ∂s/∂x, of which the tangent of Δs = (S − s⁰)/c is made: for γ with dγ_c/dγ = c.
-    let slopes = answer.tangent.as_ref()[variables];
+    let slopes = tangent.as_ref()[variables];
     let slope = |i: usize| {
         let entry = slopes.as_ref()[i];
         if (M::MEASURES..last).contains(&i) {
@@ -160,7 +172,7 @@ fn change_entropy_at_rates<S: Real, M: FreeEnergy<S>>(
     for (i, &increment) in increments.as_ref().iter().enumerate() {
         change += slope(i) * increment;
     }
-    answer.response.as_mut()[variables] = change;
+    response.as_mut()[variables] = change;
     for column in 0..variables {
         let mut entry = S::zero();
         for (i, &increment) in increments.as_ref().iter().enumerate() {
@@ -174,9 +186,11 @@ fn change_entropy_at_rates<S: Real, M: FreeEnergy<S>>(
         } else {
             entry + slope(column) / c
         };
-        answer.tangent.as_mut()[variables].as_mut()[column] = entry;
+        tangent.as_mut()[variables].as_mut()[column] = entry;
     }
-    for a in 0..M::MEASURES {
-        answer.by_increment.as_mut()[a] = slope(a);
+    let mut by_increment = M::Variables::filled(S::zero());
+    for (i, by) in by_increment.as_mut().iter_mut().enumerate() {
+        *by = slope(i);
     }
+    by_increment
 }

@@ -28,19 +28,43 @@ pub(crate) fn temperature_at<S: Real, M: FreeEnergy<S>>(
     guess: S,
 ) -> Result<S, Infeasible> {
     let caloric_at = model.caloric_at(x);
+    let found = solve(|theta| (caloric_at(theta).0, ()), entropy, guess)?;
+    Ok(found.0)
+}
+
+/// The same, and the free energy there: at the last temperature that was tried, which is the same
+/// to √ε.
+#[inline]
+pub(crate) fn temperature_and_energy_at<S: Real, M: FreeEnergy<S>>(
+    model: &M,
+    x: M::Variables,
+    entropy: S,
+    guess: S,
+) -> Result<(S, S), Infeasible> {
+    solve(model.caloric_at(x), entropy, guess)
+}
+
+/// θ̂, and what else was evaluated at the last temperature.
+#[inline]
+fn solve<S: Real, R>(
+    caloric_at: impl Fn(S) -> (Caloric<S>, R),
+    entropy: S,
+    guess: S,
+) -> Result<(S, R), Infeasible> {
     let enough = S::from_f64(LAST_CORRECTION) * S::EPSILON.sqrt();
     let mut limit = S::from_f64(LARGEST_CORRECTION);
     let mut theta = guess;
     loop {
-        let caloric = caloric_at(theta);
+        let (caloric, other) = caloric_at(theta);
         let correction = (entropy - caloric.entropy) / caloric.heat_capacity;
         let size = correction.abs();
         let is_near = caloric.heat_capacity > S::zero() && size <= limit;
         if !is_near {
-            return search(caloric_at, entropy, guess);
+            let theta = search(|theta| caloric_at(theta).0, entropy, guess)?;
+            return Ok((theta, caloric_at(theta).1));
         }
         if size <= enough {
-            return Ok(theta + theta * correction);
+            return Ok((theta + theta * correction, other));
         }
         theta *= correction.exp();
         limit = S::from_f64(CONTRACTION) * size;

@@ -3,9 +3,10 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::Simulation;
+use super::stepper::Stepper;
 use crate::compensated::Compensated;
 use crate::conduction::Partner;
-use crate::group::ElementGeneric;
+use crate::group::{ElementGeneric, Elements};
 use crate::scalar::Real;
 use crate::scheme::Scheme;
 
@@ -61,10 +62,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         // The elements look at another configuration than that of their last step.
         self.has_stepped = false;
         let state = &self.state;
-        let staged = self.staged.iter_mut().flat_map(|staged| &mut staged.groups);
-        let at_once = self.groups.iter_mut().map(|group| group.generic_in(state));
-        let staged = staged.map(|group| group.generic_in(state));
-        let elements: Vec<_> = at_once.chain(staged).flatten().collect();
+        let mut elements = Vec::new();
+        let each = |group: &mut dyn Elements<S, D>| elements.extend(group.generic_in(state));
+        self.stepper.each_mut(each);
         let momenta = self.state.momenta.values().to_vec();
         self.generic_from(&elements, &momenta)
     }
@@ -77,10 +77,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         if !(discrete && self.has_stepped) {
             return None;
         }
-        let elements: Vec<_> = self
-            .groups
-            .iter()
-            .flat_map(|group| group.generic_of_step([&self.next, &self.state]))
+        let Stepper::AtOnce(stepper) = &self.stepper else {
+            return None;
+        };
+        let ends = [&*self.next, &*self.state];
+        let elements = stepper.groups.iter();
+        let elements: Vec<_> = elements
+            .flat_map(|group| group.generic_of_step(ends))
             .collect();
         let half = S::from_f64(0.5);
         let (new, old) = (self.state.momenta.values(), self.next.momenta.values());
@@ -112,7 +115,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             energy_gradient[places.reservoirs + slot] = theta;
             entropy_gradient[places.reservoirs + slot] = S::one();
         }
-        let mut temperatures = vec![S::zero(); self.layout.coupled.len()];
+        let mut temperatures = vec![S::zero(); self.layout.thermal];
         for element in elements {
             for &(coordinate, force) in &element.forces {
                 if let Some(q) = places.positions[coordinate] {
@@ -176,7 +179,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         let viscous = 2 * masses;
         let entropies = viscous + self.layout.viscous;
-        let reservoirs = entropies + self.layout.coupled.len();
+        let reservoirs = entropies + self.layout.thermal;
         Places {
             positions,
             momenta: masses,

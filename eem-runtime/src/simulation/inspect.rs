@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use super::Simulation;
 use crate::error::SceneError;
-use crate::group::{ElementView, Elements};
+use crate::group::ElementView;
 use crate::handle::{Element, Node, Reservoir, SceneId};
 use crate::ledger::Ledger;
 use crate::scalar::Real;
@@ -99,7 +99,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// For a foreign handle; [`SceneError::NoSuchDashpot`].
     pub fn viscous_stretch(&self, element: Element, dashpot: usize) -> Result<S, SceneError> {
         self.expect_own(element.scene, &element)?;
-        let dashpots = self.shapes[element.index].dashpots;
+        let (group, _) = self.places[element.index];
+        let dashpots = self.shapes[group].dashpots;
         if dashpot >= dashpots {
             return Err(SceneError::NoSuchDashpot {
                 element,
@@ -137,30 +138,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ledger::of(
             &self.state,
             &self.masses,
-            self.elements(),
+            self.stepper.all(),
             &self.conduction.reservoirs,
             &self.loads.gravity,
         )
     }
 
-    /// All groups, whatever steps them.
-    fn elements(&self) -> impl Iterator<Item = &dyn Elements<S, D>> {
-        let at_once = self
-            .groups
-            .iter()
-            .map(|group| -> &dyn Elements<S, D> { &**group });
-        let staged = self.staged.iter().flat_map(|staged| &staged.groups);
-        at_once.chain(staged.map(|group| -> &dyn Elements<S, D> { &**group }))
-    }
-
     fn view(&self, element: Element) -> Result<ElementView<S>, SceneError> {
         self.expect_own(element.scene, &element)?;
         let (group, place) = self.places[element.index];
-        let elements: &dyn Elements<S, D> = match &self.staged {
-            Some(staged) => &*staged.groups[group],
-            None => &*self.groups[group],
-        };
-        Ok(elements.inspect(place, &self.state))
+        Ok(self.stepper.elements(group).inspect(place, &self.state))
     }
 
     fn thermal_slot(&self, element: Element) -> Result<usize, SceneError> {

@@ -1,11 +1,11 @@
 //! The system that Newton's method solves, for those who want to look at it.
 
-use super::{Simulation, effort, stage_view, view};
+use super::stepper::Stepper;
+use super::{Simulation, stage_view, view};
 use crate::error::{StepError, StepFailure};
 use crate::group::{StageView, StepView};
 use crate::scalar::Real;
 use crate::scheme::Phase;
-use crate::solver::Effort;
 
 /// Residual and tangent of a step at a trial state.
 ///
@@ -43,7 +43,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// [`StepError`] if an element has no admissible state there, or the number of unknowns is
     /// another one ([`StepFailure::Unknowns`]).
     pub fn linearize(&mut self, unknowns: &[S]) -> Result<StepTangent<S>, StepError> {
-        self.solver.restart();
+        self.effort.restart();
         if unknowns.len() != self.unknowns() {
             return Err(self.failed(StepFailure::Unknowns {
                 given: unknowns.len(),
@@ -53,16 +53,18 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         if let Err(failure) = self.evaluate_loads() {
             return Err(self.failed(failure));
         }
-        let linearized = if let Some(staged) = &mut self.staged {
-            let view = stage_view!(self, staged.loads);
-            let mut effort = effort!(self);
-            let groups = &mut staged.groups;
-            staged
-                .solver
-                .linearize(groups, &view, unknowns, &mut effort)
-        } else {
-            let view = view!(self, Phase::Whole, &self.state);
-            self.solver.linearize(&mut self.groups, &view, unknowns)
+        let effort = &mut self.effort;
+        let linearized = match &mut self.stepper {
+            Stepper::InStages(staged) => {
+                let view = stage_view!(self, staged.loads);
+                let groups = &mut staged.groups;
+                staged.solver.linearize(groups, &view, unknowns, effort)
+            }
+            Stepper::AtOnce(stepper) => {
+                let view = view!(self, Phase::Whole, &self.state, stepper.loads);
+                let groups = &mut stepper.groups;
+                stepper.solver.linearize(groups, &view, unknowns, effort)
+            }
         };
         match linearized {
             Ok((residual, tangent)) => Ok(StepTangent { residual, tangent }),

@@ -3,6 +3,7 @@
 use super::Simulation;
 use crate::checkpoint::{Checkpoint, Outline, RestoreError};
 use crate::scalar::Real;
+use crate::state::State;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// The present state, with all that the next steps depend on.
@@ -29,7 +30,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             outline: self.outline(),
             step: self.step,
             newton: self.newton_settings(),
-            state: self.state.clone(),
+            state: State::clone(&self.state),
+            past: self.stepper.past(),
         }
     }
 
@@ -41,16 +43,19 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// [`RestoreError`] if the checkpoint is one of another scheme or of a scene of another shape, or
     /// has values that no simulation has. The simulation is then as it was before.
     pub fn restore(&mut self, checkpoint: &Checkpoint<S>) -> Result<(), RestoreError> {
-        checkpoint.check(self.scheme, &self.outline(), &self.state)?;
+        let past = self.stepper.past();
+        checkpoint.check(self.scheme, &self.outline(), &self.state, &past)?;
         self.set_newton_settings(checkpoint.newton)?;
         self.has_stepped = false;
         self.state.copy_from(&checkpoint.state);
+        self.stepper.restore(&checkpoint.past);
         self.step = checkpoint.step;
         Ok(())
     }
 
     fn outline(&self) -> Outline {
         let reservoirs = self.conduction.reservoirs.len();
-        Outline::new(D, &self.masses, &self.shapes, reservoirs)
+        let shapes = self.places.iter().map(|&(group, _)| self.shapes[group]);
+        Outline::new(D, &self.masses, shapes, reservoirs)
     }
 }

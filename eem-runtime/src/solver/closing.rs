@@ -1,6 +1,9 @@
 //! The end of a step: the new state from the found forces, temperatures and rates.
 
+use core::array;
+
 use super::Solver;
+use super::begin::old_force;
 use crate::error::StepFailure;
 use crate::group::{Along, Group, StepView, points};
 use crate::scalar::Real;
@@ -23,11 +26,34 @@ impl<S: Real, const D: usize> Solver<S, D> {
         view: &StepView<'_, S>,
         next: &mut State<S>,
     ) -> Result<(), StepFailure> {
+        next.copy_books(view.state);
+        if view.phase.heats() {
+            next.time.add(view.step);
+        }
+        if view.phase.moves() {
+            self.find_motion(groups, view)?;
+            self.move_masses(view, next)?;
+            self.move_anchors(view, next);
+        } else {
+            next.positions.copy_from(&view.state.positions);
+            next.momenta.copy_from(&view.state.momenta);
+        }
+        for group in groups.iter_mut() {
+            group.close(view, &self.trial, next)?;
+        }
+        if view.phase.heats() {
+            self.remember_forces(view.step);
+        }
+        Ok(())
+    }
+
+    /// Displacements and impulses.
+    fn find_motion(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+    ) -> Result<(), StepFailure> {
         match self.scheme.closing() {
-            _ if !view.phase.moves() => {
-                self.trial.displacements.fill([S::zero(); D]);
-                self.impulse.fill([S::zero(); D]);
-            }
             Closing::Secant => {
                 self.solve_secant(groups, view)?;
                 self.find_impulse(groups, view, Along::Secant);
@@ -38,36 +64,32 @@ impl<S: Real, const D: usize> Solver<S, D> {
             }
             Closing::Open => self.find_impulse(groups, view, Along::Scheme),
         }
-        next.copy_books(view.state);
-        if view.phase.heats() {
-            next.time.add(view.step);
-        }
-        self.move_masses(view, next)?;
-        self.move_anchors(view, next);
-        self.remember_force(view, &mut next.past);
-        for group in groups.iter_mut() {
-            group.close(view, &self.trial, next)?;
-        }
         Ok(())
     }
 
     /// New positions and momenta, all finite, and the work of the loads.
     fn move_masses(&self, view: &StepView<'_, S>, next: &mut State<S>) -> Result<(), StepFailure> {
-        let old = view.state;
-        for mass in &self.masses {
-            let (displacement, impulse) = (
-                &self.trial.displacements[mass.node],
-                &self.impulse[mass.node],
-            );
-            for (axis, &displacement) in displacement.iter().enumerate() {
-                let force = view.loads.force[mass.node * D + axis];
+        if view.loads.has_force() {
+            self.book_work(view, next);
+        }
+        for node in &self.nodes {
+            let at = node.place.node;
+            let moved = [&self.trial.displacements[at], &self.impulse[at]];
+            move_node(at, moved, view.state, next)?;
+        }
+        Ok(())
+    }
+
+    fn book_work(&self, view: &StepView<'_, S>, next: &mut State<S>) {
+        for node in &self.nodes {
+            let at = node.place.node;
+            let force = view.loads.force::<D>(at);
+            for (&force, &displacement) in force.iter().zip(&self.trial.displacements[at]) {
                 if force != S::zero() {
                     next.work.add(force * displacement);
                 }
             }
-            move_node(mass.node, [displacement, impulse], old, next)?;
         }
-        Ok(())
     }
 
     /// New positions of the anchors that are moved, and the work that this takes.
@@ -92,8 +114,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         view: &StepView<'_, S>,
         along: Along,
     ) {
-        for (impulse, force) in self.impulse.iter_mut().zip(&self.old_force) {
-            *impulse = force.map(|force| -view.step * force);
+        for (node, impulse) in self.impulse.iter_mut().enumerate() {
+            *impulse = old_force(&self.old_force, node).map(|force| -view.step * force);
         }
         for group in groups.iter_mut() {
             group.add_impulse(view, &self.trial, along, &mut self.impulse);
@@ -105,22 +127,21 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let half = S::from_f64(0.5);
         let q0 = points::<S, D>(view.state.positions.values());
         let p0 = points::<S, D>(view.state.momenta.values());
-        for mass in &self.masses {
-            let node = mass.node;
-            let mobility = view.step / mass.mass;
-            for axis in 0..D {
-                let displacement = mobility * (p0[node][axis] + half * self.impulse[node][axis]);
-                self.trial.displacements[node][axis] = displacement;
-                self.trial.positions[node][axis] = q0[node][axis] + displacement;
-            }
+        for node in &self.nodes {
+            let at = node.place.node;
+            let mobility = view.step / node.place.mass;
+            let impulse = &self.impulse[at];
+            let displacement =
+                array::from_fn(|axis| mobility * (p0[at][axis] + half * impulse[axis]));
+            self.trial.displacements[at] = displacement;
+            self.trial.positions[at] = array::from_fn(|axis| q0[at][axis] + displacement[axis]);
         }
         for group in groups.iter_mut() {
             group.add_impulse(view, &self.trial, Along::Gradient, &mut self.impulse);
         }
-        for (impulse, force) in self.impulse.iter_mut().zip(&self.old_force) {
-            for (impulse, &force) in impulse.iter_mut().zip(force) {
-                *impulse = half * (*impulse - view.step * force);
-            }
+        for (node, impulse) in self.impulse.iter_mut().enumerate() {
+            let force = old_force(&self.old_force, node);
+            *impulse = array::from_fn(|axis| half * (impulse[axis] - view.step * force[axis]));
         }
     }
 
@@ -129,24 +150,21 @@ impl<S: Real, const D: usize> Solver<S, D> {
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
     ) -> Result<(), StepFailure> {
-        self.secant.clear();
+        let Some(secant) = &mut self.secant else {
+            return Ok(());
+        };
+        secant.clear_matrix();
+        let (values, right) = secant.parts();
+        for (node, right) in self.nodes.iter().zip(right) {
+            values[node.place.secant_diagonal] = node.inertia;
+            *right = node.rest;
+        }
         for group in groups.iter_mut() {
-            group.add_secant(view, &self.trial, &mut self.secant);
+            group.add_secant(view, &self.trial, secant);
         }
-        let momenta = points::<S, D>(view.state.momenta.values());
-        let (values, right) = self.secant.parts();
-        for mass in &self.masses {
-            values[mass.secant_diagonal] += (mass.mass + mass.mass) / view.step;
-            let (momentum, force) = (&momenta[mass.node], &self.old_force[mass.node]);
-            for (axis, right) in right[mass.secant_row].iter_mut().enumerate() {
-                *right += momentum[axis] + momentum[axis] - view.step * force[axis];
-            }
-        }
-        self.secant
-            .solve()
-            .map_err(|_| StepFailure::SingularTangent)?;
-        for mass in &self.masses {
-            self.trial.displacements[mass.node] = self.secant.right()[mass.secant_row];
+        secant.solve().map_err(|_| StepFailure::SingularTangent)?;
+        for (node, &displacement) in self.nodes.iter().zip(secant.right()) {
+            self.trial.displacements[node.place.node] = displacement;
         }
         Ok(())
     }
@@ -160,12 +178,26 @@ pub(super) fn move_node<S: Real, const D: usize>(
     old: &State<S>,
     next: &mut State<S>,
 ) -> Result<(), StepFailure> {
+    let by_position = next
+        .positions
+        .advance_point(node, &old.positions, displacement);
+    let by_momentum = next.momenta.advance_point(node, &old.momenta, impulse);
+    // What rounding takes from a sum is a number only if the sum is one.
+    if (by_position + by_momentum).is_finite() {
+        return Ok(());
+    }
+    find_unbounded::<S, D>(node, next)
+}
+
+/// The error with the first coordinate of a node that is no finite number.
+#[cold]
+fn find_unbounded<S: Real, const D: usize>(
+    node: usize,
+    state: &State<S>,
+) -> Result<(), StepFailure> {
     for axis in 0..D {
         let at = node * D + axis;
-        next.positions
-            .advance(at, &old.positions, displacement[axis]);
-        next.momenta.advance(at, &old.momenta, impulse[axis]);
-        let values = [next.positions.values()[at], next.momenta.values()[at]];
+        let values = [state.positions.values()[at], state.momenta.values()[at]];
         for (quantity, value) in ["position", "momentum"].into_iter().zip(values) {
             if !value.is_finite() {
                 return Err(StepFailure::Unbounded {

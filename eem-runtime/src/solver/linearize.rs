@@ -1,9 +1,6 @@
 //! The global system at a trial state of choice.
 
-use core::array;
-
-use super::iteration::correct_locally;
-use super::{Iteration, Look, Solver};
+use super::{Effort, Iteration, Look, Solver};
 use crate::error::StepFailure;
 use crate::group::{Group, StepView};
 use crate::scalar::Real;
@@ -15,33 +12,35 @@ impl<S: Real, const D: usize> Solver<S, D> {
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
         unknowns: &[S],
+        effort: &mut Effort<S>,
     ) -> Result<(Vec<S>, Vec<S>), StepFailure> {
         self.begin(groups, view)?;
-        for mass in &self.masses {
-            self.correction.0[mass.node] = array::from_fn(|axis| unknowns[mass.row + axis]);
+        for (node, &displacement) in self.nodes.iter_mut().zip(unknowns.as_chunks::<D>().0) {
+            node.correction = displacement;
         }
-        for seen in &self.seen {
-            self.correction.1[seen.slot] = unknowns[seen.row] - self.previous.1[seen.slot];
+        for seen in &mut self.seen {
+            seen.correction = unknowns[seen.place.row] - seen.previous;
         }
+        self.apply(S::one(), view);
         let no_change = vec![[S::zero()]; self.tangent.right().len()];
         let mut before = None;
         loop {
             self.advance(groups, view, Look::On)?;
-            let residual = self.balance(view);
+            let residual = self.residual();
             if before.is_some_and(|update| update <= S::EPSILON) {
                 break;
             }
-            self.remember();
-            self.correction.0.fill([S::zero(); D]);
-            self.correction.1.fill(S::zero());
-            let update = correct_locally(groups, view, &no_change);
-            self.history.push(Iteration { residual, update });
+            self.hold();
+            let updates = groups.iter_mut();
+            let updates = updates.map(|group| group.correct(&no_change));
+            let update = updates.fold(S::zero(), S::maximum);
+            effort.history.push(Iteration { residual, update });
             let stagnated = before.is_some_and(|before| update >= before);
-            if !update.is_finite() || self.history.len() > self.settings.max_iterations {
+            if !update.is_finite() || effort.history.len() > effort.settings.max_iterations {
                 let update = update.to_f64();
                 return Err(StepFailure::NotConverged { update });
             }
-            if stagnated && update <= self.settings.tolerance {
+            if stagnated && update <= effort.settings.tolerance {
                 break;
             }
             before = Some(update);

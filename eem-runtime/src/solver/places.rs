@@ -6,16 +6,17 @@ use crate::group::Sites;
 use crate::scalar::Real;
 
 /// A node that moves.
+///
+/// Moving nodes come first among the unknowns, in their order: node `i` of them has the rows `D i` to
+/// `D i + D − 1` of the tangent and row `i` of the secant matrix.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MovingNode<S, const D: usize> {
     pub(super) node: usize,
     /// m, kg.
     pub(super) mass: S,
-    /// Its first row in the tangent, and its diagonal entries there.
-    pub(super) row: usize,
+    /// Its diagonal entries in the tangent.
     pub(super) diagonal: [usize; D],
-    /// Its row and its diagonal entry in the secant matrix.
-    pub(super) secant_row: usize,
+    /// Its diagonal entry in the secant matrix, if there is one.
     pub(super) secant_diagonal: usize,
 }
 
@@ -38,10 +39,8 @@ pub(super) fn moving<S: Real, const D: usize>(
         MovingNode {
             node,
             mass,
-            row: sites.row(Some(first)),
             diagonal: array::from_fn(|axis| sites.place(Some(first + axis), Some(first + axis))),
-            secant_row: first / D,
-            secant_diagonal: sites.secant.place(own, own),
+            secant_diagonal: sites.secant_place(own, own),
         }
     });
     moving.collect()

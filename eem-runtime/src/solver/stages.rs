@@ -10,15 +10,15 @@ mod linearize;
 
 use core::array;
 
-use super::begin::invert_lengths;
+use super::begin::inverse_length;
 use super::places::{MovingNode, Seen, moving, seen};
-use super::{HALVINGS, Iteration, STAGES as PARTS};
+use super::{Effort, HALVINGS, Iteration, STAGES as PARTS};
 use crate::conduction::Conduction;
 use crate::error::{StateError, StepFailure};
 use crate::group::{Sites, StageGroup, StageTrial, StageView, points};
 use crate::layout::Layout;
 use crate::loads::{Loads, StepLoads};
-use crate::newton::{NewtonSettings, is_last};
+use crate::newton::is_last;
 use crate::pattern::Pattern;
 use crate::scalar::Real;
 use crate::scene::ElementEntry;
@@ -53,7 +53,7 @@ impl<S: Real, const D: usize> Staged<S, D> {
                 layout,
                 conduction,
                 tangent: &tangent,
-                secant: &secant,
+                secant: Some(&secant),
                 shift: [down, right],
             })
         });
@@ -70,7 +70,7 @@ impl<S: Real, const D: usize> Staged<S, D> {
                 seen,
                 tangent,
                 secant,
-                [masses.len(), layout.coupled.len()],
+                [masses.len(), layout.thermal],
             ),
             loads: [stage(), stage(), stage()],
         }
@@ -94,13 +94,6 @@ impl<S: Real, const D: usize> Staged<S, D> {
     }
 }
 
-/// How hard a step tries, and what it did.
-#[derive(Debug)]
-pub(crate) struct Effort<'a, S> {
-    pub(crate) settings: NewtonSettings<S>,
-    pub(crate) history: &'a mut Vec<Iteration<S>>,
-}
-
 /// Working memory of a step; nothing in it outlives the step.
 ///
 /// Pairs are those of the two halves of the unknowns: displacements of the middle with the seen
@@ -111,6 +104,8 @@ pub(crate) struct StageSolver<S, const D: usize> {
     masses: [Vec<MovingNode<S, D>>; 2],
     /// The rows of the temperatures that neighbours see, and their thermal slots.
     seen: [Vec<Seen>; 2],
+    /// Half the number of unknowns.
+    half: usize,
     /// The system of an iteration.
     tangent: LinearSystem<S, 1>,
     /// The system of the closing solution for the middle.
@@ -142,6 +137,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         Self {
             masses,
             seen,
+            half: tangent.unknowns() / 2,
             tangent,
             secant,
             trial: StageTrial {
@@ -162,7 +158,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         &mut self,
         groups: &mut [Box<dyn StageGroup<S, D>>],
         view: &StageView<'_, S>,
-        effort: &mut Effort<'_, S>,
+        effort: &mut Effort<S>,
         next: &mut State<S>,
     ) -> Result<(), StepFailure> {
         if let Err(failure) = self.start_and_converge(groups, view, effort) {
@@ -175,7 +171,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         &mut self,
         groups: &mut [Box<dyn StageGroup<S, D>>],
         view: &StageView<'_, S>,
-        effort: &mut Effort<'_, S>,
+        effort: &mut Effort<S>,
     ) -> Result<(), StepFailure> {
         self.begin(groups, view);
         let share = self.advance(groups, view)?;
@@ -187,7 +183,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         &mut self,
         groups: &mut [Box<dyn StageGroup<S, D>>],
         view: &StageView<'_, S>,
-        effort: &mut Effort<'_, S>,
+        effort: &mut Effort<S>,
     ) -> Result<(), StepFailure> {
         let number = |part: u8| S::from_f64(f64::from(part));
         for part in 1..=PARTS {
@@ -228,7 +224,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         groups: &mut [Box<dyn StageGroup<S, D>>],
         view: &StageView<'_, S>,
         mut share: S,
-        effort: &mut Effort<'_, S>,
+        effort: &mut Effort<S>,
     ) -> Result<(), StepFailure> {
         let mut before = None;
         for _ in 0..effort.settings.max_iterations {
@@ -261,22 +257,26 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         for group in groups.iter_mut() {
             group.begin(view, &mut self.per_length);
         }
-        invert_lengths(&mut self.per_length);
+        for length in &mut self.per_length {
+            *length = inverse_length(*length);
+        }
         let old = points::<S, D>(view.state.positions.values());
         let trial = &mut self.trial;
         trial.positions[0].copy_from_slice(old);
         for (half, loads) in view.loads[1..].iter().enumerate() {
-            let motion = points::<S, D>(&loads.motion);
-            trial.displacements[half].copy_from_slice(motion);
-            let positions = trial.positions[1 + half].iter_mut();
-            for (position, (old, motion)) in positions.zip(old.iter().zip(motion)) {
-                *position = array::from_fn(|axis| old[axis] + motion[axis]);
+            let displacements = trial.displacements[half].iter_mut().enumerate();
+            let positions = trial.positions[1 + half].iter_mut().zip(old);
+            for ((node, displacement), (position, old)) in displacements.zip(positions) {
+                *displacement = loads.motion(node);
+                *position = array::from_fn(|axis| old[axis] + displacement[axis]);
             }
         }
         for (seen, loads) in trial.seen_temperatures.iter_mut().zip(view.loads) {
             seen.copy_from_slice(&view.state.temperatures);
-            for (seen, prescribed) in seen.iter_mut().zip(&loads.prescribed) {
-                *seen = prescribed.map_or(*seen, |prescribed| prescribed.end);
+            for (slot, seen) in seen.iter_mut().enumerate() {
+                *seen = loads
+                    .prescribed(slot)
+                    .map_or(*seen, |prescribed| prescribed.end);
             }
         }
         self.remember();
@@ -347,7 +347,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         }
         let [start, middle, end] = &mut trial.seen_temperatures;
         for &Seen { slot, .. } in &self.seen[0] {
-            let prescribed = view.loads[1].prescribed[slot];
+            let prescribed = view.loads[1].prescribed(slot);
             let mean = S::from_f64(0.5) * (start[slot] + end[slot]);
             middle[slot] = prescribed.map_or(mean, |prescribed| prescribed.end);
         }

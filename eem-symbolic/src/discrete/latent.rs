@@ -8,7 +8,7 @@
 //! one evaluation, and no gap of temperatures.
 
 use super::Step;
-use crate::node::{ExprId, Symbol};
+use crate::node::{ExprId, Node, Symbol};
 use crate::number::Number;
 
 /// The contribution of one edge.
@@ -54,13 +54,17 @@ impl Latent {
         }
     }
 
-    /// `ψ[…]` and `(θ − θ̄) S[…]`.
+    /// `ψ[…]` and `(θ − θ̄) S[…]`, looked through: they have most of their factors in common.
     pub(super) fn value(&self, step: &mut Step) -> [ExprId; 2] {
+        let psi = step.locals.resolve(&step.graph, self.psi);
         let latent = match &self.gap {
-            Some(gap) => step.graph.mul(gap.value, self.entropy),
+            Some(gap) => {
+                let entropy = step.locals.resolve(&step.graph, self.entropy);
+                distribute(step, gap.value, entropy)
+            }
             None => step.graph.number(Number::ZERO),
         };
-        [self.psi, latent]
+        [psi, latent]
     }
 
     /// The derivative of the sum with respect to a symbol while θ̄ is kept, as terms.
@@ -69,11 +73,24 @@ impl Latent {
             return vec![step.partial(self.psi, symbol)];
         };
         let entropy = step.partial(self.entropy, symbol);
-        let latent = step.graph.mul(gap.value, entropy);
+        let latent = distribute(step, gap.value, entropy);
         // ∂ψ[y_i⁰, y_i¹; θ]/∂θ = −S[y_i⁰, y_i¹; θ] cancels the derivative of θ itself.
         if symbol == gap.theta {
             return vec![latent];
         }
         vec![latent, step.partial(self.psi, symbol)]
     }
+}
+
+/// `factor · sum`, multiplied out: the factors of the terms are common to response and tangent, the
+/// sum is not.
+fn distribute(step: &mut Step, factor: ExprId, sum: ExprId) -> ExprId {
+    let Node::Sum { constant, terms } = step.graph.node(sum).clone() else {
+        return step.graph.mul(factor, sum);
+    };
+    let mut products = vec![(constant, factor)];
+    for (coefficient, term) in terms {
+        products.push((coefficient, step.graph.mul(factor, term)));
+    }
+    step.graph.weighted_sum(Number::ZERO, &products)
 }

@@ -56,16 +56,22 @@ fn mean(step: &mut Step) -> Star {
     let entropies = states
         .each_ref()
         .map(|y| step.along(step.entropy, last, ends, y));
-    let entropy = step.graph.sum(&entropies);
-    let entropy = step.name(entropy);
+    let entropy = step.sum_of(&entropies);
     // Where nothing depends on the other variables, the heat capacity drops out of the quotient.
-    let value = if energies[0] == energies[1] && entropies[0] == entropies[1] {
-        step.quotient(energies[0], entropies[0])
-    } else {
-        let energy = step.graph.sum(&energies);
-        let energy = step.name(energy);
-        step.quotient(energy, entropy)
-    };
+    if energies[0] == energies[1] && entropies[0] == entropies[1] {
+        let value = step.quotient(energies[0], entropies[0]);
+        let partials = step.new.clone().into_iter().map(|symbol| {
+            let partial = step.partial(value, symbol);
+            step.name(partial)
+        });
+        return Star {
+            partials: partials.collect(),
+            value,
+            entropy,
+        };
+    }
+    let energy = step.sum_of(&energies);
+    let value = step.quotient(energy, entropy);
     let reciprocal = step.reciprocal(entropy);
     let mut partials = Vec::new();
     for symbol in step.new.clone() {
@@ -99,21 +105,13 @@ impl Pair {
         let states = [mixed(i, &old, &new), mixed(i, &new, &old)];
         let edges = states.map(|state| Latent::new(step, i, ends, &state, star));
         let entropies = edges.each_ref().map(|edge| edge.entropy);
-        let entropies = entropies.map(|value| step.locals.resolve(&step.graph, value));
-        let entropies = step.graph.sum(&entropies);
-        let entropies = step.name(entropies);
+        let entropies = step.sum_of(&entropies);
         Self { edges, entropies }
     }
 
     fn value(&self, step: &mut Step) -> ExprId {
         let [first, second] = self.edges.each_ref().map(|edge| edge.value(step));
-        // Looked through: the two edges have most of their terms in common.
-        let terms = [first, second].concat();
-        let terms: Vec<_> = terms
-            .into_iter()
-            .map(|term| step.locals.resolve(&step.graph, term))
-            .collect();
-        step.half(&terms)
+        step.half(&[first, second].concat())
     }
 
     /// The derivative with respect to `x_j¹`, where θ* changes by `change`.

@@ -56,9 +56,10 @@ impl<'m> PointPrograms<'m> {
         self.program(&self.variables, &outputs)
     }
 
-    /// The same with everything but the temperature at the old stage.
+    /// The same and ψ, with everything but the temperature at the old stage.
     pub(super) fn caloric_at(&mut self, theta: Symbol) -> Program {
-        let outputs = self.caloric_quantities(theta);
+        let mut outputs = self.caloric_quantities(theta).to_vec();
+        outputs.push(self.model.psi);
         let known = self.variables.iter().filter(|&&symbol| symbol != theta);
         let known = self.model.parameters.iter().chain(known);
         let known: Vec<_> = known.copied().collect();

@@ -141,9 +141,9 @@ impl<'s> Builder<'s> {
         self.emit([x], |[x]| Operation::Apply(function, x))
     }
 
-    pub(super) fn pair_sum(&mut self, a: ExprId, b: ExprId) -> Operand {
-        let (a, b) = (self.done(a), self.done(b));
-        self.add(a, b)
+    pub(super) fn pair_sum(&mut self, a: ExprId, b: ExprId) -> Signed {
+        let pair = [a, b].map(|term| self.signed(term));
+        self.accumulate(pair.to_vec())
     }
 
     pub(super) fn add(&mut self, a: Operand, b: Operand) -> Operand {

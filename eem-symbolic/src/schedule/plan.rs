@@ -6,6 +6,7 @@
 use std::collections::{BTreeSet, HashMap};
 
 use super::Schedule;
+use super::dependence::Dependence;
 use super::sharing::{Entry, Sharing, Token};
 use crate::node::{ExprId, Node, Symbol};
 use crate::number::{Number, Rational};
@@ -89,16 +90,12 @@ impl Plan {
             sums: Operands::new(),
             arguments: BTreeSet::new(),
         };
-        let mut collector = Collector {
-            schedule,
-            new,
-            changing: HashMap::new(),
-        };
-        for e in collector.visit(roots) {
-            plan.look_at(&collector, e);
+        let dependence = Dependence::new(schedule, new, roots);
+        for &e in dependence.reached() {
+            plan.look_at(&dependence, e);
         }
         for &root in roots {
-            plan.product(&collector, Number::ONE, root);
+            plan.product(&dependence, Number::ONE, root);
         }
         plan.products.sharing.solve();
         plan.sums.sharing.solve();
@@ -114,18 +111,18 @@ impl Plan {
         self.products.entries(&(coefficient, e))
     }
 
-    fn look_at(&mut self, collector: &Collector<'_>, e: ExprId) {
-        let graph = collector.schedule.graph;
-        let resolved = collector.schedule.locals.resolve(graph, e);
+    fn look_at(&mut self, dependence: &Dependence<'_>, e: ExprId) {
+        let graph = dependence.schedule.graph;
+        let resolved = dependence.schedule.locals.resolve(graph, e);
         if resolved != e {
-            self.product(collector, Number::ONE, resolved);
+            self.product(dependence, Number::ONE, resolved);
             return;
         }
         if let Node::Sum { constant, terms } = graph.node(e) {
             for &(coefficient, term) in terms {
-                self.product(collector, coefficient.abs(), term);
+                self.product(dependence, coefficient.abs(), term);
             }
-            self.sum(collector, e, *constant, terms);
+            self.sum(dependence, e, *constant, terms);
             return;
         }
         let of_function = !matches!(graph.node(e), Node::Product(_) | Node::PairSum(..));
@@ -133,23 +130,22 @@ impl Plan {
             if of_function {
                 self.arguments.insert(operand);
             } else {
-                self.product(collector, Number::ONE, operand);
+                self.product(dependence, Number::ONE, operand);
             }
         });
     }
 
     /// Plans `coefficient · e` if e is a product that depends on a state.
-    fn product(&mut self, collector: &Collector<'_>, coefficient: Number, e: ExprId) {
-        let Node::Product(factors) = collector.schedule.graph.node(e) else {
+    fn product(&mut self, dependence: &Dependence<'_>, coefficient: Number, e: ExprId) {
+        let Node::Product(factors) = dependence.schedule.graph.node(e) else {
             return;
         };
         let key = (coefficient, e);
-        if !collector.changes(e) || self.products.lists.contains_key(&key) {
+        if !dependence.on(e) || self.products.lists.contains_key(&key) {
             return;
         }
-        let (new, old): (Vec<_>, Vec<_>) = factors
-            .iter()
-            .partition(|(base, _)| collector.changes(*base));
+        let (new, old): (Vec<_>, Vec<_>) =
+            factors.iter().partition(|(base, _)| dependence.on(*base));
         let mut entries = Vec::with_capacity(new.len() + 1);
         if !old.is_empty() || coefficient != Number::ONE {
             let hoisted = Factor::Hoisted(coefficient, old);
@@ -166,16 +162,15 @@ impl Plan {
     /// Plans a sum that depends on a state.
     fn sum(
         &mut self,
-        collector: &Collector<'_>,
+        dependence: &Dependence<'_>,
         e: ExprId,
         constant: Number,
         terms: &[(Number, ExprId)],
     ) {
-        if !collector.changes(e) {
+        if !dependence.on(e) {
             return;
         }
-        let (new, old): (Vec<_>, Vec<_>) =
-            terms.iter().partition(|(_, term)| collector.changes(*term));
+        let (new, old): (Vec<_>, Vec<_>) = terms.iter().partition(|(_, term)| dependence.on(*term));
         let mut entries = Vec::with_capacity(new.len() + 1);
         let mut single = Vec::new();
         if let ([term], true) = (&old[..], constant.is_zero()) {
@@ -189,49 +184,5 @@ impl Plan {
         }
         let list = self.sums.sharing.list(entries);
         self.sums.lists.insert(e, list);
-    }
-}
-
-/// Finds what the outputs depend on, and what of it depends on a state.
-struct Collector<'s> {
-    schedule: &'s Schedule<'s>,
-    /// The variables of the states.
-    new: &'s BTreeSet<Symbol>,
-    /// Looked up, never iterated.
-    changing: HashMap<ExprId, bool>,
-}
-
-impl Collector<'_> {
-    fn changes(&self, e: ExprId) -> bool {
-        self.changing.get(&e).copied().unwrap_or(false)
-    }
-
-    /// All expressions below the roots, operands first.
-    fn visit(&mut self, roots: &[ExprId]) -> Vec<ExprId> {
-        let schedule = self.schedule;
-        let mut found = Vec::new();
-        for &root in roots {
-            let mut pending = vec![(root, false)];
-            while let Some((e, operands_done)) = pending.pop() {
-                if self.changing.contains_key(&e) {
-                    continue;
-                }
-                let operands = schedule.operands(e);
-                if operands_done {
-                    let mut changes = operands.iter().any(|&operand| self.changes(operand));
-                    if let (Node::Variable(symbol), true) =
-                        (schedule.graph.node(e), operands.is_empty())
-                    {
-                        changes = self.new.contains(symbol);
-                    }
-                    self.changing.insert(e, changes);
-                    found.push(e);
-                    continue;
-                }
-                pending.push((e, true));
-                pending.extend(operands.into_iter().rev().map(|operand| (operand, false)));
-            }
-        }
-        found
     }
 }

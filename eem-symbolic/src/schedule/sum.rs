@@ -102,7 +102,7 @@ impl Builder<'_> {
     }
 
     /// Adds up summands; what depends on parameters alone comes first.
-    fn accumulate(&mut self, mut summands: Vec<Signed>) -> Signed {
+    pub(super) fn accumulate(&mut self, mut summands: Vec<Signed>) -> Signed {
         summands.sort_by_key(|summand| self.is_of_state(summand.operand));
         // Starting with a positive summand saves a change of sign.
         let positive = summands.iter().position(|summand| !summand.negative);

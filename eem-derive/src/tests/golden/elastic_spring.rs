@@ -123,12 +123,14 @@ const _: () = {
             __x1: &Self::Variables,
             _: &Self::Corners,
         ) -> (Self::Response, Self::Tangent) {
-            let [__v2, __v3, __v8] = *__old;
             let __v4 = __x1[0];
+            let __v2 = __old[0];
             let __v5 = __v4 - __v2;
+            let __v3 = __old[1];
             let __v6 = __v3 + __v5;
+            let __v8 = __old[2];
             let __v9 = __v6 * __v8;
-            ([__v9], [[__v8]])
+            ([__v9], [[__old[2]]])
         }
         /// Entropy form: the same algorithmic quantities without their tangent.
         ///
@@ -139,10 +141,12 @@ const _: () = {
             __x1: &Self::Variables,
             _: &Self::Corners,
         ) -> Self::Response {
-            let [__v2, __v3, __v8] = *__old;
             let __v4 = __x1[0];
+            let __v2 = __old[0];
             let __v5 = __v4 - __v2;
+            let __v3 = __old[1];
             let __v6 = __v3 + __v5;
+            let __v8 = __old[2];
             let __v9 = __v6 * __v8;
             [__v9]
         }

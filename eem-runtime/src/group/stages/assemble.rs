@@ -4,8 +4,7 @@ use super::local::LocalStages;
 use super::member::StageMember;
 use super::{END, MIDDLE, StageTrial, StageView, ThreeStageGroup, heat};
 use crate::free_energy::{Array, FreeEnergy};
-use crate::group::assemble::subtract;
-use crate::group::pose::{arms, measures_in, spread};
+use crate::group::arms::{arms, measures_in, scale};
 use crate::kinematics::{Arms, Kinematics};
 use crate::scalar::Real;
 use crate::scheme::variational_4;
@@ -29,7 +28,7 @@ where
         for (member, stages) in members {
             let mut target = Target {
                 view,
-                slot: member.slots.thermal,
+                slot: member.slots().thermal,
                 local: &mut self.local,
                 values,
                 right,
@@ -95,15 +94,12 @@ where
         let value = point.gradient[measure] + target.local.row[0];
         let (by_arm, by_heat) = self.slopes(target.local);
         let along = &self.gradients[stage][measure];
-        let direction = spread::<K, S, D>(along);
         for (half, weights) in variational_4::MIDDLE_AND_END.iter().enumerate() {
             let impulse = target.view.step * S::from_f64(weights[stage]);
-            let rows = self.site.quarters[half][0].rows.as_ref();
-            for (&row, direction) in rows.iter().zip(direction.as_ref()) {
-                for (axis, &entry) in direction.iter().enumerate() {
-                    target.right[row + axis][0] -= impulse * entry * value;
-                }
-            }
+            let mut pull = *along;
+            scale::<K, S, D>(&mut pull, impulse * value);
+            let site = &self.site.quarters[half][0];
+            site.subtract_arms(&pull, &site.rows, target.right.as_flattened_mut());
             for (site, by_arm) in self.site.quarters[half].iter().zip(&by_arm) {
                 for (i, along) in along.as_ref().iter().enumerate() {
                     for (j, by) in by_arm.as_ref().iter().enumerate() {
@@ -113,7 +109,7 @@ where
                 }
             }
             let heat = by_heat.map(|by| impulse * by);
-            self.assemble_heat(half, heat, &direction, target);
+            self.assemble_heat(half, heat, along, target);
         }
     }
 
@@ -122,7 +118,7 @@ where
         &self,
         half: usize,
         factors: [S; 2],
-        direction: &K::PerNode<[S; D]>,
+        along: &Arms<K, S, D>,
         target: &mut Target<'_, S>,
     ) {
         let (Some(slot), Some(contacts)) = (target.slot, &self.site.contacts) else {
@@ -131,9 +127,14 @@ where
         let site = &self.site.quarters[half][0];
         for (column, contact) in contacts[half].iter().enumerate() {
             let (own, partners) = heat::slopes(target.view, slot, contact, column, factors);
-            site.add_column(&contact.column, own, direction, target.values);
+            let times = |factor: S| {
+                let mut arms = *along;
+                scale::<K, S, D>(&mut arms, factor);
+                arms
+            };
+            site.add_column(&contact.column, &times(own), target.values);
             for (by, partner) in partners {
-                site.add_column(&partner.column, by, direction, target.values);
+                site.add_column(&partner.column, &times(by), target.values);
             }
         }
     }
@@ -169,17 +170,15 @@ where
             let (by_arm, by_heat) = self.slopes(target.local);
             let own = &contacts[half][half];
             let seen = trial.seen_temperatures[stage][slot];
-            target.right[own.unknown][0] += theta - seen;
-            target.values[own.diagonal] += S::one();
+            target.right[own.unknown as usize][0] += theta - seen;
+            target.values[own.diagonal as usize] += S::one();
             for (column, contact) in contacts[half].iter().enumerate() {
-                let by_node = spread::<K, S, D>(&by_arm[column]);
-                for (by, &place) in by_node.as_ref().iter().zip(contact.row.as_ref()) {
-                    subtract(target.values, place, by);
-                }
+                let site = &self.site.quarters[half][column];
+                site.subtract_arms(&by_arm[column], &contact.row, target.values);
                 let (own, partners) = heat::slopes(target.view, slot, contact, column, by_heat);
-                target.values[contact.diagonal] -= own;
+                target.values[contact.diagonal as usize] -= own;
                 for (by, partner) in partners {
-                    target.values[partner.entry] -= by;
+                    target.values[partner.entry as usize] -= by;
                 }
             }
         }

@@ -10,8 +10,8 @@ use super::{END, MIDDLE, StageTrial, StageView, ThreeStageGroup};
 use crate::conduction::Partner;
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
+use crate::group::arms::{arms, measures_in, points, resultant};
 use crate::group::closing::pull;
-use crate::group::pose::{arms, measures_in, points, resultant};
 use crate::kinematics::{Kinematics, Weights};
 use crate::layout::Slots;
 use crate::scalar::Real;
@@ -37,10 +37,11 @@ where
         let (values, right) = system.parts();
         for stages in &self.members {
             let weights = stages.secant(self.elements.kinematics);
-            let site = stages.site.common();
-            let known = site.known(old, &trial.displacements[0], S::one());
-            site.add_secant(&weights, impulse, values);
-            site.subtract_known(&weights, &known, impulse, right);
+            let (site, secant) = (stages.site.common(), &stages.site.secant);
+            let mut known = arms::<K, S, D>(&site.nodes, old);
+            site.add_anchors(&mut known, &trial.displacements[0], S::one());
+            secant.add_matrix(&site.is_mass, &weights, impulse, values);
+            secant.subtract_known(&site.is_mass, &weights, (&known, impulse), right);
         }
     }
 
@@ -63,7 +64,7 @@ where
                 resultant::<K, S, D>(&gradient, &found)
             };
             for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
-                for (sum, &force) in forces[node].iter_mut().zip(force) {
+                for (sum, &force) in forces[node as usize].iter_mut().zip(force) {
                     *sum -= force;
                 }
             }
@@ -78,7 +79,7 @@ where
     ) -> Result<(), StateError> {
         let (kinematics, at_end) = (self.elements.kinematics, view.at_end());
         for (member, stages) in self.elements.members.iter_mut().zip(&mut self.members) {
-            stages.close(member.slots, view, next);
+            stages.close(member.slots(), view, next);
             let near = stages.x[END][M::Variables::LEN - 1];
             if let Some(entropy) = member.settle(kinematics, &at_end, near, next)? {
                 stages.book_thermostat(view.step, entropy, next);

@@ -4,7 +4,7 @@ use super::local::LocalStages;
 use super::member::StageMember;
 use super::{END, MIDDLE, StageView, ThreeStageGroup};
 use crate::free_energy::{Array, FreeEnergy};
-use crate::group::pose::along;
+use crate::group::arms::along;
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
 
@@ -18,7 +18,7 @@ where
     pub(super) fn correct_all(&mut self, view: &StageView<'_, S>, solution: &[[S; 1]]) -> S {
         let mut largest = S::zero();
         for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
-            let heat = stages.heat_change(view, member.slots.thermal, solution);
+            let heat = stages.heat_change(view, member.slots().thermal, solution);
             stages.find_inputs(heat, solution, &mut self.local);
             largest = largest.maximum(stages.correct(&self.local));
         }

@@ -53,8 +53,8 @@ where
         let (Some(slot), Some([[at_start, _], [at_end, _]])) = (slot, &self.site.contacts) else {
             return [start, middle];
         };
-        let change = |slot: usize, rows: [usize; 2]| {
-            let [start, end] = rows.map(|row| solution[row][0]);
+        let change = |slot: usize, rows: [u32; 2]| {
+            let [start, end] = rows.map(|row| solution[row as usize][0]);
             [start, mean_share(view, slot) * (start + end)]
         };
         let near = change(slot, [at_start.unknown, at_end.unknown]);

@@ -4,9 +4,9 @@ use super::point::Point;
 use super::site::StageSite;
 use super::{END, MIDDLE, StageView};
 use crate::free_energy::{Array, FreeEnergy};
-use crate::group::evaluate::shorten;
+use crate::group::arms::{arms, points};
+use crate::group::begin::shorten;
 use crate::group::member::{Member, grown};
-use crate::group::pose::{arms, points};
 use crate::group::variables;
 use crate::kinematics::{Arms, Gradient, Kinematics};
 use crate::scalar::Real;
@@ -49,11 +49,11 @@ where
     /// Number of inputs `(π_m…, π_1…, Q_0, Q_m)`, what other elements and the nodes decide.
     pub(super) const INPUTS: usize = 2 * (M::MEASURES + M::THERMAL as usize);
 
-    pub(super) fn new(nodes: &K::PerNode<usize>) -> Self {
+    pub(super) fn new(member: &StateMember<S, M, K, D>) -> Self {
         let zeros = [M::Variables::filled(S::zero()); 3];
         let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
         Self {
-            site: StageSite::unconnected(nodes.as_ref()),
+            site: StageSite::unconnected(member.site),
             entropy: S::zero(),
             prescribed: None,
             x: zeros,
@@ -74,7 +74,7 @@ where
         view: &StageView<'_, S>,
         lengths: &mut [S],
     ) {
-        let (nodes, slots) = (&member.site.nodes, member.slots);
+        let (nodes, slots) = (&member.site.nodes, member.slots());
         let r0 = arms::<K, S, D>(nodes, points(view.state.positions.values()));
         let measures = kinematics.measure(&r0);
         shorten::<K, S, D>(nodes, &measures, lengths);

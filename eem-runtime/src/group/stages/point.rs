@@ -5,8 +5,8 @@ use super::{END, StageTrial, StageView, ThreeStageGroup};
 use crate::conduction::HeatFlow;
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
-use crate::group::evaluate::{check_measures, check_temperature};
-use crate::group::pose::arms;
+use crate::group::arms::arms;
+use crate::group::respond::{check_measures, check_temperature};
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
 use crate::scheme::Infeasible;
@@ -168,7 +168,7 @@ where
         }
         member.find_viscosities(theta)?;
         let dissipation_by = point.creep(&member.viscosities);
-        let Some(slot) = member.slots.thermal else {
+        let Some(slot) = member.slots().thermal else {
             return Ok(());
         };
         let slope = point.entropy_by()[M::Variables::LEN - 1];

@@ -26,15 +26,15 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         let mut largest = S::zero();
         let (values, right) = self.tangent.parts();
         let momenta = points::<S, D>(view.state.momenta.values());
-        for (half, masses) in self.masses.iter().enumerate() {
-            for mass in masses {
+        let (middle, end) = right.as_flattened_mut().split_at_mut(self.half);
+        for (half, (masses, rows)) in self.masses.iter().zip([middle, end]).enumerate() {
+            for (mass, rows) in masses.iter().zip(rows.as_chunks_mut::<D>().0) {
                 let inertia = inertia(mass.mass, half, view.step);
                 let displacement = &self.trial.displacements[half][mass.node];
                 let loads = loads::<S, D>(view, half, mass.node);
-                for (axis, &place) in mass.diagonal.iter().enumerate() {
+                for (axis, (&place, residual)) in mass.diagonal.iter().zip(rows).enumerate() {
                     values[place] += inertia;
                     let rest = momenta[mass.node][axis] + loads[axis];
-                    let residual = &mut right[mass.row + axis][0];
                     *residual += rest - inertia * displacement[axis];
                     largest = largest.maximum(residual.abs());
                 }
@@ -50,15 +50,16 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         view: &StageView<'_, S>,
     ) -> S {
         self.remember();
+        self.tangent.clear_rest::<D>();
         let solution = self.tangent.right_mut();
         let mut largest = S::zero();
         for (half, masses) in self.masses.iter().enumerate() {
             let correction = &mut self.correction[half];
-            for mass in masses {
+            let changes = solution[half * self.half..].as_flattened().as_chunks().0;
+            for (mass, displacement) in masses.iter().zip(changes) {
                 let per_length = self.per_length[mass.node];
-                let displacement = &mut correction.0[mass.node];
-                for (component, &[change]) in displacement.iter_mut().zip(&solution[mass.row..]) {
-                    *component = change;
+                correction.0[mass.node] = *displacement;
+                for &change in displacement {
                     largest = largest.maximum((change * per_length).abs());
                 }
             }
@@ -105,8 +106,8 @@ pub(super) fn loads<S: Real, const D: usize>(
     let mut impulse = [S::zero(); D];
     for (&weight, loads) in variational_4::MIDDLE_AND_END[half].iter().zip(view.loads) {
         let share = view.step * S::from_f64(weight);
-        let force = &points::<S, D>(&loads.total_force)[node];
-        for (impulse, &force) in impulse.iter_mut().zip(force) {
+        let force = loads.total_force::<D>(node);
+        for (impulse, force) in impulse.iter_mut().zip(force) {
             *impulse += share * force;
         }
     }

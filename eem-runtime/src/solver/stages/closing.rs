@@ -28,7 +28,6 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         self.move_to_end(view);
         self.find_forces(groups, view, 2);
         next.copy_books(view.state);
-        next.past.copy_from(&view.state.past);
         next.time.add(view.step);
         self.move_masses(view, next)?;
         self.move_anchors(view, next);
@@ -51,9 +50,10 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
             }
             let displacement = &self.trial.displacements[1][node];
             move_node(node, [displacement, &impulse], view.state, next)?;
+            let loads = view.loads.each_ref().map(|loads| loads.force::<D>(node));
             for axis in 0..D {
-                let at = node * D + axis;
-                let work = self.work(node, axis, |stage| view.loads[stage].force[at]);
+                let load = loads.map(|load| load[axis]);
+                let work = self.work(node, axis, |stage| load[stage]);
                 next.work.add(work);
             }
         }
@@ -93,7 +93,9 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         view: &StageView<'_, S>,
         stage: usize,
     ) {
-        self.forces[stage].copy_from_slice(points(&view.loads[stage].total_force));
+        for (node, force) in self.forces[stage].iter_mut().enumerate() {
+            *force = view.loads[stage].total_force(node);
+        }
         for group in groups.iter_mut() {
             group.subtract_forces(stage, &self.trial, &mut self.forces[stage]);
         }
@@ -110,16 +112,16 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
             group.add_secant(view, &self.trial, &mut self.secant);
         }
         let momenta = points::<S, D>(view.state.momenta.values());
-        let weight = points::<S, D>(&view.loads[0].total_force);
         let start = view.step * S::from_f64(variational_4::MIDDLE_AND_END[0][0]);
         let (values, right) = self.secant.parts();
-        for mass in &self.masses[0] {
+        for (mass, right) in self.masses[0].iter().zip(right) {
             values[mass.secant_diagonal] += inertia(mass.mass, 0, view.step);
             let node = mass.node;
             let loads = loads::<S, D>(view, 0, node);
-            for (axis, right) in right[mass.secant_row].iter_mut().enumerate() {
+            let weight = view.loads[0].total_force::<D>(node);
+            for (axis, right) in right.iter_mut().enumerate() {
                 // The loads of both stages, and the springs of the start.
-                let springs = self.forces[0][node][axis] - weight[node][axis];
+                let springs = self.forces[0][node][axis] - weight[axis];
                 *right += momenta[node][axis] + loads[axis] + start * springs;
             }
         }
@@ -128,7 +130,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
             .map_err(|_| StepFailure::SingularTangent)?;
         for at in 0..self.masses[0].len() {
             let mass = self.masses[0][at];
-            self.place(view, 0, mass.node, self.secant.right()[mass.secant_row]);
+            self.place(view, 0, mass.node, self.secant.right()[at]);
         }
         Ok(())
     }

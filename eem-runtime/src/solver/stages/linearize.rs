@@ -1,14 +1,12 @@
 //! The global system over the stages at a trial state of choice.
 
-use core::array;
-
+use super::StageSolver;
 use super::assemble::correct_locally;
-use super::{Effort, StageSolver};
 use crate::error::StepFailure;
 use crate::group::{StageGroup, StageView};
 use crate::scalar::Real;
-use crate::solver::Iteration;
 use crate::solver::places::Seen;
+use crate::solver::{Effort, Iteration};
 
 impl<S: Real, const D: usize> StageSolver<S, D> {
     /// Residual and tangent at given global unknowns, with the local ones solved for.
@@ -17,7 +15,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         groups: &mut [Box<dyn StageGroup<S, D>>],
         view: &StageView<'_, S>,
         unknowns: &[S],
-        effort: &mut Effort<'_, S>,
+        effort: &mut Effort<S>,
     ) -> Result<(Vec<S>, Vec<S>), StepFailure> {
         self.begin(groups, view);
         self.distribute(unknowns);
@@ -54,8 +52,9 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
     /// Makes the correction the one that leads to these unknowns.
     fn distribute(&mut self, unknowns: &[S]) {
         for (half, (displacements, seen)) in self.correction.iter_mut().enumerate() {
-            for mass in &self.masses[half] {
-                displacements[mass.node] = array::from_fn(|axis| unknowns[mass.row + axis]);
+            let own = unknowns[half * self.half..].as_chunks().0;
+            for (mass, &displacement) in self.masses[half].iter().zip(own) {
+                displacements[mass.node] = displacement;
             }
             for &Seen { slot, row } in &self.seen[half] {
                 seen[slot] = unknowns[row] - self.previous[half].1[slot];

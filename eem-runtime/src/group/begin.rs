@@ -1,0 +1,171 @@
+//! The old state of the elements, where a step and its trial start.
+
+use super::arms::{along, arms, measures_in, points, spread};
+use super::member::Member;
+use super::pose::Pose;
+use super::{ElementGroup, Old, StepView, variables};
+use crate::error::StateError;
+use crate::free_energy::{Array, FreeEnergy};
+use crate::kinematics::{Arms, Kinematics, Measures};
+use crate::scalar::Real;
+use crate::scheme::{ElementScheme, Placement};
+
+impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// See [`Group::begin`](super::Group::begin).
+    pub(super) fn begin_all(
+        &mut self,
+        view: &StepView<'_, S>,
+        old: &mut Old<'_, S, D>,
+    ) -> Result<(), StateError> {
+        let positions = points(view.state.positions.values());
+        for member in &mut self.members {
+            let r0 = arms::<K, S, D>(&member.site.nodes, positions);
+            let measures = self.kinematics.measure(&r0);
+            member.begin(view, &r0, &measures);
+            if C::IMPLICIT < 1.0 {
+                member.old_share(self.kinematics, view, old.force)?;
+            }
+            shorten::<K, S, D>(&member.site.nodes, &measures, old.lengths);
+        }
+        Ok(())
+    }
+}
+
+/// Reduces the unit of length of each node to the shortest measure of its elements.
+#[inline]
+pub(super) fn shorten<K: Kinematics<S, D>, S: Real, const D: usize>(
+    nodes: &K::PerNode<u32>,
+    measures: &Measures<K, S, D>,
+    lengths: &mut [S],
+) {
+    for &node in nodes.as_ref() {
+        let length = &mut lengths[node as usize];
+        let own = measures.as_ref().iter();
+        *length = own.fold(*length, |least, &own| least.minimum(own));
+    }
+}
+
+impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// Looks at the old state, where the trial starts.
+    #[inline]
+    fn begin(&mut self, view: &StepView<'_, S>, r0: &Arms<K, S, D>, measures: &Measures<K, S, D>) {
+        let slots = self.slots();
+        let x0 = variables::<S, M>(measures.as_ref(), slots, view.state);
+        let entropy = slots
+            .thermal
+            .map(|slot| view.state.entropies.values()[slot]);
+        self.start.x0 = x0;
+        self.start.old = C::old(&self.model, &x0, entropy.unwrap_or(S::zero()));
+        self.r0 = *r0;
+        self.x = x0;
+        if let Some(slot) = slots.thermal {
+            let theta = x0[Self::TEMPERATURE];
+            self.memory = C::memory(theta);
+            let prescribed = view.prescribed(slot, C::PLACEMENT);
+            self.is_prescribed = prescribed.is_some();
+            self.x[Self::TEMPERATURE] = prescribed.unwrap_or(theta);
+        }
+        for at_point in self.at_point.as_mut() {
+            at_point.entropy_change = S::zero();
+        }
+        self.hold();
+    }
+
+    /// The part of rates and nodal forces that the scheme takes from the old state.
+    fn old_share(
+        &mut self,
+        kinematics: K,
+        view: &StepView<'_, S>,
+        old_force: &mut [[S; D]],
+    ) -> Result<(), StateError> {
+        let share = S::one() - S::from_f64(C::IMPLICIT);
+        let r0 = self.r0;
+        let x0 = self.start.x0;
+        let theta = x0[Self::VARIABLES - 1];
+        self.find_viscosities(theta)?;
+        let gradient = self.model.gradient(&x0);
+        let mut rates = M::Variables::filled(S::zero());
+        let mut heat = S::zero();
+        for k in 0..M::DASHPOTS {
+            let index = M::MEASURES + k;
+            let g = -gradient[index];
+            let rate = g / self.viscosities.0[k];
+            rates[index] = share * rate;
+            heat += g * rate;
+        }
+        if let Some(slot) = self.slots().thermal {
+            let temperatures = &view.state.temperatures;
+            heat += view.conduction.heat_flow(slot, theta, temperatures).heat;
+            rates[Self::TEMPERATURE] = share * heat / theta;
+        }
+        for at_point in self.at_point.as_mut() {
+            at_point.old_rates = rates;
+        }
+        let measures0 = measures_in::<K, S, D>(&x0);
+        let pose = Pose::between(kinematics, C::PLACEMENT, [&r0, &r0], measures0);
+        if M::THERMAL && C::IN_TEMPERATURE {
+            let at_rest = Pose::between(kinematics, Placement::End, [&r0, &r0], measures0);
+            self.find_old_heating(view, &at_rest, heat / theta);
+        }
+        for (a, row) in pose.direction.as_ref().iter().enumerate() {
+            let by_node = spread::<K, S, D>(row);
+            for (entry, &node) in by_node.as_ref().iter().zip(self.site.nodes.as_ref()) {
+                for (force, &entry) in old_force[node as usize].iter_mut().zip(entry) {
+                    *force += share * gradient[a] * entry;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// `(1 − w) θ̇⁰` of a scheme in temperature, which takes the place of `(1 − w) ṡ⁰`.
+    fn find_old_heating(&mut self, view: &StepView<'_, S>, pose: &Pose<K, S, D>, entropy_rate: S) {
+        let share = S::one() - S::from_f64(C::IMPLICIT);
+        let last = Self::TEMPERATURE;
+        let (_, hessian) = self.model.hessian(&self.start.x0);
+        // ∂s/∂x = −∂²ψ/∂θ∂x
+        let slope = |index: usize| -hessian[last][index];
+        let velocities = self.old_velocities(view);
+        let mut rest = share * entropy_rate;
+        for a in 0..M::MEASURES {
+            let rate = along::<K, S, D>(&pose.direction[a], &velocities);
+            rest -= slope(a) * share * rate;
+        }
+        for at_point in self.at_point.as_mut() {
+            for index in M::MEASURES..last {
+                rest -= slope(index) * at_point.old_rates[index];
+            }
+            at_point.old_heating = rest / slope(last);
+            at_point.old_rates[last] = S::zero();
+        }
+    }
+
+    /// The old velocities of the arms; those of anchors are means over the step, m/s.
+    pub(super) fn old_velocities(&self, view: &StepView<'_, S>) -> Arms<K, S, D> {
+        let momenta = points::<S, D>(view.state.momenta.values());
+        let velocity = |node: u32, axis: usize| match view.masses[node as usize] {
+            Some(mass) => momenta[node as usize][axis] / mass,
+            None => view.loads.motion::<D>(node as usize)[axis] / view.step,
+        };
+        let nodes = self.site.nodes.as_ref();
+        let mut velocities = Arms::<K, S, D>::filled([S::zero(); D]);
+        for (arm, &node) in velocities.as_mut().iter_mut().zip(&nodes[1..]) {
+            for (axis, component) in arm.iter_mut().enumerate() {
+                *component = velocity(node, axis) - velocity(nodes[0], axis);
+            }
+        }
+        velocities
+    }
+}

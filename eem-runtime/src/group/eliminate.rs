@@ -1,0 +1,124 @@
+//! Elimination of the local unknowns of an element: Gauss–Jordan with partial pivoting.
+
+use crate::free_energy::{Array, FreeEnergy};
+use crate::kinematics::Kinematics;
+use crate::lu::Singular;
+use crate::scalar::Real;
+
+/// A number per local unknown: the viscous stretches, then the temperature.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PerUnknown<S, V> {
+    viscous: V,
+    temperature: S,
+}
+
+impl<S: Real, V: Array<S>> PerUnknown<S, V> {
+    pub(super) fn zero() -> Self {
+        Self {
+            viscous: V::filled(S::zero()),
+            temperature: S::zero(),
+        }
+    }
+
+    #[inline]
+    pub(super) fn get(&self, unknown: usize) -> S {
+        if unknown < V::LEN {
+            self.viscous[unknown]
+        } else {
+            self.temperature
+        }
+    }
+
+    #[inline]
+    pub(super) fn set(&mut self, unknown: usize, value: S) {
+        if unknown < V::LEN {
+            self.viscous[unknown] = value;
+        } else {
+            self.temperature = value;
+        }
+    }
+}
+
+/// The solved local system: `δu = −(constant + by_measure δπ + by_heat δr_s)`.
+pub(super) struct Condensed<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {
+    pub(super) constant: PerUnknown<S, M::Viscosities>,
+    pub(super) by_measure: K::PerMeasure<PerUnknown<S, M::Viscosities>>,
+    /// Only of elements whose heat depends on global unknowns otherwise than through the measures.
+    pub(super) by_heat: PerUnknown<S, M::Viscosities>,
+    /// `∂r_s/∂Q = −h w/θ*`, by which heat from other elements enters.
+    pub(super) heat_factor: S,
+}
+
+impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> Condensed<S, M, K, D> {
+    /// Before the first elimination.
+    pub(super) fn zero() -> Self {
+        Self {
+            constant: PerUnknown::zero(),
+            by_measure: K::PerMeasure::filled(PerUnknown::zero()),
+            by_heat: PerUnknown::zero(),
+            heat_factor: S::zero(),
+        }
+    }
+}
+
+/// The local equations of an element, a row per unknown, of which there are fewer than variables:
+/// the first entries and rows are used.
+pub(super) struct LocalSystem<S: Real, M: FreeEnergy<S>> {
+    /// r, then with the unknowns solved for.
+    pub(super) constant: M::Variables,
+    /// `∂r/∂x`; the columns of the measures are solved for.
+    pub(super) rows: M::Hessian,
+    /// `∂r/∂r_s`, if it is asked for.
+    pub(super) by_heat: M::Variables,
+}
+
+/// Gauss–Jordan elimination with partial pivoting.
+#[expect(clippy::inline_always, reason = "a few numbers in registers")]
+#[inline(always)]
+pub(super) fn eliminate<S: Real, M: FreeEnergy<S>, const HEAT: bool>(
+    system: &mut LocalSystem<S, M>,
+) -> Result<(), Singular> {
+    let LocalSystem {
+        constant,
+        rows,
+        by_heat,
+    } = system;
+    let unknowns = M::Variables::LEN - M::MEASURES;
+    for k in 0..unknowns {
+        let at = M::MEASURES + k;
+        for row in k + 1..unknowns {
+            if rows[row][at].abs() > rows[k][at].abs() {
+                rows.as_mut().swap(row, k);
+                constant.as_mut().swap(row, k);
+                by_heat.as_mut().swap(row, k);
+            }
+        }
+        let value = rows[k][at];
+        if !value.is_finite() || value == S::zero() {
+            return Err(Singular);
+        }
+        let inverse = value.recip();
+        // The columns of the measures and those of the unknowns that are left.
+        let columns = |column: &usize| *column < M::MEASURES || *column > at;
+        for column in (0..M::Variables::LEN).filter(columns) {
+            rows[k][column] *= inverse;
+        }
+        constant[k] *= inverse;
+        if HEAT {
+            by_heat[k] *= inverse;
+        }
+        for row in (0..unknowns).filter(|&row| row != k) {
+            let factor = rows[row][at];
+            for column in (0..M::Variables::LEN).filter(columns) {
+                let pivot = rows[k][column];
+                rows[row][column] -= factor * pivot;
+            }
+            let (own, heat) = (constant[k], by_heat[k]);
+            constant[row] -= factor * own;
+            if HEAT {
+                by_heat[row] -= factor * heat;
+            }
+        }
+    }
+    Ok(())
+}

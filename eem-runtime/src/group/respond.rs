@@ -1,0 +1,233 @@
+//! The response of the elements at a trial state, and what must be true of it.
+
+use super::arms::{arms, measures_in};
+use super::member::Member;
+use super::pose::{Pose, seen_arms, seen_measures};
+use super::{StepView, Trial};
+use crate::error::StateError;
+use crate::free_energy::{Array, FreeEnergy};
+use crate::handle::Element;
+use crate::kinematics::{Arms, Ends, Kinematics, Measures};
+use crate::scalar::Real;
+use crate::scene::is_positive;
+use crate::scheme::{ElementScheme, Form};
+
+/// Arms and measures of the configuration that a scheme looks at.
+pub(super) type Seen<K, S, const D: usize> = (Arms<K, S, D>, Measures<K, S, D>);
+
+impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// Finds the measures of the trial state, its temperature if that is not an unknown, and what
+    /// the form of the scheme needs besides.
+    #[inline]
+    pub(super) fn locate_trial(
+        &mut self,
+        kinematics: K,
+        trial: &Trial<S, D>,
+    ) -> Result<Seen<K, S, D>, StateError> {
+        let r1 = arms::<K, S, D>(&self.site.nodes, &trial.positions);
+        let r1 = seen_arms::<K, S, D>(C::PLACEMENT, &self.r0, r1);
+        let measures1 = kinematics.measure(&r1);
+        let measures0 = measures_in::<K, S, D>(&self.start.x0);
+        let measures = seen_measures::<K, S, D>(C::PLACEMENT, &measures0, measures1);
+        check_measures::<K, S, D>(kinematics, self.element, &measures)?;
+        for (a, &measure) in measures.as_ref().iter().enumerate() {
+            self.x[a] = measure;
+        }
+        if M::THERMAL && C::FINDS_TEMPERATURE && !self.is_prescribed {
+            for at_point in self.at_point.as_ref() {
+                let change = at_point.entropy_change;
+                let theta = C::temperature(&self.model, &self.start, &self.x, change);
+                let theta = theta.map_err(|infeasible| infeasible.of(self.element))?;
+                self.x[Self::TEMPERATURE] = theta;
+            }
+        }
+        C::prepare(&self.model, &self.start, &self.x, &mut self.memory)
+            .map_err(|infeasible| infeasible.of(self.element))?;
+        Ok((r1, measures1))
+    }
+
+    /// The gradients at the configuration that the scheme looks at.
+    #[inline]
+    pub(super) fn pose(&self, kinematics: K, seen: &Seen<K, S, D>) -> Pose<K, S, D> {
+        let ends = Ends {
+            r0: self.r0,
+            r1: seen.0,
+            measures0: measures_in::<K, S, D>(&self.start.x0),
+            measures1: seen.1,
+        };
+        Pose::new(kinematics, C::PLACEMENT, ends)
+    }
+
+    /// The response and its tangent at the trial that has been located.
+    #[inline]
+    pub(super) fn form(&self) -> Form<S, M> {
+        C::form(&self.model, &self.start, &self.x, &self.memory)
+    }
+
+    /// Takes over a response and finds the viscosities that go with it, unless the trial is not
+    /// stable or something is not finite.
+    #[inline]
+    pub(super) fn accept(&mut self, form: &Form<S, M>) -> Result<(), StateError> {
+        C::check(&self.x, form).map_err(|infeasible| infeasible.of(self.element))?;
+        self.accept_response(&form.0)
+    }
+
+    /// The response at the trial that has been located, for the last look at a step.
+    #[inline]
+    pub(super) fn respond_alone(
+        &mut self,
+        kinematics: K,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+    ) -> Result<(), StateError> {
+        let seen = self.locate_trial(kinematics, trial)?;
+        if M::THERMAL && C::IN_TEMPERATURE {
+            let mut form = self.form();
+            self.change_entropy_at_rates(kinematics, view, trial, &seen, &mut form);
+            return self.accept(&form);
+        }
+        let response = C::response(&self.model, &self.start, &self.x, &self.memory);
+        self.accept_response(&response)
+    }
+
+    #[inline]
+    fn accept_response(&mut self, response: &M::Response) -> Result<(), StateError> {
+        self.response = *response;
+        check_response::<S, M>(self.element, response)?;
+        self.find_viscosities(self.temperature())
+    }
+
+    /// For a scheme in temperature: replaces the Δs of the response by that of rates.
+    pub(super) fn change_entropy_at_rates(
+        &mut self,
+        kinematics: K,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        seen: &Seen<K, S, D>,
+        form: &mut Form<S, M>,
+    ) {
+        let motion = self.motion(view, trial);
+        let pose = self.pose(kinematics, seen);
+        let (own, by_arm) = pose.increase(kinematics, C::PLACEMENT, &motion);
+        let increments = self.increments(&own, view.step);
+        let (model, start) = (&self.model, &self.start);
+        let slopes = C::change_entropy_at_rates(model, start, &self.x, &increments, form);
+        for at_point in self.at_point.as_mut() {
+            at_point.by_increment = combined::<K, S, M, D>(&slopes, by_arm.as_ref());
+        }
+    }
+
+    /// The motion `r¹ − r⁰ − (1 − w) h ṙ⁰` of the arms.
+    fn motion(&self, view: &StepView<'_, S>, trial: &Trial<S, D>) -> Arms<K, S, D> {
+        let rest = (S::one() - S::from_f64(C::IMPLICIT)) * view.step;
+        let mut motion = arms::<K, S, D>(&self.site.nodes, &trial.displacements);
+        let velocities = self.old_velocities(view);
+        for (motion, velocity) in motion.as_mut().iter_mut().zip(velocities.as_ref()) {
+            for (motion, &velocity) in motion.iter_mut().zip(velocity) {
+                *motion -= rest * velocity;
+            }
+        }
+        motion
+    }
+
+    /// The increments of measures, viscous stretches and temperature, less what the old state
+    /// contributes.
+    fn increments(&self, measures: &Measures<K, S, D>, step: S) -> M::Variables {
+        let mut increments = M::Variables::filled(S::zero());
+        let (old, last) = (&self.start.x0, Self::VARIABLES - 1);
+        for (a, &increment) in measures.as_ref().iter().enumerate() {
+            increments[a] = increment;
+        }
+        for at_point in self.at_point.as_ref() {
+            for index in M::MEASURES..last {
+                let change = self.x[index] - old[index];
+                increments[index] = change - step * at_point.old_rates[index];
+            }
+            if M::THERMAL {
+                let change = self.new_temperature(old[last]) - old[last];
+                increments[last] = change - step * at_point.old_heating;
+            }
+        }
+        increments
+    }
+}
+
+/// `Σ_a slope_a ∂Λ_a/∂r¹`.
+fn combined<K: Kinematics<S, D>, S: Real, M: FreeEnergy<S>, const D: usize>(
+    slopes: &M::Variables,
+    by_arm: &[Arms<K, S, D>],
+) -> Arms<K, S, D> {
+    let mut sum = Arms::<K, S, D>::filled([S::zero(); D]);
+    for (&slope, row) in slopes.as_ref().iter().zip(by_arm) {
+        for (sum, entry) in sum.as_mut().iter_mut().zip(row.as_ref()) {
+            for (sum, &entry) in sum.iter_mut().zip(entry) {
+                *sum += slope * entry;
+            }
+        }
+    }
+    sum
+}
+
+/// The deformation is one that the element can have.
+#[inline]
+pub(super) fn check_measures<K: Kinematics<S, D>, S: Real, const D: usize>(
+    kinematics: K,
+    element: Element,
+    measures: &Measures<K, S, D>,
+) -> Result<(), StateError> {
+    let mut measures = measures.as_ref().iter();
+    match measures.find(|&&measure| !kinematics.is_admissible(measure)) {
+        None => Ok(()),
+        Some(measure) => Err(StateError::Stretch {
+            element,
+            value: measure.to_f64(),
+        }),
+    }
+}
+
+/// The temperature of a response is one, and everything in it finite.
+#[inline]
+fn check_response<S: Real, M: FreeEnergy<S>>(
+    element: Element,
+    response: &M::Response,
+) -> Result<(), StateError> {
+    if M::THERMAL {
+        check_temperature(element, response[M::MEASURES + M::DASHPOTS])?;
+    }
+    // Zero for finite numbers, NaN for others.
+    let zero = S::zero();
+    let sum = response
+        .as_ref()
+        .iter()
+        .fold(zero, |sum, &value| sum + zero * value);
+    if sum == zero {
+        return Ok(());
+    }
+    Err(not_finite(element, response.as_ref()))
+}
+
+#[cold]
+fn not_finite<S: Real>(element: Element, response: &[S]) -> StateError {
+    let value = response.iter().find(|value| !value.is_finite());
+    StateError::NotFinite {
+        element,
+        quantity: "force or entropy",
+        value: value.map_or(f64::NAN, |value| value.to_f64()),
+    }
+}
+
+/// A temperature is positive and finite.
+#[inline]
+pub(super) fn check_temperature<S: Real>(element: Element, theta: S) -> Result<(), StateError> {
+    if is_positive(theta) {
+        return Ok(());
+    }
+    let value = theta.to_f64();
+    Err(StateError::Temperature { element, value })
+}

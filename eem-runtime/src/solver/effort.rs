@@ -1,0 +1,55 @@
+//! How hard a step tries, and what it did.
+
+use super::STAGES;
+use crate::error::NewtonIteration;
+use crate::newton::NewtonSettings;
+use crate::scalar::Real;
+
+/// Iterations for which memory is kept; settings that ask for more allocate when they get there.
+const LONGEST_HISTORY: usize = 4096;
+
+/// How hard a step tries, and what it did.
+#[derive(Debug)]
+pub(crate) struct Effort<S> {
+    pub(crate) settings: NewtonSettings<S>,
+    /// What each iteration of the last step did.
+    pub(crate) history: Vec<Iteration<S>>,
+}
+
+/// One iteration of Newton's method.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Iteration<S> {
+    /// The largest momentum residual before the update, N s.
+    pub(crate) residual: S,
+    /// The largest scaled update.
+    pub(crate) update: S,
+}
+
+impl<S: Real> Iteration<S> {
+    /// The same in double precision.
+    pub(crate) fn to_f64(self) -> NewtonIteration {
+        NewtonIteration {
+            residual: self.residual.to_f64(),
+            update: self.update.to_f64(),
+        }
+    }
+}
+
+impl<S: Real> Effort<S> {
+    /// The usual settings, before the first step.
+    pub(crate) fn new() -> Self {
+        Self {
+            settings: NewtonSettings::default(),
+            history: Vec::new(),
+        }
+    }
+
+    /// Forgets the last step.
+    pub(crate) fn restart(&mut self) {
+        // Two parts of a staggered step, each followed through all stages at worst.
+        let parts = 2 * usize::from(STAGES + 1);
+        let most = self.settings.max_iterations.saturating_mul(parts);
+        self.history.clear();
+        self.history.reserve(most.min(LONGEST_HISTORY));
+    }
+}

@@ -1,0 +1,53 @@
+//! What Newton's method knows of a node that moves and of a temperature that neighbours see, each in one
+//! record.
+
+use super::places::{MovingNode, Seen};
+use crate::scalar::Real;
+
+/// A node that moves, during one step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Motion<S, const D: usize> {
+    pub(super) place: MovingNode<S, D>,
+    /// 2m/h, kg/s; 1 while nothing moves.
+    pub(super) inertia: S,
+    /// `2p⁰ − h F⁰` with the part F⁰ of the force that the old state decides, N s; zero while nothing
+    /// moves.
+    pub(super) rest: [S; D],
+    /// The reciprocal of its unit of length: its shortest element in the old state; 1 m without.
+    pub(super) per_length: S,
+    /// `q¹ − q⁰` before the last update, and the update, m.
+    pub(super) previous: [S; D],
+    pub(super) correction: [S; D],
+}
+
+impl<S: Real, const D: usize> Motion<S, D> {
+    pub(super) fn new(place: MovingNode<S, D>) -> Self {
+        Self {
+            place,
+            inertia: S::one(),
+            rest: [S::zero(); D],
+            per_length: S::one(),
+            previous: [S::zero(); D],
+            correction: [S::zero(); D],
+        }
+    }
+}
+
+/// A temperature Θ that neighbours see, during one step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Glance<S> {
+    pub(super) place: Seen,
+    /// Θ before the last update, and the update, K.
+    pub(super) previous: S,
+    pub(super) correction: S,
+}
+
+impl<S: Real> Glance<S> {
+    pub(super) fn new(place: Seen) -> Self {
+        Self {
+            place,
+            previous: S::zero(),
+            correction: S::zero(),
+        }
+    }
+}

@@ -1,0 +1,345 @@
+//! Nested dissection: an order of elimination that keeps the parts of a large net apart.
+//!
+//! ```text
+//! order   one side, the other side, what separates them;  each side the same way
+//! ```
+//!
+//! As long as the separator is not eliminated, nothing fills in between the sides (George 1973).
+//! Separators are looked for among the level sets of distances, and of differences of distances,
+//! from three points far from each other: in a lattice the straight and the diagonal lines. What is
+//! small is ordered by minimum degree.
+
+use core::cmp::Ordering;
+use core::mem;
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::sparse::SymbolicSparseColMatRef;
+use faer::sparse::linalg::amd;
+
+use crate::pattern::{Pattern, index};
+
+/// Parts with at most this many unknowns are not divided.
+const SMALL: usize = 500;
+
+/// The smaller side has at least one in this many unknowns.
+const LARGEST_SHARE: usize = 5;
+
+/// The part, and the distance, of what belongs to none.
+const NONE: u32 = u32::MAX;
+
+/// The unknowns in the order of their elimination; `None` if memory is missing.
+pub(super) fn order(pattern: &Pattern) -> Option<Vec<u32>> {
+    let count = pattern.unknowns();
+    let mut dissection = Dissection {
+        pattern,
+        parts: vec![0; count],
+        last_part: 0,
+        distances: [vec![0; count], vec![0; count], vec![0; count]],
+        key: vec![0; count],
+        queue: Vec::with_capacity(count),
+    };
+    let mut unknowns: Vec<u32> = (0..index(count)).collect();
+    let mut separators = Vec::new();
+    let mut parts = vec![(0, count)];
+    while let Some((start, end)) = parts.pop() {
+        let set = &mut unknowns[start..end];
+        if set.len() <= SMALL {
+            continue;
+        }
+        let Some([left, right]) = dissection.divide(set) else {
+            continue;
+        };
+        let middle = start + left;
+        parts.extend([(start, middle), (middle, middle + right)]);
+        separators.push(middle + right..end);
+    }
+    let mut order = by_degree(pattern, &dissection.parts)?;
+    // Those found first are eliminated last.
+    for separator in separators.into_iter().rev() {
+        order.extend_from_slice(&unknowns[separator]);
+    }
+    Some(order)
+}
+
+/// Orders what is in a part, without what is in separators, by minimum degree.
+fn by_degree(pattern: &Pattern, parts: &[u32]) -> Option<Vec<u32>> {
+    let inner = (0..parts.len()).filter(|&unknown| parts[unknown] != NONE);
+    let inner: Vec<u32> = inner.map(index).collect();
+    let mut numbers = vec![NONE; parts.len()];
+    for (number, &unknown) in inner.iter().enumerate() {
+        numbers[unknown as usize] = index(number);
+    }
+    let (mut starts, mut rows) = (vec![0], Vec::new());
+    for &unknown in &inner {
+        let neighbours = pattern.row(unknown as usize).iter();
+        let neighbours = neighbours.map(|&neighbour| numbers[neighbour as usize]);
+        rows.extend(neighbours.filter(|&number| number != NONE));
+        starts.push(index(rows.len()));
+    }
+    let (count, entries) = (inner.len(), rows.len());
+    let structure = SymbolicSparseColMatRef::new_checked(count, count, &starts, None, &rows);
+    let (mut order, mut inverse) = (vec![0_u32; count], vec![0; count]);
+    let mut memory = MemBuffer::try_new(amd::order_scratch::<u32>(count, entries)).ok()?;
+    let (control, memory) = (amd::Control::default(), MemStack::new(&mut memory));
+    amd::order(&mut order, &mut inverse, structure, control, memory).ok()?;
+    for number in &mut order {
+        *number = inner[*number as usize];
+    }
+    Some(order)
+}
+
+/// Memory that all divisions share, with an element for each unknown.
+struct Dissection<'a> {
+    pattern: &'a Pattern,
+    /// The part to which each unknown belongs; none for separators.
+    parts: Vec<u32>,
+    last_part: u32,
+    distances: [Vec<u32>; 3],
+    key: Vec<u32>,
+    queue: Vec<u32>,
+}
+
+/// Unknowns whose key is below a threshold, apart from those with a neighbour that is not.
+#[derive(Clone, Copy)]
+struct Cut {
+    /// Distance from the first point, less that from the second if there is one.
+    key: (usize, Option<usize>),
+    threshold: u32,
+    separator: usize,
+    left: usize,
+    right: usize,
+}
+
+impl Cut {
+    /// A separator costs its square, and more the less evenly it divides.
+    fn compare(&self, other: &Self) -> Ordering {
+        let cost = |cut: &Self, other: &Self| {
+            let [separator, left, right] = [cut.separator, other.left, other.right];
+            let [separator, left, right] = [separator, left, right].map(|count| count as u128);
+            separator * separator * left * right
+        };
+        cost(self, other).cmp(&cost(other, self))
+    }
+}
+
+impl Dissection<'_> {
+    /// Sorts a part into two sides and a separator, and returns how many unknowns the sides have.
+    fn divide(&mut self, set: &mut [u32]) -> Option<[usize; 2]> {
+        let part = self.parts[set[0] as usize];
+        if let Some(left) = self.components(set, part) {
+            set.copy_from_slice(&self.queue);
+            self.name_sides(&set[..left], &set[left..]);
+            return Some([left, set.len() - left]);
+        }
+        let mut point = *self.queue.last()?;
+        for at in 0..3 {
+            self.measure(at, point, set, part);
+            let [first, second, _] = &self.distances;
+            let from_both = |unknown: u32| {
+                let unknown = unknown as usize;
+                first[unknown].min(second[unknown])
+            };
+            point = match at {
+                0 => *self.queue.last()?,
+                _ => *set.iter().max_by_key(|&&unknown| from_both(unknown))?,
+            };
+        }
+        let points = [(0, None), (1, None), (2, None)];
+        let pairs = [(0, Some(1)), (0, Some(2)), (1, Some(2))];
+        let keys = points.into_iter().chain(pairs);
+        let cuts = keys.filter_map(|key| self.best_cut(key, set, part));
+        let best = cuts.min_by(Cut::compare)?;
+        self.evaluate(best.key, set);
+        let threshold = best.threshold;
+        set.sort_by_cached_key(|&unknown| match self.reach(unknown, part) {
+            (key, _) if key >= threshold => 1,
+            (_, reach) if reach >= threshold => 2,
+            _ => 0,
+        });
+        let (left, rest) = set.split_at(best.left);
+        let (right, separator) = rest.split_at(best.right);
+        self.name_sides(left, right);
+        for &unknown in separator {
+            self.parts[unknown as usize] = NONE;
+        }
+        Some([best.left, best.right])
+    }
+
+    fn name_sides(&mut self, left: &[u32], right: &[u32]) {
+        for side in [left, right] {
+            self.last_part += 1;
+            for &unknown in side {
+                self.parts[unknown as usize] = self.last_part;
+            }
+        }
+    }
+
+    /// Queues a part component by component. Where one of them ends that divides it most evenly;
+    /// `None` if it is connected.
+    fn components(&mut self, set: &[u32], part: u32) -> Option<usize> {
+        self.queue.clear();
+        for &unknown in set {
+            self.distances[0][unknown as usize] = NONE;
+        }
+        let mut best = None;
+        for &unknown in set {
+            if self.distances[0][unknown as usize] != NONE {
+                continue;
+            }
+            let uneven = |end: usize| end.abs_diff(set.len() - end);
+            let end = self.queue.len();
+            if end > 0 && best.is_none_or(|best| uneven(end) < uneven(best)) {
+                best = Some(end);
+            }
+            self.spread(0, unknown, part);
+        }
+        best
+    }
+
+    /// The distances from a point to all of a connected part.
+    fn measure(&mut self, at: usize, point: u32, set: &[u32], part: u32) {
+        self.queue.clear();
+        for &unknown in set {
+            self.distances[at][unknown as usize] = NONE;
+        }
+        self.spread(at, point, part);
+    }
+
+    /// Queues what is connected with a point, nearest first.
+    fn spread(&mut self, at: usize, point: u32, part: u32) {
+        let distances = &mut self.distances[at];
+        let mut head = self.queue.len();
+        self.queue.push(point);
+        distances[point as usize] = 0;
+        while let Some(&unknown) = self.queue.get(head) {
+            head += 1;
+            let distance = distances[unknown as usize] + 1;
+            for &neighbour in self.pattern.row(unknown as usize) {
+                let place = neighbour as usize;
+                if self.parts[place] == part && distances[place] == NONE {
+                    distances[place] = distance;
+                    self.queue.push(neighbour);
+                }
+            }
+        }
+    }
+
+    /// Evaluates a key, from zero upwards; returns the largest.
+    fn evaluate(&mut self, (from, less): (usize, Option<usize>), set: &[u32]) -> u32 {
+        let mut keys = mem::take(&mut self.key);
+        let distance = |at: usize, unknown: u32| self.distances[at][unknown as usize];
+        let furthest = less.map_or(0, |at| {
+            let distances = set.iter().map(|&unknown| distance(at, unknown));
+            distances.max().unwrap_or(0)
+        });
+        let mut largest = 0;
+        for &unknown in set {
+            let nearer = less.map_or(0, |at| furthest - distance(at, unknown));
+            let key = distance(from, unknown) + nearer;
+            keys[unknown as usize] = key;
+            largest = largest.max(key);
+        }
+        self.key = keys;
+        largest
+    }
+
+    /// The key of an unknown, and the largest among its neighbours and itself.
+    fn reach(&self, unknown: u32, part: u32) -> (u32, u32) {
+        let row = self.pattern.row(unknown as usize).iter();
+        let inner = row.filter(|&&neighbour| self.parts[neighbour as usize] == part);
+        let keys = inner.map(|&neighbour| self.key[neighbour as usize]);
+        let key = self.key[unknown as usize];
+        (key, keys.fold(key, u32::max))
+    }
+
+    /// The best threshold of a key.
+    fn best_cut(&mut self, key: (usize, Option<usize>), set: &[u32], part: u32) -> Option<Cut> {
+        let levels = self.evaluate(key, set) as usize + 1;
+        // How many unknowns have a key, and how many more separate from there on than before.
+        let mut counts = vec![(0_usize, 0_isize); levels + 1];
+        for &unknown in set {
+            let (key, reach) = self.reach(unknown, part);
+            counts[key as usize].0 += 1;
+            counts[key as usize + 1].1 += 1;
+            counts[reach as usize + 1].1 -= 1;
+        }
+        let (mut below, mut separator) = (0, 0);
+        let mut best: Option<Cut> = None;
+        for threshold in 1..levels {
+            below += counts[threshold - 1].0;
+            separator = usize::checked_add_signed(separator, counts[threshold].1)?;
+            let cut = Cut {
+                key,
+                threshold: index(threshold),
+                separator,
+                left: below - separator,
+                right: set.len() - below,
+            };
+            let is_even = cut.left.min(cut.right) * LARGEST_SHARE >= set.len();
+            if is_even && best.is_none_or(|best| cut.compare(&best).is_lt()) {
+                best = Some(cut);
+            }
+        }
+        best
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{SMALL, order};
+    use crate::pattern::Pattern;
+
+    /// A square of unknowns, each connected with its neighbours in four directions.
+    fn square(side: usize) -> Pattern {
+        Pattern::new(side * side, |pair| {
+            for at in 0..side * side {
+                if (at + 1) % side != 0 {
+                    pair(at, at + 1);
+                }
+                if at + side < side * side {
+                    pair(at, at + side);
+                }
+            }
+        })
+    }
+
+    #[test]
+    fn the_last_unknowns_of_a_square_are_a_line_across_it() {
+        let side = 40;
+        assert!(side * side > 2 * SMALL);
+        let order = order(&square(side)).unwrap();
+        let mut sorted = order.clone();
+        sorted.sort_unstable();
+        assert!((0..).zip(&sorted).all(|(at, &unknown)| at == unknown));
+        // A separator that is left out of the square leaves more than one piece of it.
+        let last = &order[order.len() - side..];
+        let mut reached = vec![false; order.len()];
+        for &at in last {
+            reached[at as usize] = true;
+        }
+        let start = order[0] as usize;
+        reached[start] = true;
+        let mut path = vec![start];
+        let pattern = square(side);
+        while let Some(at) = path.pop() {
+            for &next in pattern.row(at) {
+                if !core::mem::replace(&mut reached[next as usize], true) {
+                    path.push(next as usize);
+                }
+            }
+        }
+        let alone = reached.iter().filter(|reached| !**reached).count();
+        assert!(alone > order.len() / 5, "{alone}");
+    }
+
+    #[test]
+    fn what_is_not_connected_is_divided_without_a_separator() {
+        let unknowns = 3 * SMALL;
+        let pattern = Pattern::new(unknowns, |pair| {
+            for first in (0..unknowns).step_by(3) {
+                pair(first, first + 1);
+            }
+        });
+        assert_eq!(order(&pattern).unwrap().len(), unknowns);
+    }
+}

@@ -1,0 +1,170 @@
+//! Eliminating the own unknowns of one front, as dense blocks.
+//!
+//! ```text
+//! ⎡ A₁₁  A₁₂ ⎤   ⎡ Pᵀ L₁₁   0 ⎤ ⎡ U₁₁  U₁₂ ⎤
+//! ⎣ A₂₁  A₂₂ ⎦ = ⎣    L₂₁   1 ⎦ ⎣  0    S  ⎦     S = A₂₂ − L₂₁ U₁₂
+//! ```
+//!
+//! Pivots are looked for within A₁₁, so that the structure stays what it is.
+
+use core::fmt;
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::lu::partial_pivoting::factor::{lu_in_place, lu_in_place_scratch};
+use faer::linalg::matmul::matmul;
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_unit_lower_triangular_in_place,
+};
+use faer::reborrow::{Reborrow, ReborrowMut};
+use faer::{Accum, MatMut, Par, Spec};
+
+/// The most unknowns of a front for which loops are faster than blocks.
+const SMALL: usize = 24;
+
+/// The blocks of a front, column by column.
+pub(super) struct Blocks<'a> {
+    /// A₁₁ above A₂₁; then L₁₁ below the diagonal of U₁₁, and L₂₁.
+    pub(super) lower: &'a mut [f64],
+    /// A₁₂, then U₁₂.
+    pub(super) upper: &'a mut [f64],
+    /// A₂₂, then S.
+    pub(super) schur: &'a mut [f64],
+    /// The row of A₁₁ that becomes each row of L₁₁.
+    pub(super) pivots: &'a mut [u32],
+}
+
+/// Working memory of the elimination.
+pub(super) struct Scratch {
+    inverse: Vec<u32>,
+    column: Vec<f64>,
+    memory: MemBuffer,
+}
+
+impl fmt::Debug for Scratch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Scratch").finish_non_exhaustive()
+    }
+}
+
+impl Scratch {
+    /// For fronts with at most this many own unknowns; `None` if memory is missing.
+    pub(super) fn new(width: usize) -> Option<Self> {
+        let factor = lu_in_place_scratch::<u32, f64>(width, width, Par::Seq, Spec::default());
+        Some(Self {
+            inverse: vec![0; width],
+            column: vec![0.0; width],
+            memory: MemBuffer::try_new(factor).ok()?,
+        })
+    }
+}
+
+impl Blocks<'_> {
+    /// Makes A zero.
+    pub(super) fn clear(&mut self) {
+        self.lower.fill(0.0);
+        self.upper.fill(0.0);
+        self.schur.fill(0.0);
+    }
+
+    /// Replaces A by L, U and S. A pivot that is zero divides by zero.
+    pub(super) fn eliminate(&mut self, scratch: &mut Scratch) {
+        let width = self.pivots.len();
+        if self.lower.len() <= SMALL * width {
+            self.eliminate_by_loops();
+        } else {
+            self.eliminate_by_blocks(scratch);
+        }
+    }
+
+    fn eliminate_by_loops(&mut self) {
+        let width = self.pivots.len();
+        let tall = self.lower.len() / width;
+        (0..).zip(&mut *self.pivots).for_each(|(k, row)| *row = k);
+        for k in 0..width {
+            self.bring_up_the_largest(k);
+            let (pivot, later) = self.lower[k * tall..].split_at_mut(tall);
+            let reciprocal = pivot[k].recip();
+            pivot[k + 1..].iter_mut().for_each(|l| *l *= reciprocal);
+            for column in later.chunks_exact_mut(tall).take(width - k - 1) {
+                subtract(&mut column[k..], &pivot[k..]);
+            }
+            for column in self.upper.chunks_exact_mut(width) {
+                subtract(&mut column[k..], &pivot[k..width]);
+            }
+        }
+        let height = tall - width;
+        if height == 0 {
+            return;
+        }
+        let columns = self.schur.chunks_exact_mut(height);
+        for (column, upper) in columns.zip(self.upper.chunks_exact(width)) {
+            for (&u, lower) in upper.iter().zip(self.lower.chunks_exact(tall)) {
+                for (s, &l) in column.iter_mut().zip(&lower[width..]) {
+                    *s -= l * u;
+                }
+            }
+        }
+    }
+
+    /// Exchanges row k with the one below whose entry in column k is the largest.
+    fn bring_up_the_largest(&mut self, k: usize) {
+        let width = self.pivots.len();
+        let tall = self.lower.len() / width;
+        let column = &self.lower[k * tall..][..width];
+        let mut largest = k;
+        for row in k + 1..width {
+            if column[row].abs() > column[largest].abs() {
+                largest = row;
+            }
+        }
+        if largest != k {
+            self.pivots.swap(k, largest);
+            let columns = self.lower.chunks_exact_mut(tall);
+            for column in columns.chain(self.upper.chunks_exact_mut(width)) {
+                column.swap(k, largest);
+            }
+        }
+    }
+
+    fn eliminate_by_blocks(&mut self, scratch: &mut Scratch) {
+        let width = self.pivots.len();
+        let tall = self.lower.len() / width;
+        let lower = MatMut::from_column_major_slice_mut(self.lower, tall, width);
+        let (mut diagonal, mut below) = lower.split_at_row_mut(width);
+        lu_in_place(
+            diagonal.rb_mut(),
+            self.pivots,
+            &mut scratch.inverse[..width],
+            Par::Seq,
+            MemStack::new(&mut scratch.memory),
+            Spec::default(),
+        );
+        let height = tall - width;
+        if height == 0 {
+            return;
+        }
+        let copy = &mut scratch.column[..width];
+        for column in self.upper.chunks_exact_mut(width) {
+            copy.copy_from_slice(column);
+            for (entry, &row) in column.iter_mut().zip(&*self.pivots) {
+                *entry = copy[row as usize];
+            }
+        }
+        let mut upper = MatMut::from_column_major_slice_mut(self.upper, width, height);
+        solve_unit_lower_triangular_in_place(diagonal.rb(), upper.rb_mut(), Par::Seq);
+        let (transposed, right) = (diagonal.rb().transpose(), below.rb_mut().transpose_mut());
+        solve_lower_triangular_in_place(transposed, right, Par::Seq);
+        let schur = MatMut::from_column_major_slice_mut(self.schur, height, height);
+        matmul(schur, Accum::Add, below.rb(), upper.rb(), -1.0, Par::Seq);
+    }
+}
+
+/// Subtracts from all entries of a column but the first what its first entry times a column of L is.
+fn subtract(column: &mut [f64], lower: &[f64]) {
+    let Some((&mut first, rest)) = column.split_first_mut() else {
+        return;
+    };
+    for (entry, &l) in rest.iter_mut().zip(&lower[1..]) {
+        *entry -= l * first;
+    }
+}

@@ -1,0 +1,259 @@
+//! Which unknowns are eliminated together, and which later ones each elimination touches.
+//!
+//! ```text
+//! front   own unknowns, consecutive in the order of elimination
+//!         rows below: the later unknowns that any of them is connected with by then
+//! ```
+//!
+//! The pattern is symmetric, so that what one unknown touches by its column it touches by its row.
+//! Order and fronts depend on the pattern alone. Unknowns are ordered by approximate minimum degree
+//! (Amestoy, Davis & Duff 1996), or by nested dissection where that fills in much and the other
+//! less.
+
+use core::ops::Range;
+
+use faer::Side;
+use faer::perm::PermRef;
+use faer::sparse::SymbolicSparseColMatRef;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky,
+};
+use faer::sparse::linalg::{SupernodalThreshold, SymbolicSupernodalParams};
+
+use super::dissection;
+use crate::pattern::{Pattern, index};
+
+/// Factors with more than this many times the entries of their matrix are worth a better order.
+const WORTH_DISSECTING: usize = 4;
+
+/// Fronts with at most this many own unknowns are merged if no larger share of entries is then zero.
+const MERGED: &[(usize, f64)] = &[(48, 0.1), (usize::MAX, 0.05)];
+
+/// The fronts in an order in which each follows those that contribute to it, the last of them at once.
+#[derive(Debug)]
+pub(super) struct Fronts {
+    /// The unknown that is eliminated at a place.
+    pub(super) order: Vec<u32>,
+    /// The place of an unknown.
+    pub(super) places: Vec<u32>,
+    /// Front f has the places `begins[f]..begins[f + 1]`,
+    begins: Vec<u32>,
+    /// and the rows below `rows[starts[f]..starts[f + 1]]`, as places, ascending.
+    starts: Vec<u32>,
+    rows: Vec<u32>,
+}
+
+/// One front: its own places and those below.
+#[derive(Clone, Debug)]
+pub(super) struct Front<'a> {
+    pub(super) own: Range<usize>,
+    pub(super) rows: &'a [u32],
+}
+
+/// What all fronts together need.
+#[derive(Debug, Default)]
+pub(super) struct Extent {
+    /// Entries of the columns of fronts, and of their rows to the right of the diagonal blocks.
+    pub(super) lower: usize,
+    pub(super) upper: usize,
+    /// Entries, and fronts, that wait at the same time for a later front.
+    pub(super) left: usize,
+    pub(super) waiting: usize,
+    /// The most own unknowns and the most rows below of a front.
+    pub(super) width: usize,
+    pub(super) height: usize,
+}
+
+impl Fronts {
+    /// Orders and analyses a pattern; `None` if memory is missing.
+    pub(super) fn new(pattern: &Pattern) -> Option<Self> {
+        let by_degree = Self::ordered(pattern, SymmetricOrdering::Amd)?;
+        let Extent { lower, upper, .. } = by_degree.extent();
+        if lower + upper <= WORTH_DISSECTING * pattern.entries() {
+            return Some(by_degree);
+        }
+        let order = dissection::order(pattern)?;
+        let mut places = vec![0; order.len()];
+        for (place, &unknown) in order.iter().enumerate() {
+            places[unknown as usize] = index(place);
+        }
+        let order = PermRef::new_checked(&order, &places, order.len());
+        let dissected = Self::ordered(pattern, SymmetricOrdering::Custom(order))?;
+        let is_better = dissected.multiplications() < by_degree.multiplications();
+        Some(if is_better { dissected } else { by_degree })
+    }
+
+    /// Analyses a pattern for an order of elimination.
+    fn ordered(pattern: &Pattern, order: SymmetricOrdering<'_, u32>) -> Option<Self> {
+        let unknowns = pattern.unknowns();
+        let (starts, rows) = (pattern.starts(), pattern.columns());
+        let structure =
+            SymbolicSparseColMatRef::new_checked(unknowns, unknowns, starts, None, rows);
+        let parameters = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            supernodal_params: SymbolicSupernodalParams {
+                relax: Some(MERGED),
+            },
+            ..CholeskySymbolicParams::default()
+        };
+        let symbolic = factorize_symbolic_cholesky(structure, Side::Upper, order, parameters);
+        Self::from_faer(&symbolic.ok()?)
+    }
+
+    fn from_faer(symbolic: &SymbolicCholesky<u32>) -> Option<Self> {
+        let SymbolicCholeskyRaw::Supernodal(nodes) = symbolic.raw() else {
+            return None;
+        };
+        let (order, _) = symbolic.perm()?.arrays();
+        let own = |node: usize| nodes.supernode_begin()[node]..nodes.supernode_end()[node];
+        let below = |node: usize| nodes.supernode(node).pattern();
+        let mut homes = vec![0; order.len()];
+        for node in 0..nodes.n_supernodes() {
+            own(node).for_each(|place| homes[place as usize] = node);
+        }
+        let parents = (0..nodes.n_supernodes()).map(|node| {
+            let first = below(node).iter().min();
+            first.map(|&place| homes[place as usize])
+        });
+        let sequence = postorder(&parents.collect::<Vec<_>>());
+        let mut fronts = Self {
+            order: Vec::with_capacity(order.len()),
+            places: vec![0; order.len()],
+            begins: Vec::with_capacity(sequence.len() + 1),
+            starts: Vec::with_capacity(sequence.len() + 1),
+            rows: Vec::new(),
+        };
+        // From here, where a place has moved.
+        let mut moved = homes;
+        fronts.begins.push(0);
+        for &node in &sequence {
+            for place in own(node) {
+                moved[place as usize] = fronts.order.len();
+                fronts.order.push(order[place as usize]);
+            }
+            fronts.begins.push(index(fronts.order.len()));
+        }
+        for (place, &unknown) in fronts.order.iter().enumerate() {
+            fronts.places[unknown as usize] = index(place);
+        }
+        fronts.starts.push(0);
+        for &node in &sequence {
+            let first = fronts.rows.len();
+            let rows = below(node).iter();
+            let rows = rows.map(|&place| index(moved[place as usize]));
+            fronts.rows.extend(rows);
+            fronts.rows[first..].sort_unstable();
+            fronts.starts.push(index(fronts.rows.len()));
+        }
+        fronts.rows.shrink_to_fit();
+        Some(fronts)
+    }
+
+    /// Number of fronts.
+    pub(super) fn len(&self) -> usize {
+        self.begins.len() - 1
+    }
+
+    /// A front.
+    pub(super) fn front(&self, at: usize) -> Front<'_> {
+        Front {
+            own: self.begins[at] as usize..self.begins[at + 1] as usize,
+            rows: &self.rows[self.starts[at] as usize..self.starts[at + 1] as usize],
+        }
+    }
+
+    /// How many multiplications an elimination takes.
+    fn multiplications(&self) -> u128 {
+        let fronts = (0..self.len()).map(|at| self.front(at));
+        let counts = fronts.map(|front| {
+            let [width, height] = [front.own.len(), front.rows.len()].map(|count| count as u128);
+            width * (width * width / 3 + width * height + height * height)
+        });
+        counts.sum()
+    }
+
+    /// What all fronts together need.
+    pub(super) fn extent(&self) -> Extent {
+        let mut extent = Extent::default();
+        let mut left = 0;
+        let mut waiting: Vec<Front<'_>> = Vec::new();
+        for front in (0..self.len()).map(|at| self.front(at)) {
+            let (width, height) = (front.own.len(), front.rows.len());
+            extent.lower += width * (width + height);
+            extent.upper += width * height;
+            extent.width = extent.width.max(width);
+            extent.height = extent.height.max(height);
+            left += height * height;
+            extent.left = extent.left.max(left);
+            while let Some(child) = waiting.pop_if(|child| child.contributes_to(&front)) {
+                left -= child.rows.len() * child.rows.len();
+            }
+            if height > 0 {
+                waiting.push(front);
+            }
+            extent.waiting = extent.waiting.max(waiting.len());
+        }
+        extent
+    }
+}
+
+impl Front<'_> {
+    /// Whether this front, the last that waits, waits for the given one.
+    pub(super) fn contributes_to(&self, front: &Front<'_>) -> bool {
+        (self.rows[0] as usize) < front.own.end
+    }
+}
+
+/// The nodes of a forest, each right after the trees of its children; children ascend.
+fn postorder(parents: &[Option<usize>]) -> Vec<usize> {
+    let roots = parents.len();
+    // The first child of each node and of the forest, and the next child of the same parent.
+    let mut first = vec![None; roots + 1];
+    let mut next = vec![None; roots];
+    for (node, parent) in parents.iter().enumerate().rev() {
+        next[node] = first[parent.unwrap_or(roots)].replace(node);
+    }
+    let mut sequence = Vec::with_capacity(roots);
+    let mut path = Vec::new();
+    let mut down = first[roots];
+    loop {
+        while let Some(node) = down {
+            path.push(node);
+            down = first[node];
+        }
+        let Some(node) = path.pop() else {
+            return sequence;
+        };
+        sequence.push(node);
+        down = next[node];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Fronts, postorder};
+    use crate::pattern::Pattern;
+
+    #[test]
+    fn children_come_first_and_the_last_of_them_right_before() {
+        //    3        parents
+        //   / \
+        //  0   2      1 alone
+        let parents = [Some(3), None, Some(3), None];
+        assert_eq!(postorder(&parents), [1, 0, 2, 3]);
+        assert_eq!(postorder(&[Some(2), None, Some(1)]), [0, 2, 1]);
+    }
+
+    #[test]
+    fn a_chain_fills_in_nowhere() {
+        let unknowns = 40;
+        let pattern = Pattern::new(unknowns, |pair| (1..unknowns).for_each(|b| pair(b - 1, b)));
+        let fronts = Fronts::new(&pattern).unwrap();
+        let extent = fronts.extent();
+        assert_eq!(extent.lower + extent.upper, pattern.entries());
+        for (place, &unknown) in fronts.order.iter().enumerate() {
+            assert_eq!(fronts.places[unknown as usize] as usize, place);
+        }
+    }
+}
