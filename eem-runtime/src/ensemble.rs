@@ -85,8 +85,9 @@ impl<S: Real> Ensemble<'_, S> {
         }
     }
 
-    /// How many threads work; with 1 it is the calling one. Default 0: those of rayon's pool, one
-    /// for each core unless the program or `RAYON_NUM_THREADS` says otherwise.
+    /// How many threads work on members; with 1 it is the calling one. Default 0: those of rayon's
+    /// pool, one for each core unless the program or `RAYON_NUM_THREADS` says otherwise. A large
+    /// scene may ask the pool for help with its own elimination, whatever is chosen here.
     ///
     /// Results do not depend on it. Without the feature `parallel`, or where the system refuses the
     /// threads, it is always one.

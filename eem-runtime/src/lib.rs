@@ -52,6 +52,8 @@ mod solver;
 mod sparse_lu;
 mod state;
 mod system;
+#[cfg(feature = "sparse")]
+mod threads;
 
 pub use checkpoint::{Checkpoint, RestoreError};
 pub use describe::{Describe, Description};

@@ -14,10 +14,13 @@
 //! whole columns solves instead. Factors are in double precision whatever the scene is computed in:
 //! they only correct, and the next residual judges the correction.
 
+mod branch;
 mod dissection;
+mod division;
 mod elimination;
 mod factors;
 mod fronts;
+mod gathering;
 mod pivoting;
 
 use crate::lu::Singular;

@@ -16,10 +16,18 @@ use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_unit_lower_triangular_in_place,
 };
 use faer::reborrow::{Reborrow, ReborrowMut};
-use faer::{Accum, MatMut, Par, Spec};
+use faer::{Accum, MatMut, MatRef, Par, Spec};
+
+use crate::threads;
 
 /// The most unknowns of a front for which loops are faster than blocks.
 const SMALL: usize = 24;
+
+/// Multiplications that are worth another thread.
+const PIECE: usize = 1 << 22;
+
+/// Columns are divided at multiples of this, where products begin a new block by themselves.
+const ALIGNED: usize = 64;
 
 /// The blocks of a front, column by column.
 pub(super) struct Blocks<'a> {
@@ -151,12 +159,56 @@ impl Blocks<'_> {
             }
         }
         let mut upper = MatMut::from_column_major_slice_mut(self.upper, width, height);
-        solve_unit_lower_triangular_in_place(diagonal.rb(), upper.rb_mut(), Par::Seq);
         let (transposed, right) = (diagonal.rb().transpose(), below.rb_mut().transpose_mut());
-        solve_lower_triangular_in_place(transposed, right, Par::Seq);
+        threads::join(
+            || {
+                solve_columns(
+                    solve_unit_lower_triangular_in_place,
+                    diagonal.rb(),
+                    upper.rb_mut(),
+                );
+            },
+            || solve_columns(solve_lower_triangular_in_place, transposed, right),
+        );
         let schur = MatMut::from_column_major_slice_mut(self.schur, height, height);
-        matmul(schur, Accum::Add, below.rb(), upper.rb(), -1.0, Par::Seq);
+        subtract_product(schur, below.rb(), upper.rb());
     }
+}
+
+/// Overwrites columns with their solutions.
+fn solve_columns(
+    solve: fn(MatRef<'_, f64>, MatMut<'_, f64>, Par),
+    triangle: MatRef<'_, f64>,
+    columns: MatMut<'_, f64>,
+) {
+    let Some(half) = half(columns.ncols(), columns.nrows() * columns.nrows()) else {
+        return solve(triangle, columns, Par::Seq);
+    };
+    let (left, right) = columns.split_at_col_mut(half);
+    threads::join(
+        || solve_columns(solve, triangle, left),
+        || solve_columns(solve, triangle, right),
+    );
+}
+
+/// `S −= L U`.
+fn subtract_product(schur: MatMut<'_, f64>, lower: MatRef<'_, f64>, upper: MatRef<'_, f64>) {
+    let Some(half) = half(schur.ncols(), lower.nrows() * lower.ncols()) else {
+        return matmul(schur, Accum::Add, lower, upper, -1.0, Par::Seq);
+    };
+    let (left, right) = schur.split_at_col_mut(half);
+    let (first, second) = upper.split_at_col(half);
+    threads::join(
+        || subtract_product(left, lower, first),
+        || subtract_product(right, lower, second),
+    );
+}
+
+/// Where so many columns are divided, each of which takes so many multiplications; `None` if that does not
+/// pay.
+fn half(columns: usize, each: usize) -> Option<usize> {
+    let half = (columns / 2).next_multiple_of(ALIGNED);
+    (threads::DIVIDE && half < columns && half * each > PIECE).then_some(half)
 }
 
 /// Subtracts from all entries of a column but the first what its first entry times a column of L is.

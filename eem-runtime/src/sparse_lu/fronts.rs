@@ -51,7 +51,7 @@ pub(super) struct Front<'a> {
     pub(super) rows: &'a [u32],
 }
 
-/// What all fronts together need.
+/// What fronts need together.
 #[derive(Debug, Default)]
 pub(super) struct Extent {
     /// Entries of the columns of fronts, and of their rows to the right of the diagonal blocks.
@@ -69,7 +69,7 @@ impl Fronts {
     /// Orders and analyses a pattern; `None` if memory is missing.
     pub(super) fn new(pattern: &Pattern) -> Option<Self> {
         let by_degree = Self::ordered(pattern, SymmetricOrdering::Amd)?;
-        let Extent { lower, upper, .. } = by_degree.extent();
+        let Extent { lower, upper, .. } = by_degree.extent(0..by_degree.len());
         if lower + upper <= WORTH_DISSECTING * pattern.entries() {
             return Some(by_degree);
         }
@@ -163,6 +163,12 @@ impl Fronts {
         }
     }
 
+    /// The front that takes up what a front leaves.
+    pub(super) fn parent(&self, at: usize) -> Option<usize> {
+        let place = self.front(at).rows.first()?;
+        Some(self.begins.partition_point(|begin| begin <= place) - 1)
+    }
+
     /// How many multiplications an elimination takes.
     fn multiplications(&self) -> u128 {
         let fronts = (0..self.len()).map(|at| self.front(at));
@@ -173,12 +179,17 @@ impl Fronts {
         counts.sum()
     }
 
-    /// What all fronts together need.
-    pub(super) fn extent(&self) -> Extent {
+    /// The places that fronts have in the order of elimination.
+    pub(super) fn places(&self, fronts: &Range<usize>) -> Range<usize> {
+        self.begins[fronts.start] as usize..self.begins[fronts.end] as usize
+    }
+
+    /// What fronts in a row need together.
+    pub(super) fn extent(&self, fronts: Range<usize>) -> Extent {
         let mut extent = Extent::default();
         let mut left = 0;
         let mut waiting: Vec<Front<'_>> = Vec::new();
-        for front in (0..self.len()).map(|at| self.front(at)) {
+        for front in fronts.map(|at| self.front(at)) {
             let (width, height) = (front.own.len(), front.rows.len());
             extent.lower += width * (width + height);
             extent.upper += width * height;
@@ -250,7 +261,7 @@ mod tests {
         let unknowns = 40;
         let pattern = Pattern::new(unknowns, |pair| (1..unknowns).for_each(|b| pair(b - 1, b)));
         let fronts = Fronts::new(&pattern).unwrap();
-        let extent = fronts.extent();
+        let extent = fronts.extent(0..fronts.len());
         assert_eq!(extent.lower + extent.upper, pattern.entries());
         for (place, &unknown) in fronts.order.iter().enumerate() {
             assert_eq!(fronts.places[unknown as usize] as usize, place);

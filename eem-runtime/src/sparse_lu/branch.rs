@@ -1,0 +1,281 @@
+//! Eliminating fronts, one after the other within a branch, and branches at the same time.
+//!
+//! The multifrontal method (Duff & Reid 1983): a front gathers the entries of its own unknowns and
+//! what the fronts that contribute to it have left, eliminates its own unknowns as dense blocks, and
+//! leaves the rest to the next one. What is left lies on a stack. Each branch has its own, so that
+//! every sum has the same order whoever does the work.
+
+use core::array;
+use core::ops::Range;
+
+use super::division::Division;
+use super::elimination::{Blocks, Scratch};
+use super::factors::zeros;
+use super::fronts::{Extent, Front, Fronts};
+use super::gathering::{Matrix, Rows, add, gather};
+use crate::pattern::index;
+use crate::scalar::Real;
+use crate::threads;
+
+/// Where the factors of some fronts go, see [`Factors`](super::factors::Factors).
+#[derive(Debug)]
+pub(super) struct Memory<'a> {
+    pub(super) lower: &'a mut [f64],
+    pub(super) upper: &'a mut [f64],
+    pub(super) pivots: &'a mut [u32],
+}
+
+impl Memory<'_> {
+    /// The begin, so many entries of each, and the rest.
+    fn split_at(self, [lower, upper, pivots]: [usize; 3]) -> (Self, Self) {
+        let (lower, later_lower) = self.lower.split_at_mut(lower);
+        let (upper, later_upper) = self.upper.split_at_mut(upper);
+        let (pivots, later_pivots) = self.pivots.split_at_mut(pivots);
+        let begin = Self {
+            lower,
+            upper,
+            pivots,
+        };
+        let rest = Self {
+            lower: later_lower,
+            upper: later_upper,
+            pivots: later_pivots,
+        };
+        (begin, rest)
+    }
+}
+
+/// Working memory of a division and of its parts.
+#[derive(Debug)]
+pub(super) struct Branch {
+    parts: Vec<Branch>,
+    own: Range<usize>,
+    /// How much of [`Memory`] it takes with its parts.
+    sizes: [usize; 3],
+    stack: Stack,
+    rows: Rows,
+    /// The rows of a front that contributes in the front at work.
+    targets: Vec<u32>,
+    scratch: Scratch,
+}
+
+/// What the fronts that wait have left, the last one on top.
+#[derive(Debug)]
+struct Stack {
+    entries: Vec<f64>,
+    waiting: Waiting,
+}
+
+/// The fronts that wait, and the height of their stack.
+#[derive(Debug)]
+struct Waiting {
+    fronts: Vec<u32>,
+    top: usize,
+}
+
+impl Waiting {
+    /// Takes the last front that waits from the stack if it waits for the given one.
+    fn pop_for<'a>(&mut self, front: &Front<'_>, fronts: &'a Fronts) -> Option<Front<'a>> {
+        let last = fronts.front(*self.fronts.last()? as usize);
+        if !last.contributes_to(front) {
+            return None;
+        }
+        self.fronts.pop();
+        self.top -= last.rows.len() * last.rows.len();
+        Some(last)
+    }
+}
+
+impl Branch {
+    /// Memory for a division; `None` if it is missing.
+    pub(super) fn new(fronts: &Fronts, division: Division) -> Option<Self> {
+        let Division { parts, own } = division;
+        let Extent {
+            lower,
+            upper,
+            left,
+            waiting,
+            width,
+            height,
+        } = fronts.extent(own.clone());
+        let places = fronts.places(&own);
+        let own_sizes = [lower, upper, places.len()];
+        let parts = parts.into_iter().map(|part| Self::new(fronts, part));
+        let parts = parts.collect::<Option<Vec<_>>>()?;
+        // What follows parts are a few fronts, whose rows may be looked for.
+        let noted = if parts.is_empty() { places } else { 0..0 };
+        let of_parts = total(&parts);
+        let left_by_parts = parts.iter().map(|part| part.targets.len());
+        Some(Self {
+            own,
+            sizes: array::from_fn(|of| of_parts[of] + own_sizes[of]),
+            stack: Stack {
+                entries: zeros(left)?,
+                waiting: Waiting {
+                    fronts: Vec::with_capacity(waiting),
+                    top: 0,
+                },
+            },
+            rows: Rows::new(noted),
+            targets: vec![0; left_by_parts.fold(height, usize::max)],
+            scratch: Scratch::new(width)?,
+            parts,
+        })
+    }
+
+    /// Factors its parts, then its own fronts.
+    pub(super) fn factor<S: Real>(&mut self, matrix: Matrix<'_, S>, memory: Memory<'_>) {
+        let (of_parts, mut memory) = memory.split_at(total(&self.parts));
+        factor_together(&mut self.parts, matrix, of_parts);
+        for at in self.own.clone() {
+            let front = matrix.fronts.front(at);
+            let (width, height) = (front.own.len(), front.rows.len());
+            let sizes = [width * (width + height), width * height, width];
+            let (own, later) = memory.split_at(sizes);
+            memory = later;
+            self.eliminate(at, &front, &matrix, own);
+        }
+    }
+
+    /// Eliminates the own unknowns of a front.
+    fn eliminate<S: Real>(
+        &mut self,
+        at: usize,
+        front: &Front<'_>,
+        matrix: &Matrix<'_, S>,
+        memory: Memory<'_>,
+    ) {
+        let Memory {
+            lower,
+            upper,
+            pivots,
+        } = memory;
+        let Stack { entries, waiting } = &mut self.stack;
+        let (square, top) = (front.rows.len() * front.rows.len(), waiting.top);
+        let (below, free) = entries.split_at_mut(top);
+        let mut blocks = Blocks {
+            lower,
+            upper,
+            schur: &mut free[..square],
+            pivots,
+        };
+        blocks.clear();
+        self.rows.note(front);
+        gather(&mut blocks, front, &self.rows, matrix);
+        let mut take_up = |child: &Front<'_>, left: &[f64]| {
+            let targets = &mut self.targets[..child.rows.len()];
+            for (target, &place) in targets.iter_mut().zip(child.rows) {
+                *target = index(self.rows.of(place as usize, front));
+            }
+            add(&mut blocks, targets, left);
+        };
+        while let Some(child) = waiting.pop_for(front, matrix.fronts) {
+            take_up(&child, &below[waiting.top..]);
+        }
+        // What they have left lies under that, the last one's on top.
+        for Stack { entries, waiting } in self.parts.iter_mut().rev().map(|part| &mut part.stack) {
+            while let Some(child) = waiting.pop_for(front, matrix.fronts) {
+                take_up(&child, &entries[waiting.top..]);
+            }
+        }
+        blocks.eliminate(&mut self.scratch);
+        if square > 0 {
+            waiting.fronts.push(index(at));
+        }
+        if waiting.top < top {
+            entries.copy_within(top..top + square, waiting.top);
+        }
+        waiting.top += square;
+    }
+}
+
+/// What branches take of [`Memory`].
+fn total(branches: &[Branch]) -> [usize; 3] {
+    let add = |sum: [usize; 3], branch: &Branch| array::from_fn(|of| sum[of] + branch.sizes[of]);
+    branches.iter().fold([0; 3], add)
+}
+
+/// Factors branches that know nothing of each other.
+fn factor_together<S: Real>(branches: &mut [Branch], matrix: Matrix<'_, S>, memory: Memory<'_>) {
+    let Some((first, rest)) = branches.split_first_mut() else {
+        return;
+    };
+    let (own, others) = memory.split_at(first.sizes);
+    threads::join(
+        || first.factor(matrix, own),
+        || factor_together(rest, matrix, others),
+    );
+}
+
+#[cfg(all(test, feature = "parallel"))]
+mod tests {
+    use super::*;
+    use crate::pattern::Pattern;
+
+    /// Nodes along a side of the lattice.
+    const SIDE: usize = 90;
+
+    /// The factors of the matrix of a lattice, not symmetric, found by so many threads.
+    fn factors(division: fn(&Fronts) -> Division, threads: usize) -> [Vec<u64>; 3] {
+        let pattern = Pattern::new(SIDE * SIDE, |pair| {
+            for at in 0..SIDE * SIDE {
+                if at % SIDE > 0 {
+                    pair(at - 1, at);
+                }
+                if at >= SIDE {
+                    pair(at - SIDE, at);
+                }
+            }
+        });
+        let mut values = vec![0.0; pattern.entries()];
+        for row in 0..pattern.unknowns() {
+            for (place, &column) in pattern.places(row).zip(pattern.row(row)) {
+                let off = u8::try_from((3 * row + 5 * column as usize) % 7).unwrap();
+                values[place] = if row == column as usize {
+                    9.1
+                } else {
+                    f64::from(off) - 2.3
+                };
+            }
+        }
+        let fronts = Fronts::new(&pattern).unwrap();
+        let mut branch = Branch::new(&fronts, division(&fronts)).unwrap();
+        let [mut lower, mut upper] = [0, 1].map(|at| vec![f64::NAN; branch.sizes[at]]);
+        let mut pivots = vec![0; pattern.unknowns()];
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = pool.build().unwrap();
+        // The second time, memory is as the first time left it.
+        for _ in 0..2 {
+            let matrix = Matrix {
+                fronts: &fronts,
+                pattern: &pattern,
+                values: &values,
+            };
+            let memory = Memory {
+                lower: &mut lower,
+                upper: &mut upper,
+                pivots: &mut pivots,
+            };
+            pool.install(|| branch.factor(matrix, memory));
+        }
+        let bits = |entries: &[f64]| entries.iter().map(|entry| entry.to_bits()).collect();
+        [
+            bits(&lower),
+            bits(&upper),
+            pivots.into_iter().map(u64::from).collect(),
+        ]
+    }
+
+    #[test]
+    fn factors_have_the_same_bits_however_they_are_divided() {
+        let divided = |fronts: &Fronts| {
+            let division = Division::new(fronts);
+            assert!(division.parts.len() >= 2, "{division:?}");
+            division
+        };
+        let whole = factors(|fronts| Division::whole(0..fronts.len()), 1);
+        for threads in [1, 2, 4] {
+            assert!(factors(divided, threads) == whole, "{threads} threads");
+        }
+    }
+}
