@@ -101,9 +101,9 @@ pub trait FreeEnergy<S: Scalar> {
     type Response: Array<S>;
     /// `[[S; N]; R]`.
     type Tangent: Array<Self::Variables>;
-    /// What the entropy form keeps of the old state.
+    /// What the entropy form keeps of the old state; parameters stay in the model.
     type EntropyFormOld: Array<S>;
-    /// What the temperature form keeps of the old state.
+    /// What the temperature form keeps of the old state; parameters stay in the model.
     type TemperatureFormOld: Array<S>;
 
     /// The value of parameter `index` of [`PARAMETERS`](Self::PARAMETERS).

@@ -4,6 +4,7 @@ use eem_symbolic::Programs;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
+use super::forms::kept;
 use super::inputs::Inputs;
 use crate::ast;
 use crate::checked::Checked;
@@ -53,12 +54,12 @@ fn types(programs: &Programs, inputs: &Inputs) -> TokenStream {
     let viscosities = array(inputs.dashpots);
     let corners = array(inputs.corners());
     let (response, tangent) = (array(inputs.responses()), matrix(inputs.responses()));
-    let entropy = array(programs.entropy_form.hoisted().len());
+    let entropy = array(kept(&programs.entropy_form, inputs).len());
     let temperature = programs
         .temperature_form
         .as_ref()
         .unwrap_or(&programs.entropy_form);
-    let temperature = array(temperature.hoisted().len());
+    let temperature = array(kept(temperature, inputs).len());
     quote! {
         type Variables = #variables;
         type Hessian = #hessian;

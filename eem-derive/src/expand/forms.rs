@@ -3,8 +3,10 @@
 //! Each form is three functions: one that runs once per step, of the old state; one that runs once
 //! per iteration and starts from what the first has left; and the latter without the tangent.
 
-use eem_symbolic::{Program, Programs, Stage, Value};
-use proc_macro2::TokenStream;
+use std::collections::BTreeMap;
+
+use eem_symbolic::{Operation, Program, Programs, Stage, Value};
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use super::docs;
@@ -116,16 +118,18 @@ fn the_same_form() -> TokenStream {
 
 // Expands to: `let __v0 = __x0[0]; … [__v3, __v5]`.
 fn old_stage(program: &Program, inputs: &Inputs) -> TokenStream {
-    let statements = statements(program, inputs, &[]);
-    let lets = statements.lets(|_, instruction| instruction.stage == Stage::Old);
-    let hoisted = program.hoisted().into_iter().map(value);
-    quote! { #lets [#(#hoisted),*] }
+    let kept = kept(program, inputs);
+    let needed = program.needed_by(&kept);
+    let statements = statements(program, inputs, BTreeMap::new());
+    let lets =
+        statements.lets(|index, instruction| instruction.stage == Stage::Old && needed[index]);
+    let kept = kept.into_iter().map(value);
+    quote! { #lets [#(#kept),*] }
 }
 
 // Expands to: `let __v6 = __x1[0]; let __v3 = __old[0]; … ([…], [[…], …])`.
 fn new_stage(program: &Program, inputs: &Inputs) -> TokenStream {
-    let hoisted = program.hoisted();
-    let statements = statements(program, inputs, &hoisted);
+    let statements = statements(program, inputs, known(program, inputs));
     let lets = statements.lets(|_, instruction| instruction.stage == Stage::New);
     let outputs: Vec<_> = program
         .outputs
@@ -147,8 +151,7 @@ fn new_stage(program: &Program, inputs: &Inputs) -> TokenStream {
 fn response(program: &Program, inputs: &Inputs) -> TokenStream {
     let outputs = &program.outputs[..inputs.responses()];
     let needed = program.needed_by(outputs);
-    let hoisted = program.hoisted();
-    let statements = statements(program, inputs, &hoisted);
+    let statements = statements(program, inputs, known(program, inputs));
     let lets =
         statements.lets(|index, instruction| instruction.stage == Stage::New && needed[index]);
     let outputs = outputs.iter().map(|&output| statements.read(output));
@@ -158,15 +161,46 @@ fn response(program: &Program, inputs: &Inputs) -> TokenStream {
     }
 }
 
+/// What `__old` holds: what the old state decides. Parameters are read where they are used.
+pub(super) fn kept(program: &Program, inputs: &Inputs) -> Vec<Value> {
+    let hoisted = program.hoisted().into_iter();
+    hoisted
+        .filter(|&value| parameter(program, inputs, value).is_none())
+        .collect()
+}
+
+/// Where the new stage finds the values of the old one: in `__old`, or in `self`.
+fn known(program: &Program, inputs: &Inputs) -> BTreeMap<Value, TokenStream> {
+    let mut known = BTreeMap::new();
+    for value in program.hoisted() {
+        if let Some(parameter) = parameter(program, inputs, value) {
+            known.insert(value, parameter.clone());
+        }
+    }
+    for (position, value) in kept(program, inputs).into_iter().enumerate() {
+        let position = Literal::usize_unsuffixed(position);
+        known.insert(value, quote!(__old[#position]));
+    }
+    known
+}
+
+/// The field of `self` that a value is.
+fn parameter<'p>(program: &Program, inputs: &'p Inputs, value: Value) -> Option<&'p TokenStream> {
+    match program.instructions[value.index()].operation {
+        Operation::Input(index) => inputs.parameters.get(index),
+        _ => None,
+    }
+}
+
 fn statements<'p>(
     program: &'p Program,
     inputs: &'p Inputs,
-    hoisted: &'p [Value],
+    known: BTreeMap<Value, TokenStream>,
 ) -> Statements<'p> {
     Statements {
         program,
         scalar: &inputs.scalar,
         input: Box::new(|index| inputs.form(index)),
-        hoisted,
+        known,
     }
 }

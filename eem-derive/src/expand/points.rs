@@ -1,5 +1,7 @@
 //! The functions of one state: ψ, e, gradient, Hessian, caloric quantities, viscosities.
 
+use std::collections::BTreeMap;
+
 use eem_symbolic::{Program, Programs, Stage};
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -122,7 +124,7 @@ fn caloric_at(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
             program,
             scalar,
             input: Box::new(|index| inputs.at_temperature(index)),
-            hoisted: &[],
+            known: BTreeMap::new(),
         };
         statements.lets(|_, instruction| instruction.stage == stage)
     };
@@ -199,7 +201,7 @@ fn viscosity(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
         program,
         scalar,
         input: Box::new(|index| inputs.viscosity(index)),
-        hoisted: &[],
+        known: BTreeMap::new(),
     }
     .lets(|_, _| true);
     let outputs: Vec<_> = program
@@ -228,7 +230,7 @@ fn lets(program: &Program, inputs: &Inputs) -> TokenStream {
         program,
         scalar: &inputs.scalar,
         input: Box::new(|index| inputs.point(index)),
-        hoisted: &[],
+        known: BTreeMap::new(),
     }
     .lets(|_, _| true)
 }

@@ -1,6 +1,6 @@
 //! One `let` per instruction of a program.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use eem_symbolic::{Instruction, Number, Operation, Program, ProgramKernel, Value};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
@@ -15,13 +15,13 @@ pub(super) struct Statements<'p> {
     pub(super) scalar: &'p TokenStream,
     /// The source of an input.
     pub(super) input: Box<dyn Fn(usize) -> TokenStream + 'p>,
-    /// Values that `__old` holds.
-    pub(super) hoisted: &'p [Value],
+    /// Where values are found that were computed before.
+    pub(super) known: BTreeMap<Value, TokenStream>,
 }
 
 impl Statements<'_> {
-    // Expands to: `let __v7 = __v3 * __v5;` for every instruction that `keep` selects. What `__old`
-    // holds is read where it is used first: `let __v3 = __old[0];`.
+    // Expands to: `let __v7 = __v3 * __v5;` for every instruction that `keep` selects. What is
+    // known is read where it is used first: `let __v3 = __old[0];`.
     pub(super) fn lets(&self, keep: impl Fn(usize, &Instruction) -> bool) -> TokenStream {
         let mut tokens = TokenStream::new();
         let instructions = self.program.instructions.iter().enumerate();
@@ -32,9 +32,11 @@ impl Statements<'_> {
         let mut read = BTreeSet::new();
         for (index, instruction) in kept {
             for operand in instruction.operation.operands() {
-                if self.hoisted.binary_search(&operand).is_ok() && read.insert(operand) {
-                    let (name, old) = (value(operand), self.read(operand));
-                    tokens.extend(quote! { let #name = #old; });
+                if let Some(known) = self.known.get(&operand)
+                    && read.insert(operand)
+                {
+                    let name = value(operand);
+                    tokens.extend(quote! { let #name = #known; });
                 }
             }
             let name = name(index);
@@ -50,14 +52,11 @@ impl Statements<'_> {
         tokens
     }
 
-    // Expands to: `__old[0]` for a value that `__old` holds, and to `__v7` for another one.
+    // Expands to: `__old[0]` for a value that is known, and to `__v7` for another one.
     pub(super) fn read(&self, wanted: Value) -> TokenStream {
-        match self.hoisted.binary_search(&wanted) {
-            Ok(position) => {
-                let position = Literal::usize_unsuffixed(position);
-                quote!(__old[#position])
-            }
-            Err(_) => value(wanted).into_token_stream(),
+        match self.known.get(&wanted) {
+            Some(known) => known.clone(),
+            None => value(wanted).into_token_stream(),
         }
     }
 

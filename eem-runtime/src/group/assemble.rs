@@ -8,7 +8,7 @@ use super::{StepView, Trial};
 use crate::free_energy::{Array, FreeEnergy};
 use crate::kinematics::{Arms, Gradient, Kinematics, Measures};
 use crate::scalar::Real;
-use crate::scheme::ElementScheme;
+use crate::scheme::{ElementScheme, Form};
 
 /// Where an element writes.
 pub(super) struct Target<'a, K: Kinematics<S, D>, S: Real, const D: usize> {
@@ -35,11 +35,11 @@ where
     fn condensed_row(
         &self,
         row: usize,
-        tangent: &M::Tangent,
+        (response, tangent): &Form<S, M>,
         is_coupled: bool,
     ) -> CondensedRow<K, S, D> {
         let mut condensed = CondensedRow::<K, S, D> {
-            value: self.response[row],
+            value: response[row],
             by_measure: Measures::<K, S, D>::filled(S::zero()),
             by_heat: S::zero(),
         };
@@ -84,15 +84,15 @@ where
         kinematics: K,
         view: &StepView<'_, S>,
         pose: &Pose<K, S, D>,
-        tangent: &M::Tangent,
+        form: &Form<S, M>,
         target: &mut Target<'_, K, S, D>,
     ) {
         let impulse = view.step * S::from_f64(C::IMPLICIT);
         let mut forces = Measures::<K, S, D>::filled(S::zero());
         let mut forces_by_arm = Gradient::<K, S, D>::filled(self.r0);
         for a in 0..M::MEASURES {
-            let row = self.condensed_row(a, tangent, target.contact.is_some());
-            forces[a] = impulse * self.response[a];
+            let row = self.condensed_row(a, form, target.contact.is_some());
+            forces[a] = impulse * form.0[a];
             forces_by_arm[a] = self.by_arm(&row, impulse);
             let mut pull = pose.direction[a];
             scale::<K, S, D>(&mut pull, impulse * row.value);
@@ -120,13 +120,13 @@ where
     pub(super) fn assemble_temperature(
         &self,
         trial: &Trial<S, D>,
-        tangent: &M::Tangent,
+        form: &Form<S, M>,
         target: &mut Target<'_, K, S, D>,
     ) {
         let (Some(contact), Some(slot)) = (target.contact, self.slots().thermal) else {
             return;
         };
-        let row = self.condensed_row(Self::TEMPERATURE, tangent, true);
+        let row = self.condensed_row(Self::TEMPERATURE, form, true);
         let seen = trial.seen_temperatures[slot];
         target.right[contact.unknown as usize][0] += row.value - seen;
         let by_arm = self.by_arm(&row, S::one());

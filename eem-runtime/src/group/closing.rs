@@ -233,7 +233,7 @@ where
             return S::zero();
         };
         let theta = self.temperature();
-        heat += self.heat_flow(view, contact, seen_temperatures).heat;
+        heat += self.heat_flow(view, contact, seen_temperatures, theta).heat;
         if self.meets_reservoirs {
             self.warm_reservoirs(view, slot, next);
         }

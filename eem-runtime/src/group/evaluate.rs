@@ -54,19 +54,18 @@ where
                 member.change_entropy_at_rates(kinematics, view, trial, &seen, &mut form);
             }
             member.accept(&form)?;
-            let tangent = &form.1;
             let contact = member.contact_in(&self.contacts);
-            member.condense(view, &trial.seen_temperatures, tangent, contact)?;
+            member.condense(view, &trial.seen_temperatures, &form, contact)?;
             let mut target = Target {
                 values: &mut *values,
                 right: &mut *right,
                 contact,
             };
             if view.phase.moves() {
-                member.assemble_momentum(kinematics, view, &pose, tangent, &mut target);
+                member.assemble_momentum(kinematics, view, &pose, &form, &mut target);
             }
-            member.assemble_temperature(trial, tangent, &mut target);
-            member.keep_slopes(tangent);
+            member.assemble_temperature(trial, &form, &mut target);
+            member.keep(&form);
         }
         Ok(())
     }

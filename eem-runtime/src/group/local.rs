@@ -12,6 +12,7 @@
 use super::StepView;
 use super::eliminate::{LocalSystem, eliminate};
 use super::member::Member;
+use super::respond::temperature_in;
 use super::site::Contact;
 use crate::conduction::HeatFlow;
 use crate::error::StateError;
@@ -19,7 +20,7 @@ use crate::free_energy::{Array, FreeEnergy};
 use crate::kinematics::Kinematics;
 use crate::lu::Singular;
 use crate::scalar::Real;
-use crate::scheme::ElementScheme;
+use crate::scheme::{ElementScheme, Form};
 
 /// What the dashpots turn into heat, `Σ g*²/η`, W, and its derivative by the variables.
 struct Dissipation<S: Real, M: FreeEnergy<S>> {
@@ -34,21 +35,22 @@ where
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    /// Eliminates the internal variables of an element whose response, with this tangent, and
+    /// Eliminates the internal variables of an element whose response, with its tangent, and
     /// viscosities are known.
     #[inline]
     pub(super) fn condense(
         &mut self,
         view: &StepView<'_, S>,
         seen_temperatures: &[S],
-        tangent: &M::Tangent,
+        form: &Form<S, M>,
         contact: Option<&Contact<K, S, D>>,
     ) -> Result<(), StateError> {
         if Self::UNKNOWNS == 0 {
             return Ok(());
         }
         // First, while nothing else is at hand that would have to be put aside for the call.
-        let flow = self.heat_flow(view, contact, seen_temperatures);
+        let theta = temperature_in::<S, M>(&form.0);
+        let flow = self.heat_flow(view, contact, seen_temperatures, theta);
         let zeros = M::Variables::filled(S::zero());
         let mut system = LocalSystem::<S, M> {
             constant: zeros,
@@ -60,7 +62,7 @@ where
             by: zeros,
         };
         for k in 0..M::DASHPOTS {
-            self.dashpot_balance(view, k, tangent, &mut system, &mut dissipation);
+            self.dashpot_balance(view, k, form, &mut system, &mut dissipation);
         }
         if M::THERMAL {
             let row = M::DASHPOTS;
@@ -70,7 +72,7 @@ where
                 system.rows[row][Self::TEMPERATURE] = S::one();
             } else {
                 system.by_heat[row] = S::one();
-                self.heat_balance(view, &flow, tangent, &mut system, &dissipation);
+                self.heat_balance(view, &flow, form, &mut system, &dissipation);
             }
         }
         let depends_on_heat = Self::depends_on_heat(contact.is_some());
@@ -107,7 +109,7 @@ where
     ///
     /// Flows between elements are computed from `seen` temperatures Θ at both ends, so that one end
     /// receives exactly what the other gives, whatever rounding does to a large κ; flows
-    /// from reservoirs from the temperature of the element.
+    /// from reservoirs from its temperature θ.
     #[expect(clippy::inline_always, reason = "mostly there is none")]
     #[inline(always)]
     pub(super) fn heat_flow(
@@ -115,13 +117,14 @@ where
         view: &StepView<'_, S>,
         contact: Option<&Contact<K, S, D>>,
         seen: &[S],
+        theta: S,
     ) -> HeatFlow<S> {
         let mut flow = HeatFlow::none();
         let Some(slot) = self.slots().thermal else {
             return flow;
         };
         if self.meets_reservoirs {
-            flow = view.conduction.reservoir_flow(slot, self.temperature());
+            flow = view.conduction.reservoir_flow(slot, theta);
         }
         if let Some(contact) = contact {
             let own = seen[slot];
@@ -138,14 +141,14 @@ where
         &self,
         view: &StepView<'_, S>,
         k: usize,
-        tangent: &M::Tangent,
+        (response, tangent): &Form<S, M>,
         system: &mut LocalSystem<S, M>,
         dissipation: &mut Dissipation<S, M>,
     ) {
         let index = M::MEASURES + k;
         let per_eta = self.viscosities.0[k].recip();
-        let rate = self.response[index] * per_eta;
-        dissipation.power += self.response[index] * rate;
+        let rate = response[index] * per_eta;
+        dissipation.power += response[index] * rate;
         let change = self.x[index] - self.start.x0[index];
         let h = view.thermal_step();
         system.constant[k] = change - self.increment(index, rate, h);
@@ -180,16 +183,16 @@ where
         &mut self,
         view: &StepView<'_, S>,
         flow: &HeatFlow<S>,
-        tangent: &M::Tangent,
+        (response, tangent): &Form<S, M>,
         system: &mut LocalSystem<S, M>,
         dissipation: &Dissipation<S, M>,
     ) {
-        let per_theta = self.temperature().recip();
+        let per_theta = temperature_in::<S, M>(response).recip();
         let rate = (dissipation.power + flow.heat) * per_theta;
         let h = view.thermal_step();
         let row = M::DASHPOTS;
         let received = self.increment(Self::TEMPERATURE, rate, h);
-        let residual = self.response[Self::ENTROPY] - received;
+        let residual = response[Self::ENTROPY] - received;
         system.constant[row] = residual;
         // ∂r_s/∂(power) without the sign, and ∂r_s/∂θ*.
         let weight = h * S::from_f64(C::IMPLICIT) * per_theta;

@@ -2,6 +2,7 @@
 
 use super::at_point::MemoryAtPoint;
 use super::eliminate::{Condensed, PerUnknown};
+use super::respond::temperature_in;
 use super::site::{Contact, Site};
 use crate::compact::compact;
 use crate::error::StateError;
@@ -11,7 +12,7 @@ use crate::kinematics::{Arms, Gradient, Kinematics};
 use crate::layout::Slots;
 use crate::scalar::Real;
 use crate::scene::is_positive;
-use crate::scheme::{ElementScheme, Placement, Start};
+use crate::scheme::{ElementScheme, Form, Placement, Start};
 
 /// An element, with everything that one step of the scheme `C` needs to remember of it.
 pub(crate) struct Member<S, M, K, C, const D: usize>
@@ -127,9 +128,10 @@ where
         }
     }
 
-    /// Keeps of the tangent what is needed once the correction is known.
+    /// Keeps the response, and of its tangent what is needed once the correction is known.
     #[inline]
-    pub(super) fn keep_slopes(&mut self, tangent: &M::Tangent) {
+    pub(super) fn keep(&mut self, (response, tangent): &Form<S, M>) {
+        self.response = *response;
         for row in 0..Self::VARIABLES {
             self.slopes[row] = tangent[row];
         }
@@ -164,11 +166,7 @@ where
     /// The algorithmic temperature θ*, K; zero without temperature.
     #[inline]
     pub(super) fn temperature(&self) -> S {
-        if M::THERMAL {
-            self.response[Self::TEMPERATURE]
-        } else {
-            S::zero()
-        }
+        temperature_in::<S, M>(&self.response)
     }
 
     /// The power of the dashpots that the scheme takes from the old state, `Σ g⁰ (1 − w) γ̇⁰`, W.

@@ -70,8 +70,8 @@ where
         C::form(&self.model, &self.start, &self.x, &self.memory)
     }
 
-    /// Takes over a response and finds the viscosities that go with it, unless the trial is not
-    /// stable or something is not finite.
+    /// Finds the viscosities that go with a response, unless the trial is not stable or something
+    /// is not finite.
     #[inline]
     pub(super) fn accept(&mut self, form: &Form<S, M>) -> Result<(), StateError> {
         C::check(&self.x, form).map_err(|infeasible| infeasible.of(self.element))?;
@@ -90,17 +90,19 @@ where
         if M::THERMAL && C::IN_TEMPERATURE {
             let mut form = self.form();
             self.change_entropy_at_rates(kinematics, view, trial, &seen, &mut form);
-            return self.accept(&form);
+            self.accept(&form)?;
+            self.response = form.0;
+            return Ok(());
         }
-        let response = C::response(&self.model, &self.start, &self.x, &self.memory);
+        self.response = C::response(&self.model, &self.start, &self.x, &self.memory);
+        let response = self.response;
         self.accept_response(&response)
     }
 
     #[inline]
     fn accept_response(&mut self, response: &M::Response) -> Result<(), StateError> {
-        self.response = *response;
         check_response::<S, M>(self.element, response)?;
-        self.find_viscosities(self.temperature())
+        self.find_viscosities(temperature_in::<S, M>(response))
     }
 
     /// For a scheme in temperature: replaces the Δs of the response by that of rates.
@@ -188,6 +190,16 @@ pub(super) fn check_measures<K: Kinematics<S, D>, S: Real, const D: usize>(
             element,
             value: measure.to_f64(),
         }),
+    }
+}
+
+/// θ* of a response, K; zero without temperature.
+#[inline]
+pub(super) fn temperature_in<S: Real, M: FreeEnergy<S>>(response: &M::Response) -> S {
+    if M::THERMAL {
+        response[M::MEASURES + M::DASHPOTS]
+    } else {
+        S::zero()
     }
 }
 

@@ -25,8 +25,8 @@ const _: () = {
         type Corners = [__S; 0];
         type Response = [__S; 1];
         type Tangent = [[__S; 1]; 1];
-        type EntropyFormOld = [__S; 3];
-        type TemperatureFormOld = [__S; 3];
+        type EntropyFormOld = [__S; 2];
+        type TemperatureFormOld = [__S; 2];
         fn parameter(&self, __index: __eem::core::primitive::usize) -> __S {
             let __parameters: [__S; 2] = [
                 <__S as __eem::Scalar>::from_f64(self.stiffness),
@@ -112,7 +112,7 @@ const _: () = {
             let __v3 = __v1 - __v2;
             let __v7 = <__S as __eem::Scalar>::from_f64(0.5);
             let __v8 = __v0 * __v7;
-            [__v2, __v3, __v8]
+            [__v3, __v8]
         }
         /// Entropy form: algorithmic quantities and their tangent.
         ///
@@ -124,13 +124,13 @@ const _: () = {
             _: &Self::Corners,
         ) -> (Self::Response, Self::Tangent) {
             let __v4 = __x1[0];
-            let __v2 = __old[0];
+            let __v2 = <__S as __eem::Scalar>::from_f64(self.length);
             let __v5 = __v4 - __v2;
-            let __v3 = __old[1];
+            let __v3 = __old[0];
             let __v6 = __v3 + __v5;
-            let __v8 = __old[2];
+            let __v8 = __old[1];
             let __v9 = __v6 * __v8;
-            ([__v9], [[__old[2]]])
+            ([__v9], [[__old[1]]])
         }
         /// Entropy form: the same algorithmic quantities without their tangent.
         ///
@@ -142,11 +142,11 @@ const _: () = {
             _: &Self::Corners,
         ) -> Self::Response {
             let __v4 = __x1[0];
-            let __v2 = __old[0];
+            let __v2 = <__S as __eem::Scalar>::from_f64(self.length);
             let __v5 = __v4 - __v2;
-            let __v3 = __old[1];
+            let __v3 = __old[0];
             let __v6 = __v3 + __v5;
-            let __v8 = __old[2];
+            let __v8 = __old[1];
             let __v9 = __v6 * __v8;
             [__v9]
         }
