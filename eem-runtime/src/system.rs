@@ -150,7 +150,7 @@ fn solve_fixed<S: Real, const W: usize>(
 ) -> Result<(), Singular> {
     match unknowns {
         1 => lu::solve_fixed::<S, 1, W>(values, right),
-        2 => lu::solve_fixed::<S, 2, W>(values, right),
+        2 => lu::solve_two(values, right),
         3 => lu::solve_fixed::<S, 3, W>(values, right),
         4 => lu::solve_fixed::<S, 4, W>(values, right),
         5 => lu::solve_fixed::<S, 5, W>(values, right),

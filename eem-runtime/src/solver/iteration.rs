@@ -56,9 +56,11 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for (node, change) in self.nodes.iter_mut().zip(changes) {
             let at = node.place.node;
             let displacement = &mut trial.displacements[at];
-            (node.previous, node.correction) = (*displacement, *change);
-            for (displacement, &change) in displacement.iter_mut().zip(change) {
-                *displacement += change;
+            // One by one, as they have been found: a copy of all would have to wait for them.
+            for axis in 0..D {
+                let (from, change) = (displacement[axis], change[axis]);
+                (node.previous[axis], node.correction[axis]) = (from, change);
+                displacement[axis] = from + change;
                 largest.see(change * node.per_length);
             }
             trial.positions[at] = array::from_fn(|axis| old[at][axis] + displacement[axis]);
