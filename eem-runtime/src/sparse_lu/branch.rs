@@ -207,7 +207,8 @@ fn factor_together<S: Real>(branches: &mut [Branch], matrix: Matrix<'_, S>, memo
     );
 }
 
-#[cfg(all(test, feature = "parallel"))]
+#[cfg(test)]
+#[cfg(feature = "parallel")]
 mod tests {
     use super::*;
     use crate::pattern::Pattern;
