@@ -9,6 +9,7 @@
 
 use core::ops::Range;
 
+use crate::compact::compact;
 use crate::conduction::{Conduction, Partner};
 use crate::layout::Layout;
 use crate::scalar::Real;
@@ -42,7 +43,7 @@ impl Pattern {
         let mut columns = vec![0; ends[unknowns]];
         let mut next = ends.clone();
         let mut write = |row: usize, column: usize| {
-            columns[next[row]] = index(column);
+            columns[next[row]] = compact(column);
             next[row] += 1;
         };
         (0..unknowns).for_each(|row| write(row, row));
@@ -58,7 +59,7 @@ impl Pattern {
         let mut starts = Vec::with_capacity(ends.len());
         let mut length = 0;
         for row in ends.windows(2) {
-            starts.push(index(length));
+            starts.push(compact(length));
             columns[row[0]..row[1]].sort_unstable();
             let first = length;
             for at in row[0]..row[1] {
@@ -69,7 +70,7 @@ impl Pattern {
                 }
             }
         }
-        starts.push(index(length));
+        starts.push(compact(length));
         columns.truncate(length);
         columns.shrink_to_fit();
         Self { starts, columns }
@@ -179,7 +180,7 @@ impl Pattern {
     /// Where an entry is among all entries, if it is structural.
     #[cfg(feature = "sparse")]
     pub(crate) fn position(&self, row: usize, column: usize) -> Option<usize> {
-        let place = self.row(row).binary_search(&index(column)).ok()?;
+        let place = self.row(row).binary_search(&compact(column)).ok()?;
         Some(self.places(row).start + place)
     }
 }
@@ -190,14 +191,6 @@ fn pair_all<I: Iterator<Item = usize>>(own: impl Fn() -> I, pair: &mut dyn FnMut
         own()
             .filter(|&column| column < row)
             .for_each(|column| pair(row, column));
-    }
-}
-
-/// An index in half the memory; what it cannot count would need terabytes with all that belongs to it.
-pub(crate) fn index(place: usize) -> u32 {
-    match u32::try_from(place) {
-        Ok(index) => index,
-        Err(_) => unreachable!("a matrix with 2³² entries does not fit any memory"),
     }
 }
 

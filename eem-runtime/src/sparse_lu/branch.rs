@@ -13,7 +13,7 @@ use super::elimination::{Blocks, Scratch};
 use super::factors::zeros;
 use super::fronts::{Extent, Front, Fronts};
 use super::gathering::{Matrix, Rows, add, gather};
-use crate::pattern::index;
+use crate::compact::compact;
 use crate::scalar::Real;
 use crate::threads;
 
@@ -165,7 +165,7 @@ impl Branch {
         let mut take_up = |child: &Front<'_>, left: &[f64]| {
             let targets = &mut self.targets[..child.rows.len()];
             for (target, &place) in targets.iter_mut().zip(child.rows) {
-                *target = index(self.rows.of(place as usize, front));
+                *target = compact(self.rows.of(place as usize, front));
             }
             add(&mut blocks, targets, left);
         };
@@ -180,7 +180,7 @@ impl Branch {
         }
         blocks.eliminate(&mut self.scratch);
         if square > 0 {
-            waiting.fronts.push(index(at));
+            waiting.fronts.push(compact(at));
         }
         if waiting.top < top {
             entries.copy_within(top..top + square, waiting.top);

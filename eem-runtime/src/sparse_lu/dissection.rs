@@ -16,7 +16,8 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
 
-use crate::pattern::{Pattern, index};
+use crate::compact::compact;
+use crate::pattern::Pattern;
 
 /// Parts with at most this many unknowns are not divided.
 const SMALL: usize = 500;
@@ -38,7 +39,7 @@ pub(super) fn order(pattern: &Pattern) -> Option<Vec<u32>> {
         key: vec![0; count],
         queue: Vec::with_capacity(count),
     };
-    let mut unknowns: Vec<u32> = (0..index(count)).collect();
+    let mut unknowns: Vec<u32> = (0..compact(count)).collect();
     let mut separators = Vec::new();
     let mut parts = vec![(0, count)];
     while let Some((start, end)) = parts.pop() {
@@ -64,17 +65,17 @@ pub(super) fn order(pattern: &Pattern) -> Option<Vec<u32>> {
 /// Orders what is in a part, without what is in separators, by minimum degree.
 fn by_degree(pattern: &Pattern, parts: &[u32]) -> Option<Vec<u32>> {
     let inner = (0..parts.len()).filter(|&unknown| parts[unknown] != NONE);
-    let inner: Vec<u32> = inner.map(index).collect();
+    let inner: Vec<u32> = inner.map(compact).collect();
     let mut numbers = vec![NONE; parts.len()];
     for (number, &unknown) in inner.iter().enumerate() {
-        numbers[unknown as usize] = index(number);
+        numbers[unknown as usize] = compact(number);
     }
     let (mut starts, mut rows) = (vec![0], Vec::new());
     for &unknown in &inner {
         let neighbours = pattern.row(unknown as usize).iter();
         let neighbours = neighbours.map(|&neighbour| numbers[neighbour as usize]);
         rows.extend(neighbours.filter(|&number| number != NONE));
-        starts.push(index(rows.len()));
+        starts.push(compact(rows.len()));
     }
     let (count, entries) = (inner.len(), rows.len());
     let structure = SymbolicSparseColMatRef::new_checked(count, count, &starts, None, &rows);
@@ -270,7 +271,7 @@ impl Dissection<'_> {
             separator = usize::checked_add_signed(separator, counts[threshold].1)?;
             let cut = Cut {
                 key,
-                threshold: index(threshold),
+                threshold: compact(threshold),
                 separator,
                 left: below - separator,
                 right: set.len() - below,

@@ -22,7 +22,8 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::linalg::{SupernodalThreshold, SymbolicSupernodalParams};
 
 use super::dissection;
-use crate::pattern::{Pattern, index};
+use crate::compact::compact;
+use crate::pattern::Pattern;
 
 /// Factors with more than this many times the entries of their matrix are worth a better order.
 const WORTH_DISSECTING: usize = 4;
@@ -76,7 +77,7 @@ impl Fronts {
         let order = dissection::order(pattern)?;
         let mut places = vec![0; order.len()];
         for (place, &unknown) in order.iter().enumerate() {
-            places[unknown as usize] = index(place);
+            places[unknown as usize] = compact(place);
         }
         let order = PermRef::new_checked(&order, &places, order.len());
         let dissected = Self::ordered(pattern, SymmetricOrdering::Custom(order))?;
@@ -132,19 +133,19 @@ impl Fronts {
                 moved[place as usize] = fronts.order.len();
                 fronts.order.push(order[place as usize]);
             }
-            fronts.begins.push(index(fronts.order.len()));
+            fronts.begins.push(compact(fronts.order.len()));
         }
         for (place, &unknown) in fronts.order.iter().enumerate() {
-            fronts.places[unknown as usize] = index(place);
+            fronts.places[unknown as usize] = compact(place);
         }
         fronts.starts.push(0);
         for &node in &sequence {
             let first = fronts.rows.len();
             let rows = below(node).iter();
-            let rows = rows.map(|&place| index(moved[place as usize]));
+            let rows = rows.map(|&place| compact(moved[place as usize]));
             fronts.rows.extend(rows);
             fronts.rows[first..].sort_unstable();
-            fronts.starts.push(index(fronts.rows.len()));
+            fronts.starts.push(compact(fronts.rows.len()));
         }
         fronts.rows.shrink_to_fit();
         Some(fronts)
