@@ -8,6 +8,7 @@ mod linearize;
 mod motion;
 mod past;
 mod places;
+mod secant;
 mod stages;
 
 use crate::conduction::Conduction;
@@ -27,6 +28,7 @@ use motion::{Glance, Motion};
 use past::Past;
 pub(crate) use past::SavedPast;
 use places::{moving, seen};
+use secant::Secant;
 pub(crate) use stages::Staged;
 
 /// How often an update is halved to bring all elements back to admissible states.
@@ -53,7 +55,7 @@ pub(crate) struct Solver<S, const D: usize> {
     /// The system of an iteration.
     tangent: LinearSystem<S, 1>,
     /// The system that closes a step, if the scheme closes it by one.
-    secant: Option<LinearSystem<S, D>>,
+    secant: Option<Secant<S, D>>,
     trial: Trial<S, D>,
     /// The part of the nodal forces that the old state and the loads decide, N; empty where nothing has
     /// a part in it.
@@ -79,13 +81,17 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let has_old_force = scheme.has_old_forces() || loads.has_total_force();
         let pattern = Pattern::of_tangent(elements, layout, conduction, D);
         let tangent = LinearSystem::new(&pattern, D);
-        let secant = (scheme.closing() == Closing::Secant)
-            .then(|| LinearSystem::new(&Pattern::of_secant(elements, layout, D), 1));
+        let secant = (scheme.closing() == Closing::Secant).then(|| {
+            let moving = masses.iter().flatten().count();
+            Secant::new(&tangent, moving, || {
+                Pattern::of_secant(elements, layout, D)
+            })
+        });
         let sites = Sites {
             layout,
             conduction,
             tangent: &tangent,
-            secant: secant.as_ref(),
+            secant: secant.as_ref().and_then(Secant::apart),
             shift: [0; 2],
         };
         let nodes = moving(masses, &sites).into_iter().map(Motion::new);
@@ -130,7 +136,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             layout,
             conduction,
             tangent: &self.tangent,
-            secant: self.secant.as_ref(),
+            secant: self.secant.as_ref().and_then(Secant::apart),
             shift: [0; 2],
         }
     }

@@ -123,7 +123,8 @@ pub(crate) struct Sites<'a, S, const D: usize> {
     pub(crate) conduction: &'a Conduction<S>,
     /// The system of an iteration.
     pub(crate) tangent: &'a LinearSystem<S, 1>,
-    /// The system that closes a step, if the scheme has one.
+    /// The system that closes a step, if it has memory of its own. In that of the tangent every block
+    /// has one entry.
     pub(crate) secant: Option<&'a LinearSystem<S, D>>,
     /// How far rows and columns of the tangent lie behind where the layout has them: a scheme with
     /// several stages has as many copies of the unknowns.
@@ -147,13 +148,12 @@ impl<S: Real, const D: usize> Sites<'_, S, D> {
         self.tangent.place(row, column)
     }
 
-    /// The row of a mass, counted among the masses, in the secant system.
-    pub(crate) fn secant_row(&self, mass: Option<usize>) -> usize {
-        self.secant.map_or(0, |secant| secant.row(mass))
-    }
-
     /// The place of the entry of two masses in the secant matrix.
     pub(crate) fn secant_place(&self, row: Option<usize>, column: Option<usize>) -> usize {
-        self.secant.map_or(0, |secant| secant.place(row, column))
+        let first = |mass: usize| mass * D;
+        match self.secant {
+            Some(secant) => secant.place(row, column),
+            None => self.place(row.map(first), column.map(first)) / (D * D),
+        }
     }
 }

@@ -153,18 +153,21 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let Some(secant) = &mut self.secant else {
             return Ok(());
         };
-        secant.clear_matrix();
-        let (values, right) = secant.parts();
-        for (node, right) in self.nodes.iter().zip(right) {
+        let tangent = &mut self.tangent;
+        let (values, right) = secant.parts(tangent);
+        values.fill(S::zero());
+        for (node, right) in self.nodes.iter().zip(&mut *right) {
             values[node.place.secant_diagonal] = node.inertia;
             *right = node.rest;
         }
         for group in groups.iter_mut() {
-            group.add_secant(view, &self.trial, secant);
+            group.add_secant(view, &self.trial, (&mut *values, &mut *right));
         }
-        secant.solve().map_err(|_| StepFailure::SingularTangent)?;
-        for (node, &displacement) in self.nodes.iter().zip(secant.right()) {
-            self.trial.displacements[node.place.node] = displacement;
+        let solved = secant.solve(tangent);
+        solved.map_err(|_| StepFailure::SingularTangent)?;
+        let (_, displacements) = secant.parts(tangent);
+        for (node, displacement) in self.nodes.iter().zip(displacements) {
+            self.trial.displacements[node.place.node] = *displacement;
         }
         Ok(())
     }

@@ -12,10 +12,34 @@ use crate::scalar::Real;
 pub(super) struct Matrix<'a, S> {
     pub(super) fronts: &'a Fronts,
     pub(super) pattern: &'a Pattern,
+    /// Unknowns in a run.
+    pub(super) length: usize,
+    /// Block by block.
     pub(super) values: &'a [S],
 }
 
-/// The rows of the front at work.
+impl<S> Matrix<'_, S> {
+    /// Names the columns and values of the entries of a row, ascending.
+    #[inline]
+    pub(super) fn each_in_row(&self, row: usize, mut visit: impl FnMut(usize, &S)) {
+        let (length, run) = (self.length, row / self.length);
+        for (at, &column) in self.pattern.blocks(run).zip(self.pattern.row(run)) {
+            let entries = &self.block(at)[row % length * length..][..length];
+            for (column, value) in (column as usize * length..).zip(entries) {
+                visit(column, value);
+            }
+        }
+    }
+
+    /// A block, row by row.
+    #[inline]
+    fn block(&self, at: usize) -> &[S] {
+        let square = self.length * self.length;
+        &self.values[at * square..][..square]
+    }
+}
+
+/// The rows of the front at work, counted in runs.
 #[derive(Debug)]
 pub(super) struct Rows {
     /// The first place of the branch,
@@ -25,7 +49,7 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    /// For fronts whose own unknowns have these places, or any.
+    /// For fronts whose own runs have these places, or any.
     pub(super) fn new(places: Range<usize>) -> Self {
         Self {
             first: places.start,
@@ -67,30 +91,44 @@ pub(super) fn gather<S: Real>(
     let Matrix {
         fronts,
         pattern,
-        values,
+        length,
+        ..
     } = *matrix;
-    let width = front.own.len();
-    let tall = width + front.rows.len();
+    let [width, height] = front.sizes(length);
+    let tall = width + height;
     for (own, place) in front.own.clone().enumerate() {
-        let unknown = fronts.order[place] as usize;
-        for (&other, value) in pattern
-            .row(unknown)
-            .iter()
-            .zip(&values[pattern.places(unknown)])
-        {
+        let (own, run) = (own * length, fronts.order[place] as usize);
+        for (at, &other) in pattern.blocks(run).zip(pattern.row(run)) {
             let place = fronts.places[other as usize] as usize;
             if place < front.own.start {
                 continue;
             }
-            let other_row = rows.of(place, front);
-            if other_row < width {
-                blocks.lower[other_row * tall + own] = value.to_f64();
+            let row = rows.of(place, front) * length;
+            if row < width {
+                transpose(matrix.block(at), length, &mut blocks.lower[row * tall..], (own, tall));
                 continue;
             }
-            blocks.upper[(other_row - width) * width + own] = value.to_f64();
-            if let Some(mirror) = pattern.position(other as usize, unknown) {
-                blocks.lower[own * tall + other_row] = values[mirror].to_f64();
+            let right = &mut blocks.upper[(row - width) * width..];
+            transpose(matrix.block(at), length, right, (own, width));
+            if let Some(mirror) = pattern.block(other as usize, run) {
+                let below = &mut blocks.lower[own * tall..];
+                transpose(matrix.block(mirror), length, below, (row, tall));
             }
+        }
+    }
+}
+
+/// Writes a block, row by row, to the given row of the first columns, which are so tall.
+#[inline]
+fn transpose<S: Real>(
+    block: &[S],
+    length: usize,
+    columns: &mut [f64],
+    (row, tall): (usize, usize),
+) {
+    for (at, entries) in block.chunks_exact(length).enumerate() {
+        for (column, entry) in entries.iter().enumerate() {
+            columns[column * tall + row + at] = entry.to_f64();
         }
     }
 }
