@@ -96,12 +96,7 @@ pub(crate) trait Group<S: Real, const D: usize>: Elements<S, D> {
 
     /// Adds `½h Σ A` and `−h Σ A q⁰`, where `A q_m` is the nodal force at the found response, to the
     /// entries and right-hand sides of the secant system; moved anchors are taken from the trial.
-    fn add_secant(
-        &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        system: Parts<'_, S, D>,
-    );
+    fn add_secant(&mut self, view: &StepView<'_, S>, trial: &Trial<S, D>, system: Parts<'_, S, D>);
 
     /// Adds the nodal impulse `−h F` of the found response to `impulse`, N s.
     fn add_impulse(
@@ -243,12 +238,7 @@ where
         }
     }
 
-    fn add_secant(
-        &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        system: Parts<'_, S, D>,
-    ) {
+    fn add_secant(&mut self, view: &StepView<'_, S>, trial: &Trial<S, D>, system: Parts<'_, S, D>) {
         self.add_secant_all(view, trial, system);
     }
 

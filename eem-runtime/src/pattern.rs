@@ -18,6 +18,9 @@ use crate::layout::Layout;
 use crate::scalar::Real;
 use crate::scene::ElementEntry;
 
+/// The most unknowns in a run: those of a node in space.
+pub(crate) const LONGEST_RUN: usize = 3;
+
 /// The structural entries of a matrix whose unknowns come in runs of equal length: which runs share a
 /// full block of entries, row by row, columns ascending.
 #[derive(Clone, Debug)]
@@ -94,14 +97,14 @@ impl Pattern {
     /// The pattern of the tangent.
     ///
     /// The forces of an element depend on its nodes, on its own Θ and on that of its partners, and
-    /// so does its own Θ. As long as there are no Θ, the coordinates of a node are a run.
+    /// so does its own Θ. If there are no Θ, the coordinates of a node are a run.
     pub(crate) fn of_tangent<S: Real>(
         elements: &[ElementEntry<S>],
         layout: &Layout,
         conduction: &Conduction<S>,
         dimension: usize,
     ) -> Self {
-        if layout.coupled.iter().all(Option::is_none) {
+        if dimension <= LONGEST_RUN && layout.coupled.iter().all(Option::is_none) {
             return Self::of_secant(elements, layout, dimension).in_runs(dimension);
         }
         Self::new(layout.unknowns, |pair| {

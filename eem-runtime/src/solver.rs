@@ -83,9 +83,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let tangent = LinearSystem::new(&pattern, D);
         let secant = (scheme.closing() == Closing::Secant).then(|| {
             let moving = masses.iter().flatten().count();
-            Secant::new(&tangent, moving, || {
-                Pattern::of_secant(elements, layout, D)
-            })
+            Secant::new(&tangent, moving, || Pattern::of_secant(elements, layout, D))
         });
         let sites = Sites {
             layout,

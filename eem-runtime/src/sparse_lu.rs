@@ -23,8 +23,10 @@ mod fronts;
 mod gathering;
 mod pivoting;
 
+use core::array;
+
 use crate::lu::Singular;
-use crate::pattern::Pattern;
+use crate::pattern::{LONGEST_RUN, Pattern};
 use crate::scalar::Real;
 use factors::Factors;
 use fronts::Fronts;
@@ -81,39 +83,44 @@ impl SparseLu {
         self.pattern.position(row, column)
     }
 
-    /// Overwrites the right-hand sides with the solutions for the matrix with these entries, whose runs
-    /// are as long as those of the pattern, or one unknown.
+    /// Overwrites the right-hand sides with the solutions for the matrix with these entries, block by
+    /// block, whose runs are as long as those of the pattern, or one unknown.
     pub(crate) fn solve<S: Real, const W: usize>(
         &mut self,
         length: usize,
         values: &[S],
         right: &mut [[S; W]],
     ) -> Result<(), Singular> {
-        let Self {
-            pattern,
-            fronts,
-            factors,
-            pivoting,
-            solution,
-            residual,
-        } = self;
-        let matrix = Matrix {
-            fronts,
-            pattern,
-            length,
+        match length {
+            1 => self.solve_in_runs::<S, W, 1>(values, right),
+            2 => self.solve_in_runs::<S, W, 2>(values, right),
+            LONGEST_RUN => self.solve_in_runs::<S, W, LONGEST_RUN>(values, right),
+            _ => unreachable!("no pattern has longer runs"),
+        }
+    }
+
+    fn solve_in_runs<S: Real, const W: usize, const L: usize>(
+        &mut self,
+        values: &[S],
+        right: &mut [[S; W]],
+    ) -> Result<(), Singular> {
+        let unknowns = right.len();
+        let matrix = Matrix::<S, L> {
+            fronts: &self.fronts,
+            pattern: &self.pattern,
             values,
         };
-        factors.factor(matrix);
+        self.factors.factor(matrix);
         let mut vectors = Vectors {
-            solution: &mut solution[..right.len()],
-            residual: &mut residual[..right.len()],
+            solution: self.solution[..unknowns].as_chunks_mut().0,
+            residual: self.residual[..unknowns].as_chunks_mut().0,
         };
         for column in 0..W {
             let b = |row: usize| right[row][column].to_f64();
-            if !vectors.solve_by_fronts(&matrix, factors, b) {
-                vectors.solve_by_pivoting(&matrix, pivoting, b)?;
+            if !vectors.solve_by_fronts(&matrix, &mut self.factors, b) {
+                vectors.solve_by_pivoting(&matrix, &mut self.pivoting, b)?;
             }
-            for (row, x) in right.iter_mut().zip(&*vectors.solution) {
+            for (row, x) in right.iter_mut().zip(vectors.solution.as_flattened()) {
                 row[column] = S::from_f64(*x);
             }
         }
@@ -122,33 +129,29 @@ impl SparseLu {
 }
 
 /// A column of X and of the residual, at work.
-struct Vectors<'a> {
-    solution: &'a mut [f64],
-    residual: &'a mut [f64],
+struct Vectors<'a, const L: usize> {
+    solution: &'a mut [[f64; L]],
+    /// In the order of elimination.
+    residual: &'a mut [[f64; L]],
 }
 
-impl Vectors<'_> {
+impl<const L: usize> Vectors<'_, L> {
     /// Whether the factors lead to the solution.
     fn solve_by_fronts<S: Real>(
         &mut self,
-        matrix: &Matrix<'_, S>,
+        matrix: &Matrix<'_, S, L>,
         factors: &mut Factors,
         b: impl Fn(usize) -> f64,
     ) -> bool {
-        let length = matrix.length;
-        self.solution.fill(0.0);
-        let runs = self.residual.chunks_exact_mut(length);
-        for (residual, &run) in runs.zip(&matrix.fronts.order) {
-            for (row, residual) in (run as usize * length..).zip(residual) {
-                *residual = b(row);
-            }
+        let order = &matrix.fronts.order;
+        self.solution.fill([0.0; L]);
+        for (residual, &run) in self.residual.iter_mut().zip(order) {
+            *residual = array::from_fn(|at| b(run as usize * L + at));
         }
         for _ in 0..=REFINEMENTS {
-            factors.solve(matrix.fronts, length, self.residual);
-            let runs = self.residual.chunks_exact(length);
-            for (corrections, &run) in runs.zip(&matrix.fronts.order) {
-                let solution = &mut self.solution[run as usize * length..][..length];
-                for (x, correction) in solution.iter_mut().zip(corrections) {
+            factors.solve(matrix.fronts, self.residual);
+            for (corrections, &run) in self.residual.iter().zip(order) {
+                for (x, correction) in self.solution[run as usize].iter_mut().zip(corrections) {
                     *x += correction;
                 }
             }
@@ -160,25 +163,29 @@ impl Vectors<'_> {
     }
 
     /// Finds the residual, and whether it is what rounding leaves.
-    fn is_solved<S: Real>(&mut self, matrix: &Matrix<'_, S>, b: impl Fn(usize) -> f64) -> bool {
-        let (x, length) = (&*self.solution, matrix.length);
+    fn is_solved<S: Real>(&mut self, matrix: &Matrix<'_, S, L>, b: impl Fn(usize) -> f64) -> bool {
+        let x = self.solution.as_flattened();
         let largest = x.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
         // Below a rounding of a rounding of the largest, no digit of an unknown counts.
         let floor = f64::EPSILON * largest;
         let mut is_solved = largest <= f64::MAX;
         for (run, &place) in matrix.fronts.places.iter().enumerate() {
-            let residuals = &mut self.residual[place as usize * length..][..length];
-            for (row, rest) in (run * length..).zip(residuals) {
-                let b = b(row);
-                let (mut residual, mut size) = (b, b.abs());
-                matrix.each_in_row(row, |column, value| {
-                    let (value, x) = (value.to_f64(), x[column]);
-                    residual -= value * x;
-                    size += value.abs() * (x.abs() + floor);
-                });
-                is_solved &= residual.abs() <= ROUNDING * size;
-                *rest = residual;
+            let mut residual: [f64; L] = array::from_fn(|at| b(run * L + at));
+            let mut size = residual.map(f64::abs);
+            for (column, block) in matrix.blocks_of(run) {
+                let x = &self.solution[column];
+                for (row, entries) in block.iter().enumerate() {
+                    for (value, x) in entries.iter().zip(x) {
+                        let value = value.to_f64();
+                        residual[row] -= value * x;
+                        size[row] += value.abs() * (x.abs() + floor);
+                    }
+                }
             }
+            for (residual, size) in residual.iter().zip(size) {
+                is_solved &= residual.abs() <= ROUNDING * size;
+            }
+            self.residual[place as usize] = residual;
         }
         is_solved
     }
@@ -186,25 +193,25 @@ impl Vectors<'_> {
     #[cold]
     fn solve_by_pivoting<S: Real>(
         &mut self,
-        matrix: &Matrix<'_, S>,
+        matrix: &Matrix<'_, S, L>,
         known: &mut Vec<Pivoting>,
         b: impl Fn(usize) -> f64,
     ) -> Result<(), Singular> {
-        let length = matrix.length;
-        for (row, x) in self.solution.iter_mut().enumerate() {
+        let solution = self.solution.as_flattened_mut();
+        for (row, x) in solution.iter_mut().enumerate() {
             *x = b(row);
         }
         let mut numbers = matrix.values.iter().map(|value| value.to_f64());
-        let mut right = self.solution.iter().copied();
+        let mut right = solution.iter().copied();
         if !numbers.all(f64::is_finite) || !right.all(f64::is_finite) {
             return Err(Singular);
         }
-        if known.iter().all(|pivoting| pivoting.length != length) {
-            known.extend(Pivoting::new(matrix.pattern, length));
+        if known.iter().all(|pivoting| pivoting.length != L) {
+            known.extend(Pivoting::new(matrix.pattern, L));
         }
         let mut known = known.iter_mut();
-        let pivoting = known.find(|pivoting| pivoting.length == length);
-        pivoting.ok_or(Singular)?.solve(matrix, self.solution)
+        let pivoting = known.find(|pivoting| pivoting.length == L);
+        pivoting.ok_or(Singular)?.solve(matrix, solution)
     }
 }
 

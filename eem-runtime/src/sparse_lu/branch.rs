@@ -75,17 +75,17 @@ struct Waiting {
 
 impl Waiting {
     /// Takes the last front that waits from the stack if it waits for the given one.
-    fn pop_for<'a, S>(
+    fn pop_for<'a, S, const L: usize>(
         &mut self,
         front: &Front<'_>,
-        matrix: &Matrix<'a, S>,
+        matrix: &Matrix<'a, S, L>,
     ) -> Option<Front<'a>> {
         let last = matrix.fronts.front(*self.fronts.last()? as usize);
         if !last.contributes_to(front) {
             return None;
         }
         self.fronts.pop();
-        let [_, height] = last.sizes(matrix.length);
+        let [_, height] = last.sizes(L);
         self.top -= height * height;
         Some(last)
     }
@@ -130,13 +130,17 @@ impl Branch {
     }
 
     /// Factors its parts, then its own fronts.
-    pub(super) fn factor<S: Real>(&mut self, matrix: Matrix<'_, S>, memory: Memory<'_>) {
-        let of_parts = in_runs(total(&self.parts), matrix.length);
+    pub(super) fn factor<S: Real, const L: usize>(
+        &mut self,
+        matrix: Matrix<'_, S, L>,
+        memory: Memory<'_>,
+    ) {
+        let of_parts = in_runs(total(&self.parts), L);
         let (of_parts, mut memory) = memory.split_at(of_parts);
         factor_together(&mut self.parts, matrix, of_parts);
         for at in self.own.clone() {
             let front = matrix.fronts.front(at);
-            let [width, height] = front.sizes(matrix.length);
+            let [width, height] = front.sizes(L);
             let sizes = [width * (width + height), width * height, width];
             let (own, later) = memory.split_at(sizes);
             memory = later;
@@ -145,11 +149,11 @@ impl Branch {
     }
 
     /// Eliminates the own unknowns of a front.
-    fn eliminate<S: Real>(
+    fn eliminate<S: Real, const L: usize>(
         &mut self,
         at: usize,
         front: &Front<'_>,
-        matrix: &Matrix<'_, S>,
+        matrix: &Matrix<'_, S, L>,
         memory: Memory<'_>,
     ) {
         let Memory {
@@ -158,8 +162,7 @@ impl Branch {
             pivots,
         } = memory;
         let Stack { entries, waiting } = &mut self.stack;
-        let length = matrix.length;
-        let [_, height] = front.sizes(length);
+        let [_, height] = front.sizes(L);
         let (square, top) = (height * height, waiting.top);
         let (below, free) = entries.split_at_mut(top);
         let mut blocks = Blocks {
@@ -172,9 +175,10 @@ impl Branch {
         self.rows.note(front);
         gather(&mut blocks, front, &self.rows, matrix);
         let mut take_up = |child: &Front<'_>, left: &[f64]| {
-            let targets = &mut self.targets[..child.rows.len() * length];
-            for (run, &place) in targets.chunks_exact_mut(length).zip(child.rows) {
-                let first = compact(self.rows.of(place as usize, front) * length);
+            let targets = &mut self.targets[..child.rows.len() * L];
+            let runs = targets.as_chunks_mut::<L>().0;
+            for (run, &place) in runs.iter_mut().zip(child.rows) {
+                let first = compact(self.rows.of(place as usize, front) * L);
                 (first..).zip(run).for_each(|(row, target)| *target = row);
             }
             add(&mut blocks, targets, left);
@@ -212,11 +216,15 @@ fn in_runs([lower, upper, pivots]: [usize; 3], length: usize) -> [usize; 3] {
 }
 
 /// Factors branches that know nothing of each other.
-fn factor_together<S: Real>(branches: &mut [Branch], matrix: Matrix<'_, S>, memory: Memory<'_>) {
+fn factor_together<S: Real, const L: usize>(
+    branches: &mut [Branch],
+    matrix: Matrix<'_, S, L>,
+    memory: Memory<'_>,
+) {
     let Some((first, rest)) = branches.split_first_mut() else {
         return;
     };
-    let (own, others) = memory.split_at(in_runs(first.sizes, matrix.length));
+    let (own, others) = memory.split_at(in_runs(first.sizes, L));
     threads::join(
         || first.factor(matrix, own),
         || factor_together(rest, matrix, others),
@@ -263,10 +271,9 @@ mod tests {
         let pool = pool.build().unwrap();
         // The second time, memory is as the first time left it.
         for _ in 0..2 {
-            let matrix = Matrix {
+            let matrix = Matrix::<_, 1> {
                 fronts: &fronts,
                 pattern: &pattern,
-                length: 1,
                 values: &values,
             };
             let memory = Memory {

@@ -35,7 +35,7 @@ impl Factors {
     }
 
     /// Factors a matrix.
-    pub(super) fn factor<S: Real>(&mut self, matrix: Matrix<'_, S>) {
+    pub(super) fn factor<S: Real, const L: usize>(&mut self, matrix: Matrix<'_, S, L>) {
         let memory = Memory {
             lower: &mut self.lower,
             upper: &mut self.upper,
@@ -44,41 +44,39 @@ impl Factors {
         self.root.factor(matrix, memory);
     }
 
-    /// Overwrites a right-hand side, in the order of elimination, with the solution, for runs of the
-    /// length for which the matrix has been factored.
-    pub(super) fn solve(&mut self, fronts: &Fronts, length: usize, x: &mut [f64]) {
+    /// Overwrites a right-hand side, in the order of elimination, with the solution, for runs of `L`
+    /// unknowns, as the matrix has been factored.
+    pub(super) fn solve<const L: usize>(&mut self, fronts: &Fronts, x: &mut [[f64; L]]) {
         let (mut lower, mut upper) = (0, 0);
         for front in (0..fronts.len()).map(|at| fronts.front(at)) {
-            let [width, height] = front.sizes(length);
+            let [width, height] = front.sizes(L);
             let columns = &self.lower[lower..][..width * (width + height)];
-            let pivots = &self.pivots[front.own.start * length..][..width];
+            let pivots = &self.pivots[front.own.start * L..][..width];
             let part = &mut self.part[..width.max(height)];
-            forward(&front, length, (columns, pivots), x, part);
+            forward(&front, (columns, pivots), x, part);
             lower += columns.len();
             upper += width * height;
         }
         for front in (0..fronts.len()).rev().map(|at| fronts.front(at)) {
-            let [width, height] = front.sizes(length);
+            let [width, height] = front.sizes(L);
             lower -= width * (width + height);
             upper -= width * height;
             let columns = &self.lower[lower..][..width * (width + height)];
-            backward(&front, length, columns, &self.upper[upper..], x);
+            backward(&front, columns, &self.upper[upper..], x);
         }
     }
 }
 
 /// Solves with L of a front.
-fn forward(
+fn forward<const L: usize>(
     front: &Front<'_>,
-    length: usize,
     (columns, pivots): (&[f64], &[u32]),
-    x: &mut [f64],
+    x: &mut [[f64; L]],
     part: &mut [f64],
 ) {
-    let [width, height] = front.sizes(length);
-    let end = front.own.end * length;
-    let (head, later) = x.split_at_mut(end);
-    let own = &mut head[end - width..];
+    let [width, height] = front.sizes(L);
+    let (head, later) = x.split_at_mut(front.own.end);
+    let own = head[front.own.start..].as_flattened_mut();
     part[..width].copy_from_slice(own);
     for (x, &pivot) in own.iter_mut().zip(pivots) {
         *x = part[pivot as usize];
@@ -95,8 +93,8 @@ fn forward(
             *sum += l * solved;
         }
     }
-    for (&row, sums) in front.rows.iter().zip(part.chunks_exact(length)) {
-        let run = &mut later[row as usize * length - end..][..length];
+    for (&row, sums) in front.rows.iter().zip(part.as_chunks::<L>().0) {
+        let run = &mut later[row as usize - front.own.end];
         for (x, sum) in run.iter_mut().zip(sums) {
             *x -= sum;
         }
@@ -104,15 +102,14 @@ fn forward(
 }
 
 /// Solves with U of a front.
-fn backward(front: &Front<'_>, length: usize, columns: &[f64], upper: &[f64], x: &mut [f64]) {
-    let [width, height] = front.sizes(length);
+fn backward<const L: usize>(front: &Front<'_>, columns: &[f64], upper: &[f64], x: &mut [[f64; L]]) {
+    let [width, height] = front.sizes(L);
     let tall = width + height;
-    let end = front.own.end * length;
-    let (head, later) = x.split_at_mut(end);
-    let own = &mut head[end - width..];
-    let columns_of_runs = upper.chunks_exact(width * length);
+    let (head, later) = x.split_at_mut(front.own.end);
+    let own = head[front.own.start..].as_flattened_mut();
+    let columns_of_runs = upper.chunks_exact(width * L);
     for (&row, columns) in front.rows.iter().zip(columns_of_runs) {
-        let run = &later[row as usize * length - end..][..length];
+        let run = &later[row as usize - front.own.end];
         for (&solved, column) in run.iter().zip(columns.chunks_exact(width)) {
             for (x, u) in own.iter_mut().zip(column) {
                 *x -= u * solved;

@@ -7,35 +7,30 @@ use super::fronts::{Front, Fronts};
 use crate::pattern::Pattern;
 use crate::scalar::Real;
 
-/// What is factored.
+/// What is factored, in runs of `L` unknowns.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Matrix<'a, S> {
+pub(super) struct Matrix<'a, S, const L: usize> {
     pub(super) fronts: &'a Fronts,
     pub(super) pattern: &'a Pattern,
-    /// Unknowns in a run.
-    pub(super) length: usize,
-    /// Block by block.
+    /// Block by block, each row by row.
     pub(super) values: &'a [S],
 }
 
-impl<S> Matrix<'_, S> {
-    /// Names the columns and values of the entries of a row, ascending.
+impl<S, const L: usize> Matrix<'_, S, L> {
+    /// The blocks of a run, each with the run that it shares, ascending.
     #[inline]
-    pub(super) fn each_in_row(&self, row: usize, mut visit: impl FnMut(usize, &S)) {
-        let (length, run) = (self.length, row / self.length);
-        for (at, &column) in self.pattern.blocks(run).zip(self.pattern.row(run)) {
-            let entries = &self.block(at)[row % length * length..][..length];
-            for (column, value) in (column as usize * length..).zip(entries) {
-                visit(column, value);
-            }
-        }
+    pub(super) fn blocks_of(&self, run: usize) -> impl Iterator<Item = (usize, &[[S; L]; L])> {
+        let columns = self.pattern.row(run).iter();
+        let blocks = self.pattern.blocks(run);
+        columns
+            .zip(blocks)
+            .map(|(&column, at)| (column as usize, self.block(at)))
     }
 
-    /// A block, row by row.
+    /// A block.
     #[inline]
-    fn block(&self, at: usize) -> &[S] {
-        let square = self.length * self.length;
-        &self.values[at * square..][..square]
+    fn block(&self, at: usize) -> &[[S; L]; L] {
+        &self.values.as_chunks().0.as_chunks().0[at]
     }
 }
 
@@ -82,53 +77,49 @@ impl Rows {
 }
 
 /// Adds the entries of the matrix that belong to the own unknowns of a front.
-pub(super) fn gather<S: Real>(
+pub(super) fn gather<S: Real, const L: usize>(
     blocks: &mut Blocks<'_>,
     front: &Front<'_>,
     rows: &Rows,
-    matrix: &Matrix<'_, S>,
+    matrix: &Matrix<'_, S, L>,
 ) {
     let Matrix {
-        fronts,
-        pattern,
-        length,
-        ..
+        fronts, pattern, ..
     } = *matrix;
-    let [width, height] = front.sizes(length);
+    let [width, height] = front.sizes(L);
     let tall = width + height;
     for (own, place) in front.own.clone().enumerate() {
-        let (own, run) = (own * length, fronts.order[place] as usize);
-        for (at, &other) in pattern.blocks(run).zip(pattern.row(run)) {
-            let place = fronts.places[other as usize] as usize;
+        let (own, run) = (own * L, fronts.order[place] as usize);
+        for (other, block) in matrix.blocks_of(run) {
+            let place = fronts.places[other] as usize;
             if place < front.own.start {
                 continue;
             }
-            let row = rows.of(place, front) * length;
+            let row = rows.of(place, front) * L;
             if row < width {
-                transpose(matrix.block(at), length, &mut blocks.lower[row * tall..], (own, tall));
+                write(block, &mut blocks.lower[row * tall..], (own, tall));
                 continue;
             }
             let right = &mut blocks.upper[(row - width) * width..];
-            transpose(matrix.block(at), length, right, (own, width));
-            if let Some(mirror) = pattern.block(other as usize, run) {
+            write(block, right, (own, width));
+            if let Some(mirror) = pattern.block(other, run) {
                 let below = &mut blocks.lower[own * tall..];
-                transpose(matrix.block(mirror), length, below, (row, tall));
+                write(matrix.block(mirror), below, (row, tall));
             }
         }
     }
 }
 
-/// Writes a block, row by row, to the given row of the first columns, which are so tall.
+/// Writes a block from the given row of the first columns on, which are so tall.
 #[inline]
-fn transpose<S: Real>(
-    block: &[S],
-    length: usize,
+fn write<S: Real, const L: usize>(
+    block: &[[S; L]; L],
     columns: &mut [f64],
     (row, tall): (usize, usize),
 ) {
-    for (at, entries) in block.chunks_exact(length).enumerate() {
+    for (row, entries) in (row..).zip(block) {
         for (column, entry) in entries.iter().enumerate() {
-            columns[column * tall + row + at] = entry.to_f64();
+            columns[column * tall + row] = entry.to_f64();
         }
     }
 }

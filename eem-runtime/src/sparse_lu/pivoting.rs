@@ -57,14 +57,17 @@ impl Pivoting {
     }
 
     /// Overwrites a right-hand side with the solution for a matrix with runs of its length.
-    pub(super) fn solve<S: Real>(
+    pub(super) fn solve<S: Real, const L: usize>(
         &mut self,
-        matrix: &Matrix<'_, S>,
+        matrix: &Matrix<'_, S, L>,
         x: &mut [f64],
     ) -> Result<(), Singular> {
         let mut values = Vec::with_capacity(self.pattern.entries());
-        for row in 0..x.len() {
-            matrix.each_in_row(row, |_, value| values.push(value.to_f64()));
+        for run in 0..matrix.pattern.runs() {
+            for row in 0..L {
+                let entries = matrix.blocks_of(run).flat_map(|(_, block)| &block[row]);
+                values.extend(entries.map(|entry| entry.to_f64()));
+            }
         }
         let factors = self.symbolic.factorize_numeric_lu(
             &mut self.numeric,
