@@ -300,17 +300,15 @@ fn check_step<S: Real>(step: S) -> Result<(), SceneError> {
 
 /// The state that the scene describes; its entropies are still to be found.
 fn initial_state<const D: usize, S: Real>(scene: &Scene<D, S>, layout: &Layout) -> State<S> {
-    let positions = scene
-        .nodes
-        .iter()
-        .flat_map(|node| node.position.iter().copied());
-    let momenta = scene.nodes.iter().flat_map(|node| {
+    let coordinates = scene.nodes.len() * D;
+    let mut positions = Vec::with_capacity(coordinates);
+    let mut momenta = Vec::with_capacity(coordinates);
+    for node in &scene.nodes {
         let mass = node.mass.unwrap_or(S::zero());
-        let momentum = node
-            .momentum
-            .unwrap_or(node.velocity.map(|velocity| mass * velocity));
-        (0..D).map(move |axis| momentum[axis])
-    });
+        let from_velocity = node.velocity.map(|velocity| mass * velocity);
+        positions.extend(node.position.iter());
+        momenta.extend(node.momentum.unwrap_or(from_velocity).iter());
+    }
     let mut viscous = vec![S::zero(); layout.viscous];
     let mut temperatures = vec![S::zero(); layout.thermal];
     for (entry, slots) in scene.elements.iter().zip(&layout.elements) {
@@ -323,8 +321,8 @@ fn initial_state<const D: usize, S: Real>(scene: &Scene<D, S>, layout: &Layout) 
     }
     State {
         time: Sum::new(S::zero()),
-        positions: Compensated::new(positions.collect()),
-        momenta: Compensated::new(momenta.collect()),
+        positions: Compensated::new(positions),
+        momenta: Compensated::new(momenta),
         viscous: Compensated::new(viscous),
         entropies: Compensated::new(vec![S::zero(); temperatures.len()]),
         temperatures,
