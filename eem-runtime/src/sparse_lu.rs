@@ -48,9 +48,9 @@ pub(crate) struct SparseLu {
     factors: Factors,
     /// For matrices that need it, from the first of them on; one for each length of runs.
     pivoting: Vec<Pivoting>,
-    /// A column of X.
+    /// A column of X in the order of elimination.
     solution: Vec<f64>,
-    /// What is to be solved for, in the order of elimination.
+    /// What it leaves, from the first solution on that is refined.
     residual: Vec<f64>,
 }
 
@@ -64,7 +64,7 @@ impl SparseLu {
             fronts,
             pivoting: Vec::new(),
             solution: vec![0.0; pattern.unknowns()],
-            residual: vec![0.0; pattern.unknowns()],
+            residual: Vec::new(),
         })
     }
 
@@ -111,108 +111,121 @@ impl SparseLu {
             values,
         };
         self.factors.factor(matrix);
-        let mut vectors = Vectors {
-            solution: self.solution[..unknowns].as_chunks_mut().0,
-            residual: self.residual[..unknowns].as_chunks_mut().0,
-        };
         for column in 0..W {
-            let b = |row: usize| right[row][column].to_f64();
-            if !vectors.solve_by_fronts(&matrix, &mut self.factors, b) {
-                vectors.solve_by_pivoting(&matrix, &mut self.pivoting, b)?;
+            let b = |run: usize| array::from_fn(|at| right[run * L + at][column].to_f64());
+            let x = self.solution[..unknowns].as_chunks_mut().0;
+            for (x, &run) in x.iter_mut().zip(&matrix.fronts.order) {
+                *x = b(run as usize);
             }
-            for (row, x) in right.iter_mut().zip(vectors.solution.as_flattened()) {
-                row[column] = S::from_f64(*x);
+            self.factors.solve(matrix.fronts, x);
+            if !is_solved(&matrix, x, b)
+                && !refine(&matrix, &mut self.factors, (x, &mut self.residual), b)
+            {
+                solve_by_pivoting(&matrix, &mut self.pivoting, x, b)?;
+            }
+            for (x, &run) in x.iter().zip(&matrix.fronts.order) {
+                let rows = &mut right[run as usize * L..][..L];
+                for (row, &x) in rows.iter_mut().zip(x) {
+                    row[column] = S::from_f64(x);
+                }
             }
         }
         Ok(())
     }
 }
 
-/// A column of X and of the residual, at work.
-struct Vectors<'a, const L: usize> {
-    solution: &'a mut [[f64; L]],
-    /// In the order of elimination.
-    residual: &'a mut [[f64; L]],
+/// What a solution leaves of the right-hand sides of a run, and their size with that of the terms.
+#[inline]
+fn residual<S: Real, const L: usize>(
+    matrix: &Matrix<'_, S, L>,
+    run: usize,
+    (x, floor): (&[[f64; L]], f64),
+    b: [f64; L],
+) -> ([f64; L], [f64; L]) {
+    let (mut residual, mut size) = (b, b.map(f64::abs));
+    for (column, block) in matrix.blocks_of(run) {
+        let x = &x[matrix.fronts.places[column] as usize];
+        for (row, entries) in block.iter().enumerate() {
+            for (value, x) in entries.iter().zip(x) {
+                let value = value.to_f64();
+                residual[row] -= value * x;
+                size[row] += value.abs() * (x.abs() + floor);
+            }
+        }
+    }
+    (residual, size)
 }
 
-impl<const L: usize> Vectors<'_, L> {
-    /// Whether the factors lead to the solution.
-    fn solve_by_fronts<S: Real>(
-        &mut self,
-        matrix: &Matrix<'_, S, L>,
-        factors: &mut Factors,
-        b: impl Fn(usize) -> f64,
-    ) -> bool {
-        let order = &matrix.fronts.order;
-        self.solution.fill([0.0; L]);
-        for (residual, &run) in self.residual.iter_mut().zip(order) {
-            *residual = array::from_fn(|at| b(run as usize * L + at));
+/// Whether what a solution leaves is what rounding leaves.
+fn is_solved<S: Real, const L: usize>(
+    matrix: &Matrix<'_, S, L>,
+    x: &[[f64; L]],
+    b: impl Fn(usize) -> [f64; L],
+) -> bool {
+    let largest = x.as_flattened().iter();
+    let largest = largest.fold(0.0_f64, |largest, x| largest.max(x.abs()));
+    // Below a rounding of a rounding of the largest, no digit of an unknown counts.
+    let floor = f64::EPSILON * largest;
+    let mut is_solved = largest <= f64::MAX;
+    for run in 0..x.len() {
+        let (residual, size) = residual(matrix, run, (x, floor), b(run));
+        for (residual, size) in residual.iter().zip(size) {
+            is_solved &= residual.abs() <= ROUNDING * size;
         }
-        for _ in 0..=REFINEMENTS {
-            factors.solve(matrix.fronts, self.residual);
-            for (corrections, &run) in self.residual.iter().zip(order) {
-                for (x, correction) in self.solution[run as usize].iter_mut().zip(corrections) {
-                    *x += correction;
-                }
-            }
-            if self.is_solved(matrix, &b) {
-                return true;
-            }
-        }
-        false
     }
+    is_solved
+}
 
-    /// Finds the residual, and whether it is what rounding leaves.
-    fn is_solved<S: Real>(&mut self, matrix: &Matrix<'_, S, L>, b: impl Fn(usize) -> f64) -> bool {
-        let x = self.solution.as_flattened();
-        let largest = x.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-        // Below a rounding of a rounding of the largest, no digit of an unknown counts.
-        let floor = f64::EPSILON * largest;
-        let mut is_solved = largest <= f64::MAX;
-        for (run, &place) in matrix.fronts.places.iter().enumerate() {
-            let mut residual: [f64; L] = array::from_fn(|at| b(run * L + at));
-            let mut size = residual.map(f64::abs);
-            for (column, block) in matrix.blocks_of(run) {
-                let x = &self.solution[column];
-                for (row, entries) in block.iter().enumerate() {
-                    for (value, x) in entries.iter().zip(x) {
-                        let value = value.to_f64();
-                        residual[row] -= value * x;
-                        size[row] += value.abs() * (x.abs() + floor);
-                    }
-                }
-            }
-            for (residual, size) in residual.iter().zip(size) {
-                is_solved &= residual.abs() <= ROUNDING * size;
-            }
-            self.residual[place as usize] = residual;
+/// Whether refinement makes it one.
+#[cold]
+fn refine<S: Real, const L: usize>(
+    matrix: &Matrix<'_, S, L>,
+    factors: &mut Factors,
+    (x, memory): (&mut [[f64; L]], &mut Vec<f64>),
+    b: impl Fn(usize) -> [f64; L],
+) -> bool {
+    memory.resize(memory.len().max(x.as_flattened().len()), 0.0);
+    let rest = &mut memory.as_chunks_mut::<L>().0[..x.len()];
+    for _ in 0..REFINEMENTS {
+        for (rest, &run) in rest.iter_mut().zip(&matrix.fronts.order) {
+            (*rest, _) = residual(matrix, run as usize, (x, 0.0), b(run as usize));
         }
-        is_solved
+        factors.solve(matrix.fronts, rest);
+        for (x, correction) in x.as_flattened_mut().iter_mut().zip(rest.as_flattened()) {
+            *x += correction;
+        }
+        if is_solved(matrix, x, &b) {
+            return true;
+        }
     }
+    false
+}
 
-    #[cold]
-    fn solve_by_pivoting<S: Real>(
-        &mut self,
-        matrix: &Matrix<'_, S, L>,
-        known: &mut Vec<Pivoting>,
-        b: impl Fn(usize) -> f64,
-    ) -> Result<(), Singular> {
-        let solution = self.solution.as_flattened_mut();
-        for (row, x) in solution.iter_mut().enumerate() {
-            *x = b(row);
-        }
-        let mut numbers = matrix.values.iter().map(|value| value.to_f64());
-        let mut right = solution.iter().copied();
-        if !numbers.all(f64::is_finite) || !right.all(f64::is_finite) {
-            return Err(Singular);
-        }
-        if known.iter().all(|pivoting| pivoting.length != L) {
-            known.extend(Pivoting::new(matrix.pattern, L));
-        }
-        let mut known = known.iter_mut();
-        let pivoting = known.find(|pivoting| pivoting.length == L);
-        pivoting.ok_or(Singular)?.solve(matrix, solution)
+/// Solves with pivots from whole columns.
+#[cold]
+fn solve_by_pivoting<S: Real, const L: usize>(
+    matrix: &Matrix<'_, S, L>,
+    known: &mut Vec<Pivoting>,
+    x: &mut [[f64; L]],
+    b: impl Fn(usize) -> [f64; L],
+) -> Result<(), Singular> {
+    let mut natural: Vec<[f64; L]> = (0..x.len()).map(b).collect();
+    let mut numbers = matrix.values.iter().map(|value| value.to_f64());
+    let mut right = natural.as_flattened().iter().copied();
+    if !numbers.all(f64::is_finite) || !right.all(f64::is_finite) {
+        return Err(Singular);
     }
+    if known.iter().all(|pivoting| pivoting.length != L) {
+        known.extend(Pivoting::new(matrix.pattern, L));
+    }
+    let mut known = known.iter_mut();
+    let pivoting = known.find(|pivoting| pivoting.length == L);
+    let pivoting = pivoting.ok_or(Singular)?;
+    pivoting.solve(matrix, natural.as_flattened_mut())?;
+    for (x, &run) in x.iter_mut().zip(&matrix.fronts.order) {
+        *x = natural[run as usize];
+    }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -45,6 +45,9 @@ impl Memory<'_> {
     }
 }
 
+/// The most runs below a front among which one is looked for instead of noted.
+const MOST_SEARCHED: usize = 4;
+
 /// Working memory of a division and of its parts.
 #[derive(Debug)]
 pub(super) struct Branch {
@@ -108,8 +111,9 @@ impl Branch {
         let parts = parts.into_iter();
         let parts = parts.map(|part| Self::new(fronts, part, length));
         let parts = parts.collect::<Option<Vec<_>>>()?;
-        // What follows parts are a few fronts, whose rows may be looked for.
-        let noted = if parts.is_empty() { places } else { 0..0 };
+        // The rows of small fronts may be looked for, and those of the few fronts that follow parts.
+        let is_noted = parts.is_empty() && height > MOST_SEARCHED * length;
+        let noted = if is_noted { places } else { 0..0 };
         let of_parts = total(&parts);
         let left_by_parts = parts.iter().map(|part| part.targets.len());
         Some(Self {
