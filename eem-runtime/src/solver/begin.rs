@@ -47,7 +47,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 (node.inertia, node.rest) = (S::one(), [S::zero(); D]);
                 continue;
             }
-            let at = node.place.node;
+            let at = node.place.node();
             let (momentum, force) = (&momenta[at], old_force(&self.old_force, at));
             node.inertia = (node.place.mass + node.place.mass) * per_step;
             node.rest =
@@ -78,7 +78,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let half_step = S::from_f64(0.5) * view.step;
         let ([by_last, by_before], [last, before]) = self.past.best();
         for node in &mut self.nodes {
-            let at = node.place.node;
+            let at = node.place.node();
             node.per_length = inverse_length(self.lengths[at]);
             node.previous = [S::zero(); D];
             node.correction = node.previous;
@@ -112,7 +112,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             *impulse *= per_step;
         }
         let nodes = self.nodes.iter();
-        let masses = nodes.map(|node| (node.place.node, node.place.mass));
+        let masses = nodes.map(|node| (node.place.node(), node.place.mass));
         self.past.remember(&mut self.impulse, masses);
     }
 

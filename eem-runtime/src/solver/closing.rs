@@ -73,7 +73,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             self.book_work(view, next);
         }
         for node in &self.nodes {
-            let at = node.place.node;
+            let at = node.place.node();
             let moved = [&self.trial.displacements[at], &self.impulse[at]];
             move_node(at, moved, view.state, next)?;
         }
@@ -82,7 +82,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     fn book_work(&self, view: &StepView<'_, S>, next: &mut State<S>) {
         for node in &self.nodes {
-            let at = node.place.node;
+            let at = node.place.node();
             let force = view.loads.force::<D>(at);
             for (&force, &displacement) in force.iter().zip(&self.trial.displacements[at]) {
                 if force != S::zero() {
@@ -128,7 +128,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let q0 = points::<S, D>(view.state.positions.values());
         let p0 = points::<S, D>(view.state.momenta.values());
         for node in &self.nodes {
-            let at = node.place.node;
+            let at = node.place.node();
             let mobility = view.step / node.place.mass;
             let impulse = &self.impulse[at];
             let displacement =
@@ -157,7 +157,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let (values, right) = secant.parts(tangent);
         values.fill(S::zero());
         for (node, right) in self.nodes.iter().zip(&mut *right) {
-            values[node.place.secant_diagonal] = node.inertia;
+            values[node.place.secant_diagonal()] = node.inertia;
             *right = node.rest;
         }
         for group in groups.iter_mut() {
@@ -167,7 +167,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         solved.map_err(|_| StepFailure::SingularTangent)?;
         let (_, displacements) = secant.parts(tangent);
         for (node, displacement) in self.nodes.iter().zip(displacements) {
-            self.trial.displacements[node.place.node] = *displacement;
+            self.trial.displacements[node.place.node()] = *displacement;
         }
         Ok(())
     }

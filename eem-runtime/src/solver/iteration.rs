@@ -23,10 +23,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
         for (node, rows) in self.nodes.iter().zip(rows) {
-            for place in node.place.diagonal {
+            for place in node.place.diagonal() {
                 values[place] = node.inertia;
             }
-            let displacement = &self.trial.displacements[node.place.node];
+            let displacement = &self.trial.displacements[node.place.node()];
             *rows = array::from_fn(|axis| node.rest[axis] - node.inertia * displacement[axis]);
         }
     }
@@ -54,7 +54,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let mut largest = Largest::none();
         let changes = solution.as_flattened().as_chunks::<D>().0;
         for (node, change) in self.nodes.iter_mut().zip(changes) {
-            let at = node.place.node;
+            let at = node.place.node();
             let displacement = &mut trial.displacements[at];
             // One by one, as they have been found: a copy of all would have to wait for them.
             for axis in 0..D {
@@ -86,7 +86,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let trial = &mut self.trial;
         let old = points::<S, D>(view.state.positions.values());
         for node in &self.nodes {
-            let at = node.place.node;
+            let at = node.place.node();
             let moved = |axis: usize| node.previous[axis] + share * node.correction[axis];
             trial.displacements[at] = array::from_fn(moved);
             trial.positions[at] = array::from_fn(|axis| old[at][axis] + moved(axis));
@@ -100,7 +100,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// The present trial is where the next correction starts; no correction.
     pub(super) fn hold(&mut self) {
         for node in &mut self.nodes {
-            node.previous = self.trial.displacements[node.place.node];
+            node.previous = self.trial.displacements[node.place.node()];
             node.correction = [S::zero(); D];
         }
         for seen in &mut self.seen {

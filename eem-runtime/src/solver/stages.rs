@@ -209,7 +209,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         for (half, masses) in self.masses.iter().enumerate() {
             let (from, by) = (&self.previous[half], &mut self.correction[half]);
             for mass in masses {
-                by.0[mass.node] = from.0[mass.node].map(|component| growth * component);
+                by.0[mass.node()] = from.0[mass.node()].map(|component| growth * component);
             }
             by.1.fill(S::zero());
         }
@@ -284,8 +284,8 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         for (half, share) in [0.5, 1.0].map(S::from_f64).into_iter().enumerate() {
             for mass in &self.masses[half] {
                 let mobility = share * view.step / mass.mass;
-                let flight = momenta[mass.node].map(|momentum| mobility * momentum);
-                self.correction[half].0[mass.node] = flight;
+                let flight = momenta[mass.node()].map(|momentum| mobility * momentum);
+                self.correction[half].0[mass.node()] = flight;
             }
             self.correction[half].1.fill(S::zero());
         }
@@ -335,7 +335,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         let old = points::<S, D>(view.state.positions.values());
         for (half, masses) in self.masses.iter().enumerate() {
             let (from, by) = (&self.previous[half], &self.correction[half]);
-            for &MovingNode { node, .. } in masses {
+            for node in masses.iter().map(MovingNode::node) {
                 let (from, by, old) = (&from.0[node], &by.0[node], &old[node]);
                 let moved: [S; D] = array::from_fn(|axis| from[axis] + share * by[axis]);
                 trial.displacements[half][node] = moved;
