@@ -63,8 +63,9 @@ pub(crate) struct Solver<S, const D: usize> {
     /// The impulse of the found forces, N s.
     impulse: Vec<[S; D]>,
     past: Past<S, D>,
-    /// The unit of length of each node: its shortest element in the old state, m.
-    lengths: Vec<S>,
+    /// The reciprocal of the unit of length of each node: its shortest element in the old state; 1 m
+    /// without.
+    per_length: Vec<S>,
     /// What kept the last update from being applied in full.
     obstacle: Option<StateError>,
 }
@@ -109,7 +110,6 @@ impl<S: Real, const D: usize> Solver<S, D> {
             secant,
             trial: Trial {
                 displacements: points.clone(),
-                positions: points.clone(),
                 seen_temperatures: vec![S::zero(); slots],
             },
             old_force: if has_old_force {
@@ -119,7 +119,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             },
             impulse: points,
             past: Past::none(masses.len()),
-            lengths: vec![S::one(); masses.len()],
+            per_length: vec![S::one(); masses.len()],
             obstacle: None,
         }
     }
@@ -229,7 +229,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let residual = self.residual();
             let solved = self.tangent.solve();
             solved.map_err(|_| StepFailure::SingularTangent)?;
-            let update = self.correct(groups, view);
+            let update = self.correct(groups);
             effort.history.push(Iteration { residual, update });
             if !update.is_finite() {
                 break;
@@ -285,7 +285,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for _ in 0..HALVINGS {
             self.obstacle = Some(error);
             share *= S::from_f64(0.5);
-            self.apply(share, view);
+            self.halve();
             match self.evaluate(groups, view, share, true) {
                 Ok(()) => return Ok(share),
                 Err(next) => error = next,

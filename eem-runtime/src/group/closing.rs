@@ -66,7 +66,7 @@ where
                 let weights = member.secant(self.kinematics);
                 (view.step, pull::<K, S, D>(&weights, &mean))
             } else {
-                let r1 = arms::<K, S, D>(nodes, &trial.positions);
+                let r1 = member.new_arms(trial);
                 let at = match along {
                     Along::Gradient => Placement::End,
                     Along::Secant | Along::Scheme => C::PLACEMENT,

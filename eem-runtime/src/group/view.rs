@@ -53,8 +53,6 @@ impl<S: Real> StepView<'_, S> {
 pub(crate) struct Trial<S, const D: usize> {
     /// q¹ − q⁰ of all nodes, m.
     pub(crate) displacements: Vec<[S; D]>,
-    /// q¹ of all nodes, m.
-    pub(crate) positions: Vec<[S; D]>,
     /// θ* as elements in contact see it, Θ, per thermal slot, K; an unknown where the slot is
     /// coupled.
     pub(crate) seen_temperatures: Vec<S>,

@@ -125,7 +125,6 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// `Δq = (h/m)(p⁰ − ½h F⁰)`, `Δp = −½h (F⁰ + F¹)`, where F¹ acts along the gradient at q¹.
     fn move_from_start(&mut self, groups: &mut [Box<dyn Group<S, D>>], view: &StepView<'_, S>) {
         let half = S::from_f64(0.5);
-        let q0 = points::<S, D>(view.state.positions.values());
         let p0 = points::<S, D>(view.state.momenta.values());
         for node in &self.nodes {
             let at = node.place.node();
@@ -134,7 +133,6 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let displacement =
                 array::from_fn(|axis| mobility * (p0[at][axis] + half * impulse[axis]));
             self.trial.displacements[at] = displacement;
-            self.trial.positions[at] = array::from_fn(|axis| q0[at][axis] + displacement[axis]);
         }
         for group in groups.iter_mut() {
             group.add_impulse(view, &self.trial, Along::Gradient, &mut self.impulse);
