@@ -61,6 +61,9 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
     /// What the elements contribute to the GENERIC form in a state.
     fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>>;
 
+    /// Where the element at `place` keeps its internal variables.
+    fn slots(&self, place: usize) -> Slots;
+
     /// The element at `place` in a state.
     fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S>;
 }
@@ -173,6 +176,10 @@ where
 
     fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>> {
         self.generic_in_all(state)
+    }
+
+    fn slots(&self, place: usize) -> Slots {
+        self.members[place].slots()
     }
 
     fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {

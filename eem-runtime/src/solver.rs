@@ -16,6 +16,7 @@ use crate::error::{StateError, StepFailure};
 use crate::group::{Group, Sites, StepView, Trial};
 use crate::layout::Layout;
 use crate::loads::StepLoads;
+use crate::masses::Masses;
 use crate::newton::{NewtonSettings, is_last};
 use crate::pattern::Pattern;
 use crate::scalar::Real;
@@ -73,7 +74,7 @@ pub(crate) struct Solver<S, const D: usize> {
 impl<S: Real, const D: usize> Solver<S, D> {
     pub(crate) fn new(
         scheme: Scheme,
-        masses: &[Option<S>],
+        masses: &Masses<S>,
         elements: &[ElementEntry<S>],
         layout: &Layout,
         conduction: &Conduction<S>,
@@ -83,8 +84,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let pattern = Pattern::of_tangent(elements, layout, conduction, D);
         let tangent = LinearSystem::new(&pattern, D);
         let secant = (scheme.closing() == Closing::Secant).then(|| {
-            let moving = masses.iter().flatten().count();
-            Secant::new(&tangent, moving, || Pattern::of_secant(elements, layout, D))
+            Secant::new(&tangent, masses.moving(), || {
+                Pattern::of_secant(elements, layout, D)
+            })
         });
         let sites = Sites {
             layout,

@@ -4,6 +4,7 @@ use crate::conduction::Conduction;
 use crate::handle::Element;
 use crate::layout::Layout;
 use crate::loads::StepLoads;
+use crate::masses::Masses;
 use crate::scalar::Real;
 use crate::scene::ElementEntry;
 use crate::scheme::{Phase, Placement};
@@ -22,7 +23,7 @@ pub(crate) struct StepView<'a, S> {
     pub(crate) conduction: &'a Conduction<S>,
     pub(crate) loads: &'a StepLoads<S>,
     /// m per node, kg; `None` for anchors.
-    pub(crate) masses: &'a [Option<S>],
+    pub(crate) masses: &'a Masses<S>,
 }
 
 impl<S: Real> StepView<'_, S> {

@@ -4,6 +4,7 @@ use core::array;
 
 use crate::compact::compact;
 use crate::group::Sites;
+use crate::masses::Masses;
 use crate::scalar::Real;
 
 /// A node that moves.
@@ -49,11 +50,11 @@ pub(super) struct Seen {
 
 /// The nodes with a mass, and where they write.
 pub(super) fn moving<S: Real, const D: usize>(
-    masses: &[Option<S>],
+    masses: &Masses<S>,
     sites: &Sites<'_, S, D>,
 ) -> Vec<MovingNode<S, D>> {
     let nodes = masses.iter().zip(&sites.layout.nodes).enumerate();
-    let moving = nodes.filter_map(|(node, (mass, first))| Some((node, (*mass)?, (*first)?)));
+    let moving = nodes.filter_map(|(node, (mass, first))| Some((node, mass?, (*first)?)));
     let moving = moving.map(|(node, mass, first)| {
         let own = Some(first / D);
         MovingNode {

@@ -18,6 +18,7 @@ use crate::error::{StateError, StepFailure};
 use crate::group::{Sites, StageGroup, StageTrial, StageView, points};
 use crate::layout::Layout;
 use crate::loads::{Loads, StepLoads};
+use crate::masses::Masses;
 use crate::newton::is_last;
 use crate::pattern::Pattern;
 use crate::scalar::Real;
@@ -37,7 +38,7 @@ pub(crate) struct Staged<S: Real, const D: usize> {
 impl<S: Real, const D: usize> Staged<S, D> {
     pub(crate) fn new(
         mut groups: Vec<Box<dyn StageGroup<S, D>>>,
-        masses: &[Option<S>],
+        masses: &Masses<S>,
         elements: &[ElementEntry<S>],
         layout: &Layout,
         conduction: &Conduction<S>,
@@ -80,15 +81,14 @@ impl<S: Real, const D: usize> Staged<S, D> {
     pub(crate) fn evaluate_loads(
         &mut self,
         loads: &Loads<S, D>,
-        masses: &[Option<S>],
-        layout: &Layout,
+        masses: &Masses<S>,
         [time, step]: [S; 2],
         q0: &[S],
     ) -> Result<(), StepFailure> {
         let times = [time, time + S::from_f64(0.5) * step, time + step];
         for (stage, time) in self.loads.iter_mut().zip(times) {
             let span = [time, S::zero()];
-            stage.evaluate(loads, masses, layout, Scheme::Variational4, span, q0)?;
+            stage.evaluate(loads, masses, Scheme::Variational4, span, q0)?;
         }
         Ok(())
     }
