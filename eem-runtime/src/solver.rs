@@ -58,6 +58,8 @@ pub(crate) struct Solver<S, const D: usize> {
     /// The system that closes a step, if the scheme closes it by one.
     secant: Option<Secant<S, D>>,
     trial: Trial<S, D>,
+    /// 2/h, 1/s: the inertia of a mass.
+    twice_per_step: S,
     /// The part of the nodal forces that the old state and the loads decide, N; empty where nothing has
     /// a part in it.
     old_force: Vec<[S; D]>,
@@ -114,6 +116,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 displacements: points.clone(),
                 seen_temperatures: vec![S::zero(); slots],
             },
+            twice_per_step: S::zero(),
             old_force: if has_old_force {
                 points.clone()
             } else {

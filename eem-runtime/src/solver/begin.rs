@@ -40,17 +40,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// Inertia and impulses that do not change during the step.
     pub(super) fn weigh(&mut self, view: &StepView<'_, S>) {
-        let per_step = view.step.recip();
+        self.twice_per_step = S::from_f64(2.0) * view.step.recip();
         let momenta = points::<S, D>(view.state.momenta.values());
         let moves = view.phase.moves();
         for node in &mut self.nodes {
             if !moves {
-                (node.inertia, node.rest) = (S::one(), [S::zero(); D]);
+                node.rest = [S::zero(); D];
                 continue;
             }
             let at = node.place.node();
             let (momentum, force) = (&momenta[at], old_force(&self.old_force, at));
-            node.inertia = (node.place.mass + node.place.mass) * per_step;
             node.rest =
                 array::from_fn(|axis| momentum[axis] + momentum[axis] - view.step * force[axis]);
         }

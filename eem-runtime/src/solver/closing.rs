@@ -155,7 +155,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let (values, right) = secant.parts(tangent);
         values.fill(S::zero());
         for (node, right) in self.nodes.iter().zip(&mut *right) {
-            values[node.place.secant_diagonal()] = node.inertia;
+            values[node.place.secant_diagonal()] = node.place.mass * self.twice_per_step;
             *right = node.rest;
         }
         for group in groups.iter_mut() {

@@ -23,11 +23,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
         for (node, rows) in self.nodes.iter().zip(rows) {
+            let inertia = node.place.mass * self.twice_per_step;
             for place in node.place.diagonal() {
-                values[place] = node.inertia;
+                values[place] = inertia;
             }
             let displacement = &self.trial.displacements[node.place.node()];
-            *rows = array::from_fn(|axis| node.rest[axis] - node.inertia * displacement[axis]);
+            *rows = array::from_fn(|axis| node.rest[axis] - inertia * displacement[axis]);
         }
     }
 

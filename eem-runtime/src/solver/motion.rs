@@ -8,8 +8,6 @@ use crate::scalar::Real;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Motion<S, const D: usize> {
     pub(super) place: MovingNode<S, D>,
-    /// 2m/h, kg/s; 1 while nothing moves.
-    pub(super) inertia: S,
     /// `2p⁰ − h F⁰` with the part F⁰ of the force that the old state decides, N s; zero while nothing
     /// moves.
     pub(super) rest: [S; D],
@@ -21,7 +19,6 @@ impl<S: Real, const D: usize> Motion<S, D> {
     pub(super) fn new(place: MovingNode<S, D>) -> Self {
         Self {
             place,
-            inertia: S::one(),
             rest: [S::zero(); D],
             previous: [S::zero(); D],
         }
