@@ -42,7 +42,7 @@ use crate::layout::Slots;
 use crate::scalar::Real;
 use crate::scheme::ElementScheme;
 use crate::state::State;
-use crate::system::LinearSystem;
+use crate::system::{LinearSystem, Parts};
 pub(crate) use arms::points;
 pub(crate) use generic::ElementGeneric;
 use member::Member;
@@ -60,6 +60,9 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
 
     /// What the elements contribute to the GENERIC form in a state.
     fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>>;
+
+    /// Where the element at `place` keeps its internal variables.
+    fn slots(&self, place: usize) -> Slots;
 
     /// The element at `place` in a state.
     fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S>;
@@ -94,14 +97,9 @@ pub(crate) trait Group<S: Real, const D: usize>: Elements<S, D> {
     /// Applies the last correction to the response through the tangent, without evaluating it.
     fn extrapolate(&mut self);
 
-    /// Adds `½h Σ A` and `−h Σ A q⁰`, where `A q_m` is the nodal force at the found response; moved
-    /// anchors are taken from the trial.
-    fn add_secant(
-        &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        system: &mut LinearSystem<S, D>,
-    );
+    /// Adds `½h Σ A` and `−h Σ A q⁰`, where `A q_m` is the nodal force at the found response, to the
+    /// entries and right-hand sides of the secant system; moved anchors are taken from the trial.
+    fn add_secant(&mut self, view: &StepView<'_, S>, trial: &Trial<S, D>, system: Parts<'_, S, D>);
 
     /// Adds the nodal impulse `−h F` of the found response to `impulse`, N s.
     fn add_impulse(
@@ -136,7 +134,7 @@ where
     kinematics: K,
     members: Vec<Member<S, M, K, C, D>>,
     contacts: Vec<Contact<K, S, D>>,
-    /// Per member, if the scheme closes a step by the secant.
+    /// Per member, if the scheme closes a step by a secant system with memory of its own.
     secants: Vec<SecantSite<K, S, D>>,
 }
 
@@ -180,6 +178,10 @@ where
         self.generic_in_all(state)
     }
 
+    fn slots(&self, place: usize) -> Slots {
+        self.members[place].slots()
+    }
+
     fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {
         self.inspect_at(place, state)
     }
@@ -204,7 +206,7 @@ where
                 self.contacts.push(contact);
             }
         }
-        if C::PLACEMENT.has_secant() {
+        if sites.secant.is_some() {
             let sites = self
                 .members
                 .iter()
@@ -243,12 +245,7 @@ where
         }
     }
 
-    fn add_secant(
-        &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        system: &mut LinearSystem<S, D>,
-    ) {
+    fn add_secant(&mut self, view: &StepView<'_, S>, trial: &Trial<S, D>, system: Parts<'_, S, D>) {
         self.add_secant_all(view, trial, system);
     }
 

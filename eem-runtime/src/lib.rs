@@ -40,6 +40,7 @@ mod layout;
 mod ledger;
 mod loads;
 mod lu;
+mod masses;
 mod newton;
 mod pattern;
 mod recorder;

@@ -8,6 +8,7 @@ mod linearize;
 mod motion;
 mod past;
 mod places;
+mod secant;
 mod stages;
 
 use crate::conduction::Conduction;
@@ -15,6 +16,7 @@ use crate::error::{StateError, StepFailure};
 use crate::group::{Group, Sites, StepView, Trial};
 use crate::layout::Layout;
 use crate::loads::StepLoads;
+use crate::masses::Masses;
 use crate::newton::{NewtonSettings, is_last};
 use crate::pattern::Pattern;
 use crate::scalar::Real;
@@ -27,6 +29,7 @@ use motion::{Glance, Motion};
 use past::Past;
 pub(crate) use past::SavedPast;
 use places::{moving, seen};
+use secant::Secant;
 pub(crate) use stages::Staged;
 
 /// How often an update is halved to bring all elements back to admissible states.
@@ -53,16 +56,19 @@ pub(crate) struct Solver<S, const D: usize> {
     /// The system of an iteration.
     tangent: LinearSystem<S, 1>,
     /// The system that closes a step, if the scheme closes it by one.
-    secant: Option<LinearSystem<S, D>>,
+    secant: Option<Secant<S, D>>,
     trial: Trial<S, D>,
+    /// 2/h, 1/s: the inertia of a mass.
+    twice_per_step: S,
     /// The part of the nodal forces that the old state and the loads decide, N; empty where nothing has
     /// a part in it.
     old_force: Vec<[S; D]>,
     /// The impulse of the found forces, N s.
     impulse: Vec<[S; D]>,
     past: Past<S, D>,
-    /// The unit of length of each node: its shortest element in the old state, m.
-    lengths: Vec<S>,
+    /// The reciprocal of the unit of length of each node: its shortest element in the old state; 1 m
+    /// without.
+    per_length: Vec<S>,
     /// What kept the last update from being applied in full.
     obstacle: Option<StateError>,
 }
@@ -70,7 +76,7 @@ pub(crate) struct Solver<S, const D: usize> {
 impl<S: Real, const D: usize> Solver<S, D> {
     pub(crate) fn new(
         scheme: Scheme,
-        masses: &[Option<S>],
+        masses: &Masses<S>,
         elements: &[ElementEntry<S>],
         layout: &Layout,
         conduction: &Conduction<S>,
@@ -79,13 +85,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let has_old_force = scheme.has_old_forces() || loads.has_total_force();
         let pattern = Pattern::of_tangent(elements, layout, conduction, D);
         let tangent = LinearSystem::new(&pattern, D);
-        let secant = (scheme.closing() == Closing::Secant)
-            .then(|| LinearSystem::new(&Pattern::of_secant(elements, layout, D), 1));
+        let secant = (scheme.closing() == Closing::Secant).then(|| {
+            Secant::new(&tangent, masses.moving(), || {
+                Pattern::of_secant(elements, layout, D)
+            })
+        });
         let sites = Sites {
             layout,
             conduction,
             tangent: &tangent,
-            secant: secant.as_ref(),
+            secant: secant.as_ref().and_then(Secant::apart),
             shift: [0; 2],
         };
         let nodes = moving(masses, &sites).into_iter().map(Motion::new);
@@ -105,9 +114,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
             secant,
             trial: Trial {
                 displacements: points.clone(),
-                positions: points.clone(),
                 seen_temperatures: vec![S::zero(); slots],
             },
+            twice_per_step: S::zero(),
             old_force: if has_old_force {
                 points.clone()
             } else {
@@ -115,7 +124,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             },
             impulse: points,
             past: Past::none(masses.len()),
-            lengths: vec![S::one(); masses.len()],
+            per_length: vec![S::one(); masses.len()],
             obstacle: None,
         }
     }
@@ -130,7 +139,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             layout,
             conduction,
             tangent: &self.tangent,
-            secant: self.secant.as_ref(),
+            secant: self.secant.as_ref().and_then(Secant::apart),
             shift: [0; 2],
         }
     }
@@ -225,7 +234,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let residual = self.residual();
             let solved = self.tangent.solve();
             solved.map_err(|_| StepFailure::SingularTangent)?;
-            let update = self.correct(groups, view);
+            let update = self.correct(groups);
             effort.history.push(Iteration { residual, update });
             if !update.is_finite() {
                 break;
@@ -281,7 +290,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for _ in 0..HALVINGS {
             self.obstacle = Some(error);
             share *= S::from_f64(0.5);
-            self.apply(share, view);
+            self.halve();
             match self.evaluate(groups, view, share, true) {
                 Ok(()) => return Ok(share),
                 Err(next) => error = next,

@@ -23,11 +23,14 @@ mod fronts;
 mod gathering;
 mod pivoting;
 
+use core::array;
+
 use crate::lu::Singular;
-use crate::pattern::Pattern;
+use crate::pattern::{LONGEST_RUN, Pattern};
 use crate::scalar::Real;
 use factors::Factors;
 use fronts::Fronts;
+use gathering::Matrix;
 use pivoting::Pivoting;
 
 /// The backward error that counts as rounding: sums of some thousand terms.
@@ -36,17 +39,18 @@ const ROUNDING: f64 = 256.0 * f64::EPSILON;
 /// How often a solution is refined before its factors are given up.
 const REFINEMENTS: usize = 3;
 
-/// What solves `A X = B` for matrices with one pattern.
+/// What solves `A X = B` for matrices with one pattern, and for those with one unknown in the place of
+/// each of its runs.
 #[derive(Debug)]
 pub(crate) struct SparseLu {
     pattern: Pattern,
     fronts: Fronts,
     factors: Factors,
-    /// For matrices that need it, from the first of them on.
-    pivoting: Option<Box<Pivoting>>,
-    /// A column of X.
+    /// For matrices that need it, from the first of them on; one for each length of runs.
+    pivoting: Vec<Pivoting>,
+    /// A column of X in the order of elimination.
     solution: Vec<f64>,
-    /// What is to be solved for, in the order of elimination.
+    /// What it leaves, from the first solution on that is refined.
     residual: Vec<f64>,
 }
 
@@ -56,11 +60,11 @@ impl SparseLu {
         let fronts = Fronts::new(pattern)?;
         Some(Self {
             pattern: pattern.clone(),
-            factors: Factors::new(&fronts)?,
+            factors: Factors::new(&fronts, pattern.length())?,
             fronts,
-            pivoting: None,
+            pivoting: Vec::new(),
             solution: vec![0.0; pattern.unknowns()],
-            residual: vec![0.0; pattern.unknowns()],
+            residual: Vec::new(),
         })
     }
 
@@ -69,90 +73,159 @@ impl SparseLu {
         self.pattern.entries()
     }
 
+    /// Number of unknowns in a run.
+    pub(crate) fn length(&self) -> usize {
+        self.pattern.length()
+    }
+
     /// Where an entry of the pattern is among the entries.
     pub(crate) fn position(&self, row: usize, column: usize) -> Option<usize> {
         self.pattern.position(row, column)
     }
 
-    /// Overwrites the right-hand sides with the solutions for the matrix with these entries.
+    /// Overwrites the right-hand sides with the solutions for the matrix with these entries, block by
+    /// block, whose runs are as long as those of the pattern, or one unknown.
     pub(crate) fn solve<S: Real, const W: usize>(
+        &mut self,
+        length: usize,
+        values: &[S],
+        right: &mut [[S; W]],
+    ) -> Result<(), Singular> {
+        match length {
+            1 => self.solve_in_runs::<S, W, 1>(values, right),
+            2 => self.solve_in_runs::<S, W, 2>(values, right),
+            LONGEST_RUN => self.solve_in_runs::<S, W, LONGEST_RUN>(values, right),
+            _ => unreachable!("no pattern has longer runs"),
+        }
+    }
+
+    fn solve_in_runs<S: Real, const W: usize, const L: usize>(
         &mut self,
         values: &[S],
         right: &mut [[S; W]],
     ) -> Result<(), Singular> {
-        self.factors.factor(&self.fronts, &self.pattern, values);
+        let unknowns = right.len();
+        let matrix = Matrix::<S, L> {
+            fronts: &self.fronts,
+            pattern: &self.pattern,
+            values,
+        };
+        self.factors.factor(matrix);
         for column in 0..W {
-            let b = |row: usize| right[row][column].to_f64();
-            if !self.solve_by_fronts(values, b) {
-                self.solve_by_pivoting(values, b)?;
+            let b = |run: usize| array::from_fn(|at| right[run * L + at][column].to_f64());
+            let x = self.solution[..unknowns].as_chunks_mut().0;
+            for (x, &run) in x.iter_mut().zip(&matrix.fronts.order) {
+                *x = b(run as usize);
             }
-            for (row, x) in right.iter_mut().zip(&self.solution) {
-                row[column] = S::from_f64(*x);
+            self.factors.solve(matrix.fronts, x);
+            if !is_solved(&matrix, x, b)
+                && !refine(&matrix, &mut self.factors, (x, &mut self.residual), b)
+            {
+                solve_by_pivoting(&matrix, &mut self.pivoting, x, b)?;
+            }
+            for (x, &run) in x.iter().zip(&matrix.fronts.order) {
+                let rows = &mut right[run as usize * L..][..L];
+                for (row, &x) in rows.iter_mut().zip(x) {
+                    row[column] = S::from_f64(x);
+                }
             }
         }
         Ok(())
     }
+}
 
-    /// Whether the factors lead to the solution.
-    fn solve_by_fronts<S: Real>(&mut self, values: &[S], b: impl Fn(usize) -> f64) -> bool {
-        self.solution.fill(0.0);
-        for (residual, &unknown) in self.residual.iter_mut().zip(&self.fronts.order) {
-            *residual = b(unknown as usize);
-        }
-        for _ in 0..=REFINEMENTS {
-            self.factors.solve(&self.fronts, &mut self.residual);
-            for (correction, &unknown) in self.residual.iter().zip(&self.fronts.order) {
-                self.solution[unknown as usize] += correction;
+/// What a solution leaves of the right-hand sides of a run, and their size with that of the terms.
+#[inline]
+fn residual<S: Real, const L: usize>(
+    matrix: &Matrix<'_, S, L>,
+    run: usize,
+    (x, floor): (&[[f64; L]], f64),
+    b: [f64; L],
+) -> ([f64; L], [f64; L]) {
+    let (mut residual, mut size) = (b, b.map(f64::abs));
+    for (column, block) in matrix.blocks_of(run) {
+        let x = &x[matrix.fronts.places[column] as usize];
+        for (row, entries) in block.iter().enumerate() {
+            for (value, x) in entries.iter().zip(x) {
+                let value = value.to_f64();
+                residual[row] -= value * x;
+                size[row] += value.abs() * (x.abs() + floor);
             }
-            if self.is_solved(values, &b) {
-                return true;
-            }
         }
-        false
     }
+    (residual, size)
+}
 
-    /// Finds the residual, and whether it is what rounding leaves.
-    fn is_solved<S: Real>(&mut self, values: &[S], b: impl Fn(usize) -> f64) -> bool {
-        let x = &self.solution;
-        let largest = x.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
-        // Below a rounding of a rounding of the largest, no digit of an unknown counts.
-        let floor = f64::EPSILON * largest;
-        let mut is_solved = largest <= f64::MAX;
-        for row in 0..x.len() {
-            let b = b(row);
-            let (mut residual, mut size) = (b, b.abs());
-            let entries = self.pattern.row(row).iter();
-            for (&column, value) in entries.zip(&values[self.pattern.places(row)]) {
-                let (value, x) = (value.to_f64(), x[column as usize]);
-                residual -= value * x;
-                size += value.abs() * (x.abs() + floor);
-            }
+/// Whether what a solution leaves is what rounding leaves.
+fn is_solved<S: Real, const L: usize>(
+    matrix: &Matrix<'_, S, L>,
+    x: &[[f64; L]],
+    b: impl Fn(usize) -> [f64; L],
+) -> bool {
+    let largest = x.as_flattened().iter();
+    let largest = largest.fold(0.0_f64, |largest, x| largest.max(x.abs()));
+    // Below a rounding of a rounding of the largest, no digit of an unknown counts.
+    let floor = f64::EPSILON * largest;
+    let mut is_solved = largest <= f64::MAX;
+    for run in 0..x.len() {
+        let (residual, size) = residual(matrix, run, (x, floor), b(run));
+        for (residual, size) in residual.iter().zip(size) {
             is_solved &= residual.abs() <= ROUNDING * size;
-            self.residual[self.fronts.places[row] as usize] = residual;
         }
-        is_solved
     }
+    is_solved
+}
 
-    #[cold]
-    fn solve_by_pivoting<S: Real>(
-        &mut self,
-        values: &[S],
-        b: impl Fn(usize) -> f64,
-    ) -> Result<(), Singular> {
-        let mut numbers = values.iter().map(|value| value.to_f64());
-        for (row, x) in self.solution.iter_mut().enumerate() {
-            *x = b(row);
+/// Whether refinement makes it one.
+#[cold]
+fn refine<S: Real, const L: usize>(
+    matrix: &Matrix<'_, S, L>,
+    factors: &mut Factors,
+    (x, memory): (&mut [[f64; L]], &mut Vec<f64>),
+    b: impl Fn(usize) -> [f64; L],
+) -> bool {
+    memory.resize(memory.len().max(x.as_flattened().len()), 0.0);
+    let rest = &mut memory.as_chunks_mut::<L>().0[..x.len()];
+    for _ in 0..REFINEMENTS {
+        for (rest, &run) in rest.iter_mut().zip(&matrix.fronts.order) {
+            (*rest, _) = residual(matrix, run as usize, (x, 0.0), b(run as usize));
         }
-        let mut right = self.solution.iter().copied();
-        if !numbers.all(f64::is_finite) || !right.all(f64::is_finite) {
-            return Err(Singular);
+        factors.solve(matrix.fronts, rest);
+        for (x, correction) in x.as_flattened_mut().iter_mut().zip(rest.as_flattened()) {
+            *x += correction;
         }
-        if self.pivoting.is_none() {
-            self.pivoting = Pivoting::new(&self.pattern).map(Box::new);
+        if is_solved(matrix, x, &b) {
+            return true;
         }
-        let pivoting = self.pivoting.as_mut().ok_or(Singular)?;
-        pivoting.solve(&self.pattern, values, &mut self.solution)
     }
+    false
+}
+
+/// Solves with pivots from whole columns.
+#[cold]
+fn solve_by_pivoting<S: Real, const L: usize>(
+    matrix: &Matrix<'_, S, L>,
+    known: &mut Vec<Pivoting>,
+    x: &mut [[f64; L]],
+    b: impl Fn(usize) -> [f64; L],
+) -> Result<(), Singular> {
+    let mut natural: Vec<[f64; L]> = (0..x.len()).map(b).collect();
+    let mut numbers = matrix.values.iter().map(|value| value.to_f64());
+    let mut right = natural.as_flattened().iter().copied();
+    if !numbers.all(f64::is_finite) || !right.all(f64::is_finite) {
+        return Err(Singular);
+    }
+    if known.iter().all(|pivoting| pivoting.length != L) {
+        known.extend(Pivoting::new(matrix.pattern, L));
+    }
+    let mut known = known.iter_mut();
+    let pivoting = known.find(|pivoting| pivoting.length == L);
+    let pivoting = pivoting.ok_or(Singular)?;
+    pivoting.solve(matrix, natural.as_flattened_mut())?;
+    for (x, &run) in x.iter_mut().zip(&matrix.fronts.order) {
+        *x = natural[run as usize];
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -183,12 +256,12 @@ mod tests {
         let mut right = vec![[0.0; 2]; lu.pattern.unknowns()];
         for (row, b) in right.iter_mut().enumerate() {
             let columns = lu.pattern.row(row).iter();
-            for (&column, value) in columns.zip(&values[lu.pattern.places(row)]) {
+            for (&column, value) in columns.zip(&values[lu.pattern.blocks(row)]) {
                 let x = exact(column as usize);
                 *b = [b[0] + value * x[0], b[1] + value * x[1]];
             }
         }
-        lu.solve(values, &mut right).unwrap();
+        lu.solve(1, values, &mut right).unwrap();
         let errors = right.iter().enumerate().flat_map(|(row, x)| {
             let exact = exact(row);
             [x[0] - exact[0], x[1] - exact[1]]
@@ -203,7 +276,7 @@ mod tests {
     fn pivots_near_the_diagonal_need_no_others() {
         let (mut lu, values) = cycle(100, [4.0, -1.0, 2.0]);
         assert!(error(&mut lu, &values) <= TOLERANCE);
-        assert!(lu.pivoting.is_none());
+        assert!(lu.pivoting.is_empty());
     }
 
     // Nearly a permutation: every pivot that the pattern expects is tiny.
@@ -211,7 +284,7 @@ mod tests {
     fn pivots_are_found_wherever_they_are() {
         let (mut lu, values) = cycle(101, [1e-30, 1.0, 0.1]);
         assert!(error(&mut lu, &values) <= TOLERANCE);
-        assert!(lu.pivoting.is_some());
+        assert!(!lu.pivoting.is_empty());
         let (_, values) = cycle(101, [4.0, -1.0, 2.0]);
         assert!(error(&mut lu, &values) <= TOLERANCE);
     }
@@ -219,9 +292,9 @@ mod tests {
     #[test]
     fn a_singular_matrix_is_an_error() {
         let (mut lu, mut values) = cycle(50, [0.0, 0.0, 0.0]);
-        assert!(lu.solve(&values, &mut vec![[1.0]; 50]).is_err());
+        assert!(lu.solve(1, &values, &mut vec![[1.0]; 50]).is_err());
         values.fill(f64::NAN);
-        assert!(lu.solve(&values, &mut vec![[1.0]; 50]).is_err());
+        assert!(lu.solve(1, &values, &mut vec![[1.0]; 50]).is_err());
     }
 
     // A response that decays by a digit per unknown, soon below any rounding.
@@ -230,7 +303,7 @@ mod tests {
         let (mut lu, values) = cycle(2_000, [1.0, 0.1, 0.1]);
         let mut right = vec![[0.0]; 2_000];
         right[0] = [1.0];
-        lu.solve(&values, &mut right).unwrap();
-        assert!(lu.pivoting.is_none());
+        lu.solve(1, &values, &mut right).unwrap();
+        assert!(lu.pivoting.is_empty());
     }
 }

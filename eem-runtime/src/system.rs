@@ -42,6 +42,9 @@ pub(crate) struct LinearSystem<S, const W: usize> {
     right: Vec<[S; W]>,
 }
 
+/// The entries of A and the rows of B.
+pub(crate) type Parts<'a, S, const W: usize> = (&'a mut [S], &'a mut [[S; W]]);
+
 /// Where the entries of A are, and how the system is solved.
 #[derive(Debug)]
 enum Storage {
@@ -99,6 +102,15 @@ impl Storage {
         }
     }
 
+    /// The elimination by the pattern, if that is what solves.
+    #[cfg(feature = "sparse")]
+    fn sparse(&self) -> Option<&SparseLu> {
+        match self {
+            Self::Sparse(sparse) => Some(sparse),
+            Self::Fixed { .. } | Self::Dense { .. } => None,
+        }
+    }
+
     /// Overwrites the right-hand sides with the solutions, and the values with what it likes; what
     /// follows the values is not looked at.
     #[inline]
@@ -138,7 +150,7 @@ fn solve_sparse<S: Real, const W: usize>(
     right: &mut [[S; W]],
 ) -> Result<(), Singular> {
     let entries = sparse.entries();
-    sparse.solve(&values[..entries], right)
+    sparse.solve(sparse.length(), &values[..entries], right)
 }
 
 /// The elimination that is compiled for this number of unknowns.
@@ -166,7 +178,7 @@ fn solve_fixed<S: Real, const W: usize>(
 }
 
 impl<S: Real, const W: usize> LinearSystem<S, W> {
-    /// A system whose unknowns come in runs of `run` for each node.
+    /// A system in which what belongs to an anchor has so many rows.
     pub(crate) fn new(pattern: &Pattern, run: usize) -> Self {
         let storage = Storage::new(pattern);
         Self {
@@ -210,7 +222,7 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
     }
 
     /// The entries of A and the rows of B.
-    pub(crate) fn parts(&mut self) -> (&mut [S], &mut [[S; W]]) {
+    pub(crate) fn parts(&mut self) -> Parts<'_, S, W> {
         (&mut self.values, &mut self.right)
     }
 
@@ -249,6 +261,44 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
     pub(crate) fn solve(&mut self) -> Result<(), Singular> {
         let right = &mut self.right[..self.unknowns];
         self.storage.solve(&mut self.values, right)
+    }
+}
+
+/// A smaller system in the memory of a large one: one unknown in the place of each run of `W`, which has
+/// right-hand sides instead of single unknowns.
+impl<S: Real> LinearSystem<S, 1> {
+    /// The number of runs of so many unknowns, if that is how they are stored.
+    #[cfg(feature = "sparse")]
+    pub(crate) fn runs(&self, length: usize) -> Option<usize> {
+        let sparse = self.storage.sparse()?;
+        (sparse.length() == length).then_some(self.unknowns / length)
+    }
+
+    /// Without sparse elimination nothing is stored by runs.
+    #[cfg(not(feature = "sparse"))]
+    #[expect(clippy::unused_self, reason = "as with sparse elimination")]
+    pub(crate) fn runs(&self, _: usize) -> Option<usize> {
+        None
+    }
+
+    /// The entries of the smaller A, whose place is that of their block over `W²`, and the rows of its B.
+    pub(crate) fn parts_by_runs<const W: usize>(&mut self) -> Parts<'_, S, W> {
+        let (entries, unknowns) = (self.storage.entries() / (W * W), self.unknowns);
+        let right = self.right[..unknowns].as_flattened_mut();
+        (&mut self.values[..entries], right.as_chunks_mut().0)
+    }
+
+    /// Replaces the smaller B by X.
+    pub(crate) fn solve_by_runs<const W: usize>(&mut self) -> Result<(), Singular> {
+        match &mut self.storage {
+            Storage::Fixed { .. } | Storage::Dense { .. } => Err(Singular),
+            #[cfg(feature = "sparse")]
+            Storage::Sparse(sparse) => {
+                let entries = sparse.entries() / (W * W);
+                let right = self.right[..self.unknowns].as_flattened_mut();
+                sparse.solve(1, &self.values[..entries], right.as_chunks_mut::<W>().0)
+            }
+        }
     }
 }
 

@@ -21,15 +21,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for (node, force) in self.old_force.iter_mut().enumerate() {
             *force = view.loads.total_force(node).map(|load: S| -load);
         }
-        for length in &mut self.lengths {
-            *length = S::MAX;
-        }
+        self.per_length.fill(S::MAX);
         let mut old = Old {
             force: &mut self.old_force,
-            lengths: &mut self.lengths,
+            lengths: &mut self.per_length,
         };
         for group in groups.iter_mut() {
             group.begin(view, &mut old)?;
+        }
+        for length in &mut self.per_length {
+            *length = inverse_length(*length);
         }
         self.weigh(view);
         self.place_anchors(view);
@@ -39,17 +40,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// Inertia and impulses that do not change during the step.
     pub(super) fn weigh(&mut self, view: &StepView<'_, S>) {
-        let per_step = view.step.recip();
+        self.twice_per_step = S::from_f64(2.0) * view.step.recip();
         let momenta = points::<S, D>(view.state.momenta.values());
         let moves = view.phase.moves();
         for node in &mut self.nodes {
             if !moves {
-                (node.inertia, node.rest) = (S::one(), [S::zero(); D]);
+                node.rest = [S::zero(); D];
                 continue;
             }
-            let at = node.place.node;
+            let at = node.place.node();
             let (momentum, force) = (&momenta[at], old_force(&self.old_force, at));
-            node.inertia = (node.place.mass + node.place.mass) * per_step;
             node.rest =
                 array::from_fn(|axis| momentum[axis] + momentum[axis] - view.step * force[axis]);
         }
@@ -57,47 +57,38 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// Anchors are where the step will have moved them.
     fn place_anchors(&mut self, view: &StepView<'_, S>) {
-        let old = points::<S, D>(view.state.positions.values());
         let moves = view.phase.moves();
         for &node in &self.anchors {
-            let displacement = if moves {
+            self.trial.displacements[node] = if moves {
                 view.loads.motion(node)
             } else {
                 [S::zero(); D]
             };
-            self.trial.displacements[node] = displacement;
-            self.trial.positions[node] =
-                array::from_fn(|axis| old[node][axis] + displacement[axis]);
         }
     }
 
     fn start(&mut self, view: &StepView<'_, S>) {
-        let old = points::<S, D>(view.state.positions.values());
         let momenta = points::<S, D>(view.state.momenta.values());
         let is_foretold = view.phase.moves() && self.scheme.foretells_its_start();
         let half_step = S::from_f64(0.5) * view.step;
         let ([by_last, by_before], [last, before]) = self.past.best();
         for node in &mut self.nodes {
-            let at = node.place.node;
-            node.per_length = inverse_length(self.lengths[at]);
+            let at = node.place.node();
             node.previous = [S::zero(); D];
-            node.correction = node.previous;
+            let displacement = &mut self.trial.displacements[at];
+            *displacement = node.previous;
             if is_foretold {
                 let mobility = view.step / node.place.mass;
                 let (momentum, last, before) = (&momenta[at], &last[at], &before[at]);
-                node.correction = array::from_fn(|axis| {
+                *displacement = array::from_fn(|axis| {
                     let force = by_last * last[axis] + by_before * before[axis];
                     mobility * (momentum[axis] + half_step * force)
                 });
             }
-            let correction = node.correction;
-            self.trial.displacements[at] = correction;
-            self.trial.positions[at] = array::from_fn(|axis| old[at][axis] + correction[axis]);
         }
         for seen in &mut self.seen {
             let slot = seen.place.slot;
             seen.previous = view.state.temperatures[slot];
-            seen.correction = S::zero();
             self.trial.seen_temperatures[slot] = seen.previous;
         }
     }
@@ -112,7 +103,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             *impulse *= per_step;
         }
         let nodes = self.nodes.iter();
-        let masses = nodes.map(|node| (node.place.node, node.place.mass));
+        let masses = nodes.map(|node| (node.place.node(), node.place.mass));
         self.past.remember(&mut self.impulse, masses);
     }
 

@@ -73,7 +73,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             self.book_work(view, next);
         }
         for node in &self.nodes {
-            let at = node.place.node;
+            let at = node.place.node();
             let moved = [&self.trial.displacements[at], &self.impulse[at]];
             move_node(at, moved, view.state, next)?;
         }
@@ -82,7 +82,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     fn book_work(&self, view: &StepView<'_, S>, next: &mut State<S>) {
         for node in &self.nodes {
-            let at = node.place.node;
+            let at = node.place.node();
             let force = view.loads.force::<D>(at);
             for (&force, &displacement) in force.iter().zip(&self.trial.displacements[at]) {
                 if force != S::zero() {
@@ -125,16 +125,14 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// `Δq = (h/m)(p⁰ − ½h F⁰)`, `Δp = −½h (F⁰ + F¹)`, where F¹ acts along the gradient at q¹.
     fn move_from_start(&mut self, groups: &mut [Box<dyn Group<S, D>>], view: &StepView<'_, S>) {
         let half = S::from_f64(0.5);
-        let q0 = points::<S, D>(view.state.positions.values());
         let p0 = points::<S, D>(view.state.momenta.values());
         for node in &self.nodes {
-            let at = node.place.node;
+            let at = node.place.node();
             let mobility = view.step / node.place.mass;
             let impulse = &self.impulse[at];
             let displacement =
                 array::from_fn(|axis| mobility * (p0[at][axis] + half * impulse[axis]));
             self.trial.displacements[at] = displacement;
-            self.trial.positions[at] = array::from_fn(|axis| q0[at][axis] + displacement[axis]);
         }
         for group in groups.iter_mut() {
             group.add_impulse(view, &self.trial, Along::Gradient, &mut self.impulse);
@@ -153,18 +151,21 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let Some(secant) = &mut self.secant else {
             return Ok(());
         };
-        secant.clear_matrix();
-        let (values, right) = secant.parts();
-        for (node, right) in self.nodes.iter().zip(right) {
-            values[node.place.secant_diagonal] = node.inertia;
+        let tangent = &mut self.tangent;
+        let (values, right) = secant.parts(tangent);
+        values.fill(S::zero());
+        for (node, right) in self.nodes.iter().zip(&mut *right) {
+            values[node.place.secant_diagonal()] = node.place.mass * self.twice_per_step;
             *right = node.rest;
         }
         for group in groups.iter_mut() {
-            group.add_secant(view, &self.trial, secant);
+            group.add_secant(view, &self.trial, (&mut *values, &mut *right));
         }
-        secant.solve().map_err(|_| StepFailure::SingularTangent)?;
-        for (node, &displacement) in self.nodes.iter().zip(secant.right()) {
-            self.trial.displacements[node.place.node] = displacement;
+        let solved = secant.solve(tangent);
+        solved.map_err(|_| StepFailure::SingularTangent)?;
+        let (_, displacements) = secant.parts(tangent);
+        for (node, displacement) in self.nodes.iter().zip(displacements) {
+            self.trial.displacements[node.place.node()] = *displacement;
         }
         Ok(())
     }

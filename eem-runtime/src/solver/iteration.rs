@@ -3,7 +3,7 @@
 use core::array;
 
 use super::Solver;
-use crate::group::{Group, StepView, points};
+use crate::group::{Group, StepView};
 use crate::newton::Largest;
 use crate::scalar::Real;
 
@@ -23,11 +23,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
         for (node, rows) in self.nodes.iter().zip(rows) {
-            for place in node.place.diagonal {
-                values[place] = node.inertia;
+            let inertia = node.place.mass * self.twice_per_step;
+            for place in node.place.diagonal() {
+                values[place] = inertia;
             }
-            let displacement = &self.trial.displacements[node.place.node];
-            *rows = array::from_fn(|axis| node.rest[axis] - node.inertia * displacement[axis]);
+            let displacement = &self.trial.displacements[node.place.node()];
+            *rows = array::from_fn(|axis| node.rest[axis] - inertia * displacement[axis]);
         }
     }
 
@@ -42,28 +43,22 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// Applies the solution to the trial state, and finds the local corrections that go with it; the
     /// largest scaled update.
-    pub(super) fn correct(
-        &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-    ) -> S {
+    pub(super) fn correct(&mut self, groups: &mut [Box<dyn Group<S, D>>]) -> S {
         self.tangent.clear_rest::<D>();
         let solution = self.tangent.right_mut();
-        let old = points::<S, D>(view.state.positions.values());
         let trial = &mut self.trial;
         let mut largest = Largest::none();
         let changes = solution.as_flattened().as_chunks::<D>().0;
         for (node, change) in self.nodes.iter_mut().zip(changes) {
-            let at = node.place.node;
-            let displacement = &mut trial.displacements[at];
+            let at = node.place.node();
+            let (displacement, per_length) = (&mut trial.displacements[at], self.per_length[at]);
             // One by one, as they have been found: a copy of all would have to wait for them.
             for axis in 0..D {
                 let (from, change) = (displacement[axis], change[axis]);
-                (node.previous[axis], node.correction[axis]) = (from, change);
+                node.previous[axis] = from;
                 displacement[axis] = from + change;
-                largest.see(change * node.per_length);
+                largest.see(change * per_length);
             }
-            trial.positions[at] = array::from_fn(|axis| old[at][axis] + displacement[axis]);
         }
         for seen in &mut self.seen {
             // What rounding to Θ + δΘ leaves of δΘ: with a large conductance a rounding of Θ is a
@@ -71,7 +66,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let theta = trial.seen_temperatures[seen.place.slot];
             let change = (theta + solution[seen.place.row][0]) - theta;
             solution[seen.place.row][0] = change;
-            (seen.previous, seen.correction) = (theta, change);
+            seen.previous = theta;
             trial.seen_temperatures[seen.place.slot] = theta + change;
             largest.see(change / theta);
         }
@@ -81,31 +76,29 @@ impl<S: Real, const D: usize> Solver<S, D> {
         largest.found()
     }
 
-    /// Moves the trial to a share of the correction from where it was.
-    pub(super) fn apply(&mut self, share: S, view: &StepView<'_, S>) {
+    /// Halves the way of the trial from where it was before the last correction.
+    pub(super) fn halve(&mut self) {
+        let halved = |from: S, to: S| from + S::from_f64(0.5) * (to - from);
         let trial = &mut self.trial;
-        let old = points::<S, D>(view.state.positions.values());
         for node in &self.nodes {
-            let at = node.place.node;
-            let moved = |axis: usize| node.previous[axis] + share * node.correction[axis];
-            trial.displacements[at] = array::from_fn(moved);
-            trial.positions[at] = array::from_fn(|axis| old[at][axis] + moved(axis));
+            let displacement = &mut trial.displacements[node.place.node()];
+            for (to, &from) in displacement.iter_mut().zip(&node.previous) {
+                *to = halved(from, *to);
+            }
         }
         for seen in &self.seen {
-            let theta = seen.previous + share * seen.correction;
-            trial.seen_temperatures[seen.place.slot] = theta;
+            let theta = &mut trial.seen_temperatures[seen.place.slot];
+            *theta = halved(seen.previous, *theta);
         }
     }
 
-    /// The present trial is where the next correction starts; no correction.
+    /// The present trial is where the next correction starts.
     pub(super) fn hold(&mut self) {
         for node in &mut self.nodes {
-            node.previous = self.trial.displacements[node.place.node];
-            node.correction = [S::zero(); D];
+            node.previous = self.trial.displacements[node.place.node()];
         }
         for seen in &mut self.seen {
             seen.previous = self.trial.seen_temperatures[seen.place.slot];
-            seen.correction = S::zero();
         }
     }
 
@@ -119,12 +112,13 @@ impl<S: Real, const D: usize> Solver<S, D> {
         self.weigh(view);
         self.hold();
         let growth = factor - S::one();
-        for node in &mut self.nodes {
-            node.correction = node.previous.map(|component| growth * component);
+        for node in &self.nodes {
+            self.trial.displacements[node.place.node()] = node
+                .previous
+                .map(|component| component + growth * component);
         }
         for group in groups {
             group.hold();
         }
-        self.apply(S::one(), view);
     }
 }

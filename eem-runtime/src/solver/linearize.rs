@@ -15,13 +15,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
         effort: &mut Effort<S>,
     ) -> Result<(Vec<S>, Vec<S>), StepFailure> {
         self.begin(groups, view)?;
-        for (node, &displacement) in self.nodes.iter_mut().zip(unknowns.as_chunks::<D>().0) {
-            node.correction = displacement;
+        for (node, &displacement) in self.nodes.iter().zip(unknowns.as_chunks::<D>().0) {
+            self.trial.displacements[node.place.node()] = displacement;
         }
-        for seen in &mut self.seen {
-            seen.correction = unknowns[seen.place.row] - seen.previous;
+        for seen in &self.seen {
+            self.trial.seen_temperatures[seen.place.slot] = unknowns[seen.place.row];
         }
-        self.apply(S::one(), view);
         let no_change = vec![[S::zero()]; self.tangent.right().len()];
         let mut before = None;
         loop {
