@@ -91,8 +91,9 @@ pub(crate) trait Group<S: Real, const D: usize>: Elements<S, D> {
     /// The present trial is where the next correction starts; no local correction.
     fn hold(&mut self);
 
-    /// Applies the last correction to the response through the tangent, without evaluating it.
-    fn extrapolate(&mut self);
+    /// Applies the last correction, that of the solution, to the response through the tangent, without
+    /// evaluating it.
+    fn extrapolate(&mut self, solution: &[[S; 1]]);
 
     /// Adds `½h Σ A` and `−h Σ A q⁰`, where `A q_m` is the nodal force at the found response; moved
     /// anchors are taken from the trial.
@@ -237,10 +238,8 @@ where
         }
     }
 
-    fn extrapolate(&mut self) {
-        for member in &mut self.members {
-            member.extrapolate();
-        }
+    fn extrapolate(&mut self, solution: &[[S; 1]]) {
+        self.extrapolate_all(solution);
     }
 
     fn add_secant(

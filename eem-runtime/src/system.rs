@@ -108,6 +108,8 @@ impl Storage {
         right: &mut [[S; W]],
     ) -> Result<(), Singular> {
         match self {
+            Self::Fixed { unknowns: 1 } => lu::solve_one(values, right),
+            Self::Fixed { unknowns: 2 } => lu::solve_two(values, right),
             Self::Fixed { unknowns } => solve_fixed(*unknowns, values, right),
             Self::Dense { pivots } => solve_dense(values, pivots, right),
             #[cfg(feature = "sparse")]
@@ -141,16 +143,14 @@ fn solve_sparse<S: Real, const W: usize>(
     sparse.solve(&values[..entries], right)
 }
 
-/// The elimination that is compiled for this number of unknowns.
-#[inline]
+/// The elimination that is compiled for this number of unknowns, more than two.
+#[inline(never)]
 fn solve_fixed<S: Real, const W: usize>(
     unknowns: usize,
     values: &mut [S],
     right: &mut [[S; W]],
 ) -> Result<(), Singular> {
     match unknowns {
-        1 => lu::solve_fixed::<S, 1, W>(values, right),
-        2 => lu::solve_two(values, right),
         3 => lu::solve_fixed::<S, 3, W>(values, right),
         4 => lu::solve_fixed::<S, 4, W>(values, right),
         5 => lu::solve_fixed::<S, 5, W>(values, right),

@@ -33,6 +33,23 @@ pub(crate) fn solve_fixed<S: Real, const N: usize, const W: usize>(
     Ok(())
 }
 
+/// [`solve_fixed`] for one unknown.
+#[inline]
+pub(crate) fn solve_one<S: Real, const W: usize>(
+    matrix: &[S],
+    b: &mut [[S; W]],
+) -> Result<(), Singular> {
+    let (&[pivot, ..], [right, ..]) = (matrix, b) else {
+        return Err(Singular);
+    };
+    if !(pivot.is_finite() && pivot != S::zero()) {
+        return Err(Singular);
+    }
+    let inverse = pivot.recip();
+    *right = right.map(|value| value * inverse);
+    Ok(())
+}
+
 /// [`solve_fixed`] for two unknowns: Cramer's rule, with one division to wait for, unless the determinant or
 /// the first pivot will not do.
 ///
@@ -215,7 +232,9 @@ mod tests {
 
     fn check<const N: usize>(mut a: [[f64; N]; N]) {
         let mut b = image(&a);
-        if N == 2 {
+        if N == 1 {
+            solve_one(a.as_flattened(), &mut b).unwrap();
+        } else if N == 2 {
             solve_two(a.as_flattened_mut(), &mut b).unwrap();
         } else {
             solve_fixed::<f64, N, 1>(a.as_flattened_mut(), &mut b).unwrap();
@@ -258,6 +277,13 @@ mod tests {
         let mut b = [[4.0], [7.0]];
         solve_fixed::<f64, 2, 1>(&mut [2.0, 1.0, 1.0, 3.0], &mut b).unwrap();
         assert_eq!(b, [[1.0], [2.0]]);
+    }
+
+    #[test]
+    fn one_unknown_needs_a_number_that_is_not_zero() {
+        for pivot in [0.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(solve_one(&[pivot], &mut [[1.0]]), Err(Singular));
+        }
     }
 
     #[test]

@@ -31,7 +31,6 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for group in groups.iter_mut() {
             group.begin(view, &mut old)?;
         }
-        self.weigh(view);
         self.place_anchors(view);
         self.start(view);
         Ok(())
@@ -39,19 +38,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// Inertia and impulses that do not change during the step.
     pub(super) fn weigh(&mut self, view: &StepView<'_, S>) {
-        let per_step = view.step.recip();
         let momenta = points::<S, D>(view.state.momenta.values());
-        let moves = view.phase.moves();
         for node in &mut self.nodes {
-            if !moves {
-                (node.inertia, node.rest) = (S::one(), [S::zero(); D]);
-                continue;
-            }
             let at = node.place.node;
-            let (momentum, force) = (&momenta[at], old_force(&self.old_force, at));
-            node.inertia = (node.place.mass + node.place.mass) * per_step;
-            node.rest =
-                array::from_fn(|axis| momentum[axis] + momentum[axis] - view.step * force[axis]);
+            node.weigh(view, &momenta[at], old_force(&self.old_force, at));
         }
     }
 
@@ -71,6 +61,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
+    /// Moving nodes are where they are foretold, seen temperatures where they were.
     fn start(&mut self, view: &StepView<'_, S>) {
         let old = points::<S, D>(view.state.positions.values());
         let momenta = points::<S, D>(view.state.momenta.values());
@@ -79,18 +70,20 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let ([by_last, by_before], [last, before]) = self.past.best();
         for node in &mut self.nodes {
             let at = node.place.node;
+            let momentum = &momenta[at];
+            node.weigh(view, momentum, old_force(&self.old_force, at));
             node.per_length = inverse_length(self.lengths[at]);
-            node.previous = [S::zero(); D];
-            node.correction = node.previous;
+            let mut correction = [S::zero(); D];
+            node.previous = correction;
             if is_foretold {
                 let mobility = view.step / node.place.mass;
-                let (momentum, last, before) = (&momenta[at], &last[at], &before[at]);
-                node.correction = array::from_fn(|axis| {
+                let (last, before) = (&last[at], &before[at]);
+                correction = array::from_fn(|axis| {
                     let force = by_last * last[axis] + by_before * before[axis];
                     mobility * (momentum[axis] + half_step * force)
                 });
             }
-            let correction = node.correction;
+            node.correction = correction;
             self.trial.displacements[at] = correction;
             self.trial.positions[at] = array::from_fn(|axis| old[at][axis] + correction[axis]);
         }
@@ -100,20 +93,6 @@ impl<S: Real, const D: usize> Solver<S, D> {
             seen.correction = S::zero();
             self.trial.seen_temperatures[slot] = seen.previous;
         }
-    }
-
-    /// Remembers the forces of a step that has succeeded.
-    pub(super) fn remember_forces(&mut self, step: S) {
-        if !self.scheme.foretells_its_start() {
-            return;
-        }
-        let per_step = step.recip();
-        for impulse in self.impulse.as_flattened_mut() {
-            *impulse *= per_step;
-        }
-        let nodes = self.nodes.iter();
-        let masses = nodes.map(|node| (node.place.node, node.place.mass));
-        self.past.remember(&mut self.impulse, masses);
     }
 
     /// Takes back what the last step left for the next ones.

@@ -41,8 +41,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for group in groups.iter_mut() {
             group.close(view, &self.trial, next)?;
         }
-        if view.phase.heats() {
-            self.remember_forces(view.step);
+        if view.phase.heats() && self.scheme.foretells_its_start() {
+            self.past.remember(&mut self.impulse);
         }
         Ok(())
     }
@@ -67,16 +67,28 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(())
     }
 
-    /// New positions and momenta, all finite, and the work of the loads.
-    fn move_masses(&self, view: &StepView<'_, S>, next: &mut State<S>) -> Result<(), StepFailure> {
+    /// New positions and momenta, all finite, and the work of the loads. The impulses turn into forces,
+    /// as which they are remembered.
+    fn move_masses(
+        &mut self,
+        view: &StepView<'_, S>,
+        next: &mut State<S>,
+    ) -> Result<(), StepFailure> {
         if view.loads.has_force() {
             self.book_work(view, next);
         }
+        let per_step = view.step.recip();
+        let mut misses = self.past.misses();
         for node in &self.nodes {
             let at = node.place.node;
-            let moved = [&self.trial.displacements[at], &self.impulse[at]];
+            let impulse = &mut self.impulse[at];
+            let moved = [&self.trial.displacements[at], &*impulse];
             move_node(at, moved, view.state, next)?;
+            *impulse = impulse.map(|component| component * per_step);
+            misses.see(at, impulse, node.place.mass);
         }
+        let errors = misses.found();
+        self.past.expect(errors);
         Ok(())
     }
 
@@ -114,8 +126,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
         view: &StepView<'_, S>,
         along: Along,
     ) {
-        for (node, impulse) in self.impulse.iter_mut().enumerate() {
-            *impulse = old_force(&self.old_force, node).map(|force| -view.step * force);
+        self.impulse.fill([S::zero(); D]);
+        for (impulse, force) in self.impulse.iter_mut().zip(&self.old_force) {
+            *impulse = force.map(|component| -view.step * component);
         }
         for group in groups.iter_mut() {
             group.add_impulse(view, &self.trial, along, &mut self.impulse);

@@ -15,6 +15,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// ```
     ///
     /// to which the elements will add their share.
+    #[inline]
     pub(super) fn balance(&mut self) {
         self.tangent.clear_matrix();
         let (values, right) = self.tangent.parts();
@@ -47,7 +48,6 @@ impl<S: Real, const D: usize> Solver<S, D> {
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
     ) -> S {
-        self.tangent.clear_rest::<D>();
         let solution = self.tangent.right_mut();
         let old = points::<S, D>(view.state.positions.values());
         let trial = &mut self.trial;

@@ -1,7 +1,10 @@
 //! What Newton's method knows of a node that moves and of a temperature that neighbours see, each in one
 //! record.
 
+use core::array;
+
 use super::places::{MovingNode, Seen};
+use crate::group::StepView;
 use crate::scalar::Real;
 
 /// A node that moves, during one step.
@@ -30,6 +33,18 @@ impl<S: Real, const D: usize> Motion<S, D> {
             previous: [S::zero(); D],
             correction: [S::zero(); D],
         }
+    }
+
+    /// Inertia and impulse that do not change during a step, given p⁰ and F⁰.
+    #[inline]
+    pub(super) fn weigh(&mut self, view: &StepView<'_, S>, momentum: &[S; D], force: [S; D]) {
+        if !view.phase.moves() {
+            (self.inertia, self.rest) = (S::one(), [S::zero(); D]);
+            return;
+        }
+        let twice = |value: S| value + value;
+        self.inertia = twice(self.place.mass) * view.step.recip();
+        self.rest = array::from_fn(|axis| twice(momentum[axis]) - view.step * force[axis]);
     }
 }
 

@@ -10,12 +10,23 @@ const MEMORY: f64 = 0.875;
 /// The forces of the last two steps, and how well they would have been foretold.
 #[derive(Debug)]
 pub(super) struct Past<S, const D: usize> {
-    /// `Δp/h` of the last step and of the one before, per node, N; zero before the first.
+    /// `Δp/h` of the last step and of the one before, per node that moves, N; zero before the first.
+    /// Those of anchors mean nothing.
     forces: [Vec<[S; D]>; 2],
     /// By how much each forecast has been wrong, `Σ |ΔF/m|²`, the last steps counting most.
     errors: [S; 3],
     /// The same before the last step.
     errors_before: [S; 3],
+    /// The same after the step that is being closed.
+    errors_after: [S; 3],
+}
+
+/// By how much the forecasts are wrong for a step, found node by node.
+#[derive(Debug)]
+pub(super) struct Misses<'a, S, const D: usize> {
+    last: &'a [[S; D]],
+    before: &'a [[S; D]],
+    errors: [S; 3],
 }
 
 /// The past as it is saved: forces per coordinate.
@@ -53,6 +64,7 @@ impl<S: Real, const D: usize> Past<S, D> {
             forces: [zeros.clone(), zeros],
             errors: [S::zero(); 3],
             errors_before: [S::zero(); 3],
+            errors_after: [S::zero(); 3],
         }
     }
 
@@ -68,28 +80,28 @@ impl<S: Real, const D: usize> Past<S, D> {
         (FORECASTS[best].map(S::from_f64), forces)
     }
 
-    /// Takes the forces of another step, given which nodes moved and their masses; leaves room for those
-    /// of the next step in their place.
-    pub(super) fn remember(
-        &mut self,
-        forces: &mut Vec<[S; D]>,
-        masses: impl Iterator<Item = (usize, S)>,
-    ) {
-        self.errors_before = self.errors;
-        let mut errors = self.errors.map(|error| S::from_f64(MEMORY) * error);
-        let [last, before] = &self.forces;
-        for (node, mass) in masses {
-            let per_mass = mass.recip();
-            let (force, last, before) = (&forces[node], &last[node], &before[node]);
-            for axis in 0..D {
-                let change = force[axis] - last[axis];
-                let misses = [force[axis], change, change - (last[axis] - before[axis])];
-                for (error, miss) in errors.iter_mut().zip(misses) {
-                    *error += (miss * per_mass) * (miss * per_mass);
-                }
-            }
+    /// Begins to compare the forces of another step with the forecasts of them.
+    #[inline]
+    pub(super) fn misses(&self) -> Misses<'_, S, D> {
+        let [last, before] = self.forces.each_ref().map(Vec::as_slice);
+        Misses {
+            last,
+            before,
+            errors: self.errors.map(|error| S::from_f64(MEMORY) * error),
         }
-        self.errors = errors;
+    }
+
+    /// Keeps what has been found for the step that is being closed, until it is remembered.
+    #[inline]
+    pub(super) fn expect(&mut self, errors: [S; 3]) {
+        self.errors_after = errors;
+    }
+
+    /// Takes the forces of a step that has succeeded; leaves room for those of the next one in their place.
+    #[inline]
+    pub(super) fn remember(&mut self, forces: &mut Vec<[S; D]>) {
+        self.errors_before = self.errors;
+        self.errors = self.errors_after;
         mem::swap(&mut self.forces[1], forces);
         self.forces.swap(0, 1);
     }
@@ -121,16 +133,45 @@ impl<S: Real, const D: usize> Past<S, D> {
     }
 }
 
+impl<S: Real, const D: usize> Misses<'_, S, D> {
+    /// Looks at the force on a node with a mass.
+    #[inline]
+    pub(super) fn see(&mut self, node: usize, force: &[S; D], mass: S) {
+        let per_mass = mass.recip();
+        let (last, before) = (&self.last[node], &self.before[node]);
+        for axis in 0..D {
+            let change = force[axis] - last[axis];
+            let misses = [force[axis], change, change - (last[axis] - before[axis])];
+            for (error, miss) in self.errors.iter_mut().zip(misses) {
+                *error += (miss * per_mass) * (miss * per_mass);
+            }
+        }
+    }
+
+    /// The errors with those of all nodes that it has looked at.
+    #[inline]
+    pub(super) fn found(self) -> [S; 3] {
+        self.errors
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn go_on(past: &mut Past<f64, 1>, room: &mut Vec<[f64; 1]>, force: f64) {
+        room[0] = [force];
+        let mut misses = past.misses();
+        misses.see(0, &room[0], 2.0);
+        let errors = misses.found();
+        past.expect(errors);
+        past.remember(room);
+    }
+
     fn after(forces: [f64; 3]) -> (Past<f64, 1>, Vec<[f64; 1]>) {
-        let mut past = Past::none(1);
-        let mut room = vec![[0.0]];
+        let (mut past, mut room) = (Past::none(1), vec![[0.0]]);
         for force in forces {
-            room[0] = [force];
-            past.remember(&mut room, [(0, 2.0)].into_iter());
+            go_on(&mut past, &mut room, force);
         }
         (past, room)
     }
@@ -151,8 +192,7 @@ mod tests {
     fn what_was_forgotten_leaves_no_trace() {
         let (mut past, mut room) = after([1.0, 2.0, 4.0]);
         let before = past.save();
-        room[0] = [9.0];
-        past.remember(&mut room, [(0, 2.0)].into_iter());
+        go_on(&mut past, &mut room, 9.0);
         assert_ne!(past.save(), before);
         past.forget(&mut room);
         assert_eq!(past.save(), before);
