@@ -47,7 +47,8 @@ impl<S: Scalar> Compensated<S> {
 
     /// The sums of one point of `D` coordinates, of `old` and increments; everything that rounding took
     /// from them, added up.
-    #[inline]
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a few numbers in registers")]
     pub(crate) fn advance_point<const D: usize>(
         &mut self,
         point: usize,

@@ -89,7 +89,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             shift: [0; 2],
         };
         let nodes = moving(masses, &sites).into_iter().map(Motion::new);
-        let nodes = nodes.collect();
+        let nodes: Vec<_> = nodes.collect();
         let seen: Vec<_> = seen(&sites).into_iter().map(Glance::new).collect();
         let anchors = masses.iter().enumerate();
         let anchors = anchors.filter_map(|(node, mass)| mass.is_none().then_some(node));
@@ -98,6 +98,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let slots = if seen.is_empty() { 0 } else { layout.thermal };
         Self {
             scheme,
+            past: Past::none(nodes.len()),
             nodes,
             anchors: anchors.collect(),
             seen,
@@ -114,7 +115,6 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 Vec::new()
             },
             impulse: points,
-            past: Past::none(masses.len()),
             lengths: vec![S::one(); masses.len()],
             obstacle: None,
         }

@@ -36,6 +36,8 @@ const SPARSITY: usize = 4;
 pub(crate) struct LinearSystem<S, const W: usize> {
     unknowns: usize,
     storage: Storage,
+    /// A is zero.
+    is_clear: bool,
     /// The entries of A, then the place for what nobody reads.
     values: Vec<S>,
     /// The rows of B, then the place for what nobody reads.
@@ -99,8 +101,8 @@ impl Storage {
         }
     }
 
-    /// Overwrites the right-hand sides with the solutions, and the values with what it likes; what
-    /// follows the values is not looked at.
+    /// Overwrites the right-hand sides with the solutions, and the values with zeros; what follows the
+    /// values is not looked at.
     #[inline]
     fn solve<S: Real, const W: usize>(
         &mut self,
@@ -128,6 +130,7 @@ fn solve_dense<S: Real, const W: usize>(
     let values = &mut values[..pivots.len() * pivots.len()];
     lu::factor(values, pivots)?;
     lu::solve(values, pivots, right);
+    values.fill(S::zero());
     Ok(())
 }
 
@@ -135,12 +138,14 @@ fn solve_dense<S: Real, const W: usize>(
 #[cfg(feature = "sparse")]
 #[inline(never)]
 fn solve_sparse<S: Real, const W: usize>(
-    values: &[S],
+    values: &mut [S],
     sparse: &mut SparseLu,
     right: &mut [[S; W]],
 ) -> Result<(), Singular> {
-    let entries = sparse.entries();
-    sparse.solve(&values[..entries], right)
+    let values = &mut values[..sparse.entries()];
+    sparse.solve(values, right)?;
+    values.fill(S::zero());
+    Ok(())
 }
 
 /// The elimination that is compiled for this number of unknowns, more than two.
@@ -171,6 +176,7 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         let storage = Storage::new(pattern);
         Self {
             unknowns: pattern.unknowns(),
+            is_clear: true,
             values: vec![S::zero(); storage.entries() + run],
             right: vec![[S::zero(); W]; pattern.unknowns() + run],
             storage,
@@ -205,12 +211,18 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
     }
 
     /// Makes A zero.
+    #[inline]
     pub(crate) fn clear_matrix(&mut self) {
-        self.values.fill(S::zero());
+        if !self.is_clear {
+            self.values.fill(S::zero());
+            self.is_clear = true;
+        }
     }
 
     /// The entries of A and the rows of B.
+    #[inline]
     pub(crate) fn parts(&mut self) -> (&mut [S], &mut [[S; W]]) {
+        self.is_clear = false;
         (&mut self.values, &mut self.right)
     }
 
@@ -244,11 +256,13 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         }
     }
 
-    /// Replaces B by X, but for the rows of anchors; A is lost.
+    /// Replaces B by X, but for the rows of anchors, and A by zero.
     #[inline]
     pub(crate) fn solve(&mut self) -> Result<(), Singular> {
         let right = &mut self.right[..self.unknowns];
-        self.storage.solve(&mut self.values, right)
+        self.storage.solve(&mut self.values, right)?;
+        self.is_clear = true;
+        Ok(())
     }
 }
 

@@ -14,7 +14,7 @@ use crate::scalar::Real;
 /// this factor; that bounds the growth of entries nearly as well as the largest pivot does.
 const LARGEST_RATIO: f64 = 4.0;
 
-/// Overwrites the columns of `b` with the solutions of `A x = b` for `N` unknowns. A is lost.
+/// Overwrites the columns of `b` with the solutions of `A x = b` for `N` unknowns, and A with zeros.
 pub(crate) fn solve_fixed<S: Real, const N: usize, const W: usize>(
     matrix: &mut [S],
     b: &mut [[S; W]],
@@ -30,23 +30,25 @@ pub(crate) fn solve_fixed<S: Real, const N: usize, const W: usize>(
         Ok(()) => substitute(a, b),
         Err(row) => exchange_from(row, a, b)?,
     }
+    *a = [[S::zero(); N]; N];
     Ok(())
 }
 
 /// [`solve_fixed`] for one unknown.
 #[inline]
 pub(crate) fn solve_one<S: Real, const W: usize>(
-    matrix: &[S],
+    matrix: &mut [S],
     b: &mut [[S; W]],
 ) -> Result<(), Singular> {
-    let (&[pivot, ..], [right, ..]) = (matrix, b) else {
+    let ([pivot, ..], [right, ..]) = (matrix, b) else {
         return Err(Singular);
     };
-    if !(pivot.is_finite() && pivot != S::zero()) {
+    if !(pivot.is_finite() && *pivot != S::zero()) {
         return Err(Singular);
     }
     let inverse = pivot.recip();
     *right = right.map(|value| value * inverse);
+    *pivot = S::zero();
     Ok(())
 }
 
@@ -75,6 +77,7 @@ pub(crate) fn solve_two<S: Real, const W: usize>(
         let (x, y) = (d * *upper - u * *lower, a * *lower - c * *upper);
         (*upper, *lower) = (x * inverse, y * inverse);
     }
+    matrix[..4].fill(S::zero());
     Ok(())
 }
 
@@ -233,7 +236,7 @@ mod tests {
     fn check<const N: usize>(mut a: [[f64; N]; N]) {
         let mut b = image(&a);
         if N == 1 {
-            solve_one(a.as_flattened(), &mut b).unwrap();
+            solve_one(a.as_flattened_mut(), &mut b).unwrap();
         } else if N == 2 {
             solve_two(a.as_flattened_mut(), &mut b).unwrap();
         } else {
@@ -282,7 +285,7 @@ mod tests {
     #[test]
     fn one_unknown_needs_a_number_that_is_not_zero() {
         for pivot in [0.0, f64::NAN, f64::INFINITY] {
-            assert_eq!(solve_one(&[pivot], &mut [[1.0]]), Err(Singular));
+            assert_eq!(solve_one(&mut [pivot], &mut [[1.0]]), Err(Singular));
         }
     }
 

@@ -67,8 +67,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let momenta = points::<S, D>(view.state.momenta.values());
         let is_foretold = view.phase.moves() && self.scheme.foretells_its_start();
         let half_step = S::from_f64(0.5) * view.step;
-        let ([by_last, by_before], [last, before]) = self.past.best();
-        for node in &mut self.nodes {
+        for (node, force) in self.nodes.iter_mut().zip(self.past.foretold()) {
             let at = node.place.node;
             let momentum = &momenta[at];
             node.weigh(view, momentum, old_force(&self.old_force, at));
@@ -77,11 +76,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
             node.previous = correction;
             if is_foretold {
                 let mobility = view.step / node.place.mass;
-                let (last, before) = (&last[at], &before[at]);
-                correction = array::from_fn(|axis| {
-                    let force = by_last * last[axis] + by_before * before[axis];
-                    mobility * (momentum[axis] + half_step * force)
-                });
+                correction =
+                    array::from_fn(|axis| mobility * (momentum[axis] + half_step * force[axis]));
             }
             node.correction = correction;
             self.trial.displacements[at] = correction;
@@ -98,7 +94,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// Takes back what the last step left for the next ones.
     pub(crate) fn undo(&mut self) {
         if self.scheme.foretells_its_start() {
-            self.past.forget(&mut self.impulse);
+            self.past.forget();
         }
     }
 

@@ -42,7 +42,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             group.close(view, &self.trial, next)?;
         }
         if view.phase.heats() && self.scheme.foretells_its_start() {
-            self.past.remember(&mut self.impulse);
+            self.past.keep();
         }
         Ok(())
     }
@@ -67,8 +67,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(())
     }
 
-    /// New positions and momenta, all finite, and the work of the loads. The impulses turn into forces,
-    /// as which they are remembered.
+    /// New positions and momenta, all finite, and the work of the loads. The forces are remembered.
     fn move_masses(
         &mut self,
         view: &StepView<'_, S>,
@@ -78,17 +77,15 @@ impl<S: Real, const D: usize> Solver<S, D> {
             self.book_work(view, next);
         }
         let per_step = view.step.recip();
-        let mut misses = self.past.misses();
+        let mut remembering = self.past.remember();
         for node in &self.nodes {
             let at = node.place.node;
-            let impulse = &mut self.impulse[at];
-            let moved = [&self.trial.displacements[at], &*impulse];
-            move_node(at, moved, view.state, next)?;
-            *impulse = impulse.map(|component| component * per_step);
-            misses.see(at, impulse, node.place.mass);
+            let (displacement, impulse) = (&self.trial.displacements[at], &self.impulse[at]);
+            move_node(at, [displacement, impulse], view.state, next)?;
+            let force = impulse.map(|component| component * per_step);
+            remembering.take(force, node.place.mass);
         }
-        let errors = misses.found();
-        self.past.expect(errors);
+        remembering.finish();
         Ok(())
     }
 
