@@ -103,15 +103,13 @@ impl Storage {
 
     /// Overwrites the right-hand sides with the solutions, and the values with zeros; what follows the
     /// values is not looked at.
-    #[inline]
+    #[inline(never)]
     fn solve<S: Real, const W: usize>(
         &mut self,
         values: &mut [S],
         right: &mut [[S; W]],
     ) -> Result<(), Singular> {
         match self {
-            Self::Fixed { unknowns: 1 } => lu::solve_one(values, right),
-            Self::Fixed { unknowns: 2 } => lu::solve_two(values, right),
             Self::Fixed { unknowns } => solve_fixed(*unknowns, values, right),
             Self::Dense { pivots } => solve_dense(values, pivots, right),
             #[cfg(feature = "sparse")]
@@ -149,7 +147,7 @@ fn solve_sparse<S: Real, const W: usize>(
 }
 
 /// The elimination that is compiled for this number of unknowns, more than two.
-#[inline(never)]
+#[inline]
 fn solve_fixed<S: Real, const W: usize>(
     unknowns: usize,
     values: &mut [S],
@@ -259,8 +257,15 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
     /// Replaces B by X, but for the rows of anchors, and A by zero.
     #[inline]
     pub(crate) fn solve(&mut self) -> Result<(), Singular> {
-        let right = &mut self.right[..self.unknowns];
-        self.storage.solve(&mut self.values, right)?;
+        match self.unknowns {
+            // In line, as they are hardly longer than the call.
+            1 => lu::solve_one(&mut self.values, &mut self.right)?,
+            2 => lu::solve_two(&mut self.values, &mut self.right)?,
+            unknowns => {
+                let right = &mut self.right[..unknowns];
+                self.storage.solve(&mut self.values, right)?;
+            }
+        }
         self.is_clear = true;
         Ok(())
     }

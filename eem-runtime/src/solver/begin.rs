@@ -8,7 +8,7 @@ use core::array;
 
 use super::{SavedPast, Solver};
 use crate::error::StepFailure;
-use crate::group::{Group, Old, StepView, points};
+use crate::group::{Group, Old, StepView, Trial, points};
 use crate::scalar::Real;
 
 impl<S: Real, const D: usize> Solver<S, D> {
@@ -45,19 +45,24 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
-    /// Anchors are where the step will have moved them.
+    /// Anchors are where the step will have moved them; few are moved.
     fn place_anchors(&mut self, view: &StepView<'_, S>) {
         let old = points::<S, D>(view.state.positions.values());
-        let moves = view.phase.moves();
+        let Trial {
+            displacements,
+            positions,
+            ..
+        } = &mut self.trial;
         for &node in &self.anchors {
-            let displacement = if moves {
-                view.loads.motion(node)
-            } else {
-                [S::zero(); D]
-            };
-            self.trial.displacements[node] = displacement;
-            self.trial.positions[node] =
-                array::from_fn(|axis| old[node][axis] + displacement[axis]);
+            positions[node] = old[node];
+        }
+        for &node in &view.loads.moved {
+            let mut displacement = [S::zero(); D];
+            if view.phase.moves() {
+                displacement = view.loads.motion(node);
+            }
+            positions[node] = array::from_fn(|axis| old[node][axis] + displacement[axis]);
+            displacements[node] = displacement;
         }
     }
 
