@@ -235,7 +235,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             if is_last(update, before, tolerance) {
                 if update * update <= S::from_f64(NEGLIGIBLE) * S::EPSILON {
                     for group in groups.iter_mut() {
-                        group.extrapolate(self.tangent.right());
+                        group.extrapolate(self.tangent.solution());
                     }
                     return Ok(());
                 }
@@ -289,8 +289,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(share)
     }
 
-    /// The responses at the trial state, a share of the correction away from the last one, and the
-    /// system of the next iteration if there is to be one.
+    /// The responses at the trial state, a share of the correction away from the last one, and what they
+    /// add to the system of the next iteration if there is to be one.
     #[inline]
     fn evaluate(
         &mut self,
@@ -299,9 +299,6 @@ impl<S: Real, const D: usize> Solver<S, D> {
         share: S,
         goes_on: bool,
     ) -> Result<(), StateError> {
-        if goes_on {
-            self.balance();
-        }
         let trial = &self.trial;
         for group in groups {
             let system = goes_on.then_some(&mut self.tangent);

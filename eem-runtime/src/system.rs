@@ -14,6 +14,8 @@
 //! one is another variant there, with its answers to `new` (from the pattern), `entries`, `position`
 //! and `solve`.
 
+use core::mem;
+
 use crate::lu::{self, Singular};
 use crate::pattern::Pattern;
 use crate::scalar::Real;
@@ -42,6 +44,8 @@ pub(crate) struct LinearSystem<S, const W: usize> {
     values: Vec<S>,
     /// The rows of B, then the place for what nobody reads.
     right: Vec<[S; W]>,
+    /// The rows of X, then what is said of those that have none.
+    solution: Vec<[S; W]>,
 }
 
 /// Where the entries of A are, and how the system is solved.
@@ -177,6 +181,7 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
             is_clear: true,
             values: vec![S::zero(); storage.entries() + run],
             right: vec![[S::zero(); W]; pattern.unknowns() + run],
+            solution: vec![[S::zero(); W]; pattern.unknowns() + run],
             storage,
         }
     }
@@ -224,14 +229,27 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         (&mut self.values, &mut self.right)
     }
 
-    /// The rows of B, or of X once [`solve`](Self::solve) has succeeded.
+    /// The entries of A and the rows of B for the next system, of which A is zero, and the rows of X.
+    #[inline]
+    pub(crate) fn renew(&mut self) -> (&mut [S], &mut [[S; W]], &mut [[S; W]]) {
+        self.clear_matrix();
+        self.is_clear = false;
+        (&mut self.values, &mut self.right, &mut self.solution)
+    }
+
+    /// The rows of B.
     pub(crate) fn right(&self) -> &[[S; W]] {
         &self.right
     }
 
+    /// The rows of X, once [`solve`](Self::solve) has succeeded.
+    pub(crate) fn solution(&self) -> &[[S; W]] {
+        &self.solution
+    }
+
     /// The same, to be written.
-    pub(crate) fn right_mut(&mut self) -> &mut [[S; W]] {
-        &mut self.right
+    pub(crate) fn solution_mut(&mut self) -> &mut [[S; W]] {
+        &mut self.solution
     }
 
     /// All entries of A, row-major.
@@ -246,24 +264,24 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         .collect()
     }
 
-    /// Makes the last rows of B zero, where elements write what belongs to an anchor; `RUN` of them
-    /// belong to a node. As a part of X, they say that anchors do not move.
+    /// Makes the last rows of X zero, which says that anchors do not move; `RUN` of them belong to a node.
     pub(crate) fn clear_rest<const RUN: usize>(&mut self) {
-        if let Some(rest) = self.right.last_chunk_mut::<RUN>() {
+        if let Some(rest) = self.solution.last_chunk_mut::<RUN>() {
             *rest = [[S::zero(); W]; RUN];
         }
     }
 
-    /// Replaces B by X, but for the rows of anchors, and A by zero.
+    /// Finds X, but for the rows of anchors; A is then zero, and B is lost.
     #[inline]
     pub(crate) fn solve(&mut self) -> Result<(), Singular> {
         match self.unknowns {
             // In line, as they are hardly longer than the call.
-            1 => lu::solve_one(&mut self.values, &mut self.right)?,
-            2 => lu::solve_two(&mut self.values, &mut self.right)?,
+            1 => lu::solve_one(&mut self.values, &self.right, &mut self.solution)?,
+            2 => lu::solve_two(&mut self.values, &self.right, &mut self.solution)?,
             unknowns => {
-                let right = &mut self.right[..unknowns];
-                self.storage.solve(&mut self.values, right)?;
+                self.storage
+                    .solve(&mut self.values, &mut self.right[..unknowns])?;
+                mem::swap(&mut self.right, &mut self.solution);
             }
         }
         self.is_clear = true;
@@ -305,7 +323,7 @@ mod tests {
             }
         }
         system.solve().unwrap();
-        for (row, found) in system.right()[..unknowns].iter().enumerate() {
+        for (row, found) in system.solution()[..unknowns].iter().enumerate() {
             for (found, exact) in found.iter().zip(exact(row)) {
                 // Condition number at most 4, numbers up to 61, and a rounding per entry of a row.
                 assert!(
@@ -331,6 +349,6 @@ mod tests {
         (right[0], right[1]) = ([6.0], [9.0]);
         system.solve().unwrap();
         system.clear_rest::<1>();
-        assert_eq!(system.right(), [[3.0], [0.0]]);
+        assert_eq!(system.solution(), [[3.0], [0.0]]);
     }
 }

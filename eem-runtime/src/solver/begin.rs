@@ -70,9 +70,19 @@ impl<S: Real, const D: usize> Solver<S, D> {
     fn start(&mut self, view: &StepView<'_, S>) {
         let old = points::<S, D>(view.state.positions.values());
         let momenta = points::<S, D>(view.state.momenta.values());
+        let (values, right, _) = self.tangent.renew();
+        for seen in &mut self.seen {
+            let slot = seen.place.slot;
+            seen.previous = view.state.temperatures[slot];
+            seen.correction = S::zero();
+            self.trial.seen_temperatures[slot] = seen.previous;
+            right[seen.place.row] = [S::zero()];
+        }
+        let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
         let is_foretold = view.phase.moves() && self.scheme.foretells_its_start();
         let half_step = S::from_f64(0.5) * view.step;
-        for (node, force) in self.nodes.iter_mut().zip(self.past.foretold()) {
+        let nodes = self.nodes.iter_mut().zip(rows);
+        for ((node, rows), force) in nodes.zip(self.past.foretold()) {
             let at = node.place.node;
             let momentum = &momenta[at];
             node.weigh(view, momentum, old_force(&self.old_force, at));
@@ -87,12 +97,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             node.correction = correction;
             self.trial.displacements[at] = correction;
             self.trial.positions[at] = array::from_fn(|axis| old[at][axis] + correction[axis]);
-        }
-        for seen in &mut self.seen {
-            let slot = seen.place.slot;
-            seen.previous = view.state.temperatures[slot];
-            seen.correction = S::zero();
-            self.trial.seen_temperatures[slot] = seen.previous;
+            node.balance(&correction, values, rows);
         }
     }
 

@@ -173,7 +173,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             group.add_secant(view, &self.trial, secant);
         }
         secant.solve().map_err(|_| StepFailure::SingularTangent)?;
-        for (node, &displacement) in self.nodes.iter().zip(secant.right()) {
+        for (node, &displacement) in self.nodes.iter().zip(secant.solution()) {
             self.trial.displacements[node.place.node] = displacement;
         }
         Ok(())

@@ -8,27 +8,16 @@ use crate::newton::Largest;
 use crate::scalar::Real;
 
 impl<S: Real, const D: usize> Solver<S, D> {
-    /// Starts residual and tangent of the momentum balances, with `p¹` eliminated,
-    ///
-    /// ```text
-    /// R = (2m/h)(q¹ − q⁰) − 2p⁰ + h F
-    /// ```
-    ///
-    /// to which the elements will add their share.
-    #[inline]
+    /// Starts the system of an iteration at the trial state.
     pub(super) fn balance(&mut self) {
-        self.tangent.clear_matrix();
-        let (values, right) = self.tangent.parts();
+        let (values, right, _) = self.tangent.renew();
         for seen in &self.seen {
             right[seen.place.row] = [S::zero()];
         }
         let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
         for (node, rows) in self.nodes.iter().zip(rows) {
-            for place in node.place.diagonal {
-                values[place] = node.inertia;
-            }
             let displacement = &self.trial.displacements[node.place.node];
-            *rows = array::from_fn(|axis| node.rest[axis] - node.inertia * displacement[axis]);
+            node.balance(displacement, values, rows);
         }
     }
 
@@ -41,47 +30,53 @@ impl<S: Real, const D: usize> Solver<S, D> {
         largest.found()
     }
 
-    /// Applies the solution to the trial state, and finds the local corrections that go with it; the
-    /// largest scaled update.
+    /// Applies the solution to the trial state, where it starts the next system, and finds the local
+    /// corrections that go with it; the largest scaled update.
     pub(super) fn correct(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
     ) -> S {
-        let solution = self.tangent.right_mut();
+        let (values, right, solution) = self.tangent.renew();
         let old = points::<S, D>(view.state.positions.values());
         let trial = &mut self.trial;
         let mut largest = Largest::none();
         let changes = solution.as_flattened().as_chunks::<D>().0;
-        for (node, change) in self.nodes.iter_mut().zip(changes) {
+        let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
+        for ((node, change), rows) in self.nodes.iter_mut().zip(changes).zip(rows) {
             let at = node.place.node;
-            let displacement = &mut trial.displacements[at];
+            let mut displacement = trial.displacements[at];
+            node.previous = displacement;
             // One by one, as they have been found: a copy of all would have to wait for them.
             for axis in 0..D {
-                let (from, change) = (displacement[axis], change[axis]);
-                (node.previous[axis], node.correction[axis]) = (from, change);
-                displacement[axis] = from + change;
+                let change = change[axis];
+                node.correction[axis] = change;
+                displacement[axis] += change;
                 largest.see(change * node.per_length);
             }
+            trial.displacements[at] = displacement;
             trial.positions[at] = array::from_fn(|axis| old[at][axis] + displacement[axis]);
+            node.balance(&displacement, values, rows);
         }
         for seen in &mut self.seen {
+            let row = seen.place.row;
             // What rounding to Θ + δΘ leaves of δΘ: with a large conductance a rounding of Θ is a
             // large heat; the local unknowns must answer to the Θ that will be used.
             let theta = trial.seen_temperatures[seen.place.slot];
-            let change = (theta + solution[seen.place.row][0]) - theta;
-            solution[seen.place.row][0] = change;
+            let change = (theta + solution[row][0]) - theta;
+            solution[row][0] = change;
+            right[row] = [S::zero()];
             (seen.previous, seen.correction) = (theta, change);
             trial.seen_temperatures[seen.place.slot] = theta + change;
             largest.see(change / theta);
         }
         for group in groups.iter_mut() {
-            largest.see(group.correct(self.tangent.right()));
+            largest.see(group.correct(self.tangent.solution()));
         }
         largest.found()
     }
 
-    /// Moves the trial to a share of the correction from where it was.
+    /// Moves the trial to a share of the correction from where it was, and starts the next system there.
     pub(super) fn apply(&mut self, share: S, view: &StepView<'_, S>) {
         let trial = &mut self.trial;
         let old = points::<S, D>(view.state.positions.values());
@@ -95,6 +90,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let theta = seen.previous + share * seen.correction;
             trial.seen_temperatures[seen.place.slot] = theta;
         }
+        self.balance();
     }
 
     /// The present trial is where the next correction starts; no correction.

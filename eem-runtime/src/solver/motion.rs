@@ -46,6 +46,21 @@ impl<S: Real, const D: usize> Motion<S, D> {
         self.inertia = twice(self.place.mass) * view.step.recip();
         self.rest = array::from_fn(|axis| twice(momentum[axis]) - view.step * force[axis]);
     }
+
+    /// Starts residual and tangent of its momentum balance at a displacement, with `p¹` eliminated,
+    ///
+    /// ```text
+    /// R = (2m/h)(q¹ − q⁰) − 2p⁰ + h F
+    /// ```
+    ///
+    /// to which the elements will add their share.
+    #[inline]
+    pub(super) fn balance(&self, displacement: &[S; D], values: &mut [S], rows: &mut [S; D]) {
+        for place in self.place.diagonal {
+            values[place] = self.inertia;
+        }
+        *rows = array::from_fn(|axis| self.rest[axis] - self.inertia * displacement[axis]);
+    }
 }
 
 /// A temperature Θ that neighbours see, during one step.
