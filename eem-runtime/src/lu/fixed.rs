@@ -54,10 +54,10 @@ pub(crate) fn solve_one<S: Real, const W: usize>(
 }
 
 /// The first two rows of `x` become the solution of `A x = b` for two unknowns, and A zero: Cramer's rule,
-/// with one division to wait for, unless the determinant or the first pivot will not do.
+/// with one division to wait for, unless the first pivot or the determinant will not do.
 ///
-/// It reads entries one by one, as elements have written them: a pair that is read before both of its
-/// halves have reached the memory has to wait for them.
+/// It reads one row of A after the other, as elements have written them: a pair that is read across rows
+/// before both have reached the memory has to wait for them.
 #[inline]
 pub(crate) fn solve_two<S: Real, const W: usize>(
     matrix: &mut [S],
@@ -71,12 +71,17 @@ pub(crate) fn solve_two<S: Real, const W: usize>(
     ) else {
         return Err(Singular);
     };
-    let [a, u, c, d] = *matrix;
+    let (a, u) = (matrix[0], matrix[1]);
+    // A decision in between keeps the compiler from reading u and c together.
+    if S::from_f64(LARGEST_RATIO) * a.abs() <= u.abs() {
+        *x = *b;
+        return solve_fixed::<S, 2, W>(matrix, x);
+    }
+    let (c, d) = (matrix[2], matrix[3]);
     let determinant = a * d - c * u;
     let square = determinant * determinant;
     // Neither the products nor the reciprocal have left the range of full precision.
-    let is_ordinary = square > S::MAX.recip() && square <= S::MAX;
-    if !(is_ordinary && S::from_f64(LARGEST_RATIO) * a.abs() > u.abs()) {
+    if !(square > S::MAX.recip() && square <= S::MAX) {
         *x = *b;
         return solve_fixed::<S, 2, W>(matrix, x);
     }
