@@ -263,8 +263,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
             self.obstacle = None;
         }
         let (mut share, mut goes_on) = (S::one(), look == Look::On);
-        while let Err(error) = self.evaluate(groups, view, share, goes_on) {
-            share = self.retreat(view, share, error)?;
+        while let Err(error) = self.evaluate(groups, view, goes_on) {
+            share = self.retreat(groups, view, share, error)?;
             goes_on = true;
         }
         Ok(share == S::one())
@@ -275,6 +275,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     #[inline(never)]
     fn retreat(
         &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
         share: S,
         error: StateError,
@@ -286,23 +287,25 @@ impl<S: Real, const D: usize> Solver<S, D> {
         self.obstacle = Some(error);
         let share = half * share;
         self.apply(share, view);
+        for group in groups {
+            group.apply(share);
+        }
         Ok(share)
     }
 
-    /// The responses at the trial state, a share of the correction away from the last one, and what they
-    /// add to the system of the next iteration if there is to be one.
+    /// The responses at the trial state, and what they add to the system of the next iteration if there is
+    /// to be one.
     #[inline]
     fn evaluate(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
-        share: S,
         goes_on: bool,
     ) -> Result<(), StateError> {
         let trial = &self.trial;
         for group in groups {
             let system = goes_on.then_some(&mut self.tangent);
-            group.evaluate(view, trial, share, system)?;
+            group.evaluate(view, trial, system)?;
         }
         Ok(())
     }

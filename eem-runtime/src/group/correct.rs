@@ -59,7 +59,7 @@ where
         motion
     }
 
-    /// Finds the corrections of the local unknowns; the largest in their units.
+    /// Finds and applies the corrections of the local unknowns; the largest in their units.
     #[inline]
     fn correct(&mut self, contact: Option<&Contact<K, S, D>>, solution: &[[S; 1]]) -> S {
         let motion = self.correct_measures(solution);
@@ -93,7 +93,9 @@ where
                 at_point.entropy_correction = terms.fold(S::zero(), |sum, (&a, &b)| sum + a * b);
             }
         }
-        self.scaled_update()
+        let update = self.scaled_update();
+        self.apply(S::one());
+        update
     }
 
     /// The largest correction of a local unknown in its unit.

@@ -47,8 +47,7 @@ pub(crate) fn solve_one<S: Real, const W: usize>(
     if !(pivot.is_finite() && *pivot != S::zero()) {
         return Err(Singular);
     }
-    let inverse = pivot.recip();
-    *x = right.map(|value| value * inverse);
+    *x = right.map(|value| value / *pivot);
     *pivot = S::zero();
     Ok(())
 }
