@@ -5,11 +5,10 @@
 //!
 //! ```text
 //! begin      look at the old state, once                            (begin)
-//! evaluate   last correction applied                                (evaluate, member)
-//!            response at the trial                                  (respond, pose, arms)
+//! evaluate   response at the trial                                  (evaluate, respond, pose, arms)
 //!            local unknowns eliminated                              (local, eliminate)
 //!            contributions written to their places                  (assemble, scatter, site)
-//! correct    local unknowns from the global solution                (correct)
+//! correct    local unknowns from the global solution                (correct, member)
 //! close      increments from the found forces, and the new state    (closing, settle)
 //! ```
 
@@ -76,26 +75,28 @@ pub(crate) trait Group<S: Real, const D: usize>: Elements<S, D> {
     /// Looks at the old state, adds to what it gives to the nodes, and starts the trial there.
     fn begin(&mut self, view: &StepView<'_, S>, old: &mut Old<'_, S, D>) -> Result<(), StateError>;
 
-    /// Applies the fraction `share` of the last local corrections, computes everything that depends
-    /// on the trial state, element by element, and adds residual and tangent, local unknowns
-    /// eliminated, to a system if there is one.
+    /// Computes everything that depends on the trial state, element by element, and adds residual and
+    /// tangent, local unknowns eliminated, to a system if there is one.
     fn evaluate(
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
-        share: S,
         system: Option<&mut LinearSystem<S, 1>>,
     ) -> Result<(), StateError>;
 
-    /// Local corrections that go with the global ones; the largest, in units of the measure (viscous
-    /// stretches) and of the temperature.
+    /// Applies the local corrections that go with the global ones; the largest, in units of the measure
+    /// (viscous stretches) and of the temperature.
     fn correct(&mut self, solution: &[[S; 1]]) -> S;
+
+    /// Applies a share of the last corrections instead.
+    fn apply(&mut self, share: S);
 
     /// The present trial is where the next correction starts; no local correction.
     fn hold(&mut self);
 
-    /// Applies the last correction to the response through the tangent, without evaluating it.
-    fn extrapolate(&mut self);
+    /// Applies the last correction, that of the solution, to the response too, through the tangent and
+    /// without evaluating it.
+    fn extrapolate(&mut self, solution: &[[S; 1]]);
 
     /// Adds `½h Σ A` and `−h Σ A q⁰`, where `A q_m` is the nodal force at the found response, to the
     /// entries and right-hand sides of the secant system; moved anchors are taken from the trial.
@@ -223,14 +224,19 @@ where
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
-        share: S,
         system: Option<&mut LinearSystem<S, 1>>,
     ) -> Result<(), StateError> {
-        self.evaluate_all(view, trial, share, system)
+        self.evaluate_all(view, trial, system)
     }
 
     fn correct(&mut self, solution: &[[S; 1]]) -> S {
         self.correct_all(solution)
+    }
+
+    fn apply(&mut self, share: S) {
+        for member in &mut self.members {
+            member.apply(share);
+        }
     }
 
     fn hold(&mut self) {
@@ -239,10 +245,8 @@ where
         }
     }
 
-    fn extrapolate(&mut self) {
-        for member in &mut self.members {
-            member.extrapolate();
-        }
+    fn extrapolate(&mut self, solution: &[[S; 1]]) {
+        self.extrapolate_all(solution);
     }
 
     fn add_secant(&mut self, view: &StepView<'_, S>, trial: &Trial<S, D>, system: Parts<'_, S, D>) {

@@ -7,7 +7,7 @@
 mod fixed;
 
 use crate::scalar::Real;
-pub(crate) use fixed::{solve_fixed, solve_two};
+pub(crate) use fixed::{solve_fixed, solve_one, solve_two};
 
 /// A matrix that has no usable pivot in some column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

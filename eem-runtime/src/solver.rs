@@ -19,7 +19,7 @@ use crate::loads::StepLoads;
 use crate::masses::Masses;
 use crate::newton::{NewtonSettings, is_last};
 use crate::pattern::Pattern;
-use crate::scalar::Real;
+use crate::scalar::{Real, natural_power};
 use crate::scene::ElementEntry;
 use crate::scheme::{Closing, Scheme};
 use crate::state::State;
@@ -49,8 +49,6 @@ pub(crate) struct Solver<S, const D: usize> {
     scheme: Scheme,
     /// The nodes that move, in the order of their unknowns.
     nodes: Vec<Motion<S, D>>,
-    /// Those that do not move by themselves.
-    anchors: Vec<usize>,
     /// The temperatures that neighbours see.
     seen: Vec<Glance<S>>,
     /// The system of an iteration.
@@ -98,17 +96,15 @@ impl<S: Real, const D: usize> Solver<S, D> {
             shift: [0; 2],
         };
         let nodes = moving(masses, &sites).into_iter().map(Motion::new);
-        let nodes = nodes.collect();
+        let nodes: Vec<_> = nodes.collect();
         let seen: Vec<_> = seen(&sites).into_iter().map(Glance::new).collect();
-        let anchors = masses.iter().enumerate();
-        let anchors = anchors.filter_map(|(node, mass)| mass.is_none().then_some(node));
         let points = vec![[S::zero(); D]; masses.len()];
         // Nobody asks for any unless some are seen.
         let slots = if seen.is_empty() { 0 } else { layout.thermal };
         Self {
             scheme,
+            past: Past::none(nodes.len()),
             nodes,
-            anchors: anchors.collect(),
             seen,
             tangent,
             secant,
@@ -123,7 +119,6 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 Vec::new()
             },
             impulse: points,
-            past: Past::none(masses.len()),
             per_length: vec![S::one(); masses.len()],
             obstacle: None,
         }
@@ -223,12 +218,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
         } = effort.settings;
         let mut before = None;
         let mut look = Look::On;
-        for iteration in 0..=max_iterations {
-            let full = self.advance(groups, view, look)? == S::one();
-            if full && look == Look::Back {
+        for left in (0..=max_iterations).rev() {
+            let is_full = self.advance(groups, view, look)?;
+            if is_full && look == Look::Back {
                 return Ok(());
             }
-            if iteration == max_iterations {
+            if left == 0 {
                 break;
             }
             let residual = self.residual();
@@ -239,12 +234,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
             if !update.is_finite() {
                 break;
             }
-            let before = before.replace(update).filter(|_| full);
+            let before = before.replace(update).filter(|_| is_full);
             look = Look::On;
             if is_last(update, before, tolerance) {
                 if update * update <= S::from_f64(NEGLIGIBLE) * S::EPSILON {
                     for group in groups.iter_mut() {
-                        group.extrapolate();
+                        group.extrapolate(self.tangent.solution());
                     }
                     return Ok(());
                 }
@@ -260,63 +255,60 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 
     /// Evaluates at the trial state, to which the correction has been applied, or as much of it as
-    /// leaves every element in an admissible state. Returns that share.
+    /// leaves every element in an admissible state. Returns whether that is all of it.
     #[inline]
     fn advance(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
         look: Look,
-    ) -> Result<S, StepFailure> {
+    ) -> Result<bool, StepFailure> {
         if self.obstacle.is_some() {
             self.obstacle = None;
         }
-        match self.evaluate(groups, view, S::one(), look == Look::On) {
-            Ok(()) => Ok(S::one()),
-            Err(error) => self.retreat(groups, view, error),
+        let (mut share, mut goes_on) = (S::one(), look == Look::On);
+        while let Err(error) = self.evaluate(groups, view, goes_on) {
+            share = self.retreat(groups, share, error)?;
+            goes_on = true;
         }
+        Ok(share == S::one())
     }
 
-    /// Halves the correction, which failed, until every element is in an admissible state.
+    /// Half the share of the correction that failed, applied.
     #[cold]
     #[inline(never)]
     fn retreat(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-        mut error: StateError,
+        share: S,
+        error: StateError,
     ) -> Result<S, StepFailure> {
-        let mut share = S::one();
-        for _ in 0..HALVINGS {
-            self.obstacle = Some(error);
-            share *= S::from_f64(0.5);
-            self.halve();
-            match self.evaluate(groups, view, share, true) {
-                Ok(()) => return Ok(share),
-                Err(next) => error = next,
-            }
+        let half = S::from_f64(0.5);
+        if share <= natural_power(half, HALVINGS) {
+            return Err(error.into());
         }
-        Err(error.into())
+        self.obstacle = Some(error);
+        let share = half * share;
+        self.halve();
+        for group in groups {
+            group.apply(share);
+        }
+        Ok(share)
     }
 
-    /// The responses at the trial state, a share of the correction away from the last one, and the
-    /// system of the next iteration if there is to be one.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "one of its two callers is cold")]
+    /// The responses at the trial state, and what they add to the system of the next iteration if there is
+    /// to be one.
+    #[inline]
     fn evaluate(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
-        share: S,
         goes_on: bool,
     ) -> Result<(), StateError> {
-        if goes_on {
-            self.balance();
-        }
         let trial = &self.trial;
         for group in groups {
             let system = goes_on.then_some(&mut self.tangent);
-            group.evaluate(view, trial, share, system)?;
+            group.evaluate(view, trial, system)?;
         }
         Ok(())
     }

@@ -14,6 +14,8 @@
 //! one is another variant there, with its answers to `new` (from the pattern), `entries`, `position`
 //! and `solve`.
 
+use core::mem;
+
 use crate::lu::{self, Singular};
 use crate::pattern::Pattern;
 use crate::scalar::Real;
@@ -36,10 +38,14 @@ const SPARSITY: usize = 4;
 pub(crate) struct LinearSystem<S, const W: usize> {
     unknowns: usize,
     storage: Storage,
+    /// A is zero.
+    is_clear: bool,
     /// The entries of A, then the place for what nobody reads.
     values: Vec<S>,
     /// The rows of B, then the place for what nobody reads.
     right: Vec<[S; W]>,
+    /// The rows of X, then what is said of those that have none.
+    solution: Vec<[S; W]>,
 }
 
 /// The entries of A and the rows of B.
@@ -111,9 +117,9 @@ impl Storage {
         }
     }
 
-    /// Overwrites the right-hand sides with the solutions, and the values with what it likes; what
-    /// follows the values is not looked at.
-    #[inline]
+    /// Overwrites the right-hand sides with the solutions, and the values with zeros; what follows the
+    /// values is not looked at.
+    #[inline(never)]
     fn solve<S: Real, const W: usize>(
         &mut self,
         values: &mut [S],
@@ -138,6 +144,7 @@ fn solve_dense<S: Real, const W: usize>(
     let values = &mut values[..pivots.len() * pivots.len()];
     lu::factor(values, pivots)?;
     lu::solve(values, pivots, right);
+    values.fill(S::zero());
     Ok(())
 }
 
@@ -145,15 +152,17 @@ fn solve_dense<S: Real, const W: usize>(
 #[cfg(feature = "sparse")]
 #[inline(never)]
 fn solve_sparse<S: Real, const W: usize>(
-    values: &[S],
+    values: &mut [S],
     sparse: &mut SparseLu,
     right: &mut [[S; W]],
 ) -> Result<(), Singular> {
-    let entries = sparse.entries();
-    sparse.solve(sparse.length(), &values[..entries], right)
+    let values = &mut values[..sparse.entries()];
+    sparse.solve(sparse.length(), values, right)?;
+    values.fill(S::zero());
+    Ok(())
 }
 
-/// The elimination that is compiled for this number of unknowns.
+/// The elimination that is compiled for this number of unknowns, more than two.
 #[inline]
 fn solve_fixed<S: Real, const W: usize>(
     unknowns: usize,
@@ -161,8 +170,6 @@ fn solve_fixed<S: Real, const W: usize>(
     right: &mut [[S; W]],
 ) -> Result<(), Singular> {
     match unknowns {
-        1 => lu::solve_fixed::<S, 1, W>(values, right),
-        2 => lu::solve_two(values, right),
         3 => lu::solve_fixed::<S, 3, W>(values, right),
         4 => lu::solve_fixed::<S, 4, W>(values, right),
         5 => lu::solve_fixed::<S, 5, W>(values, right),
@@ -183,8 +190,10 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         let storage = Storage::new(pattern);
         Self {
             unknowns: pattern.unknowns(),
+            is_clear: true,
             values: vec![S::zero(); storage.entries() + run],
             right: vec![[S::zero(); W]; pattern.unknowns() + run],
+            solution: vec![[S::zero(); W]; pattern.unknowns() + run],
             storage,
         }
     }
@@ -217,23 +226,42 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
     }
 
     /// Makes A zero.
+    #[inline]
     pub(crate) fn clear_matrix(&mut self) {
-        self.values.fill(S::zero());
+        if !self.is_clear {
+            self.values.fill(S::zero());
+            self.is_clear = true;
+        }
     }
 
     /// The entries of A and the rows of B.
+    #[inline]
     pub(crate) fn parts(&mut self) -> Parts<'_, S, W> {
+        self.is_clear = false;
         (&mut self.values, &mut self.right)
     }
 
-    /// The rows of B, or of X once [`solve`](Self::solve) has succeeded.
+    /// The entries of A and the rows of B for the next system, of which A is zero, and the rows of X.
+    #[inline]
+    pub(crate) fn renew(&mut self) -> (&mut [S], &mut [[S; W]], &mut [[S; W]]) {
+        self.clear_matrix();
+        self.is_clear = false;
+        (&mut self.values, &mut self.right, &mut self.solution)
+    }
+
+    /// The rows of B.
     pub(crate) fn right(&self) -> &[[S; W]] {
         &self.right
     }
 
+    /// The rows of X, once [`solve`](Self::solve) has succeeded.
+    pub(crate) fn solution(&self) -> &[[S; W]] {
+        &self.solution
+    }
+
     /// The same, to be written.
-    pub(crate) fn right_mut(&mut self) -> &mut [[S; W]] {
-        &mut self.right
+    pub(crate) fn solution_mut(&mut self) -> &mut [[S; W]] {
+        &mut self.solution
     }
 
     /// All entries of A, row-major.
@@ -248,19 +276,28 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         .collect()
     }
 
-    /// Makes the last rows of B zero, where elements write what belongs to an anchor; `RUN` of them
-    /// belong to a node. As a part of X, they say that anchors do not move.
+    /// Makes the last rows of X zero, which says that anchors do not move; `RUN` of them belong to a node.
     pub(crate) fn clear_rest<const RUN: usize>(&mut self) {
-        if let Some(rest) = self.right.last_chunk_mut::<RUN>() {
+        if let Some(rest) = self.solution.last_chunk_mut::<RUN>() {
             *rest = [[S::zero(); W]; RUN];
         }
     }
 
-    /// Replaces B by X, but for the rows of anchors; A is lost.
+    /// Finds X, but for the rows of anchors; A is then zero, and B is lost.
     #[inline]
     pub(crate) fn solve(&mut self) -> Result<(), Singular> {
-        let right = &mut self.right[..self.unknowns];
-        self.storage.solve(&mut self.values, right)
+        match self.unknowns {
+            // In line, as they are hardly longer than the call.
+            1 => lu::solve_one(&mut self.values, &self.right, &mut self.solution)?,
+            2 => lu::solve_two(&mut self.values, &self.right, &mut self.solution)?,
+            unknowns => {
+                self.storage
+                    .solve(&mut self.values, &mut self.right[..unknowns])?;
+                mem::swap(&mut self.right, &mut self.solution);
+            }
+        }
+        self.is_clear = true;
+        Ok(())
     }
 }
 
@@ -281,14 +318,23 @@ impl<S: Real> LinearSystem<S, 1> {
         None
     }
 
-    /// The entries of the smaller A, whose place is that of their block over `W²`, and the rows of its B.
-    pub(crate) fn parts_by_runs<const W: usize>(&mut self) -> Parts<'_, S, W> {
+    /// The entries of the smaller A, all zero, whose place is that of their block over `W²`, and the rows
+    /// of its B.
+    pub(crate) fn renew_by_runs<const W: usize>(&mut self) -> Parts<'_, S, W> {
         let (entries, unknowns) = (self.storage.entries() / (W * W), self.unknowns);
+        self.is_clear = false;
+        let values = &mut self.values[..entries];
+        values.fill(S::zero());
         let right = self.right[..unknowns].as_flattened_mut();
-        (&mut self.values[..entries], right.as_chunks_mut().0)
+        (values, right.as_chunks_mut().0)
     }
 
-    /// Replaces the smaller B by X.
+    /// The rows of the smaller X, once [`solve_by_runs`](Self::solve_by_runs) has succeeded.
+    pub(crate) fn solution_by_runs<const W: usize>(&self) -> &[[S; W]] {
+        self.right[..self.unknowns].as_flattened().as_chunks().0
+    }
+
+    /// Finds the smaller X, in the place of its B.
     pub(crate) fn solve_by_runs<const W: usize>(&mut self) -> Result<(), Singular> {
         match &mut self.storage {
             Storage::Fixed { .. } | Storage::Dense { .. } => Err(Singular),
@@ -336,7 +382,7 @@ mod tests {
             }
         }
         system.solve().unwrap();
-        for (row, found) in system.right()[..unknowns].iter().enumerate() {
+        for (row, found) in system.solution()[..unknowns].iter().enumerate() {
             for (found, exact) in found.iter().zip(exact(row)) {
                 // Condition number at most 4, numbers up to 61, and a rounding per entry of a row.
                 assert!(
@@ -362,6 +408,6 @@ mod tests {
         (right[0], right[1]) = ([6.0], [9.0]);
         system.solve().unwrap();
         system.clear_rest::<1>();
-        assert_eq!(system.right(), [[3.0], [0.0]]);
+        assert_eq!(system.solution(), [[3.0], [0.0]]);
     }
 }

@@ -46,8 +46,12 @@ pub(super) fn shorten<K: Kinematics<S, D>, S: Real, const D: usize>(
 ) {
     for &node in nodes.as_ref() {
         let length = &mut lengths[node as usize];
-        let own = measures.as_ref().iter();
-        *length = own.fold(*length, |least, &own| least.minimum(own));
+        // Of a state: they are numbers.
+        for &own in measures.as_ref() {
+            if own < *length {
+                *length = own;
+            }
+        }
     }
 }
 

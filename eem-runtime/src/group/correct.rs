@@ -19,12 +19,26 @@ where
     /// See [`Group::correct`](super::Group::correct).
     pub(super) fn correct_all(&mut self, solution: &[[S; 1]]) -> S {
         let mut largest = S::zero();
+        if Member::<S, M, K, C, D>::UNKNOWNS == 0 {
+            return largest;
+        }
         for member in &mut self.members {
             let contact = member.contact_in(&self.contacts);
             let update = member.correct(contact, solution);
             largest = largest.maximum(update);
         }
         largest
+    }
+
+    /// See [`Group::extrapolate`](super::Group::extrapolate).
+    pub(super) fn extrapolate_all(&mut self, solution: &[[S; 1]]) {
+        for member in &mut self.members {
+            // Of an element without unknowns of its own, nobody has asked for them before.
+            if Member::<S, M, K, C, D>::UNKNOWNS == 0 {
+                member.correct_measures(solution);
+            }
+            member.extrapolate();
+        }
     }
 }
 
@@ -35,13 +49,20 @@ where
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    /// Finds the corrections of the local unknowns; the largest in their units.
+    /// Finds the corrections of the measures; returns those of the arms.
     #[inline]
-    fn correct(&mut self, contact: Option<&Contact<K, S, D>>, solution: &[[S; 1]]) -> S {
+    fn correct_measures(&mut self, solution: &[[S; 1]]) -> Arms<K, S, D> {
         let motion = self.site.motion_in(solution);
         for a in 0..M::MEASURES {
             self.correction[a] = along::<K, S, D>(&self.sensitivity[a], &motion);
         }
+        motion
+    }
+
+    /// Finds and applies the corrections of the local unknowns; the largest in their units.
+    #[inline]
+    fn correct(&mut self, contact: Option<&Contact<K, S, D>>, solution: &[[S; 1]]) -> S {
+        let motion = self.correct_measures(solution);
         let mut heat = S::zero();
         if M::THERMAL
             && let Some(contact) = contact
@@ -72,7 +93,9 @@ where
                 at_point.entropy_correction = terms.fold(S::zero(), |sum, (&a, &b)| sum + a * b);
             }
         }
-        self.scaled_update()
+        let update = self.scaled_update();
+        self.apply(S::one());
+        update
     }
 
     /// The largest correction of a local unknown in its unit.

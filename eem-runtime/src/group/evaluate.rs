@@ -21,15 +21,14 @@ where
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
-        share: S,
         system: Option<&mut LinearSystem<S, 1>>,
     ) -> Result<(), StateError> {
         match system {
-            Some(system) => self.linearize_all(view, trial, share, system),
-            None => self.members.iter_mut().try_for_each(|member| {
-                member.apply(share);
-                member.respond_alone(self.kinematics, view, trial)
-            }),
+            Some(system) => self.linearize_all(view, trial, system),
+            None => self
+                .members
+                .iter_mut()
+                .try_for_each(|member| member.respond_alone(self.kinematics, view, trial)),
         }
     }
 
@@ -38,13 +37,11 @@ where
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
-        share: S,
         system: &mut LinearSystem<S, 1>,
     ) -> Result<(), StateError> {
         let kinematics = self.kinematics;
         let (values, right) = system.parts();
         for member in &mut self.members {
-            member.apply(share);
             let seen = member.locate_trial(kinematics, trial)?;
             let pose = member.pose(kinematics, &seen);
             member.sensitivity = pose.sensitivity;

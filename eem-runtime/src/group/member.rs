@@ -258,12 +258,11 @@ where
         }
     }
 
-    /// Applies the correction to the measures and, through the tangent, to forces and temperature.
+    /// Applies the correction to the measures too and, through the tangent, to forces and temperature.
     ///
     /// What that leaves out is of second order in the correction.
     #[inline]
     pub(super) fn extrapolate(&mut self) {
-        self.apply(S::one());
         for a in 0..M::MEASURES {
             self.x[a] += self.correction[a];
         }

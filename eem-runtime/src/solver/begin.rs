@@ -29,10 +29,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for group in groups.iter_mut() {
             group.begin(view, &mut old)?;
         }
-        for length in &mut self.per_length {
-            *length = inverse_length(*length);
-        }
-        self.weigh(view);
+        self.twice_per_step = S::from_f64(2.0) * view.step.recip();
         self.place_anchors(view);
         self.start(view);
         Ok(())
@@ -42,24 +39,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
     pub(super) fn weigh(&mut self, view: &StepView<'_, S>) {
         self.twice_per_step = S::from_f64(2.0) * view.step.recip();
         let momenta = points::<S, D>(view.state.momenta.values());
-        let moves = view.phase.moves();
         for node in &mut self.nodes {
-            if !moves {
-                node.rest = [S::zero(); D];
-                continue;
-            }
             let at = node.place.node();
-            let (momentum, force) = (&momenta[at], old_force(&self.old_force, at));
-            node.rest =
-                array::from_fn(|axis| momentum[axis] + momentum[axis] - view.step * force[axis]);
+            node.weigh(view, &momenta[at], old_force(&self.old_force, at));
         }
     }
 
-    /// Anchors are where the step will have moved them.
+    /// Anchors are where the step will have moved them; few are moved.
     fn place_anchors(&mut self, view: &StepView<'_, S>) {
-        let moves = view.phase.moves();
-        for &node in &self.anchors {
-            self.trial.displacements[node] = if moves {
+        for &node in &view.loads.moved {
+            self.trial.displacements[node] = if view.phase.moves() {
                 view.loads.motion(node)
             } else {
                 [S::zero(); D]
@@ -67,50 +56,42 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
+    /// Moving nodes are where they are foretold, seen temperatures where they were.
     fn start(&mut self, view: &StepView<'_, S>) {
         let momenta = points::<S, D>(view.state.momenta.values());
-        let is_foretold = view.phase.moves() && self.scheme.foretells_its_start();
-        let half_step = S::from_f64(0.5) * view.step;
-        let ([by_last, by_before], [last, before]) = self.past.best();
-        for node in &mut self.nodes {
-            let at = node.place.node();
-            node.previous = [S::zero(); D];
-            let displacement = &mut self.trial.displacements[at];
-            *displacement = node.previous;
-            if is_foretold {
-                let mobility = view.step / node.place.mass;
-                let (momentum, last, before) = (&momenta[at], &last[at], &before[at]);
-                *displacement = array::from_fn(|axis| {
-                    let force = by_last * last[axis] + by_before * before[axis];
-                    mobility * (momentum[axis] + half_step * force)
-                });
-            }
-        }
+        let (values, right, _) = self.tangent.renew();
         for seen in &mut self.seen {
             let slot = seen.place.slot;
             seen.previous = view.state.temperatures[slot];
             self.trial.seen_temperatures[slot] = seen.previous;
+            right[seen.place.row] = [S::zero()];
         }
-    }
-
-    /// Remembers the forces of a step that has succeeded.
-    pub(super) fn remember_forces(&mut self, step: S) {
-        if !self.scheme.foretells_its_start() {
-            return;
+        let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
+        let is_foretold = view.phase.moves() && self.scheme.foretells_its_start();
+        let half_step = S::from_f64(0.5) * view.step;
+        let nodes = self.nodes.iter_mut().zip(rows);
+        for ((node, rows), force) in nodes.zip(self.past.foretold()) {
+            let at = node.place.node();
+            let momentum = &momenta[at];
+            node.weigh(view, momentum, old_force(&self.old_force, at));
+            let per_length = &mut self.per_length[at];
+            *per_length = inverse_length(*per_length);
+            let mut displacement = [S::zero(); D];
+            node.previous = displacement;
+            if is_foretold {
+                let mobility = view.step / node.place.mass;
+                displacement =
+                    array::from_fn(|axis| mobility * (momentum[axis] + half_step * force[axis]));
+            }
+            self.trial.displacements[at] = displacement;
+            node.balance(&displacement, self.twice_per_step, values, rows);
         }
-        let per_step = step.recip();
-        for impulse in self.impulse.as_flattened_mut() {
-            *impulse *= per_step;
-        }
-        let nodes = self.nodes.iter();
-        let masses = nodes.map(|node| (node.place.node(), node.place.mass));
-        self.past.remember(&mut self.impulse, masses);
     }
 
     /// Takes back what the last step left for the next ones.
     pub(crate) fn undo(&mut self) {
         if self.scheme.foretells_its_start() {
-            self.past.forget(&mut self.impulse);
+            self.past.forget();
         }
     }
 

@@ -41,8 +41,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for group in groups.iter_mut() {
             group.close(view, &self.trial, next)?;
         }
-        if view.phase.heats() {
-            self.remember_forces(view.step);
+        if view.phase.heats() && self.scheme.foretells_its_start() {
+            self.past.keep();
         }
         Ok(())
     }
@@ -67,16 +67,25 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(())
     }
 
-    /// New positions and momenta, all finite, and the work of the loads.
-    fn move_masses(&self, view: &StepView<'_, S>, next: &mut State<S>) -> Result<(), StepFailure> {
+    /// New positions and momenta, all finite, and the work of the loads. The forces are remembered.
+    fn move_masses(
+        &mut self,
+        view: &StepView<'_, S>,
+        next: &mut State<S>,
+    ) -> Result<(), StepFailure> {
         if view.loads.has_force() {
             self.book_work(view, next);
         }
+        let per_step = view.step.recip();
+        let mut remembering = self.past.remember();
         for node in &self.nodes {
             let at = node.place.node();
-            let moved = [&self.trial.displacements[at], &self.impulse[at]];
-            move_node(at, moved, view.state, next)?;
+            let (displacement, impulse) = (&self.trial.displacements[at], &self.impulse[at]);
+            move_node(at, [displacement, impulse], view.state, next)?;
+            let force = impulse.map(|component| component * per_step);
+            remembering.take(force, node.place.mass);
         }
+        remembering.finish();
         Ok(())
     }
 
@@ -114,8 +123,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
         view: &StepView<'_, S>,
         along: Along,
     ) {
-        for (node, impulse) in self.impulse.iter_mut().enumerate() {
-            *impulse = old_force(&self.old_force, node).map(|force| -view.step * force);
+        self.impulse.fill([S::zero(); D]);
+        for (impulse, force) in self.impulse.iter_mut().zip(&self.old_force) {
+            *impulse = force.map(|component| -view.step * component);
         }
         for group in groups.iter_mut() {
             group.add_impulse(view, &self.trial, along, &mut self.impulse);
@@ -152,8 +162,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             return Ok(());
         };
         let tangent = &mut self.tangent;
-        let (values, right) = secant.parts(tangent);
-        values.fill(S::zero());
+        let (values, right) = secant.renew(tangent);
         for (node, right) in self.nodes.iter().zip(&mut *right) {
             values[node.place.secant_diagonal()] = node.place.mass * self.twice_per_step;
             *right = node.rest;
@@ -163,8 +172,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         let solved = secant.solve(tangent);
         solved.map_err(|_| StepFailure::SingularTangent)?;
-        let (_, displacements) = secant.parts(tangent);
-        for (node, displacement) in self.nodes.iter().zip(displacements) {
+        for (node, displacement) in self.nodes.iter().zip(secant.solution(tangent)) {
             self.trial.displacements[node.place.node()] = *displacement;
         }
         Ok(())

@@ -1,34 +1,25 @@
 //! The global system of an iteration, and what its solution means.
 
-use core::array;
-
 use super::Solver;
 use crate::group::{Group, StepView};
 use crate::newton::Largest;
 use crate::scalar::Real;
 
 impl<S: Real, const D: usize> Solver<S, D> {
-    /// Starts residual and tangent of the momentum balances, with `p¹` eliminated,
-    ///
-    /// ```text
-    /// R = (2m/h)(q¹ − q⁰) − 2p⁰ + h F
-    /// ```
-    ///
-    /// to which the elements will add their share.
+    /// Starts the system of an iteration at the trial state.
     pub(super) fn balance(&mut self) {
-        self.tangent.clear_matrix();
-        let (values, right) = self.tangent.parts();
+        let (values, right, _) = self.tangent.renew();
         for seen in &self.seen {
             right[seen.place.row] = [S::zero()];
         }
         let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
         for (node, rows) in self.nodes.iter().zip(rows) {
-            let inertia = node.place.mass * self.twice_per_step;
-            for place in node.place.diagonal() {
-                values[place] = inertia;
-            }
-            let displacement = &self.trial.displacements[node.place.node()];
-            *rows = array::from_fn(|axis| node.rest[axis] - inertia * displacement[axis]);
+            node.balance(
+                &self.trial.displacements[node.place.node()],
+                self.twice_per_step,
+                values,
+                rows,
+            );
         }
     }
 
@@ -41,42 +32,48 @@ impl<S: Real, const D: usize> Solver<S, D> {
         largest.found()
     }
 
-    /// Applies the solution to the trial state, and finds the local corrections that go with it; the
-    /// largest scaled update.
+    /// Applies the solution to the trial state, where it starts the next system, and finds the local
+    /// corrections that go with it; the largest scaled update.
     pub(super) fn correct(&mut self, groups: &mut [Box<dyn Group<S, D>>]) -> S {
-        self.tangent.clear_rest::<D>();
-        let solution = self.tangent.right_mut();
+        let (values, right, solution) = self.tangent.renew();
         let trial = &mut self.trial;
         let mut largest = Largest::none();
         let changes = solution.as_flattened().as_chunks::<D>().0;
-        for (node, change) in self.nodes.iter_mut().zip(changes) {
+        let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
+        for ((node, change), rows) in self.nodes.iter_mut().zip(changes).zip(rows) {
             let at = node.place.node();
-            let (displacement, per_length) = (&mut trial.displacements[at], self.per_length[at]);
+            let mut displacement = trial.displacements[at];
+            let per_length = self.per_length[at];
+            node.previous = displacement;
             // One by one, as they have been found: a copy of all would have to wait for them.
             for axis in 0..D {
-                let (from, change) = (displacement[axis], change[axis]);
-                node.previous[axis] = from;
-                displacement[axis] = from + change;
+                let change = change[axis];
+                displacement[axis] += change;
                 largest.see(change * per_length);
             }
+            trial.displacements[at] = displacement;
+            node.balance(&displacement, self.twice_per_step, values, rows);
         }
         for seen in &mut self.seen {
+            let row = seen.place.row;
             // What rounding to Θ + δΘ leaves of δΘ: with a large conductance a rounding of Θ is a
             // large heat; the local unknowns must answer to the Θ that will be used.
             let theta = trial.seen_temperatures[seen.place.slot];
-            let change = (theta + solution[seen.place.row][0]) - theta;
-            solution[seen.place.row][0] = change;
+            let change = (theta + solution[row][0]) - theta;
+            solution[row][0] = change;
+            right[row] = [S::zero()];
             seen.previous = theta;
             trial.seen_temperatures[seen.place.slot] = theta + change;
             largest.see(change / theta);
         }
         for group in groups.iter_mut() {
-            largest.see(group.correct(self.tangent.right()));
+            largest.see(group.correct(self.tangent.solution()));
         }
         largest.found()
     }
 
-    /// Halves the way of the trial from where it was before the last correction.
+    /// Halves the way of the trial from where it was before the last correction, and starts the next
+    /// system there.
     pub(super) fn halve(&mut self) {
         let halved = |from: S, to: S| from + S::from_f64(0.5) * (to - from);
         let trial = &mut self.trial;
@@ -90,6 +87,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let theta = &mut trial.seen_temperatures[seen.place.slot];
             *theta = halved(seen.previous, *theta);
         }
+        self.balance();
     }
 
     /// The present trial is where the next correction starts.
@@ -120,5 +118,6 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for group in groups {
             group.hold();
         }
+        self.balance();
     }
 }

@@ -43,6 +43,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 break;
             }
             before = Some(update);
+            self.balance();
         }
         let right = &self.tangent.right()[..unknowns.len()];
         let residual = right.iter().map(|&[entry]| -entry).collect();

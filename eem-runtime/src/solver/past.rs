@@ -1,6 +1,6 @@
 //! The forces of the last steps. They decide where Newton's method starts, and nothing else.
 
-use core::mem;
+use core::array;
 
 use crate::scalar::Real;
 
@@ -10,12 +10,32 @@ const MEMORY: f64 = 0.875;
 /// The forces of the last two steps, and how well they would have been foretold.
 #[derive(Debug)]
 pub(super) struct Past<S, const D: usize> {
-    /// `Δp/h` of the last step and of the one before, per node, N; zero before the first.
-    forces: [Vec<[S; D]>; 2],
+    /// `Δp/h` of the last step, of the one before, and room for those of the next one, in the order
+    /// of the [`turn`](Self::turn), per node that moves, N; zero before the first.
+    forces: Vec<[[S; D]; STEPS]>,
+    /// How often the forces have changed their parts.
+    turn: usize,
     /// By how much each forecast has been wrong, `Σ |ΔF/m|²`, the last steps counting most.
     errors: [S; 3],
     /// The same before the last step.
     errors_before: [S; 3],
+    /// The same after the step that is being closed.
+    errors_after: [S; 3],
+}
+
+/// Steps of which there are forces.
+const STEPS: usize = 3;
+
+/// Where the forces of the last step, of the one before and of the next one are in each turn.
+const TURNS: [[usize; STEPS]; STEPS] = [[0, 2, 1], [1, 0, 2], [2, 1, 0]];
+
+/// Takes the forces of a step, node by node.
+#[derive(Debug)]
+pub(super) struct Remembering<'a, S, const D: usize> {
+    forces: core::slice::IterMut<'a, [[S; D]; STEPS]>,
+    turn: [usize; STEPS],
+    errors: [S; 3],
+    found: &'a mut [S; 3],
 }
 
 /// The past as it is saved: forces per coordinate.
@@ -48,76 +68,109 @@ const FORECASTS: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [2.0, -1.0]];
 impl<S: Real, const D: usize> Past<S, D> {
     /// Nothing has happened yet.
     pub(super) fn none(nodes: usize) -> Self {
-        let zeros = vec![[S::zero(); D]; nodes];
         Self {
-            forces: [zeros.clone(), zeros],
+            forces: vec![[[S::zero(); D]; STEPS]; nodes],
+            turn: 0,
             errors: [S::zero(); 3],
             errors_before: [S::zero(); 3],
+            errors_after: [S::zero(); 3],
         }
     }
 
-    /// The weights of the forecast that has been best, and the forces that they belong to.
-    pub(super) fn best(&self) -> ([S; 2], [&[[S; D]]; 2]) {
+    /// The forces that are foretold for the nodes that move, one after the other, by the forecast that has
+    /// been best.
+    #[inline]
+    pub(super) fn foretold(&self) -> impl Iterator<Item = [S; D]> {
         let [nothing, constant, linear] = self.errors;
         let best = if linear < constant && linear < nothing {
             2
         } else {
             usize::from(constant < nothing)
         };
-        let forces = self.forces.each_ref().map(Vec::as_slice);
-        (FORECASTS[best].map(S::from_f64), forces)
+        let [by_last, by_before] = FORECASTS[best].map(S::from_f64);
+        let [last, before, _] = TURNS[self.turn];
+        self.forces.iter().map(move |forces| {
+            let (last, before) = (&forces[last], &forces[before]);
+            array::from_fn(|axis| by_last * last[axis] + by_before * before[axis])
+        })
     }
 
-    /// Takes the forces of another step, given which nodes moved and their masses; leaves room for those
-    /// of the next step in their place.
-    pub(super) fn remember(
-        &mut self,
-        forces: &mut Vec<[S; D]>,
-        masses: impl Iterator<Item = (usize, S)>,
-    ) {
-        self.errors_before = self.errors;
-        let mut errors = self.errors.map(|error| S::from_f64(MEMORY) * error);
-        let [last, before] = &self.forces;
-        for (node, mass) in masses {
-            let per_mass = mass.recip();
-            let (force, last, before) = (&forces[node], &last[node], &before[node]);
-            for axis in 0..D {
-                let change = force[axis] - last[axis];
-                let misses = [force[axis], change, change - (last[axis] - before[axis])];
-                for (error, miss) in errors.iter_mut().zip(misses) {
-                    *error += (miss * per_mass) * (miss * per_mass);
-                }
-            }
+    /// Begins to take the forces of another step; until it is [kept](Self::keep), the last one stays the
+    /// last.
+    #[inline]
+    pub(super) fn remember(&mut self) -> Remembering<'_, S, D> {
+        Remembering {
+            forces: self.forces.iter_mut(),
+            turn: TURNS[self.turn],
+            errors: self.errors.map(|error| S::from_f64(MEMORY) * error),
+            found: &mut self.errors_after,
         }
-        self.errors = errors;
-        mem::swap(&mut self.forces[1], forces);
-        self.forces.swap(0, 1);
     }
 
-    /// Takes back the last [`remember`](Self::remember), given the room that it left.
-    pub(super) fn forget(&mut self, room: &mut Vec<[S; D]>) {
-        self.forces.swap(0, 1);
-        mem::swap(&mut self.forces[1], room);
+    /// The step whose forces have been taken has succeeded: it is the last one.
+    #[inline]
+    pub(super) fn keep(&mut self) {
+        self.turn = if self.turn + 1 == STEPS {
+            0
+        } else {
+            self.turn + 1
+        };
+        self.errors_before = self.errors;
+        self.errors = self.errors_after;
+    }
+
+    /// Takes back the last [`keep`](Self::keep).
+    pub(super) fn forget(&mut self) {
+        self.turn = (self.turn + STEPS - 1) % STEPS;
         self.errors = self.errors_before;
     }
 
     /// What a run goes on from.
     pub(super) fn save(&self) -> SavedPast<S> {
+        let [last, before, _] = TURNS[self.turn];
+        let of = |step: usize| self.forces.iter().flat_map(|forces| forces[step]).collect();
         SavedPast {
-            forces: self
-                .forces
-                .each_ref()
-                .map(|forces| forces.as_flattened().to_vec()),
+            forces: [of(last), of(before)],
             errors: self.errors,
         }
     }
 
-    /// Goes on from what has been saved, of as many nodes.
+    /// Goes on from a saved past, of as many nodes.
     pub(super) fn restore(&mut self, saved: &SavedPast<S>) {
-        for (own, saved) in self.forces.iter_mut().zip(&saved.forces) {
-            own.copy_from_slice(saved.as_chunks().0);
+        let [last, before, _] = TURNS[self.turn];
+        for (step, saved) in [last, before].into_iter().zip(&saved.forces) {
+            for (own, saved) in self.forces.iter_mut().zip(saved.as_chunks().0) {
+                own[step] = *saved;
+            }
         }
         self.errors = saved.errors;
+    }
+}
+
+impl<S: Real, const D: usize> Remembering<'_, S, D> {
+    /// The force on the next node, and its mass.
+    #[inline]
+    pub(super) fn take(&mut self, force: [S; D], mass: S) {
+        let Some(forces) = self.forces.next() else {
+            return;
+        };
+        let [last, before, next] = self.turn;
+        let per_mass = mass.recip();
+        for axis in 0..D {
+            let change = force[axis] - forces[last][axis];
+            let change_before = forces[last][axis] - forces[before][axis];
+            let misses = [force[axis], change, change - change_before];
+            for (error, miss) in self.errors.iter_mut().zip(misses) {
+                *error += (miss * per_mass) * (miss * per_mass);
+            }
+        }
+        forces[next] = force;
+    }
+
+    /// There are no more nodes.
+    #[inline]
+    pub(super) fn finish(self) {
+        *self.found = self.errors;
     }
 }
 
@@ -125,36 +178,46 @@ impl<S: Real, const D: usize> Past<S, D> {
 mod tests {
     use super::*;
 
-    fn after(forces: [f64; 3]) -> (Past<f64, 1>, Vec<[f64; 1]>) {
+    fn go_on(past: &mut Past<f64, 1>, force: f64) {
+        let mut remembering = past.remember();
+        remembering.take([force], 2.0);
+        remembering.finish();
+        past.keep();
+    }
+
+    fn after(forces: [f64; 3]) -> Past<f64, 1> {
         let mut past = Past::none(1);
-        let mut room = vec![[0.0]];
         for force in forces {
-            room[0] = [force];
-            past.remember(&mut room, [(0, 2.0)].into_iter());
+            go_on(&mut past, force);
         }
-        (past, room)
+        past
     }
 
     #[test]
     fn the_best_forecast_is_the_one_that_was() {
-        let foretold = |forces: [f64; 3]| {
-            let (past, _) = after(forces);
-            let ([by_last, by_before], [last, before]) = past.best();
-            by_last * last[0][0] + by_before * before[0][0]
-        };
-        assert_eq!(foretold([4.0, -4.0, 4.0]).to_bits(), 0.0_f64.to_bits());
-        assert_eq!(foretold([4.0, 4.0, 4.0]).to_bits(), 4.0_f64.to_bits());
-        assert_eq!(foretold([1.0, 2.0, 3.0]).to_bits(), 4.0_f64.to_bits());
+        let foretold = |forces: [f64; 3]| after(forces).foretold().next();
+        assert_eq!(foretold([4.0, -4.0, 4.0]), Some([0.0]));
+        assert_eq!(foretold([4.0, 4.0, 4.0]), Some([4.0]));
+        assert_eq!(foretold([1.0, 2.0, 3.0]), Some([4.0]));
     }
 
     #[test]
     fn what_was_forgotten_leaves_no_trace() {
-        let (mut past, mut room) = after([1.0, 2.0, 4.0]);
+        let mut past = after([1.0, 2.0, 4.0]);
         let before = past.save();
-        room[0] = [9.0];
-        past.remember(&mut room, [(0, 2.0)].into_iter());
+        go_on(&mut past, 9.0);
         assert_ne!(past.save(), before);
-        past.forget(&mut room);
+        past.forget();
+        assert_eq!(past.save(), before);
+    }
+
+    #[test]
+    fn a_step_that_is_not_kept_leaves_no_trace() {
+        let mut past = after([1.0, 2.0, 4.0]);
+        let before = past.save();
+        let mut remembering = past.remember();
+        remembering.take([9.0], 2.0);
+        remembering.finish();
         assert_eq!(past.save(), before);
     }
 }

@@ -36,21 +36,33 @@ impl<S: Real, const D: usize> Secant<S, D> {
         }
     }
 
-    /// Its entries and right-hand sides.
+    /// Its entries, all zero, and right-hand sides.
     #[inline]
-    pub(super) fn parts<'a>(&'a mut self, tangent: &'a mut LinearSystem<S, 1>) -> Parts<'a, S, D> {
+    pub(super) fn renew<'a>(&'a mut self, tangent: &'a mut LinearSystem<S, 1>) -> Parts<'a, S, D> {
         match self {
-            Self::Apart(system) => system.parts(),
-            Self::InTangent => tangent.parts_by_runs(),
+            Self::Apart(system) => {
+                let (values, right, _) = system.renew();
+                (values, right)
+            }
+            Self::InTangent => tangent.renew_by_runs(),
         }
     }
 
-    /// Replaces the right-hand sides by the solutions; the matrix is lost.
+    /// Finds the solutions; the matrix is lost.
     #[inline]
     pub(super) fn solve(&mut self, tangent: &mut LinearSystem<S, 1>) -> Result<(), Singular> {
         match self {
             Self::Apart(system) => system.solve(),
             Self::InTangent => tangent.solve_by_runs::<D>(),
+        }
+    }
+
+    /// The solutions, once they have been found.
+    #[inline]
+    pub(super) fn solution<'a>(&'a self, tangent: &'a LinearSystem<S, 1>) -> &'a [[S; D]] {
+        match self {
+            Self::Apart(system) => system.solution(),
+            Self::InTangent => tangent.solution_by_runs(),
         }
     }
 }

@@ -51,7 +51,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
     ) -> S {
         self.remember();
         self.tangent.clear_rest::<D>();
-        let solution = self.tangent.right_mut();
+        let solution = self.tangent.solution_mut();
         let mut largest = S::zero();
         for (half, masses) in self.masses.iter().enumerate() {
             let correction = &mut self.correction[half];
@@ -73,7 +73,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
                 largest = largest.maximum((change / theta).abs());
             }
         }
-        largest.maximum(correct_locally(groups, view, self.tangent.right()))
+        largest.maximum(correct_locally(groups, view, self.tangent.solution()))
     }
 }
 

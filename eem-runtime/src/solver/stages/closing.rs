@@ -130,7 +130,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
             .map_err(|_| StepFailure::SingularTangent)?;
         for at in 0..self.masses[0].len() {
             let mass = self.masses[0][at];
-            self.place(view, 0, mass.node(), self.secant.right()[at]);
+            self.place(view, 0, mass.node(), self.secant.solution()[at]);
         }
         Ok(())
     }
