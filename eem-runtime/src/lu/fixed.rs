@@ -299,7 +299,10 @@ mod tests {
     #[test]
     fn one_unknown_needs_a_number_that_is_not_zero() {
         for pivot in [0.0, f64::NAN, f64::INFINITY] {
-            assert_eq!(solve_one(&mut [pivot], &[[1.0]], &mut [[0.0]]), Err(Singular));
+            assert_eq!(
+                solve_one(&mut [pivot], &[[1.0]], &mut [[0.0]]),
+                Err(Singular)
+            );
         }
     }
 

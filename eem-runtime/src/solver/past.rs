@@ -110,7 +110,11 @@ impl<S: Real, const D: usize> Past<S, D> {
     /// The step whose forces have been taken has succeeded: it is the last one.
     #[inline]
     pub(super) fn keep(&mut self) {
-        self.turn = if self.turn + 1 == STEPS { 0 } else { self.turn + 1 };
+        self.turn = if self.turn + 1 == STEPS {
+            0
+        } else {
+            self.turn + 1
+        };
         self.errors_before = self.errors;
         self.errors = self.errors_after;
     }
