@@ -12,7 +12,7 @@ use crate::scalar::Real;
 
 /// A row is divided by its diagonal entry unless its other entries, all together, are larger by more than
 /// this factor; that bounds the growth of entries nearly as well as the largest pivot does.
-const LARGEST_RATIO: f64 = 4.0;
+pub(super) const LARGEST_RATIO: f64 = 4.0;
 
 /// Overwrites the columns of `b` with the solutions of `A x = b` for `N` unknowns, and A with zeros.
 pub(crate) fn solve_fixed<S: Real, const N: usize, const W: usize>(
@@ -31,66 +31,6 @@ pub(crate) fn solve_fixed<S: Real, const N: usize, const W: usize>(
         Err(row) => exchange_from(row, a, b)?,
     }
     *a = [[S::zero(); N]; N];
-    Ok(())
-}
-
-/// The first row of `x` becomes the solution of `A x = b` for one unknown, and A zero.
-#[inline]
-pub(crate) fn solve_one<S: Real, const W: usize>(
-    matrix: &mut [S],
-    b: &[[S; W]],
-    x: &mut [[S; W]],
-) -> Result<(), Singular> {
-    let ([pivot, ..], [right, ..], [x, ..]) = (matrix, b, x) else {
-        return Err(Singular);
-    };
-    if !(pivot.is_finite() && *pivot != S::zero()) {
-        return Err(Singular);
-    }
-    *x = right.map(|value| value / *pivot);
-    *pivot = S::zero();
-    Ok(())
-}
-
-/// The first two rows of `x` become the solution of `A x = b` for two unknowns, and A zero: Cramer's rule,
-/// with one division to wait for, unless the first pivot or the determinant will not do.
-///
-/// It reads one row of A after the other, as elements have written them: a pair that is read across rows
-/// before both have reached the memory has to wait for them.
-#[inline]
-pub(crate) fn solve_two<S: Real, const W: usize>(
-    matrix: &mut [S],
-    b: &[[S; W]],
-    x: &mut [[S; W]],
-) -> Result<(), Singular> {
-    let ([matrix, ..], [b, ..], [x, ..]) = (
-        matrix.as_chunks_mut::<4>().0,
-        b.as_chunks::<2>().0,
-        x.as_chunks_mut::<2>().0,
-    ) else {
-        return Err(Singular);
-    };
-    let (a, u) = (matrix[0], matrix[1]);
-    // A decision in between keeps the compiler from reading u and c together.
-    if S::from_f64(LARGEST_RATIO) * a.abs() <= u.abs() {
-        *x = *b;
-        return solve_fixed::<S, 2, W>(matrix, x);
-    }
-    let (c, d) = (matrix[2], matrix[3]);
-    let determinant = a * d - c * u;
-    let square = determinant * determinant;
-    // Neither the products nor the reciprocal have left the range of full precision.
-    if !(square > S::MAX.recip() && square <= S::MAX) {
-        *x = *b;
-        return solve_fixed::<S, 2, W>(matrix, x);
-    }
-    let inverse = determinant.recip();
-    for column in 0..W {
-        let (upper, lower) = (b[0][column], b[1][column]);
-        x[0][column] = (d * upper - u * lower) * inverse;
-        x[1][column] = (a * lower - c * upper) * inverse;
-    }
-    *matrix = [S::zero(); 4];
     Ok(())
 }
 
@@ -248,14 +188,7 @@ mod tests {
 
     fn check<const N: usize>(mut a: [[f64; N]; N]) {
         let mut b = image(&a);
-        let right = b;
-        if N == 1 {
-            solve_one(a.as_flattened_mut(), &right, &mut b).unwrap();
-        } else if N == 2 {
-            solve_two(a.as_flattened_mut(), &right, &mut b).unwrap();
-        } else {
-            solve_fixed::<f64, N, 1>(a.as_flattened_mut(), &mut b).unwrap();
-        }
+        solve_fixed::<f64, N, 1>(a.as_flattened_mut(), &mut b).unwrap();
         for (found, exact) in b.iter().zip(1_u8..) {
             let exact = f64::from(exact);
             assert!((found[0] - exact).abs() <= 16.0 * f64::EPSILON * exact);
@@ -290,23 +223,6 @@ mod tests {
     }
 
     #[test]
-    fn two_unknowns_are_solved_without_cramer_too() {
-        let mut b = [[4.0], [7.0]];
-        solve_fixed::<f64, 2, 1>(&mut [2.0, 1.0, 1.0, 3.0], &mut b).unwrap();
-        assert_eq!(b, [[1.0], [2.0]]);
-    }
-
-    #[test]
-    fn one_unknown_needs_a_number_that_is_not_zero() {
-        for pivot in [0.0, f64::NAN, f64::INFINITY] {
-            assert_eq!(
-                solve_one(&mut [pivot], &[[1.0]], &mut [[0.0]]),
-                Err(Singular)
-            );
-        }
-    }
-
-    #[test]
     fn a_singular_matrix_is_reported() {
         for [a, b, c, d] in [
             [1.0, 2.0, 2.0, 4.0],
@@ -316,8 +232,6 @@ mod tests {
             [f64::INFINITY, 1.0, 1.0, 1.0],
         ] {
             let solved = solve_fixed::<f64, 2, 1>(&mut [a, b, c, d], &mut [[1.0]; 2]);
-            assert_eq!(solved, Err(Singular));
-            let solved = solve_two::<f64, 1>(&mut [a, b, c, d], &[[1.0]; 2], &mut [[0.0]; 2]);
             assert_eq!(solved, Err(Singular));
         }
     }

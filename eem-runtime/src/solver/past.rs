@@ -10,10 +10,10 @@ const MEMORY: f64 = 0.875;
 /// The forces of the last two steps, and how well they would have been foretold.
 #[derive(Debug)]
 pub(super) struct Past<S, const D: usize> {
-    /// `Δp/h` of the last step, of the one before, and room for those of the next one, in the order
-    /// of the [`turn`](Self::turn), per node that moves, N; zero before the first.
+    /// `Δp/h` of the last step and of the one before, and room for the next one, per node that moves, N;
+    /// zero before the first.
     forces: Vec<[[S; D]; STEPS]>,
-    /// How often the forces have changed their parts.
+    /// Which row of [`TURNS`] says where each of them is.
     turn: usize,
     /// By how much each forecast has been wrong, `Σ |ΔF/m|²`, the last steps counting most.
     errors: [S; 3],
