@@ -135,7 +135,8 @@ impl SparseLu {
 }
 
 /// What a solution leaves of the right-hand sides of a run, and their size with that of the terms.
-#[inline]
+#[expect(clippy::inline_always, reason = "a few numbers in registers")]
+#[inline(always)]
 fn residual<S: Real, const L: usize>(
     matrix: &Matrix<'_, S, L>,
     run: usize,

@@ -46,7 +46,7 @@ impl Memory<'_> {
 }
 
 /// The most runs below a front among which one is looked for instead of noted.
-const MOST_SEARCHED: usize = 4;
+const MOST_SEARCHED: usize = 2;
 
 /// Working memory of a division and of its parts.
 #[derive(Debug)]
