@@ -298,6 +298,61 @@ mod tests {
         assert!(lu.solve(1, &values, &mut vec![[1.0]; 50]).is_err());
     }
 
+    // Blocks of a path of runs: `diagonal` in the own run, `last` at its other unknown, 1 between runs.
+    fn path<const L: usize>([diagonal, last]: [f64; 2]) -> (SparseLu, Vec<f64>) {
+        let pattern = Pattern::new(40, |pair| (1..40).for_each(|run| pair(run - 1, run)));
+        let lu = SparseLu::new(&pattern.in_runs(L)).unwrap();
+        let mut values = vec![0.0; lu.entries()];
+        for row in 0..40 * L {
+            let (run, at) = (row / L, row % L);
+            values[lu.position(row, row).unwrap()] = diagonal;
+            values[lu.position(row, run * L + (at + 1) % L).unwrap()] = last;
+            if run > 0 {
+                values[lu.position(row, row - L).unwrap()] = 1.0;
+                values[lu.position(row - L, row).unwrap()] = -1.0;
+            }
+        }
+        (lu, values)
+    }
+
+    /// Solves for runs of `L` unknowns with solutions that are known.
+    fn runs_are_solved<const L: usize>(entries: [f64; 2], is_pivoting: bool) {
+        let (mut lu, values) = path::<L>(entries);
+        let exact = |row: usize| if row.is_multiple_of(5) { 3.0 } else { -1.0 };
+        let unknowns = lu.pattern.unknowns();
+        let entry = |row, column| lu.position(row, column).map_or(0.0, |at| values[at]);
+        let terms = |row| (0..unknowns).map(move |column| (row, column));
+        let b = |row| terms(row).map(|(row, column)| entry(row, column) * exact(column));
+        let mut right: Vec<[f64; 1]> = (0..unknowns).map(|row| [b(row).sum()]).collect();
+        lu.solve(L, &values, &mut right).unwrap();
+        assert_eq!(!lu.pivoting.is_empty(), is_pivoting);
+        for (row, [x]) in right.iter().enumerate() {
+            assert!((x - exact(row)).abs() <= TOLERANCE, "{L}: {x} in {row}");
+        }
+    }
+
+    #[test]
+    fn runs_are_eliminated_together() {
+        runs_are_solved::<1>([4.0, 4.0], false);
+        runs_are_solved::<2>([5.0, 2.0], false);
+        runs_are_solved::<3>([0.5, 5.0], false);
+        // The pivots of every block are tiny, those between blocks are not.
+        runs_are_solved::<2>([1e-30, 1e-25], true);
+    }
+
+    #[test]
+    fn a_smaller_matrix_has_the_same_fronts() {
+        let (mut lu, values) = path::<3>([5.0, 1.0]);
+        let single: Vec<f64> = values.chunks_exact(9).map(|block| block[0]).collect();
+        let mut right = vec![[5.0, 10.0]; 40];
+        // 5 x + x⁻ − x⁺ = 5 for x = 1, but for the ends, which have one neighbour.
+        (right[0], right[39]) = ([4.0, 8.0], [6.0, 12.0]);
+        lu.solve(1, &single, &mut right).unwrap();
+        for [x, y] in right {
+            assert!((x - 1.0).abs() <= TOLERANCE && (y - 2.0).abs() <= TOLERANCE);
+        }
+    }
+
     // A response that decays by a digit per unknown, soon below any rounding.
     #[test]
     fn what_is_far_below_rounding_is_solved_too() {

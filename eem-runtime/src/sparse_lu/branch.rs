@@ -258,7 +258,7 @@ mod tests {
         });
         let mut values = vec![0.0; pattern.entries()];
         for row in 0..pattern.unknowns() {
-            for (place, &column) in pattern.places(row).zip(pattern.row(row)) {
+            for (place, &column) in pattern.blocks(row).zip(pattern.row(row)) {
                 let off = u8::try_from((3 * row + 5 * column as usize) % 7).unwrap();
                 values[place] = if row == column as usize {
                     9.1
