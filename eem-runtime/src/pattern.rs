@@ -90,7 +90,7 @@ impl Pattern {
     }
 
     /// The pattern with a run of that many unknowns in the place of each.
-    fn in_runs(self, length: usize) -> Self {
+    pub(crate) fn in_runs(self, length: usize) -> Self {
         Self { length, ..self }
     }
 

@@ -114,6 +114,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             .collect();
         let shapes = scene.groups.iter().map(|group| group.shape()).collect();
         let masses = Masses::new(scene.nodes.iter().map(|node| node.mass));
+        // Large, and all that it said is in the masses and in the state.
+        drop(scene.nodes);
         let placed = Placed {
             nodes: &scene.elements,
             layout: &layout,

@@ -22,6 +22,7 @@ mod factors;
 mod fronts;
 mod gathering;
 mod pivoting;
+mod refinement;
 
 use core::array;
 
@@ -32,12 +33,7 @@ use factors::Factors;
 use fronts::Fronts;
 use gathering::Matrix;
 use pivoting::Pivoting;
-
-/// The backward error that counts as rounding: sums of some thousand terms.
-const ROUNDING: f64 = 256.0 * f64::EPSILON;
-
-/// How often a solution is refined before its factors are given up.
-const REFINEMENTS: usize = 3;
+use refinement::{is_solved, refine};
 
 /// What solves `A X = B` for matrices with one pattern, and for those with one unknown in the place of
 /// each of its runs.
@@ -134,73 +130,6 @@ impl SparseLu {
     }
 }
 
-/// What a solution leaves of the right-hand sides of a run, and their size with that of the terms.
-#[inline]
-fn residual<S: Real, const L: usize>(
-    matrix: &Matrix<'_, S, L>,
-    run: usize,
-    (x, floor): (&[[f64; L]], f64),
-    b: [f64; L],
-) -> ([f64; L], [f64; L]) {
-    let (mut residual, mut size) = (b, b.map(f64::abs));
-    for (column, block) in matrix.blocks_of(run) {
-        let x = &x[matrix.fronts.places[column] as usize];
-        for (row, entries) in block.iter().enumerate() {
-            for (value, x) in entries.iter().zip(x) {
-                let value = value.to_f64();
-                residual[row] -= value * x;
-                size[row] += value.abs() * (x.abs() + floor);
-            }
-        }
-    }
-    (residual, size)
-}
-
-/// Whether what a solution leaves is what rounding leaves.
-fn is_solved<S: Real, const L: usize>(
-    matrix: &Matrix<'_, S, L>,
-    x: &[[f64; L]],
-    b: impl Fn(usize) -> [f64; L],
-) -> bool {
-    let largest = x.as_flattened().iter();
-    let largest = largest.fold(0.0_f64, |largest, x| largest.max(x.abs()));
-    // Below a rounding of a rounding of the largest, no digit of an unknown counts.
-    let floor = f64::EPSILON * largest;
-    let mut is_solved = largest <= f64::MAX;
-    for run in 0..x.len() {
-        let (residual, size) = residual(matrix, run, (x, floor), b(run));
-        for (residual, size) in residual.iter().zip(size) {
-            is_solved &= residual.abs() <= ROUNDING * size;
-        }
-    }
-    is_solved
-}
-
-/// Whether refinement makes it one.
-#[cold]
-fn refine<S: Real, const L: usize>(
-    matrix: &Matrix<'_, S, L>,
-    factors: &mut Factors,
-    (x, memory): (&mut [[f64; L]], &mut Vec<f64>),
-    b: impl Fn(usize) -> [f64; L],
-) -> bool {
-    memory.resize(memory.len().max(x.as_flattened().len()), 0.0);
-    let rest = &mut memory.as_chunks_mut::<L>().0[..x.len()];
-    for _ in 0..REFINEMENTS {
-        for (rest, &run) in rest.iter_mut().zip(&matrix.fronts.order) {
-            (*rest, _) = residual(matrix, run as usize, (x, 0.0), b(run as usize));
-        }
-        factors.solve(matrix.fronts, rest);
-        for (x, correction) in x.as_flattened_mut().iter_mut().zip(rest.as_flattened()) {
-            *x += correction;
-        }
-        if is_solved(matrix, x, &b) {
-            return true;
-        }
-    }
-    false
-}
-
 /// Solves with pivots from whole columns.
 #[cold]
 fn solve_by_pivoting<S: Real, const L: usize>(
@@ -295,6 +224,61 @@ mod tests {
         assert!(lu.solve(1, &values, &mut vec![[1.0]; 50]).is_err());
         values.fill(f64::NAN);
         assert!(lu.solve(1, &values, &mut vec![[1.0]; 50]).is_err());
+    }
+
+    // Blocks of a path of runs: `diagonal` in the own run, `last` at its other unknown, 1 between runs.
+    fn path<const L: usize>([diagonal, last]: [f64; 2]) -> (SparseLu, Vec<f64>) {
+        let pattern = Pattern::new(40, |pair| (1..40).for_each(|run| pair(run - 1, run)));
+        let lu = SparseLu::new(&pattern.in_runs(L)).unwrap();
+        let mut values = vec![0.0; lu.entries()];
+        for row in 0..40 * L {
+            let (run, at) = (row / L, row % L);
+            values[lu.position(row, row).unwrap()] = diagonal;
+            values[lu.position(row, run * L + (at + 1) % L).unwrap()] = last;
+            if run > 0 {
+                values[lu.position(row, row - L).unwrap()] = 1.0;
+                values[lu.position(row - L, row).unwrap()] = -1.0;
+            }
+        }
+        (lu, values)
+    }
+
+    /// Solves for runs of `L` unknowns with solutions that are known.
+    fn runs_are_solved<const L: usize>(entries: [f64; 2], is_pivoting: bool) {
+        let (mut lu, values) = path::<L>(entries);
+        let exact = |row: usize| if row.is_multiple_of(5) { 3.0 } else { -1.0 };
+        let unknowns = lu.pattern.unknowns();
+        let entry = |row, column| lu.position(row, column).map_or(0.0, |at| values[at]);
+        let terms = |row| (0..unknowns).map(move |column| (row, column));
+        let b = |row| terms(row).map(|(row, column)| entry(row, column) * exact(column));
+        let mut right: Vec<[f64; 1]> = (0..unknowns).map(|row| [b(row).sum()]).collect();
+        lu.solve(L, &values, &mut right).unwrap();
+        assert_eq!(!lu.pivoting.is_empty(), is_pivoting);
+        for (row, [x]) in right.iter().enumerate() {
+            assert!((x - exact(row)).abs() <= TOLERANCE, "{L}: {x} in {row}");
+        }
+    }
+
+    #[test]
+    fn runs_are_eliminated_together() {
+        runs_are_solved::<1>([4.0, 4.0], false);
+        runs_are_solved::<2>([5.0, 2.0], false);
+        runs_are_solved::<3>([0.5, 5.0], false);
+        // The pivots of every block are tiny, those between blocks are not.
+        runs_are_solved::<2>([1e-30, 1e-25], true);
+    }
+
+    #[test]
+    fn a_smaller_matrix_has_the_same_fronts() {
+        let (mut lu, values) = path::<3>([5.0, 1.0]);
+        let single: Vec<f64> = values.chunks_exact(9).map(|block| block[0]).collect();
+        let mut right = vec![[5.0, 10.0]; 40];
+        // 5 x + x⁻ − x⁺ = 5 for x = 1, but for the ends, which have one neighbour.
+        (right[0], right[39]) = ([4.0, 8.0], [6.0, 12.0]);
+        lu.solve(1, &single, &mut right).unwrap();
+        for [x, y] in right {
+            assert!((x - 1.0).abs() <= TOLERANCE && (y - 2.0).abs() <= TOLERANCE);
+        }
     }
 
     // A response that decays by a digit per unknown, soon below any rounding.

@@ -3,6 +3,7 @@
 use super::ElementGroup;
 use super::arms::along;
 use super::member::Member;
+use super::scatter::run;
 use super::site::{Contact, Site};
 use crate::free_energy::{Array, FreeEnergy};
 use crate::kinematics::{Arms, Kinematics};
@@ -119,17 +120,12 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
     #[inline]
     pub(super) fn motion_in(&self, solution: &[[S; 1]]) -> Arms<K, S, D> {
         let mut motion = Arms::<K, S, D>::filled([S::zero(); D]);
-        let rows = self.rows.as_ref();
-        let of = |row: u32| solution.get(row as usize..row as usize + D);
-        let Some(first) = of(rows[0]) else {
-            return motion;
-        };
+        let (rows, solution) = (self.rows.as_ref(), solution.as_flattened());
+        let first: &[S; D] = run(solution, rows[0] as usize);
         for (arm, &row) in motion.as_mut().iter_mut().zip(&rows[1..]) {
-            let Some(other) = of(row) else {
-                continue;
-            };
+            let other: &[S; D] = run(solution, row as usize);
             for axis in 0..D {
-                arm[axis] = other[axis][0] - first[axis][0];
+                arm[axis] = other[axis] - first[axis];
             }
         }
         motion

@@ -46,7 +46,7 @@ impl Memory<'_> {
 }
 
 /// The most runs below a front among which one is looked for instead of noted.
-const MOST_SEARCHED: usize = 4;
+const MOST_SEARCHED: usize = 2;
 
 /// Working memory of a division and of its parts.
 #[derive(Debug)]
@@ -258,7 +258,7 @@ mod tests {
         });
         let mut values = vec![0.0; pattern.entries()];
         for row in 0..pattern.unknowns() {
-            for (place, &column) in pattern.places(row).zip(pattern.row(row)) {
+            for (place, &column) in pattern.blocks(row).zip(pattern.row(row)) {
                 let off = u8::try_from((3 * row + 5 * column as usize) % 7).unwrap();
                 values[place] = if row == column as usize {
                     9.1
