@@ -36,6 +36,7 @@ use crate::compact::compact;
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
 use crate::handle::Element;
+use crate::impulse::Impulses;
 use crate::kinematics::Kinematics;
 use crate::layout::Slots;
 use crate::scalar::Real;
@@ -102,13 +103,13 @@ pub(crate) trait Group<S: Real, const D: usize>: Elements<S, D> {
     /// entries and right-hand sides of the secant system; moved anchors are taken from the trial.
     fn add_secant(&mut self, view: &StepView<'_, S>, trial: &Trial<S, D>, system: Parts<'_, S, D>);
 
-    /// Adds the nodal impulse `−h F` of the found response to `impulse`, N s.
+    /// Adds the nodal impulse `−h F` of the found response, N s.
     fn add_impulse(
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
         along: Along,
-        impulse: &mut [[S; D]],
+        impulses: &mut Impulses<'_, S, D>,
     );
 
     /// Adds the increments of the internal variables and of the reservoirs' entropies to a new state
@@ -258,9 +259,9 @@ where
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
         along: Along,
-        impulse: &mut [[S; D]],
+        impulses: &mut Impulses<'_, S, D>,
     ) {
-        self.add_impulse_all(view, trial, along, impulse);
+        self.add_impulse_all(view, trial, along, impulses);
     }
 
     fn close(

@@ -35,6 +35,7 @@ mod error;
 mod free_energy;
 mod group;
 mod handle;
+mod impulse;
 mod inversion;
 mod layout;
 mod ledger;

@@ -25,10 +25,10 @@ use crate::scheme::{Closing, Scheme};
 use crate::state::State;
 use crate::system::LinearSystem;
 pub(crate) use effort::{Effort, Iteration};
-use motion::{Glance, Motion};
+use motion::Motion;
 use past::Past;
 pub(crate) use past::SavedPast;
-use places::{moving, seen};
+use places::{Seen, moving, seen};
 use secant::Secant;
 pub(crate) use stages::Staged;
 
@@ -50,7 +50,7 @@ pub(crate) struct Solver<S, const D: usize> {
     /// The nodes that move, in the order of their unknowns.
     nodes: Vec<Motion<S, D>>,
     /// The temperatures that neighbours see.
-    seen: Vec<Glance<S>>,
+    seen: Vec<Seen>,
     /// The system of an iteration.
     tangent: LinearSystem<S, 1>,
     /// The system that closes a step, if the scheme closes it by one.
@@ -61,8 +61,6 @@ pub(crate) struct Solver<S, const D: usize> {
     /// The part of the nodal forces that the old state and the loads decide, N; empty where nothing has
     /// a part in it.
     old_force: Vec<[S; D]>,
-    /// The impulse of the found forces, N s.
-    impulse: Vec<[S; D]>,
     past: Past<S, D>,
     /// The reciprocal of the unit of length of each node: its shortest element in the old state; 1 m
     /// without.
@@ -97,13 +95,13 @@ impl<S: Real, const D: usize> Solver<S, D> {
         };
         let nodes = moving(masses, &sites).into_iter().map(Motion::new);
         let nodes: Vec<_> = nodes.collect();
-        let seen: Vec<_> = seen(&sites).into_iter().map(Glance::new).collect();
+        let seen = seen(&sites);
         let points = vec![[S::zero(); D]; masses.len()];
         // Nobody asks for any unless some are seen.
         let slots = if seen.is_empty() { 0 } else { layout.thermal };
         Self {
             scheme,
-            past: Past::none(nodes.len()),
+            past: Past::none(masses.len()),
             nodes,
             seen,
             tangent,
@@ -118,7 +116,6 @@ impl<S: Real, const D: usize> Solver<S, D> {
             } else {
                 Vec::new()
             },
-            impulse: points,
             per_length: vec![S::one(); masses.len()],
             obstacle: None,
         }
@@ -289,7 +286,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         self.obstacle = Some(error);
         let share = half * share;
-        self.halve();
+        // As much as is left.
+        self.take_back(share);
         for group in groups {
             group.apply(share);
         }

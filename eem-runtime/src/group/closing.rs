@@ -11,6 +11,7 @@ use super::site::{Contact, SecantSite, Site};
 use super::{Along, ElementGroup, StepView, Trial};
 use crate::conduction::Partner;
 use crate::free_energy::{Array, FreeEnergy};
+use crate::impulse::Impulses;
 use crate::kinematics::{Arms, Kinematics, Weights};
 use crate::scalar::Real;
 use crate::scheme::{ElementScheme, Placement};
@@ -52,7 +53,7 @@ where
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
         along: Along,
-        impulse: &mut [[S; D]],
+        impulses: &mut Impulses<'_, S, D>,
     ) {
         for member in &self.members {
             let (nodes, r0) = (&member.site.nodes, &member.r0);
@@ -75,7 +76,7 @@ where
                 (share, member.force(self.kinematics, at, [r0, &r1]))
             };
             for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
-                for (impulse, &force) in impulse[node as usize].iter_mut().zip(force) {
+                for (impulse, &force) in impulses.of(node as usize).iter_mut().zip(force) {
                     *impulse -= h * force;
                 }
             }

@@ -6,6 +6,7 @@
 
 use core::array;
 
+use super::places::Seen;
 use super::{SavedPast, Solver};
 use crate::error::StepFailure;
 use crate::group::{Group, Old, StepView, points};
@@ -59,31 +60,31 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// Moving nodes are where they are foretold, seen temperatures where they were.
     fn start(&mut self, view: &StepView<'_, S>) {
         let momenta = points::<S, D>(view.state.momenta.values());
-        let (values, right, _) = self.tangent.renew();
-        for seen in &mut self.seen {
-            let slot = seen.place.slot;
-            seen.previous = view.state.temperatures[slot];
-            self.trial.seen_temperatures[slot] = seen.previous;
-            right[seen.place.row] = [S::zero()];
+        let (values, right, solution) = self.tangent.renew();
+        for &Seen { slot, row } in &self.seen {
+            self.trial.seen_temperatures[slot] = view.state.temperatures[slot];
+            (right[row], solution[row]) = ([S::zero()], [S::zero()]);
         }
         let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
+        // The way from the old state is the first correction.
+        let changes = solution.as_flattened_mut().as_chunks_mut::<D>().0;
         let is_foretold = view.phase.moves() && self.scheme.foretells_its_start();
         let half_step = S::from_f64(0.5) * view.step;
-        let nodes = self.nodes.iter_mut().zip(rows);
-        for ((node, rows), force) in nodes.zip(self.past.foretold()) {
+        let forecast = self.past.forecast();
+        let nodes = self.nodes.iter_mut().zip(rows).zip(changes);
+        for ((node, rows), change) in nodes {
             let at = node.place.node();
             let momentum = &momenta[at];
             node.weigh(view, momentum, old_force(&self.old_force, at));
             let per_length = &mut self.per_length[at];
             *per_length = inverse_length(*per_length);
             let mut displacement = [S::zero(); D];
-            node.previous = displacement;
             if is_foretold {
-                let mobility = view.step / node.place.mass;
+                let (force, mobility) = (forecast.of(at), view.step / node.place.mass);
                 displacement =
                     array::from_fn(|axis| mobility * (momentum[axis] + half_step * force[axis]));
             }
-            self.trial.displacements[at] = displacement;
+            (self.trial.displacements[at], *change) = (displacement, displacement);
             node.balance(&displacement, self.twice_per_step, values, rows);
         }
     }

@@ -80,10 +80,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let mut remembering = self.past.remember();
         for node in &self.nodes {
             let at = node.place.node();
-            let (displacement, impulse) = (&self.trial.displacements[at], &self.impulse[at]);
+            let (displacement, impulse) = (&self.trial.displacements[at], remembering.impulse(at));
             move_node(at, [displacement, impulse], view.state, next)?;
-            let force = impulse.map(|component| component * per_step);
-            remembering.take(force, node.place.mass);
+            remembering.take(at, per_step, node.place.mass);
         }
         remembering.finish();
         Ok(())
@@ -102,15 +101,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 
     /// New positions of the anchors that are moved, and the work that this takes.
-    fn move_anchors(&self, view: &StepView<'_, S>, next: &mut State<S>) {
+    fn move_anchors(&mut self, view: &StepView<'_, S>, next: &mut State<S>) {
         let old = &view.state.positions;
+        let mut impulses = self.past.impulses();
         for &node in &view.loads.moved {
             for axis in 0..D {
                 let at = node * D + axis;
                 let displacement = self.trial.displacements[node][axis];
                 next.positions.advance(at, old, displacement);
                 // The support bears the impulse of the springs.
-                let support = -self.impulse[node][axis] / view.step;
+                let support = -impulses.of(node)[axis] / view.step;
                 next.work.add(support * displacement);
             }
         }
@@ -123,12 +123,15 @@ impl<S: Real, const D: usize> Solver<S, D> {
         view: &StepView<'_, S>,
         along: Along,
     ) {
-        self.impulse.fill([S::zero(); D]);
-        for (impulse, force) in self.impulse.iter_mut().zip(&self.old_force) {
+        let mut impulses = self.past.impulses();
+        for impulse in impulses.iter_mut() {
+            *impulse = [S::zero(); D];
+        }
+        for (impulse, force) in impulses.iter_mut().zip(&self.old_force) {
             *impulse = force.map(|component| -view.step * component);
         }
         for group in groups.iter_mut() {
-            group.add_impulse(view, &self.trial, along, &mut self.impulse);
+            group.add_impulse(view, &self.trial, along, &mut impulses);
         }
     }
 
@@ -136,18 +139,19 @@ impl<S: Real, const D: usize> Solver<S, D> {
     fn move_from_start(&mut self, groups: &mut [Box<dyn Group<S, D>>], view: &StepView<'_, S>) {
         let half = S::from_f64(0.5);
         let p0 = points::<S, D>(view.state.momenta.values());
+        let mut impulses = self.past.impulses();
         for node in &self.nodes {
             let at = node.place.node();
             let mobility = view.step / node.place.mass;
-            let impulse = &self.impulse[at];
+            let impulse = impulses.of(at);
             let displacement =
                 array::from_fn(|axis| mobility * (p0[at][axis] + half * impulse[axis]));
             self.trial.displacements[at] = displacement;
         }
         for group in groups.iter_mut() {
-            group.add_impulse(view, &self.trial, Along::Gradient, &mut self.impulse);
+            group.add_impulse(view, &self.trial, Along::Gradient, &mut impulses);
         }
-        for (node, impulse) in self.impulse.iter_mut().enumerate() {
+        for (node, impulse) in impulses.iter_mut().enumerate() {
             let force = old_force(&self.old_force, node);
             *impulse = array::from_fn(|axis| half * (impulse[axis] - view.step * force[axis]));
         }

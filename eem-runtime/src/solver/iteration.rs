@@ -1,6 +1,7 @@
 //! The global system of an iteration, and what its solution means.
 
 use super::Solver;
+use super::places::Seen;
 use crate::group::{Group, StepView};
 use crate::newton::Largest;
 use crate::scalar::Real;
@@ -10,7 +11,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     pub(super) fn balance(&mut self) {
         let (values, right, _) = self.tangent.renew();
         for seen in &self.seen {
-            right[seen.place.row] = [S::zero()];
+            right[seen.row] = [S::zero()];
         }
         let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
         for (node, rows) in self.nodes.iter().zip(rows) {
@@ -40,11 +41,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let mut largest = Largest::none();
         let changes = solution.as_flattened().as_chunks::<D>().0;
         let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
-        for ((node, change), rows) in self.nodes.iter_mut().zip(changes).zip(rows) {
+        for ((node, change), rows) in self.nodes.iter().zip(changes).zip(rows) {
             let at = node.place.node();
             let mut displacement = trial.displacements[at];
             let per_length = self.per_length[at];
-            node.previous = displacement;
             // One by one, as they have been found: a copy of all would have to wait for them.
             for axis in 0..D {
                 let change = change[axis];
@@ -54,16 +54,14 @@ impl<S: Real, const D: usize> Solver<S, D> {
             trial.displacements[at] = displacement;
             node.balance(&displacement, self.twice_per_step, values, rows);
         }
-        for seen in &mut self.seen {
-            let row = seen.place.row;
+        for &Seen { slot, row } in &self.seen {
             // What rounding to Θ + δΘ leaves of δΘ: with a large conductance a rounding of Θ is a
             // large heat; the local unknowns must answer to the Θ that will be used.
-            let theta = trial.seen_temperatures[seen.place.slot];
+            let theta = trial.seen_temperatures[slot];
             let change = (theta + solution[row][0]) - theta;
             solution[row][0] = change;
             right[row] = [S::zero()];
-            seen.previous = theta;
-            trial.seen_temperatures[seen.place.slot] = theta + change;
+            trial.seen_temperatures[slot] = theta + change;
             largest.see(change / theta);
         }
         for group in groups.iter_mut() {
@@ -72,35 +70,24 @@ impl<S: Real, const D: usize> Solver<S, D> {
         largest.found()
     }
 
-    /// Halves the way of the trial from where it was before the last correction, and starts the next
-    /// system there.
-    pub(super) fn halve(&mut self) {
-        let halved = |from: S, to: S| from + S::from_f64(0.5) * (to - from);
+    /// Takes a share of the last correction back, and starts the next system there.
+    pub(super) fn take_back(&mut self, share: S) {
         let trial = &mut self.trial;
-        for node in &self.nodes {
+        let solution = self.tangent.solution();
+        let changes = solution.as_flattened().as_chunks::<D>().0;
+        for (node, change) in self.nodes.iter().zip(changes) {
             let displacement = &mut trial.displacements[node.place.node()];
-            for (to, &from) in displacement.iter_mut().zip(&node.previous) {
-                *to = halved(from, *to);
+            for (displacement, &change) in displacement.iter_mut().zip(change) {
+                *displacement -= share * change;
             }
         }
-        for seen in &self.seen {
-            let theta = &mut trial.seen_temperatures[seen.place.slot];
-            *theta = halved(seen.previous, *theta);
+        for &Seen { slot, row } in &self.seen {
+            trial.seen_temperatures[slot] -= share * solution[row][0];
         }
         self.balance();
     }
 
-    /// The present trial is where the next correction starts.
-    pub(super) fn hold(&mut self) {
-        for node in &mut self.nodes {
-            node.previous = self.trial.displacements[node.place.node()];
-        }
-        for seen in &mut self.seen {
-            seen.previous = self.trial.seen_temperatures[seen.place.slot];
-        }
-    }
-
-    /// Makes displacements larger by a factor and leaves everything else.
+    /// Makes displacements larger by a factor, as a correction, and leaves everything else.
     pub(super) fn extrapolate(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
@@ -108,12 +95,18 @@ impl<S: Real, const D: usize> Solver<S, D> {
         factor: S,
     ) {
         self.weigh(view);
-        self.hold();
         let growth = factor - S::one();
-        for node in &self.nodes {
-            self.trial.displacements[node.place.node()] = node
-                .previous
-                .map(|component| component + growth * component);
+        let solution = self.tangent.solution_mut();
+        let changes = solution.as_flattened_mut().as_chunks_mut::<D>().0;
+        for (node, change) in self.nodes.iter().zip(changes) {
+            let displacement = &mut self.trial.displacements[node.place.node()];
+            *change = displacement.map(|component| growth * component);
+            for (displacement, &mut change) in displacement.iter_mut().zip(change) {
+                *displacement += change;
+            }
+        }
+        for seen in &self.seen {
+            solution[seen.row] = [S::zero()];
         }
         for group in groups {
             group.hold();

@@ -19,19 +19,20 @@ impl<S: Real, const D: usize> Solver<S, D> {
             self.trial.displacements[node.place.node()] = displacement;
         }
         for seen in &self.seen {
-            self.trial.seen_temperatures[seen.place.slot] = unknowns[seen.place.row];
+            self.trial.seen_temperatures[seen.slot] = unknowns[seen.row];
         }
-        let no_change = vec![[S::zero()]; self.tangent.right().len()];
+        // Whatever fails, the global unknowns stay.
+        self.tangent.solution_mut().fill([S::zero()]);
         let mut before = None;
         loop {
+            self.balance();
             self.advance(groups, view, Look::On)?;
             let residual = self.residual();
             if before.is_some_and(|update| update <= S::EPSILON) {
                 break;
             }
-            self.hold();
             let updates = groups.iter_mut();
-            let updates = updates.map(|group| group.correct(&no_change));
+            let updates = updates.map(|group| group.correct(self.tangent.solution()));
             let update = updates.fold(S::zero(), S::maximum);
             effort.history.push(Iteration { residual, update });
             let stagnated = before.is_some_and(|before| update >= before);
@@ -43,7 +44,6 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 break;
             }
             before = Some(update);
-            self.balance();
         }
         let right = &self.tangent.right()[..unknowns.len()];
         let residual = right.iter().map(|&[entry]| -entry).collect();

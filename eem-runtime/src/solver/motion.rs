@@ -1,9 +1,8 @@
-//! What Newton's method knows of a node that moves and of a temperature that neighbours see, each in one
-//! record.
+//! What Newton's method knows of a node that moves, in one record.
 
 use core::array;
 
-use super::places::{MovingNode, Seen};
+use super::places::MovingNode;
 use crate::group::StepView;
 use crate::scalar::Real;
 
@@ -14,8 +13,6 @@ pub(super) struct Motion<S, const D: usize> {
     /// `2p⁰ − h F⁰` with the part F⁰ of the force that the old state decides, N s; zero while nothing
     /// moves.
     pub(super) rest: [S; D],
-    /// `q¹ − q⁰` before the last update, m.
-    pub(super) previous: [S; D],
 }
 
 impl<S: Real, const D: usize> Motion<S, D> {
@@ -23,7 +20,6 @@ impl<S: Real, const D: usize> Motion<S, D> {
         Self {
             place,
             rest: [S::zero(); D],
-            previous: [S::zero(); D],
         }
     }
 
@@ -57,22 +53,5 @@ impl<S: Real, const D: usize> Motion<S, D> {
             values[place] = inertia;
         }
         *rows = array::from_fn(|axis| self.rest[axis] - inertia * displacement[axis]);
-    }
-}
-
-/// A temperature Θ that neighbours see, during one step.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Glance<S> {
-    pub(super) place: Seen,
-    /// Θ before the last update, K.
-    pub(super) previous: S,
-}
-
-impl<S: Real> Glance<S> {
-    pub(super) fn new(place: Seen) -> Self {
-        Self {
-            place,
-            previous: S::zero(),
-        }
     }
 }

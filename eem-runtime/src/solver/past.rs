@@ -2,6 +2,7 @@
 
 use core::array;
 
+use crate::impulse::{Impulses, PLACES};
 use crate::scalar::Real;
 
 /// What is left of the error of a forecast one step later. Any memory of some steps will do.
@@ -10,9 +11,9 @@ const MEMORY: f64 = 0.875;
 /// The forces of the last two steps, and how well they would have been foretold.
 #[derive(Debug)]
 pub(super) struct Past<S, const D: usize> {
-    /// `Δp/h` of the last step and of the one before, and room for the next one, per node that moves, N;
-    /// zero before the first.
-    forces: Vec<[[S; D]; STEPS]>,
+    /// `Δp/h` of the last step and of the one before, N, zero before the first; and the impulse of the
+    /// step that is being closed, N s. Per node, of which those that move have forces.
+    forces: Vec<[[S; D]; PLACES]>,
     /// Which row of [`TURNS`] says where each of them is.
     turn: usize,
     /// By how much each forecast has been wrong, `Σ |ΔF/m|²`, the last steps counting most.
@@ -23,17 +24,32 @@ pub(super) struct Past<S, const D: usize> {
     errors_after: [S; 3],
 }
 
-/// Steps of which there are forces.
-const STEPS: usize = 3;
-
 /// Where the forces of the last step, of the one before and of the next one are in each turn.
-const TURNS: [[usize; STEPS]; STEPS] = [[0, 2, 1], [1, 0, 2], [2, 1, 0]];
+const TURNS: [[usize; PLACES]; PLACES] = [[0, 2, 1], [1, 0, 2], [2, 1, 0]];
 
-/// Takes the forces of a step, node by node.
+/// How the forces of the next step are foretold.
+#[derive(Debug)]
+pub(super) struct Forecast<'a, S, const D: usize> {
+    forces: &'a [[[S; D]; PLACES]],
+    turn: [usize; PLACES],
+    weights: [S; 2],
+}
+
+impl<S: Real, const D: usize> Forecast<'_, S, D> {
+    /// That on a node.
+    #[inline]
+    pub(super) fn of(&self, node: usize) -> [S; D] {
+        let [last, before, _] = self.turn.map(|step| &self.forces[node][step]);
+        let [by_last, by_before] = self.weights;
+        array::from_fn(|axis| by_last * last[axis] + by_before * before[axis])
+    }
+}
+
+/// Takes the forces of a step, node by node, in the place of its impulses.
 #[derive(Debug)]
 pub(super) struct Remembering<'a, S, const D: usize> {
-    forces: core::slice::IterMut<'a, [[S; D]; STEPS]>,
-    turn: [usize; STEPS],
+    forces: &'a mut [[[S; D]; PLACES]],
+    turn: [usize; PLACES],
     errors: [S; 3],
     found: &'a mut [S; 3],
 }
@@ -69,7 +85,7 @@ impl<S: Real, const D: usize> Past<S, D> {
     /// Nothing has happened yet.
     pub(super) fn none(nodes: usize) -> Self {
         Self {
-            forces: vec![[[S::zero(); D]; STEPS]; nodes],
+            forces: vec![[[S::zero(); D]; PLACES]; nodes],
             turn: 0,
             errors: [S::zero(); 3],
             errors_before: [S::zero(); 3],
@@ -77,22 +93,27 @@ impl<S: Real, const D: usize> Past<S, D> {
         }
     }
 
-    /// The forces that are foretold for the nodes that move, one after the other, by the forecast that has
-    /// been best.
+    /// The forecast that has been best.
     #[inline]
-    pub(super) fn foretold(&self) -> impl Iterator<Item = [S; D]> {
+    pub(super) fn forecast(&self) -> Forecast<'_, S, D> {
         let [nothing, constant, linear] = self.errors;
         let best = if linear < constant && linear < nothing {
             2
         } else {
             usize::from(constant < nothing)
         };
-        let [by_last, by_before] = FORECASTS[best].map(S::from_f64);
-        let [last, before, _] = TURNS[self.turn];
-        self.forces.iter().map(move |forces| {
-            let (last, before) = (&forces[last], &forces[before]);
-            array::from_fn(|axis| by_last * last[axis] + by_before * before[axis])
-        })
+        Forecast {
+            forces: &self.forces,
+            turn: TURNS[self.turn],
+            weights: FORECASTS[best].map(S::from_f64),
+        }
+    }
+
+    /// The impulses of the step that is being closed, or of the last one that was.
+    #[inline]
+    pub(super) fn impulses(&mut self) -> Impulses<'_, S, D> {
+        let [_, _, next] = TURNS[self.turn];
+        Impulses::new(&mut self.forces, next)
     }
 
     /// Begins to take the forces of another step; until it is [kept](Self::keep), the last one stays the
@@ -100,7 +121,7 @@ impl<S: Real, const D: usize> Past<S, D> {
     #[inline]
     pub(super) fn remember(&mut self) -> Remembering<'_, S, D> {
         Remembering {
-            forces: self.forces.iter_mut(),
+            forces: &mut self.forces,
             turn: TURNS[self.turn],
             errors: self.errors.map(|error| S::from_f64(MEMORY) * error),
             found: &mut self.errors_after,
@@ -110,7 +131,7 @@ impl<S: Real, const D: usize> Past<S, D> {
     /// The step whose forces have been taken has succeeded: it is the last one.
     #[inline]
     pub(super) fn keep(&mut self) {
-        self.turn = if self.turn + 1 == STEPS {
+        self.turn = if self.turn + 1 == PLACES {
             0
         } else {
             self.turn + 1
@@ -121,7 +142,7 @@ impl<S: Real, const D: usize> Past<S, D> {
 
     /// Takes back the last [`keep`](Self::keep).
     pub(super) fn forget(&mut self) {
-        self.turn = (self.turn + STEPS - 1) % STEPS;
+        self.turn = (self.turn + PLACES - 1) % PLACES;
         self.errors = self.errors_before;
     }
 
@@ -148,23 +169,29 @@ impl<S: Real, const D: usize> Past<S, D> {
 }
 
 impl<S: Real, const D: usize> Remembering<'_, S, D> {
-    /// The force on the next node, and its mass.
+    /// The impulse of a node, N s.
     #[inline]
-    pub(super) fn take(&mut self, force: [S; D], mass: S) {
-        let Some(forces) = self.forces.next() else {
-            return;
-        };
+    pub(super) fn impulse(&self, node: usize) -> &[S; D] {
+        let [_, _, next] = self.turn;
+        &self.forces[node][next]
+    }
+
+    /// The impulse of a node becomes a force: by 1/h, with its mass.
+    #[inline]
+    pub(super) fn take(&mut self, node: usize, per_step: S, mass: S) {
         let [last, before, next] = self.turn;
+        let forces = &mut self.forces[node];
         let per_mass = mass.recip();
         for axis in 0..D {
-            let change = force[axis] - forces[last][axis];
+            let force = forces[next][axis] * per_step;
+            let change = force - forces[last][axis];
             let change_before = forces[last][axis] - forces[before][axis];
-            let misses = [force[axis], change, change - change_before];
+            let misses = [force, change, change - change_before];
             for (error, miss) in self.errors.iter_mut().zip(misses) {
                 *error += (miss * per_mass) * (miss * per_mass);
             }
+            forces[next][axis] = force;
         }
-        forces[next] = force;
     }
 
     /// There are no more nodes.
@@ -179,8 +206,9 @@ mod tests {
     use super::*;
 
     fn go_on(past: &mut Past<f64, 1>, force: f64) {
+        *past.impulses().of(0) = [0.5 * force];
         let mut remembering = past.remember();
-        remembering.take([force], 2.0);
+        remembering.take(0, 2.0, 2.0);
         remembering.finish();
         past.keep();
     }
@@ -195,10 +223,10 @@ mod tests {
 
     #[test]
     fn the_best_forecast_is_the_one_that_was() {
-        let foretold = |forces: [f64; 3]| after(forces).foretold().next();
-        assert_eq!(foretold([4.0, -4.0, 4.0]), Some([0.0]));
-        assert_eq!(foretold([4.0, 4.0, 4.0]), Some([4.0]));
-        assert_eq!(foretold([1.0, 2.0, 3.0]), Some([4.0]));
+        let foretold = |forces: [f64; 3]| after(forces).forecast().of(0);
+        assert_eq!(foretold([4.0, -4.0, 4.0]), [0.0]);
+        assert_eq!(foretold([4.0, 4.0, 4.0]), [4.0]);
+        assert_eq!(foretold([1.0, 2.0, 3.0]), [4.0]);
     }
 
     #[test]
@@ -215,8 +243,9 @@ mod tests {
     fn a_step_that_is_not_kept_leaves_no_trace() {
         let mut past = after([1.0, 2.0, 4.0]);
         let before = past.save();
+        *past.impulses().of(0) = [9.0];
         let mut remembering = past.remember();
-        remembering.take([9.0], 2.0);
+        remembering.take(0, 1.0, 2.0);
         remembering.finish();
         assert_eq!(past.save(), before);
     }
