@@ -29,6 +29,7 @@ mod pose;
 mod respond;
 mod scatter;
 mod settle;
+mod settled;
 mod site;
 mod stages;
 mod view;
@@ -91,8 +92,9 @@ pub(crate) trait Group<S: Real, const D: usize>: Elements<S, D> {
     /// The present trial is where the next correction starts; no local correction.
     fn hold(&mut self);
 
-    /// Applies the last correction to the response through the tangent, without evaluating it.
-    fn extrapolate(&mut self);
+    /// Applies the last correction to the response through the tangent, without evaluating it; not
+    /// where numbers have settled.
+    fn extrapolate(&mut self, settled: S::Mask);
 
     /// Adds `½h Σ A` and `−h Σ A q⁰`, where `A q_m` is the nodal force at the found response; moved
     /// anchors are taken from the trial.
@@ -237,9 +239,11 @@ where
         }
     }
 
-    fn extrapolate(&mut self) {
+    fn extrapolate(&mut self, settled: S::Mask) {
         for member in &mut self.members {
+            let found = member.found_by(settled);
             member.extrapolate();
+            member.return_to(found, settled);
         }
     }
 

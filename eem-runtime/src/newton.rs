@@ -1,6 +1,6 @@
 //! When Newton's method is done, and what it did.
 
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 
 /// How hard a step tries.
 ///
@@ -63,16 +63,15 @@ const CONTRACTION: f64 = 0.1;
 const STAGNATION: f64 = 0.25;
 
 /// Whether an update is the last one, given the one before.
-pub(crate) fn is_last<S: Real>(update: S, before: Option<S>, tolerance: S) -> bool {
-    if update <= tolerance {
-        before.is_none_or(|before| {
-            let contracts = update <= S::from_f64(CONTRACTION) * before;
-            let is_on_floor = update <= S::from_f64(CONTRACTION) * tolerance;
-            contracts || (is_on_floor && update >= S::from_f64(STAGNATION) * before)
-        })
-    } else {
-        false
-    }
+pub(crate) fn is_last<S: Real>(update: S, before: Option<S>, tolerance: S) -> S::Mask {
+    let is_small = update.at_most(tolerance);
+    let Some(before) = before.filter(|_| is_small.any()) else {
+        return is_small;
+    };
+    let contracts = update.at_most(S::from_f64(CONTRACTION) * before);
+    let is_on_floor = update.at_most(S::from_f64(CONTRACTION) * tolerance);
+    let stagnates = (S::from_f64(STAGNATION) * before).at_most(update);
+    is_small & (contracts | (is_on_floor & stagnates))
 }
 
 /// The largest magnitude of many numbers, NaN unless all of them are finite.
@@ -98,9 +97,7 @@ impl<S: Real> Largest<S> {
     pub(crate) fn see(&mut self, value: S) {
         let size = value.abs();
         self.sum += size;
-        if size > self.largest {
-            self.largest = size;
-        }
+        self.largest = S::select(self.largest.less(size), size, self.largest);
     }
 
     /// The largest so far.

@@ -17,7 +17,7 @@ use crate::layout::Layout;
 use crate::loads::StepLoads;
 use crate::newton::{NewtonSettings, is_last};
 use crate::pattern::Pattern;
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 use crate::scene::ElementEntry;
 use crate::scheme::{Closing, Scheme};
 use crate::state::State;
@@ -42,7 +42,7 @@ const NEGLIGIBLE: f64 = 1.0 / 1024.0;
 
 /// Working memory of a step; nothing in it outlives the step but the forces of the last ones.
 #[derive(Debug)]
-pub(crate) struct Solver<S, const D: usize> {
+pub(crate) struct Solver<S: Real, const D: usize> {
     scheme: Scheme,
     /// The nodes that move, in the order of their unknowns.
     nodes: Vec<Motion<S, D>>,
@@ -107,6 +107,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 displacements: points.clone(),
                 positions: points.clone(),
                 seen_temperatures: vec![S::zero(); slots],
+                settled: S::Mask::none(),
             },
             old_force: if has_old_force {
                 points.clone()
@@ -150,7 +151,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// Finds the trial state whose forces move the scene to it.
     ///
     /// If that fails from the start of the scheme, an EEM scheme follows its solution from a small
-    /// step to the full one.
+    /// step to the full one; several numbers in one do not, as some of them need not have failed.
     fn iterate(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
@@ -158,7 +159,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         effort: &mut Effort<S>,
     ) -> Result<(), StepFailure> {
         let failure = match self.start_and_converge(groups, view, effort) {
-            Err(failure) if self.scheme.follows_its_solution() => failure,
+            Err(failure) if S::LANES == 1 && self.scheme.follows_its_solution() => failure,
             done => return done,
         };
         self.follow(groups, view, effort).map_err(|_| failure)
@@ -201,7 +202,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(())
     }
 
-    /// Newton's method from the trial state.
+    /// Newton's method from the trial state. Where S is several numbers, those that are done keep
+    /// what they have found until the last one is.
     fn converge(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
@@ -214,10 +216,15 @@ impl<S: Real, const D: usize> Solver<S, D> {
         } = effort.settings;
         let mut before = None;
         let mut look = Look::On;
+        // Those for which the next look is the last.
+        let mut last = S::Mask::none();
         for iteration in 0..=max_iterations {
             let full = self.advance(groups, view, look)? == S::one();
-            if full && look == Look::Back {
-                return Ok(());
+            if full && last.any() {
+                self.trial.settled = self.trial.settled | last;
+                if look == Look::Back {
+                    return Ok(());
+                }
             }
             if iteration == max_iterations {
                 break;
@@ -226,20 +233,23 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let solved = self.tangent.solve();
             solved.map_err(|_| StepFailure::SingularTangent)?;
             let update = self.correct(groups, view);
-            effort.history.push(Iteration { residual, update });
+            effort.note(Iteration { residual, update }, self.trial.settled);
             if !update.is_finite() {
                 break;
             }
             let before = before.replace(update).filter(|_| full);
             look = Look::On;
-            if is_last(update, before, tolerance) {
-                if update * update <= S::from_f64(NEGLIGIBLE) * S::EPSILON {
-                    for group in groups.iter_mut() {
-                        group.extrapolate();
-                    }
+            last = is_last(update, before, tolerance) & !self.trial.settled;
+            if last.any() {
+                let least = S::from_f64(NEGLIGIBLE) * S::EPSILON;
+                let is_done = last & (update * update).at_most(least);
+                if is_done.any() && self.settle(groups, is_done).all() {
                     return Ok(());
                 }
-                look = Look::Back;
+                last = last & !is_done;
+                if (self.trial.settled | last).all() {
+                    look = Look::Back;
+                }
             }
         }
         Err(match self.obstacle.take() {
@@ -248,6 +258,17 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 update: before.map_or(f64::NAN, Real::to_f64),
             },
         })
+    }
+
+    /// Applies the last correction to the forces of those that need no other look; all that have
+    /// settled.
+    fn settle(&mut self, groups: &mut [Box<dyn Group<S, D>>], is_done: S::Mask) -> S::Mask {
+        let settled = &mut self.trial.settled;
+        for group in groups {
+            group.extrapolate(*settled);
+        }
+        *settled = *settled | is_done;
+        *settled
     }
 
     /// Evaluates at the trial state, to which the correction has been applied, or as much of it as
@@ -268,7 +289,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
-    /// Halves the correction, which failed, until every element is in an admissible state.
+    /// Halves the correction, which failed, until every element is in an admissible state. Several
+    /// numbers in one do not, as some of them need not have failed.
     #[cold]
     #[inline(never)]
     fn retreat(
@@ -278,7 +300,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         mut error: StateError,
     ) -> Result<S, StepFailure> {
         let mut share = S::one();
-        for _ in 0..HALVINGS {
+        let halvings = if S::LANES == 1 { HALVINGS } else { 0 };
+        for _ in 0..halvings {
             self.obstacle = Some(error);
             share *= S::from_f64(0.5);
             self.apply(share, view);

@@ -27,8 +27,11 @@ where
         match system {
             Some(system) => self.linearize_all(view, trial, share, system),
             None => self.members.iter_mut().try_for_each(|member| {
+                let found = member.found_by(trial.settled);
                 member.apply(share);
-                member.respond_alone(self.kinematics, view, trial)
+                member.respond_alone(self.kinematics, view, trial)?;
+                member.return_to(found, trial.settled);
+                Ok(())
             }),
         }
     }
@@ -44,6 +47,7 @@ where
         let kinematics = self.kinematics;
         let (values, right) = system.parts();
         for member in &mut self.members {
+            let found = member.found_by(trial.settled);
             member.apply(share);
             let seen = member.locate_trial(kinematics, trial)?;
             let pose = member.pose(kinematics, &seen);
@@ -66,6 +70,7 @@ where
             }
             member.assemble_temperature(trial, &form, &mut target);
             member.keep(&form);
+            member.return_to(found, trial.settled);
         }
         Ok(())
     }

@@ -6,7 +6,7 @@
 use super::Infeasible;
 use crate::free_energy::{Caloric, FreeEnergy};
 use crate::inversion::invert;
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real, unless};
 
 /// The largest correction of ln θ, in units of √ε, after which the entropy need not be evaluated
 /// again. Newton's method in ln θ leaves half the square of the correction, times the slope
@@ -28,7 +28,7 @@ pub(crate) fn temperature_at<S: Real, M: FreeEnergy<S>>(
     guess: S,
 ) -> Result<S, Infeasible> {
     let caloric_at = model.caloric_at(x);
-    let found = solve(|theta| (caloric_at(theta).0, ()), entropy, guess)?;
+    let found = solve(|theta| (caloric_at(theta).0, S::zero()), entropy, guess)?;
     Ok(found.0)
 }
 
@@ -46,25 +46,30 @@ pub(crate) fn temperature_and_energy_at<S: Real, M: FreeEnergy<S>>(
 
 /// θ̂, and what else was evaluated at the last temperature.
 #[inline]
-fn solve<S: Real, R>(
-    caloric_at: impl Fn(S) -> (Caloric<S>, R),
+fn solve<S: Real>(
+    caloric_at: impl Fn(S) -> (Caloric<S>, S),
     entropy: S,
     guess: S,
-) -> Result<(S, R), Infeasible> {
+) -> Result<(S, S), Infeasible> {
     let enough = S::from_f64(LAST_CORRECTION) * S::EPSILON.sqrt();
     let mut limit = S::from_f64(LARGEST_CORRECTION);
     let mut theta = guess;
+    let (mut found, mut found_other) = (theta, theta);
+    let mut settled = S::Mask::none();
     loop {
         let (caloric, other) = caloric_at(theta);
         let correction = (entropy - caloric.entropy) / caloric.heat_capacity;
         let size = correction.abs();
-        let is_near = caloric.heat_capacity > S::zero() && size <= limit;
-        if !is_near {
+        let is_near = S::zero().less(caloric.heat_capacity) & size.at_most(limit);
+        if !(settled | is_near).decide() {
             let theta = search(|theta| caloric_at(theta).0, entropy, guess)?;
             return Ok((theta, caloric_at(theta).1));
         }
-        if size <= enough {
-            return Ok((theta + theta * correction, other));
+        found = unless(settled, found, theta + theta * correction);
+        found_other = unless(settled, found_other, other);
+        settled = settled | size.at_most(enough);
+        if settled.all() {
+            return Ok((found, found_other));
         }
         theta *= correction.exp();
         limit = S::from_f64(CONTRACTION) * size;

@@ -9,7 +9,7 @@ use core::array;
 use super::{SavedPast, Solver};
 use crate::error::StepFailure;
 use crate::group::{Group, Old, StepView, points};
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// Starts at the old state, or at a foretold motion away from it if the scheme wants one.
@@ -72,6 +72,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 
     fn start(&mut self, view: &StepView<'_, S>) {
+        self.trial.settled = S::Mask::none();
         let old = points::<S, D>(view.state.positions.values());
         let momenta = points::<S, D>(view.state.momenta.values());
         let is_foretold = view.phase.moves() && self.scheme.foretells_its_start();

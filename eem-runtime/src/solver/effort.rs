@@ -3,7 +3,7 @@
 use super::STAGES;
 use crate::error::NewtonIteration;
 use crate::newton::NewtonSettings;
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real, unless};
 
 /// Iterations for which memory is kept; settings that ask for more allocate when they get there.
 const LONGEST_HISTORY: usize = 4096;
@@ -42,6 +42,19 @@ impl<S: Real> Effort<S> {
             settings: NewtonSettings::default(),
             history: Vec::new(),
         }
+    }
+
+    /// Another iteration; those that had settled before did their last one then.
+    #[inline]
+    pub(crate) fn note(&mut self, mut iteration: Iteration<S>, settled: S::Mask) {
+        if S::LANES > 1
+            && settled.any()
+            && let Some(last) = self.history.last()
+        {
+            iteration.residual = unless(settled, last.residual, iteration.residual);
+            iteration.update = unless(settled, last.update, iteration.update);
+        }
+        self.history.push(iteration);
     }
 
     /// Forgets the last step.

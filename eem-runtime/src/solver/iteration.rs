@@ -5,7 +5,7 @@ use core::array;
 use super::Solver;
 use crate::group::{Group, StepView, points};
 use crate::newton::Largest;
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real, unless};
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// Starts residual and tangent of the momentum balances, with `p¹` eliminated,
@@ -51,6 +51,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let solution = self.tangent.right_mut();
         let old = points::<S, D>(view.state.positions.values());
         let trial = &mut self.trial;
+        let settled = trial.settled;
         let mut largest = Largest::none();
         let changes = solution.as_flattened().as_chunks::<D>().0;
         for (node, change) in self.nodes.iter_mut().zip(changes) {
@@ -60,7 +61,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             for axis in 0..D {
                 let (from, change) = (displacement[axis], change[axis]);
                 (node.previous[axis], node.correction[axis]) = (from, change);
-                displacement[axis] = from + change;
+                displacement[axis] = unless(settled, from, from + change);
                 largest.see(change * node.per_length);
             }
             trial.positions[at] = array::from_fn(|axis| old[at][axis] + displacement[axis]);
@@ -72,13 +73,13 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let change = (theta + solution[seen.place.row][0]) - theta;
             solution[seen.place.row][0] = change;
             (seen.previous, seen.correction) = (theta, change);
-            trial.seen_temperatures[seen.place.slot] = theta + change;
+            trial.seen_temperatures[seen.place.slot] = unless(settled, theta, theta + change);
             largest.see(change / theta);
         }
         for group in groups.iter_mut() {
             largest.see(group.correct(self.tangent.right()));
         }
-        largest.found()
+        unless(settled, S::zero(), largest.found())
     }
 
     /// Moves the trial to a share of the correction from where it was.
@@ -116,6 +117,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         view: &StepView<'_, S>,
         factor: S,
     ) {
+        self.trial.settled = S::Mask::none();
         self.weigh(view);
         self.hold();
         let growth = factor - S::one();

@@ -1,6 +1,6 @@
 //! The forces of the last steps. They decide where Newton's method starts, and nothing else.
 
-use core::mem;
+use core::{array, mem};
 
 use crate::scalar::Real;
 
@@ -59,13 +59,15 @@ impl<S: Real, const D: usize> Past<S, D> {
     /// The weights of the forecast that has been best, and the forces that they belong to.
     pub(super) fn best(&self) -> ([S; 2], [&[[S; D]]; 2]) {
         let [nothing, constant, linear] = self.errors;
-        let best = if linear < constant && linear < nothing {
-            2
-        } else {
-            usize::from(constant < nothing)
-        };
+        let is_linear = linear.less(constant) & linear.less(nothing);
+        let is_constant = constant.less(nothing);
+        let weights = array::from_fn(|k| {
+            let [nothing, constant, linear] = FORECASTS.map(|weights| S::from_f64(weights[k]));
+            let other = S::select(is_constant, constant, nothing);
+            S::select(is_linear, linear, other)
+        });
         let forces = self.forces.each_ref().map(Vec::as_slice);
-        (FORECASTS[best].map(S::from_f64), forces)
+        (weights, forces)
     }
 
     /// Takes the forces of another step, given which nodes moved and their masses; leaves room for those
