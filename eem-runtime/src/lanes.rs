@@ -21,25 +21,36 @@ const LANES: usize = 4;
 
 /// See the module.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Lanes(f64x4);
+#[repr(align(16))]
+pub(crate) struct Lanes([f64; LANES]);
 
 impl Lanes {
     const fn splat(value: f64) -> Self {
-        Self(f64x4::new([value; LANES]))
+        Self([value; LANES])
+    }
+
+    #[inline]
+    fn packed(self) -> f64x4 {
+        f64x4::new(self.0)
+    }
+
+    #[inline]
+    fn from_packed(packed: f64x4) -> Self {
+        Self(packed.to_array())
     }
 
     #[inline]
     fn map(self, f: impl Fn(f64) -> f64) -> Self {
-        Self(f64x4::new(self.0.to_array().map(f)))
+        Self(self.0.map(f))
     }
 
     #[inline]
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        let (mut lanes, others) = (self.0.to_array(), other.0.to_array());
+        let (mut lanes, others) = (self.0, other.0);
         for (lane, other) in lanes.iter_mut().zip(others) {
             *lane = f(*lane, other);
         }
-        Self(f64x4::new(lanes))
+        Self(lanes)
     }
 }
 
@@ -52,7 +63,7 @@ macro_rules! operators {
 
                 #[inline]
                 fn $method(self, other: Self) -> Self {
-                    Self($operator::$method(self.0, other.0))
+                    Self::from_packed($operator::$method(self.packed(), other.packed()))
                 }
             }
 
@@ -78,7 +89,7 @@ impl Neg for Lanes {
 
     #[inline]
     fn neg(self) -> Self {
-        Self(-self.0)
+        Self::from_packed(-self.packed())
     }
 }
 
@@ -151,12 +162,12 @@ impl Scalar for Lanes {
 
     #[inline]
     fn equal(self, other: Self) -> LaneMask {
-        LaneMask(self.0.simd_eq(other.0))
+        LaneMask(self.packed().simd_eq(other.packed()))
     }
 
     #[inline]
     fn less(self, other: Self) -> LaneMask {
-        LaneMask(self.0.simd_lt(other.0))
+        LaneMask(self.packed().simd_lt(other.packed()))
     }
 
     /// One closure where the lanes agree: most branches are about rare cases.
@@ -177,24 +188,26 @@ impl Scalar for Lanes {
 
     #[inline]
     fn minimum(self, other: Self) -> Self {
-        let own = self.0.simd_lt(other.0) | self.0.is_nan();
-        Self(own.select(self.0, other.0))
+        let (own, other) = (self.packed(), other.packed());
+        let takes = own.simd_lt(other) | own.is_nan();
+        Self::from_packed(takes.select(own, other))
     }
 
     #[inline]
     fn maximum(self, other: Self) -> Self {
-        let own = other.0.simd_lt(self.0) | self.0.is_nan();
-        Self(own.select(self.0, other.0))
+        let (own, other) = (self.packed(), other.packed());
+        let takes = other.simd_lt(own) | own.is_nan();
+        Self::from_packed(takes.select(own, other))
     }
 
     #[inline]
     fn abs(self) -> Self {
-        Self(self.0.abs())
+        Self::from_packed(self.packed().abs())
     }
 
     #[inline]
     fn sqrt(self) -> Self {
-        Self(self.0.sqrt())
+        Self::from_packed(self.packed().sqrt())
     }
 
     by_lane!(
@@ -209,7 +222,7 @@ impl Real for Lanes {
     const LANES: usize = LANES;
 
     fn to_f64(self) -> f64 {
-        let [first, rest @ ..] = self.0.to_array().map(f64::to_bits);
+        let [first, rest @ ..] = self.0.map(f64::to_bits);
         if rest == [first; LANES - 1] {
             f64::from_bits(first)
         } else {
@@ -225,12 +238,12 @@ impl Real for Lanes {
 
     #[inline]
     fn at_most(self, other: Self) -> LaneMask {
-        LaneMask(self.0.simd_le(other.0))
+        LaneMask(self.packed().simd_le(other.packed()))
     }
 
     #[inline]
     fn select(mask: LaneMask, then: Self, otherwise: Self) -> Self {
-        Self(mask.0.select(then.0, otherwise.0))
+        Self::from_packed(mask.0.select(then.packed(), otherwise.packed()))
     }
 
     fn give_up() {
@@ -239,11 +252,11 @@ impl Real for Lanes {
 
     #[inline]
     fn pack(number: impl FnMut(usize) -> f64) -> Self {
-        Self(f64x4::new(core::array::from_fn(number)))
+        Self(core::array::from_fn(number))
     }
 
     #[inline]
     fn lane(self, lane: usize) -> f64 {
-        self.0.to_array()[lane]
+        self.0[lane]
     }
 }

@@ -65,13 +65,19 @@ const STAGNATION: f64 = 0.25;
 /// Whether an update is the last one, given the one before.
 pub(crate) fn is_last<S: Real>(update: S, before: Option<S>, tolerance: S) -> S::Mask {
     let is_small = update.at_most(tolerance);
-    let Some(before) = before.filter(|_| is_small.any()) else {
+    if !is_small.any() {
+        return is_small;
+    }
+    let Some(before) = before else {
         return is_small;
     };
-    let contracts = update.at_most(S::from_f64(CONTRACTION) * before);
+    let contracts = is_small & update.at_most(S::from_f64(CONTRACTION) * before);
+    if !(is_small & !contracts).any() {
+        return contracts;
+    }
     let is_on_floor = update.at_most(S::from_f64(CONTRACTION) * tolerance);
     let stagnates = (S::from_f64(STAGNATION) * before).at_most(update);
-    is_small & (contracts | (is_on_floor & stagnates))
+    contracts | (is_small & is_on_floor & stagnates)
 }
 
 /// The largest magnitude of many numbers, NaN unless all of them are finite.
@@ -97,7 +103,7 @@ impl<S: Real> Largest<S> {
     pub(crate) fn see(&mut self, value: S) {
         let size = value.abs();
         self.sum += size;
-        self.largest = S::select(self.largest.less(size), size, self.largest);
+        self.largest = S::branch(self.largest.less(size), || size, || self.largest);
     }
 
     /// The largest so far.

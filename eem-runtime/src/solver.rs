@@ -216,16 +216,14 @@ impl<S: Real, const D: usize> Solver<S, D> {
         } = effort.settings;
         let mut before = None;
         let mut look = Look::On;
-        // Those for which the next look is the last.
-        let mut last = S::Mask::none();
+        // Those that are done, and those for which the next look is the last.
+        let (mut settled, mut last) = (S::Mask::none(), S::Mask::none());
         for iteration in 0..=max_iterations {
             let full = self.advance(groups, view, look)? == S::one();
-            if full && last.any() {
-                self.trial.settled = self.trial.settled | last;
-                if look == Look::Back {
-                    return Ok(());
-                }
+            if full && look == Look::Back {
+                return Ok(());
             }
+            settled = self.settle(settled | last);
             if iteration == max_iterations {
                 break;
             }
@@ -233,21 +231,27 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let solved = self.tangent.solve();
             solved.map_err(|_| StepFailure::SingularTangent)?;
             let update = self.correct(groups, view);
-            effort.note(Iteration { residual, update }, self.trial.settled);
+            effort.note(residual, update, settled);
             if !update.is_finite() {
                 break;
             }
             let before = before.replace(update).filter(|_| full);
             look = Look::On;
-            last = is_last(update, before, tolerance) & !self.trial.settled;
+            last = is_last(update, before, tolerance) & !settled;
             if last.any() {
-                let least = S::from_f64(NEGLIGIBLE) * S::EPSILON;
-                let is_done = last & (update * update).at_most(least);
-                if is_done.any() && self.settle(groups, is_done).all() {
+                let negligible = S::from_f64(NEGLIGIBLE) * S::EPSILON;
+                let is_done = last & (update * update).at_most(negligible);
+                if is_done.any() {
+                    for group in groups.iter_mut() {
+                        group.extrapolate(settled);
+                    }
+                }
+                if (settled | is_done).all() {
                     return Ok(());
                 }
+                settled = self.settle(settled | is_done);
                 last = last & !is_done;
-                if (self.trial.settled | last).all() {
+                if (settled | last).all() {
                     look = Look::Back;
                 }
             }
@@ -260,15 +264,14 @@ impl<S: Real, const D: usize> Solver<S, D> {
         })
     }
 
-    /// Applies the last correction to the forces of those that need no other look; all that have
-    /// settled.
-    fn settle(&mut self, groups: &mut [Box<dyn Group<S, D>>], is_done: S::Mask) -> S::Mask {
-        let settled = &mut self.trial.settled;
-        for group in groups {
-            group.extrapolate(*settled);
+    /// Lets everybody know which of several numbers are done while others are not.
+    #[inline]
+    fn settle(&mut self, settled: S::Mask) -> S::Mask {
+        if S::LANES == 1 {
+            return S::Mask::none();
         }
-        *settled = *settled | is_done;
-        *settled
+        self.trial.settled = settled;
+        settled
     }
 
     /// Evaluates at the trial state, to which the correction has been applied, or as much of it as

@@ -24,7 +24,10 @@ where
     /// What has been found so far, if some numbers have settled. A single one is not asked any more.
     #[inline]
     pub(super) fn found_by(&self, settled: S::Mask) -> Option<Found<S, M>> {
-        (S::LANES > 1 && settled.any()).then_some(Found {
+        if S::LANES == 1 || !settled.any() {
+            return None;
+        }
+        Some(Found {
             x: self.x,
             response: self.response,
             viscosities: self.viscosities.0,

@@ -61,9 +61,16 @@ fn solve<S: Real>(
         let correction = (entropy - caloric.entropy) / caloric.heat_capacity;
         let size = correction.abs();
         let is_near = S::zero().less(caloric.heat_capacity) & size.at_most(limit);
-        if !(settled | is_near).decide() {
-            let theta = search(|theta| caloric_at(theta).0, entropy, guess)?;
-            return Ok((theta, caloric_at(theta).1));
+        let is_far = !(settled | is_near);
+        if is_far.any() {
+            let theta = search(|theta| caloric_at(theta).0, entropy, guess, is_far)?;
+            let other = caloric_at(theta).1;
+            if is_far.all() {
+                return Ok((theta, other));
+            }
+            found = S::select(is_far, theta, found);
+            found_other = S::select(is_far, other, found_other);
+            settled = settled | is_far;
         }
         found = unless(settled, found, theta + theta * correction);
         found_other = unless(settled, found_other, other);
@@ -76,9 +83,46 @@ fn solve<S: Real>(
     }
 }
 
-/// The same from any start.
+/// The same from any start, for the numbers that are far off; several in one are searched one by one.
 #[cold]
 fn search<S: Real>(
+    caloric_at: impl Fn(S) -> Caloric<S>,
+    entropy: S,
+    guess: S,
+    is_far: S::Mask,
+) -> Result<S, Infeasible> {
+    if S::LANES == 1 {
+        return search_one(caloric_at, entropy, guess);
+    }
+    let mut failure = None;
+    let temperatures = S::pack(|lane| {
+        let start = guess.lane(lane);
+        let is_needed = S::select(is_far, S::one(), S::zero()).lane(lane) > 0.0;
+        if !is_needed {
+            return start;
+        }
+        let caloric_at = |theta: f64| {
+            let Caloric {
+                entropy,
+                heat_capacity,
+                magnitude,
+            } = caloric_at(S::from_f64(theta));
+            Caloric {
+                entropy: entropy.lane(lane),
+                heat_capacity: heat_capacity.lane(lane),
+                magnitude: magnitude.lane(lane),
+            }
+        };
+        let found = search_one(caloric_at, entropy.lane(lane), start);
+        found.unwrap_or_else(|infeasible| {
+            failure = Some(infeasible);
+            start
+        })
+    });
+    failure.map_or(Ok(temperatures), Err)
+}
+
+fn search_one<S: Real>(
     caloric_at: impl Fn(S) -> Caloric<S>,
     entropy: S,
     guess: S,

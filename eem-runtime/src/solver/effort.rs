@@ -46,15 +46,17 @@ impl<S: Real> Effort<S> {
 
     /// Another iteration; those that had settled before did their last one then.
     #[inline]
-    pub(crate) fn note(&mut self, mut iteration: Iteration<S>, settled: S::Mask) {
+    pub(crate) fn note(&mut self, residual: S, update: S, settled: S::Mask) {
         if S::LANES > 1
             && settled.any()
             && let Some(last) = self.history.last()
         {
-            iteration.residual = unless(settled, last.residual, iteration.residual);
-            iteration.update = unless(settled, last.update, iteration.update);
+            let residual = unless(settled, last.residual, residual);
+            let update = unless(settled, last.update, update);
+            self.history.push(Iteration { residual, update });
+        } else {
+            self.history.push(Iteration { residual, update });
         }
-        self.history.push(iteration);
     }
 
     /// Forgets the last step.

@@ -5,7 +5,7 @@ use core::array;
 use super::Solver;
 use crate::group::{Group, StepView, points};
 use crate::newton::Largest;
-use crate::scalar::{Mask, Real, unless};
+use crate::scalar::{Real, unless};
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// Starts residual and tangent of the momentum balances, with `p¹` eliminated,
@@ -117,7 +117,6 @@ impl<S: Real, const D: usize> Solver<S, D> {
         view: &StepView<'_, S>,
         factor: S,
     ) {
-        self.trial.settled = S::Mask::none();
         self.weigh(view);
         self.hold();
         let growth = factor - S::one();
