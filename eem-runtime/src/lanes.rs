@@ -6,6 +6,8 @@
 
 pub(crate) mod discord;
 mod mask;
+#[cfg(test)]
+mod tests;
 
 use core::cmp::Ordering;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};

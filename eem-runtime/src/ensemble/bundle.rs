@@ -52,7 +52,9 @@ impl Bundles {
             return outputs.into_iter().map(Ok).collect();
         }
         let inputs = inputs.iter();
-        inputs.map(|input| self.run_one(experiment, input)).collect()
+        inputs
+            .map(|input| self.run_one(experiment, input))
+            .collect()
     }
 
     fn run_one<const D: usize, E: Experiment<D>>(
@@ -76,9 +78,7 @@ impl Bundles {
         if inputs.len() == 1 || self.is_unsuited.load(Ordering::Relaxed) {
             return None;
         }
-        let outputs = discord::unless_any(|| {
-            self.run_as::<Lanes, D, E>(experiment, inputs).ok()
-        });
+        let outputs = discord::unless_any(|| self.run_as::<Lanes, D, E>(experiment, inputs).ok());
         outputs.filter(|outputs| outputs.len() == inputs.len())
     }
 

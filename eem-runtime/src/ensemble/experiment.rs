@@ -23,10 +23,7 @@ pub trait Experiment<const D: usize>: Sync {
     type Output: Send;
 
     /// The scene, whose numbers come from the inputs by [`Members::number`].
-    fn build<S: Real>(
-        &self,
-        members: Members<'_, Self::Input, S>,
-    ) -> (Scene<D, S>, Self::Handles);
+    fn build<S: Real>(&self, members: Members<'_, Self::Input, S>) -> (Scene<D, S>, Self::Handles);
 
     /// Steps the simulation and returns what is to be kept, by [`Members::outputs`].
     ///
