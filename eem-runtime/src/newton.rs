@@ -135,15 +135,15 @@ mod tests {
 
     #[test]
     fn a_small_update_must_contract() {
-        assert!(is_last(1e-9, None, 1e-8));
-        assert!(is_last(1e-9, Some(1e-4), 1e-8));
-        assert!(!is_last(5e-9, Some(1e-8), 1e-8));
+        assert!(is_last::<f64>(1e-9, None, 1e-8));
+        assert!(is_last::<f64>(1e-9, Some(1e-4), 1e-8));
+        assert!(!is_last::<f64>(5e-9, Some(1e-8), 1e-8));
     }
 
     #[test]
     fn rounding_is_a_floor_and_a_stall_is_not() {
-        assert!(is_last(3e-10, Some(4e-10), 1e-8));
-        assert!(!is_last(3e-3, Some(4e-3), 1e-8));
+        assert!(is_last::<f64>(3e-10, Some(4e-10), 1e-8));
+        assert!(!is_last::<f64>(3e-3, Some(4e-3), 1e-8));
         assert!(!is_last(f64::NAN, Some(1e-3), 1e-8));
     }
 }
