@@ -11,9 +11,13 @@ use crate::simulation::Simulation;
 ///
 /// Written once for any number type S, it can be run with one member at a time and with one member
 /// per SIMD lane; see [`Ensemble::run_experiment`](crate::Ensemble::run_experiment). Everything that
-/// is no number is common to all members: nodes, elements, contacts, models, number of steps.
-/// What a comparison of numbers decides is too; where members would decide differently, they are run
-/// one by one. All numbers have to be compared on the thread that builds or observes.
+/// is no number is common to all members: nodes, elements, contacts, kinds of material, number of
+/// steps. The parameters of a material may differ if its struct has them as fields of the type S.
+///
+/// What a comparison of numbers decides is common too. Where members would decide differently, they
+/// are run one by one; both methods may therefore be called a second time for an input. Numbers are
+/// to be compared on the thread that calls, and leave it by [`Members::outputs`] only: several of
+/// them have no one value in double precision, as a [`Recorder`](crate::Recorder) would need.
 pub trait Experiment<const D: usize>: Sync {
     /// What a member is made from.
     type Input: Sync;
