@@ -103,7 +103,7 @@ impl<S: Real> Largest<S> {
     pub(crate) fn see(&mut self, value: S) {
         let size = value.abs();
         self.sum += size;
-        self.largest = S::branch(self.largest.less(size), || size, || self.largest);
+        self.largest = S::select(self.largest.less(size), size, self.largest);
     }
 
     /// The largest so far.
