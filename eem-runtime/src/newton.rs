@@ -63,10 +63,11 @@ const CONTRACTION: f64 = 0.1;
 const STAGNATION: f64 = 0.25;
 
 /// Whether an update is the last one, given the one before.
+#[inline]
 pub(crate) fn is_last<S: Real>(update: S, before: Option<S>, tolerance: S) -> S::Mask {
     let is_small = update.at_most(tolerance);
     if !is_small.any() {
-        return is_small;
+        return S::Mask::none();
     }
     let Some(before) = before else {
         return is_small;

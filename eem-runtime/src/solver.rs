@@ -237,20 +237,21 @@ impl<S: Real, const D: usize> Solver<S, D> {
             }
             let before = before.replace(update).filter(|_| full);
             look = Look::On;
-            last = is_last(update, before, tolerance) & !settled;
-            if last.any() {
+            last = S::Mask::none();
+            let ends = is_last(update, before, tolerance) & !settled;
+            if ends.any() {
                 let negligible = S::from_f64(NEGLIGIBLE) * S::EPSILON;
-                let is_done = last & (update * update).at_most(negligible);
+                let is_done = ends & (update * update).at_most(negligible);
                 if is_done.any() {
                     for group in groups.iter_mut() {
                         group.extrapolate(settled);
                     }
+                    if (settled | is_done).all() {
+                        return Ok(());
+                    }
+                    settled = self.settle(settled | is_done);
                 }
-                if (settled | is_done).all() {
-                    return Ok(());
-                }
-                settled = self.settle(settled | is_done);
-                last = last & !is_done;
+                last = ends & !is_done;
                 if (settled | last).all() {
                     look = Look::Back;
                 }
