@@ -28,6 +28,7 @@ mod pose;
 mod respond;
 mod scatter;
 mod settle;
+mod settled;
 mod site;
 mod stages;
 mod view;
@@ -85,9 +86,9 @@ pub(crate) trait Group<S: Real, const D: usize>: Elements<S, D> {
         system: Option<&mut LinearSystem<S, 1>>,
     ) -> Result<(), StateError>;
 
-    /// Applies the local corrections that go with the global ones; the largest, in units of the measure
-    /// (viscous stretches) and of the temperature.
-    fn correct(&mut self, solution: &[[S; 1]]) -> S;
+    /// Applies the local corrections that go with the global ones, but for numbers that have settled; the
+    /// largest, in units of the measure (viscous stretches) and of the temperature.
+    fn correct(&mut self, solution: &[[S; 1]], settled: S::Mask) -> S;
 
     /// Applies a share of the last corrections instead.
     fn apply(&mut self, share: S);
@@ -96,8 +97,8 @@ pub(crate) trait Group<S: Real, const D: usize>: Elements<S, D> {
     fn hold(&mut self);
 
     /// Applies the last correction, that of the solution, to the response too, through the tangent and
-    /// without evaluating it.
-    fn extrapolate(&mut self, solution: &[[S; 1]]);
+    /// without evaluating it; not where numbers have settled.
+    fn extrapolate(&mut self, solution: &[[S; 1]], settled: S::Mask);
 
     /// Adds `½h Σ A` and `−h Σ A q⁰`, where `A q_m` is the nodal force at the found response, to the
     /// entries and right-hand sides of the secant system; moved anchors are taken from the trial.
@@ -230,8 +231,8 @@ where
         self.evaluate_all(view, trial, system)
     }
 
-    fn correct(&mut self, solution: &[[S; 1]]) -> S {
-        self.correct_all(solution)
+    fn correct(&mut self, solution: &[[S; 1]], settled: S::Mask) -> S {
+        self.correct_all(solution, settled)
     }
 
     fn apply(&mut self, share: S) {
@@ -246,8 +247,8 @@ where
         }
     }
 
-    fn extrapolate(&mut self, solution: &[[S; 1]]) {
-        self.extrapolate_all(solution);
+    fn extrapolate(&mut self, solution: &[[S; 1]], settled: S::Mask) {
+        self.extrapolate_all(solution, settled);
     }
 
     fn add_secant(&mut self, view: &StepView<'_, S>, trial: &Trial<S, D>, system: Parts<'_, S, D>) {

@@ -26,6 +26,7 @@ use crate::scene::{Scene, is_positive};
 use crate::scheme::{Phase, Scheme};
 use crate::solver::Effort;
 use crate::state::State;
+use crate::system::MOST_FIXED;
 use stepper::{Parts, Stepper};
 
 pub use generic::Generic;
@@ -215,6 +216,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     #[cold]
     fn failed(&self, failure: StepFailure) -> StepError {
+        // One of several numbers may be why; the others might have gone on.
+        S::give_up();
         StepError {
             time: self.time().to_f64(),
             step: self.step.to_f64(),
@@ -289,6 +292,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     #[must_use]
     pub const fn unknowns(&self) -> usize {
         self.stepper.copies() * self.layout.unknowns
+    }
+
+    /// Whether several numbers in one S can go through a step together: in the dense elimination of a
+    /// few unknowns, whose pivots are on the diagonal, and in a scheme with one set of forces.
+    pub(crate) const fn suits_lanes(&self) -> bool {
+        matches!(self.stepper, Stepper::AtOnce(_)) && self.unknowns() <= MOST_FIXED
     }
 }
 

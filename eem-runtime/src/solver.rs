@@ -19,7 +19,7 @@ use crate::loads::StepLoads;
 use crate::masses::Masses;
 use crate::newton::{NewtonSettings, is_last};
 use crate::pattern::Pattern;
-use crate::scalar::{Real, natural_power};
+use crate::scalar::{Mask, Real, natural_power};
 use crate::scene::ElementEntry;
 use crate::scheme::{Closing, Scheme};
 use crate::state::State;
@@ -45,7 +45,7 @@ const NEGLIGIBLE: f64 = 1.0 / 1024.0;
 
 /// Working memory of a step; nothing in it outlives the step but the forces of the last ones.
 #[derive(Debug)]
-pub(crate) struct Solver<S, const D: usize> {
+pub(crate) struct Solver<S: Real, const D: usize> {
     scheme: Scheme,
     /// The nodes that move, in the order of their unknowns.
     nodes: Vec<Motion<S, D>>,
@@ -109,6 +109,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             trial: Trial {
                 displacements: points.clone(),
                 seen_temperatures: vec![S::zero(); slots],
+                settled: S::Mask::none(),
             },
             twice_per_step: S::zero(),
             old_force: if has_old_force {
@@ -151,7 +152,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// Finds the trial state whose forces move the scene to it.
     ///
     /// If that fails from the start of the scheme, an EEM scheme follows its solution from a small
-    /// step to the full one.
+    /// step to the full one; several numbers in one do not, as some of them need not have failed.
     fn iterate(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
@@ -159,7 +160,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         effort: &mut Effort<S>,
     ) -> Result<(), StepFailure> {
         let failure = match self.start_and_converge(groups, view, effort) {
-            Err(failure) if self.scheme.follows_its_solution() => failure,
+            Err(failure) if S::LANES == 1 && self.scheme.follows_its_solution() => failure,
             done => return done,
         };
         self.follow(groups, view, effort).map_err(|_| failure)
@@ -202,7 +203,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(())
     }
 
-    /// Newton's method from the trial state.
+    /// Newton's method from the trial state. Where S is several numbers, those that are done keep
+    /// what they have found until the last one is.
     fn converge(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
@@ -215,11 +217,14 @@ impl<S: Real, const D: usize> Solver<S, D> {
         } = effort.settings;
         let mut before = None;
         let mut look = Look::On;
+        // Those that are done, and those for which the next look is the last.
+        let (mut settled, mut last) = (S::Mask::none(), S::Mask::none());
         for left in (0..=max_iterations).rev() {
             let is_full = self.advance(groups, view, look)?;
             if is_full && look == Look::Back {
                 return Ok(());
             }
+            settled = self.settle(settled | last);
             if left == 0 {
                 break;
             }
@@ -227,20 +232,30 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let solved = self.tangent.solve();
             solved.map_err(|_| StepFailure::SingularTangent)?;
             let update = self.correct(groups);
-            effort.history.push(Iteration { residual, update });
+            effort.note(residual, update, settled);
             if !update.is_finite() {
                 break;
             }
             let before = before.replace(update).filter(|_| is_full);
             look = Look::On;
-            if is_last(update, before, tolerance) {
-                if update * update <= S::from_f64(NEGLIGIBLE) * S::EPSILON {
+            last = S::Mask::none();
+            let ends = is_last(update, before, tolerance) & !settled;
+            if ends.any() {
+                let negligible = S::from_f64(NEGLIGIBLE) * S::EPSILON;
+                let is_done = ends & (update * update).at_most(negligible);
+                if is_done.any() {
                     for group in groups.iter_mut() {
-                        group.extrapolate(self.tangent.solution());
+                        group.extrapolate(self.tangent.solution(), settled);
                     }
-                    return Ok(());
+                    if (settled | is_done).all() {
+                        return Ok(());
+                    }
+                    settled = self.settle(settled | is_done);
                 }
-                look = Look::Back;
+                last = ends & !is_done;
+                if (settled | last).all() {
+                    look = Look::Back;
+                }
             }
         }
         Err(match self.obstacle.take() {
@@ -249,6 +264,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 update: before.map_or(f64::NAN, Real::to_f64),
             },
         })
+    }
+
+    /// Lets everybody know which of several numbers are done while others are not.
+    #[inline]
+    fn settle(&mut self, settled: S::Mask) -> S::Mask {
+        if S::LANES == 1 {
+            return S::Mask::none();
+        }
+        self.trial.settled = settled;
+        settled
     }
 
     /// Evaluates at the trial state, to which the correction has been applied, or as much of it as
@@ -271,7 +296,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(share == S::one())
     }
 
-    /// Half the share of the correction that failed, applied.
+    /// Half the share of the correction that failed, applied. Several numbers in one do not go back, as
+    /// some of them need not have failed.
     #[cold]
     #[inline(never)]
     fn retreat(
@@ -281,7 +307,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         error: StateError,
     ) -> Result<S, StepFailure> {
         let half = S::from_f64(0.5);
-        if share <= natural_power(half, HALVINGS) {
+        if S::LANES > 1 || share <= natural_power(half, HALVINGS) {
             return Err(error.into());
         }
         self.obstacle = Some(error);

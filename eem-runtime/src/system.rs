@@ -25,7 +25,7 @@ use crate::scalar::Real;
 use crate::sparse_lu::SparseLu;
 
 /// The most unknowns for which the elimination is compiled with their number.
-const MOST_FIXED: usize = 12;
+pub(crate) const MOST_FIXED: usize = 12;
 
 /// The most unknowns whose elimination is dense whatever the pattern.
 #[cfg(feature = "sparse")]

@@ -48,9 +48,7 @@ pub(super) fn shorten<K: Kinematics<S, D>, S: Real, const D: usize>(
         let length = &mut lengths[node as usize];
         // Of a state: they are numbers.
         for &own in measures.as_ref() {
-            if own < *length {
-                *length = own;
-            }
+            *length = S::select(own.less(*length), own, *length);
         }
     }
 }

@@ -18,27 +18,31 @@ where
     C: ElementScheme<S, M>,
 {
     /// See [`Group::correct`](super::Group::correct).
-    pub(super) fn correct_all(&mut self, solution: &[[S; 1]]) -> S {
+    pub(super) fn correct_all(&mut self, solution: &[[S; 1]], settled: S::Mask) -> S {
         let mut largest = S::zero();
         if Member::<S, M, K, C, D>::UNKNOWNS == 0 {
             return largest;
         }
         for member in &mut self.members {
+            let found = member.found_by(settled);
             let contact = member.contact_in(&self.contacts);
             let update = member.correct(contact, solution);
+            member.return_to(found, settled);
             largest = largest.maximum(update);
         }
         largest
     }
 
     /// See [`Group::extrapolate`](super::Group::extrapolate).
-    pub(super) fn extrapolate_all(&mut self, solution: &[[S; 1]]) {
+    pub(super) fn extrapolate_all(&mut self, solution: &[[S; 1]], settled: S::Mask) {
         for member in &mut self.members {
+            let found = member.found_by(settled);
             // Of an element without unknowns of its own, nobody has asked for them before.
             if Member::<S, M, K, C, D>::UNKNOWNS == 0 {
                 member.correct_measures(solution);
             }
             member.extrapolate();
+            member.return_to(found, settled);
         }
     }
 }

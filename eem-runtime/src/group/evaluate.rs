@@ -25,10 +25,12 @@ where
     ) -> Result<(), StateError> {
         match system {
             Some(system) => self.linearize_all(view, trial, system),
-            None => self
-                .members
-                .iter_mut()
-                .try_for_each(|member| member.respond_alone(self.kinematics, view, trial)),
+            None => self.members.iter_mut().try_for_each(|member| {
+                let found = member.found_by(trial.settled);
+                member.respond_alone(self.kinematics, view, trial)?;
+                member.return_to(found, trial.settled);
+                Ok(())
+            }),
         }
     }
 
@@ -42,6 +44,7 @@ where
         let kinematics = self.kinematics;
         let (values, right) = system.parts();
         for member in &mut self.members {
+            let found = member.found_by(trial.settled);
             let seen = member.locate_trial(kinematics, trial)?;
             let pose = member.pose(kinematics, &seen);
             member.sensitivity = pose.sensitivity;
@@ -63,6 +66,7 @@ where
             }
             member.assemble_temperature(trial, &form, &mut target);
             member.keep(&form);
+            member.return_to(found, trial.settled);
         }
         Ok(())
     }

@@ -51,12 +51,14 @@ impl<S: Real> StepView<'_, S> {
 
 /// The global part of the new state that Newton's method tries.
 #[derive(Clone, Debug)]
-pub(crate) struct Trial<S, const D: usize> {
+pub(crate) struct Trial<S: Real, const D: usize> {
     /// q¹ − q⁰ of all nodes, m.
     pub(crate) displacements: Vec<[S; D]>,
     /// θ* as elements in contact see it, Θ, per thermal slot, K; an unknown where the slot is
     /// coupled.
     pub(crate) seen_temperatures: Vec<S>,
+    /// The numbers that have found their new state while others iterate on.
+    pub(crate) settled: S::Mask,
 }
 
 /// Internal energy (J) and entropy (J/K) of a group.

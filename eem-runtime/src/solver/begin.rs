@@ -10,7 +10,7 @@ use super::places::Seen;
 use super::{SavedPast, Solver};
 use crate::error::StepFailure;
 use crate::group::{Group, Old, StepView, points};
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// Starts at the old state, or at a foretold motion away from it if the scheme wants one.
@@ -59,6 +59,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// Moving nodes are where they are foretold, seen temperatures where they were.
     fn start(&mut self, view: &StepView<'_, S>) {
+        self.trial.settled = S::Mask::none();
         let momenta = points::<S, D>(view.state.momenta.values());
         let (values, right, solution) = self.tangent.renew();
         for &Seen { slot, row } in &self.seen {

@@ -6,7 +6,7 @@ use super::Solver;
 use super::begin::old_force;
 use crate::error::StepFailure;
 use crate::group::{Along, Group, StepView, points};
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 use crate::scheme::Closing;
 use crate::state::State;
 
@@ -93,7 +93,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let at = node.place.node();
             let force = view.loads.force::<D>(at);
             for (&force, &displacement) in force.iter().zip(&self.trial.displacements[at]) {
-                if force != S::zero() {
+                if !force.equal(S::zero()).all() {
                     next.work.add(force * displacement);
                 }
             }

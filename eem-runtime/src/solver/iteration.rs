@@ -4,7 +4,7 @@ use super::Solver;
 use super::places::Seen;
 use crate::group::{Group, StepView};
 use crate::newton::Largest;
-use crate::scalar::Real;
+use crate::scalar::{Real, unless};
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// Starts the system of an iteration at the trial state.
@@ -38,6 +38,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     pub(super) fn correct(&mut self, groups: &mut [Box<dyn Group<S, D>>]) -> S {
         let (values, right, solution) = self.tangent.renew();
         let trial = &mut self.trial;
+        let settled = trial.settled;
         let mut largest = Largest::none();
         let changes = solution.as_flattened().as_chunks::<D>().0;
         let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
@@ -47,8 +48,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let per_length = self.per_length[at];
             // One by one, as they have been found: a copy of all would have to wait for them.
             for axis in 0..D {
-                let change = change[axis];
-                displacement[axis] += change;
+                let (from, change) = (displacement[axis], change[axis]);
+                displacement[axis] = unless(settled, from, from + change);
                 largest.see(change * per_length);
             }
             trial.displacements[at] = displacement;
@@ -61,13 +62,13 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let change = (theta + solution[row][0]) - theta;
             solution[row][0] = change;
             right[row] = [S::zero()];
-            trial.seen_temperatures[slot] = theta + change;
+            trial.seen_temperatures[slot] = unless(settled, theta, theta + change);
             largest.see(change / theta);
         }
         for group in groups.iter_mut() {
-            largest.see(group.correct(self.tangent.solution()));
+            largest.see(group.correct(self.tangent.solution(), settled));
         }
-        largest.found()
+        unless(settled, S::zero(), largest.found())
     }
 
     /// Takes a share of the last correction back, and starts the next system there.

@@ -3,7 +3,7 @@
 use super::{Effort, Iteration, Look, Solver};
 use crate::error::StepFailure;
 use crate::group::{Group, StepView};
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// Residual and tangent at given global unknowns, with the local ones solved for.
@@ -32,7 +32,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 break;
             }
             let updates = groups.iter_mut();
-            let updates = updates.map(|group| group.correct(self.tangent.solution()));
+            let updates =
+                updates.map(|group| group.correct(self.tangent.solution(), S::Mask::none()));
             let update = updates.fold(S::zero(), S::maximum);
             effort.history.push(Iteration { residual, update });
             let stagnated = before.is_some_and(|before| update >= before);

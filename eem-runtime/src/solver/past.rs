@@ -97,15 +97,17 @@ impl<S: Real, const D: usize> Past<S, D> {
     #[inline]
     pub(super) fn forecast(&self) -> Forecast<'_, S, D> {
         let [nothing, constant, linear] = self.errors;
-        let best = if linear < constant && linear < nothing {
-            2
-        } else {
-            usize::from(constant < nothing)
-        };
+        let is_linear = linear.less(constant) & linear.less(nothing);
+        let is_constant = constant.less(nothing);
+        let weights = array::from_fn(|k| {
+            let [nothing, constant, linear] = FORECASTS.map(|weights| S::from_f64(weights[k]));
+            let other = S::select(is_constant, constant, nothing);
+            S::select(is_linear, linear, other)
+        });
         Forecast {
             forces: &self.forces,
             turn: TURNS[self.turn],
-            weights: FORECASTS[best].map(S::from_f64),
+            weights,
         }
     }
 

@@ -21,7 +21,7 @@ use crate::loads::{Loads, StepLoads};
 use crate::masses::Masses;
 use crate::newton::is_last;
 use crate::pattern::Pattern;
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 use crate::scene::ElementEntry;
 use crate::scheme::Scheme;
 use crate::state::State;
@@ -239,7 +239,8 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
             let full = share == S::one();
             share = self.advance(groups, view)?;
             let before = before.replace(update).filter(|_| full);
-            if share == S::one() && is_last(update, before, effort.settings.tolerance) {
+            let is_last = is_last(update, before, effort.settings.tolerance);
+            if share == S::one() && is_last.decide() {
                 return Ok(());
             }
         }
