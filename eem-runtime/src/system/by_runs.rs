@@ -4,8 +4,7 @@ use super::{LinearSystem, Parts, Storage};
 use crate::lu::Singular;
 use crate::scalar::Real;
 
-/// One unknown in the place of each run of `W`, which has
-/// right-hand sides instead of single unknowns.
+/// One unknown in the place of each run of `W`, and `W` right-hand sides.
 impl<S: Real> LinearSystem<S, 1> {
     /// The number of runs of so many unknowns, if that is how they are stored.
     #[cfg(feature = "sparse")]
