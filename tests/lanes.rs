@@ -3,6 +3,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+#[path = "lanes/counting.rs"]
+mod counting;
 #[path = "lanes/scenes.rs"]
 mod scenes;
 mod support;
@@ -11,6 +13,7 @@ mod watched;
 
 use core::slice;
 
+use counting::Until;
 use eem::prelude::*;
 use eem::{MemberError, MemberFailure};
 use scenes::{Chain, Double, Driven, Elastic, Pendulum, Sweep, Thermoelastic};
@@ -258,6 +261,24 @@ fn scenes_and_schemes_that_do_not_suit_lanes_run_alone() {
     let inputs = inputs(|i| [0.1 * i, 380.0, 10.0]);
     check_outcome(Chain, (Scheme::EemTemperature, 0.02, 5), &inputs);
     check_outcome(Pendulum, (Scheme::Variational4, 0.02, 5), &inputs);
+}
+
+#[test]
+fn an_experiment_may_depend_on_its_numbers() {
+    let inputs = inputs(|i| [0.0, 1.0, -1000.0 - 100.0 * i]);
+    // The temperature is 300 K + rate t at the end of a step, and 0 K is refused.
+    let expected = |limit: f64| {
+        let steps = |input: &Input| ((limit - 300.0) / (input[2] * 0.02)).floor();
+        inputs.iter().map(steps).collect::<Vec<_>>()
+    };
+    for (until, limit) in [(Until::StepFails, 0.5), (Until::Colder(200.5), 200.5)] {
+        let results = ensemble(Scheme::EemTemperature, 0.02).run_experiment(&until, &inputs);
+        let counts = results.into_iter().map(Result::unwrap);
+        let counts: Vec<_> = counts
+            .map(|count| f64::from(u32::try_from(count).unwrap()))
+            .collect();
+        assert_eq!(counts, expected(limit), "{until:?}");
+    }
 }
 
 #[test]
