@@ -23,8 +23,8 @@ fn chain() -> Scene<2> {
 }
 
 /// Of a thermoelastic spring in the plane with its node: 408 B of the element and its part of the trial
-/// state, 268 B of the tangent with its pattern, factors and solution, in the memory of which the secant
-/// system is solved too, 176 B of the old and the new state, 128 B of the solver's vectors, 16 B of what the
+/// state, 284 B of the tangent with its pattern, factors and solution, in the memory of which the secant
+/// system is solved too, 176 B of the old and the new state, 112 B of the solver's vectors, 16 B of what the
 /// simulation knows of node and element: 996 B, and what does not grow with the chain.
 const BYTES: i64 = 1_000;
 

@@ -253,6 +253,11 @@ impl Real for Lanes {
     }
 
     #[inline]
+    fn has_given_up() -> bool {
+        discord::is_noted()
+    }
+
+    #[inline]
     fn pack(number: impl FnMut(usize) -> f64) -> Self {
         Self(core::array::from_fn(number))
     }

@@ -178,6 +178,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Writes the next state.
     fn find_next(&mut self) -> Result<(), StepFailure> {
+        if S::has_given_up() {
+            // Who waits for what all numbers agree on might wait forever.
+            return Err(StepFailure::NotConverged { update: f64::NAN });
+        }
         self.evaluate_loads()?;
         let (effort, next) = (&mut self.effort, &mut *self.next);
         let stepper = match &mut self.stepper {

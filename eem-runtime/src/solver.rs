@@ -62,8 +62,8 @@ pub(crate) struct Solver<S: Real, const D: usize> {
     /// a part in it.
     old_force: Vec<[S; D]>,
     past: Past<S, D>,
-    /// The reciprocal of the unit of length of each node: its shortest element in the old state; 1 m
-    /// without.
+    /// The reciprocal of the unit of length of each node that moves: its shortest element in the old
+    /// state; 1 m without.
     per_length: Vec<S>,
     /// What kept the last update from being applied in full.
     obstacle: Option<StateError>,

@@ -6,13 +6,13 @@
 //!
 //! The entries of A are one array, [`values`](LinearSystem::values). Where an entry is in it is
 //! asked once, when the scene is built ([`place`](LinearSystem::place)); an iteration then writes
-//! to places. The entries of a row that belong to consecutive unknowns lie next to each other, as do
+//! to places. The entries of a row that belong to the unknowns of one node lie next to each other, as do
 //! the rows of B. What belongs to an anchor has a place too, behind everything else, where nobody
-//! reads.
+//! writes.
 //!
-//! How entries are laid out and what solves with them is the business of the [`Storage`] alone: another
+//! How entries are laid out and what solves with them is the business of the [`Storage`]: another
 //! one is another variant there, with its answers to `new` (from the pattern), `entries`, `position`
-//! and `solve`.
+//! and `solve`. One and two unknowns do not ask it, and `by_runs` asks for one of its variants.
 
 mod by_runs;
 
@@ -182,7 +182,10 @@ fn solve_fixed<S: Real, const W: usize>(
         10 => lu::solve_fixed::<S, 10, W>(values, right),
         11 => lu::solve_fixed::<S, 11, W>(values, right),
         MOST_FIXED => lu::solve_fixed::<S, MOST_FIXED, W>(values, right),
-        _ => Ok(()),
+        0 => Ok(()),
+        _ => {
+            unreachable!("{unknowns} unknowns are solved in line, or not by a compiled elimination")
+        }
     }
 }
 

@@ -55,9 +55,18 @@ where
         along: Along,
         impulses: &mut Impulses<'_, S, D>,
     ) {
+        let at = match along {
+            Along::Secant => None,
+            Along::Scheme => Some(C::PLACEMENT),
+            Along::Gradient => Some(Placement::End),
+        };
         for member in &self.members {
             let (nodes, r0) = (&member.site.nodes, &member.r0);
-            let (h, force) = if along == Along::Secant {
+            let (h, force) = if let Some(at) = at {
+                let r1 = member.new_arms(trial);
+                let share = view.step * S::from_f64(C::IMPLICIT);
+                (share, member.force(self.kinematics, at, [r0, &r1]))
+            } else {
                 let mut mean = arms::<K, S, D>(nodes, &trial.displacements);
                 for (mean, old) in mean.as_mut().iter_mut().zip(r0.as_ref()) {
                     for (mean, &old) in mean.iter_mut().zip(old) {
@@ -66,14 +75,6 @@ where
                 }
                 let weights = member.secant(self.kinematics);
                 (view.step, pull::<K, S, D>(&weights, &mean))
-            } else {
-                let r1 = member.new_arms(trial);
-                let at = match along {
-                    Along::Gradient => Placement::End,
-                    Along::Secant | Along::Scheme => C::PLACEMENT,
-                };
-                let share = view.step * S::from_f64(C::IMPLICIT);
-                (share, member.force(self.kinematics, at, [r0, &r1]))
             };
             for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
                 for (impulse, &force) in impulses.of(node as usize).iter_mut().zip(force) {

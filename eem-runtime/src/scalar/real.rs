@@ -26,10 +26,12 @@ pub trait Mask:
     /// False everywhere.
     fn none() -> Self;
 
-    /// True everywhere.
+    /// True everywhere. What is decided by it must be right for all numbers: nobody notices that they
+    /// differ.
     fn all(self) -> bool;
 
-    /// True somewhere.
+    /// True somewhere. What is decided by it must be right for all numbers: nobody notices that they
+    /// differ.
     fn any(self) -> bool;
 
     /// The one decision for all numbers, as in a comparison with `<`. Numbers that would decide
@@ -105,6 +107,13 @@ pub trait Real: Scalar<Mask: Mask> + PartialOrd {
     #[inline]
     fn give_up() {}
 
+    /// Whether that has been said, or found by a comparison: then what they compute is not used.
+    #[inline]
+    #[must_use]
+    fn has_given_up() -> bool {
+        false
+    }
+
     /// The numbers of the lanes `0, 1, …` in one.
     #[inline]
     #[must_use]
@@ -112,7 +121,7 @@ pub trait Real: Scalar<Mask: Mask> + PartialOrd {
         Self::from_f64(number(0))
     }
 
-    /// The number of one lane.
+    /// The number of one lane: to be put out, not to decide about the others.
     #[inline]
     fn lane(self, _: usize) -> f64 {
         self.to_f64()

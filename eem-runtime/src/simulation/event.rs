@@ -129,6 +129,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Takes back the step that has just been made.
     fn undo(&mut self) {
         mem::swap(&mut self.state, &mut self.next);
+        self.has_stepped = false;
         self.stepper.undo();
     }
 }

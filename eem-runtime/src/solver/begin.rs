@@ -31,7 +31,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             group.begin(view, &mut old)?;
         }
         self.twice_per_step = S::from_f64(2.0) * view.step.recip();
-        self.place_anchors(view);
+        self.place_moved_anchors(view);
         self.start(view);
         Ok(())
     }
@@ -46,8 +46,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
-    /// Anchors are where the step will have moved them; few are moved.
-    fn place_anchors(&mut self, view: &StepView<'_, S>) {
+    /// Anchors that are moved are where the step will have moved them.
+    fn place_moved_anchors(&mut self, view: &StepView<'_, S>) {
         for &node in &view.loads.moved {
             self.trial.displacements[node] = if view.phase.moves() {
                 view.loads.motion(node)

@@ -124,11 +124,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         along: Along,
     ) {
         let mut impulses = self.past.impulses();
-        for impulse in impulses.iter_mut() {
-            *impulse = [S::zero(); D];
-        }
-        for (impulse, force) in impulses.iter_mut().zip(&self.old_force) {
-            *impulse = force.map(|component| -view.step * component);
+        for (node, impulse) in impulses.iter_mut().enumerate() {
+            *impulse = old_force(&self.old_force, node).map(|force| -view.step * force);
         }
         for group in groups.iter_mut() {
             group.add_impulse(view, &self.trial, along, &mut impulses);

@@ -12,7 +12,7 @@ const MEMORY: f64 = 0.875;
 #[derive(Debug)]
 pub(super) struct Past<S, const D: usize> {
     /// `Δp/h` of the last step and of the one before, N, zero before the first; and the impulse of the
-    /// step that is being closed, N s. Per node, of which those that move have forces.
+    /// step that is being closed, N s. Per node; of anchors only the impulse means something.
     forces: Vec<[[S; D]; PLACES]>,
     /// Which row of [`TURNS`] says where each of them is.
     turn: usize,
@@ -54,7 +54,7 @@ pub(super) struct Remembering<'a, S, const D: usize> {
     found: &'a mut [S; 3],
 }
 
-/// The past as it is saved: forces per coordinate.
+/// The past as it is saved: forces per coordinate, of which those of anchors mean nothing.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -111,7 +111,7 @@ impl<S: Real, const D: usize> Past<S, D> {
         }
     }
 
-    /// The impulses of the step that is being closed, or of the last one that was.
+    /// The impulses of the step that is being closed.
     #[inline]
     pub(super) fn impulses(&mut self) -> Impulses<'_, S, D> {
         let [_, _, next] = TURNS[self.turn];
