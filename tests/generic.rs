@@ -86,6 +86,28 @@ fn the_continuous_equations_are_generic() {
 }
 
 #[test]
+fn a_step_that_is_no_longer_known_has_no_discrete_form() {
+    let mut run = scene(Scheme::EemEntropy, 0.05);
+    run.step().unwrap();
+    assert!(run.generic_of_last_step().is_some());
+    run.linearize(&vec![0.0; run.unknowns()]).unwrap();
+    assert!(run.generic_of_last_step().is_none());
+
+    run.step().unwrap();
+    let end = run.time() + 1.0;
+    let no_number = |now: &Simulation<2>| {
+        if now.time() < end - 0.5 {
+            1.0
+        } else {
+            f64::NAN
+        }
+    };
+    let failed = run.run_until_event(end, 0.0, no_number, |_, _| ControlFlow::Continue(()));
+    assert!(failed.is_err());
+    assert!(run.generic_of_last_step().is_none());
+}
+
+#[test]
 fn steps_are_discrete_generic_systems() {
     for scheme in [Scheme::EemEntropy, Scheme::EemTemperature] {
         let mut run = scene(scheme, 0.05);

@@ -47,7 +47,8 @@ impl<S: Scalar> Compensated<S> {
 
     /// The sums of one point of `D` coordinates, of `old` and increments; everything that rounding took
     /// from them, added up.
-    #[inline]
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a few numbers in registers")]
     pub(crate) fn advance_point<const D: usize>(
         &mut self,
         point: usize,
@@ -61,13 +62,13 @@ impl<S: Scalar> Compensated<S> {
         let (from, rest) = (&from[point], &rest[point]);
         let values = &mut self.values.as_chunks_mut::<D>().0[point];
         let carries = &mut self.carries.as_chunks_mut::<D>().0[point];
-        let mut taken = S::zero();
+        // Written at once: who reads a point soon after would have to wait for its last coordinate.
+        let (mut sums, mut rests) = ([S::zero(); D], [S::zero(); D]);
         for axis in 0..D {
-            let (value, carry) = two_sum(from[axis], increments[axis] + rest[axis]);
-            (values[axis], carries[axis]) = (value, carry);
-            taken += carry;
+            (sums[axis], rests[axis]) = two_sum(from[axis], increments[axis] + rest[axis]);
         }
-        taken
+        (*values, *carries) = (sums, rests);
+        rests.into_iter().fold(S::zero(), |sum, rest| sum + rest)
     }
 
     /// Adds to one sum.

@@ -5,11 +5,10 @@
 //!
 //! ```text
 //! begin      look at the old state, once                            (begin)
-//! evaluate   last correction applied                                (evaluate, member)
-//!            response at the trial                                  (respond, pose, arms)
+//! evaluate   response at the trial                                  (evaluate, respond, pose, arms)
 //!            local unknowns eliminated                              (local, eliminate)
 //!            contributions written to their places                  (assemble, scatter, site)
-//! correct    local unknowns from the global solution                (correct)
+//! correct    local unknowns from the global solution                (correct, member)
 //! close      increments from the found forces, and the new state    (closing, settle)
 //! ```
 
@@ -29,6 +28,7 @@ mod pose;
 mod respond;
 mod scatter;
 mod settle;
+mod settled;
 mod site;
 mod stages;
 mod view;
@@ -37,12 +37,13 @@ use crate::compact::compact;
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
 use crate::handle::Element;
+use crate::impulse::Impulses;
 use crate::kinematics::Kinematics;
 use crate::layout::Slots;
 use crate::scalar::Real;
 use crate::scheme::ElementScheme;
 use crate::state::State;
-use crate::system::LinearSystem;
+use crate::system::{LinearSystem, Parts};
 pub(crate) use arms::points;
 pub(crate) use generic::ElementGeneric;
 use member::Member;
@@ -61,6 +62,9 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
     /// What the elements contribute to the GENERIC form in a state.
     fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>>;
 
+    /// Where the element at `place` keeps its internal variables.
+    fn slots(&self, place: usize) -> Slots;
+
     /// The element at `place` in a state.
     fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S>;
 }
@@ -73,43 +77,40 @@ pub(crate) trait Group<S: Real, const D: usize>: Elements<S, D> {
     /// Looks at the old state, adds to what it gives to the nodes, and starts the trial there.
     fn begin(&mut self, view: &StepView<'_, S>, old: &mut Old<'_, S, D>) -> Result<(), StateError>;
 
-    /// Applies the fraction `share` of the last local corrections, computes everything that depends
-    /// on the trial state, element by element, and adds residual and tangent, local unknowns
-    /// eliminated, to a system if there is one.
+    /// Computes everything that depends on the trial state, element by element, and adds residual and
+    /// tangent, local unknowns eliminated, to a system if there is one.
     fn evaluate(
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
-        share: S,
         system: Option<&mut LinearSystem<S, 1>>,
     ) -> Result<(), StateError>;
 
-    /// Local corrections that go with the global ones; the largest, in units of the measure (viscous
-    /// stretches) and of the temperature.
-    fn correct(&mut self, solution: &[[S; 1]]) -> S;
+    /// Applies the local corrections that go with the global ones, but for numbers that have settled; the
+    /// largest, in units of the measure (viscous stretches) and of the temperature.
+    fn correct(&mut self, solution: &[[S; 1]], settled: S::Mask) -> S;
+
+    /// Applies a share of the last corrections instead.
+    fn apply(&mut self, share: S);
 
     /// The present trial is where the next correction starts; no local correction.
     fn hold(&mut self);
 
-    /// Applies the last correction to the response through the tangent, without evaluating it.
-    fn extrapolate(&mut self);
+    /// Applies the last correction, that of the solution, to the response too, through the tangent and
+    /// without evaluating it; not where numbers have settled.
+    fn extrapolate(&mut self, solution: &[[S; 1]], settled: S::Mask);
 
-    /// Adds `½h Σ A` and `−h Σ A q⁰`, where `A q_m` is the nodal force at the found response; moved
-    /// anchors are taken from the trial.
-    fn add_secant(
-        &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        system: &mut LinearSystem<S, D>,
-    );
+    /// Adds `½h Σ A` and `−h Σ A q⁰`, where `A q_m` is the nodal force at the found response, to the
+    /// entries and right-hand sides of the secant system; moved anchors are taken from the trial.
+    fn add_secant(&mut self, view: &StepView<'_, S>, trial: &Trial<S, D>, system: Parts<'_, S, D>);
 
-    /// Adds the nodal impulse `−h F` of the found response to `impulse`, N s.
+    /// Adds the nodal impulse `−h F` of the found response, N s.
     fn add_impulse(
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
         along: Along,
-        impulse: &mut [[S; D]],
+        impulses: &mut Impulses<'_, S, D>,
     );
 
     /// Adds the increments of the internal variables and of the reservoirs' entropies to a new state
@@ -136,7 +137,7 @@ where
     kinematics: K,
     members: Vec<Member<S, M, K, C, D>>,
     contacts: Vec<Contact<K, S, D>>,
-    /// Per member, if the scheme closes a step by the secant.
+    /// Per member, if the scheme closes a step by a secant system with memory of its own.
     secants: Vec<SecantSite<K, S, D>>,
 }
 
@@ -180,6 +181,10 @@ where
         self.generic_in_all(state)
     }
 
+    fn slots(&self, place: usize) -> Slots {
+        self.members[place].slots()
+    }
+
     fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {
         self.inspect_at(place, state)
     }
@@ -204,7 +209,7 @@ where
                 self.contacts.push(contact);
             }
         }
-        if C::PLACEMENT.has_secant() {
+        if sites.secant.is_some() {
             let sites = self
                 .members
                 .iter()
@@ -221,14 +226,19 @@ where
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
-        share: S,
         system: Option<&mut LinearSystem<S, 1>>,
     ) -> Result<(), StateError> {
-        self.evaluate_all(view, trial, share, system)
+        self.evaluate_all(view, trial, system)
     }
 
-    fn correct(&mut self, solution: &[[S; 1]]) -> S {
-        self.correct_all(solution)
+    fn correct(&mut self, solution: &[[S; 1]], settled: S::Mask) -> S {
+        self.correct_all(solution, settled)
+    }
+
+    fn apply(&mut self, share: S) {
+        for member in &mut self.members {
+            member.apply(share);
+        }
     }
 
     fn hold(&mut self) {
@@ -237,18 +247,11 @@ where
         }
     }
 
-    fn extrapolate(&mut self) {
-        for member in &mut self.members {
-            member.extrapolate();
-        }
+    fn extrapolate(&mut self, solution: &[[S; 1]], settled: S::Mask) {
+        self.extrapolate_all(solution, settled);
     }
 
-    fn add_secant(
-        &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        system: &mut LinearSystem<S, D>,
-    ) {
+    fn add_secant(&mut self, view: &StepView<'_, S>, trial: &Trial<S, D>, system: Parts<'_, S, D>) {
         self.add_secant_all(view, trial, system);
     }
 
@@ -257,9 +260,9 @@ where
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
         along: Along,
-        impulse: &mut [[S; D]],
+        impulses: &mut Impulses<'_, S, D>,
     ) {
-        self.add_impulse_all(view, trial, along, impulse);
+        self.add_impulse_all(view, trial, along, impulses);
     }
 
     fn close(

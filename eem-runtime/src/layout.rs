@@ -77,9 +77,11 @@ impl Layout {
         }
     }
 
-    /// Forgets the numbers of single unknowns, for which nobody asks once all places are found.
-    pub(crate) fn forget_unknowns(&mut self) {
+    /// Keeps the numbers of unknowns and variables and forgets which is whose, for which nobody asks
+    /// once all places are found.
+    pub(crate) fn forget_places(&mut self) {
         self.nodes = Vec::new();
+        self.elements = Vec::new();
         self.coupled = Vec::new();
     }
 }

@@ -6,6 +6,7 @@ use nalgebra::SVector;
 
 use crate::group::Elements;
 use crate::kernel::two_sum;
+use crate::masses::Masses;
 use crate::scalar::Real;
 use crate::state::State;
 
@@ -56,7 +57,7 @@ impl<S: Real, const D: usize> Ledger<S, D> {
     /// The balance sheet of a state.
     pub(crate) fn of<'a>(
         state: &State<S>,
-        masses: &[Option<S>],
+        masses: &Masses<S>,
         groups: impl Iterator<Item = &'a dyn Elements<S, D>>,
         reservoirs: &[S],
         gravity: &SVector<S, D>,
@@ -65,8 +66,8 @@ impl<S: Real, const D: usize> Ledger<S, D> {
         let (mut kinetic, mut internal, mut heat) = (Sum::new(), Sum::new(), Sum::new());
         let (mut element_entropy, mut reservoir_entropy) = (Sum::new(), Sum::new());
         let momenta = state.momenta.values();
-        for (p, mass) in momenta.chunks_exact(D).zip(masses) {
-            let Some(mass) = *mass else { continue };
+        for (p, mass) in momenta.chunks_exact(D).zip(masses.iter()) {
+            let Some(mass) = mass else { continue };
             for &component in p {
                 kinetic.add(component * component / (mass + mass));
             }
@@ -80,8 +81,8 @@ impl<S: Real, const D: usize> Ledger<S, D> {
             heat.add(theta * entropy);
             reservoir_entropy.add(entropy);
         }
-        for (q, mass) in state.positions.values().chunks_exact(D).zip(masses) {
-            let Some(mass) = *mass else { continue };
+        for (q, mass) in state.positions.values().chunks_exact(D).zip(masses.iter()) {
+            let Some(mass) = mass else { continue };
             for (&coordinate, &component) in q.iter().zip(gravity.iter()) {
                 potential.add(-mass * component * coordinate);
             }
@@ -129,7 +130,7 @@ impl<S: Real, const D: usize> Ledger<S, D> {
 
 fn angular_momentum<S: Real, const D: usize>(
     state: &State<S>,
-    masses: &[Option<S>],
+    masses: &Masses<S>,
 ) -> SVector<S, 3> {
     let positions = state.positions.values();
     let mut anchors = masses.iter().enumerate().filter(|(_, mass)| mass.is_none());

@@ -11,6 +11,7 @@ use nalgebra::SVector;
 use crate::error::StepFailure;
 use crate::handle::{Element, Node};
 use crate::layout::Layout;
+use crate::masses::Masses;
 use crate::scalar::Real;
 use crate::scene::is_positive;
 use crate::scheme::{Closing, Scheme};
@@ -84,6 +85,8 @@ pub(crate) struct StepLoads<S> {
     pub(crate) moved: Vec<usize>,
     /// Per thermal slot.
     prescribed: Vec<Option<Prescribed<S>>>,
+    /// The thermal slots of the elements whose temperatures are prescribed, in the order of the loads.
+    slots: Vec<Option<usize>>,
 }
 
 impl<S: Real> StepLoads<S> {
@@ -99,6 +102,8 @@ impl<S: Real> StepLoads<S> {
         } else {
             layout.thermal
         };
+        let temperatures = loads.temperatures.iter();
+        let thermal = temperatures.map(|(element, _)| layout.elements[element.index].thermal);
         let moved = loads.motions.iter().map(|(node, _)| node.index);
         let moved: BTreeSet<_> = moved.collect();
         Self {
@@ -107,6 +112,7 @@ impl<S: Real> StepLoads<S> {
             total_force: zeros(!loads.forces.is_empty() || loads.have_weight()),
             motion: zeros(!loads.motions.is_empty()),
             prescribed: vec![None; slots],
+            slots: thermal.collect(),
         }
     }
 
@@ -151,8 +157,7 @@ impl<S: Real> StepLoads<S> {
     pub(crate) fn evaluate<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,
-        masses: &[Option<S>],
-        layout: &Layout,
+        masses: &Masses<S>,
         scheme: Scheme,
         [time, step]: [S; 2],
         q0: &[S],
@@ -193,7 +198,7 @@ impl<S: Real> StepLoads<S> {
                 }
             }
         }
-        for (element, temperature) in &loads.temperatures {
+        for ((element, temperature), slot) in loads.temperatures.iter().zip(&self.slots) {
             let at = |time: S| match temperature(time) {
                 value if is_positive(value) => Ok(value),
                 value => Err(StepFailure::PrescribedTemperature {
@@ -202,7 +207,7 @@ impl<S: Real> StepLoads<S> {
                     time: time.to_f64(),
                 }),
             };
-            if let Some(slot) = layout.elements[element.index].thermal {
+            if let Some(slot) = *slot {
                 self.prescribed[slot] = Some(Prescribed {
                     middle: at(middle)?,
                     end: at(end)?,
@@ -212,9 +217,9 @@ impl<S: Real> StepLoads<S> {
         Ok(())
     }
 
-    fn add_weights<const D: usize>(&mut self, loads: &Loads<S, D>, masses: &[Option<S>]) {
+    fn add_weights<const D: usize>(&mut self, loads: &Loads<S, D>, masses: &Masses<S>) {
         let total = self.total_force.as_chunks_mut::<D>().0.iter_mut();
-        for (node, (total, mass)) in total.zip(masses).enumerate() {
+        for (node, (total, mass)) in total.zip(masses.iter()).enumerate() {
             *total = point(&self.force, node);
             for (total, &acceleration) in total.iter_mut().zip(loads.gravity.iter()) {
                 *total += mass.map_or(S::zero(), |mass| mass * acceleration);

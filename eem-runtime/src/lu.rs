@@ -2,12 +2,14 @@
 //!
 //! For the handful of unknowns of a small scene or of one element. It works on any [`Real`] and on
 //! borrowed memory, so that a step allocates nothing. For a number of unknowns that the compiler knows
-//! there is [`solve_fixed`].
+//! there is [`solve_fixed`], for one and two [`solve_one`] and [`solve_two`].
 
+mod few;
 mod fixed;
 
 use crate::scalar::Real;
-pub(crate) use fixed::{solve_fixed, solve_two};
+pub(crate) use few::{solve_one, solve_two};
+pub(crate) use fixed::solve_fixed;
 
 /// A matrix that has no usable pivot in some column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

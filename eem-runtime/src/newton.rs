@@ -1,6 +1,6 @@
 //! When Newton's method is done, and what it did.
 
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 
 /// How hard a step tries.
 ///
@@ -63,16 +63,22 @@ const CONTRACTION: f64 = 0.1;
 const STAGNATION: f64 = 0.25;
 
 /// Whether an update is the last one, given the one before.
-pub(crate) fn is_last<S: Real>(update: S, before: Option<S>, tolerance: S) -> bool {
-    if update <= tolerance {
-        before.is_none_or(|before| {
-            let contracts = update <= S::from_f64(CONTRACTION) * before;
-            let is_on_floor = update <= S::from_f64(CONTRACTION) * tolerance;
-            contracts || (is_on_floor && update >= S::from_f64(STAGNATION) * before)
-        })
-    } else {
-        false
+#[inline]
+pub(crate) fn is_last<S: Real>(update: S, before: Option<S>, tolerance: S) -> S::Mask {
+    let is_small = update.at_most(tolerance);
+    if !is_small.any() {
+        return S::Mask::none();
     }
+    let Some(before) = before else {
+        return is_small;
+    };
+    let contracts = is_small & update.at_most(S::from_f64(CONTRACTION) * before);
+    if !(is_small & !contracts).any() {
+        return contracts;
+    }
+    let is_on_floor = update.at_most(S::from_f64(CONTRACTION) * tolerance);
+    let stagnates = (S::from_f64(STAGNATION) * before).at_most(update);
+    contracts | (is_small & is_on_floor & stagnates)
 }
 
 /// The largest magnitude of many numbers, NaN unless all of them are finite.
@@ -98,9 +104,7 @@ impl<S: Real> Largest<S> {
     pub(crate) fn see(&mut self, value: S) {
         let size = value.abs();
         self.sum += size;
-        if size > self.largest {
-            self.largest = size;
-        }
+        self.largest = S::select(self.largest.less(size), size, self.largest);
     }
 
     /// The largest so far.
@@ -132,15 +136,15 @@ mod tests {
 
     #[test]
     fn a_small_update_must_contract() {
-        assert!(is_last(1e-9, None, 1e-8));
-        assert!(is_last(1e-9, Some(1e-4), 1e-8));
-        assert!(!is_last(5e-9, Some(1e-8), 1e-8));
+        assert!(is_last::<f64>(1e-9, None, 1e-8));
+        assert!(is_last::<f64>(1e-9, Some(1e-4), 1e-8));
+        assert!(!is_last::<f64>(5e-9, Some(1e-8), 1e-8));
     }
 
     #[test]
     fn rounding_is_a_floor_and_a_stall_is_not() {
-        assert!(is_last(3e-10, Some(4e-10), 1e-8));
-        assert!(!is_last(3e-3, Some(4e-3), 1e-8));
+        assert!(is_last::<f64>(3e-10, Some(4e-10), 1e-8));
+        assert!(!is_last::<f64>(3e-3, Some(4e-3), 1e-8));
         assert!(!is_last(f64::NAN, Some(1e-3), 1e-8));
     }
 }

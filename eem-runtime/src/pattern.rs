@@ -6,6 +6,9 @@
 //! tangent   displacements of the masses and temperatures Θ that neighbours see; each iteration
 //! secant    one unknown per mass, the same for every axis of space; once per step, D right sides
 //! ```
+//!
+//! Where elements share nothing but nodes, both are the graph of the masses: unknowns come in *runs*, one per
+//! axis of space in the tangent, and the entries of two masses are a block.
 
 use core::ops::Range;
 
@@ -15,10 +18,16 @@ use crate::layout::Layout;
 use crate::scalar::Real;
 use crate::scene::ElementEntry;
 
-/// The structural entries of a matrix, row by row, columns ascending.
+/// The most unknowns in a run: those of a node in space.
+pub(crate) const LONGEST_RUN: usize = 3;
+
+/// The structural entries of a matrix whose unknowns come in runs of equal length: which runs share a
+/// full block of entries, row by row, columns ascending.
 #[derive(Clone, Debug)]
 pub(crate) struct Pattern {
-    /// Row r has the columns `columns[starts[r]..starts[r + 1]]`.
+    /// Unknowns in a run.
+    length: usize,
+    /// Run r has blocks with the runs `columns[starts[r]..starts[r + 1]]`.
     starts: Vec<u32>,
     columns: Vec<u32>,
 }
@@ -73,19 +82,31 @@ impl Pattern {
         starts.push(compact(length));
         columns.truncate(length);
         columns.shrink_to_fit();
-        Self { starts, columns }
+        Self {
+            length: 1,
+            starts,
+            columns,
+        }
+    }
+
+    /// The pattern with a run of that many unknowns in the place of each.
+    pub(crate) fn in_runs(self, length: usize) -> Self {
+        Self { length, ..self }
     }
 
     /// The pattern of the tangent.
     ///
     /// The forces of an element depend on its nodes, on its own Θ and on that of its partners, and
-    /// so does its own Θ.
+    /// so does its own Θ. If there are no Θ, the coordinates of a node are a run.
     pub(crate) fn of_tangent<S: Real>(
         elements: &[ElementEntry<S>],
         layout: &Layout,
         conduction: &Conduction<S>,
         dimension: usize,
     ) -> Self {
+        if dimension <= LONGEST_RUN && layout.coupled.iter().all(Option::is_none) {
+            return Self::of_secant(elements, layout, dimension).in_runs(dimension);
+        }
         Self::new(layout.unknowns, |pair| {
             for (entry, slots) in elements.iter().zip(&layout.elements) {
                 let slot = slots.thermal;
@@ -132,56 +153,88 @@ impl Pattern {
     pub(crate) fn doubled(&self) -> Self {
         let unknowns = self.unknowns();
         Self::new(2 * unknowns, |pair| {
-            for row in 0..unknowns {
-                for &column in self.row(row) {
-                    let column = column as usize;
-                    for shift in [0, unknowns] {
-                        pair(row, column + shift);
-                        pair(row + unknowns, column + shift);
-                    }
+            self.each_entry(|row, column| {
+                for shift in [0, unknowns] {
+                    pair(row, column + shift);
+                    pair(row + unknowns, column + shift);
                 }
-            }
+            });
         })
+    }
+
+    /// Names all entries.
+    fn each_entry(&self, mut visit: impl FnMut(usize, usize)) {
+        let length = self.length;
+        for row in 0..self.unknowns() {
+            for &run in self.row(row / length) {
+                let first = run as usize * length;
+                (first..first + length).for_each(|column| visit(row, column));
+            }
+        }
     }
 
     /// Number of rows and of columns.
     pub(crate) fn unknowns(&self) -> usize {
+        self.runs() * self.length
+    }
+
+    /// Number of runs.
+    pub(crate) fn runs(&self) -> usize {
         self.starts.len() - 1
     }
 
     /// Number of entries.
     #[cfg(any(feature = "sparse", test))]
     pub(crate) fn entries(&self) -> usize {
-        self.columns.len()
+        self.columns.len() * self.length * self.length
     }
 
-    /// Where each row starts among the entries, and where the last one ends.
-    #[cfg(feature = "sparse")]
+    /// The runs that share a block with one, ascending.
+    pub(crate) fn row(&self, run: usize) -> &[u32] {
+        &self.columns[self.blocks(run)]
+    }
+
+    /// Where the blocks of a run are among all blocks.
+    pub(crate) fn blocks(&self, run: usize) -> Range<usize> {
+        self.starts[run] as usize..self.starts[run + 1] as usize
+    }
+}
+
+/// What a sparse elimination asks.
+#[cfg(feature = "sparse")]
+impl Pattern {
+    /// Number of unknowns in a run.
+    pub(crate) fn length(&self) -> usize {
+        self.length
+    }
+
+    /// Where each run starts among the blocks, and where the last one ends.
     pub(crate) fn starts(&self) -> &[u32] {
         &self.starts
     }
 
-    /// The columns of all rows, one row after the other.
-    #[cfg(feature = "sparse")]
+    /// The columns of all runs, one run after the other.
     pub(crate) fn columns(&self) -> &[u32] {
         &self.columns
     }
 
-    /// The columns of a row, ascending.
-    pub(crate) fn row(&self, row: usize) -> &[u32] {
-        &self.columns[self.places(row)]
-    }
-
-    /// Where the entries of a row are among all entries.
-    pub(crate) fn places(&self, row: usize) -> Range<usize> {
-        self.starts[row] as usize..self.starts[row + 1] as usize
-    }
-
-    /// Where an entry is among all entries, if it is structural.
-    #[cfg(feature = "sparse")]
-    pub(crate) fn position(&self, row: usize, column: usize) -> Option<usize> {
+    /// Where the block of two runs is among all blocks, if it is structural.
+    pub(crate) fn block(&self, row: usize, column: usize) -> Option<usize> {
         let place = self.row(row).binary_search(&compact(column)).ok()?;
-        Some(self.places(row).start + place)
+        Some(self.blocks(row).start + place)
+    }
+
+    /// Where an entry is among all entries, block by block and each row by row, if it is structural.
+    pub(crate) fn position(&self, row: usize, column: usize) -> Option<usize> {
+        let length = self.length;
+        let block = self.block(row / length, column / length)?;
+        Some((block * length + row % length) * length + column % length)
+    }
+
+    /// The same entries for runs of that many unknowns, with each unknown a run of its own.
+    pub(crate) fn one_by_one(&self, length: usize) -> Self {
+        let with_runs = self.clone().in_runs(length);
+        Self::new(with_runs.unknowns(), |pair| with_runs.each_entry(pair))
     }
 }
 
@@ -210,6 +263,20 @@ mod tests {
         assert_eq!(pattern.row(1), [0, 1]);
         assert_eq!(pattern.row(2), [0, 2]);
     }
+
+    #[test]
+    #[cfg(feature = "sparse")]
+    fn entries_of_runs_lie_block_by_block() {
+        let pattern = Pattern::new(3, |pair| pair(0, 2)).in_runs(2);
+        assert_eq!((pattern.unknowns(), pattern.entries()), (6, 20));
+        assert_eq!(pattern.position(0, 1), Some(1));
+        assert_eq!(pattern.position(1, 4), Some(6));
+        assert_eq!(pattern.position(1, 2), None);
+        let single = pattern.one_by_one(2);
+        assert_eq!((single.unknowns(), single.entries()), (6, 20));
+        assert_eq!(single.row(1), [0, 1, 4, 5]);
+    }
+
     #[test]
     fn a_doubled_pattern_has_every_entry_four_times() {
         let pattern = Pattern::new(2, |_| {}).doubled();

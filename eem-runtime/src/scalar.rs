@@ -3,7 +3,12 @@
 //! [`Scalar`] is all that generated code and the kernels need. Decisions are
 //! taken with masks ([`Scalar::equal`], [`Scalar::less`], [`Scalar::branch`]),
 //! so that a bundle of SIMD lanes or a dual number can take the place of `f64`.
-//! [`Real`] adds what a time step needs to decide something: one ordered value.
+//! [`Real`] adds what a time step needs to decide something.
+
+mod real;
+
+pub(crate) use real::unless;
+pub use real::{Mask, Real};
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -179,28 +184,6 @@ pub(crate) fn natural_power<S: Scalar>(base: S, n: u32) -> S {
     power
 }
 
-/// A single real number that a time step can take decisions on.
-///
-/// ```
-/// use eem_runtime::Real;
-///
-/// assert_eq!(f32::EPSILON.to_f64(), 2.0_f64.powi(-23));
-/// assert!(!Real::is_finite(f64::NAN));
-/// ```
-pub trait Real: Scalar<Mask = bool> + PartialOrd {
-    /// The distance from 1 to the next larger number.
-    const EPSILON: Self;
-
-    /// The largest finite number.
-    const MAX: Self;
-
-    /// The value in double precision.
-    fn to_f64(self) -> f64;
-
-    /// Neither infinite nor NaN.
-    fn is_finite(self) -> bool;
-}
-
 /// Forwards to inherent methods of the same name.
 macro_rules! forward {
     ($float:ident: $($method:ident($($argument:ident),*)),* $(,)?) => {
@@ -282,6 +265,11 @@ macro_rules! implement {
             fn is_finite(self) -> bool {
                 // A comparison of numbers, where `f64::is_finite` looks at bits.
                 $float::abs(self) <= $float::MAX
+            }
+
+            #[inline]
+            fn at_most(self, other: Self) -> bool {
+                self <= other
             }
         }
     };

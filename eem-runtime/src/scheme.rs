@@ -170,13 +170,6 @@ pub(crate) enum Placement {
     Start,
 }
 
-impl Placement {
-    /// Whether the nodal force is `A q_m` with the mean positions.
-    pub(crate) const fn has_secant(self) -> bool {
-        matches!(self, Self::Ends | Self::Middle)
-    }
-}
-
 /// How the end of a step follows from its forces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Closing {

@@ -11,6 +11,7 @@ mod stepper;
 use core::fmt;
 
 use crate::blueprint::Shape;
+use crate::compact::compact;
 use crate::compensated::{Compensated, Sum};
 use crate::conduction::Conduction;
 use crate::error::{SceneError, StepError, StepFailure};
@@ -18,12 +19,14 @@ use crate::group::{Placed, StageView, StepView};
 use crate::handle::SceneId;
 use crate::layout::Layout;
 use crate::loads::Loads;
+use crate::masses::Masses;
 use crate::newton::{NewtonSettings, StepReport};
 use crate::scalar::Real;
 use crate::scene::{Scene, is_positive};
 use crate::scheme::{Phase, Scheme};
 use crate::solver::Effort;
 use crate::state::State;
+use crate::system::MOST_FIXED;
 use stepper::{Parts, Stepper};
 
 pub use generic::Generic;
@@ -66,9 +69,9 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     scene: SceneId,
     scheme: Scheme,
     step: S,
-    masses: Vec<Option<S>>,
+    masses: Masses<S>,
     /// The group and the place in it of each element.
-    places: Vec<(usize, usize)>,
+    places: Vec<[u32; 2]>,
     /// What the elements of each group have.
     shapes: Vec<Shape>,
     layout: Layout,
@@ -108,10 +111,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let places = scene
             .elements
             .iter()
-            .map(|entry| (entry.group, entry.place))
+            .map(|entry| [entry.group, entry.place].map(compact))
             .collect();
         let shapes = scene.groups.iter().map(|group| group.shape()).collect();
-        let masses: Vec<_> = scene.nodes.iter().map(|node| node.mass).collect();
+        let masses = Masses::new(scene.nodes.iter().map(|node| node.mass));
+        // Large, and all that it said is in the masses and in the state.
+        drop(scene.nodes);
         let placed = Placed {
             nodes: &scene.elements,
             layout: &layout,
@@ -127,7 +132,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             loads: &scene.loads,
         };
         let stepper = Stepper::new(built, parts, &mut state)?;
-        layout.forget_unknowns();
+        layout.forget_places();
         Ok(Self {
             scene: scene.id,
             scheme,
@@ -173,6 +178,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Writes the next state.
     fn find_next(&mut self) -> Result<(), StepFailure> {
+        if S::has_given_up() {
+            // Who waits for what all numbers agree on might wait forever.
+            return Err(StepFailure::NotConverged { update: f64::NAN });
+        }
         self.evaluate_loads()?;
         let (effort, next) = (&mut self.effort, &mut *self.next);
         let stepper = match &mut self.stepper {
@@ -203,7 +212,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.stepper.evaluate_loads(
             &self.loads,
             &self.masses,
-            &self.layout,
             self.scheme,
             span,
             self.state.positions.values(),
@@ -212,6 +220,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     #[cold]
     fn failed(&self, failure: StepFailure) -> StepError {
+        // One of several numbers may be why; the others might have gone on.
+        S::give_up();
         StepError {
             time: self.time().to_f64(),
             step: self.step.to_f64(),
@@ -287,6 +297,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub const fn unknowns(&self) -> usize {
         self.stepper.copies() * self.layout.unknowns
     }
+
+    /// Whether several numbers in one S can go through a step together: in the dense elimination of a
+    /// few unknowns, whose pivots are on the diagonal, and in a scheme with one set of forces.
+    pub(crate) const fn suits_lanes(&self) -> bool {
+        matches!(self.stepper, Stepper::AtOnce(_)) && self.unknowns() <= MOST_FIXED
+    }
 }
 
 fn check_step<S: Real>(step: S) -> Result<(), SceneError> {
@@ -300,17 +316,15 @@ fn check_step<S: Real>(step: S) -> Result<(), SceneError> {
 
 /// The state that the scene describes; its entropies are still to be found.
 fn initial_state<const D: usize, S: Real>(scene: &Scene<D, S>, layout: &Layout) -> State<S> {
-    let positions = scene
-        .nodes
-        .iter()
-        .flat_map(|node| node.position.iter().copied());
-    let momenta = scene.nodes.iter().flat_map(|node| {
+    let coordinates = scene.nodes.len() * D;
+    let mut positions = Vec::with_capacity(coordinates);
+    let mut momenta = Vec::with_capacity(coordinates);
+    for node in &scene.nodes {
         let mass = node.mass.unwrap_or(S::zero());
-        let momentum = node
-            .momentum
-            .unwrap_or(node.velocity.map(|velocity| mass * velocity));
-        (0..D).map(move |axis| momentum[axis])
-    });
+        let from_velocity = node.velocity.map(|velocity| mass * velocity);
+        positions.extend(node.position.iter());
+        momenta.extend(node.momentum.unwrap_or(from_velocity).iter());
+    }
     let mut viscous = vec![S::zero(); layout.viscous];
     let mut temperatures = vec![S::zero(); layout.thermal];
     for (entry, slots) in scene.elements.iter().zip(&layout.elements) {
@@ -323,8 +337,8 @@ fn initial_state<const D: usize, S: Real>(scene: &Scene<D, S>, layout: &Layout) 
     }
     State {
         time: Sum::new(S::zero()),
-        positions: Compensated::new(positions.collect()),
-        momenta: Compensated::new(momenta.collect()),
+        positions: Compensated::new(positions),
+        momenta: Compensated::new(momenta),
         viscous: Compensated::new(viscous),
         entropies: Compensated::new(vec![S::zero(); temperatures.len()]),
         temperatures,

@@ -8,6 +8,7 @@ mod linearize;
 mod motion;
 mod past;
 mod places;
+mod secant;
 mod stages;
 
 use crate::conduction::Conduction;
@@ -15,18 +16,20 @@ use crate::error::{StateError, StepFailure};
 use crate::group::{Group, Sites, StepView, Trial};
 use crate::layout::Layout;
 use crate::loads::StepLoads;
+use crate::masses::Masses;
 use crate::newton::{NewtonSettings, is_last};
 use crate::pattern::Pattern;
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real, natural_power};
 use crate::scene::ElementEntry;
 use crate::scheme::{Closing, Scheme};
 use crate::state::State;
 use crate::system::LinearSystem;
 pub(crate) use effort::{Effort, Iteration};
-use motion::{Glance, Motion};
+use motion::Motion;
 use past::Past;
 pub(crate) use past::SavedPast;
-use places::{moving, seen};
+use places::{Seen, moving, seen};
+use secant::Secant;
 pub(crate) use stages::Staged;
 
 /// How often an update is halved to bring all elements back to admissible states.
@@ -42,27 +45,26 @@ const NEGLIGIBLE: f64 = 1.0 / 1024.0;
 
 /// Working memory of a step; nothing in it outlives the step but the forces of the last ones.
 #[derive(Debug)]
-pub(crate) struct Solver<S, const D: usize> {
+pub(crate) struct Solver<S: Real, const D: usize> {
     scheme: Scheme,
     /// The nodes that move, in the order of their unknowns.
     nodes: Vec<Motion<S, D>>,
-    /// Those that do not move by themselves.
-    anchors: Vec<usize>,
     /// The temperatures that neighbours see.
-    seen: Vec<Glance<S>>,
+    seen: Vec<Seen>,
     /// The system of an iteration.
     tangent: LinearSystem<S, 1>,
     /// The system that closes a step, if the scheme closes it by one.
-    secant: Option<LinearSystem<S, D>>,
+    secant: Option<Secant<S, D>>,
     trial: Trial<S, D>,
+    /// 2/h, 1/s: the inertia of a mass.
+    twice_per_step: S,
     /// The part of the nodal forces that the old state and the loads decide, N; empty where nothing has
     /// a part in it.
     old_force: Vec<[S; D]>,
-    /// The impulse of the found forces, N s.
-    impulse: Vec<[S; D]>,
     past: Past<S, D>,
-    /// The unit of length of each node: its shortest element in the old state, m.
-    lengths: Vec<S>,
+    /// The reciprocal of the unit of length of each node that moves: its shortest element in the old
+    /// state; 1 m without.
+    per_length: Vec<S>,
     /// What kept the last update from being applied in full.
     obstacle: Option<StateError>,
 }
@@ -70,7 +72,7 @@ pub(crate) struct Solver<S, const D: usize> {
 impl<S: Real, const D: usize> Solver<S, D> {
     pub(crate) fn new(
         scheme: Scheme,
-        masses: &[Option<S>],
+        masses: &Masses<S>,
         elements: &[ElementEntry<S>],
         layout: &Layout,
         conduction: &Conduction<S>,
@@ -79,43 +81,43 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let has_old_force = scheme.has_old_forces() || loads.has_total_force();
         let pattern = Pattern::of_tangent(elements, layout, conduction, D);
         let tangent = LinearSystem::new(&pattern, D);
-        let secant = (scheme.closing() == Closing::Secant)
-            .then(|| LinearSystem::new(&Pattern::of_secant(elements, layout, D), 1));
+        let secant = (scheme.closing() == Closing::Secant).then(|| {
+            Secant::new(&tangent, masses.moving(), || {
+                Pattern::of_secant(elements, layout, D)
+            })
+        });
         let sites = Sites {
             layout,
             conduction,
             tangent: &tangent,
-            secant: secant.as_ref(),
+            secant: secant.as_ref().and_then(Secant::apart),
             shift: [0; 2],
         };
         let nodes = moving(masses, &sites).into_iter().map(Motion::new);
-        let nodes = nodes.collect();
-        let seen: Vec<_> = seen(&sites).into_iter().map(Glance::new).collect();
-        let anchors = masses.iter().enumerate();
-        let anchors = anchors.filter_map(|(node, mass)| mass.is_none().then_some(node));
+        let nodes: Vec<_> = nodes.collect();
+        let seen = seen(&sites);
         let points = vec![[S::zero(); D]; masses.len()];
         // Nobody asks for any unless some are seen.
         let slots = if seen.is_empty() { 0 } else { layout.thermal };
         Self {
             scheme,
+            past: Past::none(masses.len()),
             nodes,
-            anchors: anchors.collect(),
             seen,
             tangent,
             secant,
             trial: Trial {
                 displacements: points.clone(),
-                positions: points.clone(),
                 seen_temperatures: vec![S::zero(); slots],
+                settled: S::Mask::none(),
             },
+            twice_per_step: S::zero(),
             old_force: if has_old_force {
                 points.clone()
             } else {
                 Vec::new()
             },
-            impulse: points,
-            past: Past::none(masses.len()),
-            lengths: vec![S::one(); masses.len()],
+            per_length: vec![S::one(); masses.len()],
             obstacle: None,
         }
     }
@@ -130,7 +132,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             layout,
             conduction,
             tangent: &self.tangent,
-            secant: self.secant.as_ref(),
+            secant: self.secant.as_ref().and_then(Secant::apart),
             shift: [0; 2],
         }
     }
@@ -150,7 +152,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// Finds the trial state whose forces move the scene to it.
     ///
     /// If that fails from the start of the scheme, an EEM scheme follows its solution from a small
-    /// step to the full one.
+    /// step to the full one; several numbers in one do not, as some of them need not have failed.
     fn iterate(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
@@ -158,7 +160,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         effort: &mut Effort<S>,
     ) -> Result<(), StepFailure> {
         let failure = match self.start_and_converge(groups, view, effort) {
-            Err(failure) if self.scheme.follows_its_solution() => failure,
+            Err(failure) if S::LANES == 1 && self.scheme.follows_its_solution() => failure,
             done => return done,
         };
         self.follow(groups, view, effort).map_err(|_| failure)
@@ -201,7 +203,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(())
     }
 
-    /// Newton's method from the trial state.
+    /// Newton's method from the trial state. Where S is several numbers, those that are done keep
+    /// what they have found until the last one is.
     fn converge(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
@@ -214,32 +217,45 @@ impl<S: Real, const D: usize> Solver<S, D> {
         } = effort.settings;
         let mut before = None;
         let mut look = Look::On;
-        for iteration in 0..=max_iterations {
-            let full = self.advance(groups, view, look)? == S::one();
-            if full && look == Look::Back {
+        // Those that are done, and those for which the next look is the last.
+        let (mut settled, mut last) = (S::Mask::none(), S::Mask::none());
+        for left in (0..=max_iterations).rev() {
+            let is_full = self.advance(groups, view, look)?;
+            if is_full && look == Look::Back {
                 return Ok(());
             }
-            if iteration == max_iterations {
+            settled = self.settle(settled | last);
+            if left == 0 {
                 break;
             }
             let residual = self.residual();
             let solved = self.tangent.solve();
             solved.map_err(|_| StepFailure::SingularTangent)?;
-            let update = self.correct(groups, view);
-            effort.history.push(Iteration { residual, update });
+            let update = self.correct(groups);
+            effort.note(residual, update, settled);
             if !update.is_finite() {
                 break;
             }
-            let before = before.replace(update).filter(|_| full);
+            let before = before.replace(update).filter(|_| is_full);
             look = Look::On;
-            if is_last(update, before, tolerance) {
-                if update * update <= S::from_f64(NEGLIGIBLE) * S::EPSILON {
+            last = S::Mask::none();
+            let ends = is_last(update, before, tolerance) & !settled;
+            if ends.any() {
+                let negligible = S::from_f64(NEGLIGIBLE) * S::EPSILON;
+                let is_done = ends & (update * update).at_most(negligible);
+                if is_done.any() {
                     for group in groups.iter_mut() {
-                        group.extrapolate();
+                        group.extrapolate(self.tangent.solution(), settled);
                     }
-                    return Ok(());
+                    if (settled | is_done).all() {
+                        return Ok(());
+                    }
+                    settled = self.settle(settled | is_done);
                 }
-                look = Look::Back;
+                last = ends & !is_done;
+                if (settled | last).all() {
+                    look = Look::Back;
+                }
             }
         }
         Err(match self.obstacle.take() {
@@ -250,64 +266,73 @@ impl<S: Real, const D: usize> Solver<S, D> {
         })
     }
 
+    /// Lets everybody know which of several numbers are done while others are not.
+    #[inline]
+    fn settle(&mut self, settled: S::Mask) -> S::Mask {
+        if S::LANES == 1 {
+            return S::Mask::none();
+        }
+        self.trial.settled = settled;
+        settled
+    }
+
     /// Evaluates at the trial state, to which the correction has been applied, or as much of it as
-    /// leaves every element in an admissible state. Returns that share.
+    /// leaves every element in an admissible state. Returns whether that is all of it.
     #[inline]
     fn advance(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
         look: Look,
-    ) -> Result<S, StepFailure> {
+    ) -> Result<bool, StepFailure> {
         if self.obstacle.is_some() {
             self.obstacle = None;
         }
-        match self.evaluate(groups, view, S::one(), look == Look::On) {
-            Ok(()) => Ok(S::one()),
-            Err(error) => self.retreat(groups, view, error),
+        let (mut share, mut goes_on) = (S::one(), look == Look::On);
+        while let Err(error) = self.evaluate(groups, view, goes_on) {
+            share = self.retreat(groups, share, error)?;
+            goes_on = true;
         }
+        Ok(share == S::one())
     }
 
-    /// Halves the correction, which failed, until every element is in an admissible state.
+    /// Half the share of the correction that failed, applied. Several numbers in one do not go back, as
+    /// some of them need not have failed.
     #[cold]
     #[inline(never)]
     fn retreat(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-        mut error: StateError,
+        share: S,
+        error: StateError,
     ) -> Result<S, StepFailure> {
-        let mut share = S::one();
-        for _ in 0..HALVINGS {
-            self.obstacle = Some(error);
-            share *= S::from_f64(0.5);
-            self.apply(share, view);
-            match self.evaluate(groups, view, share, true) {
-                Ok(()) => return Ok(share),
-                Err(next) => error = next,
-            }
+        let half = S::from_f64(0.5);
+        if S::LANES > 1 || share <= natural_power(half, HALVINGS) {
+            return Err(error.into());
         }
-        Err(error.into())
+        self.obstacle = Some(error);
+        let share = half * share;
+        // As much as is left.
+        self.take_back(share);
+        for group in groups {
+            group.apply(share);
+        }
+        Ok(share)
     }
 
-    /// The responses at the trial state, a share of the correction away from the last one, and the
-    /// system of the next iteration if there is to be one.
-    #[inline(always)]
-    #[expect(clippy::inline_always, reason = "one of its two callers is cold")]
+    /// The responses at the trial state, and what they add to the system of the next iteration if there is
+    /// to be one.
+    #[inline]
     fn evaluate(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
-        share: S,
         goes_on: bool,
     ) -> Result<(), StateError> {
-        if goes_on {
-            self.balance();
-        }
         let trial = &self.trial;
         for group in groups {
             let system = goes_on.then_some(&mut self.tangent);
-            group.evaluate(view, trial, share, system)?;
+            group.evaluate(view, trial, system)?;
         }
         Ok(())
     }

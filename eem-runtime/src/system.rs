@@ -6,13 +6,17 @@
 //!
 //! The entries of A are one array, [`values`](LinearSystem::values). Where an entry is in it is
 //! asked once, when the scene is built ([`place`](LinearSystem::place)); an iteration then writes
-//! to places. The entries of a row that belong to consecutive unknowns lie next to each other, as do
+//! to places. The entries of a row that belong to the unknowns of one node lie next to each other, as do
 //! the rows of B. What belongs to an anchor has a place too, behind everything else, where nobody
-//! reads.
+//! writes.
 //!
-//! How entries are laid out and what solves with them is the business of the [`Storage`] alone: another
+//! How entries are laid out and what solves with them is the business of the [`Storage`]: another
 //! one is another variant there, with its answers to `new` (from the pattern), `entries`, `position`
-//! and `solve`.
+//! and `solve`. One and two unknowns do not ask it, and `by_runs` asks for one of its variants.
+
+mod by_runs;
+
+use core::mem;
 
 use crate::lu::{self, Singular};
 use crate::pattern::Pattern;
@@ -21,7 +25,7 @@ use crate::scalar::Real;
 use crate::sparse_lu::SparseLu;
 
 /// The most unknowns for which the elimination is compiled with their number.
-const MOST_FIXED: usize = 12;
+pub(crate) const MOST_FIXED: usize = 12;
 
 /// The most unknowns whose elimination is dense whatever the pattern.
 #[cfg(feature = "sparse")]
@@ -36,11 +40,18 @@ const SPARSITY: usize = 4;
 pub(crate) struct LinearSystem<S, const W: usize> {
     unknowns: usize,
     storage: Storage,
+    /// A is zero.
+    is_clear: bool,
     /// The entries of A, then the place for what nobody reads.
     values: Vec<S>,
     /// The rows of B, then the place for what nobody reads.
     right: Vec<[S; W]>,
+    /// The rows of X, then what is said of those that have none.
+    solution: Vec<[S; W]>,
 }
+
+/// The entries of A and the rows of B.
+pub(crate) type Parts<'a, S, const W: usize> = (&'a mut [S], &'a mut [[S; W]]);
 
 /// Where the entries of A are, and how the system is solved.
 #[derive(Debug)]
@@ -99,9 +110,18 @@ impl Storage {
         }
     }
 
-    /// Overwrites the right-hand sides with the solutions, and the values with what it likes; what
-    /// follows the values is not looked at.
-    #[inline]
+    /// The elimination by the pattern, if that is what solves.
+    #[cfg(feature = "sparse")]
+    fn sparse(&self) -> Option<&SparseLu> {
+        match self {
+            Self::Sparse(sparse) => Some(sparse),
+            Self::Fixed { .. } | Self::Dense { .. } => None,
+        }
+    }
+
+    /// Overwrites the right-hand sides with the solutions, and the values with zeros; what follows the
+    /// values is not looked at.
+    #[inline(never)]
     fn solve<S: Real, const W: usize>(
         &mut self,
         values: &mut [S],
@@ -126,6 +146,7 @@ fn solve_dense<S: Real, const W: usize>(
     let values = &mut values[..pivots.len() * pivots.len()];
     lu::factor(values, pivots)?;
     lu::solve(values, pivots, right);
+    values.fill(S::zero());
     Ok(())
 }
 
@@ -133,15 +154,17 @@ fn solve_dense<S: Real, const W: usize>(
 #[cfg(feature = "sparse")]
 #[inline(never)]
 fn solve_sparse<S: Real, const W: usize>(
-    values: &[S],
+    values: &mut [S],
     sparse: &mut SparseLu,
     right: &mut [[S; W]],
 ) -> Result<(), Singular> {
-    let entries = sparse.entries();
-    sparse.solve(&values[..entries], right)
+    let values = &mut values[..sparse.entries()];
+    sparse.solve(sparse.length(), values, right)?;
+    values.fill(S::zero());
+    Ok(())
 }
 
-/// The elimination that is compiled for this number of unknowns.
+/// The elimination that is compiled for this number of unknowns, more than two.
 #[inline]
 fn solve_fixed<S: Real, const W: usize>(
     unknowns: usize,
@@ -149,8 +172,6 @@ fn solve_fixed<S: Real, const W: usize>(
     right: &mut [[S; W]],
 ) -> Result<(), Singular> {
     match unknowns {
-        1 => lu::solve_fixed::<S, 1, W>(values, right),
-        2 => lu::solve_two(values, right),
         3 => lu::solve_fixed::<S, 3, W>(values, right),
         4 => lu::solve_fixed::<S, 4, W>(values, right),
         5 => lu::solve_fixed::<S, 5, W>(values, right),
@@ -161,18 +182,23 @@ fn solve_fixed<S: Real, const W: usize>(
         10 => lu::solve_fixed::<S, 10, W>(values, right),
         11 => lu::solve_fixed::<S, 11, W>(values, right),
         MOST_FIXED => lu::solve_fixed::<S, MOST_FIXED, W>(values, right),
-        _ => Ok(()),
+        0 => Ok(()),
+        _ => {
+            unreachable!("{unknowns} unknowns are solved in line, or not by a compiled elimination")
+        }
     }
 }
 
 impl<S: Real, const W: usize> LinearSystem<S, W> {
-    /// A system whose unknowns come in runs of `run` for each node.
+    /// A system in which what belongs to an anchor has so many rows.
     pub(crate) fn new(pattern: &Pattern, run: usize) -> Self {
         let storage = Storage::new(pattern);
         Self {
             unknowns: pattern.unknowns(),
+            is_clear: true,
             values: vec![S::zero(); storage.entries() + run],
             right: vec![[S::zero(); W]; pattern.unknowns() + run],
+            solution: vec![[S::zero(); W]; pattern.unknowns() + run],
             storage,
         }
     }
@@ -205,23 +231,42 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
     }
 
     /// Makes A zero.
+    #[inline]
     pub(crate) fn clear_matrix(&mut self) {
-        self.values.fill(S::zero());
+        if !self.is_clear {
+            self.values.fill(S::zero());
+            self.is_clear = true;
+        }
     }
 
     /// The entries of A and the rows of B.
-    pub(crate) fn parts(&mut self) -> (&mut [S], &mut [[S; W]]) {
+    #[inline]
+    pub(crate) fn parts(&mut self) -> Parts<'_, S, W> {
+        self.is_clear = false;
         (&mut self.values, &mut self.right)
     }
 
-    /// The rows of B, or of X once [`solve`](Self::solve) has succeeded.
+    /// The entries of A and the rows of B for the next system, of which A is zero, and the rows of X.
+    #[inline]
+    pub(crate) fn renew(&mut self) -> (&mut [S], &mut [[S; W]], &mut [[S; W]]) {
+        self.clear_matrix();
+        self.is_clear = false;
+        (&mut self.values, &mut self.right, &mut self.solution)
+    }
+
+    /// The rows of B.
     pub(crate) fn right(&self) -> &[[S; W]] {
         &self.right
     }
 
+    /// The rows of X, once [`solve`](Self::solve) has succeeded.
+    pub(crate) fn solution(&self) -> &[[S; W]] {
+        &self.solution
+    }
+
     /// The same, to be written.
-    pub(crate) fn right_mut(&mut self) -> &mut [[S; W]] {
-        &mut self.right
+    pub(crate) fn solution_mut(&mut self) -> &mut [[S; W]] {
+        &mut self.solution
     }
 
     /// All entries of A, row-major.
@@ -236,19 +281,28 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         .collect()
     }
 
-    /// Makes the last rows of B zero, where elements write what belongs to an anchor; `RUN` of them
-    /// belong to a node. As a part of X, they say that anchors do not move.
+    /// Makes the last rows of X zero, which says that anchors do not move; `RUN` of them belong to a node.
     pub(crate) fn clear_rest<const RUN: usize>(&mut self) {
-        if let Some(rest) = self.right.last_chunk_mut::<RUN>() {
+        if let Some(rest) = self.solution.last_chunk_mut::<RUN>() {
             *rest = [[S::zero(); W]; RUN];
         }
     }
 
-    /// Replaces B by X, but for the rows of anchors; A is lost.
+    /// Finds X, but for the rows of anchors; A is then zero, and B is lost.
     #[inline]
     pub(crate) fn solve(&mut self) -> Result<(), Singular> {
-        let right = &mut self.right[..self.unknowns];
-        self.storage.solve(&mut self.values, right)
+        match self.unknowns {
+            // In line, as they are hardly longer than the call.
+            1 => lu::solve_one(&mut self.values, &self.right, &mut self.solution)?,
+            2 => lu::solve_two(&mut self.values, &self.right, &mut self.solution)?,
+            unknowns => {
+                self.storage
+                    .solve(&mut self.values, &mut self.right[..unknowns])?;
+                mem::swap(&mut self.right, &mut self.solution);
+            }
+        }
+        self.is_clear = true;
+        Ok(())
     }
 }
 
@@ -286,7 +340,7 @@ mod tests {
             }
         }
         system.solve().unwrap();
-        for (row, found) in system.right()[..unknowns].iter().enumerate() {
+        for (row, found) in system.solution()[..unknowns].iter().enumerate() {
             for (found, exact) in found.iter().zip(exact(row)) {
                 // Condition number at most 4, numbers up to 61, and a rounding per entry of a row.
                 assert!(
@@ -312,6 +366,6 @@ mod tests {
         (right[0], right[1]) = ([6.0], [9.0]);
         system.solve().unwrap();
         system.clear_rest::<1>();
-        assert_eq!(system.right(), [[3.0], [0.0]]);
+        assert_eq!(system.solution(), [[3.0], [0.0]]);
     }
 }

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use eem::prelude::*;
-use eem::{MemberError, MemberFailure};
+use eem::{Experiment, MemberError, MemberFailure, Members, Outputs, Real};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
@@ -14,7 +14,8 @@ use super::support::time_grid::TimeGrid;
 /// Any number would do; the same one draws the same springs.
 const SEED: u64 = 2012;
 
-/// Nonlinear in length and temperature, viscous, softening when hot.
+/// Nonlinear in length and temperature, viscous, softening when hot. What differs between members is a
+/// number of the scene.
 #[derive(Clone, Debug, FreeEnergy)]
 #[free_energy(|lambda: Stretch, gamma: Viscous, theta: Temperature| {
     let strain = ln(lambda / natural_length);
@@ -27,17 +28,17 @@ const SEED: u64 = 2012;
         - viscous_coupling * gamma * diff(elastic, lambda)
 })]
 #[viscosity(gamma = eta0 * exp(a * (1 / theta - 1 / theta_ref)))]
-struct CreepingSpring {
+struct CreepingSpring<S> {
     natural_length: f64,
     theta_ref: f64,
-    k0: f64,
+    k0: S,
     k1: f64,
     thermal_coupling: f64,
     capacity: f64,
     viscous_coupling: f64,
     mu0: f64,
     mu1: f64,
-    eta0: f64,
+    eta0: S,
     a: f64,
 }
 
@@ -87,13 +88,26 @@ impl Spring {
         };
         (0..members).map(|_| spring()).collect()
     }
+}
 
-    /// The pendulum at t = 0.
-    fn scene(&self) -> (Scene<2>, Element) {
-        let [k0, eta0, conductance, temperature, speed] = self.values;
-        let mut scene = Scene::<2>::new();
-        let pivot = scene.anchor([0.0, 0.0]);
-        let bob = scene.mass(1.0, [3.0, 0.0], [0.0, speed]);
+/// A pendulum on such a spring, for so many steps.
+#[derive(Debug)]
+struct Pendulum {
+    steps: usize,
+}
+
+impl Experiment<2> for Pendulum {
+    type Input = Spring;
+    type Handles = Element;
+    type Output = End;
+
+    fn build<S: Real>(&self, members: Members<'_, Spring, S>) -> (Scene<2, S>, Element) {
+        let value = |unknown: usize| members.number(|spring| spring.values[unknown]);
+        let [k0, eta0, conductance, temperature, speed] = [0, 1, 2, 3, 4].map(value);
+        let (zero, number) = (S::zero(), S::from_f64);
+        let mut scene = Scene::<2, S>::default();
+        let pivot = scene.anchor([zero; 2]);
+        let bob = scene.mass(number(1.0), [number(3.0), zero], [zero, speed]);
         let law = CreepingSpring {
             natural_length: 1.0,
             theta_ref: SURROUNDINGS,
@@ -109,9 +123,40 @@ impl Spring {
         };
         let spring = scene.spring(law, [pivot, bob]);
         scene.set_temperature(spring, temperature);
-        let surroundings = scene.reservoir(SURROUNDINGS);
+        let surroundings = scene.reservoir(number(SURROUNDINGS));
         scene.conduct(spring, surroundings, conductance);
         (scene, spring)
+    }
+
+    fn observe<S: Real>(
+        &self,
+        run: &mut Simulation<2, S>,
+        spring: Element,
+        members: Members<'_, Spring, S>,
+    ) -> Result<Outputs<End>, MemberFailure> {
+        let start = run.ledger();
+        let mut entropy = start.entropy;
+        let mut energy_defect = S::zero();
+        let mut entropy_loss = S::from_f64(f64::NEG_INFINITY);
+        let last_quarter = self.steps - self.steps.div_ceil(4);
+        let mut temperatures = S::zero();
+        for step in 0..self.steps {
+            run.step()?;
+            let ledger = run.ledger();
+            let defect = (ledger.energy - start.energy).abs() / start.energy.abs();
+            energy_defect = energy_defect.maximum(defect);
+            entropy_loss = entropy_loss.maximum(entropy - ledger.entropy);
+            entropy = ledger.entropy;
+            if step >= last_quarter {
+                temperatures += run.temperature(spring)?;
+            }
+        }
+        Ok(members.outputs(|_, of| End {
+            temperature: of(temperatures) / real(self.steps - last_quarter),
+            entropy: of(entropy - start.entropy),
+            energy_defect: of(energy_defect),
+            entropy_loss: of(entropy_loss),
+        }))
     }
 }
 
@@ -135,36 +180,6 @@ pub(crate) struct End {
     pub(crate) energy_defect: f64,
     /// The largest loss of S in a step, J/K: negative by the second law.
     pub(crate) entropy_loss: f64,
-}
-
-impl End {
-    /// Steps a member to its end.
-    fn of(run: &mut Simulation<2>, spring: Element, steps: usize) -> Result<Self, MemberFailure> {
-        let start = run.ledger();
-        let mut end = Self {
-            temperature: 0.0,
-            entropy: 0.0,
-            energy_defect: 0.0,
-            entropy_loss: f64::NEG_INFINITY,
-        };
-        let mut entropy = start.entropy;
-        let last_quarter = steps - steps.div_ceil(4);
-        let mut temperatures = Vec::with_capacity(steps - last_quarter);
-        for step in 0..steps {
-            run.step()?;
-            let ledger = run.ledger();
-            let defect = (ledger.energy - start.energy).abs() / start.energy.abs();
-            end.energy_defect = larger(end.energy_defect, defect);
-            end.entropy_loss = larger(end.entropy_loss, entropy - ledger.entropy);
-            entropy = ledger.entropy;
-            if step >= last_quarter {
-                temperatures.push(run.temperature(spring)?);
-            }
-        }
-        end.temperature = temperatures.iter().sum::<f64>() / real(temperatures.len());
-        end.entropy = entropy - start.entropy;
-        Ok(end)
-    }
 }
 
 /// The larger of two numbers; not a number if one of them is not.
@@ -192,9 +207,7 @@ impl Sample {
                 progress.advance(done * grid.steps);
                 ControlFlow::Continue(())
             })
-            .run(springs, Spring::scene, |run, spring, _| {
-                End::of(run, spring, grid.steps)
-            });
+            .run_experiment(&Pendulum { steps: grid.steps }, springs);
         let elapsed = start.elapsed();
         Self {
             scheme,
@@ -222,18 +235,14 @@ impl Sample {
     }
 
     /// Whether the first members end alone as they did among the others.
-    pub(crate) fn has_the_bits_of_single_runs(
-        &self,
-        springs: &[Spring],
-    ) -> Result<bool, MemberFailure> {
-        for (spring, end) in springs.iter().zip(&self.ends) {
-            let (scene, handle) = spring.scene();
-            let mut run = Simulation::new(scene, self.scheme, self.grid.step)?;
-            let alone = End::of(&mut run, handle, self.grid.steps)?;
-            if end.as_ref().ok() != Some(&alone) {
-                return Ok(false);
-            }
-        }
-        Ok(true)
+    pub(crate) fn has_the_bits_of_single_runs(&self, springs: &[Spring]) -> bool {
+        let pendulum = Pendulum {
+            steps: self.grid.steps,
+        };
+        springs.iter().zip(&self.ends).all(|(spring, end)| {
+            let alone = Ensemble::new(self.scheme, self.grid.step).threads(1);
+            let alone = alone.run_experiment(&pendulum, std::slice::from_ref(spring));
+            matches!((alone.as_slice(), end), ([Ok(alone)], Ok(end)) if alone == end)
+        })
     }
 }

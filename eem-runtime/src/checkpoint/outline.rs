@@ -2,6 +2,8 @@
 
 use super::{RestoreError, expect_count};
 use crate::blueprint::Shape;
+use crate::masses::Masses;
+use crate::scalar::Real;
 
 /// Nodes, elements and reservoirs, without their values.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -31,9 +33,9 @@ struct ElementOutline {
 
 impl Outline {
     /// The outline of a scene in so many dimensions.
-    pub(crate) fn new<S>(
+    pub(crate) fn new<S: Real>(
         dimensions: usize,
-        masses: &[Option<S>],
+        masses: &Masses<S>,
         shapes: impl Iterator<Item = Shape>,
         reservoirs: usize,
     ) -> Self {
@@ -43,7 +45,7 @@ impl Outline {
         };
         Self {
             dimensions,
-            anchors: masses.iter().map(Option::is_none).collect(),
+            anchors: masses.iter().map(|mass| mass.is_none()).collect(),
             elements: shapes.map(element).collect(),
             reservoirs,
         }

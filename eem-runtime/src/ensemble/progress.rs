@@ -41,10 +41,36 @@ impl<'w> Progress<'w> {
         &self,
         member: impl FnOnce() -> Result<T, MemberFailure>,
     ) -> Result<T, MemberFailure> {
-        if self.stopped.load(Ordering::Relaxed) {
+        if self.is_stopped() {
             return Err(MemberFailure::Stopped);
         }
         let result = member();
+        self.report();
+        result
+    }
+
+    /// The same for several members that are run by one call.
+    pub(super) fn follow_all<T>(
+        &self,
+        count: usize,
+        members: impl FnOnce() -> Vec<Result<T, MemberFailure>>,
+    ) -> Vec<Result<T, MemberFailure>> {
+        if self.is_stopped() {
+            return (0..count).map(|_| Err(MemberFailure::Stopped)).collect();
+        }
+        let results = members();
+        for _ in 0..count {
+            self.report();
+        }
+        results
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.stopped.load(Ordering::Relaxed)
+    }
+
+    /// Another member is done.
+    fn report(&self) {
         if let Some(done) = &self.done {
             // A watch that panicked ends the ensemble; until then the count is still right.
             let mut done = done.lock().unwrap_or_else(PoisonError::into_inner);
@@ -54,6 +80,5 @@ impl<'w> Progress<'w> {
                 self.stopped.store(true, Ordering::Relaxed);
             }
         }
-        result
     }
 }

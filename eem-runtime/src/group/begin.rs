@@ -46,8 +46,10 @@ pub(super) fn shorten<K: Kinematics<S, D>, S: Real, const D: usize>(
 ) {
     for &node in nodes.as_ref() {
         let length = &mut lengths[node as usize];
-        let own = measures.as_ref().iter();
-        *length = own.fold(*length, |least, &own| least.minimum(own));
+        // Of a state: they are numbers.
+        for &own in measures.as_ref() {
+            *length = S::select(own.less(*length), own, *length);
+        }
     }
 }
 
@@ -155,7 +157,7 @@ where
     /// The old velocities of the arms; those of anchors are means over the step, m/s.
     pub(super) fn old_velocities(&self, view: &StepView<'_, S>) -> Arms<K, S, D> {
         let momenta = points::<S, D>(view.state.momenta.values());
-        let velocity = |node: u32, axis: usize| match view.masses[node as usize] {
+        let velocity = |node: u32, axis: usize| match view.masses.get(node as usize) {
             Some(mass) => momenta[node as usize][axis] / mass,
             None => view.loads.motion::<D>(node as usize)[axis] / view.step,
         };

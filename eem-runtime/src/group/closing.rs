@@ -11,11 +11,12 @@ use super::site::{Contact, SecantSite, Site};
 use super::{Along, ElementGroup, StepView, Trial};
 use crate::conduction::Partner;
 use crate::free_energy::{Array, FreeEnergy};
+use crate::impulse::Impulses;
 use crate::kinematics::{Arms, Kinematics, Weights};
 use crate::scalar::Real;
 use crate::scheme::{ElementScheme, Placement};
 use crate::state::State;
-use crate::system::LinearSystem;
+use crate::system::Parts;
 
 impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
 where
@@ -29,17 +30,20 @@ where
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
-        system: &mut LinearSystem<S, D>,
+        (values, right): Parts<'_, S, D>,
     ) {
         let share = S::from_f64(0.5);
-        let (values, right) = system.parts();
-        for (member, secant) in self.members.iter().zip(&self.secants) {
+        for (at, member) in self.members.iter().enumerate() {
             let weights = member.secant(self.kinematics);
             let mut known = member.r0;
             let site = &member.site;
             site.add_anchors(&mut known, &trial.displacements, share);
+            let secant = match self.secants.get(at) {
+                Some(secant) => *secant,
+                None => SecantSite::in_tangent(site),
+            };
             secant.add_matrix(&site.is_mass, &weights, share * view.step, &mut *values);
-            secant.subtract_known(&site.is_mass, &weights, (&known, view.step), &mut *right);
+            site.subtract_known(&weights, (&known, view.step), &mut *right);
         }
     }
 
@@ -49,11 +53,20 @@ where
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
         along: Along,
-        impulse: &mut [[S; D]],
+        impulses: &mut Impulses<'_, S, D>,
     ) {
+        let at = match along {
+            Along::Secant => None,
+            Along::Scheme => Some(C::PLACEMENT),
+            Along::Gradient => Some(Placement::End),
+        };
         for member in &self.members {
             let (nodes, r0) = (&member.site.nodes, &member.r0);
-            let (h, force) = if along == Along::Secant {
+            let (h, force) = if let Some(at) = at {
+                let r1 = member.new_arms(trial);
+                let share = view.step * S::from_f64(C::IMPLICIT);
+                (share, member.force(self.kinematics, at, [r0, &r1]))
+            } else {
                 let mut mean = arms::<K, S, D>(nodes, &trial.displacements);
                 for (mean, old) in mean.as_mut().iter_mut().zip(r0.as_ref()) {
                     for (mean, &old) in mean.iter_mut().zip(old) {
@@ -62,17 +75,9 @@ where
                 }
                 let weights = member.secant(self.kinematics);
                 (view.step, pull::<K, S, D>(&weights, &mean))
-            } else {
-                let r1 = arms::<K, S, D>(nodes, &trial.positions);
-                let at = match along {
-                    Along::Gradient => Placement::End,
-                    Along::Secant | Along::Scheme => C::PLACEMENT,
-                };
-                let share = view.step * S::from_f64(C::IMPLICIT);
-                (share, member.force(self.kinematics, at, [r0, &r1]))
             };
             for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
-                for (impulse, &force) in impulse[node as usize].iter_mut().zip(force) {
+                for (impulse, &force) in impulses.of(node as usize).iter_mut().zip(force) {
                     *impulse -= h * force;
                 }
             }
@@ -121,6 +126,27 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
             }
         }
     }
+
+    /// Subtracts the impulse `h A r` of known arms from the nodes that move.
+    #[inline]
+    pub(super) fn subtract_known(
+        &self,
+        weights: &Weights<K, S, D>,
+        (known, h): (&Arms<K, S, D>, S),
+        right: &mut [[S; D]],
+    ) {
+        let force = pull_of_arms::<K, S, D>(weights, known);
+        for (i, force) in force.as_ref().iter().enumerate() {
+            for (node, h) in [(i + 1, -h), (0, h)] {
+                if self.is_mass[node] {
+                    let right = &mut right[self.rows[node] as usize / D];
+                    for (right, &force) in right.iter_mut().zip(force) {
+                        *right += h * force;
+                    }
+                }
+            }
+        }
+    }
 }
 
 impl<K: Kinematics<S, D>, S: Real, const D: usize> SecantSite<K, S, D> {
@@ -145,28 +171,6 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> SecantSite<K, S, D> {
                 add([i + 1, 0], -entry);
                 add([0, j + 1], -entry);
                 add([0, 0], entry);
-            }
-        }
-    }
-
-    /// Subtracts the impulse `h A r` of known arms from the nodes that move.
-    #[inline]
-    pub(super) fn subtract_known(
-        &self,
-        is_mass: &K::PerNode<bool>,
-        weights: &Weights<K, S, D>,
-        (known, h): (&Arms<K, S, D>, S),
-        right: &mut [[S; D]],
-    ) {
-        let force = pull_of_arms::<K, S, D>(weights, known);
-        for (i, force) in force.as_ref().iter().enumerate() {
-            for (node, h) in [(i + 1, -h), (0, h)] {
-                if is_mass[node] {
-                    let right = &mut right[self.rows[node] as usize];
-                    for (right, &force) in right.iter_mut().zip(force) {
-                        *right += h * force;
-                    }
-                }
             }
         }
     }

@@ -3,6 +3,7 @@
 use super::ElementGroup;
 use super::arms::along;
 use super::member::Member;
+use super::scatter::run;
 use super::site::{Contact, Site};
 use crate::free_energy::{Array, FreeEnergy};
 use crate::kinematics::{Arms, Kinematics};
@@ -17,14 +18,32 @@ where
     C: ElementScheme<S, M>,
 {
     /// See [`Group::correct`](super::Group::correct).
-    pub(super) fn correct_all(&mut self, solution: &[[S; 1]]) -> S {
+    pub(super) fn correct_all(&mut self, solution: &[[S; 1]], settled: S::Mask) -> S {
         let mut largest = S::zero();
+        if Member::<S, M, K, C, D>::UNKNOWNS == 0 {
+            return largest;
+        }
         for member in &mut self.members {
+            let found = member.found_by(settled);
             let contact = member.contact_in(&self.contacts);
             let update = member.correct(contact, solution);
+            member.return_to(found, settled);
             largest = largest.maximum(update);
         }
         largest
+    }
+
+    /// See [`Group::extrapolate`](super::Group::extrapolate).
+    pub(super) fn extrapolate_all(&mut self, solution: &[[S; 1]], settled: S::Mask) {
+        for member in &mut self.members {
+            let found = member.found_by(settled);
+            // Of an element without unknowns of its own, nobody has asked for them before.
+            if Member::<S, M, K, C, D>::UNKNOWNS == 0 {
+                member.correct_measures(solution);
+            }
+            member.extrapolate();
+            member.return_to(found, settled);
+        }
     }
 }
 
@@ -35,13 +54,20 @@ where
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    /// Finds the corrections of the local unknowns; the largest in their units.
+    /// Finds the corrections of the measures; returns those of the arms.
     #[inline]
-    fn correct(&mut self, contact: Option<&Contact<K, S, D>>, solution: &[[S; 1]]) -> S {
+    fn correct_measures(&mut self, solution: &[[S; 1]]) -> Arms<K, S, D> {
         let motion = self.site.motion_in(solution);
         for a in 0..M::MEASURES {
             self.correction[a] = along::<K, S, D>(&self.sensitivity[a], &motion);
         }
+        motion
+    }
+
+    /// Finds and applies the corrections of the local unknowns; the largest in their units.
+    #[inline]
+    fn correct(&mut self, contact: Option<&Contact<K, S, D>>, solution: &[[S; 1]]) -> S {
+        let motion = self.correct_measures(solution);
         let mut heat = S::zero();
         if M::THERMAL
             && let Some(contact) = contact
@@ -72,7 +98,9 @@ where
                 at_point.entropy_correction = terms.fold(S::zero(), |sum, (&a, &b)| sum + a * b);
             }
         }
-        self.scaled_update()
+        let update = self.scaled_update();
+        self.apply(S::one());
+        update
     }
 
     /// The largest correction of a local unknown in its unit.
@@ -96,17 +124,12 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
     #[inline]
     pub(super) fn motion_in(&self, solution: &[[S; 1]]) -> Arms<K, S, D> {
         let mut motion = Arms::<K, S, D>::filled([S::zero(); D]);
-        let rows = self.rows.as_ref();
-        let of = |row: u32| solution.get(row as usize..row as usize + D);
-        let Some(first) = of(rows[0]) else {
-            return motion;
-        };
+        let (rows, solution) = (self.rows.as_ref(), solution.as_flattened());
+        let first: &[S; D] = run(solution, rows[0] as usize);
         for (arm, &row) in motion.as_mut().iter_mut().zip(&rows[1..]) {
-            let Some(other) = of(row) else {
-                continue;
-            };
+            let other: &[S; D] = run(solution, row as usize);
             for axis in 0..D {
-                arm[axis] = other[axis][0] - first[axis][0];
+                arm[axis] = other[axis] - first[axis];
             }
         }
         motion

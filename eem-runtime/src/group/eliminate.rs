@@ -4,6 +4,7 @@ use crate::free_energy::{Array, FreeEnergy};
 use crate::kinematics::Kinematics;
 use crate::lu::Singular;
 use crate::scalar::Real;
+use crate::scene::is_positive;
 
 /// A number per local unknown: the viscous stretches, then the temperature.
 #[derive(Clone, Copy, Debug)]
@@ -94,7 +95,7 @@ pub(super) fn eliminate<S: Real, M: FreeEnergy<S>, const HEAT: bool>(
             }
         }
         let value = rows[k][at];
-        if !value.is_finite() || value == S::zero() {
+        if !is_positive(value.abs()) {
             return Err(Singular);
         }
         let inverse = value.recip();

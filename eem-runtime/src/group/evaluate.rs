@@ -21,14 +21,15 @@ where
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
-        share: S,
         system: Option<&mut LinearSystem<S, 1>>,
     ) -> Result<(), StateError> {
         match system {
-            Some(system) => self.linearize_all(view, trial, share, system),
+            Some(system) => self.linearize_all(view, trial, system),
             None => self.members.iter_mut().try_for_each(|member| {
-                member.apply(share);
-                member.respond_alone(self.kinematics, view, trial)
+                let found = member.found_by(trial.settled);
+                member.respond_alone(self.kinematics, view, trial)?;
+                member.return_to(found, trial.settled);
+                Ok(())
             }),
         }
     }
@@ -38,13 +39,12 @@ where
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
-        share: S,
         system: &mut LinearSystem<S, 1>,
     ) -> Result<(), StateError> {
         let kinematics = self.kinematics;
         let (values, right) = system.parts();
         for member in &mut self.members {
-            member.apply(share);
+            let found = member.found_by(trial.settled);
             let seen = member.locate_trial(kinematics, trial)?;
             let pose = member.pose(kinematics, &seen);
             member.sensitivity = pose.sensitivity;
@@ -66,6 +66,7 @@ where
             }
             member.assemble_temperature(trial, &form, &mut target);
             member.keep(&form);
+            member.return_to(found, trial.settled);
         }
         Ok(())
     }

@@ -258,12 +258,11 @@ where
         }
     }
 
-    /// Applies the correction to the measures and, through the tangent, to forces and temperature.
+    /// Applies the correction to the measures too and, through the tangent, to forces and temperature.
     ///
     /// What that leaves out is of second order in the correction.
     #[inline]
     pub(super) fn extrapolate(&mut self) {
-        self.apply(S::one());
         for a in 0..M::MEASURES {
             self.x[a] += self.correction[a];
         }
@@ -290,10 +289,9 @@ where
 #[inline]
 pub(super) fn grown<S: Real>(theta: S, change: S) -> S {
     let most = S::from_f64(LARGEST_HALF_CHANGE) * theta;
-    let mut half = S::from_f64(0.5) * change;
-    if half.abs() > most {
-        half = if half > S::zero() { most } else { -most };
-    }
+    let half = S::from_f64(0.5) * change;
+    let limited = || S::select(S::zero().less(half), most, -most);
+    let half = S::branch(most.less(half.abs()), limited, || half);
     theta * ((theta + half) / (theta - half))
 }
 

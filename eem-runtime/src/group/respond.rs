@@ -30,8 +30,7 @@ where
         kinematics: K,
         trial: &Trial<S, D>,
     ) -> Result<Seen<K, S, D>, StateError> {
-        let r1 = arms::<K, S, D>(&self.site.nodes, &trial.positions);
-        let r1 = seen_arms::<K, S, D>(C::PLACEMENT, &self.r0, r1);
+        let r1 = seen_arms::<K, S, D>(C::PLACEMENT, &self.r0, self.new_arms(trial));
         let measures1 = kinematics.measure(&r1);
         let measures0 = measures_in::<K, S, D>(&self.start.x0);
         let measures = seen_measures::<K, S, D>(C::PLACEMENT, &measures0, measures1);
@@ -50,6 +49,18 @@ where
         C::prepare(&self.model, &self.start, &self.x, &mut self.memory)
             .map_err(|infeasible| infeasible.of(self.element))?;
         Ok((r1, measures1))
+    }
+
+    /// The new arms `r¹ = r⁰ + Δr`.
+    #[inline]
+    pub(super) fn new_arms(&self, trial: &Trial<S, D>) -> Arms<K, S, D> {
+        let mut r1 = arms::<K, S, D>(&self.site.nodes, &trial.displacements);
+        for (arm, old) in r1.as_mut().iter_mut().zip(self.r0.as_ref()) {
+            for axis in 0..D {
+                arm[axis] += old[axis];
+            }
+        }
+        r1
     }
 
     /// The gradients at the configuration that the scheme looks at.

@@ -19,7 +19,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
                 subtract(target, places[i + 1] as usize, arm);
             }
             if self.is_mass[0] {
-                let entries = run::<_, D>(target, places[0] as usize);
+                let entries = run_mut::<_, D>(target, places[0] as usize);
                 for (sum, &entry) in entries.iter_mut().zip(arm) {
                     *sum += entry;
                 }
@@ -50,7 +50,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
     fn add_rows(&self, values: &mut [S], [i, j]: [usize; 2], block: &[[S; D]; D]) {
         let mut place = self.blocks[i][j] as usize;
         for entries in block {
-            for (value, &entry) in run::<_, D>(values, place).iter_mut().zip(entries) {
+            for (value, &entry) in run_mut::<_, D>(values, place).iter_mut().zip(entries) {
                 *value += entry;
             }
             place += self.strides[i] as usize;
@@ -99,16 +99,30 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
 /// Subtracts from consecutive entries.
 #[inline]
 pub(super) fn subtract<S: Real, const D: usize>(values: &mut [S], place: usize, entries: &[S; D]) {
-    for (value, &entry) in run::<_, D>(values, place).iter_mut().zip(entries) {
+    for (value, &entry) in run_mut::<_, D>(values, place).iter_mut().zip(entries) {
         *value -= entry;
     }
 }
 
 /// `D` consecutive entries, with one comparison.
 #[inline]
-fn run<T, const D: usize>(entries: &mut [T], first: usize) -> &mut [T; D] {
+pub(super) fn run<T, const D: usize>(entries: &[T], first: usize) -> &[T; D] {
+    match entries.get(first..first + D).map(TryInto::try_into) {
+        Some(Ok(run)) => run,
+        _ => not_from_the_system(),
+    }
+}
+
+/// The same, to be written.
+#[inline]
+fn run_mut<T, const D: usize>(entries: &mut [T], first: usize) -> &mut [T; D] {
     match entries.get_mut(first..first + D).map(TryInto::try_into) {
         Some(Ok(run)) => run,
-        _ => unreachable!("places come from the system"),
+        _ => not_from_the_system(),
     }
+}
+
+#[cold]
+fn not_from_the_system() -> ! {
+    unreachable!("places and rows come from the system, which has them")
 }

@@ -27,8 +27,6 @@ pub(super) struct Site<K: Kinematics<S, D>, S: Real, const D: usize> {
 /// The places of one element in the secant system.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SecantSite<K: Kinematics<S, D>, S: Real, const D: usize> {
-    /// The row of each node.
-    pub(super) rows: K::PerNode<u32>,
     /// The entry of two nodes.
     pub(super) entries: K::PerNode<K::PerNode<u32>>,
 }
@@ -104,9 +102,18 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> SecantSite<K, S, D> {
     /// No places yet.
     pub(super) fn unconnected() -> Self {
         Self {
-            rows: K::PerNode::filled(0),
             entries: K::PerNode::filled(K::PerNode::filled(0)),
         }
+    }
+
+    /// The places in the memory of the tangent, where every block has one entry.
+    #[inline]
+    pub(super) fn in_tangent(site: &Site<K, S, D>) -> Self {
+        let mut entries = site.blocks;
+        for entry in entries.as_mut().iter_mut().flat_map(AsMut::as_mut) {
+            *entry /= compact(D * D);
+        }
+        Self { entries }
     }
 
     /// The places of an element with these nodes.
@@ -114,7 +121,6 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> SecantSite<K, S, D> {
         let mass = |node: usize| sites.layout.nodes[nodes[node] as usize].map(|first| first / D);
         let mut site = Self::unconnected();
         for i in 0..K::PerNode::<u32>::LEN {
-            site.rows[i] = compact(sites.secant_row(mass(i)));
             for j in 0..K::PerNode::<u32>::LEN {
                 site.entries[i][j] = compact(sites.secant_place(mass(i), mass(j)));
             }

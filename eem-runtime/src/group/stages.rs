@@ -27,7 +27,9 @@ use crate::error::StateError;
 use crate::free_energy::FreeEnergy;
 use crate::handle::Element;
 use crate::kinematics::Kinematics;
+use crate::layout::Slots;
 use crate::loads::StepLoads;
+use crate::masses::Masses;
 use crate::scalar::Real;
 use crate::scheme::{Phase, Variational};
 use crate::state::State;
@@ -53,7 +55,7 @@ pub(crate) struct StageView<'a, S> {
     /// What acts at the times of the stages.
     pub(crate) loads: &'a [StepLoads<S>; 3],
     /// m per node, kg; `None` for anchors.
-    pub(crate) masses: &'a [Option<S>],
+    pub(crate) masses: &'a Masses<S>,
 }
 
 impl<'a, S: Real> StageView<'a, S> {
@@ -262,6 +264,10 @@ where
 
     fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>> {
         self.elements.generic_in(state)
+    }
+
+    fn slots(&self, place: usize) -> Slots {
+        self.elements.slots(place)
     }
 
     fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {

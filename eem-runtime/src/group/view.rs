@@ -4,6 +4,7 @@ use crate::conduction::Conduction;
 use crate::handle::Element;
 use crate::layout::Layout;
 use crate::loads::StepLoads;
+use crate::masses::Masses;
 use crate::scalar::Real;
 use crate::scene::ElementEntry;
 use crate::scheme::{Phase, Placement};
@@ -22,7 +23,7 @@ pub(crate) struct StepView<'a, S> {
     pub(crate) conduction: &'a Conduction<S>,
     pub(crate) loads: &'a StepLoads<S>,
     /// m per node, kg; `None` for anchors.
-    pub(crate) masses: &'a [Option<S>],
+    pub(crate) masses: &'a Masses<S>,
 }
 
 impl<S: Real> StepView<'_, S> {
@@ -50,14 +51,14 @@ impl<S: Real> StepView<'_, S> {
 
 /// The global part of the new state that Newton's method tries.
 #[derive(Clone, Debug)]
-pub(crate) struct Trial<S, const D: usize> {
+pub(crate) struct Trial<S: Real, const D: usize> {
     /// q¹ − q⁰ of all nodes, m.
     pub(crate) displacements: Vec<[S; D]>,
-    /// q¹ of all nodes, m.
-    pub(crate) positions: Vec<[S; D]>,
     /// θ* as elements in contact see it, Θ, per thermal slot, K; an unknown where the slot is
     /// coupled.
     pub(crate) seen_temperatures: Vec<S>,
+    /// The numbers that have found their new state while others iterate on.
+    pub(crate) settled: S::Mask,
 }
 
 /// Internal energy (J) and entropy (J/K) of a group.
@@ -123,7 +124,8 @@ pub(crate) struct Sites<'a, S, const D: usize> {
     pub(crate) conduction: &'a Conduction<S>,
     /// The system of an iteration.
     pub(crate) tangent: &'a LinearSystem<S, 1>,
-    /// The system that closes a step, if the scheme has one.
+    /// The system that closes a step, if it has memory of its own. In that of the tangent every block
+    /// has one entry.
     pub(crate) secant: Option<&'a LinearSystem<S, D>>,
     /// How far rows and columns of the tangent lie behind where the layout has them: a scheme with
     /// several stages has as many copies of the unknowns.
@@ -147,13 +149,12 @@ impl<S: Real, const D: usize> Sites<'_, S, D> {
         self.tangent.place(row, column)
     }
 
-    /// The row of a mass, counted among the masses, in the secant system.
-    pub(crate) fn secant_row(&self, mass: Option<usize>) -> usize {
-        self.secant.map_or(0, |secant| secant.row(mass))
-    }
-
     /// The place of the entry of two masses in the secant matrix.
     pub(crate) fn secant_place(&self, row: Option<usize>, column: Option<usize>) -> usize {
-        self.secant.map_or(0, |secant| secant.place(row, column))
+        let first = |mass: usize| mass * D;
+        match self.secant {
+            Some(secant) => secant.place(row, column),
+            None => self.place(row.map(first), column.map(first)) / (D * D),
+        }
     }
 }

@@ -4,7 +4,7 @@ use core::array;
 
 use super::{Ends, Kinematics};
 use crate::free_energy::Entry;
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Mask, Real, Scalar};
 
 /// The stretch `λ = |r|`, `r = q_j − q_i`, of two nodes in `D` dimensions, m.
 ///
@@ -46,7 +46,7 @@ impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
 
     #[inline]
     fn is_admissible(&self, measure: S) -> bool {
-        measure > S::zero() && measure <= S::MAX
+        (S::zero().less(measure) & measure.at_most(S::MAX)).decide()
     }
 
     #[inline]

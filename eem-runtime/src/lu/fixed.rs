@@ -12,9 +12,9 @@ use crate::scalar::Real;
 
 /// A row is divided by its diagonal entry unless its other entries, all together, are larger by more than
 /// this factor; that bounds the growth of entries nearly as well as the largest pivot does.
-const LARGEST_RATIO: f64 = 4.0;
+pub(super) const LARGEST_RATIO: f64 = 4.0;
 
-/// Overwrites the columns of `b` with the solutions of `A x = b` for `N` unknowns. A is lost.
+/// Overwrites the columns of `b` with the solutions of `A x = b` for `N` unknowns, and A with zeros.
 pub(crate) fn solve_fixed<S: Real, const N: usize, const W: usize>(
     matrix: &mut [S],
     b: &mut [[S; W]],
@@ -30,34 +30,7 @@ pub(crate) fn solve_fixed<S: Real, const N: usize, const W: usize>(
         Ok(()) => substitute(a, b),
         Err(row) => exchange_from(row, a, b)?,
     }
-    Ok(())
-}
-
-/// [`solve_fixed`] for two unknowns: Cramer's rule, with one division to wait for, unless the determinant or
-/// the first pivot will not do.
-///
-/// It reads entries one by one, as elements have written them: a pair that is read before both of its
-/// halves have reached the memory has to wait for them.
-#[inline]
-pub(crate) fn solve_two<S: Real, const W: usize>(
-    matrix: &mut [S],
-    b: &mut [[S; W]],
-) -> Result<(), Singular> {
-    let (&mut [a, u, c, d, ..], [upper, lower, ..]) = (&mut *matrix, &mut *b) else {
-        return Err(Singular);
-    };
-    let determinant = a * d - c * u;
-    let square = determinant * determinant;
-    // Neither the products nor the reciprocal have left the range of full precision.
-    let is_ordinary = square > S::MAX.recip() && square <= S::MAX;
-    if !(is_ordinary && S::from_f64(LARGEST_RATIO) * a.abs() > u.abs()) {
-        return solve_fixed::<S, 2, W>(matrix, b);
-    }
-    let inverse = determinant.recip();
-    for (upper, lower) in upper.iter_mut().zip(lower) {
-        let (x, y) = (d * *upper - u * *lower, a * *lower - c * *upper);
-        (*upper, *lower) = (x * inverse, y * inverse);
-    }
+    *a = [[S::zero(); N]; N];
     Ok(())
 }
 
@@ -215,11 +188,7 @@ mod tests {
 
     fn check<const N: usize>(mut a: [[f64; N]; N]) {
         let mut b = image(&a);
-        if N == 2 {
-            solve_two(a.as_flattened_mut(), &mut b).unwrap();
-        } else {
-            solve_fixed::<f64, N, 1>(a.as_flattened_mut(), &mut b).unwrap();
-        }
+        solve_fixed::<f64, N, 1>(a.as_flattened_mut(), &mut b).unwrap();
         for (found, exact) in b.iter().zip(1_u8..) {
             let exact = f64::from(exact);
             assert!((found[0] - exact).abs() <= 16.0 * f64::EPSILON * exact);
@@ -254,13 +223,6 @@ mod tests {
     }
 
     #[test]
-    fn two_unknowns_are_solved_without_cramer_too() {
-        let mut b = [[4.0], [7.0]];
-        solve_fixed::<f64, 2, 1>(&mut [2.0, 1.0, 1.0, 3.0], &mut b).unwrap();
-        assert_eq!(b, [[1.0], [2.0]]);
-    }
-
-    #[test]
     fn a_singular_matrix_is_reported() {
         for [a, b, c, d] in [
             [1.0, 2.0, 2.0, 4.0],
@@ -270,8 +232,6 @@ mod tests {
             [f64::INFINITY, 1.0, 1.0, 1.0],
         ] {
             let solved = solve_fixed::<f64, 2, 1>(&mut [a, b, c, d], &mut [[1.0]; 2]);
-            assert_eq!(solved, Err(Singular));
-            let solved = solve_two::<f64, 1>(&mut [a, b, c, d], &mut [[1.0]; 2]);
             assert_eq!(solved, Err(Singular));
         }
     }

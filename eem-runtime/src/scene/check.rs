@@ -4,12 +4,12 @@ use super::{ElementEntry, NodeEntry, Scene};
 use crate::blueprint::Shape;
 use crate::error::{SceneError, StateError};
 use crate::handle::{Element, HeatPartner, Node, Reservoir};
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 
 /// Finite and greater than zero.
 #[inline]
 pub(crate) fn is_positive<S: Real>(value: S) -> bool {
-    value > S::zero() && value <= S::MAX
+    (S::zero().less(value) & value.at_most(S::MAX)).decide()
 }
 
 impl<const D: usize, S: Real> Scene<D, S> {

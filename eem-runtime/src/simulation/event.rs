@@ -129,6 +129,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Takes back the step that has just been made.
     fn undo(&mut self) {
         mem::swap(&mut self.state, &mut self.next);
+        self.has_stepped = false;
         self.stepper.undo();
     }
 }
@@ -158,7 +159,7 @@ impl<S: Real> Bracket<S> {
             _ => false,
         };
         let bracket = Self {
-            low: if after.equal(zero) { step } else { zero },
+            low: if after == zero { step } else { zero },
             high: step,
             is_rising: before < zero,
             values: [before, after],
@@ -206,7 +207,7 @@ impl<S: Real> Bracket<S> {
         } else {
             self.low = size;
         }
-        if value.equal(S::zero()) {
+        if value == S::zero() {
             self.low = size;
         }
         if self.moved.replace(is_behind) == Some(is_behind) {

@@ -103,7 +103,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let mut reversible = DMatrix::from_element(size, size, S::zero());
         let mut irreversible = reversible.clone();
         for (coordinate, place) in places.positions.iter().enumerate() {
-            let (Some(q), Some(mass)) = (*place, self.masses[coordinate / D]) else {
+            let (Some(q), Some(mass)) = (*place, self.masses.get(coordinate / D)) else {
                 continue;
             };
             let p = q + places.momenta;
@@ -171,7 +171,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     fn generic_places(&self) -> Places {
         let mut positions = Vec::with_capacity(self.masses.len() * D);
         let mut masses = 0;
-        for mass in &self.masses {
+        for mass in self.masses.iter() {
             for _ in 0..D {
                 positions.push(mass.map(|_| masses));
                 masses += usize::from(mass.is_some());

@@ -6,6 +6,7 @@ use super::Simulation;
 use crate::error::SceneError;
 use crate::group::ElementView;
 use crate::handle::{Element, Node, Reservoir, SceneId};
+use crate::layout::Slots;
 use crate::ledger::Ledger;
 use crate::scalar::Real;
 
@@ -41,7 +42,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// For a foreign handle.
     pub fn velocity(&self, node: Node) -> Result<SVector<S, D>, SceneError> {
         let momentum = self.momentum(node)?;
-        Ok(match self.masses[node.index] {
+        Ok(match self.masses.get(node.index) {
             Some(mass) => momentum.map(|component| component / mass),
             None => momentum,
         })
@@ -99,7 +100,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// For a foreign handle; [`SceneError::NoSuchDashpot`].
     pub fn viscous_stretch(&self, element: Element, dashpot: usize) -> Result<S, SceneError> {
         self.expect_own(element.scene, &element)?;
-        let (group, _) = self.places[element.index];
+        let [group, _] = self.place(element);
         let dashpots = self.shapes[group].dashpots;
         if dashpot >= dashpots {
             return Err(SceneError::NoSuchDashpot {
@@ -108,7 +109,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 dashpots,
             });
         }
-        let first = self.layout.elements[element.index].viscous;
+        let first = self.slots(element).viscous;
         Ok(self.state.viscous.values()[first + dashpot])
     }
 
@@ -146,13 +147,24 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     fn view(&self, element: Element) -> Result<ElementView<S>, SceneError> {
         self.expect_own(element.scene, &element)?;
-        let (group, place) = self.places[element.index];
+        let [group, place] = self.place(element);
         Ok(self.stepper.elements(group).inspect(place, &self.state))
+    }
+
+    /// The group and the place in it of an own element.
+    fn place(&self, element: Element) -> [usize; 2] {
+        self.places[element.index].map(|number| number as usize)
+    }
+
+    /// Where an own element keeps its internal variables.
+    fn slots(&self, element: Element) -> Slots {
+        let [group, place] = self.place(element);
+        self.stepper.elements(group).slots(place)
     }
 
     fn thermal_slot(&self, element: Element) -> Result<usize, SceneError> {
         self.expect_own(element.scene, &element)?;
-        let slot = self.layout.elements[element.index].thermal;
+        let slot = self.slots(element).thermal;
         slot.ok_or(SceneError::NotThermal { element })
     }
 

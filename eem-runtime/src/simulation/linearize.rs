@@ -43,6 +43,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// [`StepError`] if an element has no admissible state there, or the number of unknowns is
     /// another one ([`StepFailure::Unknowns`]).
     pub fn linearize(&mut self, unknowns: &[S]) -> Result<StepTangent<S>, StepError> {
+        // The elements look at another configuration than that of their last step.
+        self.has_stepped = false;
         self.effort.restart();
         if unknowns.len() != self.unknowns() {
             return Err(self.failed(StepFailure::Unknowns {

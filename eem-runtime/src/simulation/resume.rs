@@ -55,7 +55,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     fn outline(&self) -> Outline {
         let reservoirs = self.conduction.reservoirs.len();
-        let shapes = self.places.iter().map(|&(group, _)| self.shapes[group]);
+        let places = self.places.iter();
+        let shapes = places.map(|&[group, _]| self.shapes[group as usize]);
         Outline::new(D, &self.masses, shapes, reservoirs)
     }
 }

@@ -6,6 +6,7 @@ use crate::error::{SceneError, StepFailure};
 use crate::group::{Elements, Group};
 use crate::layout::Layout;
 use crate::loads::{Loads, StepLoads};
+use crate::masses::Masses;
 use crate::scalar::Real;
 use crate::scene::ElementEntry;
 use crate::scheme::Scheme;
@@ -34,7 +35,7 @@ pub(super) struct AtOnce<S: Real, const D: usize> {
 #[derive(Clone, Copy)]
 pub(super) struct Parts<'a, S: Real, const D: usize> {
     pub(super) scheme: Scheme,
-    pub(super) masses: &'a [Option<S>],
+    pub(super) masses: &'a Masses<S>,
     pub(super) elements: &'a [ElementEntry<S>],
     pub(super) layout: &'a Layout,
     pub(super) conduction: &'a Conduction<S>,
@@ -90,8 +91,7 @@ impl<S: Real, const D: usize> Stepper<S, D> {
     pub(super) fn evaluate_loads(
         &mut self,
         loads: &Loads<S, D>,
-        masses: &[Option<S>],
-        layout: &Layout,
+        masses: &Masses<S>,
         scheme: Scheme,
         span: [S; 2],
         q0: &[S],
@@ -99,9 +99,9 @@ impl<S: Real, const D: usize> Stepper<S, D> {
         match self {
             Self::AtOnce(stepper) => {
                 let own = &mut stepper.loads;
-                own.evaluate(loads, masses, layout, scheme, span, q0)
+                own.evaluate(loads, masses, scheme, span, q0)
             }
-            Self::InStages(staged) => staged.evaluate_loads(loads, masses, layout, span, q0),
+            Self::InStages(staged) => staged.evaluate_loads(loads, masses, span, q0),
         }
     }
 

@@ -6,10 +6,11 @@
 
 use core::array;
 
+use super::places::Seen;
 use super::{SavedPast, Solver};
 use crate::error::StepFailure;
 use crate::group::{Group, Old, StepView, points};
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// Starts at the old state, or at a foretold motion away from it if the scheme wants one.
@@ -21,105 +22,78 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for (node, force) in self.old_force.iter_mut().enumerate() {
             *force = view.loads.total_force(node).map(|load: S| -load);
         }
-        for length in &mut self.lengths {
-            *length = S::MAX;
-        }
+        self.per_length.fill(S::MAX);
         let mut old = Old {
             force: &mut self.old_force,
-            lengths: &mut self.lengths,
+            lengths: &mut self.per_length,
         };
         for group in groups.iter_mut() {
             group.begin(view, &mut old)?;
         }
-        self.weigh(view);
-        self.place_anchors(view);
+        self.twice_per_step = S::from_f64(2.0) * view.step.recip();
+        self.place_moved_anchors(view);
         self.start(view);
         Ok(())
     }
 
     /// Inertia and impulses that do not change during the step.
     pub(super) fn weigh(&mut self, view: &StepView<'_, S>) {
-        let per_step = view.step.recip();
+        self.twice_per_step = S::from_f64(2.0) * view.step.recip();
         let momenta = points::<S, D>(view.state.momenta.values());
-        let moves = view.phase.moves();
         for node in &mut self.nodes {
-            if !moves {
-                (node.inertia, node.rest) = (S::one(), [S::zero(); D]);
-                continue;
-            }
-            let at = node.place.node;
-            let (momentum, force) = (&momenta[at], old_force(&self.old_force, at));
-            node.inertia = (node.place.mass + node.place.mass) * per_step;
-            node.rest =
-                array::from_fn(|axis| momentum[axis] + momentum[axis] - view.step * force[axis]);
+            let at = node.place.node();
+            node.weigh(view, &momenta[at], old_force(&self.old_force, at));
         }
     }
 
-    /// Anchors are where the step will have moved them.
-    fn place_anchors(&mut self, view: &StepView<'_, S>) {
-        let old = points::<S, D>(view.state.positions.values());
-        let moves = view.phase.moves();
-        for &node in &self.anchors {
-            let displacement = if moves {
+    /// Anchors that are moved are where the step will have moved them.
+    fn place_moved_anchors(&mut self, view: &StepView<'_, S>) {
+        for &node in &view.loads.moved {
+            self.trial.displacements[node] = if view.phase.moves() {
                 view.loads.motion(node)
             } else {
                 [S::zero(); D]
             };
-            self.trial.displacements[node] = displacement;
-            self.trial.positions[node] =
-                array::from_fn(|axis| old[node][axis] + displacement[axis]);
         }
     }
 
+    /// Moving nodes are where they are foretold, seen temperatures where they were.
     fn start(&mut self, view: &StepView<'_, S>) {
-        let old = points::<S, D>(view.state.positions.values());
+        self.trial.settled = S::Mask::none();
         let momenta = points::<S, D>(view.state.momenta.values());
+        let (values, right, solution) = self.tangent.renew();
+        for &Seen { slot, row } in &self.seen {
+            self.trial.seen_temperatures[slot] = view.state.temperatures[slot];
+            (right[row], solution[row]) = ([S::zero()], [S::zero()]);
+        }
+        let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
+        // The way from the old state is the first correction.
+        let changes = solution.as_flattened_mut().as_chunks_mut::<D>().0;
         let is_foretold = view.phase.moves() && self.scheme.foretells_its_start();
         let half_step = S::from_f64(0.5) * view.step;
-        let ([by_last, by_before], [last, before]) = self.past.best();
-        for node in &mut self.nodes {
-            let at = node.place.node;
-            node.per_length = inverse_length(self.lengths[at]);
-            node.previous = [S::zero(); D];
-            node.correction = node.previous;
+        let forecast = self.past.forecast();
+        let nodes = self.nodes.iter_mut().zip(rows).zip(changes);
+        for ((node, rows), change) in nodes {
+            let at = node.place.node();
+            let momentum = &momenta[at];
+            node.weigh(view, momentum, old_force(&self.old_force, at));
+            let per_length = &mut self.per_length[at];
+            *per_length = inverse_length(*per_length);
+            let mut displacement = [S::zero(); D];
             if is_foretold {
-                let mobility = view.step / node.place.mass;
-                let (momentum, last, before) = (&momenta[at], &last[at], &before[at]);
-                node.correction = array::from_fn(|axis| {
-                    let force = by_last * last[axis] + by_before * before[axis];
-                    mobility * (momentum[axis] + half_step * force)
-                });
+                let (force, mobility) = (forecast.of(at), view.step / node.place.mass);
+                displacement =
+                    array::from_fn(|axis| mobility * (momentum[axis] + half_step * force[axis]));
             }
-            let correction = node.correction;
-            self.trial.displacements[at] = correction;
-            self.trial.positions[at] = array::from_fn(|axis| old[at][axis] + correction[axis]);
+            (self.trial.displacements[at], *change) = (displacement, displacement);
+            node.balance(&displacement, self.twice_per_step, values, rows);
         }
-        for seen in &mut self.seen {
-            let slot = seen.place.slot;
-            seen.previous = view.state.temperatures[slot];
-            seen.correction = S::zero();
-            self.trial.seen_temperatures[slot] = seen.previous;
-        }
-    }
-
-    /// Remembers the forces of a step that has succeeded.
-    pub(super) fn remember_forces(&mut self, step: S) {
-        if !self.scheme.foretells_its_start() {
-            return;
-        }
-        let per_step = step.recip();
-        for impulse in self.impulse.as_flattened_mut() {
-            *impulse *= per_step;
-        }
-        let nodes = self.nodes.iter();
-        let masses = nodes.map(|node| (node.place.node, node.place.mass));
-        self.past.remember(&mut self.impulse, masses);
     }
 
     /// Takes back what the last step left for the next ones.
     pub(crate) fn undo(&mut self) {
         if self.scheme.foretells_its_start() {
-            self.past.forget(&mut self.impulse);
+            self.past.forget();
         }
     }
 

@@ -6,7 +6,7 @@ use super::Solver;
 use super::begin::old_force;
 use crate::error::StepFailure;
 use crate::group::{Along, Group, StepView, points};
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 use crate::scheme::Closing;
 use crate::state::State;
 
@@ -41,8 +41,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for group in groups.iter_mut() {
             group.close(view, &self.trial, next)?;
         }
-        if view.phase.heats() {
-            self.remember_forces(view.step);
+        if view.phase.heats() && self.scheme.foretells_its_start() {
+            self.past.keep();
         }
         Ok(())
     }
@@ -67,25 +67,33 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(())
     }
 
-    /// New positions and momenta, all finite, and the work of the loads.
-    fn move_masses(&self, view: &StepView<'_, S>, next: &mut State<S>) -> Result<(), StepFailure> {
+    /// New positions and momenta, all finite, and the work of the loads. The forces are remembered.
+    fn move_masses(
+        &mut self,
+        view: &StepView<'_, S>,
+        next: &mut State<S>,
+    ) -> Result<(), StepFailure> {
         if view.loads.has_force() {
             self.book_work(view, next);
         }
+        let per_step = view.step.recip();
+        let mut remembering = self.past.remember();
         for node in &self.nodes {
-            let at = node.place.node;
-            let moved = [&self.trial.displacements[at], &self.impulse[at]];
-            move_node(at, moved, view.state, next)?;
+            let at = node.place.node();
+            let (displacement, impulse) = (&self.trial.displacements[at], remembering.impulse(at));
+            move_node(at, [displacement, impulse], view.state, next)?;
+            remembering.take(at, per_step, node.place.mass);
         }
+        remembering.finish();
         Ok(())
     }
 
     fn book_work(&self, view: &StepView<'_, S>, next: &mut State<S>) {
         for node in &self.nodes {
-            let at = node.place.node;
+            let at = node.place.node();
             let force = view.loads.force::<D>(at);
             for (&force, &displacement) in force.iter().zip(&self.trial.displacements[at]) {
-                if force != S::zero() {
+                if !force.equal(S::zero()).all() {
                     next.work.add(force * displacement);
                 }
             }
@@ -93,15 +101,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 
     /// New positions of the anchors that are moved, and the work that this takes.
-    fn move_anchors(&self, view: &StepView<'_, S>, next: &mut State<S>) {
+    fn move_anchors(&mut self, view: &StepView<'_, S>, next: &mut State<S>) {
         let old = &view.state.positions;
+        let mut impulses = self.past.impulses();
         for &node in &view.loads.moved {
             for axis in 0..D {
                 let at = node * D + axis;
                 let displacement = self.trial.displacements[node][axis];
                 next.positions.advance(at, old, displacement);
                 // The support bears the impulse of the springs.
-                let support = -self.impulse[node][axis] / view.step;
+                let support = -impulses.of(node)[axis] / view.step;
                 next.work.add(support * displacement);
             }
         }
@@ -114,32 +123,32 @@ impl<S: Real, const D: usize> Solver<S, D> {
         view: &StepView<'_, S>,
         along: Along,
     ) {
-        for (node, impulse) in self.impulse.iter_mut().enumerate() {
+        let mut impulses = self.past.impulses();
+        for (node, impulse) in impulses.iter_mut().enumerate() {
             *impulse = old_force(&self.old_force, node).map(|force| -view.step * force);
         }
         for group in groups.iter_mut() {
-            group.add_impulse(view, &self.trial, along, &mut self.impulse);
+            group.add_impulse(view, &self.trial, along, &mut impulses);
         }
     }
 
     /// `Δq = (h/m)(p⁰ − ½h F⁰)`, `Δp = −½h (F⁰ + F¹)`, where F¹ acts along the gradient at q¹.
     fn move_from_start(&mut self, groups: &mut [Box<dyn Group<S, D>>], view: &StepView<'_, S>) {
         let half = S::from_f64(0.5);
-        let q0 = points::<S, D>(view.state.positions.values());
         let p0 = points::<S, D>(view.state.momenta.values());
+        let mut impulses = self.past.impulses();
         for node in &self.nodes {
-            let at = node.place.node;
+            let at = node.place.node();
             let mobility = view.step / node.place.mass;
-            let impulse = &self.impulse[at];
+            let impulse = impulses.of(at);
             let displacement =
                 array::from_fn(|axis| mobility * (p0[at][axis] + half * impulse[axis]));
             self.trial.displacements[at] = displacement;
-            self.trial.positions[at] = array::from_fn(|axis| q0[at][axis] + displacement[axis]);
         }
         for group in groups.iter_mut() {
-            group.add_impulse(view, &self.trial, Along::Gradient, &mut self.impulse);
+            group.add_impulse(view, &self.trial, Along::Gradient, &mut impulses);
         }
-        for (node, impulse) in self.impulse.iter_mut().enumerate() {
+        for (node, impulse) in impulses.iter_mut().enumerate() {
             let force = old_force(&self.old_force, node);
             *impulse = array::from_fn(|axis| half * (impulse[axis] - view.step * force[axis]));
         }
@@ -153,18 +162,19 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let Some(secant) = &mut self.secant else {
             return Ok(());
         };
-        secant.clear_matrix();
-        let (values, right) = secant.parts();
-        for (node, right) in self.nodes.iter().zip(right) {
-            values[node.place.secant_diagonal] = node.inertia;
+        let tangent = &mut self.tangent;
+        let (values, right) = secant.renew(tangent);
+        for (node, right) in self.nodes.iter().zip(&mut *right) {
+            values[node.place.secant_diagonal()] = node.place.mass * self.twice_per_step;
             *right = node.rest;
         }
         for group in groups.iter_mut() {
-            group.add_secant(view, &self.trial, secant);
+            group.add_secant(view, &self.trial, (&mut *values, &mut *right));
         }
-        secant.solve().map_err(|_| StepFailure::SingularTangent)?;
-        for (node, &displacement) in self.nodes.iter().zip(secant.right()) {
-            self.trial.displacements[node.place.node] = displacement;
+        let solved = secant.solve(tangent);
+        solved.map_err(|_| StepFailure::SingularTangent)?;
+        for (node, displacement) in self.nodes.iter().zip(secant.solution(tangent)) {
+            self.trial.displacements[node.place.node()] = *displacement;
         }
         Ok(())
     }

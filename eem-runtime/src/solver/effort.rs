@@ -3,7 +3,7 @@
 use super::STAGES;
 use crate::error::NewtonIteration;
 use crate::newton::NewtonSettings;
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real, unless};
 
 /// Iterations for which memory is kept; settings that ask for more allocate when they get there.
 const LONGEST_HISTORY: usize = 4096;
@@ -41,6 +41,21 @@ impl<S: Real> Effort<S> {
         Self {
             settings: NewtonSettings::default(),
             history: Vec::new(),
+        }
+    }
+
+    /// Another iteration; those that had settled before did their last one then.
+    #[inline]
+    pub(crate) fn note(&mut self, residual: S, update: S, settled: S::Mask) {
+        if S::LANES > 1
+            && settled.any()
+            && let Some(last) = self.history.last()
+        {
+            let residual = unless(settled, last.residual, residual);
+            let update = unless(settled, last.update, update);
+            self.history.push(Iteration { residual, update });
+        } else {
+            self.history.push(Iteration { residual, update });
         }
     }
 

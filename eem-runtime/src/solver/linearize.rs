@@ -3,7 +3,7 @@
 use super::{Effort, Iteration, Look, Solver};
 use crate::error::StepFailure;
 use crate::group::{Group, StepView};
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// Residual and tangent at given global unknowns, with the local ones solved for.
@@ -15,24 +15,25 @@ impl<S: Real, const D: usize> Solver<S, D> {
         effort: &mut Effort<S>,
     ) -> Result<(Vec<S>, Vec<S>), StepFailure> {
         self.begin(groups, view)?;
-        for (node, &displacement) in self.nodes.iter_mut().zip(unknowns.as_chunks::<D>().0) {
-            node.correction = displacement;
+        for (node, &displacement) in self.nodes.iter().zip(unknowns.as_chunks::<D>().0) {
+            self.trial.displacements[node.place.node()] = displacement;
         }
-        for seen in &mut self.seen {
-            seen.correction = unknowns[seen.place.row] - seen.previous;
+        for seen in &self.seen {
+            self.trial.seen_temperatures[seen.slot] = unknowns[seen.row];
         }
-        self.apply(S::one(), view);
-        let no_change = vec![[S::zero()]; self.tangent.right().len()];
+        // Whatever fails, the global unknowns stay.
+        self.tangent.solution_mut().fill([S::zero()]);
         let mut before = None;
         loop {
+            self.balance();
             self.advance(groups, view, Look::On)?;
             let residual = self.residual();
             if before.is_some_and(|update| update <= S::EPSILON) {
                 break;
             }
-            self.hold();
             let updates = groups.iter_mut();
-            let updates = updates.map(|group| group.correct(&no_change));
+            let updates =
+                updates.map(|group| group.correct(self.tangent.solution(), S::Mask::none()));
             let update = updates.fold(S::zero(), S::maximum);
             effort.history.push(Iteration { residual, update });
             let stagnated = before.is_some_and(|before| update >= before);

@@ -1,7 +1,8 @@
 //! The forces of the last steps. They decide where Newton's method starts, and nothing else.
 
-use core::mem;
+use core::array;
 
+use crate::impulse::{Impulses, PLACES};
 use crate::scalar::Real;
 
 /// What is left of the error of a forecast one step later. Any memory of some steps will do.
@@ -10,15 +11,50 @@ const MEMORY: f64 = 0.875;
 /// The forces of the last two steps, and how well they would have been foretold.
 #[derive(Debug)]
 pub(super) struct Past<S, const D: usize> {
-    /// `Δp/h` of the last step and of the one before, per node, N; zero before the first.
-    forces: [Vec<[S; D]>; 2],
+    /// `Δp/h` of the last step and of the one before, N, zero before the first; and the impulse of the
+    /// step that is being closed, N s. Per node; of anchors only the impulse means something.
+    forces: Vec<[[S; D]; PLACES]>,
+    /// Which row of [`TURNS`] says where each of them is.
+    turn: usize,
     /// By how much each forecast has been wrong, `Σ |ΔF/m|²`, the last steps counting most.
     errors: [S; 3],
     /// The same before the last step.
     errors_before: [S; 3],
+    /// The same after the step that is being closed.
+    errors_after: [S; 3],
 }
 
-/// The past as it is saved: forces per coordinate.
+/// Where the forces of the last step, of the one before and of the next one are in each turn.
+const TURNS: [[usize; PLACES]; PLACES] = [[0, 2, 1], [1, 0, 2], [2, 1, 0]];
+
+/// How the forces of the next step are foretold.
+#[derive(Debug)]
+pub(super) struct Forecast<'a, S, const D: usize> {
+    forces: &'a [[[S; D]; PLACES]],
+    turn: [usize; PLACES],
+    weights: [S; 2],
+}
+
+impl<S: Real, const D: usize> Forecast<'_, S, D> {
+    /// That on a node.
+    #[inline]
+    pub(super) fn of(&self, node: usize) -> [S; D] {
+        let [last, before, _] = self.turn.map(|step| &self.forces[node][step]);
+        let [by_last, by_before] = self.weights;
+        array::from_fn(|axis| by_last * last[axis] + by_before * before[axis])
+    }
+}
+
+/// Takes the forces of a step, node by node, in the place of its impulses.
+#[derive(Debug)]
+pub(super) struct Remembering<'a, S, const D: usize> {
+    forces: &'a mut [[[S; D]; PLACES]],
+    turn: [usize; PLACES],
+    errors: [S; 3],
+    found: &'a mut [S; 3],
+}
+
+/// The past as it is saved: forces per coordinate, of which those of anchors mean nothing.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -48,76 +84,122 @@ const FORECASTS: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [2.0, -1.0]];
 impl<S: Real, const D: usize> Past<S, D> {
     /// Nothing has happened yet.
     pub(super) fn none(nodes: usize) -> Self {
-        let zeros = vec![[S::zero(); D]; nodes];
         Self {
-            forces: [zeros.clone(), zeros],
+            forces: vec![[[S::zero(); D]; PLACES]; nodes],
+            turn: 0,
             errors: [S::zero(); 3],
             errors_before: [S::zero(); 3],
+            errors_after: [S::zero(); 3],
         }
     }
 
-    /// The weights of the forecast that has been best, and the forces that they belong to.
-    pub(super) fn best(&self) -> ([S; 2], [&[[S; D]]; 2]) {
+    /// The forecast that has been best.
+    #[inline]
+    pub(super) fn forecast(&self) -> Forecast<'_, S, D> {
         let [nothing, constant, linear] = self.errors;
-        let best = if linear < constant && linear < nothing {
-            2
-        } else {
-            usize::from(constant < nothing)
-        };
-        let forces = self.forces.each_ref().map(Vec::as_slice);
-        (FORECASTS[best].map(S::from_f64), forces)
-    }
-
-    /// Takes the forces of another step, given which nodes moved and their masses; leaves room for those
-    /// of the next step in their place.
-    pub(super) fn remember(
-        &mut self,
-        forces: &mut Vec<[S; D]>,
-        masses: impl Iterator<Item = (usize, S)>,
-    ) {
-        self.errors_before = self.errors;
-        let mut errors = self.errors.map(|error| S::from_f64(MEMORY) * error);
-        let [last, before] = &self.forces;
-        for (node, mass) in masses {
-            let per_mass = mass.recip();
-            let (force, last, before) = (&forces[node], &last[node], &before[node]);
-            for axis in 0..D {
-                let change = force[axis] - last[axis];
-                let misses = [force[axis], change, change - (last[axis] - before[axis])];
-                for (error, miss) in errors.iter_mut().zip(misses) {
-                    *error += (miss * per_mass) * (miss * per_mass);
-                }
-            }
+        let is_linear = linear.less(constant) & linear.less(nothing);
+        let is_constant = constant.less(nothing);
+        let weights = array::from_fn(|k| {
+            let [nothing, constant, linear] = FORECASTS.map(|weights| S::from_f64(weights[k]));
+            let other = S::select(is_constant, constant, nothing);
+            S::select(is_linear, linear, other)
+        });
+        Forecast {
+            forces: &self.forces,
+            turn: TURNS[self.turn],
+            weights,
         }
-        self.errors = errors;
-        mem::swap(&mut self.forces[1], forces);
-        self.forces.swap(0, 1);
     }
 
-    /// Takes back the last [`remember`](Self::remember), given the room that it left.
-    pub(super) fn forget(&mut self, room: &mut Vec<[S; D]>) {
-        self.forces.swap(0, 1);
-        mem::swap(&mut self.forces[1], room);
+    /// The impulses of the step that is being closed.
+    #[inline]
+    pub(super) fn impulses(&mut self) -> Impulses<'_, S, D> {
+        let [_, _, next] = TURNS[self.turn];
+        Impulses::new(&mut self.forces, next)
+    }
+
+    /// Begins to take the forces of another step; until it is [kept](Self::keep), the last one stays the
+    /// last.
+    #[inline]
+    pub(super) fn remember(&mut self) -> Remembering<'_, S, D> {
+        Remembering {
+            forces: &mut self.forces,
+            turn: TURNS[self.turn],
+            errors: self.errors.map(|error| S::from_f64(MEMORY) * error),
+            found: &mut self.errors_after,
+        }
+    }
+
+    /// The step whose forces have been taken has succeeded: it is the last one.
+    #[inline]
+    pub(super) fn keep(&mut self) {
+        self.turn = if self.turn + 1 == PLACES {
+            0
+        } else {
+            self.turn + 1
+        };
+        self.errors_before = self.errors;
+        self.errors = self.errors_after;
+    }
+
+    /// Takes back the last [`keep`](Self::keep).
+    pub(super) fn forget(&mut self) {
+        self.turn = (self.turn + PLACES - 1) % PLACES;
         self.errors = self.errors_before;
     }
 
     /// What a run goes on from.
     pub(super) fn save(&self) -> SavedPast<S> {
+        let [last, before, _] = TURNS[self.turn];
+        let of = |step: usize| self.forces.iter().flat_map(|forces| forces[step]).collect();
         SavedPast {
-            forces: self
-                .forces
-                .each_ref()
-                .map(|forces| forces.as_flattened().to_vec()),
+            forces: [of(last), of(before)],
             errors: self.errors,
         }
     }
 
-    /// Goes on from what has been saved, of as many nodes.
+    /// Goes on from a saved past, of as many nodes.
     pub(super) fn restore(&mut self, saved: &SavedPast<S>) {
-        for (own, saved) in self.forces.iter_mut().zip(&saved.forces) {
-            own.copy_from_slice(saved.as_chunks().0);
+        let [last, before, _] = TURNS[self.turn];
+        for (step, saved) in [last, before].into_iter().zip(&saved.forces) {
+            for (own, saved) in self.forces.iter_mut().zip(saved.as_chunks().0) {
+                own[step] = *saved;
+            }
         }
         self.errors = saved.errors;
+    }
+}
+
+impl<S: Real, const D: usize> Remembering<'_, S, D> {
+    /// The impulse of a node, N s.
+    #[inline]
+    pub(super) fn impulse(&self, node: usize) -> &[S; D] {
+        let [_, _, next] = self.turn;
+        &self.forces[node][next]
+    }
+
+    /// The impulse of a node becomes a force: by 1/h, with its mass.
+    #[inline]
+    pub(super) fn take(&mut self, node: usize, per_step: S, mass: S) {
+        let [last, before, next] = self.turn;
+        let forces = &mut self.forces[node];
+        let (last, before) = (forces[last], forces[before]);
+        let per_mass = mass.recip();
+        for (axis, component) in forces[next].iter_mut().enumerate() {
+            let force = *component * per_step;
+            let change = force - last[axis];
+            let misses = [force, change, change - (last[axis] - before[axis])];
+            for (error, miss) in self.errors.iter_mut().zip(misses) {
+                *error += (miss * per_mass) * (miss * per_mass);
+            }
+            *component = force;
+        }
+    }
+
+    /// There are no more nodes.
+    #[inline]
+    pub(super) fn finish(self) {
+        *self.found = self.errors;
     }
 }
 
@@ -125,36 +207,48 @@ impl<S: Real, const D: usize> Past<S, D> {
 mod tests {
     use super::*;
 
-    fn after(forces: [f64; 3]) -> (Past<f64, 1>, Vec<[f64; 1]>) {
+    fn go_on(past: &mut Past<f64, 1>, force: f64) {
+        *past.impulses().of(0) = [0.5 * force];
+        let mut remembering = past.remember();
+        remembering.take(0, 2.0, 2.0);
+        remembering.finish();
+        past.keep();
+    }
+
+    fn after(forces: [f64; 3]) -> Past<f64, 1> {
         let mut past = Past::none(1);
-        let mut room = vec![[0.0]];
         for force in forces {
-            room[0] = [force];
-            past.remember(&mut room, [(0, 2.0)].into_iter());
+            go_on(&mut past, force);
         }
-        (past, room)
+        past
     }
 
     #[test]
     fn the_best_forecast_is_the_one_that_was() {
-        let foretold = |forces: [f64; 3]| {
-            let (past, _) = after(forces);
-            let ([by_last, by_before], [last, before]) = past.best();
-            by_last * last[0][0] + by_before * before[0][0]
-        };
-        assert_eq!(foretold([4.0, -4.0, 4.0]).to_bits(), 0.0_f64.to_bits());
-        assert_eq!(foretold([4.0, 4.0, 4.0]).to_bits(), 4.0_f64.to_bits());
-        assert_eq!(foretold([1.0, 2.0, 3.0]).to_bits(), 4.0_f64.to_bits());
+        let foretold = |forces: [f64; 3]| after(forces).forecast().of(0).map(f64::to_bits);
+        assert_eq!(foretold([4.0, -4.0, 4.0]), [0.0_f64.to_bits()]);
+        assert_eq!(foretold([4.0, 4.0, 4.0]), [4.0_f64.to_bits()]);
+        assert_eq!(foretold([1.0, 2.0, 3.0]), [4.0_f64.to_bits()]);
     }
 
     #[test]
     fn what_was_forgotten_leaves_no_trace() {
-        let (mut past, mut room) = after([1.0, 2.0, 4.0]);
+        let mut past = after([1.0, 2.0, 4.0]);
         let before = past.save();
-        room[0] = [9.0];
-        past.remember(&mut room, [(0, 2.0)].into_iter());
+        go_on(&mut past, 9.0);
         assert_ne!(past.save(), before);
-        past.forget(&mut room);
+        past.forget();
+        assert_eq!(past.save(), before);
+    }
+
+    #[test]
+    fn a_step_that_is_not_kept_leaves_no_trace() {
+        let mut past = after([1.0, 2.0, 4.0]);
+        let before = past.save();
+        *past.impulses().of(0) = [9.0];
+        let mut remembering = past.remember();
+        remembering.take(0, 1.0, 2.0);
+        remembering.finish();
         assert_eq!(past.save(), before);
     }
 }

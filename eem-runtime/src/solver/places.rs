@@ -2,7 +2,9 @@
 
 use core::array;
 
+use crate::compact::compact;
 use crate::group::Sites;
+use crate::masses::Masses;
 use crate::scalar::Real;
 
 /// A node that moves.
@@ -11,13 +13,32 @@ use crate::scalar::Real;
 /// `D i + D − 1` of the tangent and row `i` of the secant matrix.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MovingNode<S, const D: usize> {
-    pub(super) node: usize,
+    node: u32,
+    /// Its diagonal entries in the tangent.
+    diagonal: [u32; D],
+    /// Its diagonal entry in the secant matrix, if there is one.
+    secant_diagonal: u32,
     /// m, kg.
     pub(super) mass: S,
+}
+
+impl<S, const D: usize> MovingNode<S, D> {
+    #[inline]
+    pub(super) fn node(&self) -> usize {
+        self.node as usize
+    }
+
     /// Its diagonal entries in the tangent.
-    pub(super) diagonal: [usize; D],
+    #[inline]
+    pub(super) fn diagonal(&self) -> [usize; D] {
+        self.diagonal.map(|place| place as usize)
+    }
+
     /// Its diagonal entry in the secant matrix, if there is one.
-    pub(super) secant_diagonal: usize,
+    #[inline]
+    pub(super) fn secant_diagonal(&self) -> usize {
+        self.secant_diagonal as usize
+    }
 }
 
 /// A temperature that neighbours see.
@@ -29,18 +50,21 @@ pub(super) struct Seen {
 
 /// The nodes with a mass, and where they write.
 pub(super) fn moving<S: Real, const D: usize>(
-    masses: &[Option<S>],
+    masses: &Masses<S>,
     sites: &Sites<'_, S, D>,
 ) -> Vec<MovingNode<S, D>> {
     let nodes = masses.iter().zip(&sites.layout.nodes).enumerate();
-    let moving = nodes.filter_map(|(node, (mass, first))| Some((node, (*mass)?, (*first)?)));
+    let moving = nodes.filter_map(|(node, (mass, first))| Some((node, mass?, (*first)?)));
     let moving = moving.map(|(node, mass, first)| {
         let own = Some(first / D);
         MovingNode {
-            node,
+            node: compact(node),
+            diagonal: array::from_fn(|axis| {
+                let unknown = Some(first + axis);
+                compact(sites.place(unknown, unknown))
+            }),
+            secant_diagonal: compact(sites.secant_place(own, own)),
             mass,
-            diagonal: array::from_fn(|axis| sites.place(Some(first + axis), Some(first + axis))),
-            secant_diagonal: sites.secant_place(own, own),
         }
     });
     moving.collect()

@@ -18,9 +18,10 @@ use crate::error::{StateError, StepFailure};
 use crate::group::{Sites, StageGroup, StageTrial, StageView, points};
 use crate::layout::Layout;
 use crate::loads::{Loads, StepLoads};
+use crate::masses::Masses;
 use crate::newton::is_last;
 use crate::pattern::Pattern;
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 use crate::scene::ElementEntry;
 use crate::scheme::Scheme;
 use crate::state::State;
@@ -37,7 +38,7 @@ pub(crate) struct Staged<S: Real, const D: usize> {
 impl<S: Real, const D: usize> Staged<S, D> {
     pub(crate) fn new(
         mut groups: Vec<Box<dyn StageGroup<S, D>>>,
-        masses: &[Option<S>],
+        masses: &Masses<S>,
         elements: &[ElementEntry<S>],
         layout: &Layout,
         conduction: &Conduction<S>,
@@ -80,15 +81,14 @@ impl<S: Real, const D: usize> Staged<S, D> {
     pub(crate) fn evaluate_loads(
         &mut self,
         loads: &Loads<S, D>,
-        masses: &[Option<S>],
-        layout: &Layout,
+        masses: &Masses<S>,
         [time, step]: [S; 2],
         q0: &[S],
     ) -> Result<(), StepFailure> {
         let times = [time, time + S::from_f64(0.5) * step, time + step];
         for (stage, time) in self.loads.iter_mut().zip(times) {
             let span = [time, S::zero()];
-            stage.evaluate(loads, masses, layout, Scheme::Variational4, span, q0)?;
+            stage.evaluate(loads, masses, Scheme::Variational4, span, q0)?;
         }
         Ok(())
     }
@@ -209,7 +209,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         for (half, masses) in self.masses.iter().enumerate() {
             let (from, by) = (&self.previous[half], &mut self.correction[half]);
             for mass in masses {
-                by.0[mass.node] = from.0[mass.node].map(|component| growth * component);
+                by.0[mass.node()] = from.0[mass.node()].map(|component| growth * component);
             }
             by.1.fill(S::zero());
         }
@@ -239,7 +239,8 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
             let full = share == S::one();
             share = self.advance(groups, view)?;
             let before = before.replace(update).filter(|_| full);
-            if share == S::one() && is_last(update, before, effort.settings.tolerance) {
+            let is_last = is_last(update, before, effort.settings.tolerance);
+            if share == S::one() && is_last.decide() {
                 return Ok(());
             }
         }
@@ -284,8 +285,8 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         for (half, share) in [0.5, 1.0].map(S::from_f64).into_iter().enumerate() {
             for mass in &self.masses[half] {
                 let mobility = share * view.step / mass.mass;
-                let flight = momenta[mass.node].map(|momentum| mobility * momentum);
-                self.correction[half].0[mass.node] = flight;
+                let flight = momenta[mass.node()].map(|momentum| mobility * momentum);
+                self.correction[half].0[mass.node()] = flight;
             }
             self.correction[half].1.fill(S::zero());
         }
@@ -335,7 +336,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         let old = points::<S, D>(view.state.positions.values());
         for (half, masses) in self.masses.iter().enumerate() {
             let (from, by) = (&self.previous[half], &self.correction[half]);
-            for &MovingNode { node, .. } in masses {
+            for node in masses.iter().map(MovingNode::node) {
                 let (from, by, old) = (&from.0[node], &by.0[node], &old[node]);
                 let moved: [S; D] = array::from_fn(|axis| from[axis] + share * by[axis]);
                 trial.displacements[half][node] = moved;

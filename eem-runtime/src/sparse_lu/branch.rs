@@ -45,12 +45,15 @@ impl Memory<'_> {
     }
 }
 
+/// The most runs below a front among which one is looked for instead of noted.
+const MOST_SEARCHED: usize = 2;
+
 /// Working memory of a division and of its parts.
 #[derive(Debug)]
 pub(super) struct Branch {
     parts: Vec<Branch>,
     own: Range<usize>,
-    /// How much of [`Memory`] it takes with its parts.
+    /// How much of [`Memory`] it takes with its parts, if runs are one unknown long.
     sizes: [usize; 3],
     stack: Stack,
     rows: Rows,
@@ -75,35 +78,42 @@ struct Waiting {
 
 impl Waiting {
     /// Takes the last front that waits from the stack if it waits for the given one.
-    fn pop_for<'a>(&mut self, front: &Front<'_>, fronts: &'a Fronts) -> Option<Front<'a>> {
-        let last = fronts.front(*self.fronts.last()? as usize);
+    fn pop_for<'a, S, const L: usize>(
+        &mut self,
+        front: &Front<'_>,
+        matrix: &Matrix<'a, S, L>,
+    ) -> Option<Front<'a>> {
+        let last = matrix.fronts.front(*self.fronts.last()? as usize);
         if !last.contributes_to(front) {
             return None;
         }
         self.fronts.pop();
-        self.top -= last.rows.len() * last.rows.len();
+        let [_, height] = last.sizes(L);
+        self.top -= height * height;
         Some(last)
     }
 }
 
 impl Branch {
-    /// Memory for a division; `None` if it is missing.
-    pub(super) fn new(fronts: &Fronts, division: Division) -> Option<Self> {
+    /// Memory for a division, for runs of at most this length; `None` if it is missing.
+    pub(super) fn new(fronts: &Fronts, division: Division, length: usize) -> Option<Self> {
         let Division { parts, own } = division;
+        let Extent { lower, upper, .. } = fronts.extent(own.clone(), 1);
+        let places = fronts.places(&own);
+        let own_sizes = [lower, upper, places.len()];
         let Extent {
-            lower,
-            upper,
             left,
             waiting,
             width,
             height,
-        } = fronts.extent(own.clone());
-        let places = fronts.places(&own);
-        let own_sizes = [lower, upper, places.len()];
-        let parts = parts.into_iter().map(|part| Self::new(fronts, part));
+            ..
+        } = fronts.extent(own.clone(), length);
+        let parts = parts.into_iter();
+        let parts = parts.map(|part| Self::new(fronts, part, length));
         let parts = parts.collect::<Option<Vec<_>>>()?;
-        // What follows parts are a few fronts, whose rows may be looked for.
-        let noted = if parts.is_empty() { places } else { 0..0 };
+        // The rows of small fronts may be looked for, and those of the few fronts that follow parts.
+        let is_noted = parts.is_empty() && height > MOST_SEARCHED * length;
+        let noted = if is_noted { places } else { 0..0 };
         let of_parts = total(&parts);
         let left_by_parts = parts.iter().map(|part| part.targets.len());
         Some(Self {
@@ -124,12 +134,17 @@ impl Branch {
     }
 
     /// Factors its parts, then its own fronts.
-    pub(super) fn factor<S: Real>(&mut self, matrix: Matrix<'_, S>, memory: Memory<'_>) {
-        let (of_parts, mut memory) = memory.split_at(total(&self.parts));
+    pub(super) fn factor<S: Real, const L: usize>(
+        &mut self,
+        matrix: Matrix<'_, S, L>,
+        memory: Memory<'_>,
+    ) {
+        let of_parts = in_runs(total(&self.parts), L);
+        let (of_parts, mut memory) = memory.split_at(of_parts);
         factor_together(&mut self.parts, matrix, of_parts);
         for at in self.own.clone() {
             let front = matrix.fronts.front(at);
-            let (width, height) = (front.own.len(), front.rows.len());
+            let [width, height] = front.sizes(L);
             let sizes = [width * (width + height), width * height, width];
             let (own, later) = memory.split_at(sizes);
             memory = later;
@@ -138,11 +153,11 @@ impl Branch {
     }
 
     /// Eliminates the own unknowns of a front.
-    fn eliminate<S: Real>(
+    fn eliminate<S: Real, const L: usize>(
         &mut self,
         at: usize,
         front: &Front<'_>,
-        matrix: &Matrix<'_, S>,
+        matrix: &Matrix<'_, S, L>,
         memory: Memory<'_>,
     ) {
         let Memory {
@@ -151,7 +166,8 @@ impl Branch {
             pivots,
         } = memory;
         let Stack { entries, waiting } = &mut self.stack;
-        let (square, top) = (front.rows.len() * front.rows.len(), waiting.top);
+        let [_, height] = front.sizes(L);
+        let (square, top) = (height * height, waiting.top);
         let (below, free) = entries.split_at_mut(top);
         let mut blocks = Blocks {
             lower,
@@ -163,18 +179,20 @@ impl Branch {
         self.rows.note(front);
         gather(&mut blocks, front, &self.rows, matrix);
         let mut take_up = |child: &Front<'_>, left: &[f64]| {
-            let targets = &mut self.targets[..child.rows.len()];
-            for (target, &place) in targets.iter_mut().zip(child.rows) {
-                *target = compact(self.rows.of(place as usize, front));
+            let targets = &mut self.targets[..child.rows.len() * L];
+            let runs = targets.as_chunks_mut::<L>().0;
+            for (run, &place) in runs.iter_mut().zip(child.rows) {
+                let first = compact(self.rows.of(place as usize, front) * L);
+                (first..).zip(run).for_each(|(row, target)| *target = row);
             }
             add(&mut blocks, targets, left);
         };
-        while let Some(child) = waiting.pop_for(front, matrix.fronts) {
+        while let Some(child) = waiting.pop_for(front, matrix) {
             take_up(&child, &below[waiting.top..]);
         }
         // What they have left lies under that, the last one's on top.
         for Stack { entries, waiting } in self.parts.iter_mut().rev().map(|part| &mut part.stack) {
-            while let Some(child) = waiting.pop_for(front, matrix.fronts) {
+            while let Some(child) = waiting.pop_for(front, matrix) {
                 take_up(&child, &entries[waiting.top..]);
             }
         }
@@ -195,12 +213,22 @@ fn total(branches: &[Branch]) -> [usize; 3] {
     branches.iter().fold([0; 3], add)
 }
 
+/// Sizes for runs of this length.
+fn in_runs([lower, upper, pivots]: [usize; 3], length: usize) -> [usize; 3] {
+    let square = length * length;
+    [lower * square, upper * square, pivots * length]
+}
+
 /// Factors branches that know nothing of each other.
-fn factor_together<S: Real>(branches: &mut [Branch], matrix: Matrix<'_, S>, memory: Memory<'_>) {
+fn factor_together<S: Real, const L: usize>(
+    branches: &mut [Branch],
+    matrix: Matrix<'_, S, L>,
+    memory: Memory<'_>,
+) {
     let Some((first, rest)) = branches.split_first_mut() else {
         return;
     };
-    let (own, others) = memory.split_at(first.sizes);
+    let (own, others) = memory.split_at(in_runs(first.sizes, L));
     threads::join(
         || first.factor(matrix, own),
         || factor_together(rest, matrix, others),
@@ -230,7 +258,7 @@ mod tests {
         });
         let mut values = vec![0.0; pattern.entries()];
         for row in 0..pattern.unknowns() {
-            for (place, &column) in pattern.places(row).zip(pattern.row(row)) {
+            for (place, &column) in pattern.blocks(row).zip(pattern.row(row)) {
                 let off = u8::try_from((3 * row + 5 * column as usize) % 7).unwrap();
                 values[place] = if row == column as usize {
                     9.1
@@ -240,14 +268,14 @@ mod tests {
             }
         }
         let fronts = Fronts::new(&pattern).unwrap();
-        let mut branch = Branch::new(&fronts, division(&fronts)).unwrap();
+        let mut branch = Branch::new(&fronts, division(&fronts), 1).unwrap();
         let [mut lower, mut upper] = [0, 1].map(|at| vec![f64::NAN; branch.sizes[at]]);
         let mut pivots = vec![0; pattern.unknowns()];
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         let pool = pool.build().unwrap();
         // The second time, memory is as the first time left it.
         for _ in 0..2 {
-            let matrix = Matrix {
+            let matrix = Matrix::<_, 1> {
                 fronts: &fronts,
                 pattern: &pattern,
                 values: &values,
@@ -270,7 +298,7 @@ mod tests {
     #[test]
     fn factors_have_the_same_bits_however_they_are_divided() {
         let divided = |fronts: &Fronts| {
-            let division = Division::new(fronts);
+            let division = Division::new(fronts, 1);
             assert!(division.parts.len() >= 2, "{division:?}");
             division
         };

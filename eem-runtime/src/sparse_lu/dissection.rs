@@ -1,5 +1,7 @@
 //! Nested dissection: an order of elimination that keeps the parts of a large net apart.
 //!
+//! Unknowns here are runs: what shares its entries is eliminated together.
+//!
 //! ```text
 //! order   one side, the other side, what separates them;  each side the same way
 //! ```
@@ -30,7 +32,7 @@ const NONE: u32 = u32::MAX;
 
 /// The unknowns in the order of their elimination; `None` if memory is missing.
 pub(super) fn order(pattern: &Pattern) -> Option<Vec<u32>> {
-    let count = pattern.unknowns();
+    let count = pattern.runs();
     let mut dissection = Dissection {
         pattern,
         parts: vec![0; count],
@@ -44,7 +46,7 @@ pub(super) fn order(pattern: &Pattern) -> Option<Vec<u32>> {
     let mut parts = vec![(0, count)];
     while let Some((start, end)) = parts.pop() {
         let set = &mut unknowns[start..end];
-        if set.len() <= SMALL {
+        if set.len() * pattern.length() <= SMALL {
             continue;
         }
         let Some([left, right]) = dissection.divide(set) else {

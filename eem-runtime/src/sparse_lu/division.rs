@@ -6,7 +6,7 @@
 //!
 //! Trees of fronts that do not contribute to each other are independent. As each front follows those
 //! that contribute to it at once, a tree is a range of fronts, its last the root. The division depends on
-//! the fronts alone.
+//! the fronts and on the length of runs alone.
 
 use core::ops::Range;
 
@@ -27,11 +27,11 @@ pub(super) struct Division {
 }
 
 impl Division {
-    /// All fronts; undivided if there are no threads or little work.
-    pub(super) fn new(fronts: &Fronts) -> Self {
+    /// All fronts, for runs of this length; undivided if there are no threads or little work.
+    pub(super) fn new(fronts: &Fronts, length: usize) -> Self {
         let all = 0..fronts.len();
         if threads::DIVIDE {
-            Forest::new(fronts).divide(all)
+            Forest::new(fronts, length).divide(all)
         } else {
             Self::whole(all)
         }
@@ -55,7 +55,7 @@ struct Forest {
 }
 
 impl Forest {
-    fn new(fronts: &Fronts) -> Self {
+    fn new(fronts: &Fronts, length: usize) -> Self {
         let count = fronts.len();
         let mut firsts: Vec<usize> = (0..count).collect();
         let mut works = Vec::with_capacity(count + 1);
@@ -63,7 +63,8 @@ impl Forest {
         works.push(work);
         for at in 0..count {
             let front = fronts.front(at);
-            let (width, tall) = (front.own.len(), front.own.len() + front.rows.len());
+            let [width, height] = front.sizes(length);
+            let tall = width + height;
             // Moving an entry costs as much as a few multiplications.
             work += tall * tall * (width + 8);
             works.push(work);

@@ -4,7 +4,6 @@ use super::branch::{Branch, Memory};
 use super::division::Division;
 use super::fronts::{Front, Fronts};
 use super::gathering::Matrix;
-use crate::pattern::Pattern;
 use crate::scalar::Real;
 
 /// L and U of all fronts, and the memory in which they are found.
@@ -23,25 +22,20 @@ pub(super) struct Factors {
 }
 
 impl Factors {
-    /// Memory for the factors; `None` if it is missing.
-    pub(super) fn new(fronts: &Fronts) -> Option<Self> {
-        let extent = fronts.extent(0..fronts.len());
+    /// Memory for the factors, for runs of at most this length; `None` if it is missing.
+    pub(super) fn new(fronts: &Fronts, length: usize) -> Option<Self> {
+        let extent = fronts.extent(0..fronts.len(), length);
         Some(Self {
             lower: zeros(extent.lower)?,
             upper: zeros(extent.upper)?,
-            pivots: vec![0; fronts.order.len()],
-            root: Branch::new(fronts, Division::new(fronts))?,
+            pivots: vec![0; fronts.order.len() * length],
+            root: Branch::new(fronts, Division::new(fronts, length), length)?,
             part: vec![0.0; extent.width.max(extent.height)],
         })
     }
 
-    /// Factors the matrix with these entries.
-    pub(super) fn factor<S: Real>(&mut self, fronts: &Fronts, pattern: &Pattern, values: &[S]) {
-        let matrix = Matrix {
-            fronts,
-            pattern,
-            values,
-        };
+    /// Factors a matrix.
+    pub(super) fn factor<S: Real, const L: usize>(&mut self, matrix: Matrix<'_, S, L>) {
         let memory = Memory {
             lower: &mut self.lower,
             upper: &mut self.upper,
@@ -50,19 +44,21 @@ impl Factors {
         self.root.factor(matrix, memory);
     }
 
-    /// Overwrites a right-hand side, in the order of elimination, with the solution.
-    pub(super) fn solve(&mut self, fronts: &Fronts, x: &mut [f64]) {
+    /// Overwrites a right-hand side, in the order of elimination, with the solution, for runs of `L`
+    /// unknowns, as the matrix has been factored.
+    pub(super) fn solve<const L: usize>(&mut self, fronts: &Fronts, x: &mut [[f64; L]]) {
         let (mut lower, mut upper) = (0, 0);
         for front in (0..fronts.len()).map(|at| fronts.front(at)) {
-            let (width, height) = (front.own.len(), front.rows.len());
+            let [width, height] = front.sizes(L);
             let columns = &self.lower[lower..][..width * (width + height)];
-            let pivots = &self.pivots[front.own.clone()];
-            forward(&front, columns, pivots, x, &mut self.part);
+            let pivots = &self.pivots[front.own.start * L..][..width];
+            let part = &mut self.part[..width.max(height)];
+            forward(&front, (columns, pivots), x, part);
             lower += columns.len();
             upper += width * height;
         }
         for front in (0..fronts.len()).rev().map(|at| fronts.front(at)) {
-            let (width, height) = (front.own.len(), front.rows.len());
+            let [width, height] = front.sizes(L);
             lower -= width * (width + height);
             upper -= width * height;
             let columns = &self.lower[lower..][..width * (width + height)];
@@ -72,16 +68,20 @@ impl Factors {
 }
 
 /// Solves with L of a front.
-fn forward(front: &Front<'_>, columns: &[f64], pivots: &[u32], x: &mut [f64], part: &mut [f64]) {
-    let width = front.own.len();
+fn forward<const L: usize>(
+    front: &Front<'_>,
+    (columns, pivots): (&[f64], &[u32]),
+    x: &mut [[f64; L]],
+    part: &mut [f64],
+) {
+    let [width, height] = front.sizes(L);
     let (head, later) = x.split_at_mut(front.own.end);
-    let own = &mut head[front.own.start..];
-    let part = &mut part[..width.max(front.rows.len())];
+    let own = head[front.own.start..].as_flattened_mut();
     part[..width].copy_from_slice(own);
     for (x, &pivot) in own.iter_mut().zip(pivots) {
         *x = part[pivot as usize];
     }
-    let part = &mut part[..front.rows.len()];
+    let part = &mut part[..height];
     part.fill(0.0);
     for (k, column) in columns.chunks_exact(width + part.len()).enumerate() {
         let (diagonal, below) = column.split_at(width);
@@ -93,21 +93,27 @@ fn forward(front: &Front<'_>, columns: &[f64], pivots: &[u32], x: &mut [f64], pa
             *sum += l * solved;
         }
     }
-    for (&row, sum) in front.rows.iter().zip(part) {
-        later[row as usize - front.own.end] -= *sum;
+    for (&row, sums) in front.rows.iter().zip(part.as_chunks::<L>().0) {
+        let run = &mut later[row as usize - front.own.end];
+        for (x, sum) in run.iter_mut().zip(sums) {
+            *x -= sum;
+        }
     }
 }
 
 /// Solves with U of a front.
-fn backward(front: &Front<'_>, columns: &[f64], upper: &[f64], x: &mut [f64]) {
-    let width = front.own.len();
-    let tall = width + front.rows.len();
+fn backward<const L: usize>(front: &Front<'_>, columns: &[f64], upper: &[f64], x: &mut [[f64; L]]) {
+    let [width, height] = front.sizes(L);
+    let tall = width + height;
     let (head, later) = x.split_at_mut(front.own.end);
-    let own = &mut head[front.own.start..];
-    for (&row, column) in front.rows.iter().zip(upper.chunks_exact(width)) {
-        let solved = later[row as usize - front.own.end];
-        for (x, u) in own.iter_mut().zip(column) {
-            *x -= u * solved;
+    let own = head[front.own.start..].as_flattened_mut();
+    let columns_of_runs = upper.chunks_exact(width * L);
+    for (&row, columns) in front.rows.iter().zip(columns_of_runs) {
+        let run = &later[row as usize - front.own.end];
+        for (&solved, column) in run.iter().zip(columns.chunks_exact(width)) {
+            for (x, u) in own.iter_mut().zip(column) {
+                *x -= u * solved;
+            }
         }
     }
     for (k, column) in columns.chunks_exact(tall).enumerate().rev() {

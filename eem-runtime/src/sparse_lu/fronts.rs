@@ -1,14 +1,14 @@
 //! Which unknowns are eliminated together, and which later ones each elimination touches.
 //!
 //! ```text
-//! front   own unknowns, consecutive in the order of elimination
-//!         rows below: the later unknowns that any of them is connected with by then
+//! front   own runs of unknowns, consecutive in the order of elimination
+//!         rows below: the later runs that any of them is connected with by then
 //! ```
 //!
-//! The pattern is symmetric, so that what one unknown touches by its column it touches by its row.
-//! Order and fronts depend on the pattern alone. Unknowns are ordered by approximate minimum degree
-//! (Amestoy, Davis & Duff 1996), or by nested dissection where that fills in much and the other
-//! less.
+//! The pattern is symmetric, so that what one run touches by its column it touches by its row.
+//! Order and fronts depend on the pattern alone, and serve for runs of any length. Runs are ordered by
+//! approximate minimum degree (Amestoy, Davis & Duff 1996), or by nested dissection where that fills in
+//! much and the other less.
 
 use core::ops::Range;
 
@@ -29,14 +29,14 @@ use crate::pattern::Pattern;
 const WORTH_DISSECTING: usize = 4;
 
 /// Fronts with at most this many own unknowns are merged if no larger share of entries is then zero.
-const MERGED: &[(usize, f64)] = &[(48, 0.1), (usize::MAX, 0.05)];
+const MERGED: [(usize, f64); 2] = [(48, 0.1), (usize::MAX, 0.05)];
 
 /// The fronts in an order in which each follows those that contribute to it, the last of them at once.
 #[derive(Debug)]
 pub(super) struct Fronts {
-    /// The unknown that is eliminated at a place.
+    /// The run that is eliminated at a place.
     pub(super) order: Vec<u32>,
-    /// The place of an unknown.
+    /// The place of a run.
     pub(super) places: Vec<u32>,
     /// Front f has the places `begins[f]..begins[f + 1]`,
     begins: Vec<u32>,
@@ -61,7 +61,7 @@ pub(super) struct Extent {
     /// Entries, and fronts, that wait at the same time for a later front.
     pub(super) left: usize,
     pub(super) waiting: usize,
-    /// The most own unknowns and the most rows below of a front.
+    /// The most own unknowns and the most unknowns below of a front.
     pub(super) width: usize,
     pub(super) height: usize,
 }
@@ -70,7 +70,8 @@ impl Fronts {
     /// Orders and analyses a pattern; `None` if memory is missing.
     pub(super) fn new(pattern: &Pattern) -> Option<Self> {
         let by_degree = Self::ordered(pattern, SymmetricOrdering::Amd)?;
-        let Extent { lower, upper, .. } = by_degree.extent(0..by_degree.len());
+        let length = pattern.length();
+        let Extent { lower, upper, .. } = by_degree.extent(0..by_degree.len(), length);
         if lower + upper <= WORTH_DISSECTING * pattern.entries() {
             return Some(by_degree);
         }
@@ -87,14 +88,14 @@ impl Fronts {
 
     /// Analyses a pattern for an order of elimination.
     fn ordered(pattern: &Pattern, order: SymmetricOrdering<'_, u32>) -> Option<Self> {
-        let unknowns = pattern.unknowns();
+        let runs = pattern.runs();
         let (starts, rows) = (pattern.starts(), pattern.columns());
-        let structure =
-            SymbolicSparseColMatRef::new_checked(unknowns, unknowns, starts, None, rows);
+        let structure = SymbolicSparseColMatRef::new_checked(runs, runs, starts, None, rows);
+        let merged = MERGED.map(|(most, share)| (most / pattern.length(), share));
         let parameters = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             supernodal_params: SymbolicSupernodalParams {
-                relax: Some(MERGED),
+                relax: Some(&merged),
             },
             ..CholeskySymbolicParams::default()
         };
@@ -185,13 +186,13 @@ impl Fronts {
         self.begins[fronts.start] as usize..self.begins[fronts.end] as usize
     }
 
-    /// What fronts in a row need together.
-    pub(super) fn extent(&self, fronts: Range<usize>) -> Extent {
+    /// What fronts in a row need together, for runs of this length.
+    pub(super) fn extent(&self, fronts: Range<usize>, length: usize) -> Extent {
         let mut extent = Extent::default();
         let mut left = 0;
         let mut waiting: Vec<Front<'_>> = Vec::new();
         for front in fronts.map(|at| self.front(at)) {
-            let (width, height) = (front.own.len(), front.rows.len());
+            let [width, height] = front.sizes(length);
             extent.lower += width * (width + height);
             extent.upper += width * height;
             extent.width = extent.width.max(width);
@@ -199,7 +200,8 @@ impl Fronts {
             left += height * height;
             extent.left = extent.left.max(left);
             while let Some(child) = waiting.pop_if(|child| child.contributes_to(&front)) {
-                left -= child.rows.len() * child.rows.len();
+                let [_, height] = child.sizes(length);
+                left -= height * height;
             }
             if height > 0 {
                 waiting.push(front);
@@ -211,6 +213,12 @@ impl Fronts {
 }
 
 impl Front<'_> {
+    /// How many unknowns are its own and how many are below, for runs of this length.
+    #[inline]
+    pub(super) fn sizes(&self, length: usize) -> [usize; 2] {
+        [self.own.len() * length, self.rows.len() * length]
+    }
+
     /// Whether this front, the last that waits, waits for the given one.
     pub(super) fn contributes_to(&self, front: &Front<'_>) -> bool {
         (self.rows[0] as usize) < front.own.end
@@ -262,7 +270,7 @@ mod tests {
         let unknowns = 40;
         let pattern = Pattern::new(unknowns, |pair| (1..unknowns).for_each(|b| pair(b - 1, b)));
         let fronts = Fronts::new(&pattern).unwrap();
-        let extent = fronts.extent(0..fronts.len());
+        let extent = fronts.extent(0..fronts.len(), 1);
         assert_eq!(extent.lower + extent.upper, pattern.entries());
         for (place, &unknown) in fronts.order.iter().enumerate() {
             assert_eq!(fronts.places[unknown as usize] as usize, place);

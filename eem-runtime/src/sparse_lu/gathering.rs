@@ -7,15 +7,34 @@ use super::fronts::{Front, Fronts};
 use crate::pattern::Pattern;
 use crate::scalar::Real;
 
-/// What is factored.
+/// What is factored, in runs of `L` unknowns.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Matrix<'a, S> {
+pub(super) struct Matrix<'a, S, const L: usize> {
     pub(super) fronts: &'a Fronts,
     pub(super) pattern: &'a Pattern,
+    /// Block by block, each row by row.
     pub(super) values: &'a [S],
 }
 
-/// The rows of the front at work.
+impl<S, const L: usize> Matrix<'_, S, L> {
+    /// The blocks of a run, each with the run that it shares, ascending.
+    #[inline]
+    pub(super) fn blocks_of(&self, run: usize) -> impl Iterator<Item = (usize, &[[S; L]; L])> {
+        let columns = self.pattern.row(run).iter();
+        let blocks = self.pattern.blocks(run);
+        columns
+            .zip(blocks)
+            .map(|(&column, at)| (column as usize, self.block(at)))
+    }
+
+    /// A block.
+    #[inline]
+    fn block(&self, at: usize) -> &[[S; L]; L] {
+        &self.values.as_chunks().0.as_chunks().0[at]
+    }
+}
+
+/// The rows of the front at work, counted in runs.
 #[derive(Debug)]
 pub(super) struct Rows {
     /// The first place of the branch,
@@ -25,7 +44,7 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    /// For fronts whose own unknowns have these places, or any.
+    /// For fronts whose own runs have these places, or any.
     pub(super) fn new(places: Range<usize>) -> Self {
         Self {
             first: places.start,
@@ -58,39 +77,49 @@ impl Rows {
 }
 
 /// Adds the entries of the matrix that belong to the own unknowns of a front.
-pub(super) fn gather<S: Real>(
+pub(super) fn gather<S: Real, const L: usize>(
     blocks: &mut Blocks<'_>,
     front: &Front<'_>,
     rows: &Rows,
-    matrix: &Matrix<'_, S>,
+    matrix: &Matrix<'_, S, L>,
 ) {
     let Matrix {
-        fronts,
-        pattern,
-        values,
+        fronts, pattern, ..
     } = *matrix;
-    let width = front.own.len();
-    let tall = width + front.rows.len();
+    let [width, height] = front.sizes(L);
+    let tall = width + height;
     for (own, place) in front.own.clone().enumerate() {
-        let unknown = fronts.order[place] as usize;
-        for (&other, value) in pattern
-            .row(unknown)
-            .iter()
-            .zip(&values[pattern.places(unknown)])
-        {
-            let place = fronts.places[other as usize] as usize;
+        let (own, run) = (own * L, fronts.order[place] as usize);
+        for (other, block) in matrix.blocks_of(run) {
+            let place = fronts.places[other] as usize;
             if place < front.own.start {
                 continue;
             }
-            let other_row = rows.of(place, front);
-            if other_row < width {
-                blocks.lower[other_row * tall + own] = value.to_f64();
+            let row = rows.of(place, front) * L;
+            if row < width {
+                write(block, &mut blocks.lower[row * tall..], (own, tall));
                 continue;
             }
-            blocks.upper[(other_row - width) * width + own] = value.to_f64();
-            if let Some(mirror) = pattern.position(other as usize, unknown) {
-                blocks.lower[own * tall + other_row] = values[mirror].to_f64();
+            let right = &mut blocks.upper[(row - width) * width..];
+            write(block, right, (own, width));
+            if let Some(mirror) = pattern.block(other, run) {
+                let below = &mut blocks.lower[own * tall..];
+                write(matrix.block(mirror), below, (row, tall));
             }
+        }
+    }
+}
+
+/// Writes a block from the given row of the first columns on, which are so tall.
+#[inline]
+fn write<S: Real, const L: usize>(
+    block: &[[S; L]; L],
+    columns: &mut [f64],
+    (row, tall): (usize, usize),
+) {
+    for (row, entries) in (row..).zip(block) {
+        for (column, entry) in entries.iter().enumerate() {
+            columns[column * tall + row] = entry.to_f64();
         }
     }
 }

@@ -10,12 +10,17 @@ use faer::sparse::linalg::lu::{LuSymbolicParams, NumericLu, SymbolicLu, factoriz
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Spec};
 
+use super::gathering::Matrix;
 use crate::lu::Singular;
 use crate::pattern::Pattern;
 use crate::scalar::Real;
 
 /// What solves `A x = b` for matrices with one pattern, whatever their values.
 pub(super) struct Pivoting {
+    /// Unknowns in a run of the matrix.
+    pub(super) length: usize,
+    /// Of single unknowns.
+    pattern: Pattern,
     symbolic: SymbolicLu<u32>,
     numeric: NumericLu<u32, f64>,
     memory: MemBuffer,
@@ -35,30 +40,38 @@ fn transposed(pattern: &Pattern) -> SymbolicSparseColMatRef<'_, u32> {
 }
 
 impl Pivoting {
-    /// Orders and analyses a pattern; `None` if memory is missing.
-    pub(super) fn new(pattern: &Pattern) -> Option<Self> {
-        let symbolic = factorize_symbolic_lu(transposed(pattern), LuSymbolicParams::default());
+    /// Orders and analyses a pattern, for runs of this length; `None` if memory is missing.
+    pub(super) fn new(pattern: &Pattern, length: usize) -> Option<Self> {
+        let pattern = pattern.one_by_one(length);
+        let symbolic = factorize_symbolic_lu(transposed(&pattern), LuSymbolicParams::default());
         let symbolic = symbolic.ok()?;
         let factor = symbolic.factorize_numeric_lu_scratch::<f64>(Par::Seq, Spec::default());
         let solve = symbolic.solve_transpose_in_place_scratch::<f64>(1, Par::Seq);
         Some(Self {
+            length,
+            pattern,
             memory: MemBuffer::try_new(factor.or(solve)).ok()?,
             symbolic,
             numeric: NumericLu::new(),
         })
     }
 
-    /// Overwrites a right-hand side with the solution for the matrix with these entries.
-    pub(super) fn solve<S: Real>(
+    /// Overwrites a right-hand side with the solution for a matrix with runs of its length.
+    pub(super) fn solve<S: Real, const L: usize>(
         &mut self,
-        pattern: &Pattern,
-        values: &[S],
+        matrix: &Matrix<'_, S, L>,
         x: &mut [f64],
     ) -> Result<(), Singular> {
-        let values: Vec<f64> = values.iter().map(|value| value.to_f64()).collect();
+        let mut values = Vec::with_capacity(self.pattern.entries());
+        for run in 0..matrix.pattern.runs() {
+            for row in 0..L {
+                let entries = matrix.blocks_of(run).flat_map(|(_, block)| &block[row]);
+                values.extend(entries.map(|entry| entry.to_f64()));
+            }
+        }
         let factors = self.symbolic.factorize_numeric_lu(
             &mut self.numeric,
-            SparseColMatRef::new(transposed(pattern), &values),
+            SparseColMatRef::new(transposed(&self.pattern), &values),
             Par::Seq,
             MemStack::new(&mut self.memory),
             Spec::default(),

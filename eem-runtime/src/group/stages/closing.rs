@@ -41,7 +41,7 @@ where
             let mut known = arms::<K, S, D>(&site.nodes, old);
             site.add_anchors(&mut known, &trial.displacements[0], S::one());
             secant.add_matrix(&site.is_mass, &weights, impulse, values);
-            secant.subtract_known(&site.is_mass, &weights, (&known, impulse), right);
+            site.subtract_known(&weights, (&known, impulse), right);
         }
     }
 

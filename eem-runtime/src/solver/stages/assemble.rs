@@ -30,11 +30,11 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         for (half, (masses, rows)) in self.masses.iter().zip([middle, end]).enumerate() {
             for (mass, rows) in masses.iter().zip(rows.as_chunks_mut::<D>().0) {
                 let inertia = inertia(mass.mass, half, view.step);
-                let displacement = &self.trial.displacements[half][mass.node];
-                let loads = loads::<S, D>(view, half, mass.node);
-                for (axis, (&place, residual)) in mass.diagonal.iter().zip(rows).enumerate() {
+                let displacement = &self.trial.displacements[half][mass.node()];
+                let loads = loads::<S, D>(view, half, mass.node());
+                for (axis, (place, residual)) in mass.diagonal().into_iter().zip(rows).enumerate() {
                     values[place] += inertia;
-                    let rest = momenta[mass.node][axis] + loads[axis];
+                    let rest = momenta[mass.node()][axis] + loads[axis];
                     *residual += rest - inertia * displacement[axis];
                     largest = largest.maximum(residual.abs());
                 }
@@ -51,14 +51,14 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
     ) -> S {
         self.remember();
         self.tangent.clear_rest::<D>();
-        let solution = self.tangent.right_mut();
+        let solution = self.tangent.solution_mut();
         let mut largest = S::zero();
         for (half, masses) in self.masses.iter().enumerate() {
             let correction = &mut self.correction[half];
             let changes = solution[half * self.half..].as_flattened().as_chunks().0;
             for (mass, displacement) in masses.iter().zip(changes) {
-                let per_length = self.per_length[mass.node];
-                correction.0[mass.node] = *displacement;
+                let per_length = self.per_length[mass.node()];
+                correction.0[mass.node()] = *displacement;
                 for &change in displacement {
                     largest = largest.maximum((change * per_length).abs());
                 }
@@ -73,7 +73,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
                 largest = largest.maximum((change / theta).abs());
             }
         }
-        largest.maximum(correct_locally(groups, view, self.tangent.right()))
+        largest.maximum(correct_locally(groups, view, self.tangent.solution()))
     }
 }
 

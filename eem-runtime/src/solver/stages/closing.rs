@@ -41,7 +41,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
     fn move_masses(&self, view: &StageView<'_, S>, next: &mut State<S>) -> Result<(), StepFailure> {
         let weights = variational_4::STEP.map(|weight| view.step * S::from_f64(weight));
         for mass in &self.masses[1] {
-            let node = mass.node;
+            let node = mass.node();
             let mut impulse = [S::zero(); D];
             for (forces, weight) in self.forces.iter().zip(weights) {
                 for (impulse, &force) in impulse.iter_mut().zip(&forces[node]) {
@@ -115,8 +115,8 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         let start = view.step * S::from_f64(variational_4::MIDDLE_AND_END[0][0]);
         let (values, right) = self.secant.parts();
         for (mass, right) in self.masses[0].iter().zip(right) {
-            values[mass.secant_diagonal] += inertia(mass.mass, 0, view.step);
-            let node = mass.node;
+            values[mass.secant_diagonal()] += inertia(mass.mass, 0, view.step);
+            let node = mass.node();
             let loads = loads::<S, D>(view, 0, node);
             let weight = view.loads[0].total_force::<D>(node);
             for (axis, right) in right.iter_mut().enumerate() {
@@ -130,7 +130,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
             .map_err(|_| StepFailure::SingularTangent)?;
         for at in 0..self.masses[0].len() {
             let mass = self.masses[0][at];
-            self.place(view, 0, mass.node, self.secant.right()[at]);
+            self.place(view, 0, mass.node(), self.secant.solution()[at]);
         }
         Ok(())
     }
@@ -142,15 +142,15 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
             variational_4::MIDDLE_AND_END[1].map(|weight| view.step * S::from_f64(weight));
         for at in 0..self.masses[1].len() {
             let mass = self.masses[1][at];
-            let mut displacement = momenta[mass.node];
+            let mut displacement = momenta[mass.node()];
             for (forces, weight) in self.forces.iter().zip(weights) {
-                for (sum, &force) in displacement.iter_mut().zip(&forces[mass.node]) {
+                for (sum, &force) in displacement.iter_mut().zip(&forces[mass.node()]) {
                     *sum += weight * force;
                 }
             }
             let mobility = view.step / mass.mass;
             let displacement = displacement.map(|momentum| mobility * momentum);
-            self.place(view, 1, mass.node, displacement);
+            self.place(view, 1, mass.node(), displacement);
         }
     }
 

@@ -54,7 +54,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         for (half, (displacements, seen)) in self.correction.iter_mut().enumerate() {
             let own = unknowns[half * self.half..].as_chunks().0;
             for (mass, &displacement) in self.masses[half].iter().zip(own) {
-                displacements[mass.node] = displacement;
+                displacements[mass.node()] = displacement;
             }
             for &Seen { slot, row } in &self.seen[half] {
                 seen[slot] = unknowns[row] - self.previous[half].1[slot];
