@@ -1,11 +1,12 @@
 //! One step of a whole scene: Newton's method, then the closing evaluation.
 
+mod balance;
 mod begin;
 mod closing;
 mod effort;
 mod iteration;
 mod linearize;
-mod motion;
+
 mod past;
 mod places;
 mod secant;
@@ -24,8 +25,8 @@ use crate::scene::ElementEntry;
 use crate::scheme::{Closing, Scheme};
 use crate::state::State;
 use crate::system::LinearSystem;
+use balance::Balance;
 pub(crate) use effort::{Effort, Iteration};
-use motion::Motion;
 use past::Past;
 pub(crate) use past::SavedPast;
 use places::{Seen, moving, seen};
@@ -48,7 +49,7 @@ const NEGLIGIBLE: f64 = 1.0 / 1024.0;
 pub(crate) struct Solver<S: Real, const D: usize> {
     scheme: Scheme,
     /// The nodes that move, in the order of their unknowns.
-    nodes: Vec<Motion<S, D>>,
+    nodes: Vec<Balance<S, D>>,
     /// The temperatures that neighbours see.
     seen: Vec<Seen>,
     /// The system of an iteration.
@@ -93,7 +94,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             secant: secant.as_ref().and_then(Secant::apart),
             shift: [0; 2],
         };
-        let nodes = moving(masses, &sites).into_iter().map(Motion::new);
+        let nodes = moving(masses, &sites).into_iter().map(Balance::new);
         let nodes: Vec<_> = nodes.collect();
         let seen = seen(&sites);
         let points = vec![[S::zero(); D]; masses.len()];

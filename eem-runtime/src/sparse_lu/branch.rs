@@ -10,7 +10,6 @@ use core::ops::Range;
 
 use super::division::Division;
 use super::elimination::{Blocks, Scratch};
-use super::factors::zeros;
 use super::fronts::{Extent, Front, Fronts};
 use super::gathering::{Matrix, Rows, add, gather};
 use crate::compact::compact;
@@ -233,6 +232,14 @@ fn factor_together<S: Real, const L: usize>(
         || first.factor(matrix, own),
         || factor_together(rest, matrix, others),
     );
+}
+
+/// That many zeros, if there is memory.
+pub(super) fn zeros(count: usize) -> Option<Vec<f64>> {
+    let mut zeros = Vec::new();
+    zeros.try_reserve_exact(count).ok()?;
+    zeros.resize(count, 0.0);
+    Some(zeros)
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Factors of a matrix, front by front, and what solves with them.
 
-use super::branch::{Branch, Memory};
+use super::branch::{Branch, Memory, zeros};
 use super::division::Division;
 use super::fronts::{Front, Fronts};
 use super::gathering::Matrix;
@@ -123,12 +123,4 @@ fn backward<const L: usize>(front: &Front<'_>, columns: &[f64], upper: &[f64], x
             *x -= u * solved;
         }
     }
-}
-
-/// That many zeros, if there is memory.
-pub(super) fn zeros(count: usize) -> Option<Vec<f64>> {
-    let mut zeros = Vec::new();
-    zeros.try_reserve_exact(count).ok()?;
-    zeros.resize(count, 0.0);
-    Some(zeros)
 }

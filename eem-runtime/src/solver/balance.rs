@@ -1,4 +1,4 @@
-//! What Newton's method knows of a node that moves, in one record.
+//! The momentum balance of a node that moves.
 
 use core::array;
 
@@ -6,16 +6,16 @@ use super::places::MovingNode;
 use crate::group::StepView;
 use crate::scalar::Real;
 
-/// A node that moves, during one step.
+/// What Newton's method knows of a node that moves, during one step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Motion<S, const D: usize> {
+pub(super) struct Balance<S, const D: usize> {
     pub(super) place: MovingNode<S, D>,
     /// `2p⁰ − h F⁰` with the part F⁰ of the force that the old state decides, N s; zero while nothing
     /// moves.
     pub(super) rest: [S; D],
 }
 
-impl<S: Real, const D: usize> Motion<S, D> {
+impl<S: Real, const D: usize> Balance<S, D> {
     pub(super) fn new(place: MovingNode<S, D>) -> Self {
         Self {
             place,
