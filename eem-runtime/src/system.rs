@@ -7,8 +7,8 @@
 //! The entries of A are one array, [`values`](LinearSystem::values). Where an entry is in it is
 //! asked once, when the scene is built ([`place`](LinearSystem::place)); an iteration then writes
 //! to places. The entries of a row that belong to the unknowns of one node lie next to each other, as do
-//! the rows of B. What belongs to an anchor has a place too, behind everything else, where nobody
-//! writes.
+//! the rows of B. What belongs to an anchor has a place too, behind everything else, which no
+//! elimination reads.
 //!
 //! How entries are laid out and what solves with them is the business of the [`Storage`]: another
 //! one is another variant there, with its answers to `new` (from the pattern), `entries`, `position`
