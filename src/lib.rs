@@ -16,9 +16,9 @@ pub mod prelude {
     pub use core::ops::ControlFlow;
 
     pub use crate::{
-        Checkpoint, Describe, Element, Ensemble, FreeEnergy, Ledger, NewtonSettings, Node,
+        Checkpoint, Describe, Element, Ensemble, FreeEnergy, Law, Ledger, NewtonSettings, Node,
         Quantity, Recorder, Reservoir, RunEnd, Scene, SceneError, Scheme, Simulation, StepError,
-        StepReport,
+        StepFailure, StepReport,
     };
 }
 

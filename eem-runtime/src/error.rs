@@ -242,6 +242,47 @@ pub enum StateError {
     },
 }
 
+/// A law that an exact scheme keeps in every step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Law {
+    /// `ΔE = work + heat`, J.
+    Energy,
+    /// The balance of linear momentum of the scene, kg m/s.
+    LinearMomentum,
+    /// The balance of angular momentum of the scene, kg m²/s.
+    AngularMomentum,
+    /// Every dashpot and every path of heat produces entropy, J/K.
+    Production,
+    /// The entropy that is kept is that of the temperature, `s = s(λ, γ, θ)`, J/K.
+    KeptEntropy,
+}
+
+impl Law {
+    /// The unit of its defect.
+    #[must_use]
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::Energy => "J",
+            Self::LinearMomentum => "kg m/s",
+            Self::AngularMomentum => "kg m²/s",
+            Self::Production | Self::KeptEntropy => "J/K",
+        }
+    }
+}
+
+impl core::fmt::Display for Law {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Self::Energy => "the energy",
+            Self::LinearMomentum => "the linear momentum",
+            Self::AngularMomentum => "the angular momentum",
+            Self::Production => "the production of entropy",
+            Self::KeptEntropy => "the entropy",
+        })
+    }
+}
+
 /// Why a step found no new state.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -263,6 +304,24 @@ pub enum StepFailure {
     NotConverged {
         /// The largest scaled update of the last iteration.
         update: f64,
+    },
+    /// The step that was found breaks a law of its scheme by more than rounding can.
+    #[error(
+        "{law} at t = {time:e} s is off by {defect:.3e} {unit}, where rounding explains {bound:.1e} {unit}{}; a smaller step may do",
+        element.map_or_else(String::new, |element| format!(" (most of it in {element})")),
+        unit = law.unit()
+    )]
+    LawNotKept {
+        /// The law.
+        law: Law,
+        /// By how much it is broken, in the unit of the law.
+        defect: f64,
+        /// What rounding explains, in the same unit.
+        bound: f64,
+        /// The element that contributes most, if the law holds element by element.
+        element: Option<Element>,
+        /// The time at the end of the step, s.
+        time: f64,
     },
     /// The tangent is singular.
     #[error("the tangent matrix is singular")]

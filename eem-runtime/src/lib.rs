@@ -63,7 +63,7 @@ pub use checkpoint::{Checkpoint, RestoreError};
 pub use describe::{Describe, Description};
 pub use domain::{Domain, DomainError, DomainPoint, DomainReport, Least, check_domain};
 pub use ensemble::{Ensemble, Experiment, MemberError, MemberFailure, Members, Outputs};
-pub use error::{NewtonIteration, SceneError, StateError, StepError, StepFailure};
+pub use error::{Law, NewtonIteration, SceneError, StateError, StepError, StepFailure};
 pub use free_energy::{Array, Caloric, Entry, FreeEnergy};
 pub use handle::{Element, HeatPartner, Node, Reservoir};
 pub use inversion::{Inversion, InversionError, invert};

@@ -50,8 +50,20 @@ pub struct StepReport<S> {
     pub iterations: usize,
     /// The last scaled update.
     pub update: S,
-    /// The largest residual of the momentum balances before the last update, N s.
+    /// The largest residual of the momentum balances at the new state, N s.
     pub residual: S,
+    /// `ΔE − work − heat` of the step, formed with energies of the stored states, J. See
+    /// [`bound`](Self::bound).
+    pub defect: S,
+    /// What rounding may do to [`defect`](Self::defect): `64 ε` times the magnitudes of all terms of
+    /// the balance and of their arguments, J. A step of an exact scheme beyond it is an error,
+    /// [`StepFailure::LawNotKept`](crate::StepFailure::LawNotKept).
+    pub bound: S,
+    /// The entropy that dashpots and conduction produced, J/K.
+    pub production: S,
+    /// The smallest production of a single dashpot or path of heat, J/K; never negative in an exact
+    /// scheme. Zero without any.
+    pub least_production: S,
 }
 
 /// An update below `tolerance` is the last one if it is also this much smaller than the one before:

@@ -84,6 +84,8 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     next: Box<State<S>>,
     /// The last step succeeded, and the elements still know what they did in it.
     has_stepped: bool,
+    /// The report with the largest `|defect|/bound` so far.
+    worst: Option<StepReport<S>>,
 }
 
 impl<const D: usize, S: Real> fmt::Debug for Simulation<D, S> {
@@ -148,6 +150,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             next: state.clone(),
             state,
             has_stepped: false,
+            worst: None,
         })
     }
 
@@ -173,6 +176,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             iterations: history.len(),
             update: last.map_or(S::zero(), |last| last.update),
             residual: last.map_or(S::zero(), |last| last.residual),
+            defect: S::zero(),
+            bound: S::zero(),
+            production: S::zero(),
+            least_production: S::zero(),
         })
     }
 
@@ -233,6 +240,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 .map(|iteration| iteration.to_f64())
                 .collect(),
         }
+    }
+
+    /// The step so far that came closest to its bound, or exceeded it by most: the one with the
+    /// largest `|defect|/bound`. `None` before the first step; [`restore`](Self::restore) forgets it.
+    #[must_use]
+    pub const fn worst_step(&self) -> Option<&StepReport<S>> {
+        self.worst.as_ref()
     }
 
     /// The time, s.
