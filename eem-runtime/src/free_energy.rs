@@ -112,6 +112,11 @@ pub trait FreeEnergy<S: Scalar> {
     /// `ψ(x)`, J.
     fn free_energy(&self, x: &Self::Variables) -> S;
 
+    /// `Σ |terms of ψ|`, J: times ε it is what rounding may have done to `free_energy(x)`.
+    fn energy_magnitude(&self, x: &Self::Variables) -> S {
+        self.free_energy(x).abs()
+    }
+
     /// `e(x) = ψ − θ ∂ψ/∂θ`, J.
     fn internal_energy(&self, x: &Self::Variables) -> S;
 
