@@ -16,7 +16,8 @@
 //! A⁺ = Σ |T_ij| |x_j| |Δx_i|          T: tangent of (f*, −g*, θ*),  x = (λ, γ, θ),  Δx = (Δλ, Δγ, Δs)
 //! ```
 //!
-//! A has the terms of the balance, A⁺ the work of the rounding of the arguments of the forces. Every
+//! A has the terms of the balance, A⁺, of which `A/√ε` counts at most, the work of the rounding of the
+//! arguments of the forces. Every
 //! term carries some roundings; 64 is eight times the largest `|R|/(ε (A + A⁺))` that a right step has
 //! shown, near an anchor. Momenta and productions are judged beside the energy.
 
@@ -40,8 +41,9 @@ const VALUE_ROUNDINGS: f64 = 4.0;
 /// What elements and paths of heat contribute to a certificate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tally<S: Real> {
-    /// Their part of A + A⁺, J.
-    amplitude: S,
+    /// Their part of A, and A⁺, J.
+    terms: S,
+    arguments: S,
     /// What they have produced, J/K.
     production: S,
     /// The smallest of all productions; the largest number without any, J/K.
@@ -54,7 +56,8 @@ impl<S: Real> Tally<S> {
     /// Of nothing.
     pub(crate) fn new() -> Self {
         Self {
-            amplitude: S::zero(),
+            terms: S::zero(),
+            arguments: S::zero(),
             production: S::zero(),
             least: S::MAX,
             is_balanced: !S::Mask::none(),
@@ -64,7 +67,15 @@ impl<S: Real> Tally<S> {
     /// An energy that takes part in the balance, J.
     #[inline]
     pub(crate) fn turn_over(&mut self, energy: S) {
-        self.amplitude += energy.abs();
+        self.terms += energy.abs();
+    }
+
+    /// The energies of an element that take part in the balance, and the work of the rounding of the
+    /// arguments of its forces, J.
+    #[inline]
+    pub(crate) fn element(&mut self, [terms, arguments]: [S; 2]) {
+        self.terms += terms;
+        self.arguments += arguments;
     }
 
     /// Entropy that a dashpot or a path of heat has produced, J/K.
@@ -234,7 +245,9 @@ impl<S: Real> Certificate<S> {
     ) -> Self {
         let mut energy = motion.energy;
         energy.add(internal);
-        let amplitude = motion.amplitude + tally.amplitude + magnitude;
+        let terms = motion.amplitude + tally.terms + magnitude;
+        // Half of the digits at most: where rounding of the arguments does more, a balance says nothing.
+        let amplitude = terms + tally.arguments.minimum(terms / S::EPSILON.sqrt());
         let has_produced = tally.least.less(S::MAX);
         let largest = |of: &[S]| of.iter().fold(S::zero(), |most, x| most.maximum(x.abs()));
         Self {

@@ -283,7 +283,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let previous = before.replace(update).filter(|_| is_full);
             purpose = Purpose::Iterate;
             let ends = is_last(update, previous, tolerance) & !settled;
-            let is_stuck = S::LANES == 1 && rest.is_stuck(update, previous);
+            let is_stuck =
+                S::LANES == 1 && self.scheme.is_exact() && rest.is_stuck(update, previous);
             last = ends;
             if is_stuck || (ends.any() && (settled | last).all()) {
                 purpose = Purpose::Close;

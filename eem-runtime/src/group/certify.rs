@@ -74,29 +74,29 @@ where
         terms.fold(S::zero(), |sum, (&slope, &x)| sum + (slope * x).abs())
     }
 
-    /// What the forces and the rounding of their arguments have to do with, J:
+    /// The element's part of A that its forces have, and of A⁺, J:
     ///
     /// ```text
-    /// |f*|(λ⁰ + λ¹) + Σ |g*|(|γ⁰| + |γ¹|) + Σ_ij |T_ij| |x_j| |Δx_i|,     Δx = (Δλ, Δγ, Δs)
+    /// |f*|(λ⁰ + λ¹) + Σ |g*|(|γ⁰| + |γ¹|),     Σ_ij |T_ij| |x_j| |Δx_i| with Δx = (Δλ, Δγ, Δs)
     /// ```
     #[inline]
-    pub(super) fn amplitude(&self) -> S {
+    pub(super) fn amplitude(&self) -> [S; 2] {
         let (x0, x1) = (&self.start.x0, &self.x);
-        let mut sum = S::zero();
+        let (mut terms, mut arguments) = (S::zero(), S::zero());
         for row in 0..M::MEASURES + M::DASHPOTS {
             let change = if row < M::MEASURES {
                 x1[row] - x0[row]
             } else {
                 self.creep[row - M::MEASURES]
             };
-            sum += self.response[row].abs() * (x0[row].abs() + x1[row].abs())
-                + self.magnitude_of_row(row) * change.abs();
+            terms += self.response[row].abs() * (x0[row].abs() + x1[row].abs());
+            arguments += self.magnitude_of_row(row) * change.abs();
         }
         if M::THERMAL {
             let change = self.response[Self::ENTROPY];
-            sum += self.magnitude_of_row(Self::TEMPERATURE) * change.abs();
+            arguments += self.magnitude_of_row(Self::TEMPERATURE) * change.abs();
         }
-        sum
+        [terms, arguments]
     }
 
     /// Judges the balances of the internal variables at the found response, of an element that has

@@ -35,10 +35,10 @@ where
                 member.book_thermostat(view, [entropy, received], next);
             }
             if C::EXACT {
-                let amplitude = member.amplitude();
-                tally.turn_over(amplitude);
+                let [terms, arguments] = member.amplitude();
+                tally.element([terms, arguments]);
                 let energy = next.energies[member.element.index].magnitude;
-                let magnitude = energy + amplitude;
+                let magnitude = energy + terms + arguments;
                 member.judge(view, (contact, trial), [received, magnitude], tally);
             }
         }
