@@ -121,7 +121,7 @@ impl Range {
     }
 
     fn times(self, other: Self) -> Self {
-        // A bound of zero is a limit of finite products, whatever the other one is.
+        // 0 · ∞ counts as 0: values are finite, ∞ only says that they have no bound.
         let product = |a: f64, b: f64| if a == 0.0 || b == 0.0 { 0.0 } else { a * b };
         let of = |a: f64| [product(a, other.lower), product(a, other.upper)];
         let [[a, b], [c, d]] = [of(self.lower), of(self.upper)];
@@ -138,7 +138,7 @@ impl Range {
     /// `1/x`.
     fn recip(self) -> Self {
         if self.lower >= 0.0 {
-            // Without the sign of a zero.
+            // `abs` turns −0 into 0, whose inverse is +∞.
             Self::new(self.upper.recip(), self.lower.abs().recip())
         } else if self.upper <= 0.0 {
             Self::new((-self.upper.abs()).recip(), self.lower.recip())

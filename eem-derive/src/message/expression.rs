@@ -238,7 +238,7 @@ pub(crate) fn negative_base() -> Message {
 
 /// The exponent is given if it is a constant.
 pub(crate) fn base_can_be_negative(argument: &str, exponent: Option<f64>) -> Message {
-    // Thirds and the like are not for reading.
+    // An exponent of many digits, such as 5/3, is shown as `y`.
     let short = exponent.filter(|y| (1000.0 * y).fract() == 0.0);
     let (y, half) = short.map_or_else(
         || ("y".to_owned(), "y / 2".to_owned()),
