@@ -46,8 +46,10 @@ where
                 self.x[Self::TEMPERATURE] = theta;
             }
         }
-        C::prepare(&self.model, &self.start, &self.x, &mut self.memory)
-            .map_err(|infeasible| infeasible.of(self.element))?;
+        if !trial.is_start {
+            C::prepare(&self.model, &self.start, &self.x, &mut self.memory)
+                .map_err(|infeasible| infeasible.of(self.element))?;
+        }
         Ok((r1, measures1))
     }
 
@@ -77,7 +79,12 @@ where
 
     /// The response and its tangent at the trial that has been located.
     #[inline]
-    pub(super) fn form(&self) -> Form<S, M> {
+    pub(super) fn form(&self, trial: &Trial<S, D>) -> Form<S, M> {
+        if trial.is_start
+            && let Some(form) = C::starting_form(&self.model, &self.start, &self.x)
+        {
+            return form;
+        }
         C::form(&self.model, &self.start, &self.x, &self.memory)
     }
 
@@ -98,8 +105,14 @@ where
         trial: &Trial<S, D>,
     ) -> Result<(), StateError> {
         let seen = self.locate_trial(kinematics, trial)?;
+        if trial.is_start {
+            let form = self.form(trial);
+            self.accept(&form)?;
+            self.response = form.0;
+            return Ok(());
+        }
         if M::THERMAL && C::IN_TEMPERATURE {
-            let mut form = self.form();
+            let mut form = self.form(trial);
             self.change_entropy_at_rates(kinematics, view, trial, &seen, &mut form);
             self.accept(&form)?;
             self.response = form.0;

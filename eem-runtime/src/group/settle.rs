@@ -36,9 +36,9 @@ where
             }
             if C::EXACT {
                 let [terms, arguments] = member.amplitude();
-                tally.element([terms, arguments]);
-                let energy = next.energies[member.element.index].magnitude;
-                let magnitude = energy + terms + arguments;
+                let forces = terms + arguments;
+                tally.force(forces);
+                let magnitude = next.energies[member.element.index].magnitude + forces;
                 member.judge(view, (contact, trial), [received, magnitude], tally);
             }
         }
