@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use crate::error::SceneError;
+use crate::readable::Readable;
 use crate::scheme::Scheme;
 
 /// What differs between a checkpoint and the simulation that should go on from it, or is wrong
@@ -66,7 +67,7 @@ pub enum RestoreError {
     #[error(transparent)]
     Settings(#[from] SceneError),
     /// A value in the checkpoint is none that a simulation can have.
-    #[error("the checkpoint has {value} among its values of {quantity}, they must be {required}")]
+    #[error("the checkpoint has {value} among its values of {quantity}, they must be {required}", value = Readable(*value))]
     Value {
         /// Of what.
         quantity: &'static str,
