@@ -16,6 +16,22 @@ use crate::scalar::Real;
 use crate::scene::is_positive;
 use crate::scheme::{Closing, Scheme};
 
+/// By how many ε of its size a prescribed function may differ from a state that follows it: a
+/// formula `c + a f(t)` rounds function, product and sum, each by ε at most of a size that is also
+/// that of the result or of the scene; a fourth ε is for the state, whose value is itself rounded.
+///
+/// In a step, `q⁰ + (x(t) − q⁰)` differs from `x(t)` by less: half an ε for each of the two sums, of
+/// at most twice the size, and half an ε for what was carried over.
+pub(crate) const MOTION_ROUNDINGS: f64 = 4.0;
+
+/// The largest magnitude of some coordinates, m.
+///
+/// Motions are judged in this unit and not in that of their own coordinates: elements see
+/// differences of positions, which have the rounding of the largest ones.
+pub(crate) fn extent<'a, S: Real>(coordinates: impl Iterator<Item = &'a S>) -> S {
+    coordinates.fold(S::zero(), |most, coordinate| most.maximum(coordinate.abs()))
+}
+
 /// A vector (force in N, position in m) as a function of time in s.
 pub(crate) type OfTime<S, const D: usize> = Box<dyn Fn(S) -> SVector<S, D> + Send + Sync>;
 

@@ -4,6 +4,7 @@
 
 mod act;
 mod check;
+mod start;
 
 use nalgebra::SVector;
 
@@ -26,6 +27,14 @@ pub(crate) struct NodeEntry<S, const D: usize> {
     pub(crate) velocity: SVector<S, D>,
     /// Given instead of the velocity.
     pub(crate) momentum: Option<SVector<S, D>>,
+}
+
+impl<S: Real, const D: usize> NodeEntry<S, D> {
+    /// The initial momentum of a node of this mass, kg m/s.
+    pub(crate) fn start_momentum(&self, mass: S) -> SVector<S, D> {
+        let from_velocity = || self.velocity.map(|velocity| mass * velocity);
+        self.momentum.unwrap_or_else(from_velocity)
+    }
 }
 
 /// What the scene knows of an element apart from its model.

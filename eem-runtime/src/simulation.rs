@@ -1,5 +1,6 @@
 //! A scene in motion.
 
+mod audit;
 mod event;
 mod generic;
 mod inspect;
@@ -7,6 +8,7 @@ mod linearize;
 mod resume;
 mod run;
 mod stepper;
+mod totals;
 
 use core::fmt;
 
@@ -28,6 +30,7 @@ use crate::solver::Effort;
 use crate::state::State;
 use crate::system::MOST_FIXED;
 use stepper::{Parts, Stepper};
+use totals::check_totals;
 
 pub use generic::Generic;
 pub use linearize::StepTangent;
@@ -135,7 +138,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         };
         let stepper = Stepper::new(built, parts, &mut state)?;
         layout.forget_places();
-        Ok(Self {
+        let run = Self {
             scene: scene.id,
             scheme,
             step,
@@ -151,7 +154,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             state,
             has_stepped: false,
             worst: None,
-        })
+        };
+        check_totals(&run.ledger())?;
+        Ok(run)
     }
 
     /// One step of the present size.
@@ -335,9 +340,8 @@ fn initial_state<const D: usize, S: Real>(scene: &Scene<D, S>, layout: &Layout) 
     let mut momenta = Vec::with_capacity(coordinates);
     for node in &scene.nodes {
         let mass = node.mass.unwrap_or(S::zero());
-        let from_velocity = node.velocity.map(|velocity| mass * velocity);
         positions.extend(node.position.iter());
-        momenta.extend(node.momentum.unwrap_or(from_velocity).iter());
+        momenta.extend(node.start_momentum(mass).iter());
     }
     let mut viscous = vec![S::zero(); layout.viscous];
     let mut temperatures = vec![S::zero(); layout.thermal];

@@ -144,6 +144,88 @@ pub enum SceneError {
         /// The component, kg m/s.
         value: f64,
     },
+    /// The kinetic energy of a mass is not finite.
+    #[error(
+        "the kinetic energy p²/2m of {node} is {value} J, it must be finite: its momentum is {momentum} kg m/s, its mass {mass} kg",
+        value = Readable(*value), momentum = Readable(*momentum), mass = Readable(*mass)
+    )]
+    KineticEnergy {
+        /// The node.
+        node: Node,
+        /// The kinetic energy, J.
+        value: f64,
+        /// The magnitude of the momentum, kg m/s.
+        momentum: f64,
+        /// The mass, kg.
+        mass: f64,
+    },
+    /// The weight of a mass is not finite.
+    #[error(
+        "component {axis} of the weight m g of {node} is {value} N, it must be finite",
+        value = Readable(*value)
+    )]
+    Weight {
+        /// The node.
+        node: Node,
+        /// The axis, from 0.
+        axis: usize,
+        /// The component, N.
+        value: f64,
+    },
+    /// An initial heat flow is not finite, or that of all paths to an element together.
+    #[error(
+        "the heat flow from {partner} to {element} at t = 0 s is {value} W, it must be finite, and so must the sum of all flows to an element",
+        value = Readable(*value)
+    )]
+    HeatFlow {
+        /// The element.
+        element: Element,
+        /// What it exchanges heat with.
+        partner: HeatPartner,
+        /// The heat flow `κ (θ_partner − θ)`, W.
+        value: f64,
+    },
+    /// A sum over the whole scene in its initial state is not finite, though each term is.
+    #[error(
+        "the {quantity} of the scene at t = 0 s is {value} {unit}, it must be finite: the terms of its sum are too large",
+        value = Readable(*value)
+    )]
+    Total {
+        /// An entry of the ledger.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+    /// The motion of an anchor does not begin where the anchor was created.
+    #[error(
+        "coordinate {axis} of the motion of {node} is {prescribed} m at t = 0 s, but the anchor was created at {created} m: create it where its motion begins",
+        created = Readable(*created), prescribed = Readable(*prescribed)
+    )]
+    AnchorJump {
+        /// The anchor.
+        node: Node,
+        /// The axis, from 0.
+        axis: usize,
+        /// The coordinate given to [`Scene::anchor`](crate::Scene::anchor), m.
+        created: f64,
+        /// The coordinate that the motion has at t = 0, m.
+        prescribed: f64,
+    },
+    /// A prescribed temperature does not begin at the initial one.
+    #[error(
+        "the temperature prescribed on {element} is {prescribed} K at t = 0 s, but its initial temperature is {initial} K: set the temperature with which the thermostat begins",
+        initial = Readable(*initial), prescribed = Readable(*prescribed)
+    )]
+    TemperatureJump {
+        /// The element.
+        element: Element,
+        /// The temperature given to [`Scene::set_temperature`](crate::Scene::set_temperature), K.
+        initial: f64,
+        /// The temperature that is prescribed at t = 0, K.
+        prescribed: f64,
+    },
     /// The same thing is prescribed twice.
     #[error("{quantity} of {handle} is prescribed twice")]
     PrescribedTwice {

@@ -10,13 +10,21 @@ use crate::readable::Readable;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StateError {
-    /// The nodes of an element coincide, or their distance is not finite.
-    #[error("the stretch of {element} is {value} m, it must be positive and finite", value = Readable(*value))]
+    /// The nodes of an element coincide, or are so near or far that the square of their distance,
+    /// of which the stretch is the root, underflows or overflows.
+    #[error(
+        "the stretch of {element} is {value} m, it must lie between {:.1e} m and {:.1e} m, so that its square neither underflows nor overflows",
+        least, most, value = Readable(*value)
+    )]
     Stretch {
         /// The element.
         element: Element,
         /// The stretch, m.
         value: f64,
+        /// The smallest stretch that the scalar of the scene allows, m.
+        least: f64,
+        /// The largest one, m.
+        most: f64,
     },
     /// A viscous stretch is not finite.
     #[error(

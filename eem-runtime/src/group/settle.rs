@@ -53,7 +53,7 @@ where
     ) -> Result<M::Variables, StateError> {
         let r = arms::<K, S, D>(&self.site.nodes, points(state.positions.values()));
         let measures = kinematics.measure(&r);
-        check_measures::<K, S, D>(kinematics, self.element, &measures)?;
+        check_measures::<K, S, D>(kinematics, self.element, &measures, &r)?;
         Ok(variables::<S, M>(measures.as_ref(), self.slots(), state))
     }
 
