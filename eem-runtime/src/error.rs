@@ -134,6 +134,12 @@ pub enum StepFailure {
         /// The time, s.
         time: f64,
     },
+    /// The time at the end of the step cannot be represented.
+    #[error("the time at the end of the step is {value} s, it must be finite", value = Readable(*value))]
+    Time {
+        /// The time, s.
+        value: f64,
+    },
     /// A run cannot end then.
     #[error("the end time is {end} s, it must be a number and not lie before the present time", end = Readable(*end))]
     End {

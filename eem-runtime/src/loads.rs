@@ -183,19 +183,24 @@ impl<S: Real> StepLoads<S> {
         self.force.fill(S::zero());
         for (node, force) in &loads.forces {
             let value = match scheme.closing() {
-                Closing::Open => (force(time) + force(end)).map(|component| half * component),
+                Closing::Open => {
+                    let [start, end] = [time, end].map(|time| force(time).map(|f| half * f));
+                    start + end
+                }
                 Closing::Secant | Closing::Start => force(middle),
             };
             for axis in 0..D {
-                if !value[axis].is_finite() {
+                // The sum of all loads on the node, which may overflow where none of them does.
+                let sum = &mut self.force[node.index * D + axis];
+                *sum += value[axis];
+                if !sum.is_finite() {
                     return Err(StepFailure::Load {
                         node: *node,
                         axis,
-                        value: value[axis].to_f64(),
+                        value: sum.to_f64(),
                         time: middle.to_f64(),
                     });
                 }
-                self.force[node.index * D + axis] += value[axis];
             }
         }
         self.add_weights(loads, masses);

@@ -194,6 +194,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             // Who waits for what all numbers agree on might wait forever.
             return Err(StepFailure::NotConverged { update: f64::NAN });
         }
+        check_end(self.time() + self.step)?;
         self.evaluate_loads()?;
         let (effort, next) = (&mut self.effort, &mut *self.next);
         let stepper = match &mut self.stepper {
@@ -321,6 +322,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// few unknowns, whose pivots are on the diagonal, and in a scheme with one set of forces.
     pub(crate) const fn suits_lanes(&self) -> bool {
         matches!(self.stepper, Stepper::AtOnce(_)) && self.unknowns() <= MOST_FIXED
+    }
+}
+
+/// The time at the end of a step is finite.
+fn check_end<S: Real>(time: S) -> Result<(), StepFailure> {
+    if time.is_finite() {
+        Ok(())
+    } else {
+        let value = time.to_f64();
+        Err(StepFailure::Time { value })
     }
 }
 
