@@ -70,6 +70,13 @@ fn heat_flows_that_overflow_alone_or_together() {
                 and so must the sum of all flows to an element";
     assert_eq!(error.to_string(), text);
     let error = refusal(|scene, _, spring| {
+        let room = scene.reservoir(1e-310);
+        scene.conduct(spring, room, 1.0);
+    });
+    let text = "the flow of entropy from reservoir 0 to element 0 at t = 0 s is -inf W/K, it must be \
+                finite, and so must the sum of all flows to an element";
+    assert_eq!(error.to_string(), text);
+    let error = refusal(|scene, _, spring| {
         let room = scene.reservoir(300.0);
         for _ in 0..20 {
             scene.conduct(spring, room, 8e306);

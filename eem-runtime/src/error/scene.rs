@@ -172,9 +172,10 @@ pub enum SceneError {
         /// The component, N.
         value: f64,
     },
-    /// An initial heat flow is not finite, or that of all paths to an element together.
+    /// An initial flow of heat or of its entropy is not finite, or that of all paths to an element
+    /// together.
     #[error(
-        "the heat flow from {partner} to {element} at t = 0 s is {value} W, it must be finite, and so must the sum of all flows to an element",
+        "the {quantity} from {partner} to {element} at t = 0 s is {value} {unit}, it must be finite, and so must the sum of all flows to an element",
         value = Readable(*value)
     )]
     HeatFlow {
@@ -182,8 +183,12 @@ pub enum SceneError {
         element: Element,
         /// What it exchanges heat with.
         partner: HeatPartner,
-        /// The heat flow `κ (θ_partner − θ)`, W.
+        /// Heat flow `Q = κ (θ_partner − θ)`, or flow of entropy `Q/θ` at the colder end.
+        quantity: &'static str,
+        /// The flow along this path, W or W/K.
         value: f64,
+        /// Its unit.
+        unit: &'static str,
     },
     /// A sum over the whole scene in its initial state is not finite, though each term is.
     #[error(

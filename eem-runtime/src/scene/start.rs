@@ -63,28 +63,33 @@ impl<const D: usize, S: Real> Scene<D, S> {
         let mut received = vec![S::zero(); self.elements.len()];
         for conductor in &self.conductors {
             let (element, partner) = (conductor.element, conductor.partner);
-            let there = match partner {
-                HeatPartner::Element(other) => temperature(other),
-                HeatPartner::Reservoir(reservoir) => Some(self.reservoirs[reservoir.index]),
+            let (there, other) = match partner {
+                HeatPartner::Element(other) => (temperature(other), Some(other)),
+                HeatPartner::Reservoir(reservoir) => (Some(self.reservoirs[reservoir.index]), None),
             };
             let (Some(here), Some(there)) = (temperature(element), there) else {
                 continue;
             };
             let flow = conductor.conductance * (there - here);
-            let mut sum = flow.abs();
-            let ends = match partner {
-                HeatPartner::Element(other) => [Some(element), Some(other)],
-                HeatPartner::Reservoir(_) => [Some(element), None],
-            };
-            for end in ends.into_iter().flatten() {
+            let mut largest = flow.abs();
+            for end in [Some(element), other].into_iter().flatten() {
                 received[end.index] += flow.abs();
-                sum = sum.maximum(received[end.index]);
+                largest = largest.maximum(received[end.index]);
             }
-            if !sum.is_finite() {
+            // The entropy is that of the colder end, the larger of the two.
+            let entropy = flow / here.minimum(there);
+            let flows = [
+                ("heat flow", flow, largest, "W"),
+                ("flow of entropy", entropy, entropy, "W/K"),
+            ];
+            let infinite = flows.iter().find(|(.., largest, _)| !largest.is_finite());
+            if let Some(&(quantity, value, _, unit)) = infinite {
                 return Err(SceneError::HeatFlow {
                     element,
                     partner,
-                    value: flow.to_f64(),
+                    quantity,
+                    value: value.to_f64(),
+                    unit,
                 });
             }
         }
@@ -99,9 +104,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             let created = self.nodes[anchor.index].position;
             let prescribed = motion(S::zero());
             for axis in 0..D {
-                let size = scale.maximum(prescribed[axis].abs());
-                let jump = prescribed[axis] - created[axis];
-                if !is_rounding(jump, size) {
+                if !is_rounding(prescribed[axis] - created[axis], scale) {
                     return Err(SceneError::AnchorJump {
                         node: *anchor,
                         axis,
