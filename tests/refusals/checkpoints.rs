@@ -229,7 +229,7 @@ fn another_time_or_an_infinite_energy() {
 #[test]
 fn a_scene_with_other_numbers() {
     let saved = run(Scheme::EemEntropy).checkpoint();
-    let mut expect = |spoil: fn(&mut Numbers), kind: &str| {
+    let expect = |spoil: fn(&mut Numbers), kind: &str| {
         let mut numbers = NUMBERS;
         spoil(&mut numbers);
         let mut other = build(Scheme::EemEntropy, &numbers);
