@@ -290,6 +290,17 @@ impl<S: Real> Certificate<S> {
         }
     }
 
+    /// An error unless the energy is a number after a step to `time`.
+    pub(crate) fn unless_infinite(&self, time: S) -> Result<(), StepFailure> {
+        if self.defect.is_finite() {
+            return Ok(());
+        }
+        Err(StepFailure::Energy {
+            value: self.defect.to_f64(),
+            time: time.to_f64(),
+        })
+    }
+
     /// Whether the balances of all nodes, dashpots and temperatures hold to rounding.
     #[inline]
     pub(crate) fn is_balanced(&self) -> bool {

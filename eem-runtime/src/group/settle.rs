@@ -62,7 +62,7 @@ where
     ) -> Result<M::Variables, StateError> {
         let r = arms_in::<K, S, D>(&self.site.nodes, &state.positions);
         let measures = kinematics.measure(&r);
-        check_measures::<K, S, D>(kinematics, self.element, &measures)?;
+        check_measures::<K, S, D>(kinematics, self.element, &measures, &r)?;
         Ok(variables::<S, M>(measures.as_ref(), self.slots(), state))
     }
 
