@@ -18,7 +18,7 @@
 //!
 //! A has the terms of the balance, A⁺ the work of the rounding of the arguments of the forces. Of what
 //! forces contribute to both, half of the digits count at most: the 1/√ε of the other terms and of
-//! `Σ m (ℓ/h)²`, with the shortest element ℓ of each node. Every
+//! `Σ m (ℓ/h)²`, with the shortest element ℓ of each node. A⁺ is found only where A is not enough. Every
 //! term carries some roundings; 64 is eight times the largest `|R|/(ε (A + A⁺))` that a right step has
 //! shown, near an anchor. Momenta and productions are judged beside the energy.
 
@@ -36,12 +36,27 @@ const ENOUGH: f64 = 0.03125;
 /// Roundings of `Σ |q||p|` and of `Σ |p|` up to which a step is taken without another iteration.
 const ENOUGH_MOMENTUM: f64 = 4.0;
 
+/// Roundings of the terms of the balance of a node, a dashpot or a temperature that it may be off by, when
+/// the arguments of the forces are left out: what is left of a small update is of this size, where false
+/// convergence is off by the terms themselves. Energy and momenta are judged apart.
+const BALANCE_ROUNDINGS: f64 = 4096.0;
+
 /// Roundings of the largest terms of a free energy, in the evaluation of which several add up.
 const VALUE_ROUNDINGS: f64 = 4.0;
+
+/// How much of what rounding explains is counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Care {
+    /// The terms of the balances alone, which is enough for most steps.
+    Quick,
+    /// Also the rounding of the arguments of the forces.
+    Thorough,
+}
 
 /// What elements and paths of heat contribute to a certificate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tally<S: Real> {
+    pub(crate) care: Care,
     /// Heat that flows, J.
     heat: S,
     /// What forces contribute to A, and A⁺, J.
@@ -56,8 +71,9 @@ pub(crate) struct Tally<S: Real> {
 
 impl<S: Real> Tally<S> {
     /// Of nothing.
-    pub(crate) fn new() -> Self {
+    pub(crate) fn new(care: Care) -> Self {
         Self {
+            care,
             heat: S::zero(),
             forces: S::zero(),
             production: S::zero(),
@@ -88,7 +104,11 @@ impl<S: Real> Tally<S> {
     /// What a balance is off by, and the magnitude of its terms.
     #[inline]
     pub(crate) fn balance(&mut self, residual: S, magnitude: S) {
-        let bound = S::from_f64(ROUNDINGS) * S::EPSILON * magnitude;
+        let roundings = match self.care {
+            Care::Quick => BALANCE_ROUNDINGS,
+            Care::Thorough => ROUNDINGS,
+        };
+        let bound = S::from_f64(roundings) * S::EPSILON * magnitude;
         self.is_balanced = self.is_balanced & residual.abs().at_most(bound);
     }
 }
@@ -101,8 +121,6 @@ pub(crate) struct Motion<S, const D: usize> {
     /// `Σ v̄·Δp − work`, J.
     energy: Sum<S>,
     amplitude: S,
-    /// `Σ m (ℓ/h)²` with the shortest elements ℓ, J.
-    reach: S,
     /// `Σ (Δp − hF)` of the loads F, and `Σ |p|`, kg m/s.
     linear: [S; D],
     momenta: S,
@@ -125,10 +143,8 @@ pub(crate) enum Kept<S, const D: usize> {
 /// What a node did in a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NodeStep<'a, S, const D: usize> {
-    /// m, kg.
-    pub(crate) mass: S,
-    /// `h/ℓ` with its shortest element ℓ, s/m.
-    pub(crate) slowness: S,
+    /// `1/m`, 1/kg.
+    pub(crate) per_mass: S,
     /// q⁰, m.
     pub(crate) position: &'a [S; D],
     /// p⁰, kg m/s.
@@ -147,7 +163,6 @@ impl<S: Real, const D: usize> Motion<S, D> {
             kept,
             energy: Sum::new(),
             amplitude: zero,
-            reach: zero,
             linear: [zero; D],
             momenta: zero,
             angular: [zero; 3],
@@ -165,10 +180,8 @@ impl<S: Real, const D: usize> Motion<S, D> {
             gain += (p + half * change) * change;
             square += p * p + end * end;
         }
-        self.reach += node.mass / (node.slowness * node.slowness);
-        let per_mass = node.mass.recip();
-        self.energy.add(gain * per_mass);
-        self.amplitude += half * square * per_mass;
+        self.energy.add(gain * node.per_mass);
+        self.amplitude += half * square * node.per_mass;
         if D > 0 && !matches!(self.kept, Kept::None) {
             let load = force.map(|force| force.map(|force| step * force));
             self.see_momenta(node, &load.unwrap_or([S::zero(); D]));
@@ -232,28 +245,24 @@ pub(crate) struct Certificate<S: Real> {
     is_balanced: S::Mask,
 }
 
-/// How much of what rounding explains a step may use up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Demand {
-    /// So little that another iteration would gain nothing.
-    Enough,
-    /// All of it.
-    Law,
-}
-
 impl<S: Real> Certificate<S> {
     /// From the motion of the nodes, what the elements say, and the energy `Σ Δe + Σ θ_r Δσ_r + heat lost −
-    /// heat` with the magnitude of its terms.
+    /// heat` with the magnitude of its terms; and `Σ m (ℓ/h)²`, J, if it is asked for.
     pub(crate) fn new<const D: usize>(
         motion: &Motion<S, D>,
         tally: &Tally<S>,
         [internal, magnitude]: [S; 2],
+        reach: impl FnOnce() -> S,
     ) -> Self {
         let mut energy = motion.energy;
         energy.add(internal);
         let terms = motion.amplitude + tally.heat + magnitude;
-        let most = (terms + motion.reach) / S::EPSILON.sqrt();
-        let amplitude = terms + tally.forces.minimum(most);
+        let half_of_digits = S::EPSILON.sqrt().recip();
+        let mut forces = tally.forces;
+        if !forces.at_most(half_of_digits * terms).all() {
+            forces = forces.minimum(half_of_digits * (terms + reach()));
+        }
+        let amplitude = terms + forces;
         let has_produced = tally.least.less(S::MAX);
         let largest = |of: &[S]| of.iter().fold(S::zero(), |most, x| most.maximum(x.abs()));
         Self {
@@ -310,34 +319,44 @@ impl<S: Real> Certificate<S> {
     /// Whether the balances and all laws hold to what rounding explains.
     #[inline]
     pub(crate) fn is_lawful(&self) -> bool {
-        self.is_balanced() && self.broken_law(Demand::Law).is_none()
+        self.is_balanced() && self.broken_law().is_none()
     }
 
-    /// Whether all equations hold as sharply as another iteration would make them.
+    /// Where all equations hold as sharply as another iteration would make them.
     #[inline]
-    pub(crate) fn is_enough(&self) -> bool {
-        self.is_balanced() && self.broken_law(Demand::Enough).is_none()
+    pub(crate) fn is_enough(&self) -> S::Mask {
+        let rounding = S::from_f64(ENOUGH_MOMENTUM) * S::EPSILON;
+        let [linear, momenta] = self.linear;
+        let [angular, moments] = self.angular;
+        self.is_balanced
+            & self.has_enough_energy()
+            & linear.at_most(rounding * momenta)
+            & angular.at_most(rounding * moments)
+            & S::zero().at_most(self.least_production)
     }
 
-    /// Whether the energy is as sharp as another iteration would make it.
+    /// Where the energy is as sharp as another iteration would make it.
     #[inline]
-    pub(crate) fn has_enough_energy(&self) -> bool {
+    pub(crate) fn has_enough_energy(&self) -> S::Mask {
         let enough = S::from_f64(ENOUGH) * self.bound;
-        self.defect.abs().at_most(enough).all()
+        self.defect.abs().at_most(enough)
+    }
+
+    /// This one where a mask holds and another elsewhere; both of the same step.
+    pub(crate) fn or(mut self, is_own: S::Mask, other: &Self) -> Self {
+        self.defect = S::select(is_own, self.defect, other.defect);
+        self.bound = S::select(is_own, self.bound, other.bound);
+        self.is_balanced = (self.is_balanced & is_own) | (other.is_balanced & !is_own);
+        self
     }
 
     /// The first law that is broken, with what it is off by and what rounding explains.
-    #[inline]
-    pub(crate) fn broken_law(&self, demand: Demand) -> Option<(Law, [S; 2])> {
-        let (energy, momentum) = match demand {
-            Demand::Enough => (ENOUGH, ENOUGH_MOMENTUM),
-            Demand::Law => (1.0, ROUNDINGS),
-        };
-        let rounding = S::from_f64(momentum) * S::EPSILON;
+    pub(crate) fn broken_law(&self) -> Option<(Law, [S; 2])> {
+        let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
         let [linear, momenta] = self.linear;
         let [angular, moments] = self.angular;
         let laws = [
-            (Law::Energy, self.defect, S::from_f64(energy) * self.bound),
+            (Law::Energy, self.defect, self.bound),
             (Law::LinearMomentum, linear, rounding * momenta),
             (Law::AngularMomentum, angular, rounding * moments),
             (

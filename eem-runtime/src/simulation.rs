@@ -44,6 +44,7 @@ macro_rules! view {
         StepView {
             phase: $phase,
             step: $simulation.step,
+            per_step: $simulation.step.recip(),
             state: $state,
             conduction: &$simulation.conduction,
             loads: &$loads,

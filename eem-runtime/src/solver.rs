@@ -65,8 +65,8 @@ pub(crate) struct Solver<S: Real, const D: usize> {
     has_other_starts: bool,
     /// The nodes that are anchors.
     anchors: Vec<usize>,
-    /// The magnitude of what the forces on each node are computed from, N s; empty unless the scheme
-    /// is exact.
+    /// The magnitude of what the forces on each node are computed from, N s; empty unless it has been
+    /// asked for.
     magnitudes: Vec<S>,
     /// The largest residual of the momentum balances where the step was closed, N s.
     final_residual: S,
@@ -122,7 +122,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             per_length: vec![S::one(); masses.len()],
             has_other_starts: false,
             anchors: masses.anchors().collect(),
-            magnitudes: vec![S::zero(); if scheme.is_exact() { masses.len() } else { 0 }],
+            magnitudes: Vec::with_capacity(if scheme.is_exact() { masses.len() } else { 0 }),
             final_residual: S::zero(),
             obstacle: None,
             worst: None,
@@ -251,8 +251,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let number = |part: u8| S::from_f64(f64::from(part));
         let mut found = None;
         for part in 1..=CONTINUATION_STEPS {
+            let step = view.step * number(part) / number(CONTINUATION_STEPS);
             let shorter = StepView {
-                step: view.step * number(part) / number(CONTINUATION_STEPS),
+                step,
+                per_step: step.recip(),
                 ..*view
             };
             let target = if part == CONTINUATION_STEPS {

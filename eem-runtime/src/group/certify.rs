@@ -5,7 +5,7 @@ use super::arms::{along, arms_in};
 use super::member::Member;
 use super::site::Contact;
 use super::{StepView, Trial};
-use crate::certificate::{Recount, Tally};
+use crate::certificate::{Care, Recount, Tally};
 use crate::free_energy::{Array, FreeEnergy};
 use crate::kinematics::{Arms, Ends, Kinematics};
 use crate::scalar::Real;
@@ -48,7 +48,7 @@ where
     /// ```text
     /// h (|f*| + Σ |∂f*/∂x_j| |x_j|) (1 + |Δr|/λ)
     /// ```
-    #[inline]
+    #[cold]
     pub(super) fn add_magnitude(&self, h: S, change: &Arms<K, S, D>, magnitudes: &mut [S]) {
         let mut sum = S::zero();
         for a in 0..M::MEASURES {
@@ -68,7 +68,6 @@ where
     }
 
     /// `Σ_j |T_ij| |x_j|`: times ε, what rounding of the variables does to a response.
-    #[inline]
     fn magnitude_of_row(&self, row: usize) -> S {
         let terms = self.slopes[row].as_ref().iter().zip(self.x.as_ref());
         terms.fold(S::zero(), |sum, (&slope, &x)| sum + (slope * x).abs())
@@ -83,7 +82,7 @@ where
     ///
     /// With a small heat capacity c the temperature is known to `ε θ |∂s/∂λ| λ/c`, which is far more than
     /// its own rounding.
-    #[inline]
+    #[cold]
     fn resolution_of_row(&self, row: usize) -> S {
         let mut sum = self.magnitude_of_row(row);
         for a in 0..M::MEASURES {
@@ -96,29 +95,49 @@ where
         sum
     }
 
-    /// The element's part of A that its forces have, and of A⁺, J:
+    /// What its forces contribute to A and, with care, to A⁺, J:
     ///
     /// ```text
-    /// |f*|(λ⁰ + λ¹) + Σ |g*|(|γ⁰| + |γ¹|),     Σ_ij |T_ij| |x_j| |Δx_i| with Δx = (Δλ, Δγ, Δs)
+    /// |f*|(λ⁰ + λ¹) + Σ |g*|(|γ⁰| + |γ¹|)  +  Σ_ij |T_ij| |x_j| |Δx_i|,     Δx = (Δλ, Δγ, Δs)
     /// ```
     #[inline]
-    pub(super) fn amplitude(&self) -> [S; 2] {
+    pub(super) fn amplitude(&self, care: Care) -> S {
         let (x0, x1) = (&self.start.x0, &self.x);
-        let (mut terms, mut arguments) = (S::zero(), S::zero());
+        let mut sum = S::zero();
+        for row in 0..M::MEASURES + M::DASHPOTS {
+            sum += self.response[row].abs() * (x0[row].abs() + x1[row].abs());
+        }
+        match care {
+            Care::Quick => sum,
+            Care::Thorough => sum + self.work_of_arguments(),
+        }
+    }
+
+    #[cold]
+    fn work_of_arguments(&self) -> S {
+        let mut sum = S::zero();
         for row in 0..M::MEASURES + M::DASHPOTS {
             let change = if row < M::MEASURES {
-                x1[row] - x0[row]
+                self.x[row] - self.start.x0[row]
             } else {
                 self.creep[row - M::MEASURES]
             };
-            terms += self.response[row].abs() * (x0[row].abs() + x1[row].abs());
-            arguments += self.magnitude_of_row(row) * change.abs();
+            sum += self.magnitude_of_row(row) * change.abs();
         }
         if M::THERMAL {
             let change = self.response[Self::ENTROPY];
-            arguments += self.magnitude_of_row(Self::TEMPERATURE) * change.abs();
+            sum += self.magnitude_of_row(Self::TEMPERATURE) * change.abs();
         }
-        [terms, arguments]
+        sum
+    }
+
+    /// What a response is known to, in units of ε.
+    #[inline]
+    fn known_to(&self, row: usize, care: Care) -> S {
+        match care {
+            Care::Quick => self.response[row].abs(),
+            Care::Thorough => self.response[row].abs() + self.resolution_of_row(row),
+        }
     }
 
     /// Judges the balances of the internal variables at the found response, of an element that has
@@ -131,12 +150,11 @@ where
         [received, magnitude]: [S; 2],
         tally: &mut Tally<S>,
     ) {
-        let h = view.thermal_step();
         for k in 0..M::DASHPOTS {
             if view.phase.heats() {
                 let row = M::MEASURES + k;
-                let drag = self.viscosities.0[k] * self.creep_rate(k, h);
-                let terms = drag.abs() + self.response[row].abs() + self.resolution_of_row(row);
+                let drag = self.viscosities.0[k] * self.creep_rate(k, view);
+                let terms = drag.abs() + self.known_to(row, tally.care);
                 tally.balance(drag - self.response[row], terms);
             }
         }
@@ -151,7 +169,7 @@ where
         if contact.is_some()
             && let Some(slot) = self.slots().thermal
         {
-            let terms = theta + self.resolution_of_row(Self::TEMPERATURE);
+            let terms = self.known_to(Self::TEMPERATURE, tally.care);
             tally.balance(trial.seen.values[slot] - theta, terms);
         }
     }

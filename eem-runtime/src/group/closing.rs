@@ -50,7 +50,7 @@ where
                 (share, member.force(self.kinematics, at, [r0, &r1]))
             } else {
                 let mut mean = arms::<K, S, D>(nodes, &trial.displacements);
-                if C::EXACT {
+                if C::EXACT && !magnitudes.is_empty() {
                     member.add_magnitude(view.step, &mean, magnitudes);
                 }
                 for (mean, old) in mean.as_mut().iter_mut().zip(r0.as_ref()) {
@@ -141,14 +141,15 @@ where
         let slots = self.slots();
         let h = view.thermal_step();
         let share = S::from_f64(C::IMPLICIT) * h;
+        let per_theta = self.per_temperature();
         let mut dissipated = S::zero();
         for k in 0..M::DASHPOTS {
             let old = &view.state.viscous;
             next.viscous.advance(slots.viscous + k, old, self.creep[k]);
             if view.phase.heats() {
-                let heat = share * self.power_of(k, h);
+                let heat = share * self.power_of(k, view);
                 dissipated += heat;
-                tally.produce(heat * self.per_temperature());
+                tally.produce(heat * per_theta);
             }
         }
         tally.turn_over(dissipated);

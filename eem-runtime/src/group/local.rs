@@ -151,9 +151,9 @@ where
 
     /// `γ̇_k` of the trial, of which the scheme takes the share w, m/s.
     #[inline]
-    pub(super) fn creep_rate(&self, k: usize, h: S) -> S {
+    pub(super) fn creep_rate(&self, k: usize, view: &StepView<'_, S>) -> S {
         if C::EXACT {
-            self.creep[k] / h
+            self.creep[k] * view.per_step
         } else {
             self.response[M::MEASURES + k] / self.viscosities.0[k]
         }
@@ -161,8 +161,8 @@ where
 
     /// `η_k γ̇_k²`, W.
     #[inline]
-    pub(super) fn power_of(&self, k: usize, h: S) -> S {
-        let rate = self.creep_rate(k, h);
+    pub(super) fn power_of(&self, k: usize, view: &StepView<'_, S>) -> S {
+        let rate = self.creep_rate(k, view);
         self.viscosities.0[k] * (rate * rate)
     }
 
@@ -186,11 +186,10 @@ where
             self.ordinary_dashpot_balance(view, k, (response, tangent), system, dissipation);
             return;
         }
-        let h = view.thermal_step();
-        let (eta, rate) = (self.viscosities.0[k], self.creep_rate(k, h));
+        let (eta, rate) = (self.viscosities.0[k], self.creep_rate(k, view));
         system.constant[k] = eta * rate - response[index];
         dissipation.power += eta * (rate * rate);
-        let per_creep = eta / h;
+        let per_creep = eta * view.per_step;
         for column in 0..Self::VARIABLES {
             // The derivative of η γ̇ by way of the temperature.
             let thinning = if M::THERMAL {

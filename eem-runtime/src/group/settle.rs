@@ -35,8 +35,7 @@ where
                 member.book_thermostat(view, [entropy, received], next);
             }
             if C::EXACT {
-                let [terms, arguments] = member.amplitude();
-                let forces = terms + arguments;
+                let forces = member.amplitude(tally.care);
                 tally.force(forces);
                 let magnitude = next.energies[member.element.index].magnitude + forces;
                 member.judge(view, (contact, trial), [received, magnitude], tally);

@@ -66,6 +66,7 @@ impl<'a, S: Real> StageView<'a, S> {
         StepView {
             phase: Phase::Whole,
             step: self.step,
+            per_step: self.step.recip(),
             state: self.state,
             conduction: self.conduction,
             loads: &self.loads[END],

@@ -16,8 +16,9 @@ use crate::system::LinearSystem;
 pub(crate) struct StepView<'a, S> {
     /// What changes.
     pub(crate) phase: Phase,
-    /// h, s.
+    /// h, s, and 1/h.
     pub(crate) step: S,
+    pub(crate) per_step: S,
     /// The old state.
     pub(crate) state: &'a State<S>,
     pub(crate) conduction: &'a Conduction<S>,

@@ -35,7 +35,7 @@ impl<S: Real, const D: usize> Balance<S, D> {
     pub(super) fn weigh(&mut self, view: &StepView<'_, S>, momentum: &[S; D], force: [S; D]) {
         self.rest = [S::zero(); D];
         if view.phase.moves() {
-            let mobility = view.step / self.place.mass;
+            let mobility = view.step * self.place.per_mass;
             self.flight = momentum.map(|momentum| mobility * momentum);
             self.push = force.map(|force| -view.step * force);
         } else {

@@ -40,7 +40,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for group in groups.iter_mut() {
             group.begin(view, &mut old)?;
         }
-        self.twice_per_step = S::from_f64(2.0) * view.step.recip();
+        self.twice_per_step = S::from_f64(2.0) * view.per_step;
         self.place_moved_anchors(view);
         self.start(view, start);
         Ok(())
@@ -48,7 +48,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// Inertia and impulses that do not change during the step.
     pub(super) fn weigh(&mut self, view: &StepView<'_, S>) {
-        self.twice_per_step = S::from_f64(2.0) * view.step.recip();
+        self.twice_per_step = S::from_f64(2.0) * view.per_step;
         let momenta = points::<S, D>(view.state.momenta.values());
         for node in &mut self.nodes {
             let at = node.place.node();
@@ -92,7 +92,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             *per_length = inverse_length(*per_length);
             let mut displacement = [S::zero(); D];
             if is_foretold {
-                let (force, mobility) = (forecast.of(at), view.step / node.place.mass);
+                let (force, mobility) = (forecast.of(at), view.step * node.place.per_mass);
                 displacement =
                     array::from_fn(|axis| mobility * (momentum[axis] + half_step * force[axis]));
             }

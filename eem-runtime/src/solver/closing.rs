@@ -4,7 +4,7 @@ use core::array;
 
 use super::Solver;
 use super::begin::old_force;
-use crate::certificate::{Certificate, Kept, Motion, NodeStep, Recount, Tally};
+use crate::certificate::{Care, Certificate, Kept, Motion, NodeStep, Recount, Tally};
 use crate::error::StepFailure;
 use crate::group::{Along, Group, StepView, points};
 use crate::newton::Largest;
@@ -21,15 +21,52 @@ impl<S: Real, const D: usize> Solver<S, D> {
         view: &StepView<'_, S>,
         next: &mut State<S>,
     ) -> Result<Certificate<S>, StepFailure> {
+        let certificate = self.close_with(Care::Quick, groups, view, next)?;
+        let is_enough = certificate.is_enough();
+        if !self.scheme.is_exact() || is_enough.all() {
+            return Ok(certificate);
+        }
+        let thorough = self.close_thoroughly(groups, view, next)?;
+        Ok(certificate.or(is_enough, &thorough))
+    }
+
+    /// The same with all that rounding explains, and with energies by differences where those by values
+    /// are not sharp enough.
+    #[cold]
+    fn close_thoroughly(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        next: &mut State<S>,
+    ) -> Result<Certificate<S>, StepFailure> {
+        let certificate = self.close_with(Care::Thorough, groups, view, next)?;
+        if certificate.has_enough_energy().all() {
+            return Ok(certificate);
+        }
+        let mut recount = Recount::new();
+        for group in groups.iter() {
+            group.recount([view.state, next], &mut recount);
+        }
+        self.worst = recount.worst();
+        Ok(certificate.recounted(&recount))
+    }
+
+    fn close_with(
+        &mut self,
+        care: Care,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        next: &mut State<S>,
+    ) -> Result<Certificate<S>, StepFailure> {
         next.copy_books(view.state);
         if view.phase.heats() {
             next.time.add(view.step);
         }
-        let mut tally = Tally::new();
+        let mut tally = Tally::new(care);
         let mut motion = Motion::new(self.kept(view));
         self.final_residual = S::zero();
         if view.phase.moves() {
-            self.find_motion(groups, view);
+            self.find_motion(groups, view, care);
             self.move_masses(view, next, &mut motion, &mut tally)?;
             self.move_anchors(view, next, &mut motion);
         } else {
@@ -40,16 +77,17 @@ impl<S: Real, const D: usize> Solver<S, D> {
             group.close(view, &self.trial, next, &mut tally)?;
         }
         let internal = energy_change(&view.conduction.reservoirs, [view.state, next]);
-        let certificate = Certificate::new(&motion, &tally, internal);
-        if !self.scheme.is_exact() || certificate.has_enough_energy() {
-            return Ok(certificate);
-        }
-        let mut recount = Recount::new();
-        for group in groups.iter() {
-            group.recount([view.state, next], &mut recount);
-        }
-        self.worst = recount.worst();
-        Ok(certificate.recounted(&recount))
+        let reach = || self.reach(view.step);
+        Ok(Certificate::new(&motion, &tally, internal, reach))
+    }
+
+    /// `Σ m (ℓ/h)²` with the shortest element ℓ of each node, J.
+    fn reach(&self, step: S) -> S {
+        let nodes = self.nodes.iter().map(|node| &node.place);
+        nodes.fold(S::zero(), |sum, place| {
+            let slowness = step * self.per_length[place.node()];
+            sum + place.mass / (slowness * slowness)
+        })
     }
 
     /// Which momenta the scene keeps.
@@ -65,8 +103,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 
     /// Impulses, and displacements where they follow from them.
-    fn find_motion(&mut self, groups: &mut [Box<dyn Group<S, D>>], view: &StepView<'_, S>) {
-        self.magnitudes.fill(S::zero());
+    fn find_motion(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        care: Care,
+    ) {
+        self.magnitudes.clear();
+        if care == Care::Thorough {
+            self.magnitudes.resize(self.per_length.len(), S::zero());
+        }
         match self.scheme.closing() {
             Closing::Increments if self.scheme.has_old_forces() => {
                 self.find_impulse(groups, view, Along::Scheme);
@@ -91,8 +137,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
         if view.loads.has_force() {
             self.book_work(view, next);
         }
-        let per_step = view.step.recip();
+        let per_step = view.per_step;
         let has_load = view.loads.has_total_force();
+        let is_exact = self.scheme.is_exact();
         let takes_increments = self.scheme.closing() == Closing::Increments;
         let mut largest = Largest::none();
         let mut remembering = self.past.remember();
@@ -105,18 +152,18 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 for axis in 0..D {
                     let residual = impulse[axis] - found[axis];
                     largest.see(residual);
-                    if let Some(&magnitude) = self.magnitudes.get(at) {
+                    if is_exact {
                         let inertia = node.place.mass * self.twice_per_step;
-                        let terms = magnitude + inertia * displacement[axis].abs();
-                        tally.balance(residual, terms + impulse[axis].abs());
+                        let terms = impulse[axis].abs() + inertia * displacement[axis].abs();
+                        let magnitude = self.magnitudes.get(at).copied();
+                        tally.balance(residual, terms + magnitude.unwrap_or(S::zero()));
                     }
                 }
                 *found = impulse;
             }
             let impulse = remembering.impulse(at);
             let moved = NodeStep {
-                mass: node.place.mass,
-                slowness: view.step * self.per_length[at],
+                per_mass: node.place.per_mass,
                 position: &points(view.state.positions.values())[at],
                 momentum: &points(view.state.momenta.values())[at],
                 displacement,
@@ -128,7 +175,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 view.step,
             );
             move_node(at, [displacement, &node.rest, impulse], view.state, next)?;
-            remembering.take(at, per_step, node.place.mass);
+            remembering.take(at, per_step, node.place.per_mass);
         }
         remembering.finish();
         self.final_residual = largest.found();
@@ -194,7 +241,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for node in &mut self.nodes {
             let at = node.place.node();
             node.rest = [S::zero(); D];
-            let mobility = view.step / node.place.mass;
+            let mobility = view.step * node.place.per_mass;
             let impulse = impulses.of(at);
             let displacement =
                 array::from_fn(|axis| mobility * (p0[at][axis] + half * impulse[axis]));

@@ -1,11 +1,11 @@
 //! Whether a step may be taken at a trial state.
 
 use super::Solver;
-use crate::certificate::{Certificate, Demand};
+use crate::certificate::Certificate;
 use crate::error::{Law, StepFailure};
 use crate::group::{Group, StepView};
 use crate::newton::{CONTRACTION, STAGNATION};
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 use crate::state::State;
 
 /// How often a step that breaks a law where Newton's method has come to rest is tried with another
@@ -147,7 +147,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 Err(failure) => Conclusion::Refused(failure),
             };
         }
-        if certificate.is_enough() {
+        if certificate.is_enough().all() {
             return Conclusion::Found(Some(certificate));
         }
         if S::LANES == 1 {
@@ -157,8 +157,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 return Conclusion::Open;
             }
         }
-        match certificate.broken_law(Demand::Law) {
-            None if certificate.is_balanced() => Conclusion::Found(Some(certificate)),
+        match certificate.broken_law() {
+            None if S::LANES == 1 && certificate.is_balanced() => {
+                Conclusion::Found(Some(certificate))
+            }
             None => Conclusion::Refused(StepFailure::NotConverged { update: f64::NAN }),
             Some((law, sizes)) => {
                 let element = self.worst.filter(|_| law == Law::Energy);

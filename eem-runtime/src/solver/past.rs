@@ -185,13 +185,12 @@ impl<S: Real, const D: usize> Remembering<'_, S, D> {
         &mut self.forces[node][next]
     }
 
-    /// The impulse of a node becomes a force: by 1/h, with its mass.
+    /// The impulse of a node becomes a force: by 1/h, with the reciprocal of its mass.
     #[inline]
-    pub(super) fn take(&mut self, node: usize, per_step: S, mass: S) {
+    pub(super) fn take(&mut self, node: usize, per_step: S, per_mass: S) {
         let [last, before, next] = self.turn;
         let forces = &mut self.forces[node];
         let (last, before) = (forces[last], forces[before]);
-        let per_mass = mass.recip();
         for (axis, component) in forces[next].iter_mut().enumerate() {
             let force = *component * per_step;
             let change = force - last[axis];
@@ -217,7 +216,7 @@ mod tests {
     fn go_on(past: &mut Past<f64, 1>, force: f64) {
         *past.impulses().of(0) = [0.5 * force];
         let mut remembering = past.remember();
-        remembering.take(0, 2.0, 2.0);
+        remembering.take(0, 2.0, 0.5);
         remembering.finish();
         past.keep();
     }
@@ -254,7 +253,7 @@ mod tests {
         let before = past.save();
         *past.impulses().of(0) = [9.0];
         let mut remembering = past.remember();
-        remembering.take(0, 1.0, 2.0);
+        remembering.take(0, 1.0, 0.5);
         remembering.finish();
         assert_eq!(past.save(), before);
     }

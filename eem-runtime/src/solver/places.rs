@@ -18,8 +18,9 @@ pub(super) struct MovingNode<S, const D: usize> {
     diagonal: [u32; D],
     /// Its diagonal entry in the secant matrix, if there is one.
     secant_diagonal: u32,
-    /// m, kg.
+    /// m, kg, and 1/m.
     pub(super) mass: S,
+    pub(super) per_mass: S,
 }
 
 impl<S, const D: usize> MovingNode<S, D> {
@@ -65,6 +66,7 @@ pub(super) fn moving<S: Real, const D: usize>(
             }),
             secant_diagonal: compact(sites.secant_place(own, own)),
             mass,
+            per_mass: mass.recip(),
         }
     });
     moving.collect()

@@ -4,7 +4,7 @@ use core::array;
 
 use super::StageSolver;
 use super::assemble::{inertia, loads};
-use crate::certificate::{Certificate, Kept, Motion, NodeStep, Tally};
+use crate::certificate::{Care, Certificate, Kept, Motion, NodeStep, Tally};
 use crate::error::StepFailure;
 use crate::group::{StageGroup, StageView, points};
 use crate::scalar::Real;
@@ -47,8 +47,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
             let impulse =
                 array::from_fn(|axis| next.momenta.change(node * D + axis, &view.state.momenta));
             let moved = NodeStep {
-                mass: mass.mass,
-                slowness: view.step * self.per_length[node],
+                per_mass: mass.per_mass,
                 position: &points(view.state.positions.values())[node],
                 momentum: &points(view.state.momenta.values())[node],
                 displacement,
@@ -63,7 +62,8 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         }
         motion.work(next.work.change(view.state.work));
         let internal = energy_change(&view.conduction.reservoirs, [view.state, next]);
-        Certificate::new(&motion, &Tally::new(), internal)
+        let tally = Tally::new(Care::Quick);
+        Certificate::new(&motion, &tally, internal, S::zero)
     }
 
     /// New positions and momenta, all finite, and the work of the loads.
