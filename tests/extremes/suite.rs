@@ -1,0 +1,15 @@
+//! The modules of the suite, shared by the tests and by the example `extremes`.
+
+#![allow(dead_code, reason = "tests and example each use their own part")]
+
+pub(crate) mod digits;
+pub(crate) mod element;
+pub(crate) mod findings;
+pub(crate) mod jet;
+pub(crate) mod judge;
+pub(crate) mod model;
+pub(crate) mod models;
+pub(crate) mod random;
+pub(crate) mod stored;
+pub(crate) mod watched;
+pub(crate) mod world;
