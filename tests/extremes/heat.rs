@@ -22,9 +22,11 @@ fn temperatures(effort: Effort) -> Tally {
     for scheme in EXACT {
         for exponent in -6..=8 {
             let theta = 10.0_f64.powi(exponent);
-            // Thermal stress is relative to the temperature of the start, so that it stays moderate.
+            // Neither thermal stress nor the heat of extension is more than at 300 K.
+            let coupling = 0.1 * (300.0 / theta).min(1.0);
             let model = Thermoelastic {
                 theta_ref: theta,
+                coupling,
                 ..Thermoelastic::ORDINARY
             };
             let spring = |world: &mut World<2>, ends| {
