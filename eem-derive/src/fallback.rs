@@ -68,6 +68,7 @@ fn body(scalar: &TokenStream, shape: Shape) -> TokenStream {
         #shape
         fn parameter(&self, _: __eem::core::primitive::usize) -> #scalar { #never }
         fn free_energy(&self, _: &Self::Variables) -> #scalar { #never }
+        fn energy_magnitude(&self, _: &Self::Variables) -> #scalar { #never }
         fn internal_energy(&self, _: &Self::Variables) -> #scalar { #never }
         fn gradient(&self, _: &Self::Variables) -> Self::Variables { #never }
         fn hessian(&self, _: &Self::Variables) -> (Self::Variables, Self::Hessian) { #never }

@@ -141,6 +141,7 @@ fn single_sums<S: Copy>(state: &State<S>) -> [(&'static str, Sum<S>); 5] {
         viscous: _,
         entropies: _,
         temperatures: _,
+        energies: _,
         reservoir_entropies: _,
         work,
         heat,

@@ -40,42 +40,64 @@ impl<S: Scalar> Compensated<S> {
     /// One sum of `old` and an increment.
     #[inline]
     pub(crate) fn advance(&mut self, index: usize, old: &Self, increment: S) {
-        let (value, rest) = two_sum(old.values[index], increment + old.carries[index]);
-        self.values[index] = value;
-        self.carries[index] = rest;
+        let from = Sum {
+            value: old.values[index],
+            carry: old.carries[index],
+        };
+        let sum = from.plus(increment);
+        self.values[index] = sum.value;
+        self.carries[index] = sum.carry;
     }
 
-    /// The sums of one point of `D` coordinates, of `old` and increments; everything that rounding took
-    /// from them, added up.
+    /// The sums of one point of `D` coordinates, of `old` and increments, each a value and the rounding
+    /// that is missing of it; all carries added up.
     #[inline(always)]
     #[expect(clippy::inline_always, reason = "a few numbers in registers")]
     pub(crate) fn advance_point<const D: usize>(
         &mut self,
         point: usize,
         old: &Self,
-        increments: &[S; D],
+        [increments, rests]: [&[S; D]; 2],
     ) -> S {
-        let (from, rest) = (
-            old.values.as_chunks::<D>().0,
-            old.carries.as_chunks::<D>().0,
-        );
-        let (from, rest) = (&from[point], &rest[point]);
+        let from = old.point::<D>(point);
         let values = &mut self.values.as_chunks_mut::<D>().0[point];
         let carries = &mut self.carries.as_chunks_mut::<D>().0[point];
-        // Written at once: who reads a point soon after would have to wait for its last coordinate.
-        let (mut sums, mut rests) = ([S::zero(); D], [S::zero(); D]);
+        // Both arrays are stored as a whole: a load soon after a store of a single coordinate would stall.
+        let (mut sums, mut missing) = ([S::zero(); D], [S::zero(); D]);
         for axis in 0..D {
-            (sums[axis], rests[axis]) = two_sum(from[axis], increments[axis] + rest[axis]);
+            let from = Sum {
+                value: from[0][axis],
+                carry: from[1][axis] + rests[axis],
+            };
+            let sum = from.plus(increments[axis]);
+            (sums[axis], missing[axis]) = (sum.value, sum.carry);
         }
-        (*values, *carries) = (sums, rests);
-        rests.into_iter().fold(S::zero(), |sum, rest| sum + rest)
+        (*values, *carries) = (sums, missing);
+        missing.into_iter().fold(S::zero(), |sum, rest| sum + rest)
+    }
+
+    /// The values and the carries of one point of `D` coordinates.
+    #[inline]
+    pub(crate) fn point<const D: usize>(&self, point: usize) -> [&[S; D]; 2] {
+        [&self.values, &self.carries].map(|all| &all.as_chunks::<D>().0[point])
     }
 
     /// Adds to one sum.
+    #[inline]
     pub(crate) fn add(&mut self, index: usize, increment: S) {
-        let (value, rest) = two_sum(self.values[index], increment + self.carries[index]);
-        self.values[index] = value;
-        self.carries[index] = rest;
+        let from = Sum {
+            value: self.values[index],
+            carry: self.carries[index],
+        };
+        let sum = from.plus(increment);
+        self.values[index] = sum.value;
+        self.carries[index] = sum.carry;
+    }
+
+    /// `self − old` of one sum, to rounding of the difference.
+    #[inline]
+    pub(crate) fn change(&self, index: usize, old: &Self) -> S {
+        (self.values[index] - old.values[index]) + (self.carries[index] - old.carries[index])
     }
 
     /// Takes over the sums of `other`, which has as many, without allocation.
@@ -105,7 +127,26 @@ impl<S: Scalar> Sum<S> {
     /// Adds to the sum.
     #[inline]
     pub(crate) fn add(&mut self, increment: S) {
-        (self.value, self.carry) = two_sum(self.value, increment + self.carry);
+        *self = self.plus(increment);
+    }
+
+    /// The sum with an increment.
+    ///
+    /// The carry is added to what rounding takes from `value + increment`, and not to the increment,
+    /// whose last digits it would lose (`Sum2`, Ogita, Rump & Oishi 2005).
+    #[inline]
+    fn plus(self, increment: S) -> Self {
+        let (high, error) = two_sum(self.value, increment);
+        let low = error + self.carry;
+        let value = high + low;
+        let carry = low - (value - high);
+        Self { value, carry }
+    }
+
+    /// `self − old`, to rounding of the difference.
+    #[inline]
+    pub(crate) fn change(self, old: Self) -> S {
+        (self.value - old.value) + (self.carry - old.carry)
     }
 }
 
@@ -145,6 +186,17 @@ impl<'de, S: serde::Deserialize<'de>> serde::Deserialize<'de> for Compensated<S>
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_small_increment_is_not_lost_beside_a_large_one_and_its_opposite() {
+        let mut sum = Sum::new(1.0_f64);
+        for increment in [1e-3, 1e-25, -1e-3] {
+            sum.add(increment);
+        }
+        assert_eq!(sum.value.to_bits(), 1.0_f64.to_bits());
+        // ε² of the value.
+        assert!((sum.carry - 1e-25).abs() < 1e-31, "{:e}", sum.carry);
+    }
 
     #[test]
     fn a_million_small_additions_leave_one_rounding() {

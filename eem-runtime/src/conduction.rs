@@ -2,6 +2,7 @@
 
 use crate::compact::compact;
 use crate::handle::HeatPartner;
+use crate::kernel::two_sum;
 use crate::layout::Layout;
 use crate::scalar::Real;
 use crate::scene::Scene;
@@ -123,6 +124,106 @@ impl<S: Real> Conduction<S> {
             }
         }
         flow
+    }
+}
+
+/// What a path of heat moves in a step, as one of its ends sees it.
+///
+/// With the heat `Q = hκ D` that flows down the difference D of two temperatures, the entropy
+///
+/// ```text
+/// u = Q/θ,     P = Q D/(θ (θ + D)) ≥ 0
+/// ```
+///
+/// leaves one end and reaches the other, where P is produced. Both ends book the same u, and P has the
+/// sign of D² to the last bit, so that the total entropy does not decrease even where D is far below the
+/// rounding of the temperatures.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Exchange<S> {
+    /// Heat that this end receives, J.
+    pub(crate) heat: S,
+    /// Entropy that this end receives, without what is produced, J/K.
+    pub(crate) entropy: S,
+    /// P, J/K.
+    pub(crate) production: S,
+}
+
+impl<S: Real> Exchange<S> {
+    /// The end at the temperature θ of a path to one that is warmer by `drop`, K, with `hκ` in J/K.
+    #[inline]
+    fn at_cool_end(conducted: S, drop: S, theta: S) -> Self {
+        let heat = conducted * drop;
+        Self {
+            heat,
+            entropy: heat / theta,
+            production: heat * (drop / (theta * (theta + drop))),
+        }
+    }
+
+    /// An element that is cooler by `drop` than a reservoir.
+    #[inline]
+    pub(crate) fn from_reservoir(conducted: S, drop: S, theta_r: S) -> Self {
+        Self::at_cool_end(conducted, -drop, theta_r).reversed()
+    }
+
+    /// The other end.
+    #[inline]
+    fn reversed(self) -> Self {
+        Self {
+            heat: -self.heat,
+            entropy: -self.entropy,
+            ..self
+        }
+    }
+}
+
+/// The algorithmic temperatures Θ = θ* as elements in contact see each other, per thermal slot, K.
+///
+/// Each is a value and the rounding that is missing of it: where conduction is stiff, the heat
+/// `hκ(Θ_b − Θ_a)` needs more digits of the difference than the temperatures have.
+#[derive(Clone, Debug)]
+pub(crate) struct SeenTemperatures<S> {
+    pub(crate) values: Vec<S>,
+    rests: Vec<S>,
+}
+
+impl<S: Real> SeenTemperatures<S> {
+    /// Room for so many.
+    pub(crate) fn new(slots: usize) -> Self {
+        let zeros = vec![S::zero(); slots];
+        Self {
+            values: zeros.clone(),
+            rests: zeros,
+        }
+    }
+
+    /// Restarts one.
+    #[inline]
+    pub(crate) fn set(&mut self, slot: usize, theta: S) {
+        (self.values[slot], self.rests[slot]) = (theta, S::zero());
+    }
+
+    /// Adds to one.
+    #[inline]
+    pub(crate) fn add(&mut self, slot: usize, change: S) {
+        let (value, error) = two_sum(self.values[slot], change);
+        (self.values[slot], self.rests[slot]) = two_sum(value, error + self.rests[slot]);
+    }
+
+    /// `Θ_far − Θ_near`, K.
+    #[inline]
+    pub(crate) fn drop(&self, near: usize, far: usize) -> S {
+        (self.values[far] - self.values[near]) + (self.rests[far] - self.rests[near])
+    }
+
+    /// What flows in a step to a slot from another, with `hκ` in J/K. The one of the two that comes first
+    /// is where u is formed.
+    #[inline]
+    pub(crate) fn exchange(&self, conducted: S, slot: usize, other: usize) -> Exchange<S> {
+        let first = slot.min(other);
+        let drop = self.drop(first, slot.max(other));
+        let path = Exchange::at_cool_end(conducted, drop, self.values[first]);
+        if slot == first { path } else { path.reversed() }
     }
 }
 

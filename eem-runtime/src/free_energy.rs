@@ -112,6 +112,19 @@ pub trait FreeEnergy<S: Scalar> {
     /// `ψ(x)`, J.
     fn free_energy(&self, x: &Self::Variables) -> S;
 
+    /// `Σ |terms of ψ|`, J: times ε it is what rounding may have done to
+    /// [`free_energy`](Self::free_energy).
+    ///
+    /// ```text
+    /// |ψ_computed − ψ_exact| ≤ 8 ε · energy_magnitude      |ψ| ≤ energy_magnitude
+    /// ```
+    ///
+    /// to first order in ε, for the given x and parameters. Rounding inside of functions, powers
+    /// and products counts with its effect on ψ: `ln(λ/l)` contributes 1 and not `|ln(λ/l)|`. A
+    /// ψ whose terms cancel has a magnitude far above |ψ|, and energies are compared no better
+    /// than that.
+    fn energy_magnitude(&self, x: &Self::Variables) -> S;
+
     /// `e(x) = ψ − θ ∂ψ/∂θ`, J.
     fn internal_energy(&self, x: &Self::Variables) -> S;
 

@@ -16,6 +16,7 @@ mod arms;
 mod assemble;
 mod at_point;
 mod begin;
+mod certify;
 mod closing;
 mod correct;
 mod eliminate;
@@ -33,6 +34,7 @@ mod site;
 mod stages;
 mod view;
 
+use crate::certificate::{Recount, Tally};
 use crate::compact::compact;
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
@@ -43,11 +45,11 @@ use crate::layout::Slots;
 use crate::scalar::Real;
 use crate::scheme::ElementScheme;
 use crate::state::State;
-use crate::system::{LinearSystem, Parts};
+use crate::system::LinearSystem;
 pub(crate) use arms::points;
 pub(crate) use generic::ElementGeneric;
 use member::Member;
-use site::{Contact, SecantSite, Site};
+use site::{Contact, Site};
 pub(crate) use stages::{StageGroup, StageTrial, StageView, ThreeStageGroup};
 pub(crate) use view::{Along, ElementView, GroupTotals, Old, Placed, Sites, StepView, Trial};
 
@@ -58,6 +60,9 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
 
     /// Energy and entropy, from their definitions.
     fn totals(&self, state: &State<S>) -> GroupTotals<S>;
+
+    /// Writes the energies of a state whose temperatures and entropies are known.
+    fn find_energies(&self, state: &mut State<S>);
 
     /// What the elements contribute to the GENERIC form in a state.
     fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>>;
@@ -96,31 +101,29 @@ pub(crate) trait Group<S: Real, const D: usize>: Elements<S, D> {
     /// The present trial is where the next correction starts; no local correction.
     fn hold(&mut self);
 
-    /// Applies the last correction, that of the solution, to the response too, through the tangent and
-    /// without evaluating it; not where numbers have settled.
-    fn extrapolate(&mut self, solution: &[[S; 1]], settled: S::Mask);
-
-    /// Adds `½h Σ A` and `−h Σ A q⁰`, where `A q_m` is the nodal force at the found response, to the
-    /// entries and right-hand sides of the secant system; moved anchors are taken from the trial.
-    fn add_secant(&mut self, view: &StepView<'_, S>, trial: &Trial<S, D>, system: Parts<'_, S, D>);
-
-    /// Adds the nodal impulse `−h F` of the found response, N s.
+    /// Adds the nodal impulse `−h F` of the found response, N s, and, where it acts along the gradient of
+    /// the scheme, the magnitude of what it is computed from to that of each node.
     fn add_impulse(
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
         along: Along,
         impulses: &mut Impulses<'_, S, D>,
+        magnitudes: &mut [S],
     );
 
     /// Adds the increments of the internal variables and of the reservoirs' entropies to a new state
-    /// whose positions are known, and finds its temperatures.
+    /// whose positions are known, and finds its temperatures and energies.
     fn close(
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
         next: &mut State<S>,
+        tally: &mut Tally<S>,
     ) -> Result<(), StateError>;
+
+    /// The energy balances of the elements in the last step, from the old state to a closed one.
+    fn recount(&self, ends: [&State<S>; 2], recount: &mut Recount<S>);
 
     /// What they contributed to the discrete GENERIC form of the last step, between two states.
     fn generic_of_step(&self, ends: [&State<S>; 2]) -> Vec<ElementGeneric<S>>;
@@ -137,8 +140,6 @@ where
     kinematics: K,
     members: Vec<Member<S, M, K, C, D>>,
     contacts: Vec<Contact<K, S, D>>,
-    /// Per member, if the scheme closes a step by a secant system with memory of its own.
-    secants: Vec<SecantSite<K, S, D>>,
 }
 
 impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
@@ -157,7 +158,6 @@ where
             kinematics,
             members: members.collect(),
             contacts: Vec::new(),
-            secants: Vec::new(),
         }
     }
 }
@@ -175,6 +175,10 @@ where
 
     fn totals(&self, state: &State<S>) -> GroupTotals<S> {
         self.sum(state)
+    }
+
+    fn find_energies(&self, state: &mut State<S>) {
+        self.find_all_energies(state);
     }
 
     fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>> {
@@ -209,13 +213,6 @@ where
                 self.contacts.push(contact);
             }
         }
-        if sites.secant.is_some() {
-            let sites = self
-                .members
-                .iter()
-                .map(|member| SecantSite::new(&member.site.nodes, sites));
-            self.secants = sites.collect();
-        }
     }
 
     fn begin(&mut self, view: &StepView<'_, S>, old: &mut Old<'_, S, D>) -> Result<(), StateError> {
@@ -247,22 +244,15 @@ where
         }
     }
 
-    fn extrapolate(&mut self, solution: &[[S; 1]], settled: S::Mask) {
-        self.extrapolate_all(solution, settled);
-    }
-
-    fn add_secant(&mut self, view: &StepView<'_, S>, trial: &Trial<S, D>, system: Parts<'_, S, D>) {
-        self.add_secant_all(view, trial, system);
-    }
-
     fn add_impulse(
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
         along: Along,
         impulses: &mut Impulses<'_, S, D>,
+        magnitudes: &mut [S],
     ) {
-        self.add_impulse_all(view, trial, along, impulses);
+        self.add_impulse_all(view, trial, along, (impulses, magnitudes));
     }
 
     fn close(
@@ -270,8 +260,13 @@ where
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
         next: &mut State<S>,
+        tally: &mut Tally<S>,
     ) -> Result<(), StateError> {
-        self.close_all(view, trial, next)
+        self.close_all(view, trial, next, tally)
+    }
+
+    fn recount(&self, ends: [&State<S>; 2], recount: &mut Recount<S>) {
+        self.recount_all(ends, recount);
     }
 
     fn generic_of_step(&self, ends: [&State<S>; 2]) -> Vec<ElementGeneric<S>> {

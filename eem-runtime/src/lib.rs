@@ -25,6 +25,7 @@ pub mod kernel;
 pub mod kinematics;
 
 mod blueprint;
+mod certificate;
 mod checkpoint;
 mod compact;
 mod compensated;

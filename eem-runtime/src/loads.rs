@@ -14,7 +14,7 @@ use crate::layout::Layout;
 use crate::masses::Masses;
 use crate::scalar::Real;
 use crate::scene::is_positive;
-use crate::scheme::{Closing, Scheme};
+use crate::scheme::Scheme;
 
 /// A vector (force in N, position in m) as a function of time in s.
 pub(crate) type OfTime<S, const D: usize> = Box<dyn Fn(S) -> SVector<S, D> + Send + Sync>;
@@ -166,9 +166,10 @@ impl<S: Real> StepLoads<S> {
         let (middle, end) = (time + half * step, time + step);
         self.force.fill(S::zero());
         for (node, force) in &loads.forces {
-            let value = match scheme.closing() {
-                Closing::Open => (force(time) + force(end)).map(|component| half * component),
-                Closing::Secant | Closing::Start => force(middle),
+            let value = if scheme.has_old_forces() {
+                (force(time) + force(end)).map(|component| half * component)
+            } else {
+                force(middle)
             };
             for axis in 0..D {
                 if !value[axis].is_finite() {

@@ -31,8 +31,11 @@ impl<S: Real> Masses<S> {
         (0..self.len()).map(|node| self.get(node))
     }
 
-    /// How many nodes are no anchors.
-    pub(crate) fn moving(&self) -> usize {
-        self.iter().flatten().count()
+    /// The nodes that are anchors.
+    pub(crate) fn anchors(&self) -> impl Iterator<Item = usize> + '_ {
+        let nodes = self.iter().enumerate();
+        nodes
+            .filter(|(_, mass)| mass.is_none())
+            .map(|(node, _)| node)
     }
 }

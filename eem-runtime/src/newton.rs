@@ -68,11 +68,11 @@ pub struct StepReport<S> {
 
 /// An update below `tolerance` is the last one if it is also this much smaller than the one before:
 /// the iteration then contracts, and what remains is smaller still.
-const CONTRACTION: f64 = 0.1;
+pub(crate) const CONTRACTION: f64 = 0.1;
 
 /// An iteration that contracts less than this, with updates below a tenth of the tolerance,
 /// has reached what rounding allows.
-const STAGNATION: f64 = 0.25;
+pub(crate) const STAGNATION: f64 = 0.25;
 
 /// Whether an update is the last one, given the one before.
 #[inline]

@@ -29,7 +29,7 @@ pub(crate) use eem_temperature::EemTemperature;
 pub(crate) use midpoint::Midpoint;
 pub(crate) use midpoint_temperature::MidpointTemperature;
 pub(crate) use staggered::Phase;
-pub(crate) use temperature::{temperature_and_energy_at, temperature_at};
+pub(crate) use temperature::{settled_at, temperature_at};
 pub(crate) use trapezoidal::Trapezoidal;
 pub(crate) use trapezoidal_temperature::TrapezoidalTemperature;
 pub(crate) use variational::Variational;
@@ -170,29 +170,36 @@ pub(crate) enum Placement {
     Start,
 }
 
-/// How the end of a step follows from its forces.
+/// How the end of a step follows from what Newton's method has found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Closing {
-    /// The nodal force is `A q_m`: displacements come from one linear solve.
-    Secant,
+    /// From the increments: `Δp = (2m/h) Δq − 2p⁰`.
+    Increments,
     /// The force at the start gives the displacements, the force at the end the momenta.
     Start,
-    /// Displacements stay as Newton's method left them.
-    Open,
 }
 
 impl Scheme {
-    /// How the end of a step follows from its forces.
+    /// How the end of a step follows from what Newton's method has found.
     pub(crate) const fn closing(self) -> Closing {
         match self {
+            Self::Variational | Self::Variational4 => Closing::Start,
             Self::EemEntropy
             | Self::EemTemperature
             | Self::Staggered
             | Self::Midpoint
-            | Self::MidpointTemperature => Closing::Secant,
-            Self::Variational | Self::Variational4 => Closing::Start,
-            Self::Trapezoidal | Self::TrapezoidalTemperature => Closing::Open,
+            | Self::MidpointTemperature
+            | Self::Trapezoidal
+            | Self::TrapezoidalTemperature => Closing::Increments,
         }
+    }
+
+    /// Whether every step has to keep energy, entropy and momenta.
+    pub(crate) const fn is_exact(self) -> bool {
+        matches!(
+            self,
+            Self::EemEntropy | Self::EemTemperature | Self::Staggered
+        )
     }
 }
 
@@ -208,6 +215,9 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static
     /// The part of forces and rates that is taken from the response; the rest, `1 − IMPLICIT`, is
     /// that of the old state.
     const IMPLICIT: f64;
+
+    /// Whether `f*Δλ − g*Δγ + θ*Δs = Δe` exactly, so that every step has to keep the laws.
+    const EXACT: bool = false;
 
     /// Whether Newton's method works on `θ* r_s` instead of `r_s`, which converges for stiff
     /// conduction too. The ordinary rules are solved the ordinary way.

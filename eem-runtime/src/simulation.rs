@@ -11,6 +11,7 @@ mod stepper;
 use core::fmt;
 
 use crate::blueprint::Shape;
+use crate::certificate::Certificate;
 use crate::compact::compact;
 use crate::compensated::{Compensated, Sum};
 use crate::conduction::Conduction;
@@ -21,11 +22,11 @@ use crate::layout::Layout;
 use crate::loads::Loads;
 use crate::masses::Masses;
 use crate::newton::{NewtonSettings, StepReport};
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 use crate::scene::{Scene, is_positive};
 use crate::scheme::{Phase, Scheme};
 use crate::solver::Effort;
-use crate::state::State;
+use crate::state::{Energy, State};
 use crate::system::MOST_FIXED;
 use stepper::{Parts, Stepper};
 
@@ -163,28 +164,29 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub fn step(&mut self) -> Result<StepReport<S>, StepError> {
         self.has_stepped = false;
         self.effort.restart();
-        if let Err(failure) = self.find_next() {
-            return Err(self.failed(failure));
-        }
+        let certificate = match self.find_next() {
+            Ok(certificate) => certificate,
+            Err(failure) => return Err(self.failed(failure)),
+        };
         core::mem::swap(&mut self.state, &mut self.next);
         self.has_stepped = true;
-        let history = &self.effort.history;
-        let last = history.last();
-        Ok(StepReport {
+        let report = StepReport {
             time: self.time(),
             step: self.step,
-            iterations: history.len(),
-            update: last.map_or(S::zero(), |last| last.update),
-            residual: last.map_or(S::zero(), |last| last.residual),
-            defect: S::zero(),
-            bound: S::zero(),
-            production: S::zero(),
-            least_production: S::zero(),
-        })
+            iterations: self.effort.history.len(),
+            update: self.effort.end.update,
+            residual: self.effort.end.residual,
+            defect: certificate.defect,
+            bound: certificate.bound,
+            production: certificate.production,
+            least_production: certificate.least_production,
+        };
+        self.note_worst(&report);
+        Ok(report)
     }
 
     /// Writes the next state.
-    fn find_next(&mut self) -> Result<(), StepFailure> {
+    fn find_next(&mut self) -> Result<Certificate<S>, StepFailure> {
         if S::has_given_up() {
             // Who waits for what all numbers agree on might wait forever.
             return Err(StepFailure::NotConverged { update: f64::NAN });
@@ -205,9 +207,20 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             return solver.solve(groups, &view, effort, next);
         };
         let view = view!(self, Phase::Mechanics, &self.state, stepper.loads);
-        solver.solve(groups, &view, effort, between)?;
+        let motion = solver.solve(groups, &view, effort, between)?;
         let view = view!(self, Phase::Heat, between, stepper.loads);
-        solver.solve(groups, &view, effort, next)
+        Ok(motion.and(solver.solve(groups, &view, effort, next)?))
+    }
+
+    /// Keeps a report if it comes closer to its bound than all before.
+    fn note_worst(&mut self, report: &StepReport<S>) {
+        let is_worse = self.worst.is_none_or(|worst| {
+            let (own, other) = (report.defect.abs(), worst.defect.abs());
+            (other * report.bound).less(own * worst.bound).any()
+        });
+        if is_worse {
+            self.worst = Some(*report);
+        }
     }
 
     /// The loads of the next step.
@@ -356,6 +369,7 @@ fn initial_state<const D: usize, S: Real>(scene: &Scene<D, S>, layout: &Layout) 
         viscous: Compensated::new(viscous),
         entropies: Compensated::new(vec![S::zero(); temperatures.len()]),
         temperatures,
+        energies: vec![Energy::zero(); scene.elements.len()],
         reservoir_entropies: Compensated::new(vec![S::zero(); scene.reservoirs.len()]),
         work: Sum::new(S::zero()),
         heat: Sum::new(S::zero()),

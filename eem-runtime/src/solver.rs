@@ -1,20 +1,21 @@
-//! One step of a whole scene: Newton's method, then the closing evaluation.
+//! One step of a whole scene: Newton's method until the step that is closed from its trial proves its laws.
 
 mod balance;
 mod begin;
 mod closing;
+mod conclusion;
 mod effort;
 mod iteration;
 mod linearize;
-
 mod past;
 mod places;
-mod secant;
 mod stages;
 
-use crate::conduction::Conduction;
+use crate::certificate::Certificate;
+use crate::conduction::{Conduction, SeenTemperatures};
 use crate::error::{StateError, StepFailure};
 use crate::group::{Group, Sites, StepView, Trial};
+use crate::handle::Element;
 use crate::layout::Layout;
 use crate::loads::StepLoads;
 use crate::masses::Masses;
@@ -22,27 +23,23 @@ use crate::newton::{NewtonSettings, is_last};
 use crate::pattern::Pattern;
 use crate::scalar::{Mask, Real, natural_power};
 use crate::scene::ElementEntry;
-use crate::scheme::{Closing, Scheme};
+use crate::scheme::Scheme;
 use crate::state::State;
 use crate::system::LinearSystem;
 use balance::Balance;
+use begin::Start;
+use conclusion::{Conclusion, Rest, Target};
 pub(crate) use effort::{Effort, Iteration};
 use past::Past;
 pub(crate) use past::SavedPast;
 use places::{Seen, moving, seen};
-use secant::Secant;
 pub(crate) use stages::Staged;
 
 /// How often an update is halved to bring all elements back to admissible states.
 const HALVINGS: u32 = 30;
 
 /// Parts of a step through which a solution is followed when it is not found at once.
-const STAGES: u8 = 8;
-
-/// An update whose square is below this many ε leaves nothing to correct: it is applied to the
-/// forces through the tangent. What that leaves out, the square times a curvature of the order of
-/// one, is small beside the roundings of a force.
-const NEGLIGIBLE: f64 = 1.0 / 1024.0;
+const CONTINUATION_STEPS: u8 = 8;
 
 /// Working memory of a step; nothing in it outlives the step but the forces of the last ones.
 #[derive(Debug)]
@@ -54,8 +51,6 @@ pub(crate) struct Solver<S: Real, const D: usize> {
     seen: Vec<Seen>,
     /// The system of an iteration.
     tangent: LinearSystem<S, 1>,
-    /// The system that closes a step, if the scheme closes it by one.
-    secant: Option<Secant<S, D>>,
     trial: Trial<S, D>,
     /// 2/h, 1/s: the inertia of a mass.
     twice_per_step: S,
@@ -66,8 +61,17 @@ pub(crate) struct Solver<S: Real, const D: usize> {
     /// The reciprocal of the unit of length of each node that moves: its shortest element in the old
     /// state; 1 m without.
     per_length: Vec<S>,
+    /// The nodes that are anchors.
+    anchors: Vec<usize>,
+    /// The magnitude of what the forces on each node are computed from, N s; empty unless the scheme
+    /// is exact.
+    magnitudes: Vec<S>,
+    /// The largest residual of the momentum balances where the step was closed, N s.
+    final_residual: S,
     /// What kept the last update from being applied in full.
     obstacle: Option<StateError>,
+    /// The element whose own energy balance was off by most when it was last asked.
+    worst: Option<Element>,
 }
 
 impl<S: Real, const D: usize> Solver<S, D> {
@@ -82,16 +86,11 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let has_old_force = scheme.has_old_forces() || loads.has_total_force();
         let pattern = Pattern::of_tangent(elements, layout, conduction, D);
         let tangent = LinearSystem::new(&pattern, D);
-        let secant = (scheme.closing() == Closing::Secant).then(|| {
-            Secant::new(&tangent, masses.moving(), || {
-                Pattern::of_secant(elements, layout, D)
-            })
-        });
         let sites = Sites {
             layout,
             conduction,
             tangent: &tangent,
-            secant: secant.as_ref().and_then(Secant::apart),
+            secant: None,
             shift: [0; 2],
         };
         let nodes = moving(masses, &sites).into_iter().map(Balance::new);
@@ -106,10 +105,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
             nodes,
             seen,
             tangent,
-            secant,
             trial: Trial {
                 displacements: points.clone(),
-                seen_temperatures: vec![S::zero(); slots],
+                seen: SeenTemperatures::new(slots),
                 settled: S::Mask::none(),
             },
             twice_per_step: S::zero(),
@@ -119,7 +117,11 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 Vec::new()
             },
             per_length: vec![S::one(); masses.len()],
+            anchors: masses.anchors().collect(),
+            magnitudes: vec![S::zero(); if scheme.is_exact() { masses.len() } else { 0 }],
+            final_residual: S::zero(),
             obstacle: None,
+            worst: None,
         }
     }
 
@@ -133,38 +135,60 @@ impl<S: Real, const D: usize> Solver<S, D> {
             layout,
             conduction,
             tangent: &self.tangent,
-            secant: self.secant.as_ref().and_then(Secant::apart),
+            secant: None,
             shift: [0; 2],
         }
     }
 
-    /// The state after the step, or after the part of it that the view names.
+    /// The state after the step, or after the part of it that the view names, and what it proves.
+    ///
+    /// If none is found from the start of the scheme, an exact scheme tries others; several numbers in one
+    /// do not, as some of them need not have failed.
     pub(crate) fn solve(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
         effort: &mut Effort<S>,
         next: &mut State<S>,
-    ) -> Result<(), StepFailure> {
-        self.iterate(groups, view, effort)?;
-        self.close(groups, view, next)
+    ) -> Result<Certificate<S>, StepFailure> {
+        let mut closing = Target::State(next);
+        let found = self.start_and_converge(groups, view, effort, (Start::Foretold, &mut closing));
+        let failure = match found {
+            Err(failure) if S::LANES == 1 && self.scheme.follows_its_solution() => failure,
+            done => return self.kept_by(view, done?),
+        };
+        let found = self.try_other_starts(groups, view, effort, &mut closing);
+        self.kept_by(view, found.map_err(|_| failure)?)
     }
 
-    /// Finds the trial state whose forces move the scene to it.
-    ///
-    /// If that fails from the start of the scheme, an EEM scheme follows its solution from a small
-    /// step to the full one; several numbers in one do not, as some of them need not have failed.
-    fn iterate(
+    /// The step has succeeded: its forces are those of the last one.
+    fn kept_by(
+        &mut self,
+        view: &StepView<'_, S>,
+        certificate: Option<Certificate<S>>,
+    ) -> Result<Certificate<S>, StepFailure> {
+        if view.phase.heats() && self.scheme.foretells_its_start() {
+            self.past.keep();
+        }
+        certificate.ok_or(StepFailure::NotConverged { update: f64::NAN })
+    }
+
+    /// Exact schemes start from rest; then the solution is followed from a small step to the full one.
+    #[cold]
+    fn try_other_starts(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
         effort: &mut Effort<S>,
-    ) -> Result<(), StepFailure> {
-        let failure = match self.start_and_converge(groups, view, effort) {
-            Err(failure) if S::LANES == 1 && self.scheme.follows_its_solution() => failure,
-            done => return done,
-        };
-        self.follow(groups, view, effort).map_err(|_| failure)
+        closing: &mut Target<'_, S>,
+    ) -> Result<Option<Certificate<S>>, StepFailure> {
+        if self.scheme.is_exact() {
+            let found = self.start_and_converge(groups, view, effort, (Start::Rest, closing));
+            if found.is_ok() {
+                return found;
+            }
+        }
+        self.follow(groups, view, effort, closing)
     }
 
     fn start_and_converge(
@@ -172,9 +196,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
         effort: &mut Effort<S>,
-    ) -> Result<(), StepFailure> {
-        self.begin(groups, view)?;
-        self.converge(groups, view, effort)
+        (start, target): (Start, &mut Target<'_, S>),
+    ) -> Result<Option<Certificate<S>>, StepFailure> {
+        self.begin(groups, view, start)?;
+        self.converge(groups, view, effort, target)
     }
 
     /// The solution for growing parts of the step, each starting from the one before.
@@ -184,46 +209,64 @@ impl<S: Real, const D: usize> Solver<S, D> {
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
         effort: &mut Effort<S>,
-    ) -> Result<(), StepFailure> {
-        let number = |stage: u8| S::from_f64(f64::from(stage));
-        let mut before = None;
-        for stage in (1..=STAGES).map(number) {
-            let part = StepView {
-                step: view.step * stage / number(STAGES),
+        closing: &mut Target<'_, S>,
+    ) -> Result<Option<Certificate<S>>, StepFailure> {
+        let number = |part: u8| S::from_f64(f64::from(part));
+        let mut found = None;
+        for part in 1..=CONTINUATION_STEPS {
+            let shorter = StepView {
+                step: view.step * number(part) / number(CONTINUATION_STEPS),
                 ..*view
             };
-            match before {
-                None => self.start_and_converge(groups, &part, effort)?,
-                Some(before) => {
-                    self.extrapolate(groups, &part, stage / before);
-                    self.converge(groups, &part, effort)?;
-                }
-            }
-            before = Some(stage);
+            let target = if part == CONTINUATION_STEPS {
+                &mut *closing
+            } else {
+                &mut Target::Trial
+            };
+            found = if part == 1 {
+                let start = (Start::Foretold, target);
+                self.start_and_converge(groups, &shorter, effort, start)?
+            } else {
+                self.extrapolate(groups, &shorter, number(part) / number(part - 1));
+                self.converge(groups, &shorter, effort, target)?
+            };
         }
-        Ok(())
+        Ok(found)
     }
 
     /// Newton's method from the trial state. Where S is several numbers, those that are done keep
     /// what they have found until the last one is.
+    ///
+    /// A step is taken at a trial where the elements have been evaluated, when the last update is small
+    /// and what is closed from there proves its laws. Otherwise the iteration goes on until rounding
+    /// stops it.
     fn converge(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
         effort: &mut Effort<S>,
-    ) -> Result<(), StepFailure> {
+        target: &mut Target<'_, S>,
+    ) -> Result<Option<Certificate<S>>, StepFailure> {
         let NewtonSettings {
             max_iterations,
             tolerance,
         } = effort.settings;
         let mut before = None;
-        let mut look = Look::On;
+        let mut purpose = Purpose::Iterate;
+        let mut rest = Rest::default();
         // Those that are done, and those for which the next look is the last.
         let (mut settled, mut last) = (S::Mask::none(), S::Mask::none());
         for left in (0..=max_iterations).rev() {
-            let is_full = self.advance(groups, view, look)?;
-            if is_full && look == Look::Back {
-                return Ok(());
+            let is_full = self.advance(groups, view, purpose)?;
+            if is_full && purpose == Purpose::Close {
+                match self.conclude(groups, view, target, rest) {
+                    Conclusion::Found(certificate) => {
+                        effort.conclude(self.final_residual, before);
+                        return Ok(certificate);
+                    }
+                    Conclusion::Refused(failure) => return Err(failure),
+                    Conclusion::Open => self.linearize_again(groups, view)?,
+                }
             }
             settled = self.settle(settled | last);
             if left == 0 {
@@ -237,26 +280,14 @@ impl<S: Real, const D: usize> Solver<S, D> {
             if !update.is_finite() {
                 break;
             }
-            let before = before.replace(update).filter(|_| is_full);
-            look = Look::On;
-            last = S::Mask::none();
-            let ends = is_last(update, before, tolerance) & !settled;
-            if ends.any() {
-                let negligible = S::from_f64(NEGLIGIBLE) * S::EPSILON;
-                let is_done = ends & (update * update).at_most(negligible);
-                if is_done.any() {
-                    for group in groups.iter_mut() {
-                        group.extrapolate(self.tangent.solution(), settled);
-                    }
-                    if (settled | is_done).all() {
-                        return Ok(());
-                    }
-                    settled = self.settle(settled | is_done);
-                }
-                last = ends & !is_done;
-                if (settled | last).all() {
-                    look = Look::Back;
-                }
+            let previous = before.replace(update).filter(|_| is_full);
+            purpose = Purpose::Iterate;
+            let ends = is_last(update, previous, tolerance) & !settled;
+            let is_stuck =
+                S::LANES == 1 && self.scheme.is_exact() && rest.is_stuck(update, previous);
+            last = ends;
+            if is_stuck || (ends.any() && (settled | last).all()) {
+                purpose = Purpose::Close;
             }
         }
         Err(match self.obstacle.take() {
@@ -284,12 +315,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
-        look: Look,
+        purpose: Purpose,
     ) -> Result<bool, StepFailure> {
         if self.obstacle.is_some() {
             self.obstacle = None;
         }
-        let (mut share, mut goes_on) = (S::one(), look == Look::On);
+        let (mut share, mut goes_on) = (S::one(), purpose == Purpose::Iterate);
         while let Err(error) = self.evaluate(groups, view, goes_on) {
             share = self.retreat(groups, share, error)?;
             goes_on = true;
@@ -341,9 +372,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
 /// What an evaluation is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Look {
+enum Purpose {
     /// Another iteration.
-    On,
+    Iterate,
     /// Closing the step.
-    Back,
+    Close,
 }

@@ -26,6 +26,9 @@ pub(crate) struct State<S> {
     pub(crate) entropies: Compensated<S>,
     /// θ with S(λ, γ, θ) = s, K.
     pub(crate) temperatures: Vec<S>,
+    /// Per element of the scene. It follows from everything else, and so is not saved.
+    #[cfg_attr(feature = "serde", serde(skip, default = "Vec::new"))]
+    pub(crate) energies: Vec<Energy<S>>,
     /// `σ_r` since the start, J/K.
     pub(crate) reservoir_entropies: Compensated<S>,
     /// Work that loads and moved anchors have done, J.
@@ -36,6 +39,43 @@ pub(crate) struct State<S> {
     pub(crate) thermostat_entropy: Sum<S>,
     /// Heat that dashpots without temperature gave to nobody in the scene, J.
     pub(crate) dissipated: Sum<S>,
+}
+
+/// The internal energy of an element in a state, J.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Energy<S> {
+    /// `ψ + θ s`.
+    pub(crate) value: S,
+    /// `|ψ| + θ|s| + cθ`: times ε, what rounding may do to it.
+    pub(crate) magnitude: S,
+}
+
+impl<S: Real> Energy<S> {
+    /// That of an element with the free energy ψ, temperature, entropy and heat capacity.
+    #[inline]
+    pub(crate) fn new(psi: S, [theta, entropy]: [S; 2], capacity: S) -> Self {
+        Self {
+            value: psi + theta * entropy,
+            magnitude: psi.abs() + theta * (entropy.abs() + capacity),
+        }
+    }
+
+    /// That of an element without temperature.
+    #[inline]
+    pub(crate) fn without_temperature(psi: S) -> Self {
+        Self {
+            value: psi,
+            magnitude: psi.abs(),
+        }
+    }
+
+    /// None.
+    pub(crate) fn zero() -> Self {
+        Self {
+            value: S::zero(),
+            magnitude: S::zero(),
+        }
+    }
 }
 
 impl<S: Real> State<S> {
@@ -49,7 +89,7 @@ impl<S: Real> State<S> {
         self.reservoir_entropies.copy_from(&old.reservoir_entropies);
     }
 
-    /// Takes over `other`, a state of the same scene, without allocation.
+    /// Takes over `other`, a state of the same scene, without allocation; energies are found anew.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         self.copy_books(other);
         self.positions.copy_from(&other.positions);

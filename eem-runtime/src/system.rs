@@ -12,9 +12,7 @@
 //!
 //! How entries are laid out and what solves with them is the business of the [`Storage`]: another
 //! one is another variant there, with its answers to `new` (from the pattern), `entries`, `position`
-//! and `solve`. One and two unknowns do not ask it, and `by_runs` asks for one of its variants.
-
-mod by_runs;
+//! and `solve`. One and two unknowns do not ask it.
 
 use core::mem;
 
@@ -107,15 +105,6 @@ impl Storage {
             Self::Dense { pivots } => Some(row * pivots.len() + column),
             #[cfg(feature = "sparse")]
             Self::Sparse(sparse) => sparse.position(row, column),
-        }
-    }
-
-    /// The elimination by the pattern, if that is what solves.
-    #[cfg(feature = "sparse")]
-    fn sparse(&self) -> Option<&SparseLu> {
-        match self {
-            Self::Sparse(sparse) => Some(sparse),
-            Self::Fixed { .. } | Self::Dense { .. } => None,
         }
     }
 

@@ -75,7 +75,7 @@ impl Model {
     }
 
     /// Lengths and absolute temperatures.
-    fn positive(&self) -> Vec<Symbol> {
+    pub(crate) fn positive(&self) -> Vec<Symbol> {
         let measures = self.measures.iter();
         measures.chain(&self.temperature).copied().collect()
     }

@@ -44,6 +44,7 @@ mod display;
 mod divided_difference;
 mod factor;
 mod internal_energy;
+mod magnitude;
 mod sign;
 mod substitute;
 
@@ -65,6 +66,7 @@ pub use divided_difference::divided_difference;
 pub use function::Function;
 pub use graph::Graph;
 pub use internal_energy::internal_energy;
+pub use magnitude::magnitude;
 pub use node::{ExprId, Kernel, Node, Symbol};
 pub use number::{Number, Rational};
 pub use sign::{Sign, sign};

@@ -41,6 +41,9 @@ pub struct Model {
 pub struct Programs {
     /// `[ψ]`.
     pub free_energy: Program,
+    /// `[magnitude of ψ]`: times 8 ε a bound of the rounding error of `free_energy`; see
+    /// [`magnitude`](crate::magnitude()).
+    pub energy_magnitude: Program,
     /// `[∂ψ/∂x_i]`.
     pub gradient: Program,
     /// `[∂ψ/∂x_i …, ∂²ψ/∂x_i∂x_j …]`, the Hessian by rows.
@@ -71,6 +74,7 @@ impl Programs {
     pub fn verify(&self) -> Result<(), VerifyError> {
         let always = [
             &self.free_energy,
+            &self.energy_magnitude,
             &self.gradient,
             &self.hessian,
             &self.internal_energy,
@@ -124,6 +128,7 @@ impl Model {
         let mut point = PointPrograms::new(self);
         Programs {
             free_energy: point.free_energy(),
+            energy_magnitude: point.energy_magnitude(),
             gradient: point.gradient(),
             hessian: point.hessian(),
             internal_energy: point.internal_energy(),

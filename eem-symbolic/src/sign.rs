@@ -37,14 +37,35 @@ pub struct Sign {
 /// ```
 #[must_use]
 pub fn sign(graph: &Graph, e: ExprId, positive: &[Symbol]) -> Sign {
-    let mut known = HashMap::new();
-    for id in graph.reachable(e, |_| true) {
-        let sign = of_node(graph.node(id), positive, |operand| {
-            known.get(&operand).copied().unwrap_or(Sign::ANY)
-        });
-        known.insert(id, sign);
+    Signs::new(positive).of(graph, e)
+}
+
+/// The signs of many expressions of one graph; each node is looked at once.
+#[derive(Debug)]
+pub(crate) struct Signs<'p> {
+    positive: &'p [Symbol],
+    known: HashMap<ExprId, Sign>,
+}
+
+impl<'p> Signs<'p> {
+    pub(crate) fn new(positive: &'p [Symbol]) -> Self {
+        Self {
+            positive,
+            known: HashMap::new(),
+        }
     }
-    known.get(&e).copied().unwrap_or(Sign::ANY)
+
+    pub(crate) fn of(&mut self, graph: &Graph, e: ExprId) -> Sign {
+        for id in graph.reachable(e, |id| !self.known.contains_key(&id)) {
+            let sign = of_node(graph.node(id), self.positive, |operand| self.get(operand));
+            self.known.insert(id, sign);
+        }
+        self.get(e)
+    }
+
+    fn get(&self, e: ExprId) -> Sign {
+        self.known.get(&e).copied().unwrap_or(Sign::ANY)
+    }
 }
 
 fn of_node(node: &Node, positive: &[Symbol], sign: impl Fn(ExprId) -> Sign) -> Sign {
@@ -89,7 +110,7 @@ impl Sign {
         positive: true,
     };
 
-    fn of_number(number: Number) -> Sign {
+    pub(crate) fn of_number(number: Number) -> Sign {
         if number.to_f64().is_nan() {
             return Sign::ANY;
         }
@@ -100,7 +121,7 @@ impl Sign {
         }
     }
 
-    fn plus(self, other: Sign) -> Sign {
+    pub(crate) fn plus(self, other: Sign) -> Sign {
         let cancel = self.negative && other.positive || self.positive && other.negative;
         Sign {
             negative: self.negative || other.negative,
@@ -109,7 +130,7 @@ impl Sign {
         }
     }
 
-    fn times(self, other: Sign) -> Sign {
+    pub(crate) fn times(self, other: Sign) -> Sign {
         Sign {
             negative: self.negative && other.positive || self.positive && other.negative,
             zero: self.zero || other.zero,

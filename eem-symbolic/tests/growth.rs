@@ -17,13 +17,18 @@ fn operations_grow_nearly_linearly() {
             let programs = model.programs();
             let temperature = programs.temperature_form.as_ref().expect("a thermal law");
             let of = |program: &eem_symbolic::Program| program.operation_count().new.total();
-            let [hessian, temperature, entropy] =
-                [&programs.hessian, temperature, &programs.entropy_form].map(of);
+            let operations = [
+                &programs.energy_magnitude,
+                &programs.hessian,
+                temperature,
+                &programs.entropy_form,
+            ]
+            .map(of);
             println!(
-                "{:20} {nodes:5} nodes {hessian:6} {temperature:6} {entropy:6} operations",
+                "{:20} {nodes:5} nodes {operations:6?} operations",
                 family.name
             );
-            [hessian, temperature, entropy].map(|operations| ratio(operations, nodes))
+            operations.map(|operations| ratio(operations, nodes))
         });
         for (small, large) in per_node[0].iter().zip(per_node[1]) {
             assert!(

@@ -11,6 +11,7 @@ use support::laws;
 fn each(programs: &Programs) -> Vec<(&'static str, &Program)> {
     let mut all = vec![
         ("free energy", &programs.free_energy),
+        ("magnitude of the free energy", &programs.energy_magnitude),
         ("gradient", &programs.gradient),
         ("Hessian", &programs.hessian),
         ("internal energy", &programs.internal_energy),
@@ -52,6 +53,7 @@ fn shapes_are_those_of_the_law() {
         let (parameters, dashpots) = (law.parameters.len(), model.dashpots.len());
         let shape = |program: &Program| (program.inputs.len() - parameters, program.outputs.len());
         assert_eq!(shape(&programs.free_energy), (n, 1));
+        assert_eq!(shape(&programs.energy_magnitude), (n, 1));
         assert_eq!(shape(&programs.gradient), (n, n));
         assert_eq!(shape(&programs.hessian), (n, n + n * n));
         assert_eq!(shape(&programs.internal_energy), (n, 1));

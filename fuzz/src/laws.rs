@@ -37,6 +37,7 @@ pub fn laws(data: &[u8]) {
     assert_eq!(formulas.free_energy, format(&model.graph, model.psi));
     let all = [
         Some(&programs.free_energy),
+        Some(&programs.energy_magnitude),
         Some(&programs.gradient),
         Some(&programs.hessian),
         Some(&programs.internal_energy),

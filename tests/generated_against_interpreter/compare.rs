@@ -60,6 +60,8 @@ pub(crate) fn points<L: Law>() {
         let state: L::Variables = array(&x);
         let inputs = [parameters(&law), x.clone()].concat();
         check(&programs.free_energy, &inputs, &[law.free_energy(&state)]);
+        let magnitude = law.energy_magnitude(&state);
+        check(&programs.energy_magnitude, &inputs, &[magnitude]);
         check(
             &programs.internal_energy,
             &inputs,

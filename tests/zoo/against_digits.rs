@@ -53,6 +53,36 @@ fn functions_of_a_state_have_the_digits_of_the_exact_ones() {
     assert_none(&wrong);
 }
 
+/// Units of ε that a magnitude of ψ stands for.
+const UNITS: f64 = 8.0;
+
+#[test]
+fn free_energies_are_within_their_magnitude() {
+    for specimen in families::all() {
+        let (law, name) = (
+            Law {
+                specimen: &*specimen,
+            },
+            specimen.name(),
+        );
+        let mut worst = 0.0_f64;
+        for x in states::around(&*specimen) {
+            let (psi, magnitude) = (specimen.free_energy(&x), specimen.energy_magnitude(&x));
+            let exact = law
+                .point("ψ", 0, &exact(&x))
+                .expect("ψ is a function of the state");
+            let part = exact.distance(psi) / (UNITS * f64::EPSILON * magnitude);
+            assert!(
+                part <= 1.0,
+                "{name} at {x:?}: {part:.2} of 8 ε {magnitude:e} J"
+            );
+            worst = worst.max(part);
+        }
+        precise::forget();
+        println!("{name:22} {worst:.2} of the magnitude");
+    }
+}
+
 fn compare_forms(specimen: &dyn Specimen, programs: &Programs, worst: &mut Worst) -> Vec<String> {
     let (law, mut wrong) = (Law { specimen }, Vec::new());
     for step in states::steps(specimen) {

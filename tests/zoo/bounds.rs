@@ -60,6 +60,12 @@ pub(crate) fn points(specimen: &dyn Specimen, programs: &Programs, x: &[f64]) ->
             specimen.gradient(x),
         ),
         output("Hessian", &programs.hessian, &inputs, specimen.hessian(x)),
+        output(
+            "magnitude of ψ",
+            &programs.energy_magnitude,
+            &inputs,
+            vec![specimen.energy_magnitude(x)],
+        ),
     ];
     if let Some(program) = &programs.caloric {
         let caloric = specimen.caloric(x);

@@ -116,6 +116,7 @@ pub(crate) trait Specimen {
     fn precise_psi(&self, x: &[Precise]) -> Precise;
 
     fn free_energy(&self, x: &[f64]) -> f64;
+    fn energy_magnitude(&self, x: &[f64]) -> f64;
     fn internal_energy(&self, x: &[f64]) -> f64;
     /// Gradient, then Hessian by rows.
     fn hessian(&self, x: &[f64]) -> Vec<f64>;
@@ -202,6 +203,10 @@ impl<F: Formula> Specimen for F {
 
     fn free_energy(&self, x: &[f64]) -> f64 {
         FreeEnergy::free_energy(self, &array(x))
+    }
+
+    fn energy_magnitude(&self, x: &[f64]) -> f64 {
+        FreeEnergy::energy_magnitude(self, &array(x))
     }
 
     fn internal_energy(&self, x: &[f64]) -> f64 {

@@ -179,6 +179,7 @@ fn differences(checked: &Checked<'_>, model: &Model) -> Vec<Equation> {
 fn costs(programs: &Programs) -> impl Iterator<Item = TokenStream> {
     let rows = [
         ("free_energy", Some(&programs.free_energy), false),
+        ("energy_magnitude", Some(&programs.energy_magnitude), false),
         ("internal_energy", Some(&programs.internal_energy), false),
         ("gradient", Some(&programs.gradient), false),
         ("hessian", Some(&programs.hessian), false),

@@ -14,12 +14,21 @@ use super::statements::{Statements, value};
 pub(super) fn points(programs: &Programs, inputs: &Inputs) -> TokenStream {
     let scalar = &inputs.scalar;
     let free_energy = scalar_function(&programs.free_energy, inputs);
+    let energy_magnitude = scalar_function(&programs.energy_magnitude, inputs);
     let internal_energy = scalar_function(&programs.internal_energy, inputs);
     let docs = [
         docs::function("Free energy ψ.", &programs.free_energy),
+        docs::function(
+            "The sum of the magnitudes of the terms of ψ.",
+            &programs.energy_magnitude,
+        ),
         docs::function("Internal energy e = ψ + θ s.", &programs.internal_energy),
     ];
-    let [free_energy_docs, internal_energy_docs] = docs;
+    let [
+        free_energy_docs,
+        energy_magnitude_docs,
+        internal_energy_docs,
+    ] = docs;
     let gradient = gradient(&programs.gradient, inputs);
     let hessian = hessian(&programs.hessian, inputs);
     let caloric = caloric(programs.caloric.as_ref(), inputs);
@@ -29,6 +38,8 @@ pub(super) fn points(programs: &Programs, inputs: &Inputs) -> TokenStream {
     quote! {
         #free_energy_docs
         fn free_energy(&self, __x: &Self::Variables) -> #scalar { #free_energy }
+        #energy_magnitude_docs
+        fn energy_magnitude(&self, __x: &Self::Variables) -> #scalar { #energy_magnitude }
         #internal_energy_docs
         fn internal_energy(&self, __x: &Self::Variables) -> #scalar { #internal_energy }
         #gradient

@@ -1,5 +1,6 @@
 //! Arithmetic with the arms of an element, and with what there is per arm.
 
+use crate::compensated::Compensated;
 use crate::free_energy::Array;
 use crate::kinematics::{Arms, Gradient, Kinematics, Measures};
 use crate::scalar::Real;
@@ -31,6 +32,24 @@ pub(super) fn arms<K: Kinematics<S, D>, S: Real, const D: usize>(
         let other = &of[node as usize];
         for axis in 0..D {
             arm[axis] = other[axis] - first[axis];
+        }
+    }
+    arms
+}
+
+/// The arms of an element in a state, to rounding of the arms wherever the origin is: what rounding
+/// took from the positions is part of them.
+#[inline]
+pub(super) fn arms_in<K: Kinematics<S, D>, S: Real, const D: usize>(
+    nodes: &K::PerNode<u32>,
+    positions: &Compensated<S>,
+) -> Arms<K, S, D> {
+    let [first, first_carry] = positions.point::<D>(nodes[0] as usize);
+    let mut arms = Arms::<K, S, D>::filled([S::zero(); D]);
+    for (arm, &node) in arms.as_mut().iter_mut().zip(&nodes.as_ref()[1..]) {
+        let [other, carry] = positions.point::<D>(node as usize);
+        for axis in 0..D {
+            arm[axis] = (other[axis] - first[axis]) + (carry[axis] - first_carry[axis]);
         }
     }
     arms

@@ -1,6 +1,6 @@
 //! The old state of the elements, where a step and its trial start.
 
-use super::arms::{along, arms, measures_in, points, spread};
+use super::arms::{along, arms_in, measures_in, points, spread};
 use super::member::Member;
 use super::pose::Pose;
 use super::{ElementGroup, Old, StepView, variables};
@@ -23,9 +23,8 @@ where
         view: &StepView<'_, S>,
         old: &mut Old<'_, S, D>,
     ) -> Result<(), StateError> {
-        let positions = points(view.state.positions.values());
         for member in &mut self.members {
-            let r0 = arms::<K, S, D>(&member.site.nodes, positions);
+            let r0 = arms_in::<K, S, D>(&member.site.nodes, &view.state.positions);
             let measures = self.kinematics.measure(&r0);
             member.begin(view, &r0, &measures);
             if C::IMPLICIT < 1.0 {
@@ -72,6 +71,7 @@ where
         self.start.old = C::old(&self.model, &x0, entropy.unwrap_or(S::zero()));
         self.r0 = *r0;
         self.x = x0;
+        self.creep = M::Viscosities::filled(S::zero());
         if let Some(slot) = slots.thermal {
             let theta = x0[Self::TEMPERATURE];
             self.memory = C::memory(theta);

@@ -1,22 +1,26 @@
-//! The end of a step: increments of all variables from the found forces, temperatures and rates.
+//! The end of a step: impulses of the found forces, and what is booked of the internal variables.
 //!
-//! Newton's method leaves an error in the trial state. Taking `f*`, `g*` and `θ*` as given and
-//! evaluating the remaining relations explicitly from them makes the balances of momentum and
-//! entropy hold to rounding whatever that error is, and leaves the energy with its square.
+//! ```text
+//! γ¹ = γ⁰ + Δγ
+//! s¹ = s⁰ + Σ η Δγ²/(hθ*) + Σ u + Σ P
+//! ```
+//!
+//! with the exchange `u` and the production `P ≥ 0` of every path of heat, see
+//! [`conduction`](crate::conduction). Both ends of a path book the same numbers.
 
 use super::arms::{arms, measures_in, resultant, spread};
 use super::member::Member;
 use super::pose::Pose;
-use super::site::{Contact, SecantSite, Site};
+use super::site::Contact;
 use super::{Along, ElementGroup, StepView, Trial};
-use crate::conduction::Partner;
+use crate::certificate::Tally;
+use crate::conduction::{Exchange, Partner};
 use crate::free_energy::{Array, FreeEnergy};
 use crate::impulse::Impulses;
 use crate::kinematics::{Arms, Kinematics, Weights};
 use crate::scalar::Real;
 use crate::scheme::{ElementScheme, Placement};
 use crate::state::State;
-use crate::system::Parts;
 
 impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
 where
@@ -25,35 +29,13 @@ where
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    /// See [`Group::add_secant`](super::Group::add_secant).
-    pub(super) fn add_secant_all(
-        &mut self,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        (values, right): Parts<'_, S, D>,
-    ) {
-        let share = S::from_f64(0.5);
-        for (at, member) in self.members.iter().enumerate() {
-            let weights = member.secant(self.kinematics);
-            let mut known = member.r0;
-            let site = &member.site;
-            site.add_anchors(&mut known, &trial.displacements, share);
-            let secant = match self.secants.get(at) {
-                Some(secant) => *secant,
-                None => SecantSite::in_tangent(site),
-            };
-            secant.add_matrix(&site.is_mass, &weights, share * view.step, &mut *values);
-            site.subtract_known(&weights, (&known, view.step), &mut *right);
-        }
-    }
-
     /// See [`Group::add_impulse`](super::Group::add_impulse).
     pub(super) fn add_impulse_all(
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
         along: Along,
-        impulses: &mut Impulses<'_, S, D>,
+        (impulses, magnitudes): (&mut Impulses<'_, S, D>, &mut [S]),
     ) {
         let at = match along {
             Along::Secant => None,
@@ -68,6 +50,9 @@ where
                 (share, member.force(self.kinematics, at, [r0, &r1]))
             } else {
                 let mut mean = arms::<K, S, D>(nodes, &trial.displacements);
+                if C::EXACT {
+                    member.add_magnitude(view.step, &mean, magnitudes);
+                }
                 for (mean, old) in mean.as_mut().iter_mut().zip(r0.as_ref()) {
                     for (mean, &old) in mean.iter_mut().zip(old) {
                         *mean = old + S::from_f64(0.5) * *mean;
@@ -96,7 +81,7 @@ pub(super) fn pull<K: Kinematics<S, D>, S: Real, const D: usize>(
 
 /// The same per arm: those of the nodes but the first.
 #[inline]
-fn pull_of_arms<K: Kinematics<S, D>, S: Real, const D: usize>(
+pub(super) fn pull_of_arms<K: Kinematics<S, D>, S: Real, const D: usize>(
     weights: &Weights<K, S, D>,
     r: &Arms<K, S, D>,
 ) -> Arms<K, S, D> {
@@ -109,71 +94,6 @@ fn pull_of_arms<K: Kinematics<S, D>, S: Real, const D: usize>(
         }
     }
     force
-}
-
-impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
-    /// Adds the fraction `share` of the motion of anchors, which is known, to arms.
-    #[inline]
-    pub(super) fn add_anchors(&self, arms: &mut Arms<K, S, D>, moved: &[[S; D]], share: S) {
-        for (i, arm) in arms.as_mut().iter_mut().enumerate() {
-            for (node, share) in [(i + 1, share), (0, -share)] {
-                if !self.is_mass[node] {
-                    let moved = &moved[self.nodes[node] as usize];
-                    for (arm, &moved) in arm.iter_mut().zip(moved) {
-                        *arm += share * moved;
-                    }
-                }
-            }
-        }
-    }
-
-    /// Subtracts the impulse `h A r` of known arms from the nodes that move.
-    #[inline]
-    pub(super) fn subtract_known(
-        &self,
-        weights: &Weights<K, S, D>,
-        (known, h): (&Arms<K, S, D>, S),
-        right: &mut [[S; D]],
-    ) {
-        let force = pull_of_arms::<K, S, D>(weights, known);
-        for (i, force) in force.as_ref().iter().enumerate() {
-            for (node, h) in [(i + 1, -h), (0, h)] {
-                if self.is_mass[node] {
-                    let right = &mut right[self.rows[node] as usize / D];
-                    for (right, &force) in right.iter_mut().zip(force) {
-                        *right += h * force;
-                    }
-                }
-            }
-        }
-    }
-}
-
-impl<K: Kinematics<S, D>, S: Real, const D: usize> SecantSite<K, S, D> {
-    /// Adds the matrix `factor A` of nodal forces `A r` for the nodes that move.
-    #[inline]
-    pub(super) fn add_matrix(
-        &self,
-        is_mass: &K::PerNode<bool>,
-        weights: &Weights<K, S, D>,
-        factor: S,
-        values: &mut [S],
-    ) {
-        let mut add = |[i, j]: [usize; 2], entry: S| {
-            if is_mass[i] && is_mass[j] {
-                values[self.entries[i][j] as usize] += entry;
-            }
-        };
-        for (i, row) in weights.as_ref().iter().enumerate() {
-            for (j, &weight) in row.as_ref().iter().enumerate() {
-                let entry = factor * weight;
-                add([i + 1, j + 1], entry);
-                add([i + 1, 0], -entry);
-                add([0, j + 1], -entry);
-                add([0, 0], entry);
-            }
-        }
-    }
 }
 
 impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
@@ -208,56 +128,152 @@ where
         resultant::<K, S, D>(&pose.direction, &measures_in::<K, S, D>(&self.response))
     }
 
-    /// The increments of the internal variables and of the reservoirs' entropies; returns the
+    /// Books the increments of the internal variables and of the reservoirs' entropies; returns the
     /// entropy that dashpots and conduction gave the element, J/K.
     #[inline]
-    pub(super) fn close(
+    pub(super) fn book(
         &self,
         view: &StepView<'_, S>,
-        contact: Option<&Contact<K, S, D>>,
-        seen_temperatures: &[S],
+        (contact, trial): (Option<&Contact<K, S, D>>, &Trial<S, D>),
         next: &mut State<S>,
+        tally: &mut Tally<S>,
     ) -> S {
-        let (h, share) = (view.thermal_step(), S::from_f64(C::IMPLICIT));
         let slots = self.slots();
-        let mut heat = S::zero();
+        let h = view.thermal_step();
+        let share = S::from_f64(C::IMPLICIT) * h;
+        let mut dissipated = S::zero();
         for k in 0..M::DASHPOTS {
-            let index = M::MEASURES + k;
-            let rate = self.response[index] / self.viscosities.0[k];
-            heat += self.response[index] * rate;
-            let change = self.increment(index, rate, h);
-            next.viscous
-                .advance(slots.viscous + k, &view.state.viscous, change);
-        }
-        let Some(slot) = slots.thermal else {
-            if M::DASHPOTS > 0 {
-                let lost = h * (share * heat + self.old_dissipation());
-                next.dissipated.add(lost);
+            let old = &view.state.viscous;
+            next.viscous.advance(slots.viscous + k, old, self.creep[k]);
+            if view.phase.heats() {
+                let heat = share * self.power_of(k, h);
+                dissipated += heat;
+                tally.produce(heat * self.per_temperature());
             }
-            return S::zero();
-        };
-        let theta = self.temperature();
-        heat += self.heat_flow(view, contact, seen_temperatures, theta).heat;
-        if self.meets_reservoirs {
-            self.warm_reservoirs(view, slot, next);
         }
-        let received = self.increment(Self::TEMPERATURE, heat / theta, h);
-        let entropies = &view.state.entropies;
-        next.entropies.advance(slot, entropies, received);
+        tally.turn_over(dissipated);
+        match slots.thermal {
+            Some(slot) => self.book_heat(view, slot, dissipated, (contact, trial), next, tally),
+            None => {
+                if M::DASHPOTS > 0 {
+                    next.dissipated.add(dissipated + h * self.old_dissipation());
+                }
+                S::zero()
+            }
+        }
+    }
+
+    /// The same of the entropy of an element whose dashpots give it so much heat, J.
+    #[inline]
+    fn book_heat(
+        &self,
+        view: &StepView<'_, S>,
+        slot: usize,
+        dissipated: S,
+        (contact, trial): (Option<&Contact<K, S, D>>, &Trial<S, D>),
+        next: &mut State<S>,
+        tally: &mut Tally<S>,
+    ) -> S {
+        let h = view.thermal_step();
+        let share = S::from_f64(C::IMPLICIT) * h;
+        let mut received = dissipated * self.per_temperature();
+        if let [at_point] = self.at_point.as_ref()
+            && C::IMPLICIT < 1.0
+        {
+            received += h * at_point.old_rates[Self::TEMPERATURE];
+        }
+        let old = &view.state.entropies;
+        next.entropies.advance(slot, old, received);
+        let mut heat = dissipated;
+        if let Some(contact) = contact {
+            for partner in &contact.partners {
+                let other = partner.slot as usize;
+                let path = (trial.seen).exchange(share * partner.conductance, slot, other);
+                next.entropies.add(slot, path.entropy);
+                received += path.entropy;
+                heat += path.heat;
+                // The production is booked at one end, after the exchange, which both ends share.
+                if slot > other {
+                    next.entropies.add(slot, path.production);
+                    received += path.production;
+                    tally.produce(path.production);
+                    tally.turn_over(path.heat);
+                }
+            }
+        }
+        if self.meets_reservoirs {
+            received += self.book_reservoirs(view, slot, heat, next, tally);
+        }
         received
     }
 
-    /// What flows to the reservoirs.
-    fn warm_reservoirs(&self, view: &StepView<'_, S>, slot: usize, next: &mut State<S>) {
-        let (h, share) = (view.thermal_step(), S::from_f64(C::IMPLICIT));
+    /// Books what flows from the reservoirs to an element that receives `heat` otherwise, J; returns the
+    /// entropy, J/K.
+    fn book_reservoirs(
+        &self,
+        view: &StepView<'_, S>,
+        slot: usize,
+        heat: S,
+        next: &mut State<S>,
+        tally: &mut Tally<S>,
+    ) -> S {
+        let h = view.thermal_step();
+        let share = S::from_f64(C::IMPLICIT) * h;
+        let theta = self.temperature();
+        let correction = self.reservoir_correction(view, slot, heat);
+        let mut received = S::zero();
         for link in view.conduction.links(slot) {
-            if let Partner::Reservoir(index) = link.partner {
-                let theta_r = view.conduction.reservoirs[index];
-                let old = view.state.temperatures[slot];
-                let seen = share * self.temperature() + (S::one() - share) * old;
-                let flow = link.conductance * (seen - theta_r);
-                next.reservoir_entropies.add(index, h * flow / theta_r);
+            let Partner::Reservoir(index) = link.partner else {
+                continue;
+            };
+            let theta_r = view.conduction.reservoirs[index];
+            let drop = (theta_r - theta) + correction;
+            let path = Exchange::from_reservoir(share * link.conductance, drop, theta_r);
+            next.reservoir_entropies.add(index, -path.entropy);
+            next.entropies.add(slot, path.entropy);
+            next.entropies.add(slot, path.production);
+            tally.produce(path.production);
+            tally.turn_over(path.heat);
+            received += path.entropy + path.production;
+            if C::IMPLICIT < 1.0 {
+                // The flow of the old state, which the old rates have given to the element.
+                let old = theta_r - view.state.temperatures[slot];
+                let flow = (h - share) * link.conductance * old;
+                next.reservoir_entropies.add(index, -flow / theta_r);
             }
         }
+        received
+    }
+
+    /// `1/θ*`, 1/K; one without temperature.
+    #[inline]
+    fn per_temperature(&self) -> S {
+        if M::THERMAL {
+            self.temperature().recip()
+        } else {
+            S::one()
+        }
+    }
+
+    /// What the differences `θ_r − θ*` lack for the heat that the entropy of the element has taken, K.
+    ///
+    /// ```text
+    /// Σ h κ (θ_r − θ* + correction) = θ* Δs − heat
+    /// ```
+    ///
+    /// Rounding of θ* is a heat of `hκ ε θ`, which exceeds that of the right-hand side where conduction
+    /// is stiff; so heat follows from the side whose terms, and roundings, are smaller.
+    fn reservoir_correction(&self, view: &StepView<'_, S>, slot: usize, heat: S) -> S {
+        if !C::EXACT || self.is_prescribed {
+            return S::zero();
+        }
+        let h = view.thermal_step();
+        let theta = self.temperature();
+        let flow = view.conduction.reservoir_flow(slot, theta);
+        let conducted = h * flow.conductance;
+        let taken = theta * self.response[Self::ENTROPY];
+        let is_stiff = (taken.abs() + heat.abs()).less(conducted * theta);
+        let correction = ((taken - heat) - h * flow.heat) / conducted;
+        S::select(is_stiff, correction, S::zero())
     }
 }

@@ -32,19 +32,6 @@ where
         }
         largest
     }
-
-    /// See [`Group::extrapolate`](super::Group::extrapolate).
-    pub(super) fn extrapolate_all(&mut self, solution: &[[S; 1]], settled: S::Mask) {
-        for member in &mut self.members {
-            let found = member.found_by(settled);
-            // Of an element without unknowns of its own, nobody has asked for them before.
-            if Member::<S, M, K, C, D>::UNKNOWNS == 0 {
-                member.correct_measures(solution);
-            }
-            member.extrapolate();
-            member.return_to(found, settled);
-        }
-    }
 }
 
 impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>

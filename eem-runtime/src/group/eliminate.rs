@@ -71,6 +71,9 @@ pub(super) struct LocalSystem<S: Real, M: FreeEnergy<S>> {
     pub(super) rows: M::Hessian,
     /// `∂r/∂r_s`, if it is asked for.
     pub(super) by_heat: M::Variables,
+    /// What makes an energy of a row: a length (m) for a dashpot (N), a temperature (K) for the heat
+    /// balance (J/K). Pivots are compared as energies.
+    pub(super) unit: [S; 2],
 }
 
 /// Gauss–Jordan elimination with partial pivoting.
@@ -83,12 +86,18 @@ pub(super) fn eliminate<S: Real, M: FreeEnergy<S>, const HEAT: bool>(
         constant,
         rows,
         by_heat,
+        unit,
     } = system;
     let unknowns = M::Variables::LEN - M::MEASURES;
+    let mut units = M::Variables::filled(unit[0]);
+    if M::THERMAL {
+        units[unknowns - 1] = unit[1];
+    }
     for k in 0..unknowns {
         let at = M::MEASURES + k;
         for row in k + 1..unknowns {
-            if rows[row][at].abs() > rows[k][at].abs() {
+            if (units[row] * rows[row][at]).abs() > (units[k] * rows[k][at]).abs() {
+                units.as_mut().swap(row, k);
                 rows.as_mut().swap(row, k);
                 constant.as_mut().swap(row, k);
                 by_heat.as_mut().swap(row, k);

@@ -55,7 +55,7 @@ where
             }
             member.accept(&form)?;
             let contact = member.contact_in(&self.contacts);
-            member.condense(view, &trial.seen_temperatures, &form, contact)?;
+            member.condense(view, &trial.seen, &form, contact)?;
             let mut target = Target {
                 values: &mut *values,
                 right: &mut *right,

@@ -1,6 +1,6 @@
 //! What one element contributes to the GENERIC form of the equations.
 
-use super::arms::{arms, points};
+use super::arms::arms_in;
 use super::member::Member;
 use super::{ElementGroup, variables};
 use crate::free_energy::{Array, FreeEnergy};
@@ -29,10 +29,9 @@ where
 {
     /// All elements in a state.
     pub(super) fn generic_in_all(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>> {
-        let positions = points(state.positions.values());
         let mut elements = Vec::with_capacity(self.members.len());
         for member in &mut self.members {
-            let r = arms::<K, S, D>(&member.site.nodes, positions);
+            let r = arms_in::<K, S, D>(&member.site.nodes, &state.positions);
             let measures = self.kinematics.measure(&r);
             let x = variables::<S, M>(measures.as_ref(), member.slots(), state);
             let gradient = member.model.gradient(&x);
@@ -55,9 +54,9 @@ where
 
     /// All elements during the last step, with discrete derivatives in the place of derivatives.
     pub(super) fn generic_of_step_all(&self, ends: [&State<S>; 2]) -> Vec<ElementGeneric<S>> {
-        let positions = ends.map(|state| points(state.positions.values()));
         let members = self.members.iter().map(|member| {
-            let [r0, r1] = positions.map(|of| arms::<K, S, D>(&member.site.nodes, of));
+            let [r0, r1] =
+                ends.map(|state| arms_in::<K, S, D>(&member.site.nodes, &state.positions));
             member.generic(&member.force(self.kinematics, C::PLACEMENT, [&r0, &r1]))
         });
         members.collect()

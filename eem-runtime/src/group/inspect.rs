@@ -1,6 +1,6 @@
 //! What the elements are in a state, from the definitions and not from what a step computed.
 
-use super::arms::{arms, points};
+use super::arms::arms_in;
 use super::member::Member;
 use super::{ElementGroup, ElementView, GroupTotals, variables};
 use crate::error::StateError;
@@ -9,7 +9,7 @@ use crate::handle::Element;
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
 use crate::scheme::{ElementScheme, Infeasible};
-use crate::state::State;
+use crate::state::{Energy, State};
 
 impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
 where
@@ -25,17 +25,36 @@ where
             let slot = member.slots().thermal;
             let theta = slot.map_or(S::zero(), |slot| state.temperatures[slot]);
             member.find_viscosities(theta)?;
-            member.check_energy(&x)?;
+            let caloric = member.model.caloric(&x);
+            let energy = member.energy_at(&x, caloric)?;
             check_gradient::<S, M>(member.element, &member.model.gradient(&x))?;
+            state.energies[member.element.index] = energy;
             let Some(slot) = slot else {
                 continue;
             };
-            let caloric = member.model.caloric(&x);
             Infeasible::unless_stable(caloric.heat_capacity, theta)
                 .map_err(|infeasible| infeasible.of(member.element))?;
             state.entropies.set(slot, caloric.entropy);
         }
         Ok(())
+    }
+
+    /// See [`Elements::find_energies`](super::Elements::find_energies).
+    pub(super) fn find_all_energies(&self, state: &mut State<S>) {
+        for member in &self.members {
+            let x = member.variables_in(self.kinematics, state);
+            let psi = member.model.free_energy(&x);
+            let energy = match member.slots().thermal {
+                None => Energy::without_temperature(psi),
+                Some(slot) => {
+                    let theta = state.temperatures[slot];
+                    let entropy = state.entropies.values()[slot];
+                    let capacity = member.model.caloric(&x).heat_capacity;
+                    Energy::new(psi, [theta, entropy], capacity)
+                }
+            };
+            state.energies[member.element.index] = energy;
+        }
     }
 
     /// See [`Elements::totals`](super::Elements::totals).
@@ -71,8 +90,8 @@ where
     C: ElementScheme<S, M>,
 {
     /// The variables in a state.
-    fn variables_in(&self, kinematics: K, state: &State<S>) -> M::Variables {
-        let r = arms::<K, S, D>(&self.site.nodes, points(state.positions.values()));
+    pub(super) fn variables_in(&self, kinematics: K, state: &State<S>) -> M::Variables {
+        let r = arms_in::<K, S, D>(&self.site.nodes, &state.positions);
         variables::<S, M>(kinematics.measure(&r).as_ref(), self.slots(), state)
     }
 

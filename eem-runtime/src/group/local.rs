@@ -1,13 +1,14 @@
 //! The internal variables of one element: their balance equations, and their elimination.
 //!
 //! ```text
-//! r_γk = γ_k − γ_k⁰ − h (w g*_k/η_k + c_k)                       k = 1 … K
-//! r_s  = Δs − h (w (Σ g*²/η + Q)/θ* + c_s),   Q = Σ κ (Θ_partner − Θ) + Σ κ (θ_r − θ*)
+//! r_γk = η_k γ̇_k − g*_k,   Δγ_k = h (w γ̇_k + c_k)                 k = 1 … K
+//! r_s  = Δs − h (w (Σ η γ̇² + Q)/θ* + c_s),   Q = Σ κ (Θ_partner − Θ) + Σ κ (θ_r − θ*)
 //! ```
 //!
-//! where `w` is the implicit share of the scheme and `c` what the old state contributes. The
-//! unknowns `u = (γ…, τ)` occur in no other element: what elements in contact see of each other is
-//! the global unknown Θ = θ*. So their corrections are eliminated here.
+//! where `w` is the implicit share of the scheme and `c` what the old state contributes. Nothing is
+//! divided by η, which may be as small or as large as it likes. The unknowns `u = (Δγ…, τ)` occur in no
+//! other element: what elements in contact see of each other is the global unknown Θ = θ*. So their
+//! corrections are eliminated here.
 
 use core::hint;
 
@@ -16,7 +17,7 @@ use super::eliminate::{LocalSystem, eliminate};
 use super::member::Member;
 use super::respond::temperature_in;
 use super::site::Contact;
-use crate::conduction::HeatFlow;
+use crate::conduction::{HeatFlow, SeenTemperatures};
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
 use crate::kinematics::Kinematics;
@@ -24,7 +25,7 @@ use crate::lu::Singular;
 use crate::scalar::Real;
 use crate::scheme::{ElementScheme, Form};
 
-/// What the dashpots turn into heat, `Σ g*²/η`, W, and its derivative by the variables.
+/// What the dashpots turn into heat, `Σ η γ̇²`, W, and its derivative by the variables.
 struct Dissipation<S: Real, M: FreeEnergy<S>> {
     power: S,
     by: M::Variables,
@@ -43,7 +44,7 @@ where
     pub(super) fn condense(
         &mut self,
         view: &StepView<'_, S>,
-        seen_temperatures: &[S],
+        seen: &SeenTemperatures<S>,
         form: &Form<S, M>,
         contact: Option<&Contact<K, S, D>>,
     ) -> Result<(), StateError> {
@@ -52,12 +53,13 @@ where
         }
         // First, while nothing else is at hand that would have to be put aside for the call.
         let theta = temperature_in::<S, M>(&form.0);
-        let flow = self.heat_flow(view, contact, seen_temperatures, theta);
+        let flow = self.heat_flow(view, contact, seen, theta);
         let zeros = M::Variables::filled(S::zero());
         let mut system = LocalSystem::<S, M> {
             constant: zeros,
             rows: M::Hessian::filled(zeros),
             by_heat: zeros,
+            unit: [self.start.x0[0], theta],
         };
         let mut dissipation = Dissipation {
             power: S::zero(),
@@ -109,16 +111,15 @@ where
 
     /// The heat that conduction gives it.
     ///
-    /// Flows between elements are computed from `seen` temperatures Θ at both ends, so that one end
-    /// receives exactly what the other gives, whatever rounding does to a large κ; flows
-    /// from reservoirs from its temperature θ.
+    /// Flows between elements follow from the temperatures Θ that both ends see, so that one end receives
+    /// exactly what the other gives; flows from reservoirs from its temperature θ.
     #[expect(clippy::inline_always, reason = "mostly there is none")]
     #[inline(always)]
     pub(super) fn heat_flow(
         &self,
         view: &StepView<'_, S>,
         contact: Option<&Contact<K, S, D>>,
-        seen: &[S],
+        seen: &SeenTemperatures<S>,
         theta: S,
     ) -> HeatFlow<S> {
         let mut flow = HeatFlow::none();
@@ -129,12 +130,30 @@ where
             flow = view.conduction.reservoir_flow(slot, theta);
         }
         if let Some(contact) = contact {
-            let own = seen[slot];
             for partner in &contact.partners {
-                flow.heat += partner.conductance * (seen[partner.slot as usize] - own);
+                flow.heat += partner.conductance * seen.drop(slot, partner.slot as usize);
             }
         }
         flow
+    }
+
+    /// `γ̇_k` of the trial, of which the scheme takes the share w, m/s.
+    #[inline]
+    pub(super) fn creep_rate(&self, k: usize, h: S) -> S {
+        let mean = self.creep[k] / h;
+        match self.at_point.as_ref() {
+            [at_point] if C::IMPLICIT < 1.0 => {
+                (mean - at_point.old_rates[M::MEASURES + k]) / S::from_f64(C::IMPLICIT)
+            }
+            _ => mean,
+        }
+    }
+
+    /// `η_k γ̇_k²`, W.
+    #[inline]
+    pub(super) fn power_of(&self, k: usize, h: S) -> S {
+        let rate = self.creep_rate(k, h);
+        self.viscosities.0[k] * (rate * rate)
     }
 
     /// `r_γk` and its derivatives; adds to the dissipated power and its derivatives.
@@ -148,33 +167,35 @@ where
         dissipation: &mut Dissipation<S, M>,
     ) {
         let index = M::MEASURES + k;
-        let per_eta = self.viscosities.0[k].recip();
-        let rate = response[index] * per_eta;
-        dissipation.power += response[index] * rate;
-        let change = self.x[index] - self.start.x0[index];
+        if !view.phase.heats() {
+            // Δγ = 0.
+            system.rows[k][index] = S::one();
+            return;
+        }
         let h = view.thermal_step();
-        system.constant[k] = change - self.increment(index, rate, h);
-        let mobility = -h * S::from_f64(C::IMPLICIT) * per_eta;
-        // ∂g/∂x − γ̇ ∂η/∂x, the derivative of γ̇ times η.
-        let thinning = rate * self.viscosities.1[k];
+        let (eta, rate) = (self.viscosities.0[k], self.creep_rate(k, h));
+        system.constant[k] = eta * rate - response[index];
+        dissipation.power += eta * (rate * rate);
+        let per_creep = eta / (h * S::from_f64(C::IMPLICIT));
         for column in 0..Self::VARIABLES {
-            let by = tangent[index][column];
-            let driving = if M::THERMAL {
-                by - thinning * tangent[Self::TEMPERATURE][column]
+            // The derivative of η γ̇ by way of the temperature.
+            let thinning = if M::THERMAL {
+                rate * self.viscosities.1[k] * tangent[Self::TEMPERATURE][column]
             } else {
-                by
+                S::zero()
             };
-            // ∂(g γ̇)/∂x = γ̇ (∂g/∂x + η ∂γ̇/∂x)
-            let power_by = rate * (by + driving);
+            let own = if column == index {
+                per_creep
+            } else {
+                S::zero()
+            };
+            system.rows[k][column] = (own + thinning) - tangent[index][column];
+            // ∂(η γ̇²)/∂x = γ̇ (2η ∂γ̇/∂x + γ̇ ∂η/∂x)
+            let power_by = rate * ((own + own) + thinning);
             dissipation.by[column] = if k == 0 {
                 power_by
             } else {
                 dissipation.by[column] + power_by
-            };
-            system.rows[k][column] = if column == index {
-                S::one() + mobility * driving
-            } else {
-                mobility * driving
             };
         }
     }

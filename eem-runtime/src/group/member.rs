@@ -42,7 +42,9 @@ where
     pub(super) memory: C::Memory,
     /// The trial variables `(π, γ, τ)`.
     pub(super) x: M::Variables,
-    /// γ and τ before the last correction, and the correction of all variables.
+    /// Δγ of the trial, whose digits `γ⁰ + Δγ` would lose where the dashpots are stiff, m.
+    pub(super) creep: M::Viscosities,
+    /// Δγ and τ before the last correction, and the correction of all variables.
     pub(super) previous: PerUnknown<S, M::Viscosities>,
     pub(super) correction: M::Variables,
     /// The response at the trial, and the derivatives of `(f*, g*, θ*)` by `x`.
@@ -95,6 +97,7 @@ where
             r0: nowhere,
             memory: C::memory(S::zero()),
             x: zeros,
+            creep: viscosities,
             previous: PerUnknown::zero(),
             correction: zeros,
             response: M::Response::filled(S::zero()),
@@ -234,8 +237,11 @@ where
     /// The present trial is where the next correction starts.
     #[inline]
     pub(super) fn remember(&mut self) {
-        for u in 0..Self::UNKNOWNS {
-            self.previous.set(u, self.x[M::MEASURES + u]);
+        for k in 0..M::DASHPOTS {
+            self.previous.set(k, self.creep[k]);
+        }
+        if M::THERMAL {
+            self.previous.set(M::DASHPOTS, self.x[Self::TEMPERATURE]);
         }
     }
 
@@ -245,7 +251,8 @@ where
     pub(super) fn apply(&mut self, share: S) {
         for k in 0..M::DASHPOTS {
             let index = M::MEASURES + k;
-            self.x[index] = self.previous.get(k) + share * self.correction[index];
+            self.creep[k] = self.previous.get(k) + share * self.correction[index];
+            self.x[index] = self.start.x0[index] + self.creep[k];
         }
         if M::THERMAL {
             let change = share * self.correction[Self::TEMPERATURE];
@@ -254,30 +261,6 @@ where
         if C::FINDS_TEMPERATURE {
             for at in self.at_point.as_mut() {
                 at.entropy_change = at.previous_entropy_change + share * at.entropy_correction;
-            }
-        }
-    }
-
-    /// Applies the correction to the measures too and, through the tangent, to forces and temperature.
-    ///
-    /// What that leaves out is of second order in the correction.
-    #[inline]
-    pub(super) fn extrapolate(&mut self) {
-        for a in 0..M::MEASURES {
-            self.x[a] += self.correction[a];
-        }
-        let mut heating = S::zero();
-        for row in 0..Self::VARIABLES {
-            let mut change = self.slopes[row][0] * self.correction[0];
-            for column in 1..Self::VARIABLES {
-                change += self.slopes[row][column] * self.correction[column];
-            }
-            self.response[row] += change;
-            heating = change;
-        }
-        if M::THERMAL {
-            for k in 0..M::DASHPOTS {
-                self.viscosities.0[k] += self.viscosities.1[k] * heating;
             }
         }
     }

@@ -1,15 +1,16 @@
 //! The new state of each element: its temperature, and all that must be true of a state.
 
-use super::arms::{arms, points};
+use super::arms::arms_in;
 use super::member::Member;
 use super::respond::{check_measures, check_temperature};
 use super::{ElementGroup, StepView, Trial, variables};
+use crate::certificate::Tally;
 use crate::error::StateError;
 use crate::free_energy::{Array, Caloric, FreeEnergy};
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
-use crate::scheme::{ElementScheme, Infeasible, Placement, temperature_and_energy_at};
-use crate::state::State;
+use crate::scheme::{ElementScheme, Infeasible, Placement, settled_at};
+use crate::state::{Energy, State};
 
 impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
 where
@@ -24,13 +25,21 @@ where
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
         next: &mut State<S>,
+        tally: &mut Tally<S>,
     ) -> Result<(), StateError> {
         for member in &mut self.members {
             let contact = member.contact_in(&self.contacts);
-            let received = member.close(view, contact, &trial.seen_temperatures, next);
+            let received = member.book(view, (contact, trial), next, tally);
             let near = member.x[M::Variables::LEN - 1];
             if let Some(entropy) = member.settle(self.kinematics, view, near, next)? {
                 member.book_thermostat(view, [entropy, received], next);
+            }
+            if C::EXACT {
+                let [terms, arguments] = member.amplitude();
+                tally.element([terms, arguments]);
+                let energy = next.energies[member.element.index].magnitude;
+                let magnitude = energy + terms + arguments;
+                member.judge(view, (contact, trial), [received, magnitude], tally);
             }
         }
         Ok(())
@@ -51,7 +60,7 @@ where
         kinematics: K,
         state: &State<S>,
     ) -> Result<M::Variables, StateError> {
-        let r = arms::<K, S, D>(&self.site.nodes, points(state.positions.values()));
+        let r = arms_in::<K, S, D>(&self.site.nodes, &state.positions);
         let measures = kinematics.measure(&r);
         check_measures::<K, S, D>(kinematics, self.element, &measures)?;
         Ok(variables::<S, M>(measures.as_ref(), self.slots(), state))
@@ -71,19 +80,23 @@ where
     ) -> Result<Option<S>, StateError> {
         let mut x = self.locate(kinematics, state)?;
         self.check_viscous(&x)?;
+        let at = self.element.index;
         let Some(slot) = self.slots().thermal else {
-            self.check_energy(&x)?;
+            let psi = self.model.free_energy(&x);
+            self.unless_infinite(psi)?;
+            state.energies[at] = Energy::without_temperature(psi);
             return Ok(None);
         };
         let prescribed = view.prescribed(slot, Placement::End);
         if let (false, None) = (C::IN_TEMPERATURE, prescribed) {
             // The trial is nearly right: one evaluation is enough, as a rule.
             let entropy = state.entropies.values()[slot];
-            let (theta, psi) = temperature_and_energy_at(&self.model, x, entropy, near)
+            let found = settled_at(&self.model, x, entropy, near)
                 .map_err(|infeasible| infeasible.of(self.element))?;
-            check_temperature(self.element, theta)?;
-            state.temperatures[slot] = theta;
-            self.unless_infinite(psi)?;
+            check_temperature(self.element, found.temperature)?;
+            state.temperatures[slot] = found.temperature;
+            self.unless_infinite(found.free_energy)?;
+            state.energies[at] = found.energy;
             return Ok(None);
         }
         let old = view.state.temperatures[slot];
@@ -91,11 +104,30 @@ where
         state.temperatures[slot] = theta;
         x[Self::TEMPERATURE] = theta;
         check_temperature(self.element, theta)?;
-        self.check_energy(&x)?;
         let caloric = self.model.caloric(&x);
         self.check_stable(&caloric, theta)?;
         state.entropies.set(slot, caloric.entropy);
+        state.energies[at] = self.energy_at(&x, caloric)?;
         Ok(prescribed.map(|_| caloric.entropy))
+    }
+
+    /// The internal energy at given variables, whose entropy and heat capacity are known.
+    pub(super) fn energy_at(
+        &self,
+        x: &M::Variables,
+        caloric: Caloric<S>,
+    ) -> Result<Energy<S>, StateError> {
+        let psi = self.model.free_energy(x);
+        self.unless_infinite(psi)?;
+        if !M::THERMAL {
+            return Ok(Energy::without_temperature(psi));
+        }
+        let theta = x[Self::TEMPERATURE];
+        Ok(Energy::new(
+            psi,
+            [theta, caloric.entropy],
+            caloric.heat_capacity,
+        ))
     }
 
     /// The heat of the thermostat that brought the entropy to a new one, of an element that has

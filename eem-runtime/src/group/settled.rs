@@ -10,6 +10,7 @@ use crate::scheme::ElementScheme;
 #[derive(Clone, Copy)]
 pub(super) struct Found<S: Real, M: FreeEnergy<S>> {
     x: M::Variables,
+    creep: M::Viscosities,
     response: M::Response,
     viscosities: M::Viscosities,
 }
@@ -29,6 +30,7 @@ where
         }
         Some(Found {
             x: self.x,
+            creep: self.creep,
             response: self.response,
             viscosities: self.viscosities.0,
         })
@@ -46,6 +48,7 @@ where
             }
         };
         keep(self.x.as_mut(), found.x.as_ref());
+        keep(self.creep.as_mut(), found.creep.as_ref());
         keep(self.response.as_mut(), found.response.as_ref());
         keep(self.viscosities.0.as_mut(), found.viscosities.as_ref());
     }

@@ -24,13 +24,6 @@ pub(super) struct Site<K: Kinematics<S, D>, S: Real, const D: usize> {
     pub(super) is_mass: K::PerNode<bool>,
 }
 
-/// The places of one element in the secant system.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct SecantSite<K: Kinematics<S, D>, S: Real, const D: usize> {
-    /// The entry of two nodes.
-    pub(super) entries: K::PerNode<K::PerNode<u32>>,
-}
-
 /// The places of an element whose algorithmic temperature Θ its neighbours see.
 #[derive(Clone, Debug)]
 pub(super) struct Contact<K: Kinematics<S, D>, S: Real, const D: usize> {
@@ -92,37 +85,6 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
                         || stride(unknown(i), unknown(j), sites) == site.strides[i],
                     "entries are equally spaced"
                 );
-            }
-        }
-        site
-    }
-}
-
-impl<K: Kinematics<S, D>, S: Real, const D: usize> SecantSite<K, S, D> {
-    /// No places yet.
-    pub(super) fn unconnected() -> Self {
-        Self {
-            entries: K::PerNode::filled(K::PerNode::filled(0)),
-        }
-    }
-
-    /// The places in the memory of the tangent, where every block has one entry.
-    #[inline]
-    pub(super) fn in_tangent(site: &Site<K, S, D>) -> Self {
-        let mut entries = site.blocks;
-        for entry in entries.as_mut().iter_mut().flat_map(AsMut::as_mut) {
-            *entry /= compact(D * D);
-        }
-        Self { entries }
-    }
-
-    /// The places of an element with these nodes.
-    pub(super) fn new(nodes: &K::PerNode<u32>, sites: &Sites<'_, S, D>) -> Self {
-        let mass = |node: usize| sites.layout.nodes[nodes[node] as usize].map(|first| first / D);
-        let mut site = Self::unconnected();
-        for i in 0..K::PerNode::<u32>::LEN {
-            for j in 0..K::PerNode::<u32>::LEN {
-                site.entries[i][j] = compact(sites.secant_place(mass(i), mass(j)));
             }
         }
         site

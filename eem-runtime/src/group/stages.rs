@@ -19,6 +19,7 @@ mod heat;
 mod local;
 mod member;
 mod point;
+mod secant;
 mod site;
 
 use super::{ElementGeneric, ElementGroup, ElementView, Elements, GroupTotals, Placed, StepView};
@@ -260,6 +261,10 @@ where
 
     fn totals(&self, state: &State<S>) -> GroupTotals<S> {
         self.elements.totals(state)
+    }
+
+    fn find_energies(&self, state: &mut State<S>) {
+        self.elements.find_energies(state);
     }
 
     fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>> {

@@ -1,6 +1,6 @@
 //! What a group and the solver tell each other.
 
-use crate::conduction::Conduction;
+use crate::conduction::{Conduction, SeenTemperatures};
 use crate::handle::Element;
 use crate::layout::Layout;
 use crate::loads::StepLoads;
@@ -54,9 +54,8 @@ impl<S: Real> StepView<'_, S> {
 pub(crate) struct Trial<S: Real, const D: usize> {
     /// q¹ − q⁰ of all nodes, m.
     pub(crate) displacements: Vec<[S; D]>,
-    /// θ* as elements in contact see it, Θ, per thermal slot, K; an unknown where the slot is
-    /// coupled.
-    pub(crate) seen_temperatures: Vec<S>,
+    /// θ* as elements in contact see it, Θ; an unknown where the slot is coupled.
+    pub(crate) seen: SeenTemperatures<S>,
     /// The numbers that have found their new state while others iterate on.
     pub(crate) settled: S::Mask,
 }
@@ -124,8 +123,7 @@ pub(crate) struct Sites<'a, S, const D: usize> {
     pub(crate) conduction: &'a Conduction<S>,
     /// The system of an iteration.
     pub(crate) tangent: &'a LinearSystem<S, 1>,
-    /// The system that closes a step, if it has memory of its own. In that of the tangent every block
-    /// has one entry.
+    /// The system that closes a step through stages.
     pub(crate) secant: Option<&'a LinearSystem<S, D>>,
     /// How far rows and columns of the tangent lie behind where the layout has them: a scheme with
     /// several stages has as many copies of the unknowns.
@@ -149,12 +147,8 @@ impl<S: Real, const D: usize> Sites<'_, S, D> {
         self.tangent.place(row, column)
     }
 
-    /// The place of the entry of two masses in the secant matrix.
+    /// The place of the entry of two masses in the secant matrix, if there is one.
     pub(crate) fn secant_place(&self, row: Option<usize>, column: Option<usize>) -> usize {
-        let first = |mass: usize| mass * D;
-        match self.secant {
-            Some(secant) => secant.place(row, column),
-            None => self.place(row.map(first), column.map(first)) / (D * D),
-        }
+        self.secant.map_or(0, |secant| secant.place(row, column))
     }
 }

@@ -22,6 +22,7 @@ pub(crate) enum EemEntropy {}
 impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for EemEntropy {
     const PLACEMENT: Placement = Placement::Ends;
     const IMPLICIT: f64 = 1.0;
+    const EXACT: bool = true;
 
     /// What the form keeps, and s⁰, J/K.
     type Old = (M::EntropyFormOld, S);

@@ -20,6 +20,7 @@ pub(crate) enum EemTemperature {}
 impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for EemTemperature {
     const PLACEMENT: Placement = Placement::Ends;
     const IMPLICIT: f64 = 1.0;
+    const EXACT: bool = true;
 
     type Old = M::TemperatureFormOld;
     type Memory = ();

@@ -7,6 +7,7 @@ use super::Infeasible;
 use crate::free_energy::{Caloric, FreeEnergy};
 use crate::inversion::invert;
 use crate::scalar::{Mask, Real, unless};
+use crate::state::Energy;
 
 /// The largest correction of ln θ, in units of √ε, after which the entropy need not be evaluated
 /// again. Newton's method in ln θ leaves half the square of the correction, times the slope
@@ -15,6 +16,9 @@ const LAST_CORRECTION: f64 = 0.25;
 
 /// A first correction of ln θ for which the start is not nearly right.
 const LARGEST_CORRECTION: f64 = 0.25;
+
+/// Roundings of the largest terms of an entropy, in the evaluation of which several add up.
+const ENTROPY_ROUNDINGS: f64 = 4.0;
 
 /// The least by which a correction must be smaller than the one before.
 const CONTRACTION: f64 = 0.25;
@@ -28,53 +32,85 @@ pub(crate) fn temperature_at<S: Real, M: FreeEnergy<S>>(
     guess: S,
 ) -> Result<S, Infeasible> {
     let caloric_at = model.caloric_at(x);
-    let found = solve(|theta| (caloric_at(theta).0, S::zero()), entropy, guess)?;
+    let enough = S::from_f64(LAST_CORRECTION) * S::EPSILON.sqrt();
+    let found = solve(|theta| (caloric_at(theta).0, []), entropy, guess, enough)?;
     Ok(found.0)
 }
 
-/// The same, and the free energy there: at the last temperature that was tried, which is the same
-/// to √ε.
+/// The temperature of a new state with what belongs to it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Settled<S> {
+    /// θ̂, K.
+    pub(crate) temperature: S,
+    /// ψ, J.
+    pub(crate) free_energy: S,
+    /// `ψ + θ s`, J.
+    pub(crate) energy: Energy<S>,
+}
+
+/// The same for a state that is kept. Its last correction of ln θ is at most ε^¾: what that leaves, half
+/// its square times d ln C/d ln θ, is far below a rounding of the entropy. `ψ + θ s` is stationary in θ
+/// at fixed s, so that it may be that of the last temperature that was tried.
 #[inline]
-pub(crate) fn temperature_and_energy_at<S: Real, M: FreeEnergy<S>>(
+pub(crate) fn settled_at<S: Real, M: FreeEnergy<S>>(
     model: &M,
     x: M::Variables,
     entropy: S,
     guess: S,
-) -> Result<(S, S), Infeasible> {
-    solve(model.caloric_at(x), entropy, guess)
+) -> Result<Settled<S>, Infeasible> {
+    let root = S::EPSILON.sqrt();
+    let energy_at = model.caloric_at(x);
+    let with_energy = |theta: S| {
+        let (caloric, psi) = energy_at(theta);
+        (caloric, [psi, theta, caloric.heat_capacity])
+    };
+    let (temperature, [psi, theta, capacity]) =
+        solve(with_energy, entropy, guess, root * root.sqrt())?;
+    Ok(Settled {
+        temperature,
+        free_energy: psi,
+        energy: Energy::new(psi, [theta, entropy], capacity),
+    })
 }
 
-/// θ̂, and what else was evaluated at the last temperature.
+/// θ̂, and what else was evaluated at the last temperature that was tried.
 #[inline]
-fn solve<S: Real>(
-    caloric_at: impl Fn(S) -> (Caloric<S>, S),
+fn solve<S: Real, const W: usize>(
+    caloric_at: impl Fn(S) -> (Caloric<S>, [S; W]),
     entropy: S,
     guess: S,
-) -> Result<(S, S), Infeasible> {
-    let enough = S::from_f64(LAST_CORRECTION) * S::EPSILON.sqrt();
+    enough: S,
+) -> Result<(S, [S; W]), Infeasible> {
     let mut limit = S::from_f64(LARGEST_CORRECTION);
     let mut theta = guess;
-    let (mut found, mut found_other) = (theta, theta);
+    let (mut found, mut found_other) = (theta, [theta; W]);
     let mut settled = S::Mask::none();
     loop {
-        let (caloric, other) = caloric_at(theta);
-        let correction = (entropy - caloric.entropy) / caloric.heat_capacity;
+        let (caloric, mut other) = caloric_at(theta);
+        let lacking = entropy - caloric.entropy;
+        let mut correction = lacking / caloric.heat_capacity;
         let size = correction.abs();
-        let is_near = S::zero().less(caloric.heat_capacity) & size.at_most(limit);
-        let is_far = !(settled | is_near);
+        let is_stable = S::zero().less(caloric.heat_capacity);
+        let is_far = !(settled | (is_stable & size.at_most(limit)));
+        let mut last = size.at_most(enough);
         if is_far.any() {
-            let theta = search(|theta| caloric_at(theta).0, entropy, guess, is_far)?;
-            let other = caloric_at(theta).1;
-            if is_far.all() {
-                return Ok((theta, other));
+            // Where rounding of the entropy is all that is left, no search finds better.
+            let rounding = S::from_f64(ENTROPY_ROUNDINGS) * S::EPSILON * caloric.magnitude;
+            let is_noise = is_far & is_stable & lacking.abs().at_most(rounding);
+            let is_far = is_far & !is_noise;
+            if is_far.any() {
+                let sought = search(|theta| caloric_at(theta).0, entropy, guess, is_far)?;
+                theta = S::select(is_far, sought, theta);
+                other = caloric_at(theta).1;
             }
-            found = S::select(is_far, theta, found);
-            found_other = S::select(is_far, other, found_other);
-            settled = settled | is_far;
+            correction = S::select(is_noise | is_far, S::zero(), correction);
+            last = last | is_noise | is_far;
         }
         found = unless(settled, found, theta + theta * correction);
-        found_other = unless(settled, found_other, other);
-        settled = settled | size.at_most(enough);
+        for (found, other) in found_other.iter_mut().zip(other) {
+            *found = unless(settled, *found, other);
+        }
+        settled = settled | last;
         if settled.all() {
             return Ok((found, found_other));
         }

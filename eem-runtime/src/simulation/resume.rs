@@ -30,7 +30,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             outline: self.outline(),
             step: self.step,
             newton: self.newton_settings(),
-            state: State::clone(&self.state),
+            state: State {
+                energies: Vec::new(),
+                ..State::clone(&self.state)
+            },
             past: self.stepper.past(),
         }
     }
@@ -48,6 +51,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.set_newton_settings(checkpoint.newton)?;
         self.has_stepped = false;
         self.state.copy_from(&checkpoint.state);
+        let state = &mut self.state;
+        self.stepper.each_mut(|group| group.find_energies(state));
+        self.worst = None;
         self.stepper.restore(&checkpoint.past);
         self.step = checkpoint.step;
         Ok(())

@@ -4,14 +4,19 @@ use core::array;
 
 use super::places::MovingNode;
 use crate::group::StepView;
+use crate::kernel::two_sum;
 use crate::scalar::Real;
 
 /// What Newton's method knows of a node that moves, during one step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Balance<S, const D: usize> {
     pub(super) place: MovingNode<S, D>,
-    /// `2p⁰ − h F⁰` with the part F⁰ of the force that the old state decides, N s; zero while nothing
-    /// moves.
+    /// `(h/m) p⁰`, the displacement of free flight, m; zero while nothing moves.
+    pub(super) flight: [S; D],
+    /// `−h F⁰` with the part F⁰ of the force that the old state and the loads decide, N s; zero while
+    /// nothing moves.
+    pub(super) push: [S; D],
+    /// What rounding has taken from the displacement of the trial, m.
     pub(super) rest: [S; D],
 }
 
@@ -19,18 +24,43 @@ impl<S: Real, const D: usize> Balance<S, D> {
     pub(super) fn new(place: MovingNode<S, D>) -> Self {
         Self {
             place,
+            flight: [S::zero(); D],
+            push: [S::zero(); D],
             rest: [S::zero(); D],
         }
     }
 
-    /// The impulse that does not change during a step, given p⁰ and F⁰.
+    /// What does not change during a step, given p⁰ and F⁰.
     #[inline]
     pub(super) fn weigh(&mut self, view: &StepView<'_, S>, momentum: &[S; D], force: [S; D]) {
         self.rest = [S::zero(); D];
         if view.phase.moves() {
-            let twice = |value: S| value + value;
-            self.rest = array::from_fn(|axis| twice(momentum[axis]) - view.step * force[axis]);
+            let mobility = view.step / self.place.mass;
+            self.flight = momentum.map(|momentum| mobility * momentum);
+            self.push = force.map(|force| -view.step * force);
+        } else {
+            (self.flight, self.push) = ([S::zero(); D], [S::zero(); D]);
         }
+    }
+
+    /// Adds to a displacement, to twice the precision.
+    #[inline]
+    pub(super) fn displace(&mut self, displacement: &mut [S; D], change: &[S; D]) {
+        for axis in 0..D {
+            let change = self.rest[axis] + change[axis];
+            (displacement[axis], self.rest[axis]) = two_sum(displacement[axis], change);
+        }
+    }
+
+    /// `Δp = (2m/h)(Δq − (h/m) p⁰)`, N s, of a displacement; `twice_per_step` is 2/h.
+    ///
+    /// It has the digits of Δp also where that is small beside p, and those of Δq where `Δp ≈ −2p⁰`.
+    #[inline]
+    pub(super) fn impulse(&self, displacement: &[S; D], twice_per_step: S) -> [S; D] {
+        let inertia = self.place.mass * twice_per_step;
+        array::from_fn(|axis| {
+            inertia * ((displacement[axis] - self.flight[axis]) + self.rest[axis])
+        })
     }
 
     /// Starts residual and tangent of its momentum balance at a displacement, with `p¹` eliminated,
@@ -52,6 +82,7 @@ impl<S: Real, const D: usize> Balance<S, D> {
         for place in self.place.diagonal() {
             values[place] = inertia;
         }
-        *rows = array::from_fn(|axis| self.rest[axis] - inertia * displacement[axis]);
+        let impulse = self.impulse(displacement, twice_per_step);
+        *rows = array::from_fn(|axis| self.push[axis] - impulse[axis]);
     }
 }

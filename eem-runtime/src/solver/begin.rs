@@ -12,12 +12,22 @@ use crate::error::StepFailure;
 use crate::group::{Group, Old, StepView, points};
 use crate::scalar::{Mask, Real};
 
+/// Where a trial starts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Start {
+    /// Where the scheme starts: at a foretold motion, or at the old state.
+    Foretold,
+    /// At the old state.
+    Rest,
+}
+
 impl<S: Real, const D: usize> Solver<S, D> {
     /// Starts at the old state, or at a foretold motion away from it if the scheme wants one.
     pub(super) fn begin(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
+        start: Start,
     ) -> Result<(), StepFailure> {
         for (node, force) in self.old_force.iter_mut().enumerate() {
             *force = view.loads.total_force(node).map(|load: S| -load);
@@ -32,7 +42,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         self.twice_per_step = S::from_f64(2.0) * view.step.recip();
         self.place_moved_anchors(view);
-        self.start(view);
+        self.start(view, start);
         Ok(())
     }
 
@@ -58,18 +68,19 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 
     /// Moving nodes are where they are foretold, seen temperatures where they were.
-    fn start(&mut self, view: &StepView<'_, S>) {
+    fn start(&mut self, view: &StepView<'_, S>, start: Start) {
         self.trial.settled = S::Mask::none();
         let momenta = points::<S, D>(view.state.momenta.values());
         let (values, right, solution) = self.tangent.renew();
         for &Seen { slot, row } in &self.seen {
-            self.trial.seen_temperatures[slot] = view.state.temperatures[slot];
+            self.trial.seen.set(slot, view.state.temperatures[slot]);
             (right[row], solution[row]) = ([S::zero()], [S::zero()]);
         }
         let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
         // The way from the old state is the first correction.
         let changes = solution.as_flattened_mut().as_chunks_mut::<D>().0;
-        let is_foretold = view.phase.moves() && self.scheme.foretells_its_start();
+        let is_foretold =
+            start == Start::Foretold && view.phase.moves() && self.scheme.foretells_its_start();
         let half_step = S::from_f64(0.5) * view.step;
         let forecast = self.past.forecast();
         let nodes = self.nodes.iter_mut().zip(rows).zip(changes);

@@ -1,90 +1,136 @@
-//! The end of a step: the new state from the found forces, temperatures and rates.
+//! The end of a step: the new state from the increments that were found, and its certificate.
 
 use core::array;
 
 use super::Solver;
 use super::begin::old_force;
+use crate::certificate::{Certificate, Kept, Motion, NodeStep, Recount, Tally};
 use crate::error::StepFailure;
 use crate::group::{Along, Group, StepView, points};
+use crate::newton::Largest;
 use crate::scalar::{Mask, Real};
 use crate::scheme::Closing;
 use crate::state::State;
 
 impl<S: Real, const D: usize> Solver<S, D> {
-    /// Writes the new state to `next`, from the forces, temperatures and rates that were found.
-    ///
-    /// Where the nodal forces are `A q_m`, the displacements come from them by one linear solve,
-    ///
-    /// ```text
-    /// (2m/h + ½h A) Δq = 2p⁰ − h A q⁰,      Δp = −h A (q⁰ + ½Δq)
-    /// ```
-    ///
-    /// in which A is the same for every axis of space.
+    /// Writes the new state to `next`, from the increments at which the elements have been evaluated, and
+    /// says what it proves. It may be done again at another trial.
     pub(super) fn close(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
         next: &mut State<S>,
-    ) -> Result<(), StepFailure> {
+    ) -> Result<Certificate<S>, StepFailure> {
         next.copy_books(view.state);
         if view.phase.heats() {
             next.time.add(view.step);
         }
+        let mut tally = Tally::new();
+        let mut motion = Motion::new(self.kept(view));
+        self.final_residual = S::zero();
         if view.phase.moves() {
-            self.find_motion(groups, view)?;
-            self.move_masses(view, next)?;
-            self.move_anchors(view, next);
+            self.find_motion(groups, view);
+            self.move_masses(view, next, &mut motion, &mut tally)?;
+            self.move_anchors(view, next, &mut motion);
         } else {
             next.positions.copy_from(&view.state.positions);
             next.momenta.copy_from(&view.state.momenta);
         }
         for group in groups.iter_mut() {
-            group.close(view, &self.trial, next)?;
+            group.close(view, &self.trial, next, &mut tally)?;
         }
-        if view.phase.heats() && self.scheme.foretells_its_start() {
-            self.past.keep();
+        let internal = energy_change(&view.conduction.reservoirs, [view.state, next]);
+        let certificate = Certificate::new(&motion, &tally, internal);
+        if !self.scheme.is_exact() || certificate.has_enough_energy() {
+            return Ok(certificate);
         }
-        Ok(())
+        let mut recount = Recount::new();
+        for group in groups.iter() {
+            group.recount([view.state, next], &mut recount);
+        }
+        self.worst = recount.worst();
+        Ok(certificate.recounted(&recount))
     }
 
-    /// Displacements and impulses.
-    fn find_motion(
-        &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-    ) -> Result<(), StepFailure> {
+    /// Which momenta the scene keeps.
+    fn kept(&self, view: &StepView<'_, S>) -> Kept<S, D> {
+        if !view.loads.moved.is_empty() || !self.scheme.is_exact() {
+            return Kept::None;
+        }
+        match *self.anchors {
+            [] => Kept::Both,
+            [anchor] => Kept::Angular(points(view.state.positions.values())[anchor]),
+            _ => Kept::None,
+        }
+    }
+
+    /// Impulses, and displacements where they follow from them.
+    fn find_motion(&mut self, groups: &mut [Box<dyn Group<S, D>>], view: &StepView<'_, S>) {
+        self.magnitudes.fill(S::zero());
         match self.scheme.closing() {
-            Closing::Secant => {
-                self.solve_secant(groups, view)?;
-                self.find_impulse(groups, view, Along::Secant);
+            Closing::Increments if self.scheme.has_old_forces() => {
+                self.find_impulse(groups, view, Along::Scheme);
             }
+            Closing::Increments => self.find_impulse(groups, view, Along::Secant),
             Closing::Start => {
                 self.find_impulse(groups, view, Along::Scheme);
                 self.move_from_start(groups, view);
             }
-            Closing::Open => self.find_impulse(groups, view, Along::Scheme),
         }
-        Ok(())
     }
 
-    /// New positions and momenta, all finite, and the work of the loads. The forces are remembered.
+    /// New positions and momenta, all finite. The impulses of the elements are replaced by those of the
+    /// increments, judged beside them, and remembered as forces.
     fn move_masses(
         &mut self,
         view: &StepView<'_, S>,
         next: &mut State<S>,
+        motion: &mut Motion<S, D>,
+        tally: &mut Tally<S>,
     ) -> Result<(), StepFailure> {
         if view.loads.has_force() {
             self.book_work(view, next);
         }
         let per_step = view.step.recip();
+        let has_load = view.loads.has_total_force();
+        let takes_increments = self.scheme.closing() == Closing::Increments;
+        let mut largest = Largest::none();
         let mut remembering = self.past.remember();
         for node in &self.nodes {
             let at = node.place.node();
-            let (displacement, impulse) = (&self.trial.displacements[at], remembering.impulse(at));
-            move_node(at, [displacement, impulse], view.state, next)?;
+            let displacement = &self.trial.displacements[at];
+            if takes_increments {
+                let impulse = node.impulse(displacement, self.twice_per_step);
+                let found = remembering.impulse_mut(at);
+                for axis in 0..D {
+                    let residual = impulse[axis] - found[axis];
+                    largest.see(residual);
+                    if let Some(&magnitude) = self.magnitudes.get(at) {
+                        let inertia = node.place.mass * self.twice_per_step;
+                        let terms = magnitude + inertia * displacement[axis].abs();
+                        tally.balance(residual, terms + impulse[axis].abs());
+                    }
+                }
+                *found = impulse;
+            }
+            let impulse = remembering.impulse(at);
+            let moved = NodeStep {
+                mass: node.place.mass,
+                position: &points(view.state.positions.values())[at],
+                momentum: &points(view.state.momenta.values())[at],
+                displacement,
+                impulse,
+            };
+            motion.see(
+                &moved,
+                has_load.then(|| view.loads.total_force(at)).as_ref(),
+                view.step,
+            );
+            move_node(at, [displacement, &node.rest, impulse], view.state, next)?;
             remembering.take(at, per_step, node.place.mass);
         }
         remembering.finish();
+        self.final_residual = largest.found();
         Ok(())
     }
 
@@ -101,7 +147,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 
     /// New positions of the anchors that are moved, and the work that this takes.
-    fn move_anchors(&mut self, view: &StepView<'_, S>, next: &mut State<S>) {
+    fn move_anchors(
+        &mut self,
+        view: &StepView<'_, S>,
+        next: &mut State<S>,
+        motion: &mut Motion<S, D>,
+    ) {
         let old = &view.state.positions;
         let mut impulses = self.past.impulses();
         for &node in &view.loads.moved {
@@ -112,6 +163,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 // The support bears the impulse of the springs.
                 let support = -impulses.of(node)[axis] / view.step;
                 next.work.add(support * displacement);
+                motion.work(support * displacement);
             }
         }
     }
@@ -128,7 +180,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
             *impulse = old_force(&self.old_force, node).map(|force| -view.step * force);
         }
         for group in groups.iter_mut() {
-            group.add_impulse(view, &self.trial, along, &mut impulses);
+            let magnitudes = &mut self.magnitudes;
+            group.add_impulse(view, &self.trial, along, &mut impulses, magnitudes);
         }
     }
 
@@ -137,8 +190,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let half = S::from_f64(0.5);
         let p0 = points::<S, D>(view.state.momenta.values());
         let mut impulses = self.past.impulses();
-        for node in &self.nodes {
+        for node in &mut self.nodes {
             let at = node.place.node();
+            node.rest = [S::zero(); D];
             let mobility = view.step / node.place.mass;
             let impulse = impulses.of(at);
             let displacement =
@@ -146,52 +200,46 @@ impl<S: Real, const D: usize> Solver<S, D> {
             self.trial.displacements[at] = displacement;
         }
         for group in groups.iter_mut() {
-            group.add_impulse(view, &self.trial, Along::Gradient, &mut impulses);
+            group.add_impulse(view, &self.trial, Along::Gradient, &mut impulses, &mut []);
         }
         for (node, impulse) in impulses.iter_mut().enumerate() {
             let force = old_force(&self.old_force, node);
             *impulse = array::from_fn(|axis| half * (impulse[axis] - view.step * force[axis]));
         }
     }
+}
 
-    fn solve_secant(
-        &mut self,
-        groups: &mut [Box<dyn Group<S, D>>],
-        view: &StepView<'_, S>,
-    ) -> Result<(), StepFailure> {
-        let Some(secant) = &mut self.secant else {
-            return Ok(());
-        };
-        let tangent = &mut self.tangent;
-        let (values, right) = secant.renew(tangent);
-        for (node, right) in self.nodes.iter().zip(&mut *right) {
-            values[node.place.secant_diagonal()] = node.place.mass * self.twice_per_step;
-            *right = node.rest;
-        }
-        for group in groups.iter_mut() {
-            group.add_secant(view, &self.trial, (&mut *values, &mut *right));
-        }
-        let solved = secant.solve(tangent);
-        solved.map_err(|_| StepFailure::SingularTangent)?;
-        for (node, displacement) in self.nodes.iter().zip(secant.solution(tangent)) {
-            self.trial.displacements[node.place.node()] = *displacement;
-        }
-        Ok(())
+/// `Σ Δe + Σ θ_r Δσ_r + heat lost − heat`, and the magnitude of its terms, J.
+pub(super) fn energy_change<S: Real>(reservoirs: &[S], [old, next]: [&State<S>; 2]) -> [S; 2] {
+    let (mut change, mut magnitude) = (S::zero(), S::zero());
+    for (old, new) in old.energies.iter().zip(&next.energies) {
+        change += new.value - old.value;
+        magnitude += old.magnitude + new.magnitude;
     }
+    for (index, &theta) in reservoirs.iter().enumerate() {
+        let sums = &next.reservoir_entropies;
+        change += theta * sums.change(index, &old.reservoir_entropies);
+    }
+    let heat = next.heat.change(old.heat);
+    change += next.dissipated.change(old.dissipated) - heat;
+    [change, magnitude + heat.abs()]
 }
 
 /// The new position and the new momentum of a node, all finite, from its displacement and impulse.
 #[inline]
 pub(super) fn move_node<S: Real, const D: usize>(
     node: usize,
-    [displacement, impulse]: [&[S; D]; 2],
+    [displacement, rest, impulse]: [&[S; D]; 3],
     old: &State<S>,
     next: &mut State<S>,
 ) -> Result<(), StepFailure> {
     let by_position = next
         .positions
-        .advance_point(node, &old.positions, displacement);
-    let by_momentum = next.momenta.advance_point(node, &old.momenta, impulse);
+        .advance_point(node, &old.positions, [displacement, rest]);
+    let none = [S::zero(); D];
+    let by_momentum = next
+        .momenta
+        .advance_point(node, &old.momenta, [impulse, &none]);
     // What rounding takes from a sum is a number only if the sum is one.
     if (by_position + by_momentum).is_finite() {
         return Ok(());

@@ -1,6 +1,6 @@
 //! How hard a step tries, and what it did.
 
-use super::STAGES;
+use super::CONTINUATION_STEPS;
 use crate::error::NewtonIteration;
 use crate::newton::NewtonSettings;
 use crate::scalar::{Mask, Real, unless};
@@ -14,6 +14,8 @@ pub(crate) struct Effort<S> {
     pub(crate) settings: NewtonSettings<S>,
     /// What each iteration of the last step did.
     pub(crate) history: Vec<Iteration<S>>,
+    /// The largest residual and the largest last update of the phases of the last step.
+    pub(crate) end: Iteration<S>,
 }
 
 /// One iteration of Newton's method.
@@ -26,6 +28,14 @@ pub(crate) struct Iteration<S> {
 }
 
 impl<S: Real> Iteration<S> {
+    /// None.
+    fn none() -> Self {
+        Self {
+            residual: S::zero(),
+            update: S::zero(),
+        }
+    }
+
     /// The same in double precision.
     pub(crate) fn to_f64(self) -> NewtonIteration {
         NewtonIteration {
@@ -41,6 +51,7 @@ impl<S: Real> Effort<S> {
         Self {
             settings: NewtonSettings::default(),
             history: Vec::new(),
+            end: Iteration::none(),
         }
     }
 
@@ -59,11 +70,22 @@ impl<S: Real> Effort<S> {
         }
     }
 
+    /// Another phase of the step is done, with this residual after this update.
+    #[inline]
+    pub(crate) fn conclude(&mut self, residual: S, update: Option<S>) {
+        let update = update.unwrap_or(S::zero());
+        self.end = Iteration {
+            residual: self.end.residual.maximum(residual),
+            update: self.end.update.maximum(update),
+        };
+    }
+
     /// Forgets the last step.
     pub(crate) fn restart(&mut self) {
-        // Two parts of a staggered step, each followed through all stages at worst.
-        let parts = 2 * usize::from(STAGES + 1);
+        // Two parts of a staggered step, each from two starts and through all parts at worst.
+        let parts = 2 * usize::from(CONTINUATION_STEPS + 2);
         let most = self.settings.max_iterations.saturating_mul(parts);
+        self.end = Iteration::none();
         self.history.clear();
         self.history.reserve(most.min(LONGEST_HISTORY));
     }

@@ -42,28 +42,24 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let mut largest = Largest::none();
         let changes = solution.as_flattened().as_chunks::<D>().0;
         let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
-        for ((node, change), rows) in self.nodes.iter().zip(changes).zip(rows) {
+        for ((node, change), rows) in self.nodes.iter_mut().zip(changes).zip(rows) {
             let at = node.place.node();
             let mut displacement = trial.displacements[at];
             let per_length = self.per_length[at];
-            // One by one, as they have been found: a copy of all would have to wait for them.
+            let (mut applied, zero) = ([S::zero(); D], S::zero());
             for axis in 0..D {
-                let (from, change) = (displacement[axis], change[axis]);
-                displacement[axis] = unless(settled, from, from + change);
-                largest.see(change * per_length);
+                applied[axis] = unless(settled, zero, change[axis]);
+                largest.see(change[axis] * per_length);
             }
+            node.displace(&mut displacement, &applied);
             trial.displacements[at] = displacement;
             node.balance(&displacement, self.twice_per_step, values, rows);
         }
         for &Seen { slot, row } in &self.seen {
-            // What rounding to Θ + δΘ leaves of δΘ: with a large conductance a rounding of Θ is a
-            // large heat; the local unknowns must answer to the Θ that will be used.
-            let theta = trial.seen_temperatures[slot];
-            let change = (theta + solution[row][0]) - theta;
-            solution[row][0] = change;
+            let change = solution[row][0];
             right[row] = [S::zero()];
-            trial.seen_temperatures[slot] = unless(settled, theta, theta + change);
-            largest.see(change / theta);
+            largest.see(change / trial.seen.values[slot]);
+            trial.seen.add(slot, unless(settled, S::zero(), change));
         }
         for group in groups.iter_mut() {
             largest.see(group.correct(self.tangent.solution(), settled));
@@ -76,14 +72,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let trial = &mut self.trial;
         let solution = self.tangent.solution();
         let changes = solution.as_flattened().as_chunks::<D>().0;
-        for (node, change) in self.nodes.iter().zip(changes) {
+        for (node, change) in self.nodes.iter_mut().zip(changes) {
             let displacement = &mut trial.displacements[node.place.node()];
-            for (displacement, &change) in displacement.iter_mut().zip(change) {
-                *displacement -= share * change;
-            }
+            node.displace(displacement, &change.map(|change| -share * change));
         }
         for &Seen { slot, row } in &self.seen {
-            trial.seen_temperatures[slot] -= share * solution[row][0];
+            trial.seen.add(slot, -share * solution[row][0]);
         }
         self.balance();
     }
@@ -99,12 +93,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let growth = factor - S::one();
         let solution = self.tangent.solution_mut();
         let changes = solution.as_flattened_mut().as_chunks_mut::<D>().0;
-        for (node, change) in self.nodes.iter().zip(changes) {
+        for (node, change) in self.nodes.iter_mut().zip(changes) {
             let displacement = &mut self.trial.displacements[node.place.node()];
             *change = displacement.map(|component| growth * component);
-            for (displacement, &mut change) in displacement.iter_mut().zip(change) {
-                *displacement += change;
-            }
+            node.displace(displacement, change);
         }
         for seen in &self.seen {
             solution[seen.row] = [S::zero()];

@@ -1,6 +1,7 @@
 //! The global system at a trial state of choice.
 
-use super::{Effort, Iteration, Look, Solver};
+use super::begin::Start;
+use super::{Effort, Iteration, Purpose, Solver};
 use crate::error::StepFailure;
 use crate::group::{Group, StepView};
 use crate::scalar::{Mask, Real};
@@ -14,19 +15,20 @@ impl<S: Real, const D: usize> Solver<S, D> {
         unknowns: &[S],
         effort: &mut Effort<S>,
     ) -> Result<(Vec<S>, Vec<S>), StepFailure> {
-        self.begin(groups, view)?;
-        for (node, &displacement) in self.nodes.iter().zip(unknowns.as_chunks::<D>().0) {
+        self.begin(groups, view, Start::Foretold)?;
+        for (node, &displacement) in self.nodes.iter_mut().zip(unknowns.as_chunks::<D>().0) {
+            node.rest = [S::zero(); D];
             self.trial.displacements[node.place.node()] = displacement;
         }
         for seen in &self.seen {
-            self.trial.seen_temperatures[seen.slot] = unknowns[seen.row];
+            self.trial.seen.set(seen.slot, unknowns[seen.row]);
         }
         // Whatever fails, the global unknowns stay.
         self.tangent.solution_mut().fill([S::zero()]);
         let mut before = None;
         loop {
             self.balance();
-            self.advance(groups, view, Look::On)?;
+            self.advance(groups, view, Purpose::Iterate)?;
             let residual = self.residual();
             if before.is_some_and(|update| update <= S::EPSILON) {
                 break;

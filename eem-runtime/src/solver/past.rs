@@ -178,6 +178,13 @@ impl<S: Real, const D: usize> Remembering<'_, S, D> {
         &self.forces[node][next]
     }
 
+    /// The same, to be written.
+    #[inline]
+    pub(super) fn impulse_mut(&mut self, node: usize) -> &mut [S; D] {
+        let [_, _, next] = self.turn;
+        &mut self.forces[node][next]
+    }
+
     /// The impulse of a node becomes a force: by 1/h, with its mass.
     #[inline]
     pub(super) fn take(&mut self, node: usize, per_step: S, mass: S) {

@@ -12,7 +12,8 @@ use core::array;
 
 use super::begin::inverse_length;
 use super::places::{MovingNode, Seen, moving, seen};
-use super::{Effort, HALVINGS, Iteration, STAGES as PARTS};
+use super::{CONTINUATION_STEPS, Effort, HALVINGS, Iteration};
+use crate::certificate::Certificate;
 use crate::conduction::Conduction;
 use crate::error::{StateError, StepFailure};
 use crate::group::{Sites, StageGroup, StageTrial, StageView, points};
@@ -160,9 +161,12 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         view: &StageView<'_, S>,
         effort: &mut Effort<S>,
         next: &mut State<S>,
-    ) -> Result<(), StepFailure> {
+    ) -> Result<Certificate<S>, StepFailure> {
         if let Err(failure) = self.start_and_converge(groups, view, effort) {
             self.follow(groups, view, effort).map_err(|_| failure)?;
+        }
+        if let Some(&last) = effort.history.last() {
+            effort.conclude(last.residual, Some(last.update));
         }
         self.close(groups, view, next)
     }
@@ -186,9 +190,9 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         effort: &mut Effort<S>,
     ) -> Result<(), StepFailure> {
         let number = |part: u8| S::from_f64(f64::from(part));
-        for part in 1..=PARTS {
+        for part in 1..=CONTINUATION_STEPS {
             let shorter = StageView {
-                step: view.step * number(part) / number(PARTS),
+                step: view.step * number(part) / number(CONTINUATION_STEPS),
                 ..*view
             };
             if part == 1 {

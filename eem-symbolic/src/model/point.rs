@@ -32,6 +32,12 @@ impl<'m> PointPrograms<'m> {
         self.program(&self.variables, &[self.model.psi])
     }
 
+    pub(super) fn energy_magnitude(&mut self) -> Program {
+        let positive = self.model.positive();
+        let magnitude = crate::magnitude::magnitude(&mut self.graph, self.model.psi, &positive);
+        self.program(&self.variables, &[magnitude])
+    }
+
     pub(super) fn gradient(&mut self) -> Program {
         let gradient = self.slopes(self.model.psi);
         self.program(&self.variables, &gradient)

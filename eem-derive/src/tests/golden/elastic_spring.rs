@@ -48,6 +48,27 @@ const _: () = {
             let __v7 = __v5 * __v6;
             __v7
         }
+        /// The sum of the magnitudes of the terms of ψ.
+        ///
+        /// 11 operations: 6 additions, 5 multiplications.
+        fn energy_magnitude(&self, __x: &Self::Variables) -> __S {
+            let __v0 = __x[0];
+            let __v1 = <__S as __eem::Scalar>::from_f64(self.length);
+            let __v2 = <__S as __eem::Scalar>::abs(__v1);
+            let __v3 = <__S as __eem::Scalar>::from_f64(self.stiffness);
+            let __v4 = __v0 - __v1;
+            let __v5 = __v3 * __v4;
+            let __v6 = <__S as __eem::Scalar>::abs(__v5);
+            let __v7 = <__S as __eem::Scalar>::from_f64(0.5);
+            let __v8 = __v3 * __v7;
+            let __v9 = __v4 * __v4;
+            let __v10 = __v8 * __v9;
+            let __v11 = <__S as __eem::Scalar>::abs(__v10);
+            let __v12 = __v0 + __v2;
+            let __v13 = __v12 * __v6;
+            let __v14 = __v11 + __v13;
+            __v14
+        }
         /// Internal energy e = ψ + θ s.
         ///
         /// 4 operations: 1 addition, 3 multiplications.
@@ -204,6 +225,7 @@ const _: () = {
             ],
             costs: &[
                 __eem::describe::Cost::new("free_energy", 0, 4),
+                __eem::describe::Cost::new("energy_magnitude", 0, 11),
                 __eem::describe::Cost::new("internal_energy", 0, 4),
                 __eem::describe::Cost::new("gradient", 0, 2),
                 __eem::describe::Cost::new("hessian", 0, 2),

@@ -3,8 +3,9 @@
 //! The unknowns of that system are those of the middle and then those of the end, so that its matrix
 //! has four quarters. An element has a [`Site`] in each.
 
+use super::secant::SecantSite;
 use crate::group::Sites;
-use crate::group::site::{Contact, SecantSite, Site};
+use crate::group::site::{Contact, Site};
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
 

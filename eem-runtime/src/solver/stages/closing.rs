@@ -4,11 +4,12 @@ use core::array;
 
 use super::StageSolver;
 use super::assemble::{inertia, loads};
+use crate::certificate::{Certificate, Kept, Motion, NodeStep, Tally};
 use crate::error::StepFailure;
 use crate::group::{StageGroup, StageView, points};
 use crate::scalar::Real;
 use crate::scheme::variational_4;
-use crate::solver::closing::move_node;
+use crate::solver::closing::{energy_change, move_node};
 use crate::state::State;
 
 impl<S: Real, const D: usize> StageSolver<S, D> {
@@ -21,7 +22,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         groups: &mut [Box<dyn StageGroup<S, D>>],
         view: &StageView<'_, S>,
         next: &mut State<S>,
-    ) -> Result<(), StepFailure> {
+    ) -> Result<Certificate<S>, StepFailure> {
         self.find_forces(groups, view, 0);
         self.move_to_middle(groups, view)?;
         self.find_forces(groups, view, 1);
@@ -34,7 +35,34 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         for group in groups.iter_mut() {
             group.close(view, next)?;
         }
-        Ok(())
+        Ok(self.certify(view, next))
+    }
+
+    /// What the new state says of the energy; the scheme promises nothing.
+    fn certify(&self, view: &StageView<'_, S>, next: &State<S>) -> Certificate<S> {
+        let mut motion = Motion::new(Kept::None);
+        for mass in &self.masses[1] {
+            let node = mass.node();
+            let displacement = &self.trial.displacements[1][node];
+            let impulse =
+                array::from_fn(|axis| next.momenta.change(node * D + axis, &view.state.momenta));
+            let moved = NodeStep {
+                mass: mass.mass,
+                position: &points(view.state.positions.values())[node],
+                momentum: &points(view.state.momenta.values())[node],
+                displacement,
+                impulse: &impulse,
+            };
+            let (total, load) = (
+                view.loads[0].total_force::<D>(node),
+                view.loads[0].force::<D>(node),
+            );
+            let weight = array::from_fn(|axis| total[axis] - load[axis]);
+            motion.see(&moved, Some(&weight), view.step);
+        }
+        motion.work(next.work.change(view.state.work));
+        let internal = energy_change(&view.conduction.reservoirs, [view.state, next]);
+        Certificate::new(&motion, &Tally::new(), internal)
     }
 
     /// New positions and momenta, all finite, and the work of the loads.
@@ -49,7 +77,8 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
                 }
             }
             let displacement = &self.trial.displacements[1][node];
-            move_node(node, [displacement, &impulse], view.state, next)?;
+            let none = [S::zero(); D];
+            move_node(node, [displacement, &none, &impulse], view.state, next)?;
             let loads = view.loads.each_ref().map(|loads| loads.force::<D>(node));
             for axis in 0..D {
                 let load = loads.map(|load| load[axis]);
