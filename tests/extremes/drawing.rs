@@ -16,9 +16,6 @@ pub(crate) enum Class {
     Wild,
 }
 
-/// The most masses of a scene.
-const MASSES: usize = 30;
-
 /// Lengths of the ordinary class, over the natural ones.
 const LENGTHS: [f64; 2] = [0.2, 5.0];
 
@@ -59,9 +56,9 @@ struct Spring {
 }
 
 impl<const D: usize> Drawing<D> {
-    pub(crate) fn at_random(random: &mut Random, class: Class) -> Self {
+    pub(crate) fn at_random(random: &mut Random, class: Class, most: usize) -> Self {
         let wild = class == Class::Wild;
-        let nodes = nodes::<D>(random, wild);
+        let nodes = nodes::<D>(random, wild, most);
         let springs = springs(random, wild, &nodes);
         let mut drawing = Self {
             nodes,
@@ -186,8 +183,7 @@ impl<const D: usize> Drawing<D> {
             let mut next = vec![[0.0; D]; shape.len()];
             for spring in &self.springs {
                 let [a, b] = spring.ends;
-                let [normal, along, across] = self.stiffness_of(spring);
-                let _ = normal;
+                let [along, across] = self.stiffness_of(spring);
                 let direction = self.direction(spring);
                 let gap: [f64; D] = core::array::from_fn(|i| {
                     (shape[b][i] * roots[b] - shape[a][i] * roots[a]) / size
@@ -213,11 +209,11 @@ impl<const D: usize> Drawing<D> {
     }
 
     /// The stiffness along the spring, and across it.
-    fn stiffness_of(&self, spring: &Spring) -> [f64; 3] {
+    fn stiffness_of(&self, spring: &Spring) -> [f64; 2] {
         let [a, b] = spring.ends.map(|end| self.nodes[end].position);
         let length = (0..D).map(|i| (b[i] - a[i]).powi(2)).sum::<f64>().sqrt();
         let (force, along) = spring.material.slope(length, spring.theta);
-        [force, along.abs(), (force / length).abs()]
+        [along.abs(), (force / length).abs()]
     }
 
     /// Whether all springs still have lengths of the ordinary class.
@@ -277,13 +273,13 @@ impl<const D: usize> Drawing<D> {
     }
 }
 
-/// Up to two anchors and one to thirty masses, about 1 m from each other.
-fn nodes<const D: usize>(random: &mut Random, wild: bool) -> Vec<Node<D>> {
+/// Up to two anchors and one to `most` masses, about 1 m from each other.
+fn nodes<const D: usize>(random: &mut Random, wild: bool, most: usize) -> Vec<Node<D>> {
     let anchors = random.below(3);
     // Small scenes are tried more often: they cost less and find as much.
-    let masses =
-        1 + (random.unit().powi(2) * f64::from(u8::try_from(MASSES).unwrap_or(u8::MAX))) as usize;
+    let masses = 1 + random.below(most).min(random.below(most));
     let masses = if anchors == 0 { masses.max(2) } else { masses };
+    #[expect(clippy::cast_precision_loss, reason = "small numbers")]
     let size = ((anchors + masses) as f64).powf(1.0 / D as f64);
     let mut nodes: Vec<Node<D>> = Vec::new();
     while nodes.len() < anchors + masses {

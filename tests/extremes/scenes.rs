@@ -41,11 +41,13 @@ fn wild_in_space(effort: Effort) -> Tally {
 /// Random scenes of one class. An ordinary scene whose springs leave the lengths of its class ends there.
 fn scenes<const D: usize>(what: &str, class: Class, effort: Effort, seed: u64) -> Tally {
     let count = effort.of([4, 75, 2500]);
-    let steps = effort.of([20, 60, 200]);
+    let steps = effort.of([10, 30, 200]);
+    // Without optimisation, a large scene costs as much as a hundred small ones.
+    let most = effort.of([8, 12, 30]);
     let mut tally = Tally::new(format!("{count} {what}, {steps} steps each"));
     for index in 0..count {
         let mut random = Random::new(seed << 32 | index);
-        let drawing = Drawing::<D>::at_random(&mut random, class);
+        let drawing = Drawing::<D>::at_random(&mut random, class, most);
         let scheme = EXACT[random.below(EXACT.len())];
         let label = format!("{what} {index}, {}", scheme.name());
         let mut watched = match drawing.world().start(scheme, drawing.step) {
