@@ -1,9 +1,10 @@
-//! Findings 1 to 5 are not reproducible.
+//! Findings 1 to 3 are not reproducible; fresh hot steps are in `scenes`, small capacities and stiff
+//! conduction (finding 4) in `heat`, two dashpots (finding 5) in `stiffness`.
 
-use super::super::watched::{EXACT, FORMS};
+use super::super::watched::EXACT;
 use super::*;
 
-/// Fresh hot steps of the short form.
+/// Random steps.
 const FRESH: usize = 2000;
 
 fn assert_none(complaints: &[String]) {
@@ -31,36 +32,6 @@ fn a_hot_spring_near_its_anchor_takes_a_true_step() {
         assert!((distance - 1.4176).abs() < 5e-5, "{distance} m");
         let theta = state.temperatures[0];
         assert!((theta - 170.4433).abs() < 5e-5, "{theta} K");
-    }
-}
-
-#[test]
-fn hot_fresh_steps_are_lawful_and_most_complete() {
-    for scheme in EXACT {
-        let mut random = Random::new(1);
-        let (mut tried, mut done) = (0_u32, 0_u32);
-        let mut broken = Vec::new();
-        for _ in 0..FRESH {
-            let Some(mut watched) = hot_at_random(&mut random, scheme) else {
-                continue;
-            };
-            tried += 1;
-            done += u32::from(watched.step().is_ok());
-            broken.extend(watched.record.broken);
-        }
-        let share = f64::from(done) / f64::from(tried);
-        println!(
-            "{}: {done} of {tried} complete, {} broken laws",
-            scheme.name(),
-            broken.len()
-        );
-        broken.truncate(5);
-        assert_none(&broken);
-        assert!(
-            share >= 0.94 || !FORMS.contains(&scheme),
-            "{}: {share}",
-            scheme.name()
-        );
     }
 }
 
@@ -135,63 +106,6 @@ fn a_maxwell_element_of_any_viscosity_completes() {
                 watched.steps(50);
                 let what = format!("h k/η = 1e{exponent}, {starts_relaxed}");
                 wrong.extend(complaint(&what, scheme, 50, &watched.record));
-            }
-        }
-    }
-    assert_none(&wrong);
-}
-
-#[test]
-fn small_capacities_complete_on_circles_and_are_lawful_elsewhere() {
-    let mut wrong = Vec::new();
-    for scheme in EXACT {
-        for exponent in (-12..=12).step_by(3) {
-            let capacity = 10.0_f64.powi(exponent);
-            let mut steady = small_capacity(scheme, capacity, 0.0);
-            steady.steps(20);
-            let what = format!("c = {capacity:e}");
-            wrong.extend(complaint(&what, scheme, 20, &steady.record));
-            let mut radial = small_capacity(scheme, capacity, 0.5);
-            radial.steps(20);
-            if !radial.record.is_lawful() {
-                wrong.push(format!(
-                    "{what} radial {} {:?}",
-                    scheme.name(),
-                    radial.record.broken
-                ));
-            }
-        }
-    }
-    assert_none(&wrong);
-}
-
-#[test]
-fn stiff_conduction_produces_entropy_and_keeps_energy() {
-    let mut wrong = Vec::new();
-    for scheme in EXACT {
-        for exponent in 0..=9 {
-            let mut watched = contact(scheme, 10.0_f64.powi(exponent));
-            watched.steps(50);
-            let what = format!("κh/c = 1e{exponent}");
-            wrong.extend(complaint(&what, scheme, 50, &watched.record));
-        }
-    }
-    assert_none(&wrong);
-}
-
-#[test]
-fn two_dashpots_of_any_viscosity_complete() {
-    let mut wrong = Vec::new();
-    for scheme in EXACT {
-        for exponent in -12..=12 {
-            let eta = 10.0_f64.powi(exponent);
-            for (name, mut watched) in [
-                ("ln λ", two_dashpots(scheme, eta)),
-                ("λ", two_linear_dashpots(scheme, eta)),
-            ] {
-                watched.steps(20);
-                let what = format!("{name} η = 1e{exponent}");
-                wrong.extend(complaint(&what, scheme, 20, &watched.record));
             }
         }
     }

@@ -1,7 +1,5 @@
 //! Kind 4: temperatures, conductances and heat capacities over many decades.
 
-use eem::prelude::*;
-
 use super::findings::{contact, on_anchor, small_capacity};
 use super::models::{Hot, Lattice, ThermoViscoElastic, Thermoelastic};
 use super::tally::{Effort, Family, Tally};

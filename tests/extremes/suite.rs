@@ -2,20 +2,32 @@
 
 #![allow(dead_code, reason = "tests and example each use their own part")]
 
+// What a step is judged by.
 pub(crate) mod digits;
-pub(crate) mod drawing;
 pub(crate) mod element;
-pub(crate) mod findings;
-pub(crate) mod heat;
 pub(crate) mod jet;
 pub(crate) mod judge;
-pub(crate) mod material;
 pub(crate) mod model;
-pub(crate) mod models;
-pub(crate) mod random;
-pub(crate) mod scenes;
-pub(crate) mod stiffness;
 pub(crate) mod stored;
+
+// What is tried.
+pub(crate) mod drawing;
+pub(crate) mod material;
+pub(crate) mod models;
+pub(crate) mod published;
+pub(crate) mod random;
 pub(crate) mod tally;
 pub(crate) mod watched;
 pub(crate) mod world;
+
+// The kinds of extremes.
+pub(crate) mod bits;
+pub(crate) mod findings;
+pub(crate) mod heat;
+pub(crate) mod lengths;
+pub(crate) mod long;
+pub(crate) mod phases;
+pub(crate) mod scenes;
+pub(crate) mod steps;
+pub(crate) mod stiffness;
+pub(crate) mod units;

@@ -100,15 +100,18 @@ impl Tally {
         }
     }
 
-    /// A run that also has to complete within ten iterations per step, of each of its solves.
+    /// A run that also has to complete within ten iterations per step on average, of each of its solves.
+    /// The few steps that pass by an anchor may need a second start.
     pub(crate) fn add_swift(&mut self, label: impl Display, record: &Record, scheme: Scheme) {
         self.add_complete(&label, record);
         let solves = if scheme == Scheme::Staggered { 2 } else { 1 };
-        let most = record.most_iterations;
-        if most > solves * ITERATIONS {
-            let mean = mean(record.iterations, record.steps);
+        let mean = mean(record.iterations, record.steps);
+        #[expect(clippy::cast_precision_loss, reason = "a small number")]
+        let allowed = (solves * ITERATIONS) as f64;
+        if mean > allowed {
+            let most = record.most_iterations;
             self.wrong.push(format!(
-                "{label}: {most} iterations in a step, {mean:.1} on average"
+                "{label}: {mean:.1} iterations per step, {most} at most"
             ));
         }
     }
