@@ -123,11 +123,15 @@ impl Ends<'_> {
         let theta = self.theta.unwrap_or([1.0; 2]);
         let [eta0, eta1] = theta.map(|theta| self.body.viscosities(theta));
         let change = |k: usize| (self.gamma[1][k] - self.gamma[0][k]).value();
-        let heat = |k: usize| eta0[k].max(eta1[k]) * change(k) * (change(k) / step);
+        let heat = |k: usize| {
+            // A viscosity that overflows at an end says nothing of that within the step.
+            let finite = [eta0[k], eta1[k]].into_iter().filter(|eta| eta.is_finite());
+            finite.fold(0.0, f64::max) * change(k) * (change(k) / step)
+        };
         (0..eta0.len()).map(heat).sum()
     }
 
-    /// `Σ_ij |T_ij| |x_j| |Δx_i|`; where T is not finite, that of the old state's Hessian.
+    /// `Σ_ij |T_ij| |x_j| |Δx_i|`; where T is not finite, with the Hessian of an end in its place.
     fn work_of_arguments(&self) -> f64 {
         let [x0, x1] = [0, 1].map(|end| self.doubles(end));
         let mut changes = vec![(self.lambda[1] - self.lambda[0]).value()];
@@ -144,11 +148,15 @@ impl Ends<'_> {
             };
             (0..changes.len()).map(|i| row(i) * changes[i].abs()).sum()
         };
-        let exact = of(&self.response.1);
-        if exact.is_finite() {
-            exact
-        } else {
-            of(&self.body.hessian(&x0))
-        }
+        let tangents = [
+            &self.response.1,
+            &self.body.hessian(&x0),
+            &self.body.hessian(&x1),
+        ];
+        let works = tangents.map(|tangent| of(tangent));
+        works
+            .into_iter()
+            .find(|work| work.is_finite())
+            .unwrap_or(0.0)
     }
 }

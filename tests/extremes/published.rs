@@ -34,7 +34,7 @@ pub(crate) fn single_pendulum([metre, kelvin]: [f64; 2]) -> World<2> {
     let model = ThermoViscoElastic {
         k0: of.k0 * joule,
         k1: of.k1 * joule / kelvin,
-        ratio: of.ratio * metre,
+        ratio: of.ratio,
         coupling: of.coupling * joule / kelvin,
         capacity: of.capacity * joule / kelvin,
         mu0: of.mu0,
