@@ -6,7 +6,9 @@
 //! ```
 //!
 //! where `w` is the implicit share of the scheme and `c` what the old state contributes. Nothing is
-//! divided by η, which may be as small or as large as it likes. The unknowns `u = (Δγ…, τ)` occur in no
+//! divided by η, which may be as small or as large as it likes. The ordinary rules, which are there to
+//! compare with, are solved as ordinary codes do: with `γ̇_k = g*_k/η_k` and `r_γk = Δγ_k − h (w γ̇_k + c_k)`,
+//! and where they break down depends on it. The unknowns `u = (Δγ…, τ)` occur in no
 //! other element: what elements in contact see of each other is the global unknown Θ = θ*. So their
 //! corrections are eliminated here.
 
@@ -59,7 +61,7 @@ where
             constant: zeros,
             rows: M::Hessian::filled(zeros),
             by_heat: zeros,
-            unit: [self.start.x0[0], theta],
+            unit: self.pivot_units(theta),
         };
         let mut dissipation = Dissipation {
             power: S::zero(),
@@ -103,6 +105,16 @@ where
         Ok(())
     }
 
+    /// What makes an energy of a row of the local system.
+    #[inline]
+    fn pivot_units(&self, theta: S) -> [S; 2] {
+        if C::EXACT {
+            [self.start.x0[0], theta]
+        } else {
+            [S::one(); 2]
+        }
+    }
+
     /// Whether `r_s` depends on global unknowns otherwise than through the measures.
     #[inline]
     pub(super) fn depends_on_heat(is_coupled: bool) -> bool {
@@ -140,12 +152,10 @@ where
     /// `γ̇_k` of the trial, of which the scheme takes the share w, m/s.
     #[inline]
     pub(super) fn creep_rate(&self, k: usize, h: S) -> S {
-        let mean = self.creep[k] / h;
-        match self.at_point.as_ref() {
-            [at_point] if C::IMPLICIT < 1.0 => {
-                (mean - at_point.old_rates[M::MEASURES + k]) / S::from_f64(C::IMPLICIT)
-            }
-            _ => mean,
+        if C::EXACT {
+            self.creep[k] / h
+        } else {
+            self.response[M::MEASURES + k] / self.viscosities.0[k]
         }
     }
 
@@ -172,11 +182,15 @@ where
             system.rows[k][index] = S::one();
             return;
         }
+        if !C::EXACT {
+            self.ordinary_dashpot_balance(view, k, (response, tangent), system, dissipation);
+            return;
+        }
         let h = view.thermal_step();
         let (eta, rate) = (self.viscosities.0[k], self.creep_rate(k, h));
         system.constant[k] = eta * rate - response[index];
         dissipation.power += eta * (rate * rate);
-        let per_creep = eta / (h * S::from_f64(C::IMPLICIT));
+        let per_creep = eta / h;
         for column in 0..Self::VARIABLES {
             // The derivative of η γ̇ by way of the temperature.
             let thinning = if M::THERMAL {
@@ -197,6 +211,43 @@ where
             } else {
                 dissipation.by[column] + power_by
             };
+        }
+    }
+
+    /// `r_γk` of an ordinary rule and its derivatives, and what it adds to those of the dissipated power.
+    fn ordinary_dashpot_balance(
+        &self,
+        view: &StepView<'_, S>,
+        k: usize,
+        (response, tangent): (&M::Response, &M::Tangent),
+        system: &mut LocalSystem<S, M>,
+        dissipation: &mut Dissipation<S, M>,
+    ) {
+        let index = M::MEASURES + k;
+        let per_eta = self.viscosities.0[k].recip();
+        let rate = response[index] * per_eta;
+        dissipation.power += response[index] * rate;
+        let h = view.thermal_step();
+        system.constant[k] = self.creep[k] - self.increment(index, rate, h);
+        let mobility = -h * S::from_f64(C::IMPLICIT) * per_eta;
+        // ∂g/∂x − γ̇ ∂η/∂x, the derivative of γ̇ times η.
+        let thinning = rate * self.viscosities.1[k];
+        for column in 0..Self::VARIABLES {
+            let by = tangent[index][column];
+            let driving = if M::THERMAL {
+                by - thinning * tangent[Self::TEMPERATURE][column]
+            } else {
+                by
+            };
+            // ∂(g γ̇)/∂x = γ̇ (∂g/∂x + η ∂γ̇/∂x)
+            let power_by = rate * (by + driving);
+            dissipation.by[column] = if k == 0 {
+                power_by
+            } else {
+                dissipation.by[column] + power_by
+            };
+            let own = if column == index { S::one() } else { S::zero() };
+            system.rows[k][column] = own + mobility * driving;
         }
     }
 
