@@ -242,13 +242,13 @@ fn an_event_at_the_end_and_one_at_the_start() {
 fn events_that_cannot_be_are_errors() {
     let mut run = single_pendulum(Scheme::EemEntropy, 0.1).run;
     let start = bits(&run);
-    for tolerance in [f64::NAN, -1e-9] {
+    for (tolerance, printed) in [(f64::NAN, "NaN"), (-1e-9, "-1e-9")] {
         let error = run
             .run_until_event(1.0, tolerance, |_| 1.0, watch)
             .unwrap_err();
         let text = error.failure.to_string();
         let expected =
-            format!("the tolerance of the event is {tolerance} s, it must not be negative");
+            format!("the tolerance of the event is {printed} s, it must not be negative");
         assert_eq!(text, expected);
     }
     let error = run

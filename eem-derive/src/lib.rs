@@ -141,6 +141,8 @@ use syn::{DeriveInput, parse_macro_input};
 ///
 /// * constants that do not fit an `f64`, divisors that are zero, and arguments outside of the domain
 ///   of a function: `ln(-1)`, `sqrt(-lambda)`;
+/// * powers with an exponent that is no integer, of a base that can be negative in some state:
+///   `(lambda - length).powf(2.5)`. Parameters count as positive here;
 /// * a free energy that does not depend on one of its arguments, or is linear in the temperature:
 ///   its heat capacity `c = -θ ∂²ψ/∂θ²` is zero, and no temperature belongs to an entropy;
 /// * a heat capacity or a viscosity that is nowhere positive.

@@ -16,8 +16,9 @@
 //! A⁺ = Σ |T_ij| |x_j| |Δx_i|          T: tangent of (f*, −g*, θ*),  x = (λ, γ, θ),  Δx = (Δλ, Δγ, Δs)
 //! ```
 //!
-//! A has the terms of the balance, A⁺, of which `A/√ε` counts at most, the work of the rounding of the
-//! arguments of the forces. Every
+//! A has the terms of the balance, A⁺ the work of the rounding of the arguments of the forces. Of what
+//! forces contribute to both, half of the digits count at most: the 1/√ε of the other terms and of
+//! `Σ m (ℓ/h)²`, with the shortest element ℓ of each node. Every
 //! term carries some roundings; 64 is eight times the largest `|R|/(ε (A + A⁺))` that a right step has
 //! shown, near an anchor. Momenta and productions are judged beside the energy.
 
@@ -30,7 +31,7 @@ use crate::scalar::{Mask, Real};
 const ROUNDINGS: f64 = 64.0;
 
 /// The part of them up to which a step is taken without another iteration.
-const ENOUGH: f64 = 0.125;
+const ENOUGH: f64 = 0.03125;
 
 /// Roundings of `Σ |q||p|` and of `Σ |p|` up to which a step is taken without another iteration.
 const ENOUGH_MOMENTUM: f64 = 4.0;
@@ -41,9 +42,10 @@ const VALUE_ROUNDINGS: f64 = 4.0;
 /// What elements and paths of heat contribute to a certificate.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tally<S: Real> {
-    /// Their part of A, and A⁺, J.
-    terms: S,
-    arguments: S,
+    /// Heat that flows, J.
+    heat: S,
+    /// What forces contribute to A, and A⁺, J.
+    forces: S,
     /// What they have produced, J/K.
     production: S,
     /// The smallest of all productions; the largest number without any, J/K.
@@ -56,26 +58,24 @@ impl<S: Real> Tally<S> {
     /// Of nothing.
     pub(crate) fn new() -> Self {
         Self {
-            terms: S::zero(),
-            arguments: S::zero(),
+            heat: S::zero(),
+            forces: S::zero(),
             production: S::zero(),
             least: S::MAX,
             is_balanced: !S::Mask::none(),
         }
     }
 
-    /// An energy that takes part in the balance, J.
+    /// Heat that takes part in the balance, J.
     #[inline]
-    pub(crate) fn turn_over(&mut self, energy: S) {
-        self.terms += energy.abs();
+    pub(crate) fn turn_over(&mut self, heat: S) {
+        self.heat += heat.abs();
     }
 
-    /// The energies of an element that take part in the balance, and the work of the rounding of the
-    /// arguments of its forces, J.
+    /// What the forces of an element and the rounding of their arguments contribute, J.
     #[inline]
-    pub(crate) fn element(&mut self, [terms, arguments]: [S; 2]) {
-        self.terms += terms;
-        self.arguments += arguments;
+    pub(crate) fn force(&mut self, energy: S) {
+        self.forces += energy;
     }
 
     /// Entropy that a dashpot or a path of heat has produced, J/K.
@@ -101,6 +101,8 @@ pub(crate) struct Motion<S, const D: usize> {
     /// `Σ v̄·Δp − work`, J.
     energy: Sum<S>,
     amplitude: S,
+    /// `Σ m (ℓ/h)²` with the shortest elements ℓ, J.
+    reach: S,
     /// `Σ (Δp − hF)` of the loads F, and `Σ |p|`, kg m/s.
     linear: [S; D],
     momenta: S,
@@ -125,6 +127,8 @@ pub(crate) enum Kept<S, const D: usize> {
 pub(crate) struct NodeStep<'a, S, const D: usize> {
     /// m, kg.
     pub(crate) mass: S,
+    /// `h/ℓ` with its shortest element ℓ, s/m.
+    pub(crate) slowness: S,
     /// q⁰, m.
     pub(crate) position: &'a [S; D],
     /// p⁰, kg m/s.
@@ -143,6 +147,7 @@ impl<S: Real, const D: usize> Motion<S, D> {
             kept,
             energy: Sum::new(),
             amplitude: zero,
+            reach: zero,
             linear: [zero; D],
             momenta: zero,
             angular: [zero; 3],
@@ -160,6 +165,7 @@ impl<S: Real, const D: usize> Motion<S, D> {
             gain += (p + half * change) * change;
             square += p * p + end * end;
         }
+        self.reach += node.mass / (node.slowness * node.slowness);
         let per_mass = node.mass.recip();
         self.energy.add(gain * per_mass);
         self.amplitude += half * square * per_mass;
@@ -245,9 +251,9 @@ impl<S: Real> Certificate<S> {
     ) -> Self {
         let mut energy = motion.energy;
         energy.add(internal);
-        let terms = motion.amplitude + tally.terms + magnitude;
-        // Half of the digits at most: where rounding of the arguments does more, a balance says nothing.
-        let amplitude = terms + tally.arguments.minimum(terms / S::EPSILON.sqrt());
+        let terms = motion.amplitude + tally.heat + magnitude;
+        let most = (terms + motion.reach) / S::EPSILON.sqrt();
+        let amplitude = terms + tally.forces.minimum(most);
         let has_produced = tally.least.less(S::MAX);
         let largest = |of: &[S]| of.iter().fold(S::zero(), |most, x| most.maximum(x.abs()));
         Self {
@@ -282,6 +288,17 @@ impl<S: Real> Certificate<S> {
             least_production: self.least_production.minimum(later.least_production),
             ..later
         }
+    }
+
+    /// An error unless the energy is a number after a step to `time`.
+    pub(crate) fn unless_infinite(&self, time: S) -> Result<(), StepFailure> {
+        if self.defect.is_finite() {
+            return Ok(());
+        }
+        Err(StepFailure::Energy {
+            value: self.defect.to_f64(),
+            time: time.to_f64(),
+        })
     }
 
     /// Whether the balances of all nodes, dashpots and temperatures hold to rounding.

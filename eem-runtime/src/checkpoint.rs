@@ -1,5 +1,6 @@
 //! A saved state: everything that the next steps depend on, bit for bit.
 
+mod digest;
 mod error;
 mod outline;
 #[cfg(feature = "serde")]
@@ -13,6 +14,7 @@ use crate::scheme::Scheme;
 use crate::solver::SavedPast;
 use crate::state::State;
 
+pub(crate) use digest::{Digest, Numbers};
 pub use error::RestoreError;
 pub(crate) use outline::Outline;
 
@@ -21,7 +23,13 @@ pub(crate) use outline::Outline;
 ///
 /// A run that is resumed from a checkpoint has the same bits as one that was never interrupted. The
 /// scene itself is not part of it: models, masses, conductances and loads come from the
-/// program that builds the scene again. Functions of time must then depend on nothing else.
+/// program that builds the scene again. Functions of time must then depend on nothing else. Digests
+/// of all numbers of the scene tell whether it is the same one.
+///
+/// A checkpoint may come from a file that somebody has edited.
+/// [`restore`](crate::Simulation::restore) refuses a state that no run can have: entropies that are not those of
+/// the temperatures, anchors that are not where they must be, more carried over than rounding
+/// leaves.
 ///
 /// With the feature `serde` it can be written to a file and read back. The text must give back
 /// every bit of a float; for `serde_json` that is its feature `float_roundtrip`.
@@ -57,6 +65,7 @@ pub struct Checkpoint<S = f64> {
     #[cfg_attr(feature = "serde", serde(with = "scheme_name"))]
     pub(crate) scheme: Scheme,
     pub(crate) outline: Outline,
+    pub(crate) numbers: Numbers,
     pub(crate) step: S,
     pub(crate) newton: NewtonSettings<S>,
     pub(crate) state: State<S>,
@@ -78,11 +87,13 @@ impl<S: Copy> Checkpoint<S> {
 }
 
 impl<S: Real> Checkpoint<S> {
-    /// An error unless it is one of a simulation of this scheme, outline, state and past.
+    /// An error unless it is one of a simulation of this scheme, outline, numbers, state and past.
+    ///
+    /// What it says of elements and anchors is still to be compared with the scene.
     pub(crate) fn check(
         &self,
         scheme: Scheme,
-        outline: &Outline,
+        scene: (&Outline, &Numbers),
         state: &State<S>,
         past: &SavedPast<S>,
     ) -> Result<(), RestoreError> {
@@ -92,32 +103,36 @@ impl<S: Real> Checkpoint<S> {
                 simulation: scheme,
             });
         }
+        let (outline, numbers) = scene;
         self.outline.compare(outline)?;
+        self.numbers.compare(numbers)?;
         let (own, other) = (sums(&self.state), sums(state));
         for ((quantity, own), (_, other)) in own.into_iter().zip(other) {
             expect_count(quantity, own.values().len(), other.values().len())?;
-            let numbers = own.sums().flat_map(|(value, carry)| [value, carry]);
-            expect_all("finite", quantity, numbers, Real::is_finite)?;
+            check_sums(quantity, own.sums())?;
         }
+        for (quantity, Sum { value, carry }) in single_sums(&self.state) {
+            check_sums(quantity, [(value, carry)].into_iter())?;
+        }
+        let time = [self.state.time.value].into_iter();
+        expect_all("not negative", "time", time, |time| time >= S::zero())?;
+        let (own, other) = (&self.state.temperatures, &state.temperatures);
+        expect_count("temperatures", own.len(), other.len())?;
+        let positive = "positive and finite";
+        expect_all(positive, "temperatures", own.iter().copied(), is_positive)?;
+        expect_all(positive, "step size", [self.step].into_iter(), is_positive)?;
+        self.check_past(past)
+    }
+
+    /// Errors of forecasts are sums of squares, which may overflow: then nothing is foretold.
+    fn check_past(&self, past: &SavedPast<S>) -> Result<(), RestoreError> {
         for (own, other) in self.past.forces.iter().zip(&past.forces) {
             expect_count("forces", own.len(), other.len())?;
             expect_all("finite", "forces", own.iter().copied(), Real::is_finite)?;
         }
         let errors = self.past.errors.into_iter();
-        expect_all("finite", "forces", errors, Real::is_finite)?;
-        for (quantity, sum) in single_sums(&self.state) {
-            expect_all(
-                "finite",
-                quantity,
-                [sum.value, sum.carry].into_iter(),
-                Real::is_finite,
-            )?;
-        }
-        let (own, other) = (&self.state.temperatures, &state.temperatures);
-        expect_count("temperatures", own.len(), other.len())?;
-        let positive = "positive and finite";
-        expect_all(positive, "temperatures", own.iter().copied(), is_positive)?;
-        expect_all(positive, "step size", [self.step].into_iter(), is_positive)
+        let quantity = "errors of foretold forces";
+        expect_all("not negative", quantity, errors, |error| error >= S::zero())
     }
 }
 
@@ -155,6 +170,29 @@ fn single_sums<S: Copy>(state: &State<S>) -> [(&'static str, Sum<S>); 5] {
         ("thermostat entropy", *thermostat_entropy),
         ("lost heat", *dissipated),
     ]
+}
+
+/// Sums as additions leave them: finite, and what is still missing of them not more than rounding
+/// took from the last addition.
+///
+/// `TwoSum` leaves at most half a unit in the last place of the value v, which is at most ½ε|v|. Sums
+/// so small that this underflows are exact, as is zero: nothing is missing of them.
+fn check_sums<S: Real>(
+    quantity: &'static str,
+    mut sums: impl Iterator<Item = (S, S)> + Clone,
+) -> Result<(), RestoreError> {
+    let numbers = sums.clone().flat_map(|(value, carry)| [value, carry]);
+    expect_all("finite", quantity, numbers, Real::is_finite)?;
+    let half = S::from_f64(0.5) * S::EPSILON;
+    let is_rest = |value: S, carry: S| carry.abs() <= half * value.abs();
+    match sums.find(|&(value, carry)| !is_rest(value, carry)) {
+        None => Ok(()),
+        Some((value, carry)) => Err(RestoreError::Carry {
+            quantity,
+            value: value.to_f64(),
+            carry: carry.to_f64(),
+        }),
+    }
 }
 
 fn expect_count(

@@ -26,7 +26,7 @@ impl<S: Scalar> Compensated<S> {
     }
 
     /// Every sum and what is still missing of it.
-    pub(crate) fn sums(&self) -> impl Iterator<Item = (S, S)> + '_ {
+    pub(crate) fn sums(&self) -> impl Iterator<Item = (S, S)> + Clone + '_ {
         let carries = self.carries.iter().copied();
         self.values.iter().copied().zip(carries)
     }

@@ -3,244 +3,16 @@
 //! Every error names the thing, the value and, once time runs, the time. Values are given in `f64`
 //! whatever the scalar of the scene.
 
+mod scene;
+mod state;
+
 use thiserror::Error;
 
-use crate::handle::{Element, HeatPartner, Node, Reservoir};
-use crate::inversion::InversionError;
+use crate::handle::{Element, Node};
+use crate::readable::Readable;
 
-/// Why a scene cannot be simulated.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum SceneError {
-    /// A handle comes from another scene.
-    #[error("{handle} belongs to another scene")]
-    ForeignHandle {
-        /// The handle as text.
-        handle: String,
-    },
-    /// A coordinate is not finite.
-    #[error("coordinate {axis} of the position of {node} is {value} m, it must be finite")]
-    Position {
-        /// The node.
-        node: Node,
-        /// The axis, from 0.
-        axis: usize,
-        /// The coordinate, m.
-        value: f64,
-    },
-    /// An anchor was given what only a mass can have, or the other way round.
-    #[error("{node} cannot be given {quantity}: it is {kind}")]
-    WrongKind {
-        /// The node.
-        node: Node,
-        /// What it was given.
-        quantity: &'static str,
-        /// What it is.
-        kind: &'static str,
-    },
-    /// The acceleration of gravity is not finite.
-    #[error("component {axis} of gravity is {value} m/s², it must be finite")]
-    Gravity {
-        /// The axis, from 0.
-        axis: usize,
-        /// The component, m/s².
-        value: f64,
-    },
-    /// A velocity is not finite.
-    #[error("component {axis} of the velocity of {node} is {value} m/s, it must be finite")]
-    Velocity {
-        /// The node.
-        node: Node,
-        /// The axis, from 0.
-        axis: usize,
-        /// The component, m/s.
-        value: f64,
-    },
-    /// A mass is not positive and finite.
-    #[error("the mass of {node} is {value} kg, it must be positive and finite")]
-    Mass {
-        /// The node.
-        node: Node,
-        /// The mass, kg.
-        value: f64,
-    },
-    /// A parameter of a model is not finite.
-    #[error("parameter `{parameter}` of {element} is {value}, it must be finite")]
-    Parameter {
-        /// The element.
-        element: Element,
-        /// The name of the field.
-        parameter: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// The temperature of a reservoir is not positive and finite.
-    #[error("the temperature of {reservoir} is {value} K, it must be positive and finite")]
-    ReservoirTemperature {
-        /// The reservoir.
-        reservoir: Reservoir,
-        /// The temperature, K.
-        value: f64,
-    },
-    /// A conductance is negative or not finite.
-    #[error(
-        "the conductance between {element} and {partner} is {value} W/K, it must be finite and not negative"
-    )]
-    Conductance {
-        /// The element.
-        element: Element,
-        /// What it exchanges heat with.
-        partner: HeatPartner,
-        /// The conductance, W/K.
-        value: f64,
-    },
-    /// An element conducts heat to itself.
-    #[error("{element} conducts heat to itself")]
-    SelfConduction {
-        /// The element.
-        element: Element,
-    },
-    /// Something thermal was asked of an element whose model has no temperature.
-    #[error("{element} has no temperature: its free energy has no `Temperature` argument")]
-    NotThermal {
-        /// The element.
-        element: Element,
-    },
-    /// An element was never given a temperature.
-    #[error("{element} was never given a temperature, call `set_temperature`")]
-    MissingTemperature {
-        /// The element.
-        element: Element,
-    },
-    /// A viscous stretch was given for a dashpot that the model does not have.
-    #[error("{element} has {dashpots} dashpots, there is no dashpot {dashpot}")]
-    NoSuchDashpot {
-        /// The element.
-        element: Element,
-        /// The dashpot asked for, from 0.
-        dashpot: usize,
-        /// How many there are.
-        dashpots: usize,
-    },
-    /// The time step is not positive and finite.
-    #[error("the time step is {value} s, it must be positive and finite")]
-    Step {
-        /// The step, s.
-        value: f64,
-    },
-    /// Settings with which no step can succeed, or every step would.
-    #[error(
-        "{max_iterations} iterations to a tolerance of {tolerance}: at least one iteration and a tolerance between 0 and 1 are needed"
-    )]
-    NewtonSettings {
-        /// The number of iterations.
-        max_iterations: usize,
-        /// The tolerance.
-        tolerance: f64,
-    },
-    /// The momentum of a mass is not finite.
-    #[error("component {axis} of the momentum of {node} is {value} kg m/s, it must be finite")]
-    Momentum {
-        /// The node.
-        node: Node,
-        /// The axis, from 0.
-        axis: usize,
-        /// The component, kg m/s.
-        value: f64,
-    },
-    /// The same thing is prescribed twice.
-    #[error("{quantity} of {handle} is prescribed twice")]
-    PrescribedTwice {
-        /// The handle as text.
-        handle: String,
-        /// What is prescribed.
-        quantity: &'static str,
-    },
-    /// The initial state of an element is outside the domain of its model.
-    #[error("at t = 0 s: {0}")]
-    State(#[from] StateError),
-}
-
-/// Why an element cannot be in a state.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[non_exhaustive]
-pub enum StateError {
-    /// The nodes of an element coincide, or their distance is not finite.
-    #[error("the stretch of {element} is {value} m, it must be positive and finite")]
-    Stretch {
-        /// The element.
-        element: Element,
-        /// The stretch, m.
-        value: f64,
-    },
-    /// A viscous stretch is not finite.
-    #[error(
-        "the viscous stretch of dashpot {dashpot} of {element} is {value} m, it must be finite"
-    )]
-    ViscousStretch {
-        /// The element.
-        element: Element,
-        /// The dashpot, from 0.
-        dashpot: usize,
-        /// The viscous stretch, m.
-        value: f64,
-    },
-    /// A temperature is not positive and finite.
-    #[error("the temperature of {element} is {value} K, it must be positive and finite")]
-    Temperature {
-        /// The element.
-        element: Element,
-        /// The temperature, K.
-        value: f64,
-    },
-    /// A heat capacity is not positive and finite.
-    #[error(
-        "the heat capacity of {element} is {value} J/K at {temperature} K, it must be positive and finite"
-    )]
-    HeatCapacity {
-        /// The element.
-        element: Element,
-        /// The heat capacity `θ ∂s/∂θ`, J/K.
-        value: f64,
-        /// The temperature, K.
-        temperature: f64,
-    },
-    /// A viscosity is not positive and finite.
-    #[error(
-        "the viscosity of dashpot {dashpot} of {element} is {value} N s/m{}, it must be positive and finite",
-        temperature.map_or_else(String::new, |theta| format!(" at {theta} K"))
-    )]
-    Viscosity {
-        /// The element.
-        element: Element,
-        /// The dashpot, from 0.
-        dashpot: usize,
-        /// The viscosity, N s/m.
-        value: f64,
-        /// The temperature, K, if the model has one.
-        temperature: Option<f64>,
-    },
-    /// No temperature has the entropy that the element must have.
-    #[error("{element}: {source}")]
-    NoSuchTemperature {
-        /// The element.
-        element: Element,
-        /// The entropy, J/K.
-        entropy: f64,
-        /// What the inversion says.
-        source: InversionError,
-    },
-    /// A quantity that a model computes is not finite.
-    #[error("the {quantity} of {element} is {value}, it must be finite")]
-    NotFinite {
-        /// The element.
-        element: Element,
-        /// The quantity.
-        quantity: &'static str,
-        /// Its value.
-        value: f64,
-    },
-}
+pub use scene::SceneError;
+pub use state::StateError;
 
 /// A law that an exact scheme keeps in every step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -288,7 +60,7 @@ impl core::fmt::Display for Law {
 #[non_exhaustive]
 pub enum StepFailure {
     /// The motion of a mass is not finite.
-    #[error("coordinate {axis} of the new {quantity} of node {node} is {value}, it must be finite")]
+    #[error("coordinate {axis} of the new {quantity} of node {node} is {value}, it must be finite", value = Readable(*value))]
     Unbounded {
         /// The index of the node.
         node: usize,
@@ -307,10 +79,9 @@ pub enum StepFailure {
     },
     /// The step that was found breaks a law of its scheme by more than rounding can.
     #[error(
-        "{law} at t = {time:e} s is off by {defect:.3e} {unit}, where rounding explains {bound:.1e} {unit}{}; a smaller step may do",
+        "{law} at t = {time} s is off by {defect:.3e} {unit}, where rounding explains {bound:.1e} {unit}{}; a smaller step may do",
         element.map_or_else(String::new, |element| format!(" (most of it in {element})")),
-        unit = law.unit()
-    )]
+        unit = law.unit(), time = Readable(*time))]
     LawNotKept {
         /// The law.
         law: Law,
@@ -323,13 +94,20 @@ pub enum StepFailure {
         /// The time at the end of the step, s.
         time: f64,
     },
+    /// The energy of the new state is infinite or not a number, in a scheme that promises no law.
+    #[error("the energy at t = {} s is off by {value} J", Readable(*time))]
+    Energy {
+        /// What the balance of energy is off by, J.
+        value: f64,
+        /// The time at the end of the step, s.
+        time: f64,
+    },
     /// The tangent is singular.
     #[error("the tangent matrix is singular")]
     SingularTangent,
     /// A load is not finite.
     #[error(
-        "component {axis} of the load on {node} is {value} N at t = {time} s, it must be finite"
-    )]
+        "component {axis} of the load on {node} is {value} N at t = {time} s, it must be finite", value = Readable(*value), time = Readable(*time))]
     Load {
         /// The node.
         node: Node,
@@ -342,8 +120,7 @@ pub enum StepFailure {
     },
     /// The prescribed position of an anchor is not finite.
     #[error(
-        "coordinate {axis} of the motion of {node} is {value} m at t = {time} s, it must be finite"
-    )]
+        "coordinate {axis} of the motion of {node} is {value} m at t = {time} s, it must be finite", value = Readable(*value), time = Readable(*time))]
     Motion {
         /// The node.
         node: Node,
@@ -356,8 +133,7 @@ pub enum StepFailure {
     },
     /// A prescribed temperature is not positive and finite.
     #[error(
-        "the temperature prescribed on {element} is {value} K at t = {time} s, it must be positive and finite"
-    )]
+        "the temperature prescribed on {element} is {value} K at t = {time} s, it must be positive and finite", value = Readable(*value), time = Readable(*time))]
     PrescribedTemperature {
         /// The element.
         element: Element,
@@ -366,14 +142,20 @@ pub enum StepFailure {
         /// The time, s.
         time: f64,
     },
+    /// The time at the end of the step cannot be represented.
+    #[error("the time at the end of the step is {value} s, it must be finite", value = Readable(*value))]
+    Time {
+        /// The time, s.
+        value: f64,
+    },
     /// A run cannot end then.
-    #[error("the end time is {end} s, it must be a number and not lie before the present time")]
+    #[error("the end time is {end} s, it must be a number and not lie before the present time", end = Readable(*end))]
     End {
         /// The end time, s.
         end: f64,
     },
     /// An event cannot be located so sharply.
-    #[error("the tolerance of the event is {value} s, it must not be negative")]
+    #[error("the tolerance of the event is {value} s, it must not be negative", value = Readable(*value))]
     EventTolerance {
         /// The tolerance, s.
         value: f64,
@@ -396,7 +178,7 @@ pub enum StepFailure {
 
 /// A step that failed. The simulation is as it was before.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[error("step from t = {time} s by {step} s failed after {} iterations: {failure}", history.len())]
+#[error("step from t = {time} s by {step} s failed after {} iterations: {failure}", history.len(), time = Readable(*time), step = Readable(*step))]
 pub struct StepError {
     /// The time at which the step began, s.
     pub time: f64,

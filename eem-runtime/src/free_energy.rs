@@ -120,9 +120,9 @@ pub trait FreeEnergy<S: Scalar> {
     /// ```
     ///
     /// to first order in ε, for the given x and parameters. Rounding inside of functions, powers
-    /// and products counts with its effect on ψ: `ln(λ/l)` contributes 1 and not `|ln(λ/l)|`. A
-    /// ψ whose terms cancel has a magnitude far above |ψ|, and energies are compared no better
-    /// than that.
+    /// and products counts with its effect on ψ: `ln(λ/l)` contributes `1 + |ln(λ/l)|`, because
+    /// the quotient is rounded. Where the terms of ψ cancel, the magnitude is far above |ψ|, and
+    /// differences of energies below ε times the magnitude say nothing.
     fn energy_magnitude(&self, x: &Self::Variables) -> S;
 
     /// `e(x) = ψ − θ ∂ψ/∂θ`, J.

@@ -15,6 +15,7 @@
 mod arms;
 mod assemble;
 mod at_point;
+mod audit;
 mod begin;
 mod certify;
 mod closing;
@@ -35,6 +36,7 @@ mod stages;
 mod view;
 
 use crate::certificate::{Recount, Tally};
+use crate::checkpoint::{Digest, RestoreError};
 use crate::compact::compact;
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
@@ -72,6 +74,13 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
 
     /// The element at `place` in a state.
     fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S>;
+
+    /// Adds the parameters of all elements to a digest.
+    fn digest(&self, digest: &mut Digest);
+
+    /// An error unless the elements can be in a state that comes from outside, and its entropies are
+    /// those of its temperatures.
+    fn audit(&self, state: &State<S>) -> Result<(), RestoreError>;
 }
 
 /// Elements of one model, whatever model, kinematics and scheme are.
@@ -191,6 +200,14 @@ where
 
     fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {
         self.inspect_at(place, state)
+    }
+
+    fn digest(&self, digest: &mut Digest) {
+        self.digest_all(digest);
+    }
+
+    fn audit(&self, state: &State<S>) -> Result<(), RestoreError> {
+        self.audit_all(state)
     }
 }
 

@@ -26,7 +26,7 @@
 mod stretch;
 
 use crate::free_energy::{Array, Entry};
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 
 pub use stretch::Stretch;
 
@@ -71,11 +71,24 @@ pub trait Kinematics<S: Real, const D: usize>:
     /// `[T; number of measures]`.
     type PerMeasure<T: Entry>: Array<T>;
 
-    /// Whether an element can have this measure; a stretch must be positive and finite.
-    fn is_admissible(&self, measure: S) -> bool;
+    /// The smallest and the largest measure that an element can have.
+    fn admissible(&self) -> [S; 2];
 
-    /// The measures `π(r)`.
+    /// Whether an element can have this measure: it lies in the [admissible](Self::admissible)
+    /// range, and is a number.
+    #[inline]
+    fn is_admissible(&self, measure: S) -> bool {
+        let [least, most] = self.admissible();
+        (least.at_most(measure) & measure.at_most(most)).decide()
+    }
+
+    /// The measures `π(r)`, exact to rounding where they are admissible. Elsewhere they are not
+    /// admissible either, but may be zero or infinite.
     fn measure(&self, r: &Arms<Self, S, D>) -> Measures<Self, S, D>;
+
+    /// The measures `π(r)` to rounding even where they are not admissible: for messages, since it
+    /// takes longer than [`measure`](Self::measure).
+    fn true_measure(&self, r: &Arms<Self, S, D>) -> Measures<Self, S, D>;
 
     /// `∂π/∂r` at `r`, whose measures are given.
     fn gradient(

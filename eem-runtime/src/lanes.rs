@@ -221,6 +221,7 @@ impl Scalar for Lanes {
 impl Real for Lanes {
     const EPSILON: Self = Self::splat(f64::EPSILON);
     const MAX: Self = Self::splat(f64::MAX);
+    const MIN_POSITIVE: Self = Self::splat(f64::MIN_POSITIVE);
     const LANES: usize = LANES;
 
     fn to_f64(self) -> f64 {

@@ -47,6 +47,7 @@ mod lu;
 mod masses;
 mod newton;
 mod pattern;
+mod readable;
 mod recorder;
 mod scalar;
 mod scene;

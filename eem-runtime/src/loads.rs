@@ -16,6 +16,22 @@ use crate::scalar::Real;
 use crate::scene::is_positive;
 use crate::scheme::Scheme;
 
+/// By how many ε of its size a prescribed function may differ from a state that follows it: a
+/// formula `c + a f(t)` rounds function, product and sum, each by ε at most of a size that is also
+/// that of the result or of the scene; a fourth ε is for the state, whose value is itself rounded.
+///
+/// In a step, `q⁰ + (x(t) − q⁰)` differs from `x(t)` by less: half an ε for each of the two sums, of
+/// at most twice the size, and half an ε for what was carried over.
+pub(crate) const MOTION_ROUNDINGS: f64 = 4.0;
+
+/// The largest magnitude of some coordinates, m.
+///
+/// Motions are judged in this unit and not in that of their own coordinates: elements see
+/// differences of positions, which have the rounding of the largest ones.
+pub(crate) fn extent<'a, S: Real>(coordinates: impl Iterator<Item = &'a S>) -> S {
+    coordinates.fold(S::zero(), |most, coordinate| most.maximum(coordinate.abs()))
+}
+
 /// A vector (force in N, position in m) as a function of time in s.
 pub(crate) type OfTime<S, const D: usize> = Box<dyn Fn(S) -> SVector<S, D> + Send + Sync>;
 
@@ -167,20 +183,23 @@ impl<S: Real> StepLoads<S> {
         self.force.fill(S::zero());
         for (node, force) in &loads.forces {
             let value = if scheme.has_old_forces() {
-                (force(time) + force(end)).map(|component| half * component)
+                let [start, end] = [time, end].map(|time| force(time).map(|f| half * f));
+                start + end
             } else {
                 force(middle)
             };
             for axis in 0..D {
-                if !value[axis].is_finite() {
+                // The sum of all loads on the node, which may overflow where none of them does.
+                let sum = &mut self.force[node.index * D + axis];
+                *sum += value[axis];
+                if !sum.is_finite() {
                     return Err(StepFailure::Load {
                         node: *node,
                         axis,
-                        value: value[axis].to_f64(),
+                        value: sum.to_f64(),
                         time: middle.to_f64(),
                     });
                 }
-                self.force[node.index * D + axis] += value[axis];
             }
         }
         self.add_weights(loads, masses);

@@ -255,6 +255,7 @@ macro_rules! implement {
         impl Real for $float {
             const EPSILON: Self = $float::EPSILON;
             const MAX: Self = $float::MAX;
+            const MIN_POSITIVE: Self = $float::MIN_POSITIVE;
 
             #[inline]
             fn to_f64(self) -> f64 {

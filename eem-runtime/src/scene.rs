@@ -4,6 +4,7 @@
 
 mod act;
 mod check;
+mod start;
 
 use nalgebra::SVector;
 
@@ -26,6 +27,14 @@ pub(crate) struct NodeEntry<S, const D: usize> {
     pub(crate) velocity: SVector<S, D>,
     /// Given instead of the velocity.
     pub(crate) momentum: Option<SVector<S, D>>,
+}
+
+impl<S: Real, const D: usize> NodeEntry<S, D> {
+    /// The initial momentum of a node of this mass, kg m/s.
+    pub(crate) fn start_momentum(&self, mass: S) -> SVector<S, D> {
+        let from_velocity = || self.velocity.map(|velocity| mass * velocity);
+        self.momentum.unwrap_or_else(from_velocity)
+    }
 }
 
 /// What the scene knows of an element apart from its model.
@@ -199,6 +208,38 @@ impl<const D: usize, S: Real> Scene<D, S> {
 
     /// Fourier conduction with conductance κ (W/K) from an element to another or to a reservoir:
     /// the element receives the heat flow `κ (θ_partner − θ_element)`.
+    ///
+    /// Every call adds a path of heat. Paths between the same two are parallel, so that their
+    /// conductances add; which of two elements is named first makes no difference.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    ///
+    /// #[derive(FreeEnergy)]
+    /// #[free_energy(|lambda: Stretch, theta: Temperature| {
+    ///     0.5 * k * (lambda - 1.0).powi(2) + c * (theta - theta * ln(theta / 300.0))
+    /// })]
+    /// struct Warm {
+    ///     k: f64,
+    ///     c: f64,
+    /// }
+    ///
+    /// let heat = |conductances: &[f64]| {
+    ///     let mut scene = Scene::<1>::new();
+    ///     let ends = [scene.anchor([0.0]), scene.anchor([1.0])];
+    ///     let spring = scene.spring(Warm { k: 1.0, c: 1.0 }, ends);
+    ///     scene.set_temperature(spring, 350.0);
+    ///     let air = scene.reservoir(300.0);
+    ///     for &conductance in conductances {
+    ///         scene.conduct(spring, air, conductance);
+    ///     }
+    ///     let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    ///     run.step()?;
+    ///     Ok::<f64, Box<dyn std::error::Error>>(run.reservoir_heat(air)?)
+    /// };
+    /// assert!((heat(&[1.5, 0.5])? - heat(&[2.0])?).abs() < 1e-12);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn conduct(&mut self, element: Element, partner: impl Into<HeatPartner>, conductance: S) {
         let partner = partner.into();
         let own = self.expect_own(element.scene, &element)

@@ -194,6 +194,11 @@ impl Scheme {
         }
     }
 
+    /// Whether its elements have a [starting form](ElementScheme::starting_form).
+    pub(crate) const fn has_starting_form(self) -> bool {
+        matches!(self, Self::EemEntropy | Self::Staggered)
+    }
+
     /// Whether every step has to keep energy, entropy and momenta.
     pub(crate) const fn is_exact(self) -> bool {
         matches!(
@@ -275,6 +280,12 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static
         x: &M::Variables,
         memory: &Self::Memory,
     ) -> Form<S, M>;
+
+    /// A form that is easier to solve for where this one is hard to start, if there is one.
+    #[cold]
+    fn starting_form(_: &M, _: &Start<S, M, Self::Old>, _: &M::Variables) -> Option<Form<S, M>> {
+        None
+    }
 
     /// Refuses a trial that is not stable, as its form tells.
     #[inline]

@@ -1,19 +1,21 @@
 //! A scene in motion.
 
+mod audit;
 mod event;
 mod generic;
 mod inspect;
 mod linearize;
 mod resume;
 mod run;
+mod start;
 mod stepper;
+mod totals;
 
 use core::fmt;
 
 use crate::blueprint::Shape;
 use crate::certificate::Certificate;
 use crate::compact::compact;
-use crate::compensated::{Compensated, Sum};
 use crate::conduction::Conduction;
 use crate::error::{SceneError, StepError, StepFailure};
 use crate::group::{Placed, StageView, StepView};
@@ -26,9 +28,11 @@ use crate::scalar::{Mask, Real};
 use crate::scene::{Scene, is_positive};
 use crate::scheme::{Phase, Scheme};
 use crate::solver::Effort;
-use crate::state::{Energy, State};
+use crate::state::State;
 use crate::system::MOST_FIXED;
+use start::initial_state;
 use stepper::{Parts, Stepper};
+use totals::check_totals;
 
 pub use generic::Generic;
 pub use linearize::StepTangent;
@@ -136,7 +140,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         };
         let stepper = Stepper::new(built, parts, &mut state)?;
         layout.forget_places();
-        Ok(Self {
+        let run = Self {
             scene: scene.id,
             scheme,
             step,
@@ -152,7 +156,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             state,
             has_stepped: false,
             worst: None,
-        })
+        };
+        check_totals(&run.ledger())?;
+        Ok(run)
     }
 
     /// One step of the present size.
@@ -191,6 +197,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             // Who waits for what all numbers agree on might wait forever.
             return Err(StepFailure::NotConverged { update: f64::NAN });
         }
+        check_end(self.time() + self.step)?;
         self.evaluate_loads()?;
         let (effort, next) = (&mut self.effort, &mut *self.next);
         let stepper = match &mut self.stepper {
@@ -332,48 +339,21 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 }
 
+/// The time at the end of a step is finite.
+fn check_end<S: Real>(time: S) -> Result<(), StepFailure> {
+    if time.is_finite() {
+        Ok(())
+    } else {
+        let value = time.to_f64();
+        Err(StepFailure::Time { value })
+    }
+}
+
 fn check_step<S: Real>(step: S) -> Result<(), SceneError> {
     if is_positive(step) {
         Ok(())
     } else {
         let value = step.to_f64();
         Err(SceneError::Step { value })
-    }
-}
-
-/// The state that the scene describes; its entropies are still to be found.
-fn initial_state<const D: usize, S: Real>(scene: &Scene<D, S>, layout: &Layout) -> State<S> {
-    let coordinates = scene.nodes.len() * D;
-    let mut positions = Vec::with_capacity(coordinates);
-    let mut momenta = Vec::with_capacity(coordinates);
-    for node in &scene.nodes {
-        let mass = node.mass.unwrap_or(S::zero());
-        let from_velocity = node.velocity.map(|velocity| mass * velocity);
-        positions.extend(node.position.iter());
-        momenta.extend(node.momentum.unwrap_or(from_velocity).iter());
-    }
-    let mut viscous = vec![S::zero(); layout.viscous];
-    let mut temperatures = vec![S::zero(); layout.thermal];
-    for (entry, slots) in scene.elements.iter().zip(&layout.elements) {
-        for &(dashpot, stretch) in &entry.viscous_stretches {
-            viscous[slots.viscous + dashpot] = stretch;
-        }
-        if let (Some(slot), Some(temperature)) = (slots.thermal, entry.temperature) {
-            temperatures[slot] = temperature;
-        }
-    }
-    State {
-        time: Sum::new(S::zero()),
-        positions: Compensated::new(positions),
-        momenta: Compensated::new(momenta),
-        viscous: Compensated::new(viscous),
-        entropies: Compensated::new(vec![S::zero(); temperatures.len()]),
-        temperatures,
-        energies: vec![Energy::zero(); scene.elements.len()],
-        reservoir_entropies: Compensated::new(vec![S::zero(); scene.reservoirs.len()]),
-        work: Sum::new(S::zero()),
-        heat: Sum::new(S::zero()),
-        thermostat_entropy: Sum::new(S::zero()),
-        dissipated: Sum::new(S::zero()),
     }
 }

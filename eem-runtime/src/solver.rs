@@ -108,6 +108,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             trial: Trial {
                 displacements: points.clone(),
                 seen: SeenTemperatures::new(slots),
+                is_start: false,
                 settled: S::Mask::none(),
             },
             twice_per_step: S::zero(),
@@ -173,7 +174,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         certificate.ok_or(StepFailure::NotConverged { update: f64::NAN })
     }
 
-    /// Exact schemes start from rest; then the solution is followed from a small step to the full one.
+    /// Exact schemes start from rest, and from the solution for another form if they have one; then the
+    /// solution is followed from a small step to the full one.
     #[cold]
     fn try_other_starts(
         &mut self,
@@ -188,7 +190,32 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 return found;
             }
         }
+        if self.scheme.has_starting_form() {
+            let found = self.start_by_another_form(groups, view, effort, closing);
+            if found.is_ok() {
+                return found;
+            }
+        }
         self.follow(groups, view, effort, closing)
+    }
+
+    /// From the solution for the starting form of the scheme.
+    fn start_by_another_form(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        effort: &mut Effort<S>,
+        closing: &mut Target<'_, S>,
+    ) -> Result<Option<Certificate<S>>, StepFailure> {
+        let start = (Start::Foretold, &mut Target::Trial);
+        self.trial.is_start = true;
+        let started = self.start_and_converge(groups, view, effort, start);
+        self.trial.is_start = false;
+        started?;
+        for group in groups.iter_mut() {
+            group.hold();
+        }
+        self.converge(groups, view, effort, closing)
     }
 
     fn start_and_converge(

@@ -45,6 +45,7 @@ mod divided_difference;
 mod factor;
 mod internal_energy;
 mod magnitude;
+mod range;
 mod sign;
 mod substitute;
 
@@ -69,6 +70,7 @@ pub use internal_energy::internal_energy;
 pub use magnitude::magnitude;
 pub use node::{ExprId, Kernel, Node, Symbol};
 pub use number::{Number, Rational};
+pub use range::{Range, range};
 pub use sign::{Sign, sign};
 pub use substitute::substitute;
 

@@ -48,7 +48,7 @@ const SMALLEST: f32 = f32::MIN_POSITIVE;
 /// ```
 /// use eem_symbolic::{Function, Graph, Number, format, magnitude};
 ///
-/// // 1e8 (λ − ln λ − 1) loses its digits near λ = 1.
+/// // The terms of 1e8 (λ − ln λ − 1) cancel near λ = 1.
 /// let mut graph = Graph::new();
 /// let lambda = graph.symbol("lambda");
 /// let stretch = graph.variable(lambda);

@@ -4,7 +4,7 @@ mod oracle;
 mod reader;
 mod support;
 
-use eem_symbolic::{F64, Flaw, Graph, Model, sign};
+use eem_symbolic::{F64, Flaw, Graph, Model, range, sign};
 use oracle::value;
 use reader::read;
 use support::random::{Random, expression};
@@ -135,4 +135,81 @@ fn a_sign_that_is_ruled_out_does_not_occur() {
     }
     // Otherwise the test says nothing.
     assert!(decided > 125, "{decided} of 500 signs are known");
+}
+
+/// Ends are rounded, and so are values.
+const ROUNDING: f64 = 1e-12;
+
+#[test]
+fn values_are_in_their_range() {
+    let mut decided = 0;
+    for seed in 0..500 {
+        let mut random = Random::new(seed);
+        let mut graph = Graph::new();
+        let symbol = graph.symbol("x");
+        let x = graph.variable(symbol);
+        let e = expression(&mut graph, &mut random, x, 5);
+        let range = range(&graph, e, &[symbol], &[]);
+        for _ in 0..8 {
+            let at = 0.1 + 3.0 * random.unit();
+            let found = value(&F64, &mut graph, e, &[("x", at)]);
+            let room = ROUNDING * (1.0 + found.abs());
+            let within = range.lower - room <= found && found <= range.upper + room;
+            assert!(
+                within || found.is_nan(),
+                "seed {seed}: {found} is not in {range:?}"
+            );
+        }
+        decided += usize::from(range.lower.is_finite() || range.upper.is_finite());
+    }
+    assert!(decided > 250, "{decided} of 500 ranges are bounded");
+}
+
+/// The lower bound of a formula of lambda, theta > 0, gamma and parameters.
+fn lower(text: &str) -> f64 {
+    let mut graph = Graph::new();
+    let [lambda, gamma, theta] = ["lambda", "gamma", "theta"].map(|name| graph.symbol(name));
+    let e = read(&mut graph, text);
+    range(&graph, e, &[lambda, theta], &[gamma]).lower
+}
+
+#[test]
+fn what_is_never_negative_is_known() {
+    for text in [
+        "lambda/l",
+        "k*lambda^3/theta",
+        "(1 - 2*nu)*lambda",
+        "(a - b)*gamma^2",
+        "lambda + gamma^2*exp(a - b)",
+        "1 - exp(-lambda/l)",
+        "2 + sin(gamma)",
+        "1 - tanh(theta/r)",
+        "cosh(gamma) - 1",
+        "1 - 1/(1 + gamma^2)",
+        "ln(1 + lambda/l)",
+        "abs(lambda - l)",
+        "sqrt(lambda - l)",
+        "(lambda - l)^k",
+        "-1/(-lambda)",
+        "atan(lambda) + sin(2)",
+    ] {
+        assert!(lower(text) >= 0.0, "{text}: {}", lower(text));
+    }
+    for text in [
+        "lambda - l",
+        "lambda - (l - a)",
+        "gamma",
+        "gamma/lambda",
+        "gamma^3",
+        "1/gamma",
+        "-k*lambda",
+        "ln(lambda/l)",
+        "1 - theta/r",
+        "1 - exp(gamma)",
+        "cos(lambda)",
+        "lambda*sin(4)",
+        "tan(theta)",
+    ] {
+        assert!(lower(text) < 0.0, "{text}: {}", lower(text));
+    }
 }

@@ -236,6 +236,30 @@ pub(crate) fn negative_base() -> Message {
     )
 }
 
+/// The exponent is given if it is a constant.
+pub(crate) fn base_can_be_negative(argument: &str, exponent: Option<f64>) -> Message {
+    // An exponent of many digits, such as 5/3, is shown as `y`.
+    let short = exponent.filter(|y| (1000.0 * y).fract() == 0.0);
+    let (y, half) = short.map_or_else(
+        || ("y".to_owned(), "y / 2".to_owned()),
+        |y| (y.to_string(), (0.5 * y).to_string()),
+    );
+    let narrow = format!("`exp({y} * ln(x))` if no state comes to `x <= 0`");
+    let help = match exponent {
+        // |x|^y has a kink or a pole at zero.
+        Some(y) if y <= 1.0 => format!("write {narrow}"),
+        _ => format!(
+            "write `x.powi(2).powf({half})` for the power of `|x|`, `x.powi(n)` for an integer power, or {narrow}"
+        ),
+    };
+    Message::new(
+        format!(
+            "the base of this `powf` depends on `{argument}` and can be negative, where the power has no value"
+        ),
+        help,
+    )
+}
+
 pub(crate) fn divisor_is_zero() -> Message {
     Message::new(
         "this divisor is zero",

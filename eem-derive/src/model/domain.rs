@@ -1,9 +1,9 @@
 //! Domains: a subexpression that has no value, whatever the parameters and the state are.
 //!
 //! Decided by the value of constants, and for other expressions by their sign, given that lengths
-//! and temperatures are positive.
+//! and temperatures are positive. The base of a power has to be on the right side in every state.
 
-use eem_symbolic::{ExprId, F64, Function, Sign, Symbol, schedule, sign};
+use eem_symbolic::{ExprId, F64, Function, Sign, Symbol, range, schedule, sign};
 
 use super::Lowering;
 use crate::ast::Role;
@@ -33,7 +33,8 @@ impl Lowering<'_> {
         })
     }
 
-    /// `x^y`, x > 0, unless y is an integer.
+    /// `x^y`, x > 0, unless y is an integer. What changes its sign with the state is refused: the
+    /// first step on the wrong side would be NaN.
     pub(super) fn check_base(&self, expr: &Expr<'_>, base: ExprId, exponent: ExprId) -> Option<()> {
         let exponent = self.constant(exponent);
         if exponent.is_some_and(|y| y < 0.0) {
@@ -42,7 +43,15 @@ impl Lowering<'_> {
         let integer = exponent.is_some_and(|y| y.fract() == 0.0);
         let sign = self.sign(base);
         let outside = !integer && !sign.zero && !sign.positive;
-        self.unless(outside, expr, &message::negative_base)
+        self.unless(outside, expr, &message::negative_base)?;
+        let [positive, any] = [self.positive(), self.of_role(Role::Viscous)];
+        let negative = range(&self.graph, base, &positive, &any).lower < 0.0;
+        let Some(name) = self.argument_in(base) else {
+            return Some(());
+        };
+        self.unless(!integer && negative, expr, &|| {
+            message::base_can_be_negative(&name, exponent)
+        })
     }
 
     /// The functions that are not defined everywhere.
@@ -120,10 +129,12 @@ impl Lowering<'_> {
                 positive: constant > 0.0,
             };
         }
-        let positive: Vec<Symbol> = [Role::Stretch, Role::Temperature]
-            .into_iter()
-            .flat_map(|role| self.of_role(role))
-            .collect();
-        sign(&self.graph, e, &positive)
+        sign(&self.graph, e, &self.positive())
+    }
+
+    /// Lengths and absolute temperatures.
+    fn positive(&self) -> Vec<Symbol> {
+        let roles = [Role::Stretch, Role::Temperature].into_iter();
+        roles.flat_map(|role| self.of_role(role)).collect()
     }
 }

@@ -57,7 +57,7 @@ impl Lowering<'_> {
     }
 
     /// An argument of the free energy that the expression depends on.
-    fn argument_in(&self, value: ExprId) -> Option<String> {
+    pub(super) fn argument_in(&self, value: ExprId) -> Option<String> {
         let mut variables = self.checked.variables.iter().zip(&self.variables);
         let found = variables.find(|&(_, &symbol)| self.graph.depends_on(value, symbol));
         found.map(|(variable, _)| ast::name(variable.ident))

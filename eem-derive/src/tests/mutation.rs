@@ -10,7 +10,7 @@ use syn::DeriveInput;
 const MODELS: [&str; 4] = [
     "#[free_energy(|lambda: Stretch, gamma: Viscous, theta: Temperature| {
         let strain = ln(lambda / length);
-        k * strain.powi(2) + (lambda - gamma).powf(1.5) - c * theta * ln(theta / 300)
+        k * strain.powi(2) + (lambda + gamma.powi(2)).powf(1.5) - c * theta * ln(theta / 300)
     })]
     #[viscosity(gamma = eta * exp(300 / theta))]
     struct Spring<T: Copy> { length: f64, k: f64, c: f32, eta: f64, name: T }",

@@ -3,6 +3,7 @@
 use thiserror::Error;
 
 use super::point::DomainPoint;
+use crate::readable::Readable;
 
 /// Why a model is not a sound material in a box of states, or cannot be checked there.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -19,7 +20,7 @@ pub enum DomainError {
         given: usize,
     },
     /// An interval is empty, not finite, or of negative lengths or temperatures.
-    #[error("the {variable} from {low} to {high} is no interval of {kind} numbers")]
+    #[error("the {variable} from {low} to {high} is no interval of {kind} numbers", low = Readable(*low), high = Readable(*high))]
     Range {
         /// The variable.
         variable: String,
@@ -31,7 +32,7 @@ pub enum DomainError {
         kind: &'static str,
     },
     /// The free energy or a derivative of it is not finite.
-    #[error("the {quantity} is {value} at {point}, it must be finite")]
+    #[error("the {quantity} is {value} at {point}, it must be finite", value = Readable(*value))]
     NotFinite {
         /// The quantity.
         quantity: &'static str,
@@ -41,7 +42,7 @@ pub enum DomainError {
         point: DomainPoint,
     },
     /// The heat capacity is not positive and finite: entropy does not determine the temperature.
-    #[error("the heat capacity is {value} J/K at {point}, it must be positive and finite")]
+    #[error("the heat capacity is {value} J/K at {point}, it must be positive and finite", value = Readable(*value))]
     HeatCapacity {
         /// The heat capacity `θ ∂s/∂θ`, J/K.
         value: f64,
@@ -50,8 +51,7 @@ pub enum DomainError {
     },
     /// A viscosity is not positive and finite.
     #[error(
-        "the viscosity of dashpot {dashpot} is {value} N s/m at {point}, it must be positive and finite"
-    )]
+        "the viscosity of dashpot {dashpot} is {value} N s/m at {point}, it must be positive and finite", value = Readable(*value))]
     Viscosity {
         /// The dashpot, from 0.
         dashpot: usize,

@@ -3,6 +3,7 @@
 use core::fmt;
 
 use super::error::DomainError;
+use crate::readable::Readable;
 
 /// A state, by the roles of its variables.
 #[derive(Clone, Debug, PartialEq)]
@@ -19,17 +20,18 @@ impl fmt::Display for DomainPoint {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut separator = "";
         for value in &self.measures {
-            write!(f, "{separator}stretch {value} m")?;
+            write!(f, "{separator}stretch {} m", Readable(*value))?;
             separator = ", ";
         }
         for (dashpot, value) in self.viscous.iter().enumerate() {
             write!(
                 f,
-                "{separator}viscous stretch {value} m of dashpot {dashpot}"
+                "{separator}viscous stretch {} m of dashpot {dashpot}",
+                Readable(*value)
             )?;
         }
         match self.temperature {
-            Some(theta) => write!(f, "{separator}temperature {theta} K"),
+            Some(theta) => write!(f, "{separator}temperature {} K", Readable(theta)),
             None => Ok(()),
         }
     }
@@ -61,13 +63,15 @@ impl fmt::Display for DomainReport {
         if let Some(Least { value, point }) = &self.heat_capacity {
             write!(
                 f,
-                "; heat capacity {value:.6} J/K or more, least at {point}"
+                "; heat capacity {:.6} J/K or more, least at {point}",
+                Readable(*value)
             )?;
         }
         for (dashpot, Least { value, point }) in self.viscosities.iter().enumerate() {
             write!(
                 f,
-                "; viscosity of dashpot {dashpot} {value:.6} N s/m or more, least at {point}"
+                "; viscosity of dashpot {dashpot} {:.6} N s/m or more, least at {point}",
+                Readable(*value)
             )?;
         }
         Ok(())

@@ -49,7 +49,7 @@ where
             let pose = member.pose(kinematics, &seen);
             member.sensitivity = pose.sensitivity;
             // It stays where the model writes it: copies of it would be a good part of the work.
-            let mut form = member.form();
+            let mut form = member.form(trial);
             if M::THERMAL && C::IN_TEMPERATURE {
                 member.change_entropy_at_rates(kinematics, view, trial, &seen, &mut form);
             }

@@ -187,12 +187,7 @@ where
         })
     }
 
-    /// The free energy is finite.
-    pub(super) fn check_energy(&self, x: &M::Variables) -> Result<(), StateError> {
-        self.unless_infinite(self.model.free_energy(x))
-    }
-
-    /// See [`check_energy`](Self::check_energy).
+    /// An error unless a free energy is finite.
     pub(super) fn unless_infinite(&self, psi: S) -> Result<(), StateError> {
         if psi.is_finite() {
             return Ok(());

@@ -34,7 +34,7 @@ where
         let measures1 = kinematics.measure(&r1);
         let measures0 = measures_in::<K, S, D>(&self.start.x0);
         let measures = seen_measures::<K, S, D>(C::PLACEMENT, &measures0, measures1);
-        check_measures::<K, S, D>(kinematics, self.element, &measures)?;
+        check_measures::<K, S, D>(kinematics, self.element, &measures, &r1)?;
         for (a, &measure) in measures.as_ref().iter().enumerate() {
             self.x[a] = measure;
         }
@@ -46,8 +46,10 @@ where
                 self.x[Self::TEMPERATURE] = theta;
             }
         }
-        C::prepare(&self.model, &self.start, &self.x, &mut self.memory)
-            .map_err(|infeasible| infeasible.of(self.element))?;
+        if !trial.is_start {
+            C::prepare(&self.model, &self.start, &self.x, &mut self.memory)
+                .map_err(|infeasible| infeasible.of(self.element))?;
+        }
         Ok((r1, measures1))
     }
 
@@ -77,7 +79,12 @@ where
 
     /// The response and its tangent at the trial that has been located.
     #[inline]
-    pub(super) fn form(&self) -> Form<S, M> {
+    pub(super) fn form(&self, trial: &Trial<S, D>) -> Form<S, M> {
+        if trial.is_start
+            && let Some(form) = C::starting_form(&self.model, &self.start, &self.x)
+        {
+            return form;
+        }
         C::form(&self.model, &self.start, &self.x, &self.memory)
     }
 
@@ -98,8 +105,14 @@ where
         trial: &Trial<S, D>,
     ) -> Result<(), StateError> {
         let seen = self.locate_trial(kinematics, trial)?;
+        if trial.is_start {
+            let form = self.form(trial);
+            self.accept(&form)?;
+            self.response = form.0;
+            return Ok(());
+        }
         if M::THERMAL && C::IN_TEMPERATURE {
-            let mut form = self.form();
+            let mut form = self.form(trial);
             self.change_entropy_at_rates(kinematics, view, trial, &seen, &mut form);
             self.accept(&form)?;
             self.response = form.0;
@@ -187,20 +200,35 @@ fn combined<K: Kinematics<S, D>, S: Real, M: FreeEnergy<S>, const D: usize>(
     sum
 }
 
-/// The deformation is one that the element can have.
+/// The deformation of an element with these arms is one that it can have.
 #[inline]
 pub(super) fn check_measures<K: Kinematics<S, D>, S: Real, const D: usize>(
     kinematics: K,
     element: Element,
     measures: &Measures<K, S, D>,
+    r: &Arms<K, S, D>,
 ) -> Result<(), StateError> {
     let mut measures = measures.as_ref().iter();
-    match measures.find(|&&measure| !kinematics.is_admissible(measure)) {
+    match measures.position(|&measure| !kinematics.is_admissible(measure)) {
         None => Ok(()),
-        Some(measure) => Err(StateError::Stretch {
-            element,
-            value: measure.to_f64(),
-        }),
+        Some(index) => Err(not_admissible::<K, S, D>(kinematics, element, index, r)),
+    }
+}
+
+/// The measure may have under- or overflowed; the message says the true one.
+#[cold]
+fn not_admissible<K: Kinematics<S, D>, S: Real, const D: usize>(
+    kinematics: K,
+    element: Element,
+    index: usize,
+    r: &Arms<K, S, D>,
+) -> StateError {
+    let [least, most] = kinematics.admissible().map(Real::to_f64);
+    StateError::Stretch {
+        element,
+        value: kinematics.true_measure(r)[index].to_f64(),
+        least,
+        most,
     }
 }
 

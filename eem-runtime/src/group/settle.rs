@@ -36,9 +36,9 @@ where
             }
             if C::EXACT {
                 let [terms, arguments] = member.amplitude();
-                tally.element([terms, arguments]);
-                let energy = next.energies[member.element.index].magnitude;
-                let magnitude = energy + terms + arguments;
+                let forces = terms + arguments;
+                tally.force(forces);
+                let magnitude = next.energies[member.element.index].magnitude + forces;
                 member.judge(view, (contact, trial), [received, magnitude], tally);
             }
         }
@@ -62,7 +62,7 @@ where
     ) -> Result<M::Variables, StateError> {
         let r = arms_in::<K, S, D>(&self.site.nodes, &state.positions);
         let measures = kinematics.measure(&r);
-        check_measures::<K, S, D>(kinematics, self.element, &measures)?;
+        check_measures::<K, S, D>(kinematics, self.element, &measures, &r)?;
         Ok(variables::<S, M>(measures.as_ref(), self.slots(), state))
     }
 

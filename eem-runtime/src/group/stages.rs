@@ -23,6 +23,7 @@ mod secant;
 mod site;
 
 use super::{ElementGeneric, ElementGroup, ElementView, Elements, GroupTotals, Placed, StepView};
+use crate::checkpoint::{Digest, RestoreError};
 use crate::conduction::Conduction;
 use crate::error::StateError;
 use crate::free_energy::FreeEnergy;
@@ -277,5 +278,13 @@ where
 
     fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {
         self.elements.inspect(place, state)
+    }
+
+    fn digest(&self, digest: &mut Digest) {
+        self.elements.digest(digest);
+    }
+
+    fn audit(&self, state: &State<S>) -> Result<(), RestoreError> {
+        self.elements.audit(state)
     }
 }

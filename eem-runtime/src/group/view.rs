@@ -56,6 +56,9 @@ pub(crate) struct Trial<S: Real, const D: usize> {
     pub(crate) displacements: Vec<[S; D]>,
     /// θ* as elements in contact see it, Θ; an unknown where the slot is coupled.
     pub(crate) seen: SeenTemperatures<S>,
+    /// Elements answer with the [starting form](crate::scheme::ElementScheme::starting_form) of their
+    /// scheme, if it has one.
+    pub(crate) is_start: bool,
     /// The numbers that have found their new state while others iterate on.
     pub(crate) settled: S::Mask,
 }

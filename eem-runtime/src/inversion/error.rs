@@ -1,25 +1,25 @@
 //! Why no temperature was found, with the numbers that say so.
 
+use crate::readable::Readable;
+
 /// Why [`invert`](crate::invert) found no temperature.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum InversionError {
     /// The wanted entropy is not finite.
-    #[error("the entropy {entropy:e} is not finite")]
+    #[error("the entropy {entropy} is not finite", entropy = Readable(*entropy))]
     EntropyNotFinite {
         /// The wanted entropy.
         entropy: f64,
     },
     /// The starting temperature is not a positive finite number.
-    #[error("the starting temperature {start:e} is not positive and finite")]
+    #[error("the starting temperature {start} is not positive and finite", start = Readable(*start))]
     InvalidStart {
         /// The starting temperature.
         start: f64,
     },
     /// The heat capacity at the start is not a positive finite number.
-    #[error(
-        "the heat capacity {heat_capacity:e} at the starting temperature {start:e} is not positive and finite"
-    )]
+    #[error("the heat capacity {heat_capacity} at the starting temperature {start} is not positive and finite", heat_capacity = Readable(*heat_capacity), start = Readable(*start))]
     UnstableStart {
         /// The starting temperature.
         start: f64,
@@ -28,9 +28,7 @@ pub enum InversionError {
     },
     /// The stable branch through the start ends, at a spinodal or at the limits
     /// of the number type, before the entropy is reached.
-    #[error(
-        "no temperature of the stable branch has the entropy {entropy:e}; it comes as near as {residual:e} at the temperature {temperature:e}"
-    )]
+    #[error("no temperature of the stable branch has the entropy {entropy}; it comes as near as {residual} at the temperature {temperature}", entropy = Readable(*entropy), residual = Readable(*residual), temperature = Readable(*temperature))]
     NoSuchTemperature {
         /// The wanted entropy.
         entropy: f64,
@@ -42,9 +40,7 @@ pub enum InversionError {
         evaluations: usize,
     },
     /// The entropy is not the continuous function that it should be.
-    #[error(
-        "no temperature of the entropy {entropy:e} after {evaluations} evaluations; it comes as near as {residual:e} at the temperature {temperature:e}"
-    )]
+    #[error("no temperature of the entropy {entropy} after {evaluations} evaluations; it comes as near as {residual} at the temperature {temperature}", entropy = Readable(*entropy), residual = Readable(*residual), temperature = Readable(*temperature))]
     TooManyEvaluations {
         /// The wanted entropy.
         entropy: f64,

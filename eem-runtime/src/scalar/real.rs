@@ -83,6 +83,9 @@ pub trait Real: Scalar<Mask: Mask> + PartialOrd {
     /// The largest finite number.
     const MAX: Self;
 
+    /// The smallest positive number of full precision; smaller ones are subnormal.
+    const MIN_POSITIVE: Self;
+
     /// Of how many numbers it consists.
     const LANES: usize = 1;
 

@@ -33,7 +33,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
     }
 
     /// The position of an anchor as a function of time, m of s: a road, a shaking table. The work
-    /// of the support is booked. At t = 0 the anchor is where it was created.
+    /// of the support is booked.
+    ///
+    /// At t = 0 it must be where the anchor was created, to rounding: an anchor that jumps in the
+    /// first step would do work on the scene before anything moves.
+    /// [`SceneError::AnchorJump`] says by how much it is off.
     pub fn move_anchor(
         &mut self,
         anchor: Node,
@@ -55,7 +59,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// The temperature of an element as a function of time, K of s, kept by a thermostat. The heat
     /// and the entropy that it gives are booked.
     ///
-    /// The initial temperature still has to be set; it should be the prescribed one at t = 0.
+    /// The initial temperature still has to be set; it must be the prescribed one at t = 0, to
+    /// rounding. [`SceneError::TemperatureJump`] says by how much it is off.
     pub fn prescribe_temperature(
         &mut self,
         element: Element,

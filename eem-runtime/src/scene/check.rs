@@ -42,7 +42,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
             check_element(element, entry, group.shape())?;
         }
         self.check_loads()?;
-        self.check_conductors()
+        self.check_conductors()?;
+        self.check_start()
     }
 
     fn check_loads(&self) -> Result<(), SceneError> {
@@ -120,21 +121,14 @@ fn check_node<S: Real, const D: usize>(
 ) -> Result<(), SceneError> {
     for axis in 0..D {
         let position = entry.position[axis];
-        let velocity = entry.momentum.unwrap_or(entry.velocity)[axis];
+        let velocity = entry.velocity[axis];
         if !position.is_finite() {
             let value = position.to_f64();
             return Err(SceneError::Position { node, axis, value });
         }
-        if !velocity.is_finite() {
+        if entry.momentum.is_none() && !velocity.is_finite() {
             let value = velocity.to_f64();
             return Err(SceneError::Velocity { node, axis, value });
-        }
-    }
-    if let Some(mass) = entry.mass.filter(|&mass| is_positive(mass)) {
-        let momentum = entry.momentum.unwrap_or(entry.velocity.map(|v| mass * v));
-        if let Some(axis) = (0..D).find(|&axis| !momentum[axis].is_finite()) {
-            let value = momentum[axis].to_f64();
-            return Err(SceneError::Momentum { node, axis, value });
         }
     }
     match entry.mass {

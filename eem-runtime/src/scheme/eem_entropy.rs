@@ -62,6 +62,19 @@ impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for 
         model.entropy_form(&start.old.0, x, corners)
     }
 
+    /// The temperature form, which has no mixed states: with a small heat capacity their temperatures
+    /// overflow away from the solution.
+    #[cold]
+    #[inline(never)]
+    fn starting_form(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        x: &M::Variables,
+    ) -> Option<Form<S, M>> {
+        let old = model.temperature_form_old(&start.x0);
+        Some(model.temperature_form(&old, x))
+    }
+
     #[inline]
     fn response(
         model: &M,

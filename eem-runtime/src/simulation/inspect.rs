@@ -157,7 +157,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Where an own element keeps its internal variables.
-    fn slots(&self, element: Element) -> Slots {
+    pub(super) fn slots(&self, element: Element) -> Slots {
         let [group, place] = self.place(element);
         self.stepper.elements(group).slots(place)
     }

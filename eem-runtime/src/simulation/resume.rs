@@ -28,6 +28,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Checkpoint {
             scheme: self.scheme,
             outline: self.outline(),
+            numbers: self.numbers(),
             step: self.step,
             newton: self.newton_settings(),
             state: State {
@@ -43,11 +44,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// # Errors
     ///
-    /// [`RestoreError`] if the checkpoint is one of another scheme or of a scene of another shape, or
-    /// has values that no simulation has. The simulation is then as it was before.
+    /// [`RestoreError`] if the checkpoint is one of another scheme, of a scene of another shape or with
+    /// other numbers (materials, masses, conductances, reservoirs, gravity), or has a state that no
+    /// run of this scene can have: an entropy that is not that of the temperature, an anchor
+    /// elsewhere, a value that is not finite. The simulation is then as it was before.
+    ///
+    /// Motions and thermostats are evaluated at the time of the checkpoint to compare.
     pub fn restore(&mut self, checkpoint: &Checkpoint<S>) -> Result<(), RestoreError> {
         let past = self.stepper.past();
-        checkpoint.check(self.scheme, &self.outline(), &self.state, &past)?;
+        let scene = (&self.outline(), &self.numbers());
+        checkpoint.check(self.scheme, scene, &self.state, &past)?;
+        self.audit(&checkpoint.state, checkpoint.step)?;
         self.set_newton_settings(checkpoint.newton)?;
         self.has_stepped = false;
         self.state.copy_from(&checkpoint.state);

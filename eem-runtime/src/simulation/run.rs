@@ -122,8 +122,20 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// One step of another size, which later steps do not have.
     pub(super) fn step_by(&mut self, size: S) -> Result<StepReport<S>, StepError> {
         let usual = mem::replace(&mut self.step, size);
-        let outcome = self.step();
-        self.step = usual;
-        outcome
+        let other = OtherSize { run: self, usual };
+        other.run.step()
+    }
+}
+
+/// A simulation that makes one step of another size. It gets its own size back even where a load
+/// panics.
+struct OtherSize<'a, const D: usize, S: Real> {
+    run: &'a mut Simulation<D, S>,
+    usual: S,
+}
+
+impl<const D: usize, S: Real> Drop for OtherSize<'_, D, S> {
+    fn drop(&mut self) {
+        self.run.step = self.usual;
     }
 }

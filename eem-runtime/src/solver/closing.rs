@@ -116,6 +116,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let impulse = remembering.impulse(at);
             let moved = NodeStep {
                 mass: node.place.mass,
+                slowness: view.step * self.per_length[at],
                 position: &points(view.state.positions.values())[at],
                 momentum: &points(view.state.momenta.values())[at],
                 displacement,

@@ -82,7 +82,13 @@ impl<S: Real, const D: usize> Solver<S, D> {
             }
             Err(_) => return Conclusion::Open,
         };
-        if !self.scheme.is_exact() || certificate.is_enough() {
+        if !self.scheme.is_exact() {
+            return match certificate.unless_infinite(next.time.value) {
+                Ok(()) => Conclusion::Found(Some(certificate)),
+                Err(failure) => Conclusion::Refused(failure),
+            };
+        }
+        if certificate.is_enough() {
             return Conclusion::Found(Some(certificate));
         }
         if S::LANES == 1 && !rest.is_over() && !(rest.has_stopped() && certificate.is_lawful()) {

@@ -168,7 +168,9 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         if let Some(&last) = effort.history.last() {
             effort.conclude(last.residual, Some(last.update));
         }
-        self.close(groups, view, next)
+        let certificate = self.close(groups, view, next)?;
+        certificate.unless_infinite(next.time.value)?;
+        Ok(certificate)
     }
 
     fn start_and_converge(

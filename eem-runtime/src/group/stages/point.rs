@@ -136,7 +136,7 @@ where
     ) -> Result<(), StateError> {
         let r = arms::<K, S, D>(&member.site.nodes, positions);
         let measures = kinematics.measure(&r);
-        check_measures::<K, S, D>(kinematics, member.element, &measures)?;
+        check_measures::<K, S, D>(kinematics, member.element, &measures, &r)?;
         self.gradients[stage] = kinematics.gradient(&r, &measures);
         for (a, &measure) in measures.as_ref().iter().enumerate() {
             self.x[stage][a] = measure;

@@ -48,6 +48,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
                 array::from_fn(|axis| next.momenta.change(node * D + axis, &view.state.momenta));
             let moved = NodeStep {
                 mass: mass.mass,
+                slowness: view.step * self.per_length[node],
                 position: &points(view.state.positions.values())[node],
                 momentum: &points(view.state.momenta.values())[node],
                 displacement,

@@ -1,0 +1,303 @@
+//! A checkpoint that was edited, or that belongs to a scene with other numbers, is refused with what is
+//! wrong, and the simulation stays as it was.
+
+use eem::prelude::*;
+use eem::{RestoreError, StateError};
+use serde_json::{Value, json};
+
+use super::{Elastic, WARM, Warm};
+
+/// All numbers of the scene that a state does not contain.
+#[derive(Clone)]
+struct Numbers {
+    model: Warm<f64>,
+    mass: f64,
+    conductance: f64,
+    reservoir: f64,
+    gravity: f64,
+}
+
+const NUMBERS: Numbers = Numbers {
+    model: WARM,
+    mass: 1.5,
+    conductance: 2.0,
+    reservoir: 290.0,
+    gravity: -9.81,
+};
+
+/// Nodes 0 and 1 are a fixed and a moved anchor, 2 and 3 masses. Of the springs, element 0 is warm,
+/// 1 elastic and 2 kept at a temperature.
+fn build(scheme: Scheme, numbers: &Numbers) -> Simulation<2> {
+    let mut scene = Scene::<2>::new();
+    let fixed = scene.anchor([0.1, -0.2]);
+    let moved = scene.anchor([3.0, 0.0]);
+    let bob = scene.mass(numbers.mass, [1.0, 0.0], [0.0, 0.5]);
+    let tail = scene.mass(1.0, [2.0, 0.3], [0.0, 0.0]);
+    let warm = scene.spring(numbers.model.clone(), [fixed, bob]);
+    let elastic = Elastic {
+        stiffness: 10.0,
+        length: 1.0,
+    };
+    scene.spring(elastic, [bob, tail]);
+    let kept = scene.spring(WARM, [tail, moved]);
+    scene.set_temperature(warm, 330.0);
+    scene.set_temperature(kept, 310.0);
+    let room = scene.reservoir(numbers.reservoir);
+    scene.conduct(warm, room, numbers.conductance);
+    scene.conduct(warm, kept, 0.5);
+    scene.set_gravity([0.0, numbers.gravity]);
+    scene.move_anchor(moved, |t| [3.0 + 0.2 * (2.0 * t).sin(), 0.1 * t]);
+    scene.prescribe_temperature(kept, |t| 310.0 + 3.0 * (5.0 * t).sin());
+    Simulation::new(scene, scheme, 0.02).unwrap()
+}
+
+/// A run that has made some steps.
+fn run(scheme: Scheme) -> Simulation<2> {
+    let mut run = build(scheme, &NUMBERS);
+    for _ in 0..20 {
+        run.step().unwrap();
+    }
+    run
+}
+
+/// The error of restoring an edited checkpoint into the simulation that it comes from.
+fn refusal(edit: impl Fn(&mut Value)) -> RestoreError {
+    let mut run = run(Scheme::EemEntropy);
+    let mut value = serde_json::to_value(run.checkpoint()).unwrap();
+    edit(&mut value["state"]);
+    let checkpoint: Checkpoint = serde_json::from_value(value).unwrap();
+    run.step().unwrap();
+    let before = format!("{:?}", run.checkpoint());
+    let error = run.restore(&checkpoint).unwrap_err();
+    assert_eq!(before, format!("{:?}", run.checkpoint()));
+    run.step().unwrap();
+    println!("{error}");
+    error
+}
+
+/// Adds to a number in JSON.
+fn add(number: &mut Value, change: f64) {
+    *number = json!(number.as_f64().unwrap() + change);
+}
+
+#[test]
+fn an_edited_temperature_or_entropy() {
+    let heated = refusal(|state| add(&mut state["temperatures"][0], 1e-9));
+    let RestoreError::Entropy {
+        element: 0,
+        entropy,
+        expected,
+        bound,
+        ..
+    } = heated
+    else {
+        panic!("{heated}");
+    };
+    assert!(expected > entropy && expected - entropy > bound);
+    let error = refusal(|state| add(&mut state["entropies"][0][0], 1e-9));
+    assert!(
+        matches!(error, RestoreError::Entropy { element: 0, .. }),
+        "{error}"
+    );
+    // The other variables of the entropy.
+    let error = refusal(|state| add(&mut state["positions"][5][0], 1e-9));
+    assert!(
+        matches!(error, RestoreError::Entropy { element: 0, .. }),
+        "{error}"
+    );
+    // One that a thermostat gives.
+    let error = refusal(|state| add(&mut state["temperatures"][1], 1e-9));
+    assert!(matches!(error, RestoreError::Thermostat { .. }), "{error}");
+}
+
+#[test]
+fn a_carry_that_no_rounding_leaves() {
+    let error = refusal(|state| state["positions"][4][1] = json!(5.0));
+    let RestoreError::Carry {
+        quantity, carry, ..
+    } = error
+    else {
+        panic!("{error}");
+    };
+    assert!(quantity == "coordinates" && (carry - 5.0).abs() <= 0.0);
+    // One unit in the last place of a number near 1 is twice what is left.
+    for sums in ["momenta", "positions"] {
+        let error = refusal(|state| {
+            let value = state[sums][4][0].as_f64().unwrap();
+            state[sums][4][1] = json!(value.abs() * f64::EPSILON);
+        });
+        assert!(matches!(error, RestoreError::Carry { .. }), "{error}");
+    }
+    for sum in ["time", "work", "heat", "thermostat_entropy"] {
+        let error = refusal(|state| state[sum][1] = json!(1e-3));
+        assert!(matches!(error, RestoreError::Carry { .. }), "{error}");
+    }
+    // Nothing is missing of zero.
+    let error = refusal(|state| state["dissipated"] = json!([0.0, 5e-324]));
+    assert!(matches!(error, RestoreError::Carry { .. }), "{error}");
+}
+
+#[test]
+fn nodes_in_the_wrong_place() {
+    // The mass on its anchor.
+    let error = refusal(|state| {
+        for axis in 0..2 {
+            state["positions"][4 + axis] = state["positions"][axis].clone();
+        }
+    });
+    let RestoreError::State(StateError::Stretch { value, .. }) = error else {
+        panic!("{error}");
+    };
+    assert!(value.abs() <= 0.0);
+    for change in [0.5, 1e-15] {
+        let error = refusal(|state| add(&mut state["positions"][0][0], change));
+        assert!(
+            matches!(
+                error,
+                RestoreError::Anchor {
+                    node: 0,
+                    axis: 0,
+                    ..
+                }
+            ),
+            "{error}"
+        );
+    }
+    for change in [0.5, 1e-13] {
+        let error = refusal(|state| add(&mut state["positions"][3][0], change));
+        assert!(
+            matches!(
+                error,
+                RestoreError::Anchor {
+                    node: 1,
+                    axis: 1,
+                    ..
+                }
+            ),
+            "{error}"
+        );
+    }
+    let error = refusal(|state| state["positions"][0][1] = json!(1e-18));
+    assert!(
+        matches!(
+            error,
+            RestoreError::Anchor {
+                node: 0,
+                axis: 0,
+                ..
+            }
+        ),
+        "{error}"
+    );
+    let error = refusal(|state| state["momenta"][2][0] = json!(1.0));
+    assert!(
+        matches!(
+            error,
+            RestoreError::AnchorMomentum {
+                node: 1,
+                axis: 0,
+                ..
+            }
+        ),
+        "{error}"
+    );
+}
+
+#[test]
+fn another_time_or_an_infinite_energy() {
+    // Where the anchor was then is not where it is now.
+    let error = refusal(|state| state["time"] = json!([0.3, 0.0]));
+    assert!(
+        matches!(error, RestoreError::Anchor { node: 1, .. }),
+        "{error}"
+    );
+    let error = refusal(|state| state["time"] = json!([-1.0, 0.0]));
+    assert!(
+        matches!(
+            error,
+            RestoreError::Value {
+                quantity: "time",
+                ..
+            }
+        ),
+        "{error}"
+    );
+    let error = refusal(|state| state["momenta"][4] = json!([1e300, 0.0]));
+    assert!(matches!(error, RestoreError::Total { .. }), "{error}");
+}
+
+#[test]
+fn a_scene_with_other_numbers() {
+    let saved = run(Scheme::EemEntropy).checkpoint();
+    let expect = |spoil: fn(&mut Numbers), kind: &str| {
+        let mut numbers = NUMBERS;
+        spoil(&mut numbers);
+        let mut other = build(Scheme::EemEntropy, &numbers);
+        let error = other.restore(&saved).unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            format!(
+                "the checkpoint is one of a scene with other {kind}: build the scene with the numbers \
+                 that it had"
+            )
+        );
+        assert!(other.time() <= 0.0);
+    };
+    expect(
+        |numbers| numbers.model.eta *= 2.0,
+        "parameters of materials",
+    );
+    expect(|numbers| numbers.mass = 1.0, "masses");
+    expect(|numbers| numbers.conductance += 1e-15, "conductances");
+    expect(
+        |numbers| numbers.reservoir = 291.0,
+        "temperatures of reservoirs",
+    );
+    expect(|numbers| numbers.gravity = 0.0, "gravity");
+    build(Scheme::EemEntropy, &NUMBERS).restore(&saved).unwrap();
+}
+
+#[test]
+fn what_a_run_saves_it_can_restore() {
+    for scheme in Scheme::ALL {
+        let mut run = build(scheme, &NUMBERS);
+        let mut other = build(scheme, &NUMBERS);
+        for step in 0..300_u32 {
+            if step % 50 == 0 {
+                run.set_step_size(0.02 / f64::from(1 + step / 50)).unwrap();
+            }
+            let end = run.time() + 0.0037;
+            if step % 7 == 0 {
+                run.run_until(end, |_, _| ControlFlow::Continue(()))
+                    .unwrap();
+            }
+            let saved = run.checkpoint();
+            let restored = other.restore(&saved);
+            restored.unwrap_or_else(|error| panic!("{}, {step}: {error}", scheme.name()));
+            run.step().unwrap();
+        }
+    }
+}
+
+#[test]
+fn single_precision_restores_what_it_saves() {
+    let build = || {
+        let mut scene = Scene::<2, f32>::default();
+        let support = scene.anchor([0.1, 0.0]);
+        let bob = scene.mass(1.0, [1.0, 0.4], [0.0, 0.5]);
+        let spring = scene.spring(super::WARM_SINGLE, [support, bob]);
+        scene.set_temperature(spring, 330.0);
+        scene.move_anchor(support, |t| [0.1 + 0.2 * t.sin(), 0.0]);
+        Simulation::new(scene, Scheme::EemEntropy, 0.02).unwrap()
+    };
+    let (mut run, mut other) = (build(), build());
+    for _ in 0..300 {
+        other.restore(&run.checkpoint()).unwrap();
+        run.step().unwrap();
+    }
+    let mut value = serde_json::to_value(run.checkpoint()).unwrap();
+    add(&mut value["state"]["temperatures"][0], 0.1);
+    let edited: Checkpoint<f32> = serde_json::from_value(value).unwrap();
+    let error = other.restore(&edited).unwrap_err();
+    assert!(matches!(error, RestoreError::Entropy { .. }), "{error}");
+}
