@@ -5,7 +5,7 @@
 //! S = Σ s + Σ σ_r + entropy of the thermostats
 //!
 //! |ΔE − work − heat|          ≤ 64 ε (A + A⁺)
-//! ΔS                          ≥ −64 ε² Σ |s|
+//! ΔS                          ≥ −64 ε² Σ |s|      and −64 ε (A + A⁺)/θ for a thermostat
 //! |ΔL − Σ h F|                ≤ 64 ε Σ (|p| + h |f| + h |F|)                without anchors
 //! |ΔJ − Σ h (q − o) × F|      ≤ 64 ε Σ (|q − o| (|p| + h |F|) + h λ |f|)    o the one anchor or the origin
 //! |s(λ, γ, θ) − s|            ≤ 4 ε (|s| + Σ |∂s/∂x| |x| + c)               x = λ, γ
@@ -57,6 +57,9 @@ pub(crate) fn check_step<const D: usize>(
     let defect = energy_change(facts, [before, after], &elements).value();
     let bound = energy_bound(facts, [before, after], &elements, step);
     let (entropy, magnitude) = entropy_change([before, after]);
+    // The heat of a thermostat is what the balance of energy leaves, with its rounding.
+    let kept = facts.kept.iter().filter_map(|&index| elements[index].theta);
+    let thermostats: f64 = kept.map(|theta| bound / theta[0].min(theta[1])).sum();
     let mut broken = Vec::new();
     let mut hold = |law: &str, defect: f64, bound: f64| {
         // A NaN is within no bound.
@@ -80,7 +83,7 @@ pub(crate) fn check_step<const D: usize>(
     hold(
         "entropy lost",
         -entropy,
-        ROUNDINGS * f64::EPSILON.powi(2) * magnitude,
+        ROUNDINGS * f64::EPSILON.powi(2) * magnitude + thermostats,
     );
     hold(
         "production of a part below zero by",

@@ -20,21 +20,14 @@ pub(crate) const FAMILIES: &[Family] = &[
 /// A free chain of five masses with soft and stiff springs in turn, in slow rotation.
 fn chain(scheme: Scheme, stiffnesses: [f64; 2], step: f64) -> Watched<2> {
     let mut world = World::new();
-    let masses: Vec<Node> = (0..5_u8)
-        .map(|i| {
-            let x = f64::from(i);
-            world.mass(1.0, [x, 0.1 * (x - 2.0).powi(2)], [0.1, 0.3 * (x - 2.0)])
-        })
-        .collect();
+    let places = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|x: f64| [x, 0.1 * x * x]);
+    let masses = places.map(|place| world.mass(1.0, place, [0.1, 0.3 * place[0]]));
     for (i, ends) in masses.windows(2).enumerate() {
         let stiffness = stiffnesses[i % 2];
-        world.spring(
-            Hooke {
-                stiffness,
-                length: 1.0,
-            },
-            [ends[0], ends[1]],
-        );
+        // Slack at the start: what turns the chain stretches it.
+        let [a, b] = [places[i], places[i + 1]];
+        let length = (b[0] - a[0]).hypot(b[1] - a[1]);
+        world.spring(Hooke { stiffness, length }, [ends[0], ends[1]]);
     }
     world.start(scheme, step).expect("a sound scene")
 }
@@ -45,7 +38,6 @@ fn stiffness_ratios(effort: Effort) -> Tally {
     for scheme in EXACT {
         for exponent in 0..=12 {
             let stiff = 10.0_f64.powi(exponent);
-            // Each spring is a little longer than its natural length: kE up to 1e9 J at the top.
             let mut watched = chain(scheme, [1.0, stiff], 0.1);
             let label = format!("k = 1, 1e{exponent}, {}", scheme.name());
             tally.add_complete(label, watched.steps(steps));

@@ -30,6 +30,8 @@ pub(crate) struct Facts<const D: usize> {
     pub(crate) forces: Vec<(usize, OfTime<D>)>,
     /// Whether an anchor is moved: then its work and momentum are not known here.
     pub(crate) has_moved_anchors: bool,
+    /// The springs that thermostats keep at a temperature.
+    pub(crate) kept: Vec<usize>,
 }
 
 /// A spring, by the indices of its ends.
@@ -47,6 +49,7 @@ impl<const D: usize> World<D> {
             gravity: [0.0; D],
             forces: Vec::new(),
             has_moved_anchors: false,
+            kept: Vec::new(),
         };
         Self {
             scene: Scene::new(),
@@ -137,6 +140,8 @@ impl<const D: usize> World<D> {
         element: Element,
         temperature: impl Fn(f64) -> f64 + Send + Sync + 'static,
     ) {
+        let place = self.elements.iter().position(|own| *own == element);
+        self.facts.kept.push(place.expect("a spring of this scene"));
         self.scene.prescribe_temperature(element, temperature);
     }
 
