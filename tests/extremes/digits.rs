@@ -148,7 +148,7 @@ impl Digits {
     }
 
     pub(crate) fn exp(self) -> Self {
-        if !(self.high.abs() < 700.0) {
+        if self.high.is_nan() || self.high.abs() >= 700.0 {
             return Self {
                 high: self.high.exp(),
                 low: 0.0,

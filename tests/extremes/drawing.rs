@@ -28,7 +28,7 @@ pub(crate) struct Drawing<const D: usize> {
     nodes: Vec<Node<D>>,
     springs: Vec<Spring>,
     paths: Vec<([usize; 2], f64)>,
-    /// The spring, θ_r and κ.
+    /// The spring, `θ_r` and κ.
     air: Vec<(usize, f64, f64)>,
     gravity: [f64; D],
     /// The mass, the force and its angular frequency.

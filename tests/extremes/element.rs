@@ -48,6 +48,12 @@ pub(crate) fn ends<'a, const D: usize>(facts: &'a Facts<D>, states: [&Stored; 2]
     all
 }
 
+/// Whether there are dashpots without temperature, whose heat leaves the scene.
+pub(crate) fn has_cold_dashpots<const D: usize>(facts: &Facts<D>) -> bool {
+    let is_cold = |body: &dyn Body| body.dashpots() > 0 && !body.thermal();
+    facts.springs.iter().any(|spring| is_cold(&*spring.body))
+}
+
 impl Ends<'_> {
     /// (λ, γ …, θ) at one end.
     fn doubles(&self, end: usize) -> Vec<f64> {

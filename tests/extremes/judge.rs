@@ -6,6 +6,7 @@
 //!
 //! |ΔE − work − heat|          ≤ 64 ε (A + A⁺)
 //! ΔS                          ≥ −64 ε² Σ |s|      and −64 ε (A + A⁺)/θ for a thermostat
+//! |ΔS − production|            ≤ 64 ε (production + ε Σ |s|)
 //! |ΔL − Σ h F|                ≤ 64 ε Σ (|p| + h |f| + h |F|)                without anchors
 //! |ΔJ − Σ h (q − o) × F|      ≤ 64 ε Σ (|q − o| (|p| + h |F|) + h λ |f|)    o the one anchor or the origin
 //! |s(λ, γ, θ) − s|            ≤ 4 ε (|s| + Σ |∂s/∂x| |x| + c)               x = λ, γ
@@ -62,8 +63,9 @@ pub(crate) fn check_step<const D: usize>(
     let thermostats: f64 = kept.map(|theta| bound / theta[0].min(theta[1])).sum();
     let mut broken = Vec::new();
     let mut hold = |law: &str, defect: f64, bound: f64| {
-        // A NaN is within no bound.
-        if !(defect <= bound) {
+        // A NaN is within no bound, and bounds nothing.
+        let is_kept = defect <= bound;
+        if !is_kept {
             broken.push(format!(
                 "t = {:e}: {law} {defect:.2e} above {bound:.2e}",
                 report.time
@@ -85,6 +87,15 @@ pub(crate) fn check_step<const D: usize>(
         -entropy,
         ROUNDINGS * f64::EPSILON.powi(2) * magnitude + thermostats,
     );
+    if report.bound > 0.0 && facts.kept.is_empty() && !element::has_cold_dashpots(facts) {
+        let produced =
+            ROUNDINGS * f64::EPSILON * (report.production.abs() + f64::EPSILON * magnitude);
+        hold(
+            "reported production is off by",
+            (entropy - report.production).abs(),
+            produced,
+        );
+    }
     hold(
         "production of a part below zero by",
         -report.least_production,
@@ -145,7 +156,7 @@ fn energy_bound<const D: usize>(
     for (node, mass) in facts.masses.iter().enumerate() {
         let Some(mass) = *mass else { continue };
         for state in states {
-            let p = state.momentum::<D>(node).map(|p| p.value());
+            let p = state.momentum::<D>(node).map(Digits::value);
             amplitude += p.iter().map(|p| p / (mass + mass) * p).sum::<f64>();
         }
         let [q0, q1] = states.map(|state| state.position::<D>(node));
@@ -204,7 +215,7 @@ fn momenta<const D: usize>(
         return laws;
     }
     let impulses = impulses(facts, states[0].time, step);
-    let forces: f64 = elements.iter().map(|ends| ends.force()).sum();
+    let forces: f64 = elements.iter().map(Ends::force).sum();
     let moments: f64 = elements
         .iter()
         .map(|ends| ends.force() * ends.length())
@@ -277,3 +288,7 @@ fn largest(v: &[Digits]) -> f64 {
     // A sum keeps a NaN, which a maximum loses.
     v.iter().map(|x| x.value().abs()).sum()
 }
+
+#[cfg(test)]
+#[path = "judge_tests.rs"]
+mod tests;

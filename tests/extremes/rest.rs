@@ -176,7 +176,7 @@ fn compare<const D: usize>(
     temperatures: &[f64],
 ) {
     let count = run.unknowns();
-    let sign = |i: usize| if i % 2 == 0 { 1.0 } else { -0.7 };
+    let sign = |i: usize| if i.is_multiple_of(2) { 1.0 } else { -0.7 };
     let mut point: Vec<f64> = (0..count - temperatures.len())
         .map(|i| increment * sign(i))
         .collect();

@@ -36,6 +36,7 @@ fn sizes((name, published, build): &Published, effort: Effort) -> Tally {
     let mut tally = Tally::new(format!(
         "{name}, all schemes, h = 1e-12 … 1e6 s, {count} steps each"
     ));
+    let mut completes = Vec::new();
     for scheme in Scheme::ALL {
         let (mut largest, mut all_below) = (0.0, true);
         for index in -12 * per_decade..=6 * per_decade {
@@ -53,8 +54,12 @@ fn sizes((name, published, build): &Published, effort: Effort) -> Tally {
                 tally.add(label, &record);
             }
         }
-        tally.note(format!("{}: h ≤ {largest:.1e} s completes", scheme.name()));
+        completes.push(format!("{} {largest:.0e} s", scheme.name()));
     }
+    tally.note(format!(
+        "the largest step up to which all complete: {}",
+        completes.join(", ")
+    ));
     tally
 }
 

@@ -51,12 +51,14 @@ fn trace<const D: usize>(
     }
 }
 
+/// A run of some steps by a scheme, in some units.
+type Build = fn(Scheme, [f64; 2], usize) -> Trace;
+
 fn systems_of_units(effort: Effort) -> Tally {
     let mut tally = Tally::new(
         "single pendulum, Romero's and the logarithmic double pendulum in m, mm, km, K, mK",
     );
     let steps = effort.of([3, 20, 20]);
-    type Build = fn(Scheme, [f64; 2], usize) -> Trace;
     let cases: [(&str, Build); 3] = [
         ("single", |scheme, units, steps| {
             trace(
