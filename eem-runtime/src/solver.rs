@@ -28,7 +28,7 @@ use crate::state::State;
 use crate::system::LinearSystem;
 use balance::Balance;
 use begin::Start;
-use conclusion::{Conclusion, Rest, Target};
+use conclusion::{Conclusion, Progress, Target};
 pub(crate) use effort::{Effort, Iteration};
 use past::Past;
 pub(crate) use past::SavedPast;
@@ -61,6 +61,8 @@ pub(crate) struct Solver<S: Real, const D: usize> {
     /// The reciprocal of the unit of length of each node that moves: its shortest element in the old
     /// state; 1 m without.
     per_length: Vec<S>,
+    /// An attempt may be given up early.
+    has_other_starts: bool,
     /// The nodes that are anchors.
     anchors: Vec<usize>,
     /// The magnitude of what the forces on each node are computed from, N s; empty unless the scheme
@@ -118,6 +120,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 Vec::new()
             },
             per_length: vec![S::one(); masses.len()],
+            has_other_starts: false,
             anchors: masses.anchors().collect(),
             magnitudes: vec![S::zero(); if scheme.is_exact() { masses.len() } else { 0 }],
             final_residual: S::zero(),
@@ -153,6 +156,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         next: &mut State<S>,
     ) -> Result<Certificate<S>, StepFailure> {
         let mut closing = Target::State(next);
+        self.has_other_starts = S::LANES == 1 && self.scheme.is_exact();
         let found = self.start_and_converge(groups, view, effort, (Start::Foretold, &mut closing));
         let failure = match found {
             Err(failure) if S::LANES == 1 && self.scheme.follows_its_solution() => failure,
@@ -175,7 +179,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
     }
 
     /// Exact schemes start from rest, and from the solution for another form if they have one; then the
-    /// solution is followed from a small step to the full one.
+    /// solution is followed from a small step to the full one. At last an exact scheme takes all its
+    /// iterations from its own start.
     #[cold]
     fn try_other_starts(
         &mut self,
@@ -196,7 +201,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 return found;
             }
         }
-        self.follow(groups, view, effort, closing)
+        let found = self.follow(groups, view, effort, closing);
+        if found.is_ok() || !self.scheme.is_exact() {
+            return found;
+        }
+        self.has_other_starts = false;
+        self.start_and_converge(groups, view, effort, (Start::Foretold, closing))
     }
 
     /// From the solution for the starting form of the scheme.
@@ -207,7 +217,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         effort: &mut Effort<S>,
         closing: &mut Target<'_, S>,
     ) -> Result<Option<Certificate<S>>, StepFailure> {
-        let start = (Start::Foretold, &mut Target::Trial);
+        let start = (Start::Foretold, &mut Target::SharpTrial);
         self.trial.is_start = true;
         let started = self.start_and_converge(groups, view, effort, start);
         self.trial.is_start = false;
@@ -278,15 +288,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
             max_iterations,
             tolerance,
         } = effort.settings;
+        let tolerance = target.tolerance(tolerance);
         let mut before = None;
         let mut purpose = Purpose::Iterate;
-        let mut rest = Rest::default();
+        let mut progress = Progress::new();
         // Those that are done, and those for which the next look is the last.
         let (mut settled, mut last) = (S::Mask::none(), S::Mask::none());
         for left in (0..=max_iterations).rev() {
             let is_full = self.advance(groups, view, purpose)?;
             if is_full && purpose == Purpose::Close {
-                match self.conclude(groups, view, target, rest) {
+                match self.conclude(groups, view, target, &mut progress) {
                     Conclusion::Found(certificate) => {
                         effort.conclude(self.final_residual, before);
                         return Ok(certificate);
@@ -311,7 +322,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
             purpose = Purpose::Iterate;
             let ends = is_last(update, previous, tolerance) & !settled;
             let is_stuck =
-                S::LANES == 1 && self.scheme.is_exact() && rest.is_stuck(update, previous);
+                S::LANES == 1 && self.scheme.is_exact() && progress.is_stuck(update, previous);
+            if self.has_other_starts && progress.is_hopeless() {
+                break;
+            }
             last = ends;
             if is_stuck || (ends.any() && (settled | last).all()) {
                 purpose = Purpose::Close;

@@ -12,10 +12,15 @@ use crate::state::State;
 /// iteration: rounding makes each of them a new draw.
 const REDRAWS: u32 = 3;
 
+/// The slowest decrease of the residual that counts as one.
+const SLOWEST: f64 = 0.75;
+
 /// What an iteration is to find.
 pub(super) enum Target<'a, S> {
     /// A trial from which another one starts.
     Trial,
+    /// The same, as sharp as rounding allows.
+    SharpTrial,
     /// A new state.
     State(&'a mut State<S>),
 }
@@ -30,36 +35,87 @@ pub(super) enum Conclusion<S: Real> {
     Refused(StepFailure),
 }
 
-/// How long Newton's method has been where rounding stops it.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Rest {
-    updates: u32,
+/// Iterations after which an attempt is given up if none of its updates has been small, as long as there
+/// are other starts.
+const PATIENCE: usize = 10;
+
+/// Whether Newton's method converges, and how long it has been where rounding stops it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Progress<S> {
+    /// Iterations of this attempt.
+    iterations: usize,
+    /// The smallest update so far.
+    smallest: S,
+    /// Consecutive updates that did not fall.
+    stuck: u32,
+    /// Draws that were refused, and the smallest residual of them.
+    draws: u32,
+    residual: S,
 }
 
-impl Rest {
+impl<S: Real> Target<'_, S> {
+    /// The largest update that may be the last one.
+    pub(super) fn tolerance(&self, usual: S) -> S {
+        match self {
+            Self::Trial | Self::State(_) => usual,
+            Self::SharpTrial => S::EPSILON,
+        }
+    }
+}
+
+impl<S: Real> Progress<S> {
+    /// Before the first iteration.
+    pub(super) fn new() -> Self {
+        Self {
+            iterations: 0,
+            smallest: S::MAX,
+            stuck: 0,
+            draws: 0,
+            residual: S::MAX,
+        }
+    }
+
     /// Counts another update; whether rounding may be what keeps it from being smaller.
     ///
     /// How small an update can be depends on the conditioning, so that its size does not decide: an update
     /// that does not fall shows a state at which the balances are looked at.
-    pub(super) fn is_stuck<S: Real>(&mut self, update: S, before: Option<S>) -> bool {
+    pub(super) fn is_stuck(&mut self, update: S, before: Option<S>) -> bool {
+        self.iterations += 1;
+        self.smallest = self.smallest.minimum(update);
         let stagnates = before.is_some_and(|before| update >= S::from_f64(STAGNATION) * before);
         let is_small = update < S::from_f64(CONTRACTION);
-        self.updates = if stagnates && is_small {
-            self.updates + 1
+        self.stuck = if stagnates && is_small {
+            self.stuck + 1
         } else {
             0
         };
-        self.updates > 0
+        self.stuck > 0
+    }
+
+    /// No update has been small for long.
+    pub(super) fn is_hopeless(&self) -> bool {
+        self.iterations >= PATIENCE && self.smallest > S::from_f64(CONTRACTION)
+    }
+
+    /// Counts a refused state with this residual; one with a smaller residual than before shows that
+    /// iterating helps, however slowly.
+    fn draw(&mut self, residual: S) {
+        if residual < S::from_f64(SLOWEST) * self.residual {
+            self.draws = 0;
+            self.residual = residual;
+        } else {
+            self.draws += 1;
+        }
     }
 
     /// Rounding stops it.
-    fn has_stopped(self) -> bool {
-        self.updates > 0
+    fn has_stopped(&self) -> bool {
+        self.stuck > 0
     }
 
     /// Nothing is left to draw.
-    fn is_over(self) -> bool {
-        self.updates > REDRAWS
+    fn is_over(&self) -> bool {
+        self.draws > REDRAWS
     }
 }
 
@@ -70,17 +126,20 @@ impl<S: Real, const D: usize> Solver<S, D> {
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
         target: &mut Target<'_, S>,
-        rest: Rest,
+        progress: &mut Progress<S>,
     ) -> Conclusion<S> {
         let Target::State(next) = target else {
             return Conclusion::Found(None);
         };
         let certificate = match self.close(groups, view, next) {
             Ok(certificate) => certificate,
-            Err(failure) if !self.scheme.is_exact() || S::LANES > 1 || rest.is_over() => {
-                return Conclusion::Refused(failure);
+            Err(failure) => {
+                progress.draw(S::MAX);
+                if !self.scheme.is_exact() || S::LANES > 1 || progress.is_over() {
+                    return Conclusion::Refused(failure);
+                }
+                return Conclusion::Open;
             }
-            Err(_) => return Conclusion::Open,
         };
         if !self.scheme.is_exact() {
             return match certificate.unless_infinite(next.time.value) {
@@ -91,8 +150,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
         if certificate.is_enough() {
             return Conclusion::Found(Some(certificate));
         }
-        if S::LANES == 1 && !rest.is_over() && !(rest.has_stopped() && certificate.is_lawful()) {
-            return Conclusion::Open;
+        if S::LANES == 1 {
+            progress.draw(self.final_residual);
+            let is_settled = progress.has_stopped() && certificate.is_lawful();
+            if !is_settled && !progress.is_over() {
+                return Conclusion::Open;
+            }
         }
         match certificate.broken_law(Demand::Law) {
             None if certificate.is_balanced() => Conclusion::Found(Some(certificate)),
