@@ -2,7 +2,7 @@
 
 use core::f64::consts::PI;
 
-use super::material::Material;
+use super::graph::{self, Node, Spring};
 use super::random::Random;
 use super::watched::Watched;
 use super::world::World;
@@ -41,25 +41,11 @@ pub(crate) struct Drawing<const D: usize> {
     pub(crate) step: f64,
 }
 
-struct Node<const D: usize> {
-    /// `None` for an anchor.
-    mass: Option<f64>,
-    position: [f64; D],
-    velocity: [f64; D],
-}
-
-struct Spring {
-    ends: [usize; 2],
-    material: Material,
-    theta: f64,
-    length: f64,
-}
-
 impl<const D: usize> Drawing<D> {
     pub(crate) fn at_random(random: &mut Random, class: Class, most: usize) -> Self {
         let wild = class == Class::Wild;
-        let nodes = nodes::<D>(random, wild, most);
-        let springs = springs(random, wild, &nodes);
+        let nodes = graph::nodes::<D>(random, wild, most);
+        let springs = graph::springs(random, wild, &nodes);
         let mut drawing = Self {
             nodes,
             springs,
@@ -271,82 +257,4 @@ impl<const D: usize> Drawing<D> {
         }
         world
     }
-}
-
-/// Up to two anchors and one to `most` masses, about 1 m from each other.
-fn nodes<const D: usize>(random: &mut Random, wild: bool, most: usize) -> Vec<Node<D>> {
-    let anchors = random.below(3);
-    // Small scenes are tried more often: they cost less and find as much.
-    let masses = 1 + random.below(most).min(random.below(most));
-    let masses = if anchors == 0 { masses.max(2) } else { masses };
-    #[expect(clippy::cast_precision_loss, reason = "small numbers")]
-    let size = ((anchors + masses) as f64).powf(1.0 / D as f64);
-    let mut nodes: Vec<Node<D>> = Vec::new();
-    while nodes.len() < anchors + masses {
-        let mut position: [f64; D] = core::array::from_fn(|_| random.uniform(0.0, size));
-        // A wild mass may start close to an anchor.
-        if wild && anchors > 0 && nodes.len() >= anchors && random.chance(0.1) {
-            let near = random.decades(1e-6, 1e-1);
-            let anchor = nodes[0].position;
-            position = core::array::from_fn(|i| anchor[i] + near * random.uniform(0.1, 1.0));
-        }
-        let gap = |node: &Node<D>| {
-            let squares = node
-                .position
-                .iter()
-                .zip(&position)
-                .map(|(a, b)| (a - b).powi(2));
-            squares.sum::<f64>().sqrt()
-        };
-        if !wild && nodes.iter().any(|node| gap(node) < 0.5) {
-            continue;
-        }
-        let mass = if wild {
-            random.decades(1e-4, 1e4)
-        } else {
-            random.decades(0.3, 3.0)
-        };
-        let mass = (nodes.len() >= anchors).then_some(mass);
-        nodes.push(Node {
-            mass,
-            position,
-            velocity: [0.0; D],
-        });
-    }
-    nodes
-}
-
-/// A random tree and some more springs.
-fn springs<const D: usize>(random: &mut Random, wild: bool, nodes: &[Node<D>]) -> Vec<Spring> {
-    let mut ends: Vec<[usize; 2]> = (1..nodes.len()).map(|b| [random.below(b), b]).collect();
-    for _ in 0..random.below(nodes.len() + 1) {
-        let (a, b) = (random.below(nodes.len()), random.below(nodes.len()));
-        if a != b {
-            ends.push([a, b]);
-        }
-    }
-    let is_fixed = |end: usize| nodes[end].mass.is_none();
-    ends.retain(|ends| !ends.iter().all(|&end| is_fixed(end)));
-    let spring = |ends: [usize; 2]| {
-        let [a, b] = ends.map(|end| nodes[end].position);
-        let distance = (0..D).map(|i| (b[i] - a[i]).powi(2)).sum::<f64>().sqrt();
-        let length = if wild {
-            distance.max(1e-3) * random.decades(0.3, 3.0)
-        } else {
-            distance * random.uniform(0.85, 1.15)
-        };
-        let theta = if wild {
-            random.decades(1.0, 1e4)
-        } else {
-            random.uniform(250.0, 400.0)
-        };
-        let material = Material::at_random(random, wild, length, theta);
-        Spring {
-            ends,
-            material,
-            theta,
-            length,
-        }
-    };
-    ends.into_iter().map(spring).collect()
 }

@@ -46,6 +46,25 @@ pub(crate) struct Verdict {
     pub(crate) broken: Vec<String>,
 }
 
+/// What is broken so far.
+struct Complaints {
+    time: f64,
+    broken: Vec<String>,
+}
+
+impl Complaints {
+    fn hold(&mut self, law: &str, defect: f64, bound: f64) {
+        // A NaN is within no bound, and bounds nothing.
+        let is_kept = defect <= bound;
+        if !is_kept {
+            let time = self.time;
+            self.broken.push(format!(
+                "t = {time:e}: {law} {defect:.2e} above {bound:.2e}"
+            ));
+        }
+    }
+}
+
 /// Judges a step from `before` to `after` that an exact scheme reported.
 pub(crate) fn check_step<const D: usize>(
     facts: &Facts<D>,
@@ -53,61 +72,47 @@ pub(crate) fn check_step<const D: usize>(
     after: &Stored,
     report: &StepReport<f64>,
 ) -> Verdict {
-    let step = report.step;
     let elements = element::ends(facts, [before, after]);
-    let defect = energy_change(facts, [before, after], &elements).value();
-    let bound = energy_bound(facts, [before, after], &elements, step);
-    let (entropy, magnitude) = entropy_change([before, after]);
-    // The heat of a thermostat is what the balance of energy leaves, with its rounding.
-    let kept = facts.kept.iter().filter_map(|&index| elements[index].theta);
-    let thermostats: f64 = kept.map(|theta| bound / theta[0].min(theta[1])).sum();
-    let mut broken = Vec::new();
-    let mut hold = |law: &str, defect: f64, bound: f64| {
-        // A NaN is within no bound, and bounds nothing.
-        let is_kept = defect <= bound;
-        if !is_kept {
-            broken.push(format!(
-                "t = {:e}: {law} {defect:.2e} above {bound:.2e}",
-                report.time
-            ));
-        }
+    let mut complaints = Complaints {
+        time: report.time,
+        broken: Vec::new(),
     };
-    hold("energy is off by", defect.abs(), bound);
+    let defect = energy_change(facts, [before, after], &elements).value();
+    let bound = energy_bound(facts, [before, after], &elements, report.step);
+    complaints.hold("energy is off by", defect.abs(), bound);
     if report.bound > 0.0 {
-        hold(
+        complaints.hold(
             "energy beyond the reported bound by",
             defect.abs(),
             report.bound,
         );
-        hold("reported bound", report.bound, BOUNDS * bound);
-        hold("reported defect", report.defect.abs(), report.bound);
+        complaints.hold("reported bound", report.bound, BOUNDS * bound);
+        complaints.hold("reported defect", report.defect.abs(), report.bound);
     }
-    hold(
-        "entropy lost",
-        -entropy,
-        ROUNDINGS * f64::EPSILON.powi(2) * magnitude + thermostats,
-    );
-    if report.bound > 0.0 && facts.kept.is_empty() && !element::has_cold_dashpots(facts) {
-        let produced =
-            ROUNDINGS * f64::EPSILON * (report.production.abs() + f64::EPSILON * magnitude);
-        hold(
-            "reported production is off by",
-            (entropy - report.production).abs(),
-            produced,
-        );
-    }
-    hold(
+    let (entropy, magnitude) = entropy_change([before, after]);
+    // The heat of a thermostat is what the balance of energy leaves, with its rounding.
+    let kept = facts.kept.iter().filter_map(|&index| elements[index].theta);
+    let thermostats: f64 = kept.map(|theta| bound / theta[0].min(theta[1])).sum();
+    let rounding = ROUNDINGS * f64::EPSILON.powi(2) * magnitude;
+    complaints.hold("entropy lost", -entropy, rounding + thermostats);
+    complaints.hold(
         "production of a part below zero by",
         -report.least_production,
         0.0,
     );
-    for (law, defect, bound) in momenta(facts, [before, after], &elements, step) {
-        hold(law, defect, bound);
+    if report.bound > 0.0 && facts.kept.is_empty() && !element::has_cold_dashpots(facts) {
+        let off = (entropy - report.production).abs();
+        let parts = ROUNDINGS * f64::EPSILON * report.production.abs();
+        complaints.hold("reported production is off by", off, parts + rounding);
+    }
+    for (law, defect, bound) in momenta(facts, [before, after], &elements, report.step) {
+        complaints.hold(law, defect, bound);
     }
     for ends in elements.iter().filter(|ends| ends.theta.is_some()) {
         let (defect, unit) = ends.kept_entropy();
-        hold("kept entropy is off by", defect, KEPT * f64::EPSILON * unit);
+        complaints.hold("kept entropy is off by", defect, KEPT * f64::EPSILON * unit);
     }
+    let broken = complaints.broken;
     Verdict {
         defect,
         bound,

@@ -59,12 +59,16 @@ fn every_step_of_an_exact_scheme_reports_its_bound() {
     for scheme in EXACT {
         let world = double_pendulum(&LOGARITHMIC, [1.0, 1.0]);
         let mut watched = world.start(scheme, 0.1).expect("a sound scene");
+        let mut worst = 0.0_f64;
         for _ in 0..20 {
             let report = watched.step().expect("the published step");
             let is_bounded = report.bound > 0.0 && report.defect.abs() <= report.bound;
             assert!(is_bounded, "{}: {report:?}", scheme.name());
+            worst = worst.max((report.defect / report.bound).abs());
             assert!(report.least_production >= 0.0 && report.production > 0.0);
         }
         assert!(watched.record.is_lawful(), "{:?}", watched.record.broken);
+        let kept = watched.run.worst_step().expect("there were steps");
+        assert!((kept.defect / kept.bound).abs() >= worst);
     }
 }

@@ -41,34 +41,68 @@ macro_rules! with {
     };
 }
 
-impl Material {
+/// What the models have in common.
+#[derive(Clone, Copy, Debug)]
+struct Data {
+    /// N/m.
+    stiffness: f64,
+    branch: f64,
+    /// N m, for logarithmic strains.
+    modulus: f64,
+    eta: f64,
+    capacity: f64,
+    /// N/K.
+    coupling: f64,
+    length: f64,
+    theta_ref: f64,
+}
+
+impl Data {
     /// Stiffness about 100 N/m, or of many decades; η of about a second of relaxation, or anything.
-    pub(crate) fn at_random(random: &mut Random, wild: bool, length: f64, theta: f64) -> Self {
-        let stiffness = if wild {
-            random.decades(1e-2, 1e8)
-        } else {
-            random.decades(30.0, 300.0)
+    fn at_random(random: &mut Random, wild: bool, length: f64, theta: f64) -> Self {
+        let decades = |random: &mut Random, ordinary: [f64; 2], all: [f64; 2]| {
+            let [low, high] = if wild { all } else { ordinary };
+            random.decades(low, high)
         };
-        let branch = stiffness * random.decades(0.1, 1.0);
-        let eta = if wild {
-            random.decades(1e-9, 1e9)
-        } else {
-            random.decades(0.1, 1e3)
-        };
-        // The dashpots of logarithmic strain have stretches without unit, so to speak.
-        let eta_of_strain = eta * length * length;
+        let stiffness = decades(random, [30.0, 300.0], [1e-2, 1e8]);
         // Heat of the size of the elastic energy changes θ by a percent.
-        let capacity = 100.0 * stiffness * 0.01 * length * length / theta;
-        let capacity = if wild {
-            capacity * random.decades(1e-3, 1e3)
-        } else {
-            capacity
-        };
-        let modulus = stiffness * length * length;
+        let capacity =
+            stiffness * length * length / theta * decades(random, [1.0, 1.0], [1e-3, 1e3]);
         let theta_ref = theta * random.uniform(0.9, 1.1);
-        // Thermal strain of a percent at 10 % more than the reference.
-        let coupling = 0.1 * stiffness * length / theta_ref * random.uniform(-1.0, 1.0);
+        Self {
+            stiffness,
+            branch: stiffness * random.decades(0.1, 1.0),
+            modulus: stiffness * length * length,
+            eta: decades(random, [0.1, 1e3], [1e-9, 1e9]),
+            capacity,
+            // Thermal strain of a percent at 10 % more than the reference.
+            coupling: 0.1 * stiffness * length / theta_ref * random.uniform(-1.0, 1.0),
+            length,
+            theta_ref,
+        }
+    }
+}
+
+impl Material {
+    /// Any of the models.
+    pub(crate) fn at_random(random: &mut Random, wild: bool, length: f64, theta: f64) -> Self {
+        let data = Data::at_random(random, wild, length, theta);
         match random.below(9) {
+            kind @ 0..=3 => Self::without_temperature(kind, data),
+            kind => Self::with_temperature(kind, data),
+        }
+    }
+
+    fn without_temperature(kind: usize, data: Data) -> Self {
+        let Data {
+            stiffness,
+            branch,
+            modulus,
+            eta,
+            length,
+            ..
+        } = data;
+        match kind {
             0 => Self::Hooke(Hooke { stiffness, length }),
             1 => Self::Hencky(Hencky {
                 stiffness: modulus,
@@ -82,12 +116,27 @@ impl Material {
                     length,
                 })
             }
-            3 => Self::Maxwell(Maxwell {
+            _ => Self::Maxwell(Maxwell {
                 stiffness,
                 branch,
                 length,
                 eta,
             }),
+        }
+    }
+
+    fn with_temperature(kind: usize, data: Data) -> Self {
+        let Data {
+            stiffness,
+            branch,
+            modulus,
+            eta,
+            capacity,
+            coupling,
+            length,
+            theta_ref,
+        } = data;
+        match kind {
             4 => Self::Thermoelastic(Thermoelastic {
                 stiffness,
                 length,
@@ -124,8 +173,9 @@ impl Material {
                 capacity,
                 length,
                 theta_ref,
-                eta1: eta_of_strain,
-                eta2: 3.0 * eta_of_strain,
+                // Their stretches are strains.
+                eta1: eta * length * length,
+                eta2: 3.0 * eta * length * length,
                 a: theta_ref,
                 n: 1.5,
             }),

@@ -12,6 +12,7 @@ pub(crate) mod stored;
 
 // What is tried.
 pub(crate) mod drawing;
+pub(crate) mod graph;
 pub(crate) mod material;
 pub(crate) mod models;
 pub(crate) mod published;
