@@ -52,7 +52,7 @@ where
     pub(super) fn add_magnitude(&self, h: S, change: &Arms<K, S, D>, magnitudes: &mut [S]) {
         let mut sum = S::zero();
         for a in 0..M::MEASURES {
-            sum += self.response[a].abs() + self.magnitude_of_row(a);
+            sum += self.response[a].abs() + self.resolution_of_row(a);
         }
         let mut largest = S::zero();
         for arm in change.as_ref() {
@@ -72,6 +72,28 @@ where
     fn magnitude_of_row(&self, row: usize) -> S {
         let terms = self.slopes[row].as_ref().iter().zip(self.x.as_ref());
         terms.fold(S::zero(), |sum, (&slope, &x)| sum + (slope * x).abs())
+    }
+
+    /// The same where the internal variables answer to the rounding of the measures: times ε, to what a
+    /// response is known in a state that solves the equations of the element.
+    ///
+    /// ```text
+    /// Σ_j |T_ij| (|x_j| + Σ_a |∂u_j/∂π_a| |π_a|)
+    /// ```
+    ///
+    /// With a small heat capacity c the temperature is known to `ε θ |∂s/∂λ| λ/c`, which is far more than
+    /// its own rounding.
+    #[inline]
+    fn resolution_of_row(&self, row: usize) -> S {
+        let mut sum = self.magnitude_of_row(row);
+        for a in 0..M::MEASURES {
+            let by_measure = &self.condensed.by_measure[a];
+            for u in 0..Self::UNKNOWNS {
+                let answer = by_measure.get(u) * self.x[a];
+                sum += (self.slopes[row][M::MEASURES + u] * answer).abs();
+            }
+        }
+        sum
     }
 
     /// The element's part of A that its forces have, and of A⁺, J:
@@ -114,7 +136,7 @@ where
             if view.phase.heats() {
                 let row = M::MEASURES + k;
                 let drag = self.viscosities.0[k] * self.creep_rate(k, h);
-                let terms = drag.abs() + self.response[row].abs() + self.magnitude_of_row(row);
+                let terms = drag.abs() + self.response[row].abs() + self.resolution_of_row(row);
                 tally.balance(drag - self.response[row], terms);
             }
         }
@@ -129,7 +151,7 @@ where
         if contact.is_some()
             && let Some(slot) = self.slots().thermal
         {
-            let terms = theta + self.magnitude_of_row(Self::TEMPERATURE);
+            let terms = theta + self.resolution_of_row(Self::TEMPERATURE);
             tally.balance(trial.seen.values[slot] - theta, terms);
         }
     }
