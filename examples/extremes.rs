@@ -19,7 +19,7 @@
 //! | E, S | energy (J) and entropy (J/K) of the scene |
 //! | q, p, m | positions (m), momenta (kg m/s), masses (kg) |
 //! | ψ, θ, s | free energy (J), temperature (K), kept entropy (J/K) of a spring |
-//! | θ_r, σ_r | temperature (K) and received entropy (J/K) of a reservoir |
+//! | `θ_r`, `σ_r` | temperature (K) and received entropy (J/K) of a reservoir |
 //! | ε | 2⁻⁵² |
 //!
 //! The tests `tests/extremes` run the same families of runs in a short form.
