@@ -32,7 +32,7 @@ pub(crate) const ROUNDINGS: f64 = 64.0;
 const KEPT: f64 = 4.0;
 /// How much larger than the judge's the bound of a report may be. Both follow one formula; T is that of
 /// the scheme there and that of the temperature form here.
-const BOUNDS: f64 = 8.0;
+const BOUNDS: f64 = 64.0;
 
 /// What the judge found of one step.
 #[derive(Clone, Debug)]

@@ -68,11 +68,11 @@ fn length(watched: &Watched<2>) -> f64 {
 fn van_der_waals_piston(effort: Effort) -> Tally {
     let mut tally = Tally::new("piston on a van der Waals gas, through the spinodal");
     let steps = effort.of([10, 100, 20_000]);
-    // Critical: λ = 3b = 0.3 m, θ = 8a/27bR = 296 K, pressure a/27b² = 37 N.
+    // Critical: λ = 3b = 0.3 m, θ = 8a/27bR = 296 K, pressure a/27b² = 370 N; at 260 K it boils at about 220 N.
     let gas = VanDerWaals {
         gas: 1.0,
         covolume: 0.1,
-        cohesion: 10.0,
+        cohesion: 100.0,
         capacity: 20.0,
         theta_ref: 300.0,
     };
@@ -91,7 +91,7 @@ fn van_der_waals_piston(effort: Effort) -> Tally {
                 world.cool(spring, bath, 10.0);
             };
             let mut world = on_anchor(spring, [lambda, 0.0], [speed, 0.0]);
-            world.set_gravity([-30.0, 0.0]);
+            world.set_gravity([-220.0, 0.0]);
             let mut watched = world.start(scheme, step).expect("a sound scene");
             let label = format!("{lambda} m, {theta} K, h = {step}, {}", scheme.name());
             tally.add(&label, watched.steps(steps));
