@@ -68,7 +68,8 @@ fn length(watched: &Watched<2>) -> f64 {
 fn van_der_waals_piston(effort: Effort) -> Tally {
     let mut tally = Tally::new("piston on a van der Waals gas, through the spinodal");
     let steps = effort.of([10, 100, 20_000]);
-    // Critical: λ = 3b = 0.3 m, θ = 8a/27bR = 296 K, pressure a/27b² = 370 N; at 260 K it boils at about 220 N.
+    // Critical: λ = 3b = 0.3 m, θ = 8a/27bR = 296 K, pressure a/27b² = 370 N; at 260 K it boils at
+    // about 220 N.
     let gas = VanDerWaals {
         gas: 1.0,
         covolume: 0.1,
