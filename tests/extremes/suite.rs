@@ -1,0 +1,36 @@
+//! The modules of the suite, shared by the tests and by the example `extremes`.
+
+#![allow(dead_code, reason = "tests and example each use their own part")]
+
+// What a step is judged by.
+pub(crate) mod digits;
+pub(crate) mod element;
+pub(crate) mod jet;
+pub(crate) mod judge;
+pub(crate) mod model;
+pub(crate) mod stored;
+
+// What is tried.
+pub(crate) mod drawing;
+pub(crate) mod graph;
+pub(crate) mod material;
+pub(crate) mod models;
+pub(crate) mod published;
+pub(crate) mod random;
+pub(crate) mod tally;
+pub(crate) mod watched;
+pub(crate) mod world;
+
+// The kinds of extremes.
+pub(crate) mod bits;
+pub(crate) mod findings;
+pub(crate) mod heat;
+pub(crate) mod kinds;
+pub(crate) mod lengths;
+pub(crate) mod long;
+pub(crate) mod phases;
+pub(crate) mod rest;
+pub(crate) mod scenes;
+pub(crate) mod steps;
+pub(crate) mod stiffness;
+pub(crate) mod units;

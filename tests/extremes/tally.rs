@@ -1,0 +1,167 @@
+//! What came of a family of runs: a row of the published table, and a test.
+
+use std::collections::BTreeMap;
+use std::fmt::Display;
+
+use eem::prelude::*;
+
+use super::watched::Record;
+
+/// Iterations that a step of a stiff case may take with the default settings; a staggered step is two
+/// solves.
+const ITERATIONS: usize = 10;
+
+/// How much is tried.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Effort {
+    /// A few seconds for everything, without optimisation.
+    Glance,
+    /// The tests.
+    Short,
+    /// The published table.
+    Long,
+}
+
+impl Effort {
+    /// One of three counts.
+    pub(crate) const fn of<T: Copy>(self, [glance, short, long]: [T; 3]) -> T {
+        match self {
+            Self::Glance => glance,
+            Self::Short => short,
+            Self::Long => long,
+        }
+    }
+}
+
+/// A family of runs that are tried together.
+pub(crate) type Family = fn(Effort) -> Tally;
+
+/// The sum over a family of runs.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Tally {
+    /// What was tried.
+    pub(crate) what: String,
+    pub(crate) runs: usize,
+    /// Runs that came to their end.
+    pub(crate) completed: usize,
+    pub(crate) steps: usize,
+    iterations: usize,
+    pub(crate) most_iterations: usize,
+    /// The largest |defect|/bound.
+    pub(crate) worst: f64,
+    /// How many runs ended with which error.
+    pub(crate) refused: BTreeMap<String, usize>,
+    /// What else is worth knowing.
+    pub(crate) notes: Vec<String>,
+    /// What does not hold.
+    pub(crate) wrong: Vec<String>,
+}
+
+impl Tally {
+    pub(crate) fn new(what: impl Into<String>) -> Self {
+        Self {
+            what: what.into(),
+            ..Self::default()
+        }
+    }
+
+    /// A run that keeps the laws, or is refused with a typed error.
+    pub(crate) fn add(&mut self, label: impl Display, record: &Record) {
+        self.runs += 1;
+        self.steps += record.steps;
+        self.iterations += record.iterations;
+        self.most_iterations = self.most_iterations.max(record.most_iterations);
+        // A NaN stays.
+        let is_worse = record.worst > self.worst || record.worst.is_nan();
+        self.worst = if is_worse { record.worst } else { self.worst };
+        match &record.refused {
+            Some(_) => *self.refused.entry(record.refusal()).or_default() += 1,
+            None => self.completed += 1,
+        }
+        if !record.is_lawful() {
+            let Record {
+                steps,
+                broken_steps,
+                broken,
+                ..
+            } = record;
+            let first = broken.first().map_or("", String::as_str);
+            self.wrong.push(format!(
+                "{label}: {broken_steps} of {steps} steps broke a law: {first}"
+            ));
+        }
+    }
+
+    /// A run that has to keep the laws and to complete.
+    pub(crate) fn add_complete(&mut self, label: impl Display, record: &Record) {
+        self.add(&label, record);
+        if let Some(error) = &record.refused {
+            self.wrong.push(format!("{label}: {error}"));
+        }
+    }
+
+    /// A run that also has to complete within ten iterations per step on average, of each of its solves.
+    /// The few steps that pass by an anchor may need a second start.
+    pub(crate) fn add_swift(&mut self, label: impl Display, record: &Record, scheme: Scheme) {
+        self.add_complete(&label, record);
+        let solves = if scheme == Scheme::Staggered { 2 } else { 1 };
+        let mean = mean(record.iterations, record.steps);
+        #[expect(clippy::cast_precision_loss, reason = "a small number")]
+        let allowed = (solves * ITERATIONS) as f64;
+        if mean > allowed {
+            let most = record.most_iterations;
+            self.wrong.push(format!(
+                "{label}: {mean:.1} iterations per step, {most} at most"
+            ));
+        }
+    }
+
+    /// Something that has to hold.
+    pub(crate) fn claim(&mut self, holds: bool, otherwise: impl Display) {
+        if !holds {
+            self.wrong.push(otherwise.to_string());
+        }
+    }
+
+    pub(crate) fn note(&mut self, note: impl Display) {
+        self.notes.push(note.to_string());
+    }
+
+    /// Iterations per step.
+    pub(crate) fn mean_iterations(&self) -> f64 {
+        mean(self.iterations, self.steps)
+    }
+
+    /// Fails a test unless everything holds.
+    pub(crate) fn assert(&self) {
+        let Self {
+            what,
+            runs,
+            completed,
+            steps,
+            worst,
+            refused,
+            ..
+        } = self;
+        println!(
+            "{what}: {completed} of {runs} runs complete, {steps} steps, {:.1} iterations per step and ≤ {}, \
+             worst {worst:.1e} of the bound, refused {refused:?}, {:?}",
+            self.mean_iterations(),
+            self.most_iterations,
+            self.notes,
+        );
+        let shown: Vec<&str> = self.wrong.iter().take(40).map(String::as_str).collect();
+        assert!(
+            shown.is_empty(),
+            "{} complaints:\n{}",
+            self.wrong.len(),
+            shown.join("\n")
+        );
+    }
+}
+
+fn mean(iterations: usize, steps: usize) -> f64 {
+    #[expect(clippy::cast_precision_loss, reason = "for print")]
+    let [iterations, steps] = [iterations as f64, steps as f64];
+    iterations / steps.max(1.0)
+}
