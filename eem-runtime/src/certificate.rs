@@ -279,10 +279,12 @@ impl<S: Real> Certificate<S> {
         }
     }
 
-    /// The same where the energies have been counted anew, if their roundings explain the difference.
+    /// The same where the energies have been counted anew, if their values are less sharp than the bound
+    /// and their roundings explain the difference.
     pub(crate) fn recounted(mut self, recount: &Recount<S>) -> Self {
         let rounding = S::from_f64(VALUE_ROUNDINGS) * S::EPSILON * recount.magnitude;
-        let is_explained = self.defect.abs().at_most(self.bound + rounding);
+        let is_explained =
+            self.bound.less(rounding) & self.defect.abs().at_most(self.bound + rounding);
         let recounted = self.defect + recount.correction;
         self.defect = S::select(is_explained, recounted, self.defect);
         self

@@ -144,8 +144,9 @@ pub(crate) struct Exchange<S> {
     pub(crate) heat: S,
     /// Entropy that this end receives, without what is produced, J/K.
     pub(crate) entropy: S,
-    /// P, J/K.
-    pub(crate) production: S,
+    /// D and θ, K.
+    drop: S,
+    theta: S,
 }
 
 impl<S: Real> Exchange<S> {
@@ -156,8 +157,16 @@ impl<S: Real> Exchange<S> {
         Self {
             heat,
             entropy: heat / theta,
-            production: heat * (drop / (theta * (theta + drop))),
+            drop,
+            theta,
         }
+    }
+
+    /// P, J/K.
+    #[inline]
+    pub(crate) fn production(&self) -> S {
+        // The heat at this end may have either sign.
+        self.entropy.abs() * (self.drop.abs() / (self.theta + self.drop))
     }
 
     /// An element that is cooler by `drop` than a reservoir.

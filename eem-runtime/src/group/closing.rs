@@ -195,9 +195,10 @@ where
                 heat += path.heat;
                 // The production is booked at one end, after the exchange, which both ends share.
                 if slot > other {
-                    next.entropies.add(slot, path.production);
-                    received += path.production;
-                    tally.produce(path.production);
+                    let production = path.production();
+                    next.entropies.add(slot, production);
+                    received += production;
+                    tally.produce(production);
                     tally.turn_over(path.heat);
                 }
             }
@@ -232,10 +233,11 @@ where
             let path = Exchange::from_reservoir(share * link.conductance, drop, theta_r);
             next.reservoir_entropies.add(index, -path.entropy);
             next.entropies.add(slot, path.entropy);
-            next.entropies.add(slot, path.production);
-            tally.produce(path.production);
+            let production = path.production();
+            next.entropies.add(slot, production);
+            tally.produce(production);
             tally.turn_over(path.heat);
-            received += path.entropy + path.production;
+            received += path.entropy + production;
             if C::IMPLICIT < 1.0 {
                 // The flow of the old state, which the old rates have given to the element.
                 let old = theta_r - view.state.temperatures[slot];

@@ -47,9 +47,15 @@ impl<S: Real, const D: usize> Balance<S, D> {
     #[inline]
     pub(super) fn displace(&mut self, displacement: &mut [S; D], change: &[S; D]) {
         for axis in 0..D {
-            let change = self.rest[axis] + change[axis];
-            (displacement[axis], self.rest[axis]) = two_sum(displacement[axis], change);
+            self.displace_axis(axis, &mut displacement[axis], change[axis]);
         }
+    }
+
+    /// The same along one axis.
+    #[inline]
+    pub(super) fn displace_axis(&mut self, axis: usize, displacement: &mut S, change: S) {
+        let change = self.rest[axis] + change;
+        (*displacement, self.rest[axis]) = two_sum(*displacement, change);
     }
 
     /// `Δp = (2m/h)(Δq − (h/m) p⁰)`, N s, of a displacement; `twice_per_step` is 2/h.

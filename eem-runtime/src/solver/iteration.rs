@@ -46,12 +46,13 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let at = node.place.node();
             let mut displacement = trial.displacements[at];
             let per_length = self.per_length[at];
-            let (mut applied, zero) = ([S::zero(); D], S::zero());
+            // One by one, as the solution has been stored: a wider load would stall.
             for axis in 0..D {
-                applied[axis] = unless(settled, zero, change[axis]);
-                largest.see(change[axis] * per_length);
+                let change = change[axis];
+                let applied = unless(settled, S::zero(), change);
+                node.displace_axis(axis, &mut displacement[axis], applied);
+                largest.see(change * per_length);
             }
-            node.displace(&mut displacement, &applied);
             trial.displacements[at] = displacement;
             node.balance(&displacement, self.twice_per_step, values, rows);
         }
