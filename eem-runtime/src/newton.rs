@@ -4,8 +4,9 @@ use crate::scalar::{Mask, Real};
 
 /// How hard a step tries.
 ///
-/// The defaults suit every model and step size; a looser tolerance costs energy only to second
-/// order, the other laws hold for any.
+/// The tolerance decides when a trial is looked at as a solution. An exact scheme then takes it only if
+/// what is closed from there [proves its laws](StepReport::defect), and iterates on otherwise: a looser
+/// tolerance cannot break them.
 ///
 /// ```
 /// use eem_runtime::NewtonSettings;
@@ -24,8 +25,8 @@ pub struct NewtonSettings<S> {
     /// Iterations after which a step is given up. Default 50. More only helps steps that are far
     /// too large.
     pub max_iterations: usize,
-    /// The largest update, in units of the longest stretch and of the temperatures, that may be
-    /// the last one. Default √ε, 1.5·10⁻⁸ in double precision: the error after the update is its
+    /// The largest update, in units of the shortest stretch at each node and of the temperatures, that may
+    /// be the last one. Default √ε, 1.5·10⁻⁸ in double precision: the error after the update is its
     /// square. Smaller costs iterations and gains nothing.
     pub tolerance: S,
 }
@@ -39,7 +40,7 @@ impl<S: Real> Default for NewtonSettings<S> {
     }
 }
 
-/// What Newton's method needed for one step.
+/// What Newton's method needed for one step, and what the step proves of itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepReport<S> {
     /// The time at the end of the step, s.
@@ -48,7 +49,7 @@ pub struct StepReport<S> {
     pub step: S,
     /// Newton iterations.
     pub iterations: usize,
-    /// The last scaled update.
+    /// The last scaled update, the largest of the phases of a staggered step.
     pub update: S,
     /// The largest residual of the momentum balances at the new state, N s.
     pub residual: S,

@@ -47,7 +47,8 @@ pub(crate) use variational::Variational;
 /// | `MidpointTemperature` | no | no | exact | 2 |
 /// | `Trapezoidal`, `TrapezoidalTemperature` | no | no | no | 2 |
 ///
-/// "Exact" is to rounding, at every step and for any step size. `Variational4` is stable where vibrations
+/// "Exact" is to rounding, at every step and for any step size: a step that does not prove it is an error,
+/// see [`StepReport::defect`](crate::StepReport::defect). `Variational4` is stable where vibrations
 /// are resolved, `ωh < √8`; it solves for twice as many unknowns.
 ///
 /// ```

@@ -143,8 +143,9 @@ fn capacities(effort: Effort) -> Tally {
             let mut circle = small_capacity(scheme, capacity, 0.0);
             let circular = format!("circle, {label}");
             circle.steps(steps);
-            // The mechanical phase of a staggered step keeps the entropy, which no small capacity bears.
-            if FORMS.contains(&scheme) {
+            // The entropy form finds a circle with a small capacity from that of the temperature form, after
+            // its own start has failed.
+            if scheme == Scheme::EemTemperature {
                 tally.add_swift(circular, &circle.record, scheme);
             } else {
                 tally.add(circular, &circle.record);
