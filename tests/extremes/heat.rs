@@ -3,7 +3,7 @@
 use super::findings::{contact, on_anchor, small_capacity};
 use super::models::{Hot, Lattice, ThermoViscoElastic, Thermoelastic};
 use super::tally::{Effort, Family, Tally};
-use super::watched::{EXACT, FORMS, Watched};
+use super::watched::{EXACT, Watched};
 use super::world::World;
 
 pub(crate) const FAMILIES: &[Family] = &[
@@ -145,7 +145,7 @@ fn capacities(effort: Effort) -> Tally {
             circle.steps(steps);
             // The entropy form finds a circle with a small capacity from that of the temperature form, after
             // its own start has failed.
-            if scheme == Scheme::EemTemperature {
+            if scheme == eem::Scheme::EemTemperature {
                 tally.add_swift(circular, &circle.record, scheme);
             } else {
                 tally.add(circular, &circle.record);

@@ -27,7 +27,7 @@ where
             let x = ends.map(|state| member.variables_in(self.kinematics, state));
             let increments = member.increments_between(self.kinematics, &x, ends);
             let by_differences = member.energy_change(&x, &increments);
-            let found = member.change_of(&member.response, &increments);
+            let found = Member::<S, M, K, C, D>::change_of(&member.response, &increments);
             let magnitude = x.map(|x| member.model.energy_magnitude(&x));
             let by_values = [by_values, magnitude[0] + magnitude[1]];
             recount.element(member.element, by_values, by_differences, found);
@@ -215,7 +215,7 @@ where
     }
 
     /// `f*Δλ − Σ g*Δγ + θ*Δs`, J.
-    fn change_of(&self, response: &M::Response, increments: &M::Variables) -> S {
+    fn change_of(response: &M::Response, increments: &M::Variables) -> S {
         let mut sum = S::zero();
         for row in 0..Self::VARIABLES {
             let is_dashpot = (M::MEASURES..Self::TEMPERATURE).contains(&row);
@@ -230,6 +230,6 @@ where
     fn energy_change(&self, [x0, x1]: &[M::Variables; 2], increments: &M::Variables) -> S {
         let old = self.model.temperature_form_old(x0);
         let response = self.model.temperature_form_response(&old, x1);
-        self.change_of(&response, increments)
+        Self::change_of(&response, increments)
     }
 }

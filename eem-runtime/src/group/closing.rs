@@ -153,15 +153,13 @@ where
             }
         }
         tally.turn_over(dissipated);
-        match slots.thermal {
-            Some(slot) => self.book_heat(view, slot, dissipated, (contact, trial), next, tally),
-            None => {
-                if M::DASHPOTS > 0 {
-                    next.dissipated.add(dissipated + h * self.old_dissipation());
-                }
-                S::zero()
+        let Some(slot) = slots.thermal else {
+            if M::DASHPOTS > 0 {
+                next.dissipated.add(dissipated + h * self.old_dissipation());
             }
-        }
+            return S::zero();
+        };
+        self.book_heat(view, (slot, dissipated), (contact, trial), next, tally)
     }
 
     /// The same of the entropy of an element whose dashpots give it so much heat, J.
@@ -169,8 +167,7 @@ where
     fn book_heat(
         &self,
         view: &StepView<'_, S>,
-        slot: usize,
-        dissipated: S,
+        (slot, dissipated): (usize, S),
         (contact, trial): (Option<&Contact<K, S, D>>, &Trial<S, D>),
         next: &mut State<S>,
         tally: &mut Tally<S>,
