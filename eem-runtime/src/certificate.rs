@@ -22,10 +22,17 @@
 //! term carries some roundings; 64 is eight times the largest `|R|/(ε (A + A⁺))` that a right step has
 //! shown, near an anchor. Momenta and productions are judged beside the energy.
 
+mod motion;
+mod recount;
+mod tally;
+
 use crate::error::{Law, StepFailure};
 use crate::handle::Element;
-use crate::kernel::two_sum;
 use crate::scalar::{Mask, Real};
+
+pub(crate) use motion::{Kept, Motion, NodeStep};
+pub(crate) use recount::Recount;
+pub(crate) use tally::{Care, Tally};
 
 /// Roundings of the amplitude that a law may be off by.
 const ROUNDINGS: f64 = 64.0;
@@ -36,197 +43,8 @@ const ENOUGH: f64 = 0.03125;
 /// Roundings of `Σ |q||p|` and of `Σ |p|` up to which a step is taken without another iteration.
 const ENOUGH_MOMENTUM: f64 = 4.0;
 
-/// Roundings of the terms of the balance of a node, a dashpot or a temperature that it may be off by, when
-/// the arguments of the forces are left out: what is left of a small update is of this size, where false
-/// convergence is off by the terms themselves. Energy and momenta are judged apart.
-const BALANCE_ROUNDINGS: f64 = 4096.0;
-
 /// Roundings of the largest terms of a free energy, in the evaluation of which several add up.
 const VALUE_ROUNDINGS: f64 = 4.0;
-
-/// How much of what rounding explains is counted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Care {
-    /// The terms of the balances alone, which is enough for most steps.
-    Quick,
-    /// Also the rounding of the arguments of the forces.
-    Thorough,
-}
-
-/// What elements and paths of heat contribute to a certificate.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Tally<S: Real> {
-    pub(crate) care: Care,
-    /// Heat that flows, J.
-    heat: S,
-    /// What forces contribute to A, and A⁺, J.
-    forces: S,
-    /// What they have produced, J/K.
-    production: S,
-    /// The smallest of all productions; the largest number without any, J/K.
-    least: S,
-    /// Every balance of an internal variable holds to rounding.
-    is_balanced: S::Mask,
-}
-
-impl<S: Real> Tally<S> {
-    /// Of nothing.
-    pub(crate) fn new(care: Care) -> Self {
-        Self {
-            care,
-            heat: S::zero(),
-            forces: S::zero(),
-            production: S::zero(),
-            least: S::MAX,
-            is_balanced: !S::Mask::none(),
-        }
-    }
-
-    /// Heat that takes part in the balance, J.
-    #[inline]
-    pub(crate) fn turn_over(&mut self, heat: S) {
-        self.heat += heat.abs();
-    }
-
-    /// What the forces of an element and the rounding of their arguments contribute, J.
-    #[inline]
-    pub(crate) fn force(&mut self, energy: S) {
-        self.forces += energy;
-    }
-
-    /// Entropy that a dashpot or a path of heat has produced, J/K.
-    #[inline]
-    pub(crate) fn produce(&mut self, entropy: S) {
-        self.production += entropy;
-        self.least = self.least.minimum(entropy);
-    }
-
-    /// What a balance is off by, and the magnitude of its terms.
-    #[inline]
-    pub(crate) fn balance(&mut self, residual: S, magnitude: S) {
-        let roundings = match self.care {
-            Care::Quick => BALANCE_ROUNDINGS,
-            Care::Thorough => ROUNDINGS,
-        };
-        let bound = S::from_f64(roundings) * S::EPSILON * magnitude;
-        self.is_balanced = self.is_balanced & residual.abs().at_most(bound);
-    }
-}
-
-/// What the motion of the nodes contributes to a certificate.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Motion<S, const D: usize> {
-    /// What momenta are kept, and about which point, m.
-    pub(crate) kept: Kept<S, D>,
-    /// `Σ v̄·Δp − work`, J.
-    energy: Sum<S>,
-    amplitude: S,
-    /// `Σ (Δp − hF)` of the loads F, and `Σ |p|`, kg m/s.
-    linear: [S; D],
-    momenta: S,
-    /// `Σ (q_m − o) × (Δp − hF) + Δq × p_m`, and `Σ |q_m − o||p|`, kg m²/s.
-    angular: [S; 3],
-    moments: S,
-}
-
-/// Which momenta a scene keeps but for its loads.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Kept<S, const D: usize> {
-    /// With two anchors or more, or moved ones: none.
-    None,
-    /// With one anchor at this place: the angular momentum about it.
-    Angular([S; D]),
-    /// Without anchors: both, about the origin.
-    Both,
-}
-
-/// What a node did in a step.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct NodeStep<'a, S, const D: usize> {
-    /// `1/m`, 1/kg.
-    pub(crate) per_mass: S,
-    /// q⁰, m.
-    pub(crate) position: &'a [S; D],
-    /// p⁰, kg m/s.
-    pub(crate) momentum: &'a [S; D],
-    /// Δq, m.
-    pub(crate) displacement: &'a [S; D],
-    /// Δp, kg m/s.
-    pub(crate) impulse: &'a [S; D],
-}
-
-impl<S: Real, const D: usize> Motion<S, D> {
-    /// Of nothing.
-    pub(crate) fn new(kept: Kept<S, D>) -> Self {
-        let zero = S::zero();
-        Self {
-            kept,
-            energy: Sum::new(),
-            amplitude: zero,
-            linear: [zero; D],
-            momenta: zero,
-            angular: [zero; 3],
-            moments: zero,
-        }
-    }
-
-    /// A node that moves, with the force of its loads if there are any, N.
-    #[inline]
-    pub(crate) fn see(&mut self, node: &NodeStep<'_, S, D>, force: Option<&[S; D]>, step: S) {
-        let half = S::from_f64(0.5);
-        let (mut gain, mut square) = (S::zero(), S::zero());
-        for (&p, &change) in node.momentum.iter().zip(node.impulse) {
-            let end = p + change;
-            gain += (p + half * change) * change;
-            square += p * p + end * end;
-        }
-        self.energy.add(gain * node.per_mass);
-        self.amplitude += half * square * node.per_mass;
-        if D > 0 && !matches!(self.kept, Kept::None) {
-            let load = force.map(|force| force.map(|force| step * force));
-            self.see_momenta(node, &load.unwrap_or([S::zero(); D]));
-        }
-        if let Some(force) = force {
-            for (&force, &displacement) in force.iter().zip(node.displacement) {
-                self.work(force * displacement);
-            }
-        }
-    }
-
-    /// Work that a load or a support has done, J.
-    #[inline]
-    pub(crate) fn work(&mut self, work: S) {
-        self.energy.add(-work);
-        self.amplitude += work.abs();
-    }
-
-    fn see_momenta(&mut self, node: &NodeStep<'_, S, D>, load: &[S; D]) {
-        let half = S::from_f64(0.5);
-        let origin = match self.kept {
-            Kept::Angular(origin) => origin,
-            Kept::None | Kept::Both => [S::zero(); D],
-        };
-        let (mut arm, mut mean, mut net) = ([S::zero(); D], [S::zero(); D], [S::zero(); D]);
-        let (mut length, mut size) = (S::zero(), S::zero());
-        for axis in 0..D {
-            let (p, change) = (node.momentum[axis], node.impulse[axis]);
-            arm[axis] = (node.position[axis] - origin[axis]) + half * node.displacement[axis];
-            mean[axis] = p + half * change;
-            net[axis] = change - load[axis];
-            self.linear[axis] += net[axis];
-            length += arm[axis].abs() + node.displacement[axis].abs();
-            size += p.abs() + (p + change).abs() + load[axis].abs();
-        }
-        self.momenta += size;
-        self.moments += length * size;
-        for (angular, [i, j]) in self.angular.iter_mut().zip([[0, 1], [0, 2], [1, 2]]) {
-            if j < D {
-                let turned = |a: &[S; D], b: &[S; D]| a[i] * b[j] - a[j] * b[i];
-                *angular += turned(&arm, &net) + turned(node.displacement, &mean);
-            }
-        }
-    }
-}
 
 /// What a step has proved.
 #[derive(Clone, Copy, Debug)]
@@ -390,80 +208,5 @@ impl Law {
             element,
             time: time.to_f64(),
         }
-    }
-}
-
-/// A sum to twice the precision, so that adding up a large scene costs no digits.
-#[derive(Clone, Copy, Debug)]
-struct Sum<S> {
-    value: S,
-    rest: S,
-}
-
-impl<S: Real> Sum<S> {
-    fn new() -> Self {
-        let (value, rest) = (S::zero(), S::zero());
-        Self { value, rest }
-    }
-
-    #[inline]
-    fn add(&mut self, term: S) {
-        let (value, rest) = two_sum(self.value, term);
-        self.value = value;
-        self.rest += rest;
-    }
-
-    fn value(self) -> S {
-        self.value + self.rest
-    }
-}
-
-/// The energies of the elements counted anew, when the balance of a scene does not close.
-///
-/// Where a free energy is coded with terms that cancel, its values have more rounding than its
-/// differences: then `Δe` by discrete derivatives, formed anew between the stored states, decides.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Recount<S> {
-    /// `Σ (Δe by differences − Δe by values)`, J.
-    pub(crate) correction: S,
-    /// The magnitude of the terms of all free energies at both ends, J.
-    pub(crate) magnitude: S,
-    /// The element whose own balance is off by most, and by how much, J.
-    worst: Option<(Element, S)>,
-}
-
-impl<S: Real> Recount<S> {
-    /// Of no elements.
-    pub(crate) fn new() -> Self {
-        Self {
-            correction: S::zero(),
-            magnitude: S::zero(),
-            worst: None,
-        }
-    }
-
-    /// An element with its `Δe` by values, the magnitude of the terms of its free energy at both ends, its `Δe`
-    /// by differences, and `f*Δλ − Σ g*Δγ + θ*Δs` with what the step has found, J.
-    pub(crate) fn element(
-        &mut self,
-        element: Element,
-        [by_values, magnitude]: [S; 2],
-        by_differences: S,
-        found: S,
-    ) {
-        self.correction += by_differences - by_values;
-        self.magnitude += magnitude;
-        let defect = (by_differences - found).abs();
-        let is_worse = self
-            .worst
-            .is_none_or(|(_, worst)| !defect.at_most(worst).decide());
-        if is_worse {
-            self.worst = Some((element, defect));
-        }
-    }
-
-    /// The element whose own balance is off by most.
-    pub(crate) fn worst(&self) -> Option<Element> {
-        self.worst.map(|(element, _)| element)
     }
 }
