@@ -22,14 +22,14 @@ fn chain() -> Scene<2> {
     scene
 }
 
-/// Of a thermoelastic spring in the plane with its node: 408 B of the element and its part of the trial
-/// state, 284 B of the tangent with its pattern, factors and solution, in the memory of which the secant
-/// system is solved too, 176 B of the old and the new state, 112 B of the solver's vectors, 16 B of what the
-/// simulation knows of node and element: 996 B, and what does not grow with the chain.
-const BYTES: i64 = 1_000;
+/// Of a thermoelastic spring in the plane with its node: the element and its part of the trial state, 408 B;
+/// the tangent with its pattern, factors and solution, 284 B; the old and the new state with their
+/// energies, 208 B; the solver's vectors; what the simulation knows of node and element, 16 B. 1077 B were
+/// measured.
+const BYTES: i64 = 1_100;
 
 /// With the scene from which the simulation is made, whose lists have grown by doubling.
-const BYTES_AT_MOST: u64 = 1_200;
+const BYTES_AT_MOST: u64 = 1_300;
 
 #[test]
 fn a_spring_of_a_chain_takes_what_is_said() {

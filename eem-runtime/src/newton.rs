@@ -22,8 +22,9 @@ use crate::scalar::{Mask, Real};
     serde(deny_unknown_fields)
 )]
 pub struct NewtonSettings<S> {
-    /// Iterations after which a step is given up. Default 50. More only helps steps that are far
-    /// too large.
+    /// Iterations after which an attempt is given up. Default 50. More only helps steps that are far
+    /// too large. Where the first attempt fails, an exact scheme makes several, from other starts and
+    /// in parts of the step; reports and errors count the iterations of all.
     pub max_iterations: usize,
     /// The largest update, in units of the shortest stretch at each node and of the temperatures, that may
     /// be the last one. Default √ε, 1.5·10⁻⁸ in double precision: the error after the update is its
@@ -54,7 +55,8 @@ pub struct StepReport<S> {
     /// The largest residual of the momentum balances at the new state, N s.
     pub residual: S,
     /// `ΔE − work − heat` of the step, formed with energies of the stored states, J. See
-    /// [`bound`](Self::bound).
+    /// [`bound`](Self::bound). In the first step after a checkpoint was restored its last roundings may be
+    /// others, as the energies of the old state are evaluated anew.
     pub defect: S,
     /// What rounding may do to [`defect`](Self::defect): `64 ε` times the magnitudes of all terms of
     /// the balance and of their arguments, J. A step of an exact scheme beyond it is an error,

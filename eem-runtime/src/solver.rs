@@ -108,6 +108,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             tangent,
             trial: Trial {
                 displacements: points.clone(),
+                rests: points.clone(),
                 seen: SeenTemperatures::new(slots),
                 is_start: false,
                 settled: S::Mask::none(),
@@ -171,7 +172,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             if is_full && purpose == Purpose::Close {
                 match self.conclude(groups, view, target, &mut progress) {
                     Conclusion::Found(certificate) => {
-                        effort.conclude(self.final_residual, before);
+                        effort.conclude(self.final_residual);
                         return Ok(certificate);
                     }
                     Conclusion::Refused(failure) => return Err(failure),

@@ -17,6 +17,8 @@ pub(crate) struct Motion<S, const D: usize> {
     /// `Σ (q_m − o) × (Δp − hF) + Δq × p_m`, and `Σ |q_m − o||p|`, kg m²/s.
     pub(super) angular: [S; 3],
     pub(super) moments: S,
+    /// The largest `|q_m − o|`, m.
+    pub(super) farthest: S,
 }
 
 /// Which momenta a scene keeps but for its loads.
@@ -57,6 +59,7 @@ impl<S: Real, const D: usize> Motion<S, D> {
             momenta: zero,
             angular: [zero; 3],
             moments: zero,
+            farthest: zero,
         }
     }
 
@@ -107,6 +110,7 @@ impl<S: Real, const D: usize> Motion<S, D> {
             length += arm[axis].abs() + node.displacement[axis].abs();
             size += p.abs() + (p + change).abs() + load[axis].abs();
         }
+        self.farthest = self.farthest.maximum(length);
         self.momenta += size;
         self.moments += length * size;
         for (angular, [i, j]) in self.angular.iter_mut().zip([[0, 1], [0, 2], [1, 2]]) {

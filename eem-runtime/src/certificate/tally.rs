@@ -23,6 +23,8 @@ pub(crate) struct Tally<S: Real> {
     pub(crate) care: Care,
     /// Heat that flows, J.
     pub(super) heat: S,
+    /// `Σ h |f*|`, N s.
+    pub(super) impulse: S,
     /// What forces contribute to A, and A⁺, J.
     pub(super) forces: S,
     /// What they have produced, J/K.
@@ -39,6 +41,7 @@ impl<S: Real> Tally<S> {
         Self {
             care,
             heat: S::zero(),
+            impulse: S::zero(),
             forces: S::zero(),
             production: S::zero(),
             least: S::MAX,
@@ -50,6 +53,12 @@ impl<S: Real> Tally<S> {
     #[inline]
     pub(crate) fn turn_over(&mut self, heat: S) {
         self.heat += heat.abs();
+    }
+
+    /// The impulse between the nodes of an element, N s.
+    #[inline]
+    pub(crate) fn exchange(&mut self, impulse: S) {
+        self.impulse += impulse.abs();
     }
 
     /// What the forces of an element and the rounding of their arguments contribute, J.

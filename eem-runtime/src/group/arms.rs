@@ -1,5 +1,6 @@
 //! Arithmetic with the arms of an element, and with what there is per arm.
 
+use super::Trial;
 use crate::compensated::Compensated;
 use crate::free_energy::Array;
 use crate::kinematics::{Arms, Gradient, Kinematics, Measures};
@@ -53,6 +54,29 @@ pub(super) fn arms_in<K: Kinematics<S, D>, S: Real, const D: usize>(
         }
     }
     arms
+}
+
+/// The change of the arms of an element at a trial, to rounding of the change wherever the nodes go.
+#[inline]
+pub(super) fn change_in<K: Kinematics<S, D>, S: Real, const D: usize>(
+    nodes: &K::PerNode<u32>,
+    trial: &Trial<S, D>,
+) -> Arms<K, S, D> {
+    let of = |node: u32| {
+        (
+            &trial.displacements[node as usize],
+            &trial.rests[node as usize],
+        )
+    };
+    let (first, first_rest) = of(nodes[0]);
+    let mut change = Arms::<K, S, D>::filled([S::zero(); D]);
+    for (arm, &node) in change.as_mut().iter_mut().zip(&nodes.as_ref()[1..]) {
+        let (other, rest) = of(node);
+        for axis in 0..D {
+            arm[axis] = (other[axis] - first[axis]) + (rest[axis] - first_rest[axis]);
+        }
+    }
+    change
 }
 
 /// Derivatives by arms as derivatives by positions.

@@ -8,7 +8,7 @@
 //! with the exchange `u` and the production `P ≥ 0` of every path of heat, see
 //! [`conduction`](crate::conduction). Both ends of a path book the same numbers.
 
-use super::arms::{arms, measures_in, resultant, spread};
+use super::arms::{change_in, measures_in, resultant, spread};
 use super::member::Member;
 use super::pose::Pose;
 use super::site::Contact;
@@ -49,7 +49,7 @@ where
                 let share = view.step * S::from_f64(C::IMPLICIT);
                 (share, member.force(self.kinematics, at, [r0, &r1]))
             } else {
-                let mut mean = arms::<K, S, D>(nodes, &trial.displacements);
+                let mut mean = change_in::<K, S, D>(nodes, trial);
                 if C::EXACT && !magnitudes.is_empty() {
                     member.add_magnitude(view.step, &mean, magnitudes);
                 }

@@ -1,6 +1,6 @@
 //! The response of the elements at a trial state, and what must be true of it.
 
-use super::arms::{arms, measures_in};
+use super::arms::{change_in, measures_in};
 use super::member::Member;
 use super::pose::{Pose, seen_arms, seen_measures};
 use super::{StepView, Trial};
@@ -56,7 +56,7 @@ where
     /// The new arms `r¹ = r⁰ + Δr`.
     #[inline]
     pub(super) fn new_arms(&self, trial: &Trial<S, D>) -> Arms<K, S, D> {
-        let mut r1 = arms::<K, S, D>(&self.site.nodes, &trial.displacements);
+        let mut r1 = change_in::<K, S, D>(&self.site.nodes, trial);
         for (arm, old) in r1.as_mut().iter_mut().zip(self.r0.as_ref()) {
             for axis in 0..D {
                 arm[axis] += old[axis];
@@ -152,7 +152,7 @@ where
     /// The motion `r¹ − r⁰ − (1 − w) h ṙ⁰` of the arms.
     fn motion(&self, view: &StepView<'_, S>, trial: &Trial<S, D>) -> Arms<K, S, D> {
         let rest = (S::one() - S::from_f64(C::IMPLICIT)) * view.step;
-        let mut motion = arms::<K, S, D>(&self.site.nodes, &trial.displacements);
+        let mut motion = change_in::<K, S, D>(&self.site.nodes, trial);
         let velocities = self.old_velocities(view);
         for (motion, velocity) in motion.as_mut().iter_mut().zip(velocities.as_ref()) {
             for (motion, &velocity) in motion.iter_mut().zip(velocity) {

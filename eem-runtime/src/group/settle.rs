@@ -37,6 +37,7 @@ where
             if C::EXACT {
                 let forces = member.amplitude(tally.care);
                 tally.force(forces);
+                tally.exchange(view.step * member.response[0]);
                 let magnitude = next.energies[member.element.index].magnitude + forces;
                 member.judge(view, (contact, trial), [received, magnitude], tally);
             }

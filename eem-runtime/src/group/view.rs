@@ -55,6 +55,8 @@ impl<S: Real> StepView<'_, S> {
 pub(crate) struct Trial<S: Real, const D: usize> {
     /// q¹ − q⁰ of all nodes, m.
     pub(crate) displacements: Vec<[S; D]>,
+    /// What rounding has taken from them, m.
+    pub(crate) rests: Vec<[S; D]>,
     /// θ* as elements in contact see it, Θ; an unknown where the slot is coupled.
     pub(crate) seen: SeenTemperatures<S>,
     /// Elements answer with the [starting form](crate::scheme::ElementScheme::starting_form) of their

@@ -16,8 +16,6 @@ pub(super) struct Balance<S, const D: usize> {
     /// `−h F⁰` with the part F⁰ of the force that the old state and the loads decide, N s; zero while
     /// nothing moves.
     pub(super) push: [S; D],
-    /// What rounding has taken from the displacement of the trial, m.
-    pub(super) rest: [S; D],
 }
 
 impl<S: Real, const D: usize> Balance<S, D> {
@@ -26,14 +24,12 @@ impl<S: Real, const D: usize> Balance<S, D> {
             place,
             flight: [S::zero(); D],
             push: [S::zero(); D],
-            rest: [S::zero(); D],
         }
     }
 
     /// What does not change during a step, given p⁰ and F⁰.
     #[inline]
     pub(super) fn weigh(&mut self, view: &StepView<'_, S>, momentum: &[S; D], force: [S; D]) {
-        self.rest = [S::zero(); D];
         if view.phase.moves() {
             let mobility = view.step * self.place.per_mass;
             self.flight = momentum.map(|momentum| mobility * momentum);
@@ -43,30 +39,13 @@ impl<S: Real, const D: usize> Balance<S, D> {
         }
     }
 
-    /// Adds to a displacement, to twice the precision.
-    #[inline]
-    pub(super) fn displace(&mut self, displacement: &mut [S; D], change: &[S; D]) {
-        for axis in 0..D {
-            self.displace_axis(axis, &mut displacement[axis], change[axis]);
-        }
-    }
-
-    /// The same along one axis.
-    #[inline]
-    pub(super) fn displace_axis(&mut self, axis: usize, displacement: &mut S, change: S) {
-        let change = self.rest[axis] + change;
-        (*displacement, self.rest[axis]) = two_sum(*displacement, change);
-    }
-
     /// `Δp = (2m/h)(Δq − (h/m) p⁰)`, N s, of a displacement; `twice_per_step` is 2/h.
     ///
     /// It has the digits of Δp also where that is small beside p, and those of Δq where `Δp ≈ −2p⁰`.
     #[inline]
-    pub(super) fn impulse(&self, displacement: &[S; D], twice_per_step: S) -> [S; D] {
+    pub(super) fn impulse(&self, [displacement, rest]: [&[S; D]; 2], twice_per_step: S) -> [S; D] {
         let inertia = self.place.mass * twice_per_step;
-        array::from_fn(|axis| {
-            inertia * ((displacement[axis] - self.flight[axis]) + self.rest[axis])
-        })
+        array::from_fn(|axis| inertia * ((displacement[axis] - self.flight[axis]) + rest[axis]))
     }
 
     /// Starts residual and tangent of its momentum balance at a displacement, with `p¹` eliminated,
@@ -79,7 +58,7 @@ impl<S: Real, const D: usize> Balance<S, D> {
     #[inline]
     pub(super) fn balance(
         &self,
-        displacement: &[S; D],
+        displacement: [&[S; D]; 2],
         twice_per_step: S,
         values: &mut [S],
         rows: &mut [S; D],
@@ -91,4 +70,10 @@ impl<S: Real, const D: usize> Balance<S, D> {
         let impulse = self.impulse(displacement, twice_per_step);
         *rows = array::from_fn(|axis| self.push[axis] - impulse[axis]);
     }
+}
+
+/// Adds to a displacement along an axis, to twice the precision.
+#[inline]
+pub(super) fn displace<S: Real>(displacement: &mut S, rest: &mut S, change: S) {
+    (*displacement, *rest) = two_sum(*displacement, *rest + change);
 }

@@ -97,7 +97,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
                     array::from_fn(|axis| mobility * (momentum[axis] + half_step * force[axis]));
             }
             (self.trial.displacements[at], *change) = (displacement, displacement);
-            node.balance(&displacement, self.twice_per_step, values, rows);
+            let rest = [S::zero(); D];
+            self.trial.rests[at] = rest;
+            node.balance([&displacement, &rest], self.twice_per_step, values, rows);
         }
     }
 

@@ -145,9 +145,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let mut remembering = self.past.remember();
         for node in &self.nodes {
             let at = node.place.node();
-            let displacement = &self.trial.displacements[at];
+            let (displacement, rest) = (&self.trial.displacements[at], &self.trial.rests[at]);
             if takes_increments {
-                let impulse = node.impulse(displacement, self.twice_per_step);
+                let impulse = node.impulse([displacement, rest], self.twice_per_step);
                 let found = remembering.impulse_mut(at);
                 for axis in 0..D {
                     let residual = impulse[axis] - found[axis];
@@ -174,7 +174,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 has_load.then(|| view.loads.total_force(at)).as_ref(),
                 view.step,
             );
-            move_node(at, [displacement, &node.rest, impulse], view.state, next)?;
+            move_node(at, [displacement, rest, impulse], view.state, next)?;
             remembering.take(at, per_step, node.place.per_mass);
         }
         remembering.finish();
@@ -238,9 +238,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let half = S::from_f64(0.5);
         let p0 = points::<S, D>(view.state.momenta.values());
         let mut impulses = self.past.impulses();
-        for node in &mut self.nodes {
+        for node in &self.nodes {
             let at = node.place.node();
-            node.rest = [S::zero(); D];
+            self.trial.rests[at] = [S::zero(); D];
             let mobility = view.step * node.place.per_mass;
             let impulse = impulses.of(at);
             let displacement =

@@ -44,7 +44,8 @@ const PATIENCE: usize = 10;
 pub(super) struct Progress<S> {
     /// Iterations of this attempt.
     iterations: usize,
-    /// The smallest update so far.
+    /// The last update, and the smallest so far.
+    last: S,
     smallest: S,
     /// Consecutive updates that did not fall.
     stuck: u32,
@@ -68,6 +69,7 @@ impl<S: Real> Progress<S> {
     pub(super) fn new() -> Self {
         Self {
             iterations: 0,
+            last: S::MAX,
             smallest: S::MAX,
             stuck: 0,
             draws: 0,
@@ -81,6 +83,7 @@ impl<S: Real> Progress<S> {
     /// that does not fall shows a state at which the balances are looked at.
     pub(super) fn is_stuck(&mut self, update: S, before: Option<S>) -> bool {
         self.iterations += 1;
+        self.last = update;
         self.smallest = self.smallest.minimum(update);
         let stagnates = before.is_some_and(|before| update >= S::from_f64(STAGNATION) * before);
         let is_small = update < S::from_f64(CONTRACTION);
@@ -157,14 +160,17 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 return Conclusion::Open;
             }
         }
+        if !certificate.is_balanced() || S::LANES > 1 {
+            return Conclusion::Refused(StepFailure::NotConverged {
+                update: progress.last.to_f64(),
+            });
+        }
         match certificate.broken_law() {
-            None if S::LANES == 1 && certificate.is_balanced() => {
-                Conclusion::Found(Some(certificate))
-            }
-            None => Conclusion::Refused(StepFailure::NotConverged { update: f64::NAN }),
+            None => Conclusion::Found(Some(certificate)),
             Some((law, sizes)) => {
                 let element = self.worst.filter(|_| law == Law::Energy);
-                Conclusion::Refused(law.not_kept(sizes, element, next.time.value))
+                let time = view.state.time.value + view.step;
+                Conclusion::Refused(law.not_kept(sizes, element, time))
             }
         }
     }

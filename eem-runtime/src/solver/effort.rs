@@ -70,10 +70,10 @@ impl<S: Real> Effort<S> {
         }
     }
 
-    /// Another phase of the step is done, with this residual after this update.
+    /// Another phase of the step is done, with this residual after the last update.
     #[inline]
-    pub(crate) fn conclude(&mut self, residual: S, update: Option<S>) {
-        let update = update.unwrap_or(S::zero());
+    pub(crate) fn conclude(&mut self, residual: S) {
+        let update = self.history.last().map_or(S::zero(), |last| last.update);
         self.end = Iteration {
             residual: self.end.residual.maximum(residual),
             update: self.end.update.maximum(update),

@@ -1,6 +1,7 @@
 //! The global system of an iteration, and what its solution means.
 
 use super::Solver;
+use super::balance::displace;
 use super::places::Seen;
 use crate::group::{Group, StepView};
 use crate::newton::Largest;
@@ -15,8 +16,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
         for (node, rows) in self.nodes.iter().zip(rows) {
+            let at = node.place.node();
             node.balance(
-                &self.trial.displacements[node.place.node()],
+                [&self.trial.displacements[at], &self.trial.rests[at]],
                 self.twice_per_step,
                 values,
                 rows,
@@ -42,19 +44,19 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let mut largest = Largest::none();
         let changes = solution.as_flattened().as_chunks::<D>().0;
         let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
-        for ((node, change), rows) in self.nodes.iter_mut().zip(changes).zip(rows) {
+        for ((node, change), rows) in self.nodes.iter().zip(changes).zip(rows) {
             let at = node.place.node();
-            let mut displacement = trial.displacements[at];
+            let (mut displacement, mut rest) = (trial.displacements[at], trial.rests[at]);
             let per_length = self.per_length[at];
             // One by one, as the solution has been stored: a wider load would stall.
             for axis in 0..D {
                 let change = change[axis];
                 let applied = unless(settled, S::zero(), change);
-                node.displace_axis(axis, &mut displacement[axis], applied);
+                displace(&mut displacement[axis], &mut rest[axis], applied);
                 largest.see(change * per_length);
             }
-            trial.displacements[at] = displacement;
-            node.balance(&displacement, self.twice_per_step, values, rows);
+            (trial.displacements[at], trial.rests[at]) = (displacement, rest);
+            node.balance([&displacement, &rest], self.twice_per_step, values, rows);
         }
         for &Seen { slot, row } in &self.seen {
             let change = solution[row][0];
@@ -73,9 +75,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let trial = &mut self.trial;
         let solution = self.tangent.solution();
         let changes = solution.as_flattened().as_chunks::<D>().0;
-        for (node, change) in self.nodes.iter_mut().zip(changes) {
-            let displacement = &mut trial.displacements[node.place.node()];
-            node.displace(displacement, &change.map(|change| -share * change));
+        for (node, change) in self.nodes.iter().zip(changes) {
+            let at = node.place.node();
+            for (axis, &change) in change.iter().enumerate() {
+                let displacement = &mut trial.displacements[at][axis];
+                displace(displacement, &mut trial.rests[at][axis], -share * change);
+            }
         }
         for &Seen { slot, row } in &self.seen {
             trial.seen.add(slot, -share * solution[row][0]);
@@ -94,10 +99,13 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let growth = factor - S::one();
         let solution = self.tangent.solution_mut();
         let changes = solution.as_flattened_mut().as_chunks_mut::<D>().0;
-        for (node, change) in self.nodes.iter_mut().zip(changes) {
-            let displacement = &mut self.trial.displacements[node.place.node()];
-            *change = displacement.map(|component| growth * component);
-            node.displace(displacement, change);
+        for (node, change) in self.nodes.iter().zip(changes) {
+            let at = node.place.node();
+            for (axis, change) in change.iter_mut().enumerate() {
+                let displacement = &mut self.trial.displacements[at][axis];
+                *change = growth * *displacement;
+                displace(displacement, &mut self.trial.rests[at][axis], *change);
+            }
         }
         for seen in &self.seen {
             solution[seen.row] = [S::zero()];

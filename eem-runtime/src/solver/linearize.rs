@@ -16,8 +16,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         effort: &mut Effort<S>,
     ) -> Result<(Vec<S>, Vec<S>), StepFailure> {
         self.begin(groups, view, Start::Foretold)?;
-        for (node, &displacement) in self.nodes.iter_mut().zip(unknowns.as_chunks::<D>().0) {
-            node.rest = [S::zero(); D];
+        for (node, &displacement) in self.nodes.iter().zip(unknowns.as_chunks::<D>().0) {
+            self.trial.rests[node.place.node()] = [S::zero(); D];
             self.trial.displacements[node.place.node()] = displacement;
         }
         for seen in &self.seen {

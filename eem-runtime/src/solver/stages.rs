@@ -166,7 +166,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
             self.follow(groups, view, effort).map_err(|_| failure)?;
         }
         if let Some(&last) = effort.history.last() {
-            effort.conclude(last.residual, Some(last.update));
+            effort.conclude(last.residual);
         }
         let certificate = self.close(groups, view, next)?;
         certificate.unless_infinite(next.time.value)?;
