@@ -38,7 +38,7 @@ pub(crate) use tally::{Care, Tally};
 const ROUNDINGS: f64 = 64.0;
 
 /// The part of them up to which a step is taken without another iteration.
-const ENOUGH: f64 = 1.0 / 128.0;
+const ENOUGH: f64 = 1.0 / 64.0;
 
 /// Roundings of `Σ |q||p|` and of `Σ |p|` up to which a step is taken without another iteration.
 const ENOUGH_MOMENTUM: f64 = 4.0;

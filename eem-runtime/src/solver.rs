@@ -176,7 +176,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
                         return Ok(certificate);
                     }
                     Conclusion::Refused(failure) => return Err(failure),
-                    Conclusion::Open => self.linearize_again(groups, view)?,
+                    Conclusion::Open(is_enough) => {
+                        settled = self.settle(is_enough);
+                        last = S::Mask::none();
+                        before = effort.history.last().map(|last| last.update);
+                        self.linearize_again(groups, view)?;
+                    }
                 }
             }
             settled = self.settle(settled | last);
@@ -194,8 +199,11 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let previous = before.replace(update).filter(|_| is_full);
             purpose = Purpose::Iterate;
             let ends = is_last(update, previous, tolerance) & !settled;
-            let is_stuck =
-                S::LANES == 1 && self.scheme.is_exact() && progress.is_stuck(update, previous);
+            let is_stuck = self.scheme.is_exact() && progress.is_stuck(update, previous, settled);
+            if S::LANES > 1 && is_stuck {
+                // Alone, some of them might go on from here otherwise than others.
+                break;
+            }
             if self.has_other_starts && progress.is_hopeless() {
                 break;
             }

@@ -29,8 +29,8 @@ pub(super) enum Target<'a, S> {
 pub(super) enum Conclusion<S: Real> {
     /// The step ends there; with a certificate if a state was asked for.
     Found(Option<Certificate<S>>),
-    /// Another iteration is needed.
-    Open,
+    /// Another iteration is needed, but for those of several numbers where the mask holds.
+    Open(S::Mask),
     /// No iteration will help.
     Refused(StepFailure),
 }
@@ -81,13 +81,16 @@ impl<S: Real> Progress<S> {
     ///
     /// How small an update can be depends on the conditioning, so that its size does not decide: an update
     /// that does not fall shows a state at which the balances are looked at.
-    pub(super) fn is_stuck(&mut self, update: S, before: Option<S>) -> bool {
+    pub(super) fn is_stuck(&mut self, update: S, before: Option<S>, settled: S::Mask) -> bool {
         self.iterations += 1;
         self.last = update;
         self.smallest = self.smallest.minimum(update);
-        let stagnates = before.is_some_and(|before| update >= S::from_f64(STAGNATION) * before);
-        let is_small = update < S::from_f64(CONTRACTION);
-        self.stuck = if stagnates && is_small {
+        let Some(before) = before else {
+            return false;
+        };
+        let stagnates = (S::from_f64(STAGNATION) * before).at_most(update);
+        let is_small = update.less(S::from_f64(CONTRACTION));
+        self.stuck = if (stagnates & is_small & !settled).any() {
             self.stuck + 1
         } else {
             0
@@ -141,7 +144,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 if !self.scheme.is_exact() || S::LANES > 1 || progress.is_over() {
                     return Conclusion::Refused(failure);
                 }
-                return Conclusion::Open;
+                return Conclusion::Open(S::Mask::none());
             }
         };
         if !self.scheme.is_exact() {
@@ -153,11 +156,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
         if certificate.is_enough().all() {
             return Conclusion::Found(Some(certificate));
         }
-        if S::LANES == 1 {
+        if S::LANES > 1 {
+            progress.draws += 1;
+            if !progress.is_over() {
+                return Conclusion::Open(certificate.is_enough());
+            }
+        } else {
             progress.draw(self.final_residual);
             let is_settled = progress.has_stopped() && certificate.is_lawful();
             if !is_settled && !progress.is_over() {
-                return Conclusion::Open;
+                return Conclusion::Open(S::Mask::none());
             }
         }
         if !certificate.is_balanced() || S::LANES > 1 {
