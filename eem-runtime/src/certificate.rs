@@ -37,6 +37,10 @@ pub(crate) use tally::{Care, Tally};
 /// Roundings of the amplitude that a law may be off by.
 const ROUNDINGS: f64 = 64.0;
 
+/// Roundings that the certificate itself may be off by: those of the values of ψ and θs at both ends. What
+/// it says has to stay below the bound by as much.
+const OWN_ROUNDINGS: f64 = 8.0;
+
 /// The part of them up to which a step is taken without another iteration.
 const ENOUGH: f64 = 1.0 / 64.0;
 
@@ -183,7 +187,11 @@ impl<S: Real> Certificate<S> {
         let [linear, momenta] = self.linear;
         let [angular, moments] = self.angular;
         let laws = [
-            (Law::Energy, self.defect, self.bound),
+            (
+                Law::Energy,
+                self.defect,
+                S::from_f64(1.0 - OWN_ROUNDINGS / ROUNDINGS) * self.bound,
+            ),
             (Law::LinearMomentum, linear, rounding * momenta),
             (Law::AngularMomentum, angular, rounding * moments),
             (
