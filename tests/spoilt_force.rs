@@ -5,7 +5,7 @@
 mod support;
 
 use eem::prelude::*;
-use eem::{Array, Caloric, Law, StepFailure};
+use eem::{Caloric, Law, StepFailure};
 use support::{LogarithmicStiffness, ThermoViscoElastic};
 
 /// Relative error of the force f*.
