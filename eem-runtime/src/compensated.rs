@@ -150,6 +150,43 @@ impl<S: Scalar> Sum<S> {
     }
 }
 
+/// A sum to twice the precision, so that adding up a large scene costs no digits.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Total<S> {
+    value: S,
+    rest: S,
+}
+
+impl<S: Scalar> Total<S> {
+    /// Of nothing.
+    pub(crate) fn new() -> Self {
+        let (value, rest) = (S::zero(), S::zero());
+        Self { value, rest }
+    }
+
+    /// Adds a term.
+    #[inline]
+    pub(crate) fn add(&mut self, term: S) {
+        let (value, rest) = two_sum(self.value, term);
+        self.value = value;
+        self.rest += rest;
+    }
+
+    /// The sum, rounded once.
+    pub(crate) fn value(self) -> S {
+        self.value + self.rest
+    }
+
+    /// Of some terms.
+    pub(crate) fn of(terms: impl IntoIterator<Item = S>) -> S {
+        let mut sum = Self::new();
+        for term in terms {
+            sum.add(term);
+        }
+        sum.value()
+    }
+}
+
 /// In a file, a pair: the sum and what is still missing of it.
 #[cfg(feature = "serde")]
 impl<S: serde::Serialize> serde::Serialize for Sum<S> {

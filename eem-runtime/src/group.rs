@@ -9,7 +9,7 @@
 //!            local unknowns eliminated                              (local, eliminate)
 //!            contributions written to their places                  (assemble, scatter, site)
 //! correct    local unknowns from the global solution                (correct, member)
-//! close      increments from the found forces, and the new state    (closing, settle)
+//! close      impulses, what is booked, and the new state            (closing, settle, certify)
 //! ```
 
 mod arms;

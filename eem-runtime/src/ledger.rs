@@ -4,8 +4,8 @@
 
 use nalgebra::SVector;
 
+use crate::compensated::Total;
 use crate::group::Elements;
-use crate::kernel::two_sum;
 use crate::masses::Masses;
 use crate::scalar::Real;
 use crate::state::State;
@@ -62,9 +62,9 @@ impl<S: Real, const D: usize> Ledger<S, D> {
         reservoirs: &[S],
         gravity: &SVector<S, D>,
     ) -> Self {
-        let mut potential = Sum::new();
-        let (mut kinetic, mut internal, mut heat) = (Sum::new(), Sum::new(), Sum::new());
-        let (mut element_entropy, mut reservoir_entropy) = (Sum::new(), Sum::new());
+        let mut potential = Total::new();
+        let (mut kinetic, mut internal, mut heat) = (Total::new(), Total::new(), Total::new());
+        let (mut element_entropy, mut reservoir_entropy) = (Total::new(), Total::new());
         let momenta = state.momenta.values();
         for (p, mass) in momenta.chunks_exact(D).zip(masses.iter()) {
             let Some(mass) = mass else { continue };
@@ -112,16 +112,16 @@ impl<S: Real, const D: usize> Ledger<S, D> {
             internal_energy: internal.value(),
             reservoir_heat: heat.value(),
             lost_heat,
-            energy: Sum::of(energy),
+            energy: Total::of(energy),
             work,
             heat: given_heat,
-            balance: Sum::of(energy.into_iter().chain([-work, -given_heat])),
+            balance: Total::of(energy.into_iter().chain([-work, -given_heat])),
             element_entropy: element_entropy.value(),
             reservoir_entropy: reservoir_entropy.value(),
             thermostat_entropy,
-            entropy: Sum::of(entropy),
+            entropy: Total::of(entropy),
             linear_momentum: SVector::from_fn(|axis, _| {
-                Sum::of(momenta.chunks_exact(D).map(|p| p[axis]))
+                Total::of(momenta.chunks_exact(D).map(|p| p[axis]))
             }),
             angular_momentum: angular_momentum::<S, D>(state, masses),
         }
@@ -138,7 +138,7 @@ fn angular_momentum<S: Real, const D: usize>(
         (Some((node, _)), None) => Some(&positions[node * D..(node + 1) * D]),
         _ => None,
     };
-    let mut sums = [Sum::new(), Sum::new(), Sum::new()];
+    let mut sums = [Total::new(), Total::new(), Total::new()];
     for (q, p) in positions
         .chunks_exact(D)
         .zip(state.momenta.values().chunks_exact(D))
@@ -156,36 +156,4 @@ fn angular_momentum<S: Real, const D: usize>(
         }
     }
     SVector::from_fn(|axis, _| sums[axis].value())
-}
-
-/// A sum to twice the precision, so that adding up a large scene costs no digits.
-#[derive(Clone, Copy, Debug)]
-struct Sum<S> {
-    value: S,
-    rest: S,
-}
-
-impl<S: Real> Sum<S> {
-    fn new() -> Self {
-        let (value, rest) = (S::zero(), S::zero());
-        Self { value, rest }
-    }
-
-    fn add(&mut self, term: S) {
-        let (value, rest) = two_sum(self.value, term);
-        self.value = value;
-        self.rest += rest;
-    }
-
-    fn value(self) -> S {
-        self.value + self.rest
-    }
-
-    fn of(terms: impl IntoIterator<Item = S>) -> S {
-        let mut sum = Self::new();
-        for term in terms {
-            sum.add(term);
-        }
-        sum.value()
-    }
 }

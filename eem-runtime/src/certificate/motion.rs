@@ -1,6 +1,6 @@
 //! What the nodes contribute to the certificate of a step: kinetic energy, work and momenta.
 
-use crate::kernel::two_sum;
+use crate::compensated::Total;
 use crate::scalar::Real;
 
 /// What the motion of the nodes contributes to a certificate.
@@ -9,7 +9,7 @@ pub(crate) struct Motion<S, const D: usize> {
     /// What momenta are kept, and about which point, m.
     pub(crate) kept: Kept<S, D>,
     /// `Σ v̄·Δp − work`, J.
-    pub(super) energy: Sum<S>,
+    pub(super) energy: Total<S>,
     pub(super) amplitude: S,
     /// `Σ (Δp − hF)` of the loads F, and `Σ |p|`, kg m/s.
     pub(super) linear: [S; D],
@@ -53,7 +53,7 @@ impl<S: Real, const D: usize> Motion<S, D> {
         let zero = S::zero();
         Self {
             kept,
-            energy: Sum::new(),
+            energy: Total::new(),
             amplitude: zero,
             linear: [zero; D],
             momenta: zero,
@@ -119,30 +119,5 @@ impl<S: Real, const D: usize> Motion<S, D> {
                 *angular += turned(&arm, &net) + turned(node.displacement, &mean);
             }
         }
-    }
-}
-
-/// A sum to twice the precision, so that adding up a large scene costs no digits.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Sum<S> {
-    value: S,
-    rest: S,
-}
-
-impl<S: Real> Sum<S> {
-    fn new() -> Self {
-        let (value, rest) = (S::zero(), S::zero());
-        Self { value, rest }
-    }
-
-    #[inline]
-    pub(super) fn add(&mut self, term: S) {
-        let (value, rest) = two_sum(self.value, term);
-        self.value = value;
-        self.rest += rest;
-    }
-
-    pub(super) fn value(self) -> S {
-        self.value + self.rest
     }
 }

@@ -141,7 +141,7 @@ where
     }
 
     /// Judges the balances of the internal variables at the found response, of an element that has
-    /// received so much heat, J, and so much by conduction that follows from temperatures.
+    /// received so much entropy, J/K, and the magnitude of the terms of its energy, J.
     #[inline]
     pub(super) fn judge(
         &self,
