@@ -16,7 +16,10 @@
 //! A⁺ = Σ |T_ij| |x_j| |Δx_i|          T: tangent of (f*, −g*, θ*),  x = (λ, γ, θ),  Δx = (Δλ, Δγ, Δs)
 //! ```
 //!
-//! A has the terms of the balance, A⁺ the work of the rounding of the arguments of the forces. Of what
+//! A has the terms of the balance, A⁺ the work of the rounding of the arguments of the forces, with
+//! |Δx_i| ≥ ε |x_i|. Where the terms of an entropy cancel, the temperature that is found from it, and with
+//! it the stored energy, is known to 8 ε of them: an eighth of `θ Σ |terms of s|` replaces smaller values of
+//! `|ψ| + θ|s| + cθ`. Of what
 //! forces contribute to both, 0.4 of the digits count at most: ε^−0.4 times the other terms and
 //! `Σ m (ℓ/h)²`, with the shortest element ℓ of each node. A⁺ is found only where A is not enough. Every
 //! term carries some roundings; 64 is eight times the largest `|R|/(ε (A + A⁺))` that a right step has

@@ -1,6 +1,7 @@
 //! The state of a scene: everything a step changes, and nothing else.
 
 use crate::compensated::{Compensated, Sum};
+use crate::free_energy::Caloric;
 use crate::scalar::Real;
 
 /// Positions, momenta, viscous stretches, entropies and what has been booked.
@@ -46,17 +47,25 @@ pub(crate) struct State<S> {
 pub(crate) struct Energy<S> {
     /// `ψ + θ s`.
     pub(crate) value: S,
-    /// `|ψ| + θ|s| + cθ`: times ε, what rounding may do to it.
+    /// `|ψ| + θ|s| + cθ`, or an eighth of `θ Σ |terms of s|` where those cancel: times 8 ε, what rounding
+    /// may do to it and to the temperature that is found from s.
     pub(crate) magnitude: S,
 }
 
+/// The share of the terms of an entropy that counts in the magnitude of an energy: their sum is known to
+/// 8 ε of them, and the bound of the energy is 64 ε of its magnitude.
+const SHARE_OF_TERMS: f64 = 0.125;
+
 impl<S: Real> Energy<S> {
-    /// That of an element with the free energy ψ, temperature, entropy and heat capacity.
+    /// That of an element with the free energy ψ, the temperature θ and the kept entropy s, given what the
+    /// model says at θ.
     #[inline]
-    pub(crate) fn new(psi: S, [theta, entropy]: [S; 2], capacity: S) -> Self {
+    pub(crate) fn new(psi: S, [theta, entropy]: [S; 2], caloric: &Caloric<S>) -> Self {
+        let terms = S::from_f64(SHARE_OF_TERMS) * theta * caloric.magnitude;
+        let sizes = psi.abs() + theta * (entropy.abs() + caloric.heat_capacity);
         Self {
             value: psi + theta * entropy,
-            magnitude: psi.abs() + theta * (entropy.abs() + capacity),
+            magnitude: sizes.maximum(terms),
         }
     }
 

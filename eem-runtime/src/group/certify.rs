@@ -113,6 +113,7 @@ where
         }
     }
 
+    /// A⁺. A variable moves by its rounding at least.
     #[cold]
     fn work_of_arguments(&self) -> S {
         let mut sum = S::zero();
@@ -122,7 +123,8 @@ where
             } else {
                 self.creep[row - M::MEASURES]
             };
-            sum += self.magnitude_of_row(row) * change.abs();
+            let rounding = S::EPSILON * self.x[row].abs();
+            sum += self.magnitude_of_row(row) * change.abs().maximum(rounding);
         }
         if M::THERMAL {
             let change = self.response[Self::ENTROPY];

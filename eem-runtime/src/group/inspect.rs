@@ -49,8 +49,7 @@ where
                 Some(slot) => {
                     let theta = state.temperatures[slot];
                     let entropy = state.entropies.values()[slot];
-                    let capacity = member.model.caloric(&x).heat_capacity;
-                    Energy::new(psi, [theta, entropy], capacity)
+                    Energy::new(psi, [theta, entropy], &member.model.caloric(&x))
                 }
             };
             state.energies[member.element.index] = energy;

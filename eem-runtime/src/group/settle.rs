@@ -123,11 +123,7 @@ where
             return Ok(Energy::without_temperature(psi));
         }
         let theta = x[Self::TEMPERATURE];
-        Ok(Energy::new(
-            psi,
-            [theta, caloric.entropy],
-            caloric.heat_capacity,
-        ))
+        Ok(Energy::new(psi, [theta, caloric.entropy], &caloric))
     }
 
     /// The heat of the thermostat that brought the entropy to a new one, of an element that has

@@ -62,14 +62,20 @@ pub(crate) fn settled_at<S: Real, M: FreeEnergy<S>>(
     let energy_at = model.caloric_at(x);
     let with_energy = |theta: S| {
         let (caloric, psi) = energy_at(theta);
-        (caloric, [psi, theta, caloric.heat_capacity])
+        let of_energy = [psi, theta, caloric.heat_capacity, caloric.magnitude];
+        (caloric, of_energy)
     };
-    let (temperature, [psi, theta, capacity]) =
+    let (temperature, [psi, theta, heat_capacity, magnitude]) =
         solve(with_energy, entropy, guess, root * root.sqrt())?;
+    let caloric = Caloric {
+        entropy,
+        heat_capacity,
+        magnitude,
+    };
     Ok(Settled {
         temperature,
         free_energy: psi,
-        energy: Energy::new(psi, [theta, entropy], capacity),
+        energy: Energy::new(psi, [theta, entropy], &caloric),
     })
 }
 
