@@ -12,18 +12,19 @@
 //! ```text
 //! B = 64 ε (A + A⁺)
 //! A  = Σ over both ends (T + |ψ| + θ|s| + cθ) + Σ |f*|(λ⁰ + λ¹) + Σ |g*|(|γ⁰| + |γ¹|)
-//!      + Σ η Δγ²/h + Σ |Q| + |work| + |heat|
+//!      + ε Σ (|T_λλ| λ² + |T_γγ| γ²) + Σ η Δγ²/h + Σ |Q| + |work| + |heat|
 //! A⁺ = Σ |T_ij| |x_j| |Δx_i|          T: tangent of (f*, −g*, θ*),  x = (λ, γ, θ),  Δx = (Δλ, Δγ, Δs)
 //! ```
 //!
-//! A has the terms of the balance, A⁺ the work of the rounding of the arguments of the forces, with
-//! |Δx_i| ≥ ε |x_i|. Where the terms of an entropy cancel, the temperature that is found from it, and with
-//! it the stored energy, is known to 8 ε of them: an eighth of `θ Σ |terms of s|` replaces smaller values of
-//! `|ψ| + θ|s| + cθ`. Of what
-//! forces contribute to both, 0.4 of the digits count at most: ε^−0.4 times the other terms and
-//! `Σ m (ℓ/h)²`, with the shortest element ℓ of each node. A⁺ is found only where A is not enough. Every
-//! term carries some roundings; 64 is eight times the largest `|R|/(ε (A + A⁺))` that a right step has
-//! shown, near an anchor. Momenta and productions are judged beside the energy.
+//! A has the terms of the balance, A⁺ the work of the rounding of the arguments of the forces; it is found
+//! only where A is not enough. Where the terms of an entropy cancel, the temperature that is found from it,
+//! and with it the stored energy, is known to 8 ε of them: an eighth of `θ Σ |terms of s|` replaces smaller
+//! values of `|ψ| + θ|s| + cθ`.
+//!
+//! Of what forces contribute, 0.4 of the digits count at most: ε^−0.4 times the other terms and
+//! `√ε Σ m (ℓ/h)²`, with the shortest element ℓ of each node; of their impulses ε^−0.4 times
+//! `Σ |p| + m ℓ/h`. Every term carries some roundings; 64 is eight times the largest `|R|/(ε (A + A⁺))` that
+//! a right step has shown, near an anchor. Momenta and productions are judged beside the energy.
 
 mod motion;
 mod recount;
@@ -57,6 +58,16 @@ const MOST_DIGITS: f64 = 0.4;
 /// Roundings of the largest terms of a free energy, in the evaluation of which several add up.
 const VALUE_ROUNDINGS: f64 = 4.0;
 
+/// What moves if every node covers its shortest element in a step: where nothing else does, forces are
+/// measured by it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Reach<S> {
+    /// `Σ m (ℓ/h)²`, J.
+    pub(crate) energy: S,
+    /// `Σ m ℓ/h`, kg m/s.
+    pub(crate) momentum: S,
+}
+
 /// What a step has proved.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Certificate<S: Real> {
@@ -74,14 +85,29 @@ pub(crate) struct Certificate<S: Real> {
     is_balanced: S::Mask,
 }
 
+impl<S: Real> Reach<S> {
+    /// Of nothing.
+    pub(crate) fn none() -> Self {
+        let [energy, momentum] = [S::zero(); 2];
+        Self { energy, momentum }
+    }
+
+    /// A node with this mass, kg, which covers its length in a step: h/ℓ is the slowness, s/m.
+    pub(crate) fn add(&mut self, mass: S, slowness: S) {
+        let momentum = mass / slowness;
+        self.momentum += momentum;
+        self.energy += momentum / slowness;
+    }
+}
+
 impl<S: Real> Certificate<S> {
     /// From the motion of the nodes, what the elements say, and the energy `Σ Δe + Σ θ_r Δσ_r + heat lost −
-    /// heat` with the magnitude of its terms; and `Σ m (ℓ/h)²`, J, if it is asked for.
+    /// heat` with the magnitude of its terms; and how far nodes reach, if it is asked for.
     pub(crate) fn new<const D: usize>(
         motion: &Motion<S, D>,
         tally: &Tally<S>,
         [internal, magnitude]: [S; 2],
-        reach: impl FnOnce() -> S,
+        reach: impl Fn() -> Reach<S>,
     ) -> Self {
         let mut energy = motion.energy;
         energy.add(internal);
@@ -89,7 +115,12 @@ impl<S: Real> Certificate<S> {
         let most = S::EPSILON.recip().powf(S::from_f64(MOST_DIGITS));
         let mut forces = tally.forces;
         if !forces.at_most(most * terms).all() {
-            forces = forces.minimum(most * (terms + reach()));
+            let slow = S::EPSILON.sqrt() * reach().energy;
+            forces = forces.minimum(most * (terms + slow));
+        }
+        let mut impulse = tally.impulse;
+        if !impulse.at_most(most * motion.momenta).all() {
+            impulse = impulse.minimum(most * (motion.momenta + reach().momentum));
         }
         let amplitude = terms + forces;
         let has_produced = tally.least.less(S::MAX);
@@ -100,12 +131,12 @@ impl<S: Real> Certificate<S> {
             production: tally.production,
             least_production: S::select(has_produced, tally.least, S::zero()),
             linear: match motion.kept {
-                Kept::Both => [largest(&motion.linear), motion.momenta + tally.impulse],
+                Kept::Both => [largest(&motion.linear), motion.momenta + impulse],
                 Kept::None | Kept::Angular(_) => [S::zero(); 2],
             },
             angular: [
                 largest(&motion.angular),
-                motion.moments + motion.farthest * tally.impulse,
+                motion.moments + motion.farthest * impulse,
             ],
             is_balanced: tally.is_balanced,
         }

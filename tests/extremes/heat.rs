@@ -229,3 +229,7 @@ mod tests {
         vanishing_capacities(Effort::Short).assert();
     }
 }
+
+#[cfg(test)]
+#[path = "cancelling.rs"]
+mod cancelling;

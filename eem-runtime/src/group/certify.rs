@@ -98,14 +98,20 @@ where
     /// What its forces contribute to A and, with care, to A⁺, J:
     ///
     /// ```text
-    /// |f*|(λ⁰ + λ¹) + Σ |g*|(|γ⁰| + |γ¹|)  +  Σ_ij |T_ij| |x_j| |Δx_i|,     Δx = (Δλ, Δγ, Δs)
+    /// |f*|(λ⁰ + λ¹) + Σ |g*|(|γ⁰| + |γ¹|) + ε (|T_λλ| λ² + Σ |T_γγ| γ²)
+    /// Σ_ij |T_ij| |x_j| |Δx_i|,     Δx = (Δλ, Δγ, Δs)
     /// ```
+    ///
+    /// The part with ε is what rounding of a state at the bottom of a well does.
     #[inline]
     pub(super) fn amplitude(&self, care: Care) -> S {
         let (x0, x1) = (&self.start.x0, &self.x);
         let mut sum = S::zero();
         for row in 0..M::MEASURES + M::DASHPOTS {
-            sum += self.response[row].abs() * (x0[row].abs() + x1[row].abs());
+            let size = x1[row].abs();
+            let rounding = S::EPSILON * size * size;
+            sum += self.response[row].abs() * (x0[row].abs() + size);
+            sum += self.slopes[row][row].abs() * rounding;
         }
         match care {
             Care::Quick => sum,
@@ -113,7 +119,6 @@ where
         }
     }
 
-    /// A⁺. A variable moves by its rounding at least.
     #[cold]
     fn work_of_arguments(&self) -> S {
         let mut sum = S::zero();
@@ -123,8 +128,7 @@ where
             } else {
                 self.creep[row - M::MEASURES]
             };
-            let rounding = S::EPSILON * self.x[row].abs();
-            sum += self.magnitude_of_row(row) * change.abs().maximum(rounding);
+            sum += self.magnitude_of_row(row) * change.abs();
         }
         if M::THERMAL {
             let change = self.response[Self::ENTROPY];

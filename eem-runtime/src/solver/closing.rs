@@ -4,7 +4,7 @@ use core::array;
 
 use super::Solver;
 use super::begin::old_force;
-use crate::certificate::{Care, Certificate, Kept, Motion, NodeStep, Recount, Tally};
+use crate::certificate::{Care, Certificate, Kept, Motion, NodeStep, Reach, Recount, Tally};
 use crate::error::StepFailure;
 use crate::group::{Along, Group, StepView, points};
 use crate::newton::Largest;
@@ -81,13 +81,13 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(Certificate::new(&motion, &tally, internal, reach))
     }
 
-    /// `Σ m (ℓ/h)²` with the shortest element ℓ of each node, J.
-    fn reach(&self, step: S) -> S {
-        let nodes = self.nodes.iter().map(|node| &node.place);
-        nodes.fold(S::zero(), |sum, place| {
-            let slowness = step * self.per_length[place.node()];
-            sum + place.mass / (slowness * slowness)
-        })
+    /// With the shortest element of each node.
+    fn reach(&self, step: S) -> Reach<S> {
+        let mut reach = Reach::none();
+        for place in self.nodes.iter().map(|node| &node.place) {
+            reach.add(place.mass, step * self.per_length[place.node()]);
+        }
+        reach
     }
 
     /// Which momenta the scene keeps.

@@ -4,7 +4,7 @@ use core::array;
 
 use super::StageSolver;
 use super::assemble::{inertia, loads};
-use crate::certificate::{Care, Certificate, Kept, Motion, NodeStep, Tally};
+use crate::certificate::{Care, Certificate, Kept, Motion, NodeStep, Reach, Tally};
 use crate::error::StepFailure;
 use crate::group::{StageGroup, StageView, points};
 use crate::scalar::Real;
@@ -63,7 +63,7 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         motion.work(next.work.change(view.state.work));
         let internal = energy_change(&view.conduction.reservoirs, [view.state, next]);
         let tally = Tally::new(Care::Quick);
-        Certificate::new(&motion, &tally, internal, S::zero)
+        Certificate::new(&motion, &tally, internal, Reach::none)
     }
 
     /// New positions and momenta, all finite, and the work of the loads.
