@@ -11,7 +11,6 @@ mod header;
 mod inputs;
 mod points;
 mod statements;
-mod together;
 
 use eem_symbolic::{Model, Programs};
 use proc_macro2::TokenStream;

@@ -54,12 +54,15 @@ mod cost;
 mod discrete;
 mod flaw;
 mod interpret;
+mod joint;
 mod model;
+mod operation;
 mod program;
 mod quadrature;
 mod running_error;
 mod schedule;
 mod verify;
+mod verify_error;
 
 pub use diff::{diff, diff_total};
 pub use display::format;
@@ -76,12 +79,14 @@ pub use substitute::substitute;
 
 pub use cost::{OperationCount, StageCount, TranscendentalCount};
 pub use flaw::Flaw;
-pub use interpret::{Arithmetic, F64};
+pub use interpret::{Arithmetic, F64, JointDifferences};
+pub use joint::Restriction;
 pub use model::{DifferenceFormula, Formulas, Model, Programs};
-pub use program::{Input, Instruction, Operation, Program, ProgramKernel, Stage, Value};
+pub use operation::{DifferencePart, Operation, ProgramKernel, Value};
+pub use program::{Input, Instruction, Program, Stage};
 pub use running_error::{Bounded, RunningError};
 pub use schedule::schedule;
-pub use verify::VerifyError;
+pub use verify_error::VerifyError;
 
 /// The example of the readme.
 #[cfg(doctest)]

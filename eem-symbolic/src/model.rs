@@ -9,7 +9,7 @@ use crate::display::format;
 use crate::graph::Graph;
 use crate::node::{ExprId, Symbol};
 use crate::program::Program;
-use crate::verify::VerifyError;
+use crate::verify_error::VerifyError;
 pub use difference_formulas::DifferenceFormula;
 use point::{PointPrograms, heat_capacity};
 

@@ -11,7 +11,8 @@
 //!   on parameters alone comes first, operands that many products or sums have in common next, and
 //!   quotients are products with shared reciprocals. Arguments of functions are still divided, so
 //!   that ln(λ/λ₀) vanishes where λ = λ₀. In the end functions come first, so that few values have
-//!   to outlive a call.
+//!   to outlive a call, and divided differences of one function between the same ends become one
+//!   call ([`Operation::JointDifferences`](crate::Operation::JointDifferences)).
 
 mod builder;
 mod dependence;
@@ -28,7 +29,7 @@ pub(crate) use locals::Locals;
 use crate::graph::Graph;
 use crate::node::{ExprId, Node};
 use crate::program::{Input, Program};
-use crate::verify::VerifyError;
+use crate::verify_error::VerifyError;
 use builder::{Builder, Operand, Signed};
 use plan::Plan;
 
@@ -81,7 +82,10 @@ impl Schedule<'_> {
         let plan = Plan::new(self, &new, outputs);
         let mut builder = Builder::new(self, inputs);
         builder.plan = Some(plan);
-        self.emit_all(builder, outputs).functions_first()
+        let program = self.emit_all(builder, outputs);
+        let program = program.functions_first().with_joint_differences();
+        check(&program);
+        program
     }
 
     fn emit_all(&self, mut builder: Builder<'_>, outputs: &[ExprId]) -> Program {
@@ -89,11 +93,7 @@ impl Schedule<'_> {
             self.visit(&mut builder, output);
         }
         let program = builder.finish(outputs);
-        // A constant that overflows is the caller's to report; all else is a mistake made here.
-        debug_assert!(matches!(
-            program.verify(),
-            Ok(()) | Err(VerifyError::NonFiniteConstant { .. })
-        ));
+        check(&program);
         program
     }
 
@@ -165,4 +165,12 @@ impl Schedule<'_> {
         }
         .into()
     }
+}
+
+/// A constant that overflows is the caller's to report; all else is a mistake made here.
+fn check(program: &Program) {
+    debug_assert!(matches!(
+        program.verify(),
+        Ok(()) | Err(VerifyError::NonFiniteConstant { .. })
+    ));
 }

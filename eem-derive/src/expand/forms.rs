@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use eem_symbolic::{Operation, Program, Programs, Stage, Value};
+use eem_symbolic::{Operation, Program, Programs, Restriction, Stage, Value};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -30,10 +30,11 @@ fn entropy_form(program: &Program, inputs: &Inputs) -> TokenStream {
         "Entropy form: algorithmic quantities and their tangent.",
         program,
     );
-    let response = response(program, inputs);
+    let restriction = program.restricted_to(inputs.responses());
+    let response = response(program, &restriction, inputs);
     let response_docs = docs::new_stage(
         "Entropy form: the same algorithmic quantities without their tangent.",
-        &program.restricted_to(inputs.responses()),
+        &restriction.program,
     );
     let corners = if inputs.thermal {
         quote!(__corners)
@@ -67,10 +68,11 @@ fn temperature_form(program: &Program, inputs: &Inputs) -> TokenStream {
         "Temperature form: algorithmic quantities and their tangent.",
         program,
     );
-    let response = response(program, inputs);
+    let restriction = program.restricted_to(inputs.responses());
+    let response = response(program, &restriction, inputs);
     let response_docs = docs::new_stage(
         "Temperature form: the same algorithmic quantities without their tangent.",
-        &program.restricted_to(inputs.responses()),
+        &restriction.program,
     );
     quote! {
         #old_docs
@@ -147,14 +149,16 @@ fn new_stage(program: &Program, inputs: &Inputs) -> TokenStream {
 }
 
 // Expands to: `let __v6 = __x1[0]; … […]`: those statements of the full function that the response
-// depends on, hence the same bits.
-fn response(program: &Program, inputs: &Inputs) -> TokenStream {
-    let outputs = &program.outputs[..inputs.responses()];
-    let needed = program.needed_by(outputs);
-    let statements = statements(program, inputs, known(program, inputs));
-    let lets =
-        statements.lets(|index, instruction| instruction.stage == Stage::New && needed[index]);
-    let outputs = outputs.iter().map(|&output| statements.read(output));
+// depends on, hence the same bits. Both functions read the same `__old`.
+fn response(program: &Program, restriction: &Restriction, inputs: &Inputs) -> TokenStream {
+    let of_all = known(program, inputs);
+    let origin = |value: Value| restriction.origins[value.index()];
+    let known = restriction.program.hoisted().into_iter();
+    let known = known.filter_map(|value| Some((value, of_all.get(&origin(value)?)?.clone())));
+    let statements = statements(&restriction.program, inputs, known.collect());
+    let lets = statements.lets(|_, instruction| instruction.stage == Stage::New);
+    let outputs = restriction.program.outputs.iter();
+    let outputs = outputs.map(|&output| statements.read(output));
     quote! {
         #lets
         [#(#outputs),*]

@@ -8,7 +8,8 @@ use super::sharing::Token;
 use crate::function::Function;
 use crate::node::{ExprId, Node, Symbol};
 use crate::number::Number;
-use crate::program::{Input, Instruction, Operation, Program, Stage, Value};
+use crate::operation::{Operation, Value};
+use crate::program::{Input, Instruction, Program, Stage};
 
 /// A result: an instruction, or a number that becomes a constant of the stage that uses it.
 #[derive(Clone, Copy, Debug, PartialEq)]
