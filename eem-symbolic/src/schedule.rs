@@ -15,6 +15,7 @@
 //!   call ([`Operation::JointDifferences`](crate::Operation::JointDifferences)).
 
 mod builder;
+mod context;
 mod dependence;
 mod difference;
 mod locals;
@@ -23,6 +24,7 @@ mod power;
 mod sharing;
 mod sum;
 
+pub(crate) use context::Schedule;
 pub(crate) use dependence::Dependence;
 pub(crate) use locals::Locals;
 
@@ -59,14 +61,6 @@ pub fn schedule(graph: &Graph, inputs: Vec<Input>, outputs: &[ExprId]) -> Progra
         parameters: 0,
     };
     schedule.in_order(inputs, outputs)
-}
-
-/// What a schedule is made from besides inputs and outputs.
-pub(crate) struct Schedule<'g> {
-    pub(crate) graph: &'g Graph,
-    pub(crate) locals: &'g Locals,
-    /// How many of the first inputs are parameters, or like parameters: known before all others.
-    pub(crate) parameters: usize,
 }
 
 impl Schedule<'_> {
@@ -120,25 +114,6 @@ impl Schedule<'_> {
                 }
             }
         }
-    }
-
-    /// What an expression is computed from.
-    fn operands(&self, e: ExprId) -> Vec<ExprId> {
-        let mut operands = Vec::new();
-        match self.definition(e) {
-            Some(definition) => operands.push(definition),
-            None => self
-                .graph
-                .node(e)
-                .for_each_operand(|operand| operands.push(operand)),
-        }
-        operands
-    }
-
-    /// The expression that a local stands for.
-    fn definition(&self, e: ExprId) -> Option<ExprId> {
-        let resolved = self.locals.resolve(self.graph, e);
-        (resolved != e).then_some(resolved)
     }
 
     fn emit(&self, builder: &mut Builder<'_>, e: ExprId) -> Signed {

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::Schedule;
+use super::context::Schedule;
 use super::plan::Plan;
 use super::sharing::Token;
 use crate::function::Function;
