@@ -6,9 +6,11 @@
 mod constants;
 pub(crate) mod description;
 mod docs;
+mod equation;
 mod forms;
 mod header;
 mod inputs;
+mod lines;
 mod points;
 mod statements;
 
@@ -34,7 +36,7 @@ pub(crate) fn expand(
     let constants = constants::constants(checked, programs, &inputs);
     let points = points::points(programs, &inputs);
     let forms = forms::forms(programs, &inputs);
-    let equations = description::equations(checked, &model.formulas());
+    let equations = equation::equations(checked, &model.formulas());
     let formulas = docs::formulas(checked, &equations, units);
     let description = description::description(checked, model, programs, &equations, units);
     let body = quote! { #constants #points #forms };

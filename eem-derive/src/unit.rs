@@ -4,6 +4,9 @@
 //! per metre is `2³ 5³ kg s⁻²`. Whatever is a power of ten, a minute or an hour has no others, and
 //! roots and products of scales stay exact. A unit that has to be found is one more base.
 
+mod display;
+pub(crate) mod table;
+
 use std::collections::BTreeMap;
 
 use eem_symbolic::Rational;
