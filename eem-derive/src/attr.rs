@@ -3,6 +3,7 @@
 //! Nothing here fails: what cannot be read is reported and left out, so that all attributes are
 //! seen and an implementation of the trait can be written whatever happens.
 
+mod control_flow;
 mod depth;
 
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
@@ -12,8 +13,9 @@ use syn::parse::discouraged::Speculative as _;
 use syn::punctuated::Punctuated;
 use syn::{Attribute, DeriveInput, Expr, ExprClosure, Meta, Path, Token, parse_quote};
 
-use crate::ctxt::Ctxt;
+use crate::ctxt::{Ctxt, precedes};
 use crate::message::attribute as message;
+use crate::message::{Message, expression};
 
 /// The attributes of one item.
 pub(crate) struct Attributes {
@@ -89,7 +91,7 @@ impl FreeEnergy {
                 } else {
                     message::unreadable_free_energy(&error)
                 };
-                return cx.error_at(error.span(), &message);
+                return report_unreadable(cx, attribute, &error, &message);
             }
         };
         if entries.is_empty() {
@@ -127,6 +129,19 @@ impl FreeEnergy {
                 cx.error(expr, &message::free_energy_is_not_a_closure());
             }
         }
+    }
+}
+
+/// Reports an attribute that the parser has refused: an `if` or `match` in it by its name, and what
+/// the parser says unless that may be a consequence.
+fn report_unreadable(cx: &Ctxt, attribute: &Attribute, error: &syn::Error, message: &Message) {
+    let keyword = control_flow::first(tokens(attribute));
+    if let Some(keyword) = &keyword {
+        let name = keyword.to_string();
+        cx.error(keyword, &expression::syntax::control_flow(&name));
+    }
+    if keyword.is_none_or(|keyword| precedes(error.span(), keyword.span())) {
+        cx.error_at(error.span(), message);
     }
 }
 
@@ -225,7 +240,7 @@ fn read_laws(cx: &Ctxt, attribute: &Attribute) -> Option<Vec<(Ident, Expr)>> {
             } else {
                 message::unreadable_viscosity(&error)
             };
-            cx.error_at(error.span(), &message);
+            report_unreadable(cx, attribute, &error, &message);
             None
         }
     }

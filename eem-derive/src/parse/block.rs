@@ -1,5 +1,7 @@
 //! Blocks: `let` bindings followed by a value.
 
+use proc_macro2::TokenTree;
+use quote::ToTokens as _;
 use syn::{Expr as Syntax, ExprBlock, Local, Pat, PatIdent, Stmt};
 
 use super::expr::expr;
@@ -19,11 +21,16 @@ pub(super) fn block<'a>(cx: &Ctxt, original: &'a Syntax, block: &'a ExprBlock) -
         Some((last, statements)) if stands_for_value(last) => (Some(last), statements),
         _ => (None, &*block.block.stmts),
     };
-    let statements = statements.iter();
-    let bindings = statements
-        .map(|stmt| statement(cx, original, stmt))
-        .collect();
+    let mut bindings = Vec::new();
+    let mut before = None;
+    for this in statements {
+        if !is_rest(before, this) {
+            bindings.push(statement(cx, original, this));
+        }
+        before = Some(this);
+    }
     let value = match last {
+        Some(rest) if is_rest(before, rest) => Expr::hole(original),
         Some(Stmt::Expr(syntax, semicolon)) => {
             let value = expr(cx, syntax);
             // Of `return x;` the keyword is what is wrong.
@@ -43,6 +50,16 @@ pub(super) fn block<'a>(cx: &Ctxt, original: &'a Syntax, block: &'a ExprBlock) -
         bindings,
         value: Box::new(value),
     }
+}
+
+/// A statement that begins with the operator behind an `if` or `match`. At the start of a statement,
+/// Rust reads `if x > 1 { a } else { b } * c` as two: an `if`, and `*c`. The `if` has been reported.
+fn is_rest(before: Option<&Stmt>, statement: &Stmt) -> bool {
+    let Some(Stmt::Expr(Syntax::If(_) | Syntax::Match(_), None)) = before else {
+        return false;
+    };
+    let first = statement.to_token_stream().into_iter().next();
+    matches!(first, Some(TokenTree::Punct(_)))
 }
 
 /// Stands where the value of a block stands, if there is no `;` by mistake.
