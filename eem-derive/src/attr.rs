@@ -153,14 +153,14 @@ fn is_too_deep(cx: &Ctxt, attribute: &Attribute) -> bool {
     place.is_some()
 }
 
-/// There is a `|` in the attribute: a closure has been begun.
+/// Whether there is a `|` in the attribute, so that it is meant to be a closure.
 fn has_closure(attribute: &Attribute) -> bool {
     tokens(attribute)
         .into_iter()
         .any(|token| is_punct(&token, '|'))
 }
 
-/// The attribute begins with `name =`.
+/// Whether the attribute begins with `name =`, so that it is meant to be a law.
 fn has_law(attribute: &Attribute) -> bool {
     let mut tokens = tokens(attribute).into_iter();
     let name = tokens.next();

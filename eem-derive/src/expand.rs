@@ -55,11 +55,11 @@ pub(crate) fn expand(
 //     };
 pub(crate) fn wrap(krate: &Path, implementation: &TokenStream) -> TokenStream {
     quote! {
-        // Numbers are printed with all their digits, which is not for reading.
+        // Numbers have all their digits, without separators.
         #[allow(clippy::unreadable_literal, clippy::excessive_precision)]
-        // The names of the values count them.
+        // Values are named `__v0`, `__v1`, …
         #[allow(clippy::many_single_char_names, clippy::similar_names)]
-        // The length and the shape of a function are those of the formula.
+        // A long formula makes a long function.
         #[allow(clippy::too_many_lines, clippy::cognitive_complexity, clippy::let_and_return)]
         // `__eem` may be a path through the crate that defines the struct.
         #[allow(unused_qualifications)]

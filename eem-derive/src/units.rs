@@ -1,7 +1,6 @@
 //! Units: [`checked`](crate::checked) → the units of its fields, every operation in order.
 //!
-//! A model in which no field that it uses has a unit is not looked at. Otherwise all of them need
-//! one; λ and γ are in m, θ is in K, ψ has to come out in J and viscosities in N s/m. Numbers in a
+//! A model is checked if one of the fields in its formulas has a unit. Then all of them need one; λ and γ are in m, θ is in K, ψ has to come out in J and viscosities in N s/m. Numbers in a
 //! formula have no unit, so that a factor of 1000 never stands for a prefix: the scale of a unit is
 //! compared like its dimension, and a value in mm cannot be added to one in m.
 //!

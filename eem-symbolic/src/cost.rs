@@ -57,7 +57,7 @@ impl Program {
         count
     }
 
-    /// The argument of a logarithm without a factor that is known: `ln(c·x) = ln c + ln x`.
+    /// The argument of a logarithm without a factor of the old stage, as `ln(c·x) = ln c + ln x`.
     fn up_to_a_factor(&self, family: Function, argument: Value) -> Value {
         if family != Function::Ln {
             return argument;
@@ -84,12 +84,13 @@ pub struct TranscendentalCount {
     /// Calls of functions of the library, those inside of divided differences between close ends
     /// included. Roots do not count.
     pub calls: usize,
-    /// The calls that would be enough if every difference were made from values at its ends: kinds
-    /// of functions times arguments that depend on the new state.
+    /// The calls that would be enough if every divided difference were computed from function values
+    /// at its ends: pairs of a kind of function and an argument that depends on the new state.
     pub arguments: usize,
 }
 
-/// The functions that are made from one another count as one kind.
+/// The kind of a function: functions of one kind can be computed from one library call, as the
+/// hyperbolic ones from the exponential.
 fn family(function: Function) -> Option<Function> {
     match function {
         Function::Exp | Function::ExpM1 | Function::Sinh | Function::Cosh | Function::Tanh => {
@@ -118,7 +119,7 @@ fn library_calls(operation: &Operation) -> usize {
         Operation::Apply(function, _) => usize::from(family(function).is_some()),
         Operation::Power(..) => 1,
         Operation::DividedDifference(kernel, ..) => calls_of(kernel)[0],
-        // A second difference alone calls what the first one needs, too.
+        // The calls of a second difference include those of the first.
         Operation::SecondDividedDifference(kernel, ..)
         | Operation::JointDifferences(kernel, ..) => calls_of(kernel)[1],
         Operation::Input(_)

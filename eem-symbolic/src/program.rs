@@ -1,4 +1,4 @@
-//! A schedule of expressions: single assignments, operands first, nothing twice, nothing unused.
+//! A schedule of expressions: single assignments, operands first, no value twice or unused.
 //!
 //! A [`Program`] is what generated code prints line by line and what
 //! [`Program::interpret`] evaluates on any arithmetic. Every instruction belongs to a [`Stage`], so
@@ -90,8 +90,8 @@ impl Program {
         needed
     }
 
-    /// The same with functions and divided differences first, and what they depend on: few values
-    /// have to outlive their branches and calls.
+    /// The same with functions and divided differences, and what they depend on, moved to the front:
+    /// few values have to be kept in registers across their branches and calls.
     pub(crate) fn functions_first(self) -> Program {
         let is_function = |operation: &Operation| {
             matches!(

@@ -1,17 +1,16 @@
-//! Expressions → [`Program`]: one pass over all outputs, every value computed once, none for nothing.
+//! Expressions → [`Program`]: one pass over all outputs, each value computed once.
 //!
-//! * Equal expressions are one instruction, whichever outputs they belong to, and so are equal
-//!   beginnings of sums and products.
-//! * Whole powers are products, halves square roots. Coefficients ±1 cost a sign, which a sum
-//!   absorbs.
+//! * Equal expressions are one instruction, whichever outputs they belong to. So are equal leading
+//!   terms of sums and equal leading factors of products.
+//! * Whole powers are products, halves square roots. A coefficient −1 in a sum is a subtraction.
 //! * [`schedule`] keeps the structural order and divides once per product: an expression takes the
 //!   same operations at the old and at the new state, and what is symmetric in the two is symmetric
 //!   bit by bit. Only factors and terms of parameters alone come first.
-//! * The programs of a [`Model`](crate::Model) take the freedom that rounding leaves: what depends
-//!   on parameters alone comes first, operands that many products or sums have in common next, and
+//! * The programs of a [`Model`](crate::Model) reorder sums and products, which changes rounding
+//!   only: what depends on parameters alone comes first, operands that many products or sums have in common next, and
 //!   quotients are products with shared reciprocals. Arguments of functions are still divided, so
-//!   that ln(λ/λ₀) vanishes where λ = λ₀. In the end functions come first, so that few values have
-//!   to outlive a call, and divided differences of one function between the same ends become one
+//!   that ln(λ/λ₀) vanishes where λ = λ₀. Last, function calls move to the
+//!   front, so that few values have to be kept across a call, and divided differences of one function between the same ends become one
 //!   call ([`Operation::JointDifferences`](crate::Operation::JointDifferences)).
 
 mod builder;

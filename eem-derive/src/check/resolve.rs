@@ -94,7 +94,8 @@ impl<'a> Resolver<'_, 'a> {
         }
     }
 
-    /// A hole, and what can be resolved in it.
+    /// An expression that has been reported. Its parts are resolved all the same, so that mistakes in
+    /// them are reported, too.
     pub(super) fn wrong(
         &mut self,
         parts: impl IntoIterator<Item = &'a ast::Expr<'a>>,
@@ -158,9 +159,9 @@ impl<'a> Resolver<'_, 'a> {
 fn report_unknown(resolver: &Resolver<'_, '_>, function: &Ident, name: &str) {
     let nearest = nearest(name, Callee::names());
     let message = match resolver.scope.resolve(function) {
-        // A closure, which has been reported.
+        // The value of the binding is a closure, which has been reported.
         Some(Meaning::Binding(index)) if resolver.is_wrong(index) => return,
-        // It may be declared by what could not be read.
+        // A declaration that could not be read may have this name.
         Some(Meaning::Unreadable) if nearest.is_none() => return,
         None | Some(Meaning::Unreadable) => {
             message::unknown_function(name, message::function_help(name, nearest, Callee::names()))
@@ -190,7 +191,7 @@ fn diff_variable<'a>(resolver: &Resolver<'_, 'a>, variable: &'a ast::Expr<'a>) -
     match resolver.scope.resolve(ident) {
         Some(Meaning::Argument(index)) => return Some(index),
         Some(Meaning::Field(_)) => refuse("parameter"),
-        // That it hides an argument has been reported.
+        // The binding hides an argument, which has been reported.
         Some(Meaning::Binding(_)) if is_argument(resolver, ident) => {}
         Some(Meaning::Binding(_)) => refuse("`let` binding"),
         Some(meaning) => resolver.refuse(ident, meaning),

@@ -19,7 +19,7 @@ pub(super) struct Resolver<'r, 'a> {
     pub(super) bindings: Vec<Expr<'a>>,
     /// The names of the bindings, and whether something mentions them.
     pub(super) names: Vec<(&'a Ident, bool)>,
-    /// Nothing has been reported that may have hidden the use of a name.
+    /// No expression has been reported that may have used a name: what is not used can be reported.
     pub(super) complete: bool,
 }
 
@@ -69,7 +69,7 @@ impl<'r, 'a> Resolver<'r, 'a> {
             Meaning::ForeignArgument(role) => message::law_of_state(ident, role),
             Meaning::ForeignBinding => message::law_of_binding(ident),
             Meaning::UnusedField => field::unused_and_used(ident),
-            // What is wrong with them has been reported.
+            // Reported where they are declared.
             Meaning::WrongArgument | Meaning::Unreadable => return,
             Meaning::Field(_) | Meaning::Argument(_) | Meaning::Binding(_) => {
                 unreachable!("these can be used everywhere")

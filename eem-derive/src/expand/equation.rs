@@ -33,7 +33,7 @@ impl Equation {
     }
 }
 
-/// The formulas in the order in which a reader wants them.
+/// All formulas of a model: potentials, forces, heat capacity, viscosities.
 pub(super) fn equations(checked: &Checked<'_>, formulas: &Formulas) -> Vec<Equation> {
     let names = |role| {
         let variables = checked.variables.iter().filter(move |v| v.role == role);

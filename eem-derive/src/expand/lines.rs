@@ -70,7 +70,8 @@ fn break_point(line: &[char], indent: usize) -> Option<Break> {
             }
             [] => break,
         };
-        // Early breaks are for what is outside of everything, and not for single letters.
+        // In the first half of a line, break outside of parentheses only; before `*`, not in the first
+        // quarter.
         let early = if product { 4 * at <= WIDTH } else { false };
         let late = 2 * at > WIDTH;
         let better = |best: Break| (deeper, product) <= (best.deeper, best.product);

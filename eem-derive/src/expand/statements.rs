@@ -13,13 +13,13 @@ pub(super) struct Statements<'p> {
     pub(super) scalar: &'p TokenStream,
     /// The source of an input.
     pub(super) input: Box<dyn Fn(usize) -> TokenStream + 'p>,
-    /// Where values are found that were computed before.
+    /// How values are read that another function has computed.
     pub(super) known: BTreeMap<Value, TokenStream>,
 }
 
 impl Statements<'_> {
-    // Expands to: `let __v7 = __v3 * __v5;` for every instruction that `keep` selects. What is
-    // known is read where it is used first: `let __v3 = __old[0];`.
+    // Expands to: `let __v7 = __v3 * __v5;` for every instruction that `keep` selects. Known
+    // values are read right before their first use: `let __v3 = __old[0];`.
     pub(super) fn lets(&self, keep: impl Fn(usize, &Instruction) -> bool) -> TokenStream {
         let mut tokens = TokenStream::new();
         let instructions = self.program.instructions.iter().enumerate();

@@ -33,7 +33,7 @@ pub(super) fn block<'a>(cx: &Ctxt, original: &'a Syntax, block: &'a ExprBlock) -
         Some(rest) if is_rest(before, rest) => Expr::hole(original),
         Some(Stmt::Expr(syntax, semicolon)) => {
             let value = expr(cx, syntax);
-            // Of `return x;` the keyword is what is wrong.
+            // In `return x;` the keyword has been reported.
             if let (Some(token), false) = (semicolon, matches!(value.kind, ExprKind::Wrong(_))) {
                 cx.error(token, &message::semicolon_after_value());
             }
@@ -62,7 +62,7 @@ fn is_rest(before: Option<&Stmt>, statement: &Stmt) -> bool {
     matches!(first, Some(TokenTree::Punct(_)))
 }
 
-/// Stands where the value of a block stands, if there is no `;` by mistake.
+/// Whether the last statement of a block is its value, perhaps with a `;` by mistake.
 fn stands_for_value(statement: &Stmt) -> bool {
     match statement {
         Stmt::Expr(..) => true,
@@ -71,7 +71,7 @@ fn stands_for_value(statement: &Stmt) -> bool {
     }
 }
 
-/// A binding, or the hole that a statement leaves which is none.
+/// The binding of a `let`. Any other statement is reported and becomes a binding without a name.
 fn statement<'a>(cx: &Ctxt, block: &'a Syntax, statement: &'a Stmt) -> Binding<'a> {
     let mut value = Expr::hole(block);
     match statement {
@@ -80,7 +80,7 @@ fn statement<'a>(cx: &Ctxt, block: &'a Syntax, statement: &'a Stmt) -> Binding<'
         Stmt::Macro(invocation) => cx.error(&invocation.mac.path, &message::invocation()),
         Stmt::Expr(syntax, _) => {
             value = expr(cx, syntax);
-            // An assignment is not merely without effect.
+            // What is wrong in itself, such as an assignment, has been reported.
             if !matches!(value.kind, ExprKind::Wrong(_)) {
                 cx.error(syntax, &message::statement_without_effect());
             }

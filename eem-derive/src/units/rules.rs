@@ -20,7 +20,7 @@ struct Quantity {
     unit: Unit,
     /// Its value, if it is a number.
     value: Option<Rational>,
-    /// The first field in it that has a scale, to blame where scales differ.
+    /// The first field in it that has a scale: a message about different scales names it.
     scaled: Option<usize>,
 }
 
@@ -93,7 +93,7 @@ impl<'r> Rules<'r> {
         self.cx.error(body.value.original, &message);
     }
 
-    /// Nothing if something in the expression was reported, here or by another phase.
+    /// `None` if something in the expression has been reported, here or by another phase.
     fn quantity(&mut self, expr: &Expr<'_>) -> Option<Quantity> {
         match &expr.kind {
             ExprKind::Number(number) => Some(Quantity::number(number.exact())),
@@ -180,8 +180,8 @@ impl<'r> Rules<'r> {
         })
     }
 
-    /// Whether two units are equal. Where the unit of a field is unknown they are, and this says
-    /// something about it; nothing if what it says is not consistent.
+    /// Whether two units are equal. Unknown units of fields are chosen such that they are; `None` if
+    /// that contradicts what has been chosen before.
     fn agree(&mut self, expr: &Expr<'_>, a: &Unit, b: &Unit) -> Option<bool> {
         if a.first_unknown().or(b.first_unknown()).is_none() {
             return Some(a == b);

@@ -197,7 +197,7 @@ impl Step {
         self.quotient(one, a)
     }
 
-    /// `∂/∂symbol`, looking through the local of a divided difference.
+    /// `∂/∂symbol` of a value, which may be a local: then of what it stands for.
     pub(super) fn partial(&mut self, value: ExprId, symbol: Symbol) -> ExprId {
         let value = self.locals.resolve(&self.graph, value);
         diff(&mut self.graph, value, symbol)
@@ -223,8 +223,8 @@ impl Step {
         self.graph.scale(coefficient * Number::HALF, term)
     }
 
-    /// The sum of differences along several edges as a local. They are looked through, because they
-    /// have most of their terms in common.
+    /// The sum of differences along several edges as a local. The sum is formed of what their locals
+    /// stand for, because that has most terms in common.
     pub(super) fn sum_of(&mut self, values: &[ExprId]) -> ExprId {
         let values: Vec<_> = values
             .iter()
@@ -259,7 +259,7 @@ pub(super) fn mixed(i: usize, before: &[Symbol], after: &[Symbol]) -> Point {
     before[..i].iter().chain(&after[i..]).copied().collect()
 }
 
-/// First the corners that variables become new at, then those that they become old at.
+/// Temperatures at the corners of the staircase from x⁰ to x¹ (`up`), then of the one back (`down`).
 fn corner_symbols(graph: &mut Graph, theta: Symbol, mechanical: usize) -> Vec<Symbol> {
     let name = graph.name(theta).to_owned();
     let mut corners = Vec::new();

@@ -1,4 +1,4 @@
-//! Instructions as they are emitted: each numbered by what it computes, so that none comes twice.
+//! Emits instructions. An operation that has been emitted before is not repeated: its value is reused.
 
 use std::collections::{BTreeMap, HashMap};
 

@@ -385,7 +385,7 @@ const _: () = {
             let __v16 = -__v15;
             ([__v11], [__v16])
         }
-        /// Entropy form: what the old state decides.
+        /// Entropy form: what depends on the old state alone.
         ///
         /// 10 operations: 4 additions, 5 multiplications, 1 division.
         fn entropy_form_old(&self, __x0: &Self::Variables) -> Self::EntropyFormOld {
@@ -630,7 +630,7 @@ const _: () = {
             let __v67 = -__v54;
             [__v66, __v67, __v58, __v65]
         }
-        /// Temperature form: what the old state decides.
+        /// Temperature form: what depends on the old state alone.
         ///
         /// 8 operations: 4 additions, 4 multiplications.
         fn temperature_form_old(
