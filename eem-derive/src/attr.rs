@@ -3,6 +3,7 @@
 //! Nothing here fails: what cannot be read is reported and left out, so that all attributes are
 //! seen and an implementation of the trait can be written whatever happens.
 
+mod control_flow;
 mod depth;
 
 use proc_macro2::{Ident, Span, TokenStream, TokenTree};
@@ -12,8 +13,9 @@ use syn::parse::discouraged::Speculative as _;
 use syn::punctuated::Punctuated;
 use syn::{Attribute, DeriveInput, Expr, ExprClosure, Meta, Path, Token, parse_quote};
 
-use crate::ctxt::Ctxt;
+use crate::ctxt::{Ctxt, precedes};
 use crate::message::attribute as message;
+use crate::message::{Message, expression};
 
 /// The attributes of one item.
 pub(crate) struct Attributes {
@@ -89,7 +91,7 @@ impl FreeEnergy {
                 } else {
                     message::unreadable_free_energy(&error)
                 };
-                return cx.error_at(error.span(), &message);
+                return report_unreadable(cx, attribute, &error, &message);
             }
         };
         if entries.is_empty() {
@@ -130,6 +132,19 @@ impl FreeEnergy {
     }
 }
 
+/// Reports an attribute that the parser has refused: an `if` or `match` in it by its name, and what
+/// the parser says unless that may be a consequence.
+fn report_unreadable(cx: &Ctxt, attribute: &Attribute, error: &syn::Error, message: &Message) {
+    let keyword = control_flow::first(tokens(attribute));
+    if let Some(keyword) = &keyword {
+        let name = keyword.to_string();
+        cx.error(keyword, &expression::syntax::control_flow(&name));
+    }
+    if keyword.is_none_or(|keyword| precedes(error.span(), keyword.span())) {
+        cx.error_at(error.span(), message);
+    }
+}
+
 fn is_too_deep(cx: &Ctxt, attribute: &Attribute) -> bool {
     let place = depth::too_deep(tokens(attribute));
     if let Some(span) = place {
@@ -138,14 +153,14 @@ fn is_too_deep(cx: &Ctxt, attribute: &Attribute) -> bool {
     place.is_some()
 }
 
-/// There is a `|` in the attribute: a closure has been begun.
+/// Whether there is a `|` in the attribute, so that it is meant to be a closure.
 fn has_closure(attribute: &Attribute) -> bool {
     tokens(attribute)
         .into_iter()
         .any(|token| is_punct(&token, '|'))
 }
 
-/// The attribute begins with `name =`.
+/// Whether the attribute begins with `name =`, so that it is meant to be a law.
 fn has_law(attribute: &Attribute) -> bool {
     let mut tokens = tokens(attribute).into_iter();
     let name = tokens.next();
@@ -225,7 +240,7 @@ fn read_laws(cx: &Ctxt, attribute: &Attribute) -> Option<Vec<(Ident, Expr)>> {
             } else {
                 message::unreadable_viscosity(&error)
             };
-            cx.error_at(error.span(), &message);
+            report_unreadable(cx, attribute, &error, &message);
             None
         }
     }

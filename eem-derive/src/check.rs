@@ -2,11 +2,12 @@
 //!
 //! One function per rule, one file per subject. This file is the table of contents.
 
-mod call;
+mod callee;
 mod laws;
 mod names;
 mod parameters;
 mod resolve;
+mod resolver;
 mod roles;
 mod scope;
 

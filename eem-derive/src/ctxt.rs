@@ -48,6 +48,11 @@ impl Ctxt {
     }
 }
 
+/// Whether a token stands before another one; unknown without a compiler.
+pub(crate) fn precedes(first: Span, second: Span) -> bool {
+    position(first) < position(second)
+}
+
 /// Line and column, where there is a compiler that knows them.
 fn position(span: Span) -> (usize, usize) {
     if proc_macro::is_available() {

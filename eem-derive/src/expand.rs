@@ -6,12 +6,13 @@
 mod constants;
 pub(crate) mod description;
 mod docs;
+mod equation;
 mod forms;
 mod header;
 mod inputs;
+mod lines;
 mod points;
 mod statements;
-mod together;
 
 use eem_symbolic::{Model, Programs};
 use proc_macro2::TokenStream;
@@ -35,7 +36,7 @@ pub(crate) fn expand(
     let constants = constants::constants(checked, programs, &inputs);
     let points = points::points(programs, &inputs);
     let forms = forms::forms(programs, &inputs);
-    let equations = description::equations(checked, &model.formulas());
+    let equations = equation::equations(checked, &model.formulas());
     let formulas = docs::formulas(checked, &equations, units);
     let description = description::description(checked, model, programs, &equations, units);
     let body = quote! { #constants #points #forms };
@@ -54,11 +55,11 @@ pub(crate) fn expand(
 //     };
 pub(crate) fn wrap(krate: &Path, implementation: &TokenStream) -> TokenStream {
     quote! {
-        // Numbers are printed with all their digits, which is not for reading.
+        // Numbers have all their digits, without separators.
         #[allow(clippy::unreadable_literal, clippy::excessive_precision)]
-        // The names of the values count them.
+        // Values are named `__v0`, `__v1`, …
         #[allow(clippy::many_single_char_names, clippy::similar_names)]
-        // The length and the shape of a function are those of the formula.
+        // A long formula makes a long function.
         #[allow(clippy::too_many_lines, clippy::cognitive_complexity, clippy::let_and_return)]
         // `__eem` may be a path through the crate that defines the struct.
         #[allow(unused_qualifications)]

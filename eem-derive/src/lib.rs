@@ -34,6 +34,7 @@ mod parse;
 mod physics;
 #[cfg(test)]
 mod tests;
+mod unit;
 mod units;
 
 use proc_macro::TokenStream;

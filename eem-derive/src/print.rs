@@ -27,6 +27,7 @@ mod model;
 mod nearest;
 mod parse;
 mod physics;
+mod unit;
 mod units;
 
 const USAGE: &str = "usage: expand FILE [STRUCT]…";

@@ -3,7 +3,8 @@
 use std::collections::BTreeSet;
 
 use crate::function::Function;
-use crate::program::{Operation, Program, ProgramKernel, Stage, Value};
+use crate::operation::{Operation, ProgramKernel, Value};
+use crate::program::{Program, Stage};
 
 impl Program {
     /// Counts the operations of each stage.
@@ -31,9 +32,8 @@ impl Program {
                 Operation::Apply(function, x) => (family(function), vec![x]),
                 Operation::Power(base, _) => (Some(Function::Ln), vec![base]),
                 Operation::DividedDifference(kernel, a, b)
-                | Operation::SecondDividedDifference(kernel, a, b) => {
-                    (family_of(kernel), vec![a, b])
-                }
+                | Operation::SecondDividedDifference(kernel, a, b)
+                | Operation::JointDifferences(kernel, a, b) => (family_of(kernel), vec![a, b]),
                 Operation::Input(_)
                 | Operation::Constant(_)
                 | Operation::Add(..)
@@ -42,7 +42,8 @@ impl Program {
                 | Operation::Div(..)
                 | Operation::Neg(_)
                 | Operation::Powi(..)
-                | Operation::Sqrt(_) => (None, Vec::new()),
+                | Operation::Sqrt(_)
+                | Operation::Part(..) => (None, Vec::new()),
             };
             let Some(family) = family else { continue };
             for end in ends {
@@ -56,7 +57,7 @@ impl Program {
         count
     }
 
-    /// The argument of a logarithm without a factor that is known: `ln(c·x) = ln c + ln x`.
+    /// The argument of a logarithm without a factor of the old stage, as `ln(c·x) = ln c + ln x`.
     fn up_to_a_factor(&self, family: Function, argument: Value) -> Value {
         if family != Function::Ln {
             return argument;
@@ -83,12 +84,13 @@ pub struct TranscendentalCount {
     /// Calls of functions of the library, those inside of divided differences between close ends
     /// included. Roots do not count.
     pub calls: usize,
-    /// The calls that would be enough if every difference were made from values at its ends: kinds
-    /// of functions times arguments that depend on the new state.
+    /// The calls that would be enough if every divided difference were computed from function values
+    /// at its ends: pairs of a kind of function and an argument that depends on the new state.
     pub arguments: usize,
 }
 
-/// The functions that are made from one another count as one kind.
+/// The kind of a function: functions of one kind can be computed from one library call, as the
+/// hyperbolic ones from the exponential.
 fn family(function: Function) -> Option<Function> {
     match function {
         Function::Exp | Function::ExpM1 | Function::Sinh | Function::Cosh | Function::Tanh => {
@@ -117,7 +119,9 @@ fn library_calls(operation: &Operation) -> usize {
         Operation::Apply(function, _) => usize::from(family(function).is_some()),
         Operation::Power(..) => 1,
         Operation::DividedDifference(kernel, ..) => calls_of(kernel)[0],
-        Operation::SecondDividedDifference(kernel, ..) => calls_of(kernel)[1],
+        // The calls of a second difference include those of the first.
+        Operation::SecondDividedDifference(kernel, ..)
+        | Operation::JointDifferences(kernel, ..) => calls_of(kernel)[1],
         Operation::Input(_)
         | Operation::Constant(_)
         | Operation::Add(..)
@@ -126,7 +130,8 @@ fn library_calls(operation: &Operation) -> usize {
         | Operation::Div(..)
         | Operation::Neg(_)
         | Operation::Powi(..)
-        | Operation::Sqrt(_) => 0,
+        | Operation::Sqrt(_)
+        | Operation::Part(..) => 0,
     }
 }
 
@@ -189,7 +194,8 @@ impl StageCount {
 
     fn add(&mut self, operation: &Operation) {
         match operation {
-            Operation::Input(_) | Operation::Constant(_) => {}
+            // Joint differences are counted where one of them is read.
+            Operation::Input(_) | Operation::Constant(_) | Operation::JointDifferences(..) => {}
             Operation::Add(..)
             | Operation::Sub(..)
             | Operation::Neg(_)
@@ -201,7 +207,9 @@ impl StageCount {
                 self.multiplications += (n.ilog2() + n.count_ones() - 1) as usize;
             }
             Operation::Sqrt(_) | Operation::Power(..) | Operation::Apply(..) => self.functions += 1,
-            Operation::DividedDifference(..) | Operation::SecondDividedDifference(..) => {
+            Operation::DividedDifference(..)
+            | Operation::SecondDividedDifference(..)
+            | Operation::Part(..) => {
                 self.kernels += 1;
             }
         }

@@ -73,12 +73,6 @@ impl Model {
         let possible = sign(graph, curvature, &self.positive()).negative;
         (!possible).then_some(Flaw::NegativeHeatCapacity)
     }
-
-    /// Lengths and absolute temperatures.
-    pub(crate) fn positive(&self) -> Vec<Symbol> {
-        let measures = self.measures.iter();
-        measures.chain(&self.temperature).copied().collect()
-    }
 }
 
 fn is_zero(graph: &Graph, e: ExprId) -> bool {

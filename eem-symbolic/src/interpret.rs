@@ -5,7 +5,8 @@
 
 use crate::function::Function;
 use crate::number::Number;
-use crate::program::{Operation, Program, ProgramKernel};
+use crate::operation::{DifferencePart, Operation, ProgramKernel, Value};
+use crate::program::Program;
 
 /// A number system that programs can be evaluated on.
 pub trait Arithmetic {
@@ -46,6 +47,42 @@ pub trait Arithmetic {
         a: &Self::Number,
         b: &Self::Number,
     ) -> Self::Number;
+
+    /// `f[a, b]`, `f[a, a, b]` and `f[a, b, b]`; one by one unless the arithmetic knows better.
+    fn joint_differences(
+        &self,
+        kernel: ProgramKernel<&Self::Number>,
+        a: &Self::Number,
+        b: &Self::Number,
+    ) -> JointDifferences<Self::Number> {
+        JointDifferences {
+            first: self.divided_difference(kernel, a, b),
+            second_a: self.second_divided_difference(kernel.mirrored(), b, a),
+            second_b: self.second_divided_difference(kernel, a, b),
+        }
+    }
+}
+
+/// All divided differences of one function between two ends a and b.
+#[derive(Clone, Debug, PartialEq)]
+pub struct JointDifferences<N> {
+    /// `f[a, b]`.
+    pub first: N,
+    /// `f[a, a, b]`.
+    pub second_a: N,
+    /// `f[a, b, b]`.
+    pub second_b: N,
+}
+
+impl<N> JointDifferences<N> {
+    /// One of them.
+    pub fn part(&self, part: DifferencePart) -> &N {
+        match part {
+            DifferencePart::First => &self.first,
+            DifferencePart::SecondA => &self.second_a,
+            DifferencePart::SecondB => &self.second_b,
+        }
+    }
 }
 
 impl Program {
@@ -76,15 +113,40 @@ impl Program {
             inputs.len(),
             self.inputs.len()
         );
-        let mut values: Vec<A::Number> = Vec::with_capacity(self.instructions.len());
+        let mut values = Values(Vec::with_capacity(self.instructions.len()));
         for instruction in &self.instructions {
             let value = evaluate(&instruction.operation, arithmetic, inputs, &values);
-            values.push(value);
+            values.0.push(value);
         }
         let outputs = self.outputs.iter();
         outputs
-            .map(|output| values[output.index()].clone())
+            .map(|&output| values.number(output).clone())
             .collect()
+    }
+}
+
+/// The result of one instruction.
+enum Computed<N> {
+    Number(N),
+    Differences(JointDifferences<N>),
+}
+
+/// The results so far.
+struct Values<N>(Vec<Computed<N>>);
+
+impl<N> Values<N> {
+    fn number(&self, value: Value) -> &N {
+        match &self.0[value.index()] {
+            Computed::Number(number) => number,
+            Computed::Differences(_) => panic!("joint differences are read by their parts"),
+        }
+    }
+
+    fn differences(&self, value: Value) -> &JointDifferences<N> {
+        match &self.0[value.index()] {
+            Computed::Differences(differences) => differences,
+            Computed::Number(_) => panic!("a number has no parts"),
+        }
     }
 }
 
@@ -92,31 +154,34 @@ fn evaluate<A: Arithmetic>(
     operation: &Operation,
     arithmetic: &A,
     inputs: &[A::Number],
-    values: &[A::Number],
-) -> A::Number {
-    match operation {
+    values: &Values<A::Number>,
+) -> Computed<A::Number> {
+    let of = |value: &Value| values.number(*value);
+    let kernel = |kernel: &ProgramKernel| kernel.map(|value| values.number(value));
+    Computed::Number(match operation {
         Operation::Input(index) => inputs[*index].clone(),
         Operation::Constant(number) => arithmetic.constant(number),
-        Operation::Add(a, b) => arithmetic.add(&values[a.index()], &values[b.index()]),
-        Operation::Sub(a, b) => arithmetic.sub(&values[a.index()], &values[b.index()]),
-        Operation::Mul(a, b) => arithmetic.mul(&values[a.index()], &values[b.index()]),
-        Operation::Div(a, b) => arithmetic.div(&values[a.index()], &values[b.index()]),
-        Operation::Neg(a) => arithmetic.neg(&values[a.index()]),
-        Operation::Powi(a, n) => arithmetic.powi(&values[a.index()], *n),
-        Operation::Sqrt(a) => arithmetic.sqrt(&values[a.index()]),
-        Operation::Power(a, b) => arithmetic.power(&values[a.index()], &values[b.index()]),
-        Operation::Apply(function, a) => arithmetic.apply(*function, &values[a.index()]),
-        Operation::DividedDifference(kernel, a, b) => arithmetic.divided_difference(
-            kernel.map(|value| &values[value.index()]),
-            &values[a.index()],
-            &values[b.index()],
-        ),
-        Operation::SecondDividedDifference(kernel, a, b) => arithmetic.second_divided_difference(
-            kernel.map(|value| &values[value.index()]),
-            &values[a.index()],
-            &values[b.index()],
-        ),
-    }
+        Operation::Add(a, b) => arithmetic.add(of(a), of(b)),
+        Operation::Sub(a, b) => arithmetic.sub(of(a), of(b)),
+        Operation::Mul(a, b) => arithmetic.mul(of(a), of(b)),
+        Operation::Div(a, b) => arithmetic.div(of(a), of(b)),
+        Operation::Neg(a) => arithmetic.neg(of(a)),
+        Operation::Powi(a, n) => arithmetic.powi(of(a), *n),
+        Operation::Sqrt(a) => arithmetic.sqrt(of(a)),
+        Operation::Power(a, b) => arithmetic.power(of(a), of(b)),
+        Operation::Apply(function, a) => arithmetic.apply(*function, of(a)),
+        Operation::DividedDifference(f, a, b) => {
+            arithmetic.divided_difference(kernel(f), of(a), of(b))
+        }
+        Operation::SecondDividedDifference(f, a, b) => {
+            arithmetic.second_divided_difference(kernel(f), of(a), of(b))
+        }
+        Operation::JointDifferences(f, a, b) => {
+            let differences = arithmetic.joint_differences(kernel(f), of(a), of(b));
+            return Computed::Differences(differences);
+        }
+        Operation::Part(differences, part) => values.differences(*differences).part(*part).clone(),
+    })
 }
 
 /// Double precision, the elementary functions those of the platform.

@@ -28,6 +28,7 @@
 #![forbid(unsafe_code)]
 
 // Expressions.
+mod derivative;
 mod difference;
 mod function;
 mod graph;
@@ -51,15 +52,21 @@ mod substitute;
 
 // Programs.
 mod cost;
+mod difference_formulas;
 mod discrete;
 mod flaw;
+mod formulas;
 mod interpret;
+mod joint;
 mod model;
+mod operation;
 mod program;
+mod programs;
 mod quadrature;
 mod running_error;
 mod schedule;
 mod verify;
+mod verify_error;
 
 pub use diff::{diff, diff_total};
 pub use display::format;
@@ -75,13 +82,18 @@ pub use sign::{Sign, sign};
 pub use substitute::substitute;
 
 pub use cost::{OperationCount, StageCount, TranscendentalCount};
+pub use difference_formulas::DifferenceFormula;
 pub use flaw::Flaw;
-pub use interpret::{Arithmetic, F64};
-pub use model::{DifferenceFormula, Formulas, Model, Programs};
-pub use program::{Input, Instruction, Operation, Program, ProgramKernel, Stage, Value};
+pub use formulas::Formulas;
+pub use interpret::{Arithmetic, F64, JointDifferences};
+pub use joint::Restriction;
+pub use model::Model;
+pub use operation::{DifferencePart, Operation, ProgramKernel, Value};
+pub use program::{Input, Instruction, Program, Stage};
+pub use programs::Programs;
 pub use running_error::{Bounded, RunningError};
 pub use schedule::schedule;
-pub use verify::VerifyError;
+pub use verify_error::VerifyError;
 
 /// The example of the readme.
 #[cfg(doctest)]

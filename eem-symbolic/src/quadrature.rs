@@ -9,7 +9,7 @@
 //! cancels however close the ends are. Only derivatives are written down here.
 
 use crate::function::Function;
-use crate::program::ProgramKernel;
+use crate::operation::ProgramKernel;
 
 /// The panels of \[0, ½\] end at 2⁻¹, 2⁻², … 2⁻ⁿ and 0, those of \[½, 1\] mirror them: a pole beyond
 /// an end, as that of ln x, is no closer to a panel than its width if the ratio of the ends is

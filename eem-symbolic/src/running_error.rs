@@ -11,7 +11,7 @@
 use crate::function::Function;
 use crate::interpret::{Arithmetic, F64};
 use crate::number::Number;
-use crate::program::ProgramKernel;
+use crate::operation::ProgramKernel;
 use crate::quadrature::rounding_scale;
 
 /// Unit roundoff of `f64`, the bound of the relative error of one operation.
@@ -120,7 +120,7 @@ impl Arithmetic for RunningError {
     ) -> Bounded {
         let values = kernel.map(|operand| &operand.value);
         let value = F64.divided_difference(values, &a.value, &b.value);
-        let to_a = F64.second_divided_difference(mirrored(values), &b.value, &a.value);
+        let to_a = F64.second_divided_difference(values.mirrored(), &b.value, &a.value);
         let to_b = F64.second_divided_difference(values, &a.value, &b.value);
         let ends = to_a.abs() * a.error + to_b.abs() * b.error;
         let scale = rounding_scale(values.map(|value| *value), a.value, b.value);
@@ -142,17 +142,6 @@ impl Arithmetic for RunningError {
         let ends = (second(&moved(a), &b.value) - value).abs()
             + (second(&a.value, &moved(b)) - value).abs();
         Bounded::rounded(value, ends + of_kernel(kernel, value, a, b), SECOND)
-    }
-}
-
-/// The same function with its ends exchanged.
-fn mirrored(kernel: ProgramKernel<&f64>) -> ProgramKernel<&f64> {
-    match kernel {
-        ProgramKernel::Power(value_a, value_b) => ProgramKernel::Power(value_b, value_a),
-        ProgramKernel::Function(_)
-        | ProgramKernel::Powi(_)
-        | ProgramKernel::Sqrt
-        | ProgramKernel::Powf(_) => kernel,
     }
 }
 

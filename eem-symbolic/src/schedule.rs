@@ -1,19 +1,20 @@
-//! Expressions → [`Program`]: one pass over all outputs, every value computed once, none for nothing.
+//! Expressions → [`Program`]: one pass over all outputs, each value computed once.
 //!
-//! * Equal expressions are one instruction, whichever outputs they belong to, and so are equal
-//!   beginnings of sums and products.
-//! * Whole powers are products, halves square roots. Coefficients ±1 cost a sign, which a sum
-//!   absorbs.
+//! * Equal expressions are one instruction, whichever outputs they belong to. So are equal leading
+//!   terms of sums and equal leading factors of products.
+//! * Whole powers are products, halves square roots. A coefficient −1 in a sum is a subtraction.
 //! * [`schedule`] keeps the structural order and divides once per product: an expression takes the
 //!   same operations at the old and at the new state, and what is symmetric in the two is symmetric
 //!   bit by bit. Only factors and terms of parameters alone come first.
-//! * The programs of a [`Model`](crate::Model) take the freedom that rounding leaves: what depends
-//!   on parameters alone comes first, operands that many products or sums have in common next, and
+//! * The programs of a [`Model`](crate::Model) reorder sums and products, which changes rounding
+//!   only: what depends on parameters alone comes first, operands that many products or sums have in common next, and
 //!   quotients are products with shared reciprocals. Arguments of functions are still divided, so
-//!   that ln(λ/λ₀) vanishes where λ = λ₀. In the end functions come first, so that few values have
-//!   to outlive a call.
+//!   that ln(λ/λ₀) vanishes where λ = λ₀. Last, function calls move to the
+//!   front, so that few values have to be kept across a call, and divided differences of one function between the same ends become one
+//!   call ([`Operation::JointDifferences`](crate::Operation::JointDifferences)).
 
 mod builder;
+mod context;
 mod dependence;
 mod difference;
 mod locals;
@@ -22,13 +23,14 @@ mod power;
 mod sharing;
 mod sum;
 
+pub(crate) use context::Schedule;
 pub(crate) use dependence::Dependence;
 pub(crate) use locals::Locals;
 
 use crate::graph::Graph;
 use crate::node::{ExprId, Node};
 use crate::program::{Input, Program};
-use crate::verify::VerifyError;
+use crate::verify_error::VerifyError;
 use builder::{Builder, Operand, Signed};
 use plan::Plan;
 
@@ -60,14 +62,6 @@ pub fn schedule(graph: &Graph, inputs: Vec<Input>, outputs: &[ExprId]) -> Progra
     schedule.in_order(inputs, outputs)
 }
 
-/// What a schedule is made from besides inputs and outputs.
-pub(crate) struct Schedule<'g> {
-    pub(crate) graph: &'g Graph,
-    pub(crate) locals: &'g Locals,
-    /// How many of the first inputs are parameters, or like parameters: known before all others.
-    pub(crate) parameters: usize,
-}
-
 impl Schedule<'_> {
     /// Every operation in structural order.
     fn in_order(&self, inputs: Vec<Input>, outputs: &[ExprId]) -> Program {
@@ -81,7 +75,10 @@ impl Schedule<'_> {
         let plan = Plan::new(self, &new, outputs);
         let mut builder = Builder::new(self, inputs);
         builder.plan = Some(plan);
-        self.emit_all(builder, outputs).functions_first()
+        let program = self.emit_all(builder, outputs);
+        let program = program.functions_first().with_joint_differences();
+        check(&program);
+        program
     }
 
     fn emit_all(&self, mut builder: Builder<'_>, outputs: &[ExprId]) -> Program {
@@ -89,11 +86,7 @@ impl Schedule<'_> {
             self.visit(&mut builder, output);
         }
         let program = builder.finish(outputs);
-        // A constant that overflows is the caller's to report; all else is a mistake made here.
-        debug_assert!(matches!(
-            program.verify(),
-            Ok(()) | Err(VerifyError::NonFiniteConstant { .. })
-        ));
+        check(&program);
         program
     }
 
@@ -122,25 +115,6 @@ impl Schedule<'_> {
         }
     }
 
-    /// What an expression is computed from.
-    fn operands(&self, e: ExprId) -> Vec<ExprId> {
-        let mut operands = Vec::new();
-        match self.definition(e) {
-            Some(definition) => operands.push(definition),
-            None => self
-                .graph
-                .node(e)
-                .for_each_operand(|operand| operands.push(operand)),
-        }
-        operands
-    }
-
-    /// The expression that a local stands for.
-    fn definition(&self, e: ExprId) -> Option<ExprId> {
-        let resolved = self.locals.resolve(self.graph, e);
-        (resolved != e).then_some(resolved)
-    }
-
     fn emit(&self, builder: &mut Builder<'_>, e: ExprId) -> Signed {
         if let Some(definition) = self.definition(e) {
             return builder.signed(definition);
@@ -165,4 +139,12 @@ impl Schedule<'_> {
         }
         .into()
     }
+}
+
+/// A constant that overflows is the caller's to report; all else is a mistake made here.
+fn check(program: &Program) {
+    debug_assert!(matches!(
+        program.verify(),
+        Ok(()) | Err(VerifyError::NonFiniteConstant { .. })
+    ));
 }

@@ -1,73 +1,10 @@
 //! What every [`Program`] satisfies, checked from scratch.
 
 use std::collections::HashMap;
-use std::error::Error;
-use std::fmt;
 
-use crate::program::{Operation, Program, ProgramKernel, Stage, Value};
-
-/// Why a program is not valid.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum VerifyError {
-    /// An instruction reads a value that is not computed before it.
-    UseBeforeDefinition {
-        /// The instruction.
-        instruction: usize,
-        /// What it reads.
-        operand: Value,
-    },
-    /// An output is not the value of an instruction.
-    UnknownOutput {
-        /// The position of the output.
-        output: usize,
-    },
-    /// An instruction reads an input that the program does not have.
-    UnknownInput {
-        /// The instruction.
-        instruction: usize,
-        /// The position of the input.
-        input: usize,
-    },
-    /// An instruction is not at the stage at which its operands are complete.
-    WrongStage {
-        /// The instruction.
-        instruction: usize,
-        /// The stage that it should have.
-        expected: Stage,
-    },
-    /// A constant is used at another stage than its own.
-    ConstantAcrossStages {
-        /// The instruction that uses it.
-        instruction: usize,
-        /// The constant.
-        operand: Value,
-    },
-    /// No instruction and no output uses a value.
-    Unused {
-        /// The instruction.
-        instruction: usize,
-    },
-    /// Two instructions of one stage compute the same.
-    Duplicate {
-        /// The earlier instruction.
-        first: usize,
-        /// The later one.
-        second: usize,
-    },
-    /// A whole power with an exponent for which there is a simpler operation.
-    TrivialPower {
-        /// The instruction.
-        instruction: usize,
-        /// The exponent.
-        exponent: i32,
-    },
-    /// A constant is infinite or not a number.
-    NonFiniteConstant {
-        /// The instruction.
-        instruction: usize,
-    },
-}
+use crate::operation::{Operation, ProgramKernel, Value};
+use crate::program::Program;
+use crate::verify_error::VerifyError;
 
 impl Program {
     /// Checks that the program is a schedule.
@@ -77,6 +14,8 @@ impl Program {
     ///   constants are used at their own stage.
     /// * Every value is used, and none is computed twice at one stage.
     /// * Whole powers are n ≥ 3, those of divided differences n ≠ 0, 1, 2. Constants are finite.
+    /// * Parts are read from joint differences and nothing else is; two parts at least of each, and
+    ///   only of functions that have such a call.
     ///
     /// # Errors
     ///
@@ -86,9 +25,11 @@ impl Program {
             self.check_operands(instruction)?;
             self.check_stage(instruction)?;
             self.check_numbers(instruction)?;
+            self.check_kinds(instruction)?;
         }
         self.check_outputs()?;
         self.check_used()?;
+        self.check_parts()?;
         self.check_distinct()
     }
 
@@ -149,6 +90,9 @@ impl Program {
                 instruction,
                 exponent,
             }),
+            Operation::JointDifferences(kernel, ..) if !kernel.has_joint_call() => {
+                Err(VerifyError::NoJointCall { instruction })
+            }
             Operation::DividedDifference(ProgramKernel::Powi(exponent @ 0..=2), ..)
             | Operation::SecondDividedDifference(ProgramKernel::Powi(exponent @ 0..=2), ..) => {
                 Err(VerifyError::TrivialPower {
@@ -160,12 +104,48 @@ impl Program {
         }
     }
 
+    fn is_joint(&self, value: Value) -> bool {
+        let operation = &self.instructions[value.index()].operation;
+        matches!(operation, Operation::JointDifferences(..))
+    }
+
+    fn check_kinds(&self, instruction: usize) -> Result<(), VerifyError> {
+        let operation = &self.instructions[instruction].operation;
+        let reads_part = matches!(operation, Operation::Part(..));
+        let mut operands = operation.operands().into_iter();
+        match operands.find(|&operand| self.is_joint(operand) != reads_part) {
+            Some(operand) => Err(VerifyError::WrongKind {
+                instruction,
+                operand,
+            }),
+            None => Ok(()),
+        }
+    }
+
+    fn check_parts(&self) -> Result<(), VerifyError> {
+        let mut parts = vec![0; self.instructions.len()];
+        for instruction in &self.instructions {
+            if let Operation::Part(differences, _) = instruction.operation {
+                parts[differences.index()] += 1;
+            }
+        }
+        let joint = |&index: &usize| self.is_joint(Value::new(index));
+        match (0..parts.len())
+            .filter(joint)
+            .find(|&index| parts[index] < 2)
+        {
+            Some(instruction) => Err(VerifyError::FewParts { instruction }),
+            None => Ok(()),
+        }
+    }
+
+    /// Every output is the value of an instruction, and a number.
     fn check_outputs(&self) -> Result<(), VerifyError> {
         let count = self.instructions.len();
         match self
             .outputs
             .iter()
-            .position(|output| output.index() >= count)
+            .position(|&output| output.index() >= count || self.is_joint(output))
         {
             Some(output) => Err(VerifyError::UnknownOutput { output }),
             None => Ok(()),
@@ -196,65 +176,3 @@ impl Program {
         Ok(())
     }
 }
-
-impl fmt::Display for VerifyError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::UseBeforeDefinition {
-                instruction,
-                operand,
-            } => {
-                let operand = operand.index();
-                write!(
-                    f,
-                    "instruction {instruction} reads value {operand}, which is not there yet"
-                )
-            }
-            Self::UnknownOutput { output } => {
-                write!(f, "output {output} is the value of no instruction")
-            }
-            Self::UnknownInput { instruction, input } => {
-                write!(
-                    f,
-                    "instruction {instruction} reads input {input}, which does not exist"
-                )
-            }
-            Self::WrongStage {
-                instruction,
-                expected,
-            } => {
-                write!(f, "instruction {instruction} belongs to stage {expected:?}")
-            }
-            Self::ConstantAcrossStages {
-                instruction,
-                operand,
-            } => {
-                let operand = operand.index();
-                write!(
-                    f,
-                    "instruction {instruction} uses constant {operand} of another stage"
-                )
-            }
-            Self::Unused { instruction } => {
-                write!(f, "the value of instruction {instruction} is never used")
-            }
-            Self::Duplicate { first, second } => {
-                write!(f, "instructions {first} and {second} compute the same")
-            }
-            Self::TrivialPower {
-                instruction,
-                exponent,
-            } => {
-                write!(
-                    f,
-                    "instruction {instruction} is a power with exponent {exponent}"
-                )
-            }
-            Self::NonFiniteConstant { instruction } => {
-                write!(f, "the constant of instruction {instruction} is not finite")
-            }
-        }
-    }
-}
-
-impl Error for VerifyError {}

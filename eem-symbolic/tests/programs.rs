@@ -134,7 +134,7 @@ fn a_restricted_program_has_the_same_bits() {
     for law in laws::all() {
         let program = law.model.programs().entropy_form;
         let responses = law.state.len() + usize::from(law.model.temperature.is_some());
-        let restricted = program.restricted_to(responses);
+        let restricted = program.restricted_to(responses).program;
         assert_eq!(restricted.verify(), Ok(()), "{}", law.name);
         let before = program.operation_count().new.total();
         assert!(

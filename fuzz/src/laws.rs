@@ -2,8 +2,8 @@
 //! times increments are differences, and the first law holds in every step.
 
 use eem_symbolic::{
-    Bounded, ExprId, Graph, Input, Program, Stage, Symbol, Value, diff, divided_difference, format,
-    schedule,
+    Bounded, ExprId, Graph, Input, Operation, Program, Stage, Symbol, Value, diff,
+    divided_difference, format, schedule,
 };
 
 use crate::kernels::BoundedKernels;
@@ -76,7 +76,10 @@ fn determined(program: &Program, inputs: &[f64], count: usize) -> Option<Vec<Bou
     let wanted = &program.outputs[..count];
     let last = wanted.iter().map(|output| output.index()).max()?;
     all.instructions.truncate(last + 1);
-    all.outputs = (0..all.instructions.len()).map(Value::new).collect();
+    // Joint differences are no numbers; each of their parts is an instruction.
+    let joint = |operation: &Operation| matches!(operation, Operation::JointDifferences(..));
+    let numbers = (0..=last).filter(|&index| !joint(&all.instructions[index].operation));
+    all.outputs = numbers.map(Value::new).chain(wanted.to_vec()).collect();
     let inputs: Vec<Bounded> = inputs.iter().map(|&x| Bounded::exact(x)).collect();
     let values = all.interpret(&BoundedKernels, &inputs);
     let sound = |Bounded { value, error }: &Bounded| {
@@ -84,10 +87,8 @@ fn determined(program: &Program, inputs: &[f64], count: usize) -> Option<Vec<Bou
         let exact = *error <= 0.0 && size < LARGE;
         exact || (size < LARGE && size > 1.0 / LARGE && *error <= DETERMINED * size)
     };
-    values
-        .iter()
-        .all(sound)
-        .then(|| wanted.iter().map(|output| values[output.index()]).collect())
+    let results = &values[values.len() - count..];
+    values.iter().all(sound).then(|| results.to_vec())
 }
 
 /// `e[a, b] (b − a) = e(b) − e(a)`, and `e[a, a] = ∂e/∂x`.

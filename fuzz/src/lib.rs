@@ -29,12 +29,13 @@ mod front_end {
     pub(crate) mod nearest;
     pub(crate) mod parse;
     pub(crate) mod physics;
+    pub(crate) mod unit;
     pub(crate) mod units;
 }
 // Its files name each other from the root of their crate.
 use front_end::{
     ast, attr, check, checked, ctxt, derive, expand, fallback, message, model, nearest, parse,
-    physics, units,
+    physics, unit, units,
 };
 
 #[path = "expression.rs"]

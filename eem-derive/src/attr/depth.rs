@@ -27,7 +27,7 @@ pub(super) fn too_deep(tokens: TokenStream) -> Option<Span> {
             let value = !matches!(token, TokenTree::Punct(_));
             match token {
                 TokenTree::Group(group) => pending.push((group.stream(), level + BRACKETS)),
-                // The next statement or argument does not stand inside of this one.
+                // The next statement or argument starts at the level outside.
                 TokenTree::Punct(punct) if matches!(punct.as_char(), ';' | ',') => level = outside,
                 TokenTree::Punct(punct) if after_value && punct.as_char() != '.' => level += 1,
                 TokenTree::Punct(_) => level += PREFIX,

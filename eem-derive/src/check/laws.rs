@@ -1,7 +1,8 @@
 //! The viscosity laws: one per dashpot, of the temperature and the parameters.
 
 use super::parameters::Used;
-use super::resolve::{self, Resolver};
+use super::resolve;
+use super::resolver::Resolver;
 use super::scope::{Meaning, Scope};
 use crate::ast::{self, Argument, Block, Expr, ExprKind, Input, Law, Role};
 use crate::checked::{Body, Variable};

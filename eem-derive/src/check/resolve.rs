@@ -1,13 +1,18 @@
 //! Resolves the names of an expression and flattens its blocks.
 
+use eem_symbolic::Function;
 use proc_macro2::Ident;
 
+use super::callee::Callee;
+use super::names;
+use super::parameters::Used;
+use super::resolver::Resolver;
 use super::scope::{Meaning, Scope};
-use super::{call, names, parameters::Used};
 use crate::ast::{self, Block, Input};
 use crate::checked::{Body, Expr, ExprKind, Variable};
 use crate::ctxt::Ctxt;
-use crate::message::{expression as message, field};
+use crate::message::expression as message;
+use crate::nearest::nearest;
 
 /// The free energy with its names resolved.
 pub(super) fn energy<'a>(
@@ -46,59 +51,8 @@ pub(super) fn declare_fields(scope: &mut Scope, input: &Input<'_>) {
     }
 }
 
-/// Resolves one body: a free energy or a law.
-pub(super) struct Resolver<'r, 'a> {
-    pub(super) cx: &'r Ctxt,
-    pub(super) scope: Scope,
-    pub(super) variables: &'r [Variable<'a>],
-    used: &'r mut Used,
-    bindings: Vec<Expr<'a>>,
-    /// The names of the bindings, and whether something mentions them.
-    names: Vec<(&'a Ident, bool)>,
-    /// Nothing has been reported that may have hidden the use of a name.
-    complete: bool,
-}
-
-impl<'r, 'a> Resolver<'r, 'a> {
-    /// A resolver in the given scope.
-    pub(super) fn new(
-        cx: &'r Ctxt,
-        scope: Scope,
-        variables: &'r [Variable<'a>],
-        used: &'r mut Used,
-    ) -> Self {
-        Self {
-            cx,
-            scope,
-            variables,
-            used,
-            bindings: Vec::new(),
-            names: Vec::new(),
-            complete: true,
-        }
-    }
-
-    /// The body that ends in `value`. Reports bindings without effect.
-    pub(super) fn finish(self, value: Expr<'a>) -> Body<'a> {
-        if self.complete {
-            let unused = self.names.iter().filter(|(_, used)| !used);
-            for (ident, _) in unused.filter(|(ident, _)| !ast::is_underscored(ident)) {
-                self.cx.error(ident, &message::unused_binding(ident));
-            }
-        } else {
-            self.used.give_up();
-        }
-        Body {
-            bindings: self.bindings,
-            value,
-        }
-    }
-
-    /// The value of a binding has been reported.
-    pub(super) fn is_wrong(&self, binding: usize) -> bool {
-        matches!(self.bindings[binding].kind, ExprKind::Wrong(_))
-    }
-
+impl<'a> Resolver<'_, 'a> {
+    /// Resolves a block; its bindings join those of the body.
     fn block(&mut self, block: &'a Block<'a>) -> Expr<'a> {
         let mark = self.scope.enter();
         for binding in &block.bindings {
@@ -131,7 +85,7 @@ impl<'r, 'a> Resolver<'r, 'a> {
                 let (left, right) = (self.expr(left), self.expr(right));
                 ExprKind::Binary(*operator, Box::new(left), Box::new(right))
             }
-            ast::ExprKind::Call(function, arguments) => call::call(self, function, arguments),
+            ast::ExprKind::Call(function, arguments) => self.call(function, arguments),
             ast::ExprKind::Wrong(parts) => self.wrong(parts),
         };
         Expr {
@@ -140,7 +94,8 @@ impl<'r, 'a> Resolver<'r, 'a> {
         }
     }
 
-    /// A hole, and what can be resolved in it.
+    /// An expression that has been reported. Its parts are resolved all the same, so that mistakes in
+    /// them are reported, too.
     pub(super) fn wrong(
         &mut self,
         parts: impl IntoIterator<Item = &'a ast::Expr<'a>>,
@@ -166,31 +121,86 @@ impl<'r, 'a> Resolver<'r, 'a> {
         self.wrong([])
     }
 
-    /// Reports a name that is known and cannot be used here.
-    pub(super) fn refuse(&self, ident: &Ident, meaning: Meaning) {
-        let message = match meaning {
-            Meaning::ForeignArgument(role) => message::law_of_state(ident, role),
-            Meaning::ForeignBinding => message::law_of_binding(ident),
-            Meaning::UnusedField => field::unused_and_used(ident),
-            // What is wrong with them has been reported.
-            Meaning::WrongArgument | Meaning::Unreadable => return,
-            Meaning::Field(_) | Meaning::Argument(_) | Meaning::Binding(_) => {
-                unreachable!("these can be used everywhere")
+    /// Resolves `function(arguments)`.
+    fn call(&mut self, function: &'a Ident, arguments: &'a [ast::Expr<'a>]) -> ExprKind<'a> {
+        let name = ast::name(function);
+        let Some(callee) = Callee::from_name(&name) else {
+            report_unknown(self, function, &name);
+            return self.wrong(arguments);
+        };
+        let (expected, form) = callee.form();
+        if arguments.len() != expected {
+            let message = message::argument_count(&name, &form, expected, arguments.len());
+            self.cx.error(function, &message);
+            return self.wrong(arguments);
+        }
+        match (callee, arguments) {
+            (Callee::Diff, [expression, variable]) => match diff_variable(self, variable) {
+                Some(variable) => ExprKind::Diff(self.expr(expression).into(), variable),
+                None => self.wrong([expression]),
+            },
+            (Callee::Powi, [x, n]) => {
+                let (x, n) = (self.expr(x), self.expr(n));
+                ExprKind::Powi(x.into(), n.into())
             }
-        };
-        self.cx.error(ident, &message);
+            (Callee::Powf, [x, y]) => {
+                let (x, y) = (self.expr(x), self.expr(y));
+                ExprKind::Powf(x.into(), y.into())
+            }
+            (Callee::Sqrt, [x]) => ExprKind::Sqrt(self.expr(x).into()),
+            (Callee::Recip, [x]) => ExprKind::Recip(self.expr(x).into()),
+            (Callee::Unary(Function::Abs), [x]) => ExprKind::Abs(function, self.expr(x).into()),
+            (Callee::Unary(function), [x]) => ExprKind::Apply(function, self.expr(x).into()),
+            _ => unreachable!("the number of arguments has been checked"),
+        }
     }
+}
 
-    /// Reports a name that stands for nothing.
-    pub(super) fn unknown(&self, ident: &Ident) {
-        let name = ast::name(ident);
-        let nearest = self.scope.nearest(ident);
-        let constant = message::syntax::constant_value(&name);
-        let message = match (nearest, constant) {
-            _ if call::is_function(ident) => message::name_is_a_function(&name),
-            (None, Some(value)) => message::syntax::constant(&name, value),
-            _ => message::unknown_name(ident, nearest),
-        };
-        self.cx.error(ident, &message);
+fn report_unknown(resolver: &Resolver<'_, '_>, function: &Ident, name: &str) {
+    let nearest = nearest(name, Callee::names());
+    let message = match resolver.scope.resolve(function) {
+        // The value of the binding is a closure, which has been reported.
+        Some(Meaning::Binding(index)) if resolver.is_wrong(index) => return,
+        // A declaration that could not be read may have this name.
+        Some(Meaning::Unreadable) if nearest.is_none() => return,
+        None | Some(Meaning::Unreadable) => {
+            message::unknown_function(name, message::function_help(name, nearest, Callee::names()))
+        }
+        Some(_) => message::name_is_not_a_function(name),
+    };
+    resolver.cx.error(function, &message);
+}
+
+/// The argument of the free energy that the second argument of `diff` names.
+fn diff_variable<'a>(resolver: &Resolver<'_, 'a>, variable: &'a ast::Expr<'a>) -> Option<usize> {
+    let cx = resolver.cx;
+    let ident = match variable.kind {
+        ast::ExprKind::Name(ident) => ident,
+        ast::ExprKind::Wrong(_) => return None,
+        _ => {
+            cx.error(variable.original, &message::diff_variable_is_not_a_name());
+            return None;
+        }
+    };
+    let refuse = |kind| {
+        let variables = resolver.variables.iter();
+        let names: Vec<String> = variables.map(|v| ast::name(v.ident)).collect();
+        let names = names.iter().map(String::as_str);
+        cx.error(ident, &message::diff_variable(ident, kind, names));
+    };
+    match resolver.scope.resolve(ident) {
+        Some(Meaning::Argument(index)) => return Some(index),
+        Some(Meaning::Field(_)) => refuse("parameter"),
+        // The binding hides an argument, which has been reported.
+        Some(Meaning::Binding(_)) if is_argument(resolver, ident) => {}
+        Some(Meaning::Binding(_)) => refuse("`let` binding"),
+        Some(meaning) => resolver.refuse(ident, meaning),
+        None => resolver.unknown(ident),
     }
+    None
+}
+
+fn is_argument(resolver: &Resolver<'_, '_>, ident: &Ident) -> bool {
+    let mut variables = resolver.variables.iter();
+    variables.any(|variable| ast::name(variable.ident) == ast::name(ident))
 }

@@ -1,11 +1,11 @@
 //! The description of the model: the implementation of `Describe`.
 
-use eem_symbolic::{Formulas, Model, Program, Programs};
+use eem_symbolic::{Model, Program, Programs};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-use super::docs;
-use crate::ast::{self, Role};
+use super::equation::{Equation, differences};
+use crate::ast;
 use crate::checked::Checked;
 use crate::units::{self, Units};
 
@@ -70,110 +70,6 @@ fn parameters(checked: &Checked<'_>, units: &Units) -> impl Iterator<Item = Toke
             |unit| quote! { __eem::describe::Parameter::new(#name, #unit) },
         )
     })
-}
-
-/// A formula, its left side and its unit.
-pub(super) struct Equation {
-    symbol: String,
-    /// Both sides, broken into lines.
-    pub(super) lines: Vec<String>,
-    unit: String,
-}
-
-impl Equation {
-    /// `meaning` follows the symbol: `s = −∂ψ/∂theta = …`.
-    fn new(symbol: &str, meaning: &str, formula: &str, unit: &str) -> Self {
-        Self {
-            symbol: symbol.to_owned(),
-            lines: docs::lines(&format!("{symbol}{meaning} = {formula}")),
-            unit: unit.to_owned(),
-        }
-    }
-
-    fn tokens(&self) -> TokenStream {
-        let (symbol, unit) = (&self.symbol, &self.unit);
-        let equation = self.lines.join("\n");
-        quote! { __eem::describe::Formula::new(#symbol, #equation, #unit) }
-    }
-}
-
-/// The formulas in the order in which a reader wants them.
-pub(super) fn equations(checked: &Checked<'_>, formulas: &Formulas) -> Vec<Equation> {
-    let names = |role| {
-        let variables = checked.variables.iter().filter(move |v| v.role == role);
-        variables.map(|v| ast::name(v.ident))
-    };
-    let theta = names(Role::Temperature).next().unwrap_or_default();
-    let mut equations = vec![Equation::new("ψ", "", &formulas.free_energy, "J")];
-    if let Some(entropy) = &formulas.entropy {
-        let meaning = format!(" = −∂ψ/∂{theta}");
-        equations.push(Equation::new("s", &meaning, entropy, "J/K"));
-        let meaning = format!(" = ψ + {theta} s");
-        let energy = &formulas.internal_energy;
-        equations.push(Equation::new("e", &meaning, energy, "J"));
-    }
-    for (name, force) in names(Role::Stretch).zip(&formulas.forces) {
-        let meaning = format!(" = ∂ψ/∂{name}");
-        equations.push(Equation::new("f", &meaning, force, "N"));
-    }
-    let dashpots = formulas.dashpot_forces.len();
-    for (k, (name, force)) in names(Role::Viscous)
-        .zip(&formulas.dashpot_forces)
-        .enumerate()
-    {
-        let meaning = format!(" = −∂ψ/∂{name}");
-        equations.push(Equation::new(
-            &subscript("g", k, dashpots),
-            &meaning,
-            force,
-            "N",
-        ));
-    }
-    if let Some(capacity) = &formulas.heat_capacity {
-        let meaning = format!(" = {theta} ∂s/∂{theta}");
-        equations.push(Equation::new("c", &meaning, capacity, "J/K"));
-    }
-    for (k, viscosity) in formulas.viscosities.iter().enumerate() {
-        equations.push(Equation::new(
-            &subscript("η", k, dashpots),
-            "",
-            viscosity,
-            "N s/m",
-        ));
-    }
-    equations
-}
-
-/// `symbol`, numbered from 1 if there are several.
-fn subscript(symbol: &str, index: usize, count: usize) -> String {
-    if count == 1 {
-        symbol.to_owned()
-    } else {
-        format!("{symbol}_{}", index + 1)
-    }
-}
-
-fn differences(checked: &Checked<'_>, model: &Model) -> Vec<Equation> {
-    let formulas = model.difference_formulas();
-    let equation = |formula: &eem_symbolic::DifferenceFormula| {
-        let name = &formula.variable;
-        let mut variables = checked.variables.iter();
-        let thermal = variables.any(|v| v.role == Role::Temperature && ast::name(v.ident) == *name);
-        let unit = match (formula.potential, thermal) {
-            ("s", true) => "J/K^2",
-            ("s", false) => "N/K",
-            (_, true) => "J/K",
-            (_, false) => "N",
-        };
-        let symbol = format!("{}[{name}]", formula.potential);
-        let left = format!("{}[{name}⁰, {name}¹]", formula.potential);
-        Equation {
-            symbol,
-            lines: docs::lines(&format!("{left} = {}", formula.formula)),
-            unit: unit.to_owned(),
-        }
-    };
-    formulas.iter().map(equation).collect()
 }
 
 fn costs(programs: &Programs) -> impl Iterator<Item = TokenStream> {

@@ -1,11 +1,11 @@
 //! The algorithmic quantities of a step, in entropy and in temperature form.
 //!
-//! Each form is three functions: one that runs once per step, of the old state; one that runs once
-//! per iteration and starts from what the first has left; and the latter without the tangent.
+//! Each form is three functions. One runs once per step and depends on the old state alone. One runs
+//! once per iteration and takes the values of the first. The third is the second without the tangent.
 
 use std::collections::BTreeMap;
 
-use eem_symbolic::{Operation, Program, Programs, Stage, Value};
+use eem_symbolic::{Operation, Program, Programs, Restriction, Stage, Value};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
@@ -25,15 +25,19 @@ pub(super) fn forms(programs: &Programs, inputs: &Inputs) -> TokenStream {
 
 fn entropy_form(program: &Program, inputs: &Inputs) -> TokenStream {
     let (old, new) = (old_stage(program, inputs), new_stage(program, inputs));
-    let old_docs = docs::old_stage("Entropy form: what the old state decides.", program);
+    let old_docs = docs::old_stage(
+        "Entropy form: what depends on the old state alone.",
+        program,
+    );
     let new_docs = docs::new_stage(
         "Entropy form: algorithmic quantities and their tangent.",
         program,
     );
-    let response = response(program, inputs);
+    let restriction = program.restricted_to(inputs.responses());
+    let response = response(program, &restriction, inputs);
     let response_docs = docs::new_stage(
         "Entropy form: the same algorithmic quantities without their tangent.",
-        &program.restricted_to(inputs.responses()),
+        &restriction.program,
     );
     let corners = if inputs.thermal {
         quote!(__corners)
@@ -62,15 +66,19 @@ fn entropy_form(program: &Program, inputs: &Inputs) -> TokenStream {
 
 fn temperature_form(program: &Program, inputs: &Inputs) -> TokenStream {
     let (old, new) = (old_stage(program, inputs), new_stage(program, inputs));
-    let old_docs = docs::old_stage("Temperature form: what the old state decides.", program);
+    let old_docs = docs::old_stage(
+        "Temperature form: what depends on the old state alone.",
+        program,
+    );
     let new_docs = docs::new_stage(
         "Temperature form: algorithmic quantities and their tangent.",
         program,
     );
-    let response = response(program, inputs);
+    let restriction = program.restricted_to(inputs.responses());
+    let response = response(program, &restriction, inputs);
     let response_docs = docs::new_stage(
         "Temperature form: the same algorithmic quantities without their tangent.",
-        &program.restricted_to(inputs.responses()),
+        &restriction.program,
     );
     quote! {
         #old_docs
@@ -90,7 +98,7 @@ fn temperature_form(program: &Program, inputs: &Inputs) -> TokenStream {
     }
 }
 
-// Without a temperature there is nothing to tell the forms apart.
+// Without a temperature both forms are the same.
 fn the_same_form() -> TokenStream {
     quote! {
         /// There is no temperature: the same as the entropy form.
@@ -147,21 +155,24 @@ fn new_stage(program: &Program, inputs: &Inputs) -> TokenStream {
 }
 
 // Expands to: `let __v6 = __x1[0]; … […]`: those statements of the full function that the response
-// depends on, hence the same bits.
-fn response(program: &Program, inputs: &Inputs) -> TokenStream {
-    let outputs = &program.outputs[..inputs.responses()];
-    let needed = program.needed_by(outputs);
-    let statements = statements(program, inputs, known(program, inputs));
-    let lets =
-        statements.lets(|index, instruction| instruction.stage == Stage::New && needed[index]);
-    let outputs = outputs.iter().map(|&output| statements.read(output));
+// depends on, hence the same bits. Both functions read the same `__old`.
+fn response(program: &Program, restriction: &Restriction, inputs: &Inputs) -> TokenStream {
+    let of_all = known(program, inputs);
+    let origin = |value: Value| restriction.origins[value.index()];
+    let known = restriction.program.hoisted().into_iter();
+    let known = known.filter_map(|value| Some((value, of_all.get(&origin(value)?)?.clone())));
+    let statements = statements(&restriction.program, inputs, known.collect());
+    let lets = statements.lets(|_, instruction| instruction.stage == Stage::New);
+    let outputs = restriction.program.outputs.iter();
+    let outputs = outputs.map(|&output| statements.read(output));
     quote! {
         #lets
         [#(#outputs),*]
     }
 }
 
-/// What `__old` holds: what the old state decides. Parameters are read where they are used.
+/// The values that `__old` holds: those of the old stage that the new stage uses. Parameters are not
+/// among them, they are read from `self`.
 pub(super) fn kept(program: &Program, inputs: &Inputs) -> Vec<Value> {
     let hoisted = program.hoisted().into_iter();
     hoisted
@@ -169,7 +180,7 @@ pub(super) fn kept(program: &Program, inputs: &Inputs) -> Vec<Value> {
         .collect()
 }
 
-/// Where the new stage finds the values of the old one: in `__old`, or in `self`.
+/// How the new stage reads the values of the old one: from `__old`, or from `self`.
 fn known(program: &Program, inputs: &Inputs) -> BTreeMap<Value, TokenStream> {
     let mut known = BTreeMap::new();
     for value in program.hoisted() {
@@ -184,7 +195,7 @@ fn known(program: &Program, inputs: &Inputs) -> BTreeMap<Value, TokenStream> {
     known
 }
 
-/// The field of `self` that a value is.
+/// The field of `self` that a value is read from, if it is a parameter.
 fn parameter<'p>(program: &Program, inputs: &'p Inputs, value: Value) -> Option<&'p TokenStream> {
     match program.instructions[value.index()].operation {
         Operation::Input(index) => inputs.parameters.get(index),

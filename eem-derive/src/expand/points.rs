@@ -10,7 +10,7 @@ use super::docs;
 use super::inputs::Inputs;
 use super::statements::{Statements, value};
 
-/// All of them.
+/// All functions of one state.
 pub(super) fn points(programs: &Programs, inputs: &Inputs) -> TokenStream {
     let scalar = &inputs.scalar;
     let free_energy = scalar_function(&programs.free_energy, inputs);

@@ -2,11 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use eem_symbolic::{Instruction, Number, Operation, Program, ProgramKernel, Value};
+use eem_symbolic::{DifferencePart, Instruction, Number, Operation, Program, ProgramKernel, Value};
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::{ToTokens as _, format_ident, quote};
-
-use super::together::Together;
 
 /// Prints the instructions of one program.
 pub(super) struct Statements<'p> {
@@ -15,20 +13,17 @@ pub(super) struct Statements<'p> {
     pub(super) scalar: &'p TokenStream,
     /// The source of an input.
     pub(super) input: Box<dyn Fn(usize) -> TokenStream + 'p>,
-    /// Where values are found that were computed before.
+    /// How values are read that another function has computed.
     pub(super) known: BTreeMap<Value, TokenStream>,
 }
 
 impl Statements<'_> {
-    // Expands to: `let __v7 = __v3 * __v5;` for every instruction that `keep` selects. What is
-    // known is read where it is used first: `let __v3 = __old[0];`.
+    // Expands to: `let __v7 = __v3 * __v5;` for every instruction that `keep` selects. Known
+    // values are read right before their first use: `let __v3 = __old[0];`.
     pub(super) fn lets(&self, keep: impl Fn(usize, &Instruction) -> bool) -> TokenStream {
         let mut tokens = TokenStream::new();
         let instructions = self.program.instructions.iter().enumerate();
-        let kept: Vec<_> = instructions
-            .filter(|(index, instruction)| keep(*index, instruction))
-            .collect();
-        let together = Together::of(kept.iter().copied());
+        let kept = instructions.filter(|(index, instruction)| keep(*index, instruction));
         let mut read = BTreeSet::new();
         for (index, instruction) in kept {
             for operand in instruction.operation.operands() {
@@ -40,13 +35,7 @@ impl Statements<'_> {
                 }
             }
             let name = name(index);
-            let value = match together.member(index, &instruction.operation) {
-                Some(member) => {
-                    tokens.extend(member.evaluation);
-                    member.value
-                }
-                None => self.operation(&instruction.operation),
-            };
+            let value = self.operation(&instruction.operation);
             tokens.extend(quote! { let #name = #value; });
         }
         tokens
@@ -85,6 +74,13 @@ impl Statements<'_> {
             Operation::SecondDividedDifference(kernel, a, b) => {
                 divided_difference("_dd2", *kernel, *a, *b)
             }
+            Operation::JointDifferences(kernel, a, b) => {
+                divided_difference("_dds", *kernel, *a, *b)
+            }
+            Operation::Part(differences, part) => {
+                let (differences, part) = (value(*differences), field(*part));
+                quote!(#differences.#part)
+            }
         }
     }
 
@@ -107,14 +103,9 @@ impl Statements<'_> {
     }
 }
 
-// Expands to: `__eem::kernel::ln_dd(__v3, __v5)`; first and second divided differences differ in
-// the suffix of the name only.
-pub(super) fn divided_difference(
-    suffix: &str,
-    kernel: ProgramKernel,
-    a: Value,
-    b: Value,
-) -> TokenStream {
+// Expands to: `__eem::kernel::ln_dd(__v3, __v5)`; first, second and joint divided differences differ
+// in the suffix of the name only.
+fn divided_difference(suffix: &str, kernel: ProgramKernel, a: Value, b: Value) -> TokenStream {
     let (a, b) = (value(a), value(b));
     let (name, arguments) = match kernel {
         ProgramKernel::Function(function) => (function.name(), quote!(#a, #b)),
@@ -137,12 +128,22 @@ pub(super) fn divided_difference(
     quote!(__eem::kernel::#name(#arguments))
 }
 
+/// The field of joint differences that holds one of them.
+fn field(part: DifferencePart) -> Ident {
+    let name = match part {
+        DifferencePart::First => "first",
+        DifferencePart::SecondA => "second_a",
+        DifferencePart::SecondB => "second_b",
+    };
+    Ident::new(name, Span::call_site())
+}
+
 /// The name of a value.
 pub(super) fn value(value: Value) -> Ident {
     name(value.index())
 }
 
-pub(super) fn name(index: usize) -> Ident {
+fn name(index: usize) -> Ident {
     format_ident!("__v{}", index, span = Span::mixed_site())
 }
 

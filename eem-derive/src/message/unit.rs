@@ -4,7 +4,7 @@ use proc_macro2::Ident;
 
 use super::Message;
 use crate::ast;
-use crate::units::Unit;
+use crate::unit::Unit;
 
 const EXAMPLE: &str = "`#[unit(\"J/K\")]`";
 

@@ -1,5 +1,7 @@
 //! Blocks: `let` bindings followed by a value.
 
+use proc_macro2::TokenTree;
+use quote::ToTokens as _;
 use syn::{Expr as Syntax, ExprBlock, Local, Pat, PatIdent, Stmt};
 
 use super::expr::expr;
@@ -19,14 +21,19 @@ pub(super) fn block<'a>(cx: &Ctxt, original: &'a Syntax, block: &'a ExprBlock) -
         Some((last, statements)) if stands_for_value(last) => (Some(last), statements),
         _ => (None, &*block.block.stmts),
     };
-    let statements = statements.iter();
-    let bindings = statements
-        .map(|stmt| statement(cx, original, stmt))
-        .collect();
+    let mut bindings = Vec::new();
+    let mut before = None;
+    for this in statements {
+        if !is_rest(before, this) {
+            bindings.push(statement(cx, original, this));
+        }
+        before = Some(this);
+    }
     let value = match last {
+        Some(rest) if is_rest(before, rest) => Expr::hole(original),
         Some(Stmt::Expr(syntax, semicolon)) => {
             let value = expr(cx, syntax);
-            // Of `return x;` the keyword is what is wrong.
+            // In `return x;` the keyword has been reported.
             if let (Some(token), false) = (semicolon, matches!(value.kind, ExprKind::Wrong(_))) {
                 cx.error(token, &message::semicolon_after_value());
             }
@@ -45,7 +52,17 @@ pub(super) fn block<'a>(cx: &Ctxt, original: &'a Syntax, block: &'a ExprBlock) -
     }
 }
 
-/// Stands where the value of a block stands, if there is no `;` by mistake.
+/// A statement that begins with the operator behind an `if` or `match`. At the start of a statement,
+/// Rust reads `if x > 1 { a } else { b } * c` as two: an `if`, and `*c`. The `if` has been reported.
+fn is_rest(before: Option<&Stmt>, statement: &Stmt) -> bool {
+    let Some(Stmt::Expr(Syntax::If(_) | Syntax::Match(_), None)) = before else {
+        return false;
+    };
+    let first = statement.to_token_stream().into_iter().next();
+    matches!(first, Some(TokenTree::Punct(_)))
+}
+
+/// Whether the last statement of a block is its value, perhaps with a `;` by mistake.
 fn stands_for_value(statement: &Stmt) -> bool {
     match statement {
         Stmt::Expr(..) => true,
@@ -54,7 +71,7 @@ fn stands_for_value(statement: &Stmt) -> bool {
     }
 }
 
-/// A binding, or the hole that a statement leaves which is none.
+/// The binding of a `let`. Any other statement is reported and becomes a binding without a name.
 fn statement<'a>(cx: &Ctxt, block: &'a Syntax, statement: &'a Stmt) -> Binding<'a> {
     let mut value = Expr::hole(block);
     match statement {
@@ -63,7 +80,7 @@ fn statement<'a>(cx: &Ctxt, block: &'a Syntax, statement: &'a Stmt) -> Binding<'
         Stmt::Macro(invocation) => cx.error(&invocation.mac.path, &message::invocation()),
         Stmt::Expr(syntax, _) => {
             value = expr(cx, syntax);
-            // An assignment is not merely without effect.
+            // What is wrong in itself, such as an assignment, has been reported.
             if !matches!(value.kind, ExprKind::Wrong(_)) {
                 cx.error(syntax, &message::statement_without_effect());
             }

@@ -35,6 +35,31 @@ fn elastic_spring() {
 }
 
 #[test]
+fn thermo_visco_elastic_spring() {
+    let item = quote! {
+        #[free_energy(|lambda: Stretch, gamma: Viscous, theta: Temperature| {
+            let stretch = lambda - length;
+            let heating = theta - theta_ref;
+            0.5 * stiffness * stretch.powi(2) + 0.5 * branch * (stretch - gamma).powi(2)
+                - coupling * heating * stretch
+                + capacity * (heating - theta * ln(theta / theta_ref))
+        })]
+        #[viscosity(gamma = eta_ref * exp(activation * (1 / theta - 1 / theta_ref)))]
+        pub struct ThermoViscoElasticSpring {
+            pub stiffness: f64,
+            pub branch: f64,
+            pub length: f64,
+            pub coupling: f64,
+            pub capacity: f64,
+            pub theta_ref: f64,
+            pub eta_ref: f64,
+            pub activation: f64,
+        }
+    };
+    compare("thermo_visco_elastic_spring.rs", &pretty(expand(item)));
+}
+
+#[test]
 fn formulas_of_the_pendulum() {
     let expansion = pretty(expand(super::pendulum()));
     let lines = expansion.lines().map(str::trim_start);

@@ -4,9 +4,9 @@ use eem_symbolic::Rational;
 use proptest::prelude::*;
 use syn::{Data, DeriveInput, Field, parse_quote};
 
-use crate::units::Unit;
+use crate::unit::Base;
+use crate::unit::Unit;
 use crate::units::grammar::parse;
-use crate::units::unit::Base;
 
 fn unit(text: &str) -> Unit {
     parse(text).unwrap_or_else(|message| panic!("{text}: {message}"))

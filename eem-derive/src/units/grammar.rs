@@ -12,10 +12,10 @@ use std::str::Chars;
 
 use eem_symbolic::Rational;
 
-use super::table;
-use super::unit::Unit;
 use crate::message::Message;
 use crate::message::unit as message;
+use crate::unit::Unit;
+use crate::unit::table;
 
 /// No exponent in a unit is larger, so that units of fields are far from overflowing.
 const LARGEST_EXPONENT: i64 = 99;

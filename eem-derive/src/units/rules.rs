@@ -5,15 +5,14 @@ mod sum;
 
 use eem_symbolic::{Function, Rational};
 
+use super::declared::{Declaration, Units, of_role};
 use super::excerpt::excerpt;
-use super::fields::Declaration;
-use super::unit::Unit;
 use super::unknowns::Unknowns;
-use super::{Units, of_role};
 use crate::ast::{self, Operator};
 use crate::checked::{Body, Checked, Expr, ExprKind};
 use crate::ctxt::Ctxt;
 use crate::message::unit::{self as message, Side};
+use crate::unit::Unit;
 
 /// What is known of an expression.
 #[derive(Clone, Debug)]
@@ -21,7 +20,7 @@ struct Quantity {
     unit: Unit,
     /// Its value, if it is a number.
     value: Option<Rational>,
-    /// The first field in it that has a scale, to blame where scales differ.
+    /// The first field in it that has a scale: a message about different scales names it.
     scaled: Option<usize>,
 }
 
@@ -94,18 +93,11 @@ impl<'r> Rules<'r> {
         self.cx.error(body.value.original, &message);
     }
 
-    /// Nothing if something in the expression was reported, here or by another phase.
+    /// `None` if something in the expression has been reported, here or by another phase.
     fn quantity(&mut self, expr: &Expr<'_>) -> Option<Quantity> {
         match &expr.kind {
             ExprKind::Number(number) => Some(Quantity::number(number.exact())),
-            ExprKind::Parameter(field) => match self.units.declarations.get(*field)? {
-                Declaration::Unit(unit, _) => Some(Quantity {
-                    scaled: (!unit.scale().is_one()).then_some(*field),
-                    ..Quantity::new(unit.clone())
-                }),
-                Declaration::Missing => Some(Quantity::new(Unit::unknown(*field))),
-                Declaration::Unreadable => None,
-            },
+            ExprKind::Parameter(field) => self.parameter(*field),
             ExprKind::Variable(index) => {
                 let role = self.checked.variables.get(*index)?.role;
                 Some(Quantity::new(of_role(role)))
@@ -153,24 +145,43 @@ impl<'r> Rules<'r> {
                 let (b, e) = (self.quantity(base), self.quantity(exponent));
                 self.power(expr, [base, exponent], &b?, &e?)
             }
-            ExprKind::Diff(inner, variable) => {
-                let role = self.checked.variables.get(*variable)?.role;
-                let inner = self.quantity(inner)?;
-                let unit = self.fits(expr, inner.unit.over(&of_role(role)))?;
-                // The derivative of a number is zero.
-                let value = inner.value.map(|_| Rational::ZERO);
-                let scaled = inner.scaled;
-                Some(Quantity {
-                    unit,
-                    value,
-                    scaled,
-                })
-            }
+            ExprKind::Diff(inner, variable) => self.derivative(expr, inner, *variable),
         }
     }
 
-    /// Whether two units are equal. Where the unit of a field is unknown they are, and this says
-    /// something about it; nothing if what it says is not consistent.
+    fn parameter(&self, field: usize) -> Option<Quantity> {
+        match self.units.declaration(field)? {
+            Declaration::Unit(unit, _) => Some(Quantity {
+                scaled: (!unit.scale().is_one()).then_some(field),
+                ..Quantity::new(unit.clone())
+            }),
+            Declaration::Missing => Some(Quantity::new(Unit::unknown(field))),
+            Declaration::Unreadable => None,
+        }
+    }
+
+    /// `diff(inner, variable)`
+    fn derivative(
+        &mut self,
+        expr: &Expr<'_>,
+        inner: &Expr<'_>,
+        variable: usize,
+    ) -> Option<Quantity> {
+        let role = self.checked.variables.get(variable)?.role;
+        let inner = self.quantity(inner)?;
+        let unit = self.fits(expr, inner.unit.over(&of_role(role)))?;
+        // The derivative of a number is zero.
+        let value = inner.value.map(|_| Rational::ZERO);
+        let scaled = inner.scaled;
+        Some(Quantity {
+            unit,
+            value,
+            scaled,
+        })
+    }
+
+    /// Whether two units are equal. Unknown units of fields are chosen such that they are; `None` if
+    /// that contradicts what has been chosen before.
     fn agree(&mut self, expr: &Expr<'_>, a: &Unit, b: &Unit) -> Option<bool> {
         if a.first_unknown().or(b.first_unknown()).is_none() {
             return Some(a == b);
@@ -185,7 +196,7 @@ impl<'r> Rules<'r> {
     fn scale_help(&self, scaled: Option<usize>) -> Option<String> {
         let mut parameters = self.checked.parameters.iter();
         let parameter = parameters.find(|parameter| Some(parameter.field) == scaled)?;
-        match self.units.declarations.get(parameter.field)? {
+        match self.units.declaration(parameter.field)? {
             Declaration::Unit(unit, _) => {
                 let name = ast::name(parameter.ident);
                 Some(message::field_with_scale(&name, unit))

@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use super::unit::{Base, Unit};
+use crate::unit::{Base, Unit};
 
 /// The unknown units of fields, as far as they are known.
 #[derive(Debug, Default)]

@@ -12,7 +12,7 @@
 use std::collections::BTreeSet;
 
 use super::latent::Latent;
-use super::{Point, Step};
+use super::step::{Point, Step};
 use crate::node::{ExprId, Symbol};
 
 /// A divided difference along an edge and its partial derivatives.

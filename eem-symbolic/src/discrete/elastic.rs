@@ -1,6 +1,6 @@
 //! The discrete derivative of a free energy without temperature.
 
-use super::{Form, Step, mixed};
+use super::step::{Form, Step, mixed};
 
 /// `[f*_a …, g*_k …]` and their tangent by rows.
 ///

@@ -14,7 +14,7 @@
 //! ```
 
 use super::edge::{self, Edge};
-use super::{Form, Point, Step, mixed};
+use super::step::{Form, Point, Step, mixed};
 use crate::node::{ExprId, Symbol};
 
 /// `[f*_a …, g*_k …, θ*, Δs]` and their tangent by rows.

@@ -7,7 +7,7 @@
 //! Where `S[y_i⁰, y_i¹]` does not depend on θ, ψ is linear in it and the sum is `ψ[y_i⁰, y_i¹; θ̄]`:
 //! one evaluation, and no gap of temperatures.
 
-use super::Step;
+use super::step::Step;
 use crate::node::{ExprId, Node, Symbol};
 use crate::number::Number;
 

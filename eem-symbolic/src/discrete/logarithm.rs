@@ -11,7 +11,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::Step;
+use super::step::Step;
 use crate::function::Function;
 use crate::graph::Graph;
 use crate::node::{ExprId, Kernel, Node};

@@ -10,7 +10,7 @@
 //! nothing cancels between D e and θ* D s but the gap of two temperatures, see `latent`.
 
 use super::latent::Latent;
-use super::{Form, Step, mixed};
+use super::step::{Form, Step, mixed};
 use crate::node::ExprId;
 
 /// `[f*_a …, g*_k …, θ*, Δs]` and their tangent by rows.

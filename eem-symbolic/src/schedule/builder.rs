@@ -1,14 +1,15 @@
-//! Instructions as they are emitted: each numbered by what it computes, so that none comes twice.
+//! Emits instructions. An operation that has been emitted before is not repeated: its value is reused.
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::Schedule;
+use super::context::Schedule;
 use super::plan::Plan;
 use super::sharing::Token;
 use crate::function::Function;
 use crate::node::{ExprId, Node, Symbol};
 use crate::number::Number;
-use crate::program::{Input, Instruction, Operation, Program, Stage, Value};
+use crate::operation::{Operation, Value};
+use crate::program::{Input, Instruction, Program, Stage};
 
 /// A result: an instruction, or a number that becomes a constant of the stage that uses it.
 #[derive(Clone, Copy, Debug, PartialEq)]

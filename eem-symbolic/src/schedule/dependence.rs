@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use super::Schedule;
+use super::context::Schedule;
 use crate::node::{ExprId, Node, Symbol};
 
 /// All expressions below some roots, through the definitions of locals.

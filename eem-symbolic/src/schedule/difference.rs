@@ -13,7 +13,7 @@ use super::builder::{Builder, Operand, Signed};
 use crate::function::Function;
 use crate::node::{ExprId, Kernel};
 use crate::number::Number;
-use crate::program::{Operation, ProgramKernel, Value};
+use crate::operation::{Operation, ProgramKernel, Value};
 
 /// First or second: the constructor of the operation of a kernel.
 type Difference = fn(ProgramKernel, Value, Value) -> Operation;

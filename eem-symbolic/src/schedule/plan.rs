@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use super::Schedule;
+use super::context::Schedule;
 use super::dependence::Dependence;
 use super::sharing::{Entry, Sharing, Token};
 use crate::node::{ExprId, Node, Symbol};

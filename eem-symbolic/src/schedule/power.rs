@@ -5,7 +5,7 @@ use super::plan::Factor;
 use super::sharing::Token;
 use crate::node::ExprId;
 use crate::number::{Number, Rational};
-use crate::program::Operation;
+use crate::operation::Operation;
 
 const ONE: Operand = Operand::Number(Number::ONE);
 

@@ -5,7 +5,7 @@ use super::plan::Term;
 use super::sharing::Token;
 use crate::node::ExprId;
 use crate::number::Number;
-use crate::program::Operation;
+use crate::operation::Operation;
 
 impl Builder<'_> {
     /// `constant + Σ coefficient · term`.

@@ -2,8 +2,7 @@
 
 use crate::message::Message;
 
-const SMOOTH: &str =
-    "a free energy is one smooth formula; for a transition use a smooth function such as `tanh`";
+const SMOOTH: &str = "a free energy must be one smooth expression; for a transition use a smooth function such as `tanh`";
 
 pub(crate) fn caret() -> Message {
     Message::new(

@@ -123,7 +123,7 @@ const _: () = {
         fn viscosity(&self, _: __S) -> (Self::Viscosities, Self::Viscosities) {
             ([], [])
         }
-        /// Entropy form: what the old state decides.
+        /// Entropy form: what depends on the old state alone.
         ///
         /// 2 operations: 1 addition, 1 multiplication.
         fn entropy_form_old(&self, __x0: &Self::Variables) -> Self::EntropyFormOld {

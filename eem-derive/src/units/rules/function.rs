@@ -5,8 +5,8 @@ use eem_symbolic::Rational;
 use super::{Quantity, Rules};
 use crate::checked::Expr;
 use crate::message::unit::{self as message, Side};
+use crate::unit::Unit;
 use crate::units::excerpt::excerpt;
-use crate::units::unit::Unit;
 
 impl Rules<'_> {
     /// A root halves or thirds the exponents.

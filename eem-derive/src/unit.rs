@@ -1,8 +1,11 @@
 //! Units as vectors of exact exponents: products of units add them, and equal units are equal.
 //!
 //! The scale of a unit is kept the same way, as the exponents of its prime factors: a kilonewton
-//! per metre is `2³ 5³ kg s⁻²`. Whatever is a power of ten, a minute or an hour has no others, and
-//! roots and products of scales stay exact. A unit that has to be found is one more base.
+//! per metre is `2³ 5³ kg s⁻²`. Powers of ten, minutes and hours have no other prime factors, and
+//! roots and products of scales stay exact. The unknown unit of a field is one more base.
+
+mod display;
+pub(crate) mod table;
 
 use std::collections::BTreeMap;
 

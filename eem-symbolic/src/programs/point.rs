@@ -2,13 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use super::Model;
 use crate::diff::diff;
 use crate::function::Function;
 use crate::graph::Graph;
-use crate::internal_energy::internal_energy;
+use crate::model::{Model, heat_capacity};
 use crate::node::{ExprId, Node, Symbol};
-use crate::number::{Number, Rational};
+use crate::number::Rational;
 use crate::program::{Input, Program, Stage};
 use crate::schedule::{Locals, Schedule};
 
@@ -129,36 +128,6 @@ impl<'m> PointPrograms<'m> {
         };
         schedule.program(inputs.collect(), outputs)
     }
-}
-
-impl Model {
-    /// s = −∂ψ/∂θ.
-    pub(crate) fn entropy(&self, graph: &mut Graph, theta: Symbol) -> ExprId {
-        let slope = diff(graph, self.psi, theta);
-        graph.neg(slope)
-    }
-
-    /// e = ψ + θ s, ψ itself without a temperature.
-    pub(crate) fn internal_energy(&self, graph: &mut Graph) -> ExprId {
-        match self.temperature {
-            Some(theta) => internal_energy(graph, self.psi, theta),
-            None => self.psi,
-        }
-    }
-}
-
-/// `θ ∂s/∂θ`, multiplied out term by term: the heat capacity of `c ln θ` is c.
-pub(super) fn heat_capacity(graph: &mut Graph, entropy: ExprId, theta: Symbol) -> ExprId {
-    let slope = diff(graph, entropy, theta);
-    let theta = graph.variable(theta);
-    let Node::Sum { constant, terms } = graph.node(slope).clone() else {
-        return graph.mul(theta, slope);
-    };
-    let mut products = vec![(constant, theta)];
-    for (coefficient, term) in terms {
-        products.push((coefficient, graph.mul(theta, term)));
-    }
-    graph.weighted_sum(Number::ZERO, &products)
 }
 
 /// The sum of the magnitudes of the terms of a sum: what its rounding error is proportional to.

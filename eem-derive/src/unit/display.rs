@@ -5,7 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use eem_symbolic::Rational;
 
 use super::table::{self, PREFIXES};
-use super::unit::{Base, Unit};
+use super::{Base, Unit};
 
 /// Symbols of [`Base::SI`].
 const SYMBOLS: [&str; 7] = ["m", "kg", "s", "A", "K", "mol", "cd"];

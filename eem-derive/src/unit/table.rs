@@ -1,7 +1,7 @@
 //! The symbols of units and prefixes: a symbol has one meaning, and what has an offset or an
 //! irrational scale has none.
 
-use super::unit::{Base, Unit};
+use super::{Base, Unit};
 use crate::nearest::nearest;
 
 /// A unit with a symbol.
@@ -125,7 +125,7 @@ pub(super) const PREFIXES: [(&str, i64); 26] = [
 
 /// What `symbol` stands for: a unit or a prefixed unit; the whole symbol first, so that `min` is a
 /// minute and `cd` a candela.
-pub(super) fn lookup(symbol: &str) -> Option<Unit> {
+pub(crate) fn lookup(symbol: &str) -> Option<Unit> {
     if let Some(row) = row(symbol) {
         return row.unit(0);
     }
@@ -151,7 +151,7 @@ impl Row {
 }
 
 /// What to write instead of a symbol that is not in the table.
-pub(super) fn advice(symbol: &str) -> String {
+pub(crate) fn advice(symbol: &str) -> String {
     if let Some(advice) = refused(symbol) {
         return advice.to_owned();
     }
@@ -218,7 +218,7 @@ fn two_units(symbol: &str) -> Option<(&str, &str)> {
 #[cfg(test)]
 mod tests {
     use super::{PREFIXES, ROWS, advice, lookup};
-    use crate::units::unit::{Base, Unit};
+    use crate::unit::{Base, Unit};
 
     #[test]
     fn a_symbol_has_one_meaning() {

@@ -1,8 +1,8 @@
 //! The divided differences that discrete derivatives are made of, in print.
 
-use super::Model;
 use crate::display::format;
 use crate::divided_difference::divided_difference;
+use crate::model::Model;
 
 /// The divided difference of a potential along an edge between two states.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,0 +1,93 @@
+//! What is known while a body is resolved: the names in scope, the bindings, what has been used.
+
+use proc_macro2::Ident;
+
+use super::callee::is_function;
+use super::parameters::Used;
+use super::scope::{Meaning, Scope};
+use crate::ast;
+use crate::checked::{Body, Expr, ExprKind, Variable};
+use crate::ctxt::Ctxt;
+use crate::message::{expression as message, field};
+
+/// Resolves one body: a free energy or a law.
+pub(super) struct Resolver<'r, 'a> {
+    pub(super) cx: &'r Ctxt,
+    pub(super) scope: Scope,
+    pub(super) variables: &'r [Variable<'a>],
+    pub(super) used: &'r mut Used,
+    pub(super) bindings: Vec<Expr<'a>>,
+    /// The names of the bindings, and whether something mentions them.
+    pub(super) names: Vec<(&'a Ident, bool)>,
+    /// No expression has been reported that may have used a name: what is not used can be reported.
+    pub(super) complete: bool,
+}
+
+impl<'r, 'a> Resolver<'r, 'a> {
+    /// A resolver in the given scope.
+    pub(super) fn new(
+        cx: &'r Ctxt,
+        scope: Scope,
+        variables: &'r [Variable<'a>],
+        used: &'r mut Used,
+    ) -> Self {
+        Self {
+            cx,
+            scope,
+            variables,
+            used,
+            bindings: Vec::new(),
+            names: Vec::new(),
+            complete: true,
+        }
+    }
+
+    /// The body that ends in `value`. Reports bindings without effect.
+    pub(super) fn finish(self, value: Expr<'a>) -> Body<'a> {
+        if self.complete {
+            let unused = self.names.iter().filter(|(_, used)| !used);
+            for (ident, _) in unused.filter(|(ident, _)| !ast::is_underscored(ident)) {
+                self.cx.error(ident, &message::unused_binding(ident));
+            }
+        } else {
+            self.used.give_up();
+        }
+        Body {
+            bindings: self.bindings,
+            value,
+        }
+    }
+
+    /// The value of a binding has been reported.
+    pub(super) fn is_wrong(&self, binding: usize) -> bool {
+        matches!(self.bindings[binding].kind, ExprKind::Wrong(_))
+    }
+
+    /// Reports a name that is known and cannot be used here.
+    pub(super) fn refuse(&self, ident: &Ident, meaning: Meaning) {
+        let message = match meaning {
+            Meaning::ForeignArgument(role) => message::law_of_state(ident, role),
+            Meaning::ForeignBinding => message::law_of_binding(ident),
+            Meaning::UnusedField => field::unused_and_used(ident),
+            // Reported where they are declared.
+            Meaning::WrongArgument | Meaning::Unreadable => return,
+            Meaning::Field(_) | Meaning::Argument(_) | Meaning::Binding(_) => {
+                unreachable!("these can be used everywhere")
+            }
+        };
+        self.cx.error(ident, &message);
+    }
+
+    /// Reports a name that stands for nothing.
+    pub(super) fn unknown(&self, ident: &Ident) {
+        let name = ast::name(ident);
+        let nearest = self.scope.nearest(ident);
+        let constant = message::syntax::constant_value(&name);
+        let message = match (nearest, constant) {
+            _ if is_function(ident) => message::name_is_a_function(&name),
+            (None, Some(value)) => message::syntax::constant(&name, value),
+            _ => message::unknown_name(ident, nearest),
+        };
+        self.cx.error(ident, &message);
+    }
+}
