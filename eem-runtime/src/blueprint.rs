@@ -5,7 +5,7 @@ use core::fmt::{self, Debug};
 
 use crate::error::SceneError;
 use crate::free_energy::FreeEnergy;
-use crate::group::{ElementGroup, Group, Placed, StageGroup, ThreeStageGroup};
+use crate::group::{ElementGroup, Group, Placed, StageGroup};
 use crate::handle::Element;
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
@@ -31,15 +31,7 @@ pub(crate) trait Blueprint<S: Real, const D: usize>: Any + Debug + Send + Sync {
     /// All parameters of the element at `place` are finite.
     fn check_parameters(&self, place: usize, element: Element) -> Result<(), SceneError>;
     /// The elements, ready to be stepped by `scheme`.
-    fn build(self: Box<Self>, scheme: Scheme, placed: Placed<'_>) -> Built<S, D>;
-}
-
-/// A group of elements, ready to be stepped.
-pub(crate) enum Built<S: Real, const D: usize> {
-    /// With one set of forces per step.
-    AtOnce(Box<dyn Group<S, D>>),
-    /// Through three stages.
-    InStages(Box<dyn StageGroup<S, D>>),
+    fn build(self: Box<Self>, scheme: Scheme, placed: Placed<'_>) -> Box<dyn Group<S, D>>;
 }
 
 /// Elements of the model `M` with the kinematics `K`.
@@ -110,44 +102,38 @@ where
         Ok(())
     }
 
-    fn build(self: Box<Self>, scheme: Scheme, placed: Placed<'_>) -> Built<S, D> {
+    fn build(self: Box<Self>, scheme: Scheme, placed: Placed<'_>) -> Box<dyn Group<S, D>> {
         let Self { kinematics, models } = *self;
-        match scheme {
-            Scheme::EemEntropy | Scheme::Staggered => {
-                boxed::<S, M, K, EemEntropy, D>(kinematics, models, placed)
-            }
-            Scheme::EemTemperature => {
-                boxed::<S, M, K, EemTemperature, D>(kinematics, models, placed)
-            }
-            Scheme::Variational => boxed::<S, M, K, Variational, D>(kinematics, models, placed),
-            Scheme::Variational4 => Built::InStages(Box::new(ThreeStageGroup::<S, M, K, D>::new(
-                kinematics, models, placed,
-            ))),
-            Scheme::MidpointTemperature => {
-                boxed::<S, M, K, MidpointTemperature, D>(kinematics, models, placed)
-            }
-            Scheme::TrapezoidalTemperature => {
-                boxed::<S, M, K, TrapezoidalTemperature, D>(kinematics, models, placed)
-            }
-            Scheme::Midpoint => boxed::<S, M, K, Midpoint, D>(kinematics, models, placed),
-            Scheme::Trapezoidal => boxed::<S, M, K, Trapezoidal, D>(kinematics, models, placed),
+        if let Some(rule) = scheme.tableau() {
+            let group = StageGroup::<S, M, K, D>::new(rule, kinematics, models, placed);
+            return Box::new(group);
         }
+        let group = match scheme {
+            Scheme::EemEntropy | Scheme::Staggered => boxed::<S, M, K, EemEntropy, D>,
+            Scheme::EemTemperature => boxed::<S, M, K, EemTemperature, D>,
+            Scheme::Variational | Scheme::Variational4 => boxed::<S, M, K, Variational, D>,
+            Scheme::MidpointTemperature => boxed::<S, M, K, MidpointTemperature, D>,
+            Scheme::TrapezoidalTemperature => boxed::<S, M, K, TrapezoidalTemperature, D>,
+            Scheme::Midpoint | Scheme::Gauss4 => boxed::<S, M, K, Midpoint, D>,
+            Scheme::Trapezoidal => boxed::<S, M, K, Trapezoidal, D>,
+        };
+        group(kinematics, models, placed)
     }
 }
 
-/// The group of one scheme.
+/// The group of a scheme with one set of forces.
 fn boxed<S, M, K, C, const D: usize>(
     kinematics: K,
     models: Vec<(Element, M)>,
     placed: Placed<'_>,
-) -> Built<S, D>
+) -> Box<dyn Group<S, D>>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    Built::AtOnce(Box::new(ElementGroup::<S, M, K, C, D>::new(
+    Box::new(ElementGroup::<S, M, K, C, D>::new(
         kinematics, models, placed,
-    )))
+    ))
 }

@@ -52,7 +52,7 @@ pub(crate) use arms::points;
 pub(crate) use generic::ElementGeneric;
 use member::Member;
 use site::{Contact, Site};
-pub(crate) use stages::{StageGroup, StageTrial, StageView, ThreeStageGroup};
+pub(crate) use stages::StageGroup;
 pub(crate) use view::{Along, ElementView, GroupTotals, Old, Placed, Sites, StepView, Trial};
 
 /// Elements of one model in a state, whatever steps them.
@@ -120,6 +120,17 @@ pub(crate) trait Group<S: Real, const D: usize>: Elements<S, D> {
         impulses: &mut Impulses<'_, S, D>,
         magnitudes: &mut [S],
     );
+
+    /// Adds `(h w) A` and `−(h w) A q⁰`, where `A q_i` is the nodal force found at the stage of a set and w
+    /// its weight in the rows of the set; moved anchors are taken from the trial. Only of stages.
+    fn add_secant(
+        &mut self,
+        _set: usize,
+        _: &StepView<'_, S>,
+        _: &Trial<S, D>,
+        _: &mut LinearSystem<S, D>,
+    ) {
+    }
 
     /// Adds the increments of the internal variables and of the reservoirs' entropies to a new state
     /// whose positions are known, and finds its temperatures and energies.

@@ -148,15 +148,13 @@ impl Pattern {
         })
     }
 
-    /// The pattern with each unknown twice, first all of them, then all again: every copy of a row
-    /// has both copies of its columns.
-    pub(crate) fn doubled(&self) -> Self {
+    /// The pattern of so many sets of its unknowns, set after set: every row has the columns of all sets.
+    pub(crate) fn repeated(&self, sets: usize) -> Self {
         let unknowns = self.unknowns();
-        Self::new(2 * unknowns, |pair| {
+        Self::new(sets * unknowns, |pair| {
             self.each_entry(|row, column| {
-                for shift in [0, unknowns] {
-                    pair(row, column + shift);
-                    pair(row + unknowns, column + shift);
+                for [down, right] in (0..sets * sets).map(|at| [at / sets, at % sets]) {
+                    pair(row + down * unknowns, column + right * unknowns);
                 }
             });
         })
@@ -278,8 +276,8 @@ mod tests {
     }
 
     #[test]
-    fn a_doubled_pattern_has_every_entry_four_times() {
-        let pattern = Pattern::new(2, |_| {}).doubled();
+    fn a_pattern_of_two_sets_has_every_entry_four_times() {
+        let pattern = Pattern::new(2, |_| {}).repeated(2);
         assert_eq!(pattern.unknowns(), 4);
         assert_eq!(pattern.row(1), [1, 3]);
         assert_eq!(pattern.row(2), [0, 2]);

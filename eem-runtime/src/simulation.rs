@@ -18,7 +18,7 @@ use crate::certificate::Certificate;
 use crate::compact::compact;
 use crate::conduction::Conduction;
 use crate::error::{SceneError, StepError, StepFailure};
-use crate::group::{Placed, StageView, StepView};
+use crate::group::{Placed, StepView};
 use crate::handle::SceneId;
 use crate::layout::Layout;
 use crate::loads::Loads;
@@ -40,33 +40,20 @@ pub use run::RunEnd;
 
 /// What the elements share during the next step; borrows only the fields that it names.
 macro_rules! view {
-    ($simulation:ident, $phase:expr, $state:expr, $loads:expr) => {
+    ($simulation:ident, $phase:expr, $state:expr, [$loads:expr, $stages:expr]) => {
         StepView {
             phase: $phase,
             step: $simulation.step,
             per_step: $simulation.step.recip(),
             state: $state,
             conduction: &$simulation.conduction,
-            loads: &$loads,
+            loads: $loads,
+            stages: $stages,
             masses: &$simulation.masses,
         }
     };
 }
 use view;
-
-/// What the elements share during the next step through stages; borrows only the fields that it names.
-macro_rules! stage_view {
-    ($simulation:ident, $loads:expr) => {
-        StageView {
-            step: $simulation.step,
-            state: &$simulation.state,
-            conduction: &$simulation.conduction,
-            loads: &$loads,
-            masses: &$simulation.masses,
-        }
-    };
-}
-use stage_view;
 
 /// A scene that is stepped through time by one scheme.
 ///
@@ -130,7 +117,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             layout: &layout,
         };
         let groups = scene.groups.into_iter();
-        let built = groups.map(|blueprint| blueprint.build(scheme, placed));
+        let groups = groups.map(|blueprint| blueprint.build(scheme, placed));
         let parts = Parts {
             scheme,
             masses: &masses,
@@ -139,7 +126,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             conduction: &conduction,
             loads: &scene.loads,
         };
-        let stepper = Stepper::new(built, parts, &mut state)?;
+        let stepper = Stepper::new(groups.collect(), parts, &mut state)?;
         layout.forget_places();
         let run = Self {
             scene: scene.id,
@@ -201,22 +188,20 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         check_end(self.time() + self.step)?;
         self.evaluate_loads()?;
         let (effort, next) = (&mut self.effort, &mut *self.next);
-        let stepper = match &mut self.stepper {
-            Stepper::AtOnce(stepper) => &mut **stepper,
-            Stepper::InStages(staged) => {
-                let view = stage_view!(self, staged.loads);
-                let groups = &mut staged.groups;
-                return staged.solver.solve(groups, &view, effort, next);
-            }
-        };
-        let (groups, solver) = (&mut stepper.groups, &mut stepper.solver);
-        let Some(between) = &mut stepper.between else {
-            let view = view!(self, Phase::Whole, &self.state, stepper.loads);
+        let Stepper {
+            groups,
+            solver,
+            loads,
+            stages,
+            between,
+        } = &mut self.stepper;
+        let Some(between) = between else {
+            let view = view!(self, Phase::Whole, &self.state, [loads, stages]);
             return solver.solve(groups, &view, effort, next);
         };
-        let view = view!(self, Phase::Mechanics, &self.state, stepper.loads);
+        let view = view!(self, Phase::Mechanics, &self.state, [loads, stages]);
         let motion = solver.solve(groups, &view, effort, between)?;
-        let view = view!(self, Phase::Heat, between, stepper.loads);
+        let view = view!(self, Phase::Heat, between, [loads, stages]);
         Ok(motion.and(solver.solve(groups, &view, effort, next)?))
     }
 
@@ -330,13 +315,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Number of unknowns of the global system of one Newton iteration.
     #[must_use]
     pub const fn unknowns(&self) -> usize {
-        self.stepper.copies() * self.layout.unknowns
+        self.stepper.solver.sets() * self.layout.unknowns
     }
 
     /// Whether several numbers in one S can go through a step together: in the dense elimination of a
     /// few unknowns, whose pivots are on the diagonal, and in a scheme with one set of forces.
     pub(crate) const fn suits_lanes(&self) -> bool {
-        matches!(self.stepper, Stepper::AtOnce(_)) && self.unknowns() <= MOST_FIXED
+        self.stepper.stages.is_empty() && self.unknowns() <= MOST_FIXED
     }
 }
 

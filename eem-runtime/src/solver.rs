@@ -9,7 +9,6 @@ mod iteration;
 mod linearize;
 mod past;
 mod places;
-mod stages;
 mod starts;
 
 use crate::certificate::Certificate;
@@ -24,15 +23,15 @@ use crate::newton::{NewtonSettings, is_last};
 use crate::pattern::Pattern;
 use crate::scalar::{Mask, Real, natural_power};
 use crate::scene::ElementEntry;
-use crate::scheme::Scheme;
+use crate::scheme::{Ending, Scheme, UnknownSet};
 use crate::system::LinearSystem;
 use balance::Balance;
+use closing::Stages;
 use conclusion::{Conclusion, Progress, Target};
 pub(crate) use effort::{Effort, Iteration};
 use past::Past;
 pub(crate) use past::SavedPast;
 use places::{Seen, moving, seen};
-pub(crate) use stages::Staged;
 
 /// How often an update is halved to bring all elements back to admissible states.
 const HALVINGS: u32 = 30;
@@ -44,15 +43,17 @@ const CONTINUATION_STEPS: u8 = 8;
 #[derive(Debug)]
 pub(crate) struct Solver<S: Real, const D: usize> {
     scheme: Scheme,
-    /// The nodes that move, in the order of their unknowns.
+    /// The sets of unknowns.
+    sets: Vec<UnknownSet>,
+    /// The nodes that move, in the order of their unknowns, set after set.
     nodes: Vec<Balance<S, D>>,
-    /// The temperatures that neighbours see.
+    /// The temperatures that neighbours see, set after set.
     seen: Vec<Seen>,
     /// The system of an iteration.
     tangent: LinearSystem<S, 1>,
     trial: Trial<S, D>,
-    /// 2/h, 1/s: the inertia of a mass.
-    twice_per_step: S,
+    /// What only a scheme with stages needs.
+    stages: Option<Stages<S, D>>,
     /// The part of the nodal forces that the old state and the loads decide, N; empty where nothing has
     /// a part in it.
     old_force: Vec<[S; D]>,
@@ -85,35 +86,54 @@ impl<S: Real, const D: usize> Solver<S, D> {
         loads: &StepLoads<S>,
     ) -> Self {
         let has_old_force = scheme.has_old_forces() || loads.has_total_force();
-        let pattern = Pattern::of_tangent(elements, layout, conduction, D);
+        let sets = scheme.sets();
+        let mut pattern = Pattern::of_tangent(elements, layout, conduction, D);
+        if sets.len() > 1 {
+            pattern = pattern.repeated(sets.len());
+        }
         let tangent = LinearSystem::new(&pattern, D);
+        let stages = scheme.tableau().map(|rule| {
+            let secant = matches!(rule.ending, Ending::StageByStage)
+                .then(|| LinearSystem::new(&Pattern::of_secant(elements, layout, D), 1));
+            Stages::new(rule, secant, masses.len())
+        });
         let sites = Sites {
             layout,
             conduction,
             tangent: &tangent,
-            secant: None,
-            shift: [0; 2],
+            secant: stages.as_ref().and_then(|stages| stages.secant.as_ref()),
+            sets: [0; 2],
         };
-        let nodes = moving(masses, &sites).into_iter().map(Balance::new);
-        let nodes: Vec<_> = nodes.collect();
-        let seen = seen(&sites);
+        let (mut nodes, mut all_seen) = (Vec::new(), Vec::new());
+        for set in 0..sets.len() {
+            let sites = sites.of_sets([set, set]);
+            nodes.extend(moving(masses, &sites).into_iter().map(Balance::new));
+            all_seen.extend(seen(&sites));
+        }
         let points = vec![[S::zero(); D]; masses.len()];
+        let of_sets = vec![[S::zero(); D]; sets.len() * masses.len()];
         // Nobody asks for any unless some are seen.
-        let slots = if seen.is_empty() { 0 } else { layout.thermal };
+        let slots = if all_seen.is_empty() {
+            0
+        } else {
+            layout.thermal
+        };
         Self {
             scheme,
             past: Past::none(masses.len()),
             nodes,
-            seen,
+            seen: all_seen,
             tangent,
             trial: Trial {
-                displacements: points.clone(),
-                rests: points.clone(),
-                seen: SeenTemperatures::new(slots),
+                sets: sets.len(),
+                displacements: of_sets.clone(),
+                rests: of_sets,
+                seen: SeenTemperatures::new(sets.len() * slots),
                 is_start: false,
                 settled: S::Mask::none(),
             },
-            twice_per_step: S::zero(),
+            sets,
+            stages,
             old_force: if has_old_force {
                 points.clone()
             } else {
@@ -129,6 +149,11 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
+    /// Number of sets of unknowns.
+    pub(crate) const fn sets(&self) -> usize {
+        self.sets.len()
+    }
+
     /// Where elements write.
     pub(crate) fn sites<'a>(
         &'a self,
@@ -139,8 +164,11 @@ impl<S: Real, const D: usize> Solver<S, D> {
             layout,
             conduction,
             tangent: &self.tangent,
-            secant: None,
-            shift: [0; 2],
+            secant: self
+                .stages
+                .as_ref()
+                .and_then(|stages| stages.secant.as_ref()),
+            sets: [0; 2],
         }
     }
 
@@ -191,8 +219,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let residual = self.residual();
             let solved = self.tangent.solve();
             solved.map_err(|_| StepFailure::SingularTangent)?;
-            let update = self.correct(groups);
+            let update = self.correct(groups, view);
             effort.note(residual, update, settled);
+            self.final_residual = residual;
             if !update.is_finite() {
                 break;
             }
@@ -244,7 +273,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         let (mut share, mut goes_on) = (S::one(), purpose == Purpose::Iterate);
         while let Err(error) = self.evaluate(groups, view, goes_on) {
-            share = self.retreat(groups, share, error)?;
+            share = self.retreat(groups, view, share, error)?;
             goes_on = true;
         }
         Ok(share == S::one())
@@ -257,6 +286,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     fn retreat(
         &mut self,
         groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
         share: S,
         error: StateError,
     ) -> Result<S, StepFailure> {
@@ -267,7 +297,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         self.obstacle = Some(error);
         let share = half * share;
         // As much as is left.
-        self.take_back(share);
+        self.take_back(view, share);
         for group in groups {
             group.apply(share);
         }

@@ -79,6 +79,21 @@ pub(super) fn change_in<K: Kinematics<S, D>, S: Real, const D: usize>(
     change
 }
 
+/// The same at the stage of a set of unknowns.
+#[inline]
+pub(super) fn change_in_set<K: Kinematics<S, D>, S: Real, const D: usize>(
+    nodes: &K::PerNode<u32>,
+    trial: &Trial<S, D>,
+    set: usize,
+) -> Arms<K, S, D> {
+    let first = trial.first_of_set(set);
+    let [displacements, rests] = [&trial.displacements, &trial.rests].map(|all| &all[first..]);
+    let mut change = arms::<K, S, D>(nodes, displacements);
+    let rest = arms::<K, S, D>(nodes, rests);
+    add_scaled::<K, S, D>(&mut change, S::one(), &rest);
+    change
+}
+
 /// Derivatives by arms as derivatives by positions.
 #[inline]
 pub(super) fn spread<K: Kinematics<S, D>, S: Real, const D: usize>(

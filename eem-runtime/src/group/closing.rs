@@ -41,6 +41,7 @@ where
             Along::Secant => None,
             Along::Scheme => Some(C::PLACEMENT),
             Along::Gradient => Some(Placement::End),
+            Along::Stage(_) => return,
         };
         for member in &self.members {
             let (nodes, r0) = (&member.site.nodes, &member.r0);

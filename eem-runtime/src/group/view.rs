@@ -7,7 +7,7 @@ use crate::loads::StepLoads;
 use crate::masses::Masses;
 use crate::scalar::Real;
 use crate::scene::ElementEntry;
-use crate::scheme::{Phase, Placement};
+use crate::scheme::{MOST_STAGES, Phase, Placement};
 use crate::state::State;
 use crate::system::LinearSystem;
 
@@ -23,6 +23,8 @@ pub(crate) struct StepView<'a, S> {
     pub(crate) state: &'a State<S>,
     pub(crate) conduction: &'a Conduction<S>,
     pub(crate) loads: &'a StepLoads<S>,
+    /// What acts at the times of the stages; none for a scheme that has no stages.
+    pub(crate) stages: &'a [StepLoads<S>],
     /// m per node, kg; `None` for anchors.
     pub(crate) masses: &'a Masses<S>,
 }
@@ -35,6 +37,15 @@ impl<S: Real> StepView<'_, S> {
         } else {
             S::zero()
         }
+    }
+
+    /// The temperatures prescribed on a thermal slot at the stages, K.
+    pub(super) fn prescribed_at_stages(&self, slot: usize) -> Option<[S; MOST_STAGES]> {
+        let mut temperatures = [S::one(); MOST_STAGES];
+        for (temperature, loads) in temperatures.iter_mut().zip(self.stages) {
+            *temperature = loads.prescribed(slot)?.end;
+        }
+        Some(temperatures)
     }
 
     /// The temperature prescribed on a thermal slot, as a scheme with this placement sees it.
@@ -53,7 +64,9 @@ impl<S: Real> StepView<'_, S> {
 /// The global part of the new state that Newton's method tries.
 #[derive(Clone, Debug)]
 pub(crate) struct Trial<S: Real, const D: usize> {
-    /// q¹ − q⁰ of all nodes, m.
+    /// How many sets of unknowns there are, one after the other: one, or one for each stage.
+    pub(crate) sets: usize,
+    /// `q − q⁰` of all nodes, m.
     pub(crate) displacements: Vec<[S; D]>,
     /// What rounding has taken from them, m.
     pub(crate) rests: Vec<[S; D]>,
@@ -64,6 +77,23 @@ pub(crate) struct Trial<S: Real, const D: usize> {
     pub(crate) is_start: bool,
     /// The numbers that have found their new state while others iterate on.
     pub(crate) settled: S::Mask,
+}
+
+impl<S: Real, const D: usize> Trial<S, D> {
+    /// Where the first node of a set is.
+    pub(crate) fn first_of_set(&self, set: usize) -> usize {
+        set * (self.displacements.len() / self.sets)
+    }
+
+    /// The displacements of a set, m.
+    pub(crate) fn displacements_of_set(&self, set: usize) -> &[[S; D]] {
+        &self.displacements[self.first_of_set(set)..self.first_of_set(set + 1)]
+    }
+
+    /// Where the temperature that is seen of a thermal slot is in a set.
+    pub(crate) fn seen_of_set(&self, set: usize, slot: usize) -> usize {
+        set * (self.seen.values.len() / self.sets) + slot
+    }
 }
 
 /// Internal energy (J) and entropy (J/K) of a group.
@@ -102,6 +132,8 @@ pub(crate) enum Along {
     Scheme,
     /// That of the new configuration.
     Gradient,
+    /// That of a stage, with the forces found there.
+    Stage(usize),
 }
 
 /// Where the elements of a group are.
@@ -129,23 +161,27 @@ pub(crate) struct Sites<'a, S, const D: usize> {
     pub(crate) conduction: &'a Conduction<S>,
     /// The system of an iteration.
     pub(crate) tangent: &'a LinearSystem<S, 1>,
-    /// The system that closes a step through stages.
+    /// The system that closes a step stage by stage.
     pub(crate) secant: Option<&'a LinearSystem<S, D>>,
-    /// How far rows and columns of the tangent lie behind where the layout has them: a scheme with
-    /// several stages has as many copies of the unknowns.
-    pub(crate) shift: [usize; 2],
+    /// The sets of unknowns to which rows and columns belong.
+    pub(crate) sets: [usize; 2],
 }
 
 impl<S: Real, const D: usize> Sites<'_, S, D> {
+    /// The same for the rows of one set and the columns of another.
+    pub(crate) fn of_sets(&self, sets: [usize; 2]) -> Self {
+        Self { sets, ..*self }
+    }
+
     /// The row of an unknown of the layout in the tangent.
     pub(crate) fn row(&self, unknown: Option<usize>) -> usize {
-        let [shift, _] = self.shift;
-        self.tangent.row(unknown.map(|unknown| unknown + shift))
+        let first = self.sets[0] * self.layout.unknowns;
+        self.tangent.row(unknown.map(|unknown| unknown + first))
     }
 
     /// The place of the entry of two unknowns of the layout in the tangent.
     pub(crate) fn place(&self, row: Option<usize>, column: Option<usize>) -> usize {
-        let [down, right] = self.shift;
+        let [down, right] = self.sets.map(|set| set * self.layout.unknowns);
         let (row, column) = (
             row.map(|row| row + down),
             column.map(|column| column + right),

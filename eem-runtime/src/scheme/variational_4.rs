@@ -41,20 +41,43 @@
 //! Padé approximation `(1 − z/2 + z²/12)/(1 + z/2 + z²/12)` of `e^{−z}`. Total entropy never decreases: it
 //! grows by `(h/6)(P_0 + 4P_m + P_1)` with the production `P ≥ 0` of each stage.
 
-/// Simpson's rule: weights of the stages over the step.
-pub(crate) const STEP: [f64; 3] = [1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0];
+use super::tableau::{Ending, EntropyBalance, Tableau};
 
-/// Weights of rates at the stages from the start to the middle (Lobatto IIIA).
-pub(crate) const TO_MIDDLE: [f64; 3] = [5.0 / 24.0, 8.0 / 24.0, -1.0 / 24.0];
+/// Simpson's rule.
+const STEP: [f64; 3] = [1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0];
 
-/// Weights of the entropies of the stages in `s⁰ + (h/6)Φ_0`; in `s¹ − (h/6)Φ_1` they are reversed.
-pub(crate) const START: [f64; 3] = [1.0 / 2.0, 2.0 / 3.0, -1.0 / 6.0];
+/// From the start to the middle (Lobatto IIIA).
+const TO_MIDDLE: [f64; 3] = [5.0 / 24.0, 8.0 / 24.0, -1.0 / 24.0];
 
-/// Weights of nodal forces in the residuals of `2m(q_m − q⁰)/h = p⁰` and of `m(q¹ − q⁰)/h = p⁰`, over h.
-pub(crate) const MIDDLE_AND_END: [[f64; 2]; 2] = [[1.0 / 6.0, 1.0 / 12.0], [1.0 / 6.0, 1.0 / 3.0]];
-
-/// The motion `h v_i` at a stage, from the displacements `q_m − q⁰` and `q¹ − q⁰`: weights of both.
-pub(crate) const MOTION: [[f64; 2]; 3] = [[4.0, -1.0], [0.0, 1.0], [-4.0, 3.0]];
+/// See the module.
+pub(crate) static TABLEAU: Tableau = Tableau {
+    times: &[0.0, 0.5, 1.0],
+    known: 1,
+    positions: &[&[1.0 / 6.0, 1.0 / 12.0, 0.0], &[1.0 / 6.0, 1.0 / 3.0, 0.0]],
+    rates: &[&TO_MIDDLE, &STEP],
+    weights: &STEP,
+    temperatures: &[&[1.0, 0.0], &[0.5, 0.5], &[0.0, 1.0]],
+    entropies: &[
+        EntropyBalance {
+            entropies: &[1.0 / 2.0, 2.0 / 3.0, -1.0 / 6.0],
+            old: 1.0,
+            rates: &[1.0 / 6.0, 0.0, 0.0],
+            stage: 0,
+            unknown: 0,
+            supply: &[1.0, 0.0, 0.0],
+        },
+        EntropyBalance {
+            entropies: &[-1.0, 0.0, 1.0],
+            old: 0.0,
+            rates: &[0.0, 1.0, 0.0],
+            stage: 1,
+            unknown: 2,
+            supply: &[0.0, 2.0 / 3.0, 0.0],
+        },
+    ],
+    motion: &[&[4.0, -1.0], &[0.0, 1.0], &[-4.0, 3.0]],
+    ending: Ending::StageByStage,
+};
 
 #[cfg(test)]
 mod tests {

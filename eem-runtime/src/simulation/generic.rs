@@ -3,7 +3,6 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::Simulation;
-use super::stepper::Stepper;
 use crate::compensated::Compensated;
 use crate::conduction::Partner;
 use crate::group::{ElementGeneric, Elements};
@@ -77,11 +76,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         if !(discrete && self.has_stepped) {
             return None;
         }
-        let Stepper::AtOnce(stepper) = &self.stepper else {
-            return None;
-        };
         let ends = [&*self.next, &*self.state];
-        let elements = stepper.groups.iter();
+        let elements = self.stepper.groups.iter();
         let elements: Vec<_> = elements
             .flat_map(|group| group.generic_of_step(ends))
             .collect();

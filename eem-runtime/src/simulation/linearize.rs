@@ -1,9 +1,9 @@
 //! The system that Newton's method solves, for those who want to look at it.
 
 use super::stepper::Stepper;
-use super::{Simulation, stage_view, view};
+use super::{Simulation, view};
 use crate::error::{StepError, StepFailure};
-use crate::group::{StageView, StepView};
+use crate::group::StepView;
 use crate::scalar::Real;
 use crate::scheme::Phase;
 
@@ -55,19 +55,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         if let Err(failure) = self.evaluate_loads() {
             return Err(self.failed(failure));
         }
-        let effort = &mut self.effort;
-        let linearized = match &mut self.stepper {
-            Stepper::InStages(staged) => {
-                let view = stage_view!(self, staged.loads);
-                let groups = &mut staged.groups;
-                staged.solver.linearize(groups, &view, unknowns, effort)
-            }
-            Stepper::AtOnce(stepper) => {
-                let view = view!(self, Phase::Whole, &self.state, stepper.loads);
-                let groups = &mut stepper.groups;
-                stepper.solver.linearize(groups, &view, unknowns, effort)
-            }
-        };
+        let Stepper {
+            groups,
+            solver,
+            loads,
+            stages,
+            ..
+        } = &mut self.stepper;
+        let view = view!(self, Phase::Whole, &self.state, [loads, stages]);
+        let linearized = solver.linearize(groups, &view, unknowns, &mut self.effort);
         match linearized {
             Ok((residual, tangent)) => Ok(StepTangent { residual, tangent }),
             Err(failure) => Err(self.failed(failure)),

@@ -11,7 +11,7 @@ use crate::scalar::Real;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Balance<S, const D: usize> {
     pub(super) place: MovingNode<S, D>,
-    /// `(h/m) p⁰`, the displacement of free flight, m; zero while nothing moves.
+    /// `c (h/m) p⁰`, the displacement of free flight up to the stage, m; zero while nothing moves.
     pub(super) flight: [S; D],
     /// `−h F⁰` with the part F⁰ of the force that the old state and the loads decide, N s; zero while
     /// nothing moves.
@@ -27,11 +27,17 @@ impl<S: Real, const D: usize> Balance<S, D> {
         }
     }
 
-    /// What does not change during a step, given p⁰ and F⁰.
+    /// What does not change during a step, given the share c of the step up to the stage, p⁰ and F⁰.
     #[inline]
-    pub(super) fn weigh(&mut self, view: &StepView<'_, S>, momentum: &[S; D], force: [S; D]) {
+    pub(super) fn weigh(
+        &mut self,
+        view: &StepView<'_, S>,
+        time: S,
+        momentum: &[S; D],
+        force: [S; D],
+    ) {
         if view.phase.moves() {
-            let mobility = view.step * self.place.per_mass;
+            let mobility = time * view.step * self.place.per_mass;
             self.flight = momentum.map(|momentum| mobility * momentum);
             self.push = force.map(|force| -view.step * force);
         } else {
@@ -39,12 +45,16 @@ impl<S: Real, const D: usize> Balance<S, D> {
         }
     }
 
-    /// `Δp = (2m/h)(Δq − (h/m) p⁰)`, N s, of a displacement; `twice_per_step` is 2/h.
+    /// `Δp = (2m/h)(Δq − (h/m) p⁰)`, N s, of a displacement; `inertia_per_mass` is 2/h, or 1/(ch) for a stage.
     ///
     /// It has the digits of Δp also where that is small beside p, and those of Δq where `Δp ≈ −2p⁰`.
     #[inline]
-    pub(super) fn impulse(&self, [displacement, rest]: [&[S; D]; 2], twice_per_step: S) -> [S; D] {
-        let inertia = self.place.mass * twice_per_step;
+    pub(super) fn impulse(
+        &self,
+        [displacement, rest]: [&[S; D]; 2],
+        inertia_per_mass: S,
+    ) -> [S; D] {
+        let inertia = self.place.mass * inertia_per_mass;
         array::from_fn(|axis| inertia * ((displacement[axis] - self.flight[axis]) + rest[axis]))
     }
 
@@ -54,20 +64,20 @@ impl<S: Real, const D: usize> Balance<S, D> {
     /// R = (2m/h)(q¹ − q⁰) − 2p⁰ + h F
     /// ```
     ///
-    /// to which the elements will add their share; `twice_per_step` is 2/h.
+    /// to which the elements will add their share; `inertia_per_mass` is 2/h, or 1/(ch) for a stage.
     #[inline]
     pub(super) fn balance(
         &self,
         displacement: [&[S; D]; 2],
-        twice_per_step: S,
+        inertia_per_mass: S,
         values: &mut [S],
         rows: &mut [S; D],
     ) {
-        let inertia = self.place.mass * twice_per_step;
+        let inertia = self.place.mass * inertia_per_mass;
         for place in self.place.diagonal() {
             values[place] = inertia;
         }
-        let impulse = self.impulse(displacement, twice_per_step);
+        let impulse = self.impulse(displacement, inertia_per_mass);
         *rows = array::from_fn(|axis| self.push[axis] - impulse[axis]);
     }
 }

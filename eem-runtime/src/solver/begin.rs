@@ -10,7 +10,9 @@ use super::places::Seen;
 use super::{SavedPast, Solver};
 use crate::error::StepFailure;
 use crate::group::{Group, Old, StepView, points};
+use crate::loads::StepLoads;
 use crate::scalar::{Mask, Real};
+use crate::scheme::{MOST_SETS, Scheme};
 
 /// Where a trial starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,7 +42,6 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for group in groups.iter_mut() {
             group.begin(view, &mut old)?;
         }
-        self.twice_per_step = S::from_f64(2.0) * view.per_step;
         self.place_moved_anchors(view);
         self.start(view, start);
         Ok(())
@@ -48,22 +49,56 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// Inertia and impulses that do not change during the step.
     pub(super) fn weigh(&mut self, view: &StepView<'_, S>) {
-        self.twice_per_step = S::from_f64(2.0) * view.per_step;
         let momenta = points::<S, D>(view.state.momenta.values());
-        for node in &mut self.nodes {
-            let at = node.place.node();
-            node.weigh(view, &momenta[at], old_force(&self.old_force, at));
+        let moving = self.moving();
+        for (set, nodes) in self.nodes.chunks_mut(moving).enumerate() {
+            let time = S::from_f64(self.sets[set].time);
+            for node in nodes {
+                let at = node.place.node();
+                let force = force_of_set(self.scheme, set, at, (&self.old_force, view.stages));
+                node.weigh(view, time, &momenta[at], force);
+            }
         }
+    }
+
+    /// How many nodes move.
+    #[inline]
+    pub(super) fn moving(&self) -> usize {
+        // No chunk is empty.
+        (self.nodes.len() / self.sets.len()).max(1)
+    }
+
+    /// How many rows each set of unknowns has.
+    #[inline]
+    pub(super) fn rows_per_set(&self) -> usize {
+        self.tangent.unknowns() / self.sets.len()
+    }
+
+    /// The inertia of 1 kg in the rows of each set: 2/h with one set, 1/s.
+    #[inline]
+    pub(super) fn inertias(&self, view: &StepView<'_, S>) -> [S; MOST_SETS] {
+        let mut inertias = [S::zero(); MOST_SETS];
+        for (inertia, set) in inertias.iter_mut().zip(&self.sets) {
+            *inertia = S::from_f64(set.inertia) * view.per_step;
+        }
+        inertias
     }
 
     /// Anchors that are moved are where the step will have moved them.
     fn place_moved_anchors(&mut self, view: &StepView<'_, S>) {
-        for &node in &view.loads.moved {
-            self.trial.displacements[node] = if view.phase.moves() {
-                view.loads.motion(node)
-            } else {
-                [S::zero(); D]
+        for set in 0..self.sets.len() {
+            let loads = match self.scheme.tableau() {
+                Some(rule) => &view.stages[rule.stage_of(set)],
+                None => view.loads,
             };
+            let first = self.trial.first_of_set(set);
+            for &node in &view.loads.moved {
+                self.trial.displacements[first + node] = if view.phase.moves() {
+                    loads.motion(node)
+                } else {
+                    [S::zero(); D]
+                };
+            }
         }
     }
 
@@ -71,35 +106,51 @@ impl<S: Real, const D: usize> Solver<S, D> {
     fn start(&mut self, view: &StepView<'_, S>, start: Start) {
         self.trial.settled = S::Mask::none();
         let momenta = points::<S, D>(view.state.momenta.values());
+        let (moving, per_set) = (self.moving(), self.rows_per_set());
+        let inertia = self.inertias(view);
         let (values, right, solution) = self.tangent.renew();
-        for &Seen { slot, row } in &self.seen {
-            self.trial.seen.set(slot, view.state.temperatures[slot]);
+        for &Seen {
+            slot,
+            in_trial,
+            row,
+        } in &self.seen
+        {
+            self.trial.seen.set(in_trial, view.state.temperatures[slot]);
             (right[row], solution[row]) = ([S::zero()], [S::zero()]);
         }
-        let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
-        // The way from the old state is the first correction.
-        let changes = solution.as_flattened_mut().as_chunks_mut::<D>().0;
         let is_foretold =
             start == Start::Foretold && view.phase.moves() && self.scheme.foretells_its_start();
         let half_step = S::from_f64(0.5) * view.step;
         let forecast = self.past.forecast();
-        let nodes = self.nodes.iter_mut().zip(rows).zip(changes);
-        for ((node, rows), change) in nodes {
-            let at = node.place.node();
-            let momentum = &momenta[at];
-            node.weigh(view, momentum, old_force(&self.old_force, at));
-            let per_length = &mut self.per_length[at];
-            *per_length = inverse_length(*per_length);
-            let mut displacement = [S::zero(); D];
-            if is_foretold {
-                let (force, mobility) = (forecast.of(at), view.step * node.place.per_mass);
-                displacement =
-                    array::from_fn(|axis| mobility * (momentum[axis] + half_step * force[axis]));
+        for (set, nodes) in self.nodes.chunks_mut(moving).enumerate() {
+            let first = set * per_set;
+            let time = S::from_f64(self.sets[set].time);
+            let rows = right[first..].as_flattened_mut().as_chunks_mut::<D>().0;
+            // The way from the old state is the first correction.
+            let changes = solution[first..].as_flattened_mut();
+            let changes = changes.as_chunks_mut::<D>().0;
+            for ((node, rows), change) in nodes.iter_mut().zip(rows).zip(changes) {
+                let (at, trial) = (node.place.node(), node.place.in_trial());
+                let momentum = &momenta[at];
+                let force = force_of_set(self.scheme, set, at, (&self.old_force, view.stages));
+                node.weigh(view, time, momentum, force);
+                if set == 0 {
+                    let per_length = &mut self.per_length[at];
+                    *per_length = inverse_length(*per_length);
+                }
+                let mut displacement = [S::zero(); D];
+                if is_foretold {
+                    let (force, mobility) =
+                        (forecast.of(at), time * view.step * node.place.per_mass);
+                    displacement = array::from_fn(|axis| {
+                        mobility * (momentum[axis] + half_step * force[axis])
+                    });
+                }
+                (self.trial.displacements[trial], *change) = (displacement, displacement);
+                let rest = [S::zero(); D];
+                self.trial.rests[trial] = rest;
+                node.balance([&displacement, &rest], inertia[set], values, rows);
             }
-            (self.trial.displacements[at], *change) = (displacement, displacement);
-            let rest = [S::zero(); D];
-            self.trial.rests[at] = rest;
-            node.balance([&displacement, &rest], self.twice_per_step, values, rows);
         }
     }
 
@@ -112,12 +163,17 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// What the start of the next step depends on besides the state.
     pub(crate) fn past(&self) -> SavedPast<S> {
-        self.past.save()
+        match self.stages {
+            None => self.past.save(),
+            Some(_) => SavedPast::none(),
+        }
     }
 
     /// Goes on from a saved past.
     pub(crate) fn restore(&mut self, past: &SavedPast<S>) {
-        self.past.restore(past);
+        if self.stages.is_none() {
+            self.past.restore(past);
+        }
     }
 }
 
@@ -130,6 +186,27 @@ pub(super) fn inverse_length<S: Real>(length: S) -> S {
     } else {
         length.recip()
     }
+}
+
+/// The same in the rows of a set of unknowns.
+#[inline]
+fn force_of_set<S: Real, const D: usize>(
+    scheme: Scheme,
+    set: usize,
+    node: usize,
+    (old, stages): (&[[S; D]], &[StepLoads<S>]),
+) -> [S; D] {
+    let Some(rule) = scheme.tableau() else {
+        return old_force(old, node);
+    };
+    let mut force = [S::zero(); D];
+    for (&weight, loads) in rule.positions[set].iter().zip(stages) {
+        let load = loads.total_force::<D>(node);
+        for (force, load) in force.iter_mut().zip(load) {
+            *force -= S::from_f64(weight) * load;
+        }
+    }
+    force
 }
 
 /// The part of the force on a node that old state and loads decide.

@@ -1,5 +1,7 @@
 //! The end of a step: the new state from the increments that were found, and its certificate.
 
+mod stages;
+
 use core::array;
 
 use super::Solver;
@@ -11,6 +13,7 @@ use crate::newton::Largest;
 use crate::scalar::{Mask, Real};
 use crate::scheme::Closing;
 use crate::state::State;
+pub(super) use stages::Stages;
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// Writes the new state to `next`, from the increments at which the elements have been evaluated, and
@@ -64,8 +67,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         let mut tally = Tally::new(care);
         let mut motion = Motion::new(self.kept(view));
-        self.final_residual = S::zero();
-        if view.phase.moves() {
+        if self.stages.is_none() {
+            self.final_residual = S::zero();
+        }
+        if self.scheme.closing() == Closing::Stages {
+            self.move_through_stages(groups, view, next, &mut motion)?;
+        } else if view.phase.moves() {
             self.find_motion(groups, view, care);
             self.move_masses(view, next, &mut motion, &mut tally)?;
             self.move_anchors(view, next, &mut motion);
@@ -122,6 +129,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 self.find_impulse(groups, view, Along::Scheme);
                 self.move_from_start(groups, view);
             }
+            Closing::Stages => {}
         }
     }
 
@@ -138,6 +146,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             self.book_work(view, next);
         }
         let per_step = view.per_step;
+        let [twice_per_step, ..] = self.inertias(view);
         let has_load = view.loads.has_total_force();
         let is_exact = self.scheme.is_exact();
         let takes_increments = self.scheme.closing() == Closing::Increments;
@@ -147,13 +156,13 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let at = node.place.node();
             let (displacement, rest) = (&self.trial.displacements[at], &self.trial.rests[at]);
             if takes_increments {
-                let impulse = node.impulse([displacement, rest], self.twice_per_step);
+                let impulse = node.impulse([displacement, rest], twice_per_step);
                 let found = remembering.impulse_mut(at);
                 for axis in 0..D {
                     let residual = impulse[axis] - found[axis];
                     largest.see(residual);
                     if is_exact {
-                        let inertia = node.place.mass * self.twice_per_step;
+                        let inertia = node.place.mass * twice_per_step;
                         let terms = impulse[axis].abs() + inertia * displacement[axis].abs();
                         let magnitude = self.magnitudes.get(at).copied();
                         tally.balance(residual, terms + magnitude.unwrap_or(S::zero()));

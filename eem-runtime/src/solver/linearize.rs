@@ -16,18 +16,22 @@ impl<S: Real, const D: usize> Solver<S, D> {
         effort: &mut Effort<S>,
     ) -> Result<(Vec<S>, Vec<S>), StepFailure> {
         self.begin(groups, view, Start::Foretold)?;
-        for (node, &displacement) in self.nodes.iter().zip(unknowns.as_chunks::<D>().0) {
-            self.trial.rests[node.place.node()] = [S::zero(); D];
-            self.trial.displacements[node.place.node()] = displacement;
+        let (moving, per_set) = (self.moving(), self.rows_per_set());
+        for (set, nodes) in self.nodes.chunks(moving).enumerate() {
+            let displacements = unknowns[set * per_set..].as_chunks::<D>().0;
+            for (node, &displacement) in nodes.iter().zip(displacements) {
+                self.trial.rests[node.place.in_trial()] = [S::zero(); D];
+                self.trial.displacements[node.place.in_trial()] = displacement;
+            }
         }
         for seen in &self.seen {
-            self.trial.seen.set(seen.slot, unknowns[seen.row]);
+            self.trial.seen.set(seen.in_trial, unknowns[seen.row]);
         }
         // Whatever fails, the global unknowns stay.
         self.tangent.solution_mut().fill([S::zero()]);
         let mut before = None;
         loop {
-            self.balance();
+            self.balance(view);
             self.advance(groups, view, Purpose::Iterate)?;
             let residual = self.residual();
             if before.is_some_and(|update| update <= S::EPSILON) {

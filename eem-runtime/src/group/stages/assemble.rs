@@ -2,59 +2,71 @@
 
 use super::local::LocalStages;
 use super::member::StageMember;
-use super::{END, MIDDLE, StageTrial, StageView, ThreeStageGroup, heat};
+use super::{StageGroup, heat};
+use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
-use crate::group::arms::{arms, measures_in, scale};
+use crate::group::arms::{add_scaled, measures_in, scale};
+use crate::group::{StepView, Trial};
 use crate::kinematics::{Arms, Kinematics};
 use crate::scalar::Real;
-use crate::scheme::variational_4;
+use crate::scheme::{MOST_SETS, Tableau};
 use crate::system::LinearSystem;
 
-impl<S, M, K, const D: usize> ThreeStageGroup<S, M, K, D>
+impl<S, M, K, const D: usize> StageGroup<S, M, K, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
 {
-    /// See [`StageGroup::assemble`](super::StageGroup::assemble).
+    /// Eliminates the local unknowns at a trial that has been evaluated, and adds residual and tangent.
     pub(super) fn assemble_all(
         &mut self,
-        view: &StageView<'_, S>,
-        trial: &StageTrial<S, D>,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
         system: &mut LinearSystem<S, 1>,
-    ) {
+    ) -> Result<(), StateError> {
+        let (kinematics, rule) = (self.elements.kinematics, self.rule);
         let (values, right) = system.parts();
-        let members = self.elements.members.iter().zip(&self.members);
+        let members = self.elements.members.iter().zip(&mut self.members);
         for (member, stages) in members {
+            stages.condense(rule, &mut self.local, view.step, member.element)?;
             let mut target = Target {
-                view,
-                slot: member.slots().thermal,
+                rule,
+                step: view.step,
                 local: &mut self.local,
                 values,
                 right,
             };
-            for stage in [0, MIDDLE] {
+            for stage in 0..rule.stages() {
                 for measure in 0..M::MEASURES {
                     stages.assemble_force(stage, measure, &mut target);
                 }
+                stages.assemble_turn(kinematics, stage, trial, &mut target);
             }
-            stages.assemble_turn(
-                self.elements.kinematics,
-                &trial.positions[MIDDLE],
-                &mut target,
-            );
-            stages.assemble_temperatures(trial, &mut target);
+            if let Some(slot) = member.slots().thermal {
+                stages.assemble_temperatures(slot, trial, &mut target);
+            }
         }
+        Ok(())
     }
 }
 
 /// Where an element writes.
 struct Target<'a, S: Real> {
-    view: &'a StageView<'a, S>,
-    slot: Option<usize>,
+    rule: &'static Tableau,
+    step: S,
     local: &'a mut LocalStages<S>,
     values: &'a mut [S],
     right: &'a mut [[S; 1]],
+}
+
+impl<S: Real> Target<'_, S> {
+    /// The weight `h w` of the forces of a stage in the rows of each set on which they act.
+    fn impulses(&self, stage: usize) -> impl Iterator<Item = (usize, S)> + use<S> {
+        let (step, sets) = (self.step, self.rule.positions.iter().enumerate());
+        let acting = sets.filter(move |(_, weights)| weights[stage] != 0.0);
+        acting.map(move |(set, weights)| (set, step * S::from_f64(weights[stage])))
+    }
 }
 
 impl<S, M, K, const D: usize> StageMember<S, M, K, D>
@@ -63,44 +75,34 @@ where
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
 {
-    /// The derivatives of the quantity that has been eliminated last: by the arms of the middle and
-    /// of the end, and by `Q_0` and `Q_m`.
-    fn slopes(&self, local: &LocalStages<S>) -> ([Arms<K, S, D>; 2], [S; 2]) {
-        let by = &local.row[1..];
-        let mut by_arm = [Arms::<K, S, D>::filled([S::zero(); D]); 2];
-        let (measures, heat) = by.split_at(2 * M::MEASURES);
-        for (half, sum) in by_arm.iter_mut().enumerate() {
-            let rows = self.gradients[MIDDLE + half].as_ref().iter();
-            for (row, &by) in rows.zip(&measures[half * M::MEASURES..]) {
-                for (sum, arm) in sum.as_mut().iter_mut().zip(row.as_ref()) {
-                    for (sum, &entry) in sum.iter_mut().zip(arm) {
-                        *sum += by * entry;
-                    }
-                }
+    /// The derivatives by the arms of each set of the quantity that has been eliminated last.
+    fn by_arms(&self, rule: &Tableau, local: &LocalStages<S>) -> [Arms<K, S, D>; MOST_SETS] {
+        let measures = local.row[1..].chunks_exact(M::MEASURES);
+        let mut by_arm = [Arms::<K, S, D>::filled([S::zero(); D]); MOST_SETS];
+        let sets = by_arm.iter_mut().take(rule.sets()).zip(measures);
+        for (set, (sum, measures)) in sets.enumerate() {
+            let rows = self.gradients[rule.stage_of(set)].as_ref().iter();
+            for (row, &by) in rows.zip(measures) {
+                add_scaled::<K, S, D>(sum, by, row);
             }
         }
-        let heat = match *heat {
-            [start, middle] => [start, middle],
-            _ => [S::zero(); 2],
-        };
-        (by_arm, heat)
+        by_arm
     }
 
     /// The impulses of the force `f ∂π/∂q` of one measure at a stage and their derivatives, with the
     /// direction held.
     fn assemble_force(&self, stage: usize, measure: usize, target: &mut Target<'_, S>) {
-        let point = &self.points[stage];
-        self.eliminate(target.local, stage, &point.hessian[measure]);
+        let (rule, point) = (target.rule, &self.points[stage]);
+        self.eliminate(rule, target.local, stage, &point.hessian[measure]);
         let value = point.gradient[measure] + target.local.row[0];
-        let (by_arm, by_heat) = self.slopes(target.local);
+        let by_arms = self.by_arms(rule, target.local);
         let along = &self.gradients[stage][measure];
-        for (half, weights) in variational_4::MIDDLE_AND_END.iter().enumerate() {
-            let impulse = target.view.step * S::from_f64(weights[stage]);
+        for (set, impulse) in target.impulses(stage) {
             let mut pull = *along;
             scale::<K, S, D>(&mut pull, impulse * value);
-            let site = &self.site.quarters[half][0];
+            let site = &self.site.sets[set][set];
             site.subtract_arms(&pull, &site.rows, target.right.as_flattened_mut());
-            for (site, by_arm) in self.site.quarters[half].iter().zip(&by_arm) {
+            for (site, by_arm) in self.site.sets[set].iter().zip(&by_arms) {
                 for (i, along) in along.as_ref().iter().enumerate() {
                     for (j, by) in by_arm.as_ref().iter().enumerate() {
                         let block = along.map(|entry| by.map(|by| impulse * entry * by));
@@ -108,46 +110,58 @@ where
                     }
                 }
             }
-            let heat = by_heat.map(|by| impulse * by);
-            self.assemble_heat(half, heat, along, target);
+            self.assemble_heat(set, impulse, along, target);
         }
     }
 
-    /// What `start Q_0 + middle Q_m` does to the rows of the nodes, each with its direction.
+    /// What heat from other elements does by way of the quantity that has been eliminated last to the
+    /// rows of the nodes, each with its direction.
     fn assemble_heat(
         &self,
-        half: usize,
-        factors: [S; 2],
+        set: usize,
+        impulse: S,
         along: &Arms<K, S, D>,
         target: &mut Target<'_, S>,
     ) {
-        let (Some(slot), Some(contacts)) = (target.slot, &self.site.contacts) else {
+        let Some(contacts) = &self.site.contacts else {
             return;
         };
-        let site = &self.site.quarters[half][0];
-        for (column, contact) in contacts[half].iter().enumerate() {
-            let (own, partners) = heat::slopes(target.view, slot, contact, column, factors);
+        let rule = target.rule;
+        let by_heat = &target.local.row[1 + rule.sets() * M::MEASURES..];
+        let site = &self.site.sets[set][set];
+        for (column, contact) in contacts[set].iter().enumerate() {
+            let by = impulse * heat::by_seen(rule, column, by_heat);
             let times = |factor: S| {
                 let mut arms = *along;
                 scale::<K, S, D>(&mut arms, factor);
                 arms
             };
-            site.add_column(&contact.column, &times(own), target.values);
-            for (by, partner) in partners {
-                site.add_column(&partner.column, &times(by), target.values);
+            let own = times(-by * contact.conductance());
+            site.add_column(&contact.column, &own, target.values);
+            for partner in &contact.partners {
+                let by_partner = times(by * partner.conductance);
+                site.add_column(&partner.column, &by_partner, target.values);
             }
         }
     }
 
-    /// What the forces of the middle do when their directions turn.
-    fn assemble_turn(&self, kinematics: K, positions: &[[S; D]], target: &mut Target<'_, S>) {
-        let r = arms::<K, S, D>(&self.site.common().nodes, positions);
-        let measures = measures_in::<K, S, D>(&self.x[MIDDLE]);
-        let forces = measures_in::<K, S, D>(&self.points[MIDDLE].gradient);
-        let blocks = kinematics.curvature(&r, &measures, &forces);
-        for (half, weights) in variational_4::MIDDLE_AND_END.iter().enumerate() {
-            let impulse = target.view.step * S::from_f64(weights[MIDDLE]);
-            let site = &self.site.quarters[half][0];
+    /// What the forces of a stage do when their directions turn.
+    fn assemble_turn(
+        &self,
+        kinematics: K,
+        stage: usize,
+        trial: &Trial<S, D>,
+        target: &mut Target<'_, S>,
+    ) {
+        let Some(own) = target.rule.set_of(stage) else {
+            return;
+        };
+        for (set, impulse) in target.impulses(stage) {
+            let r = self.arms_of_set(own, trial);
+            let measures = measures_in::<K, S, D>(&self.x[stage]);
+            let forces = measures_in::<K, S, D>(&self.points[stage].gradient);
+            let blocks = kinematics.curvature(&r, &measures, &forces);
+            let site = &self.site.sets[set][own];
             for (i, row) in blocks.as_ref().iter().enumerate() {
                 for (j, block) in row.as_ref().iter().enumerate() {
                     let block = block.map(|row| row.map(|entry| impulse * entry));
@@ -157,28 +171,31 @@ where
         }
     }
 
-    /// The equations `Θ_i − θ_i = 0` of an element whose temperatures neighbours see.
-    fn assemble_temperatures(&self, trial: &StageTrial<S, D>, target: &mut Target<'_, S>) {
-        let (Some(slot), Some(contacts)) = (target.slot, &self.site.contacts) else {
+    /// The equations `Θ − θ = 0` of an element whose temperatures neighbours see.
+    fn assemble_temperatures(&self, slot: usize, trial: &Trial<S, D>, target: &mut Target<'_, S>) {
+        let Some(contacts) = &self.site.contacts else {
             return;
         };
+        let rule = target.rule;
         let mut by = M::Variables::filled(S::zero());
         by[M::Variables::LEN - 1] = S::one();
-        for (half, stage) in [0, END].into_iter().enumerate() {
-            self.eliminate(target.local, stage, &by);
+        for (set, balance) in rule.entropies.iter().enumerate() {
+            let stage = balance.unknown;
+            self.eliminate(rule, target.local, stage, &by);
             let theta = self.temperature(stage) + target.local.row[0];
-            let (by_arm, by_heat) = self.slopes(target.local);
-            let own = &contacts[half][half];
-            let seen = trial.seen_temperatures[stage][slot];
+            let by_arms = self.by_arms(rule, target.local);
+            let by_heat = &target.local.row[1 + rule.sets() * M::MEASURES..];
+            let own = &contacts[set][set];
+            let seen = trial.seen.values[trial.seen_of_set(set, slot)];
             target.right[own.unknown as usize][0] += theta - seen;
             target.values[own.diagonal as usize] += S::one();
-            for (column, contact) in contacts[half].iter().enumerate() {
-                let site = &self.site.quarters[half][column];
-                site.subtract_arms(&by_arm[column], &contact.row, target.values);
-                let (own, partners) = heat::slopes(target.view, slot, contact, column, by_heat);
-                target.values[contact.diagonal as usize] -= own;
-                for (by, partner) in partners {
-                    target.values[partner.entry as usize] -= by;
+            for (column, contact) in contacts[set].iter().enumerate() {
+                let site = &self.site.sets[set][column];
+                site.subtract_arms(&by_arms[column], &contact.row, target.values);
+                let by = heat::by_seen(rule, column, by_heat);
+                target.values[contact.diagonal as usize] += by * contact.conductance();
+                for partner in &contact.partners {
+                    target.values[partner.entry as usize] -= by * partner.conductance;
                 }
             }
         }

@@ -1,26 +1,28 @@
 //! From the solution of the global system to the internal variables of the stages.
 
+use super::StageGroup;
 use super::local::LocalStages;
 use super::member::StageMember;
-use super::{END, MIDDLE, StageView, ThreeStageGroup};
 use crate::free_energy::{Array, FreeEnergy};
 use crate::group::arms::along;
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
+use crate::scheme::Tableau;
 
-impl<S, M, K, const D: usize> ThreeStageGroup<S, M, K, D>
+impl<S, M, K, const D: usize> StageGroup<S, M, K, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
 {
-    /// See [`StageGroup::correct`](super::StageGroup::correct).
-    pub(super) fn correct_all(&mut self, view: &StageView<'_, S>, solution: &[[S; 1]]) -> S {
+    /// See [`Group::correct`](crate::group::Group::correct).
+    pub(super) fn correct_all(&mut self, solution: &[[S; 1]]) -> S {
         let mut largest = S::zero();
-        for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
-            let heat = stages.heat_change(view, member.slots().thermal, solution);
-            stages.find_inputs(heat, solution, &mut self.local);
-            largest = largest.maximum(stages.correct(&self.local));
+        for stages in &mut self.members {
+            stages.find_inputs(self.rule, solution, &mut self.local);
+            let update = stages.correct(self.rule, &self.local);
+            stages.apply(self.rule, S::one());
+            largest = largest.maximum(update);
         }
         largest
     }
@@ -33,37 +35,37 @@ where
     K: Kinematics<S, D>,
 {
     /// The changes of the inputs that go with the global ones.
-    fn find_inputs(&self, heat: [S; 2], solution: &[[S; 1]], local: &mut LocalStages<S>) {
-        let (measures, rest) = local.inputs.split_at_mut(2 * M::MEASURES);
-        for (half, measures) in measures.chunks_exact_mut(M::MEASURES).enumerate() {
-            let motion = self.site.quarters[half][0].motion_in(solution);
-            let rows = self.gradients[MIDDLE + half].as_ref().iter();
+    fn find_inputs(&self, rule: &Tableau, solution: &[[S; 1]], local: &mut LocalStages<S>) {
+        let (measures, heat) = local.inputs.split_at_mut(rule.sets() * M::MEASURES);
+        for (set, measures) in measures.chunks_exact_mut(M::MEASURES).enumerate() {
+            let motion = self.site.sets[set][set].motion_in(solution);
+            let rows = self.gradients[rule.stage_of(set)].as_ref().iter();
             for (input, row) in measures.iter_mut().zip(rows) {
                 *input = along::<K, S, D>(row, &motion);
             }
         }
-        for (input, change) in rest.iter_mut().zip(heat) {
-            *input = change;
+        for (stage, input) in heat.iter_mut().enumerate() {
+            *input = self.heat_change(rule, stage, solution);
         }
     }
 
     /// Finds the corrections of the local unknowns for given inputs; the largest in their units.
-    fn correct(&mut self, local: &LocalStages<S>) -> S {
+    fn correct(&mut self, rule: &Tableau, local: &LocalStages<S>) -> S {
         self.hold();
-        let unknowns = Self::UNKNOWNS;
+        let (unknowns, last) = (local.unknowns(), M::Variables::LEN - 1);
         let mut largest = S::zero();
         for u in 0..unknowns {
             let mut change = -self.solved[u];
             for (j, &input) in local.inputs.iter().enumerate() {
                 change -= self.solved[(1 + j) * unknowns + u] * input;
             }
-            let (stage, index, scale) = if u < 2 * M::DASHPOTS {
-                let stage = MIDDLE + u / M::DASHPOTS;
-                // The first measure of the old state.
-                (stage, M::MEASURES + u % M::DASHPOTS, self.x[0][0])
+            let creeping = rule.sets() * M::DASHPOTS;
+            let (stage, index, scale) = if u < creeping {
+                let stage = rule.stage_of(u / M::DASHPOTS);
+                (stage, M::MEASURES + u % M::DASHPOTS, self.length)
             } else {
-                let stage = if u == 2 * M::DASHPOTS { 0 } else { END };
-                (stage, M::Variables::LEN - 1, self.temperature(stage))
+                let stage = rule.entropies[u - creeping].unknown;
+                (stage, last, self.temperature(stage))
             };
             self.correction[stage][index] = change;
             largest = largest.maximum((change / scale).abs());

@@ -1,26 +1,22 @@
 //! The internal variables of one element over one step: their equations, and their elimination.
 //!
 //! ```text
-//! r_γm = γ_m − γ⁰ − (h/24)(5γ̇_0 + 8γ̇_m − γ̇_1)          for every dashpot
-//! r_γ1 = γ_1 − γ⁰ − (h/6)(γ̇_0 + 4γ̇_m + γ̇_1)             for every dashpot
-//! r_s0 = ½s_0 + ⅔s_m − ⅙s_1 − s⁰ − (h/6)Φ_0
-//! r_s1 = s_1 − s_0 − hΦ_m
+//! r_γi = γ_i − γ⁰ − h Σ_j a_ij γ̇_j                              for every dashpot and set
+//! r_sk = Σ_i e_ki s_i − e_k s⁰ − h Σ_i w_ki Φ_i                    for every set
 //! ```
 //!
-//! The unknowns `u = (γ_m…, γ_1…, θ_0, θ_1)` depend on the rest of the scene through the inputs
-//! `y = (π_m…, π_1…, Q_0, Q_m)`, measures and heat from other elements, so that
+//! with the numbers of the [`Tableau`]. The unknowns `u = (γ…, Θ)` of all sets depend on the rest of the scene
+//! through the inputs `y = (π…, Q…)`, measures and heat from other elements, so that
 //! `δu = −(constant + Σ_j by_j δy_j)`.
 
-use super::member::StageMember;
-use super::point::Point;
-use super::{END, MIDDLE};
+use super::member::{StageMember, inputs, unknowns};
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
 use crate::handle::Element;
 use crate::kinematics::Kinematics;
 use crate::lu;
 use crate::scalar::Real;
-use crate::scheme::variational_4;
+use crate::scheme::{EntropyBalance, Tableau};
 
 /// Working memory for the local systems of one group.
 #[derive(Clone, Debug)]
@@ -44,8 +40,9 @@ enum Column {
 }
 
 impl<S: Real> LocalStages<S> {
-    /// Memory for elements with so many local unknowns and inputs.
-    pub(super) fn new(unknowns: usize, inputs: usize) -> Self {
+    /// Memory for elements of a model.
+    pub(super) fn new<M: FreeEnergy<S>>(rule: &Tableau) -> Self {
+        let (unknowns, inputs) = (unknowns::<S, M>(rule), inputs::<S, M>(rule));
         let zeros = |length: usize| vec![S::zero(); length];
         Self {
             matrix: zeros(unknowns * unknowns),
@@ -55,34 +52,35 @@ impl<S: Real> LocalStages<S> {
             inputs: zeros(inputs),
         }
     }
+
+    /// Number of local unknowns.
+    pub(super) fn unknowns(&self) -> usize {
+        self.pivots.len()
+    }
 }
 
 /// Sorts the derivative of a quantity of a stage by `x` into those by inputs and by unknowns.
 fn sort<S: Real, M: FreeEnergy<S>>(
+    rule: &Tableau,
     stage: usize,
     by: &M::Variables,
     is_free: bool,
     mut add: impl FnMut(Column, S),
 ) {
     let (measures, rest) = by.as_ref().split_at(M::MEASURES);
-    if stage > 0 {
+    if let Some(set) = rule.set_of(stage) {
         for (a, &entry) in measures.iter().enumerate() {
-            add(Column::Input((stage - 1) * M::MEASURES + a), entry);
+            add(Column::Input(set * M::MEASURES + a), entry);
         }
         for (k, &entry) in rest[..M::DASHPOTS].iter().enumerate() {
-            add(Column::Unknown((stage - 1) * M::DASHPOTS + k), entry);
+            add(Column::Unknown(set * M::DASHPOTS + k), entry);
         }
     }
     if M::THERMAL && is_free {
-        let (entry, first) = (rest[M::DASHPOTS], 2 * M::DASHPOTS);
-        let half = S::from_f64(0.5) * entry;
-        let shares = match stage {
-            0 => [entry, S::zero()],
-            MIDDLE => [half, half],
-            _ => [S::zero(), entry],
-        };
-        add(Column::Unknown(first), shares[0]);
-        add(Column::Unknown(first + 1), shares[1]);
+        let (entry, first) = (rest[M::DASHPOTS], rule.sets() * M::DASHPOTS);
+        for (set, &share) in rule.temperatures[stage].iter().enumerate() {
+            add(Column::Unknown(first + set), S::from_f64(share) * entry);
+        }
     }
 }
 
@@ -95,23 +93,25 @@ where
     /// Eliminates the internal variables of an element whose stages have been evaluated.
     pub(super) fn condense(
         &mut self,
+        rule: &Tableau,
         local: &mut LocalStages<S>,
         h: S,
         element: Element,
     ) -> Result<(), StateError> {
-        let unknowns = local.pivots.len();
+        let unknowns = local.unknowns();
         if unknowns == 0 {
             return Ok(());
         }
         local.matrix.fill(S::zero());
         self.solved.fill(S::zero());
-        self.creep(local, h);
-        if M::THERMAL && self.prescribed.is_none() {
-            self.warm(local, h);
-        } else if M::THERMAL {
-            // δθ = 0
-            for row in [unknowns - 2, unknowns - 1] {
-                local.matrix[row * unknowns + row] = S::one();
+        self.creep(rule, local, h);
+        let first = rule.sets() * M::DASHPOTS;
+        for (set, balance) in rule.entropies.iter().enumerate() {
+            if M::THERMAL && self.prescribed.is_none() {
+                self.warm(rule, first + set, balance, local, h);
+            } else if M::THERMAL {
+                // δθ = 0
+                local.matrix[(first + set) * (unknowns + 1)] = S::one();
             }
         }
         if lu::factor(&mut local.matrix, &mut local.pivots).is_err() {
@@ -128,91 +128,94 @@ where
         Ok(())
     }
 
-    /// Adds `weight` times a quantity of a stage, of which the derivative by `x` is given, to equation
-    /// `equation`.
+    /// Adds `weight` times a quantity of a stage, of which the derivative by `x` is given, to an equation.
     fn add(
         &mut self,
+        rule: &Tableau,
         local: &mut LocalStages<S>,
         equation: usize,
-        stage: usize,
-        by: &M::Variables,
+        (stage, by): (usize, &M::Variables),
         weight: S,
     ) {
-        let unknowns = local.pivots.len();
+        let unknowns = local.unknowns();
         let free = self.prescribed.is_none();
-        sort::<S, M>(stage, by, free, |column, entry| match column {
+        sort::<S, M>(rule, stage, by, free, |column, entry| match column {
             Column::Input(j) => self.solved[(1 + j) * unknowns + equation] += weight * entry,
             Column::Unknown(u) => local.matrix[equation * unknowns + u] += weight * entry,
         });
     }
 
     /// The equations of the viscous stretches.
-    fn creep(&mut self, local: &mut LocalStages<S>, h: S) {
-        let schedule = [variational_4::TO_MIDDLE, variational_4::STEP];
-        for (half, weights) in schedule.into_iter().enumerate() {
+    fn creep(&mut self, rule: &Tableau, local: &mut LocalStages<S>, h: S) {
+        for (set, weights) in rule.rates.iter().enumerate() {
             for k in 0..M::DASHPOTS {
-                let (equation, index) = (half * M::DASHPOTS + k, M::MEASURES + k);
-                let [old, new] = [0, 1 + half].map(|stage| self.x[stage][index]);
-                let mut rest = new - old;
-                local.matrix[equation * local.pivots.len() + equation] = S::one();
-                for (stage, weight) in weights.map(S::from_f64).into_iter().enumerate() {
-                    rest -= h * weight * self.points[stage].rates[index];
+                let (equation, index) = (set * M::DASHPOTS + k, M::MEASURES + k);
+                let mut rest = self.x[rule.stage_of(set)][index] - self.old_viscous[k];
+                let diagonal = equation * (local.unknowns() + 1);
+                local.matrix[diagonal] = S::one();
+                for (stage, &weight) in weights.iter().enumerate() {
+                    let weight = -h * S::from_f64(weight);
+                    rest += weight * self.points[stage].rates[index];
                     let by = self.points[stage].rates_by[index];
-                    self.add(local, equation, stage, &by, -h * weight);
+                    self.add(rule, local, equation, (stage, &by), weight);
                 }
                 self.solved[equation] = rest;
             }
         }
     }
 
-    /// The equations of the entropies, of an element whose temperature is free.
-    fn warm(&mut self, local: &mut LocalStages<S>, h: S) {
-        let (unknowns, last) = (local.pivots.len(), M::Variables::LEN - 1);
-        let (start, end) = (unknowns - 2, unknowns - 1);
-        let entropies = self.points.each_ref().map(Point::entropy);
-        let slopes = self.points.each_ref().map(Point::entropy_by);
-        let [rate, middle_rate] = [0, MIDDLE].map(|i| self.points[i].rates[last]);
-        let [rate_by, middle_rate_by] = [0, MIDDLE].map(|i| self.points[i].rates_by[last]);
-        let sixth = h * S::from_f64(variational_4::STEP[0]);
-
-        let mut rest = -self.entropy - sixth * rate;
-        for stage in 0..=END {
-            let weight = S::from_f64(variational_4::START[stage]);
-            rest += weight * entropies[stage];
-            self.add(local, start, stage, &slopes[stage], weight);
+    /// An equation of the entropies, of an element whose temperature is free.
+    fn warm(
+        &mut self,
+        rule: &Tableau,
+        equation: usize,
+        balance: &EntropyBalance,
+        local: &mut LocalStages<S>,
+        h: S,
+    ) {
+        let (unknowns, last) = (local.unknowns(), M::Variables::LEN - 1);
+        let mut rest = -S::from_f64(balance.old) * self.entropy;
+        for (stage, &weight) in balance.entropies.iter().enumerate() {
+            if weight != 0.0 {
+                let weight = S::from_f64(weight);
+                rest += weight * self.points[stage].entropy();
+                let by = self.points[stage].entropy_by();
+                self.add(rule, local, equation, (stage, &by), weight);
+            }
         }
-        self.add(local, start, 0, &rate_by, -sixth);
-        self.solved[start] = rest;
-
-        self.solved[end] = entropies[END] - entropies[0] - h * middle_rate;
-        self.add(local, end, END, &slopes[END], S::one());
-        self.add(local, end, 0, &slopes[0], -S::one());
-        self.add(local, end, MIDDLE, &middle_rate_by, -h);
-
-        let [theta, middle] = [0, MIDDLE].map(|stage| self.temperature(stage));
-        self.solved[(1 + 2 * M::MEASURES) * unknowns + start] = -sixth / theta;
-        self.solved[(2 + 2 * M::MEASURES) * unknowns + end] = -h / middle;
-        self.scale_heat(local, [theta, middle]);
-    }
-
-    /// Makes it Newton's method on `θ_0 r_s0` and `θ_m r_s1`, which are far less curved than `r`
-    /// where conduction is stiff, and zero where it is.
-    fn scale_heat(&self, local: &mut LocalStages<S>, theta: [S; 2]) {
-        let unknowns = local.pivots.len();
-        let (start, end) = (unknowns - 2, unknowns - 1);
-        local.matrix[start * unknowns + start] += self.solved[start] / theta[0];
-        let half = S::from_f64(0.5) * self.solved[end] / theta[1];
-        local.matrix[end * unknowns + start] += half;
-        local.matrix[end * unknowns + end] += half;
+        for (stage, &weight) in balance.rates.iter().enumerate() {
+            if weight != 0.0 {
+                let weight = -h * S::from_f64(weight);
+                rest += weight * self.points[stage].rates[last];
+                let by = self.points[stage].rates_by[last];
+                self.add(rule, local, equation, (stage, &by), weight);
+                let heat = 1 + rule.sets() * M::MEASURES + stage;
+                self.solved[heat * unknowns + equation] = weight / self.temperature(stage);
+            }
+        }
+        self.solved[equation] = rest;
+        // Newton's method on θ r, which is far less curved than r where conduction is stiff, and zero
+        // where it is.
+        let scaled = rest / self.temperature(balance.stage);
+        let first = rule.sets() * M::DASHPOTS;
+        for (set, &share) in rule.temperatures[balance.stage].iter().enumerate() {
+            local.matrix[equation * unknowns + first + set] += S::from_f64(share) * scaled;
+        }
     }
 
     /// A quantity of a stage, of which the derivative by `x` is given, with the local unknowns
     /// eliminated, into `row`.
-    pub(super) fn eliminate(&self, local: &mut LocalStages<S>, stage: usize, by: &M::Variables) {
+    pub(super) fn eliminate(
+        &self,
+        rule: &Tableau,
+        local: &mut LocalStages<S>,
+        stage: usize,
+        by: &M::Variables,
+    ) {
         local.by_unknown.fill(S::zero());
         local.row.fill(S::zero());
         let free = self.prescribed.is_none();
-        sort::<S, M>(stage, by, free, |column, entry| match column {
+        sort::<S, M>(rule, stage, by, free, |column, entry| match column {
             Column::Input(j) => local.row[1 + j] += entry,
             Column::Unknown(u) => local.by_unknown[u] += entry,
         });

@@ -1,16 +1,15 @@
-//! One element at the three stages of a step.
+//! One element at the stages of a step.
 
 use super::point::Point;
 use super::site::StageSite;
-use super::{END, MIDDLE, StageView};
 use crate::free_energy::{Array, FreeEnergy};
-use crate::group::arms::{arms, points};
+use crate::group::arms::{arms_in, change_in_set};
 use crate::group::begin::shorten;
 use crate::group::member::{Member, grown};
-use crate::group::variables;
+use crate::group::{StepView, Trial, variables};
 use crate::kinematics::{Arms, Gradient, Kinematics};
 use crate::scalar::Real;
-use crate::scheme::Variational;
+use crate::scheme::{MOST_STAGES, Tableau, Variational};
 
 /// The same element as those see it who look at states.
 pub(super) type StateMember<S, M, K, const D: usize> = Member<S, M, K, Variational, D>;
@@ -21,16 +20,22 @@ pub(super) struct StageMember<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, co
     /// s⁰, J/K; zero without temperature.
     pub(super) entropy: S,
     /// The temperatures of the stages, if a thermostat gives them, K.
-    pub(super) prescribed: Option<[S; 3]>,
+    pub(super) prescribed: Option<[S; MOST_STAGES]>,
+    /// The old arms, m, and the first old measure.
+    r0: Arms<K, S, D>,
+    pub(super) length: S,
+    /// γ⁰, m.
+    pub(super) old_viscous: M::Viscosities,
     /// The trial variables `(π, γ, θ)` at the stages.
-    pub(super) x: [M::Variables; 3],
-    /// The same before the last correction, and the correction; that of `θ_m` follows from the others.
-    pub(super) previous: [M::Variables; 3],
-    pub(super) correction: [M::Variables; 3],
+    pub(super) x: [M::Variables; MOST_STAGES],
+    /// The same before the last correction, and the correction; temperatures only at the stages whose
+    /// temperatures are unknowns.
+    previous: [M::Variables; MOST_STAGES],
+    pub(super) correction: [M::Variables; MOST_STAGES],
     /// What the model says there.
-    pub(super) points: [Point<S, M>; 3],
+    pub(super) points: [Point<S, M>; MOST_STAGES],
     /// `∂π/∂r` there.
-    pub(super) gradients: [Gradient<K, S, D>; 3],
+    pub(super) gradients: [Gradient<K, S, D>; MOST_STAGES],
     /// The entropy that dashpots and conduction gave it in the step, J/K.
     pub(super) entropy_received: S,
     /// The solved local system, see [`LocalStages`](super::local::LocalStages).
@@ -43,26 +48,24 @@ where
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
 {
-    /// Number of local unknowns `(γ_m…, γ¹…, θ_0, θ_1)`.
-    pub(super) const UNKNOWNS: usize = 2 * (M::DASHPOTS + M::THERMAL as usize);
-
-    /// Number of inputs `(π_m…, π_1…, Q_0, Q_m)`, what other elements and the nodes decide.
-    pub(super) const INPUTS: usize = 2 * (M::MEASURES + M::THERMAL as usize);
-
-    pub(super) fn new(member: &StateMember<S, M, K, D>) -> Self {
-        let zeros = [M::Variables::filled(S::zero()); 3];
+    pub(super) fn new(member: &StateMember<S, M, K, D>, rule: &Tableau) -> Self {
+        let zeros = [M::Variables::filled(S::zero()); MOST_STAGES];
         let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
+        let length = (1 + inputs::<S, M>(rule)) * unknowns::<S, M>(rule);
         Self {
             site: StageSite::unconnected(member.site),
             entropy: S::zero(),
             prescribed: None,
+            r0: nowhere,
+            length: S::one(),
+            old_viscous: M::Viscosities::filled(S::zero()),
             x: zeros,
             previous: zeros,
             correction: zeros,
-            points: [(); 3].map(|()| Point::zero()),
-            gradients: [Gradient::<K, S, D>::filled(nowhere); 3],
+            points: [(); MOST_STAGES].map(|()| Point::zero()),
+            gradients: [Gradient::<K, S, D>::filled(nowhere); MOST_STAGES],
             entropy_received: S::zero(),
-            solved: vec![S::zero(); (1 + Self::INPUTS) * Self::UNKNOWNS],
+            solved: vec![S::zero(); length],
         }
     }
 
@@ -71,24 +74,52 @@ where
         &mut self,
         kinematics: K,
         member: &StateMember<S, M, K, D>,
-        view: &StageView<'_, S>,
+        view: &StepView<'_, S>,
         lengths: &mut [S],
     ) {
         let (nodes, slots) = (&member.site.nodes, member.slots());
-        let r0 = arms::<K, S, D>(nodes, points(view.state.positions.values()));
-        let measures = kinematics.measure(&r0);
+        self.r0 = arms_in::<K, S, D>(nodes, &view.state.positions);
+        let measures = kinematics.measure(&self.r0);
+        self.length = measures[0];
         shorten::<K, S, D>(nodes, &measures, lengths);
-        self.gradients[0] = kinematics.gradient(&r0, &measures);
-        self.x = [variables::<S, M>(measures.as_ref(), slots, view.state); 3];
+        self.gradients = [kinematics.gradient(&self.r0, &measures); MOST_STAGES];
+        self.x = [variables::<S, M>(measures.as_ref(), slots, view.state); MOST_STAGES];
+        for k in 0..M::DASHPOTS {
+            self.old_viscous[k] = self.x[0][M::MEASURES + k];
+        }
         if let Some(slot) = slots.thermal {
             self.entropy = view.state.entropies.values()[slot];
-            self.prescribed = view.prescribed(slot);
+            self.prescribed = view.prescribed_at_stages(slot);
             let prescribed = self.prescribed.into_iter().flatten();
             for (x, theta) in self.x.iter_mut().zip(prescribed) {
                 x[M::Variables::LEN - 1] = theta;
             }
         }
         self.hold();
+    }
+
+    /// The arms at the stage of a set of unknowns, m.
+    pub(super) fn arms_of_set(&self, set: usize, trial: &Trial<S, D>) -> Arms<K, S, D> {
+        let mut r = change_in_set::<K, S, D>(&self.site.common().nodes, trial, set);
+        for (arm, old) in r.as_mut().iter_mut().zip(self.r0.as_ref()) {
+            for axis in 0..D {
+                arm[axis] += old[axis];
+            }
+        }
+        r
+    }
+
+    /// The same at a stage.
+    pub(super) fn arms_at(
+        &self,
+        rule: &Tableau,
+        stage: usize,
+        trial: &Trial<S, D>,
+    ) -> Arms<K, S, D> {
+        match rule.set_of(stage) {
+            None => self.r0,
+            Some(set) => self.arms_of_set(set, trial),
+        }
     }
 
     /// The temperature of a stage, K; only for elements that have one.
@@ -99,27 +130,43 @@ where
     /// Starts the next correction from the present trial, with none.
     pub(super) fn hold(&mut self) {
         self.previous = self.x;
-        self.correction = [M::Variables::filled(S::zero()); 3];
+        self.correction = [M::Variables::filled(S::zero()); MOST_STAGES];
     }
 
     /// Applies the fraction `share` of the correction: viscous stretches linearly, temperatures
     /// in their logarithms, so that they stay positive.
-    pub(super) fn apply(&mut self, share: S) {
+    pub(super) fn apply(&mut self, rule: &Tableau, share: S) {
         let last = M::Variables::LEN - 1;
-        for stage in 0..=END {
-            let (previous, change) = (&self.previous[stage], &self.correction[stage]);
-            let x = &mut self.x[stage];
+        for stage in rule.known..rule.stages() {
             for index in M::MEASURES..M::MEASURES + M::DASHPOTS {
-                x[index] = previous[index] + share * change[index];
-            }
-            if M::THERMAL && stage != MIDDLE {
-                let theta = previous[last];
-                x[last] = grown(theta, share * change[last]);
+                let change = share * self.correction[stage][index];
+                self.x[stage][index] = self.previous[stage][index] + change;
             }
         }
-        if M::THERMAL && self.prescribed.is_none() {
-            let mean = S::from_f64(0.5) * (self.temperature(0) + self.temperature(END));
-            self.x[MIDDLE][last] = mean;
+        if !M::THERMAL || self.prescribed.is_some() {
+            return;
+        }
+        for stage in rule.entropies.iter().map(|balance| balance.unknown) {
+            let change = share * self.correction[stage][last];
+            self.x[stage][last] = grown(self.previous[stage][last], change);
+        }
+        for (stage, shares) in rule.temperatures.iter().enumerate() {
+            let terms = shares.iter().zip(rule.entropies);
+            let mean = terms.fold(S::zero(), |sum, (&share, balance)| {
+                sum + S::from_f64(share) * self.temperature(balance.unknown)
+            });
+            self.x[stage][last] = mean;
         }
     }
+}
+
+/// Number of local unknowns of an element: `γ…` and then `Θ`, set after set.
+pub(super) const fn unknowns<S: Real, M: FreeEnergy<S>>(rule: &Tableau) -> usize {
+    rule.sets() * (M::DASHPOTS + M::THERMAL as usize)
+}
+
+/// Number of inputs, which other elements and the nodes decide: `π…` set after set, and Q stage after
+/// stage.
+pub(super) const fn inputs<S: Real, M: FreeEnergy<S>>(rule: &Tableau) -> usize {
+    rule.sets() * M::MEASURES + rule.stages() * M::THERMAL as usize
 }

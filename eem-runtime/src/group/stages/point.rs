@@ -1,13 +1,13 @@
 //! One element at one stage: forces, rates of its internal variables, and their derivatives.
 
 use super::member::{StageMember, StateMember};
-use super::{END, StageTrial, StageView, ThreeStageGroup};
+use super::{StageGroup, heat};
 use crate::conduction::HeatFlow;
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
-use crate::group::arms::arms;
 use crate::group::respond::{check_measures, check_temperature};
-use crate::kinematics::Kinematics;
+use crate::group::{StepView, Trial};
+use crate::kinematics::{Arms, Kinematics};
 use crate::scalar::Real;
 use crate::scheme::Infeasible;
 
@@ -92,29 +92,33 @@ impl<S: Real, M: FreeEnergy<S>> Point<S, M> {
     }
 }
 
-impl<S, M, K, const D: usize> ThreeStageGroup<S, M, K, D>
+impl<S, M, K, const D: usize> StageGroup<S, M, K, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
 {
-    /// See [`StageGroup::evaluate`](super::StageGroup::evaluate).
+    /// Evaluates the model at all stages of the trial.
     pub(super) fn evaluate_all(
         &mut self,
-        view: &StageView<'_, S>,
-        trial: &StageTrial<S, D>,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
     ) -> Result<(), StateError> {
-        let kinematics = self.elements.kinematics;
+        let (kinematics, rule) = (self.elements.kinematics, self.rule);
         let members = self.elements.members.iter_mut().zip(&mut self.members);
         for (member, stages) in members {
-            for stage in 0..=END {
-                // The measures of the start are those of the old state.
-                if stage > 0 {
-                    stages.move_to(kinematics, member, stage, &trial.positions[stage])?;
+            for stage in 0..rule.stages() {
+                // The measures of a known stage are those of the old state.
+                if let Some(set) = rule.set_of(stage) {
+                    let r = stages.arms_of_set(set, trial);
+                    stages.move_to(kinematics, member, stage, &r)?;
                 }
-                stages.evaluate(member, view, trial, stage)?;
+                let heat = match member.slots().thermal {
+                    Some(slot) => heat::received(rule, stage, slot, view, trial),
+                    None => S::zero(),
+                };
+                stages.evaluate(member, view, stage, heat)?;
             }
-            stages.condense(&mut self.local, view.step, member.element)?;
         }
         Ok(())
     }
@@ -126,31 +130,30 @@ where
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
 {
-    /// Measures and their gradients at a stage.
+    /// Measures and their gradients at a stage, whose arms are given.
     fn move_to(
         &mut self,
         kinematics: K,
         member: &StateMember<S, M, K, D>,
         stage: usize,
-        positions: &[[S; D]],
+        r: &Arms<K, S, D>,
     ) -> Result<(), StateError> {
-        let r = arms::<K, S, D>(&member.site.nodes, positions);
-        let measures = kinematics.measure(&r);
-        check_measures::<K, S, D>(kinematics, member.element, &measures, &r)?;
-        self.gradients[stage] = kinematics.gradient(&r, &measures);
+        let measures = kinematics.measure(r);
+        check_measures::<K, S, D>(kinematics, member.element, &measures, r)?;
+        self.gradients[stage] = kinematics.gradient(r, &measures);
         for (a, &measure) in measures.as_ref().iter().enumerate() {
             self.x[stage][a] = measure;
         }
         Ok(())
     }
 
-    /// The model at a stage whose variables are known.
+    /// The model at a stage whose variables are known, with the heat from other elements, W.
     fn evaluate(
         &mut self,
         member: &mut StateMember<S, M, K, D>,
-        view: &StageView<'_, S>,
-        trial: &StageTrial<S, D>,
+        view: &StepView<'_, S>,
         stage: usize,
+        heat: S,
     ) -> Result<(), StateError> {
         let (x, point) = (&self.x[stage], &mut self.points[stage]);
         let theta = x[M::Variables::LEN - 1];
@@ -174,8 +177,8 @@ where
         let slope = point.entropy_by()[M::Variables::LEN - 1];
         Infeasible::unless_stable(theta * slope, theta)
             .map_err(|infeasible| infeasible.of(member.element))?;
-        let seen = &trial.seen_temperatures[stage];
-        let flow = view.conduction.heat_flow(slot, theta, seen);
+        let mut flow = view.conduction.reservoir_flow(slot, theta);
+        flow.heat += heat;
         point.warm(theta, &flow, &dissipation_by);
         Ok(())
     }
