@@ -21,7 +21,7 @@ use crate::layout::Layout;
 use crate::loads::StepLoads;
 use crate::masses::Masses;
 use crate::newton::{NewtonSettings, is_last};
-use crate::pattern::Pattern;
+use crate::pattern;
 use crate::scalar::{Mask, Real, natural_power};
 use crate::scene::ElementEntry;
 use crate::scheme::Scheme;
@@ -85,7 +85,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         loads: &StepLoads<S>,
     ) -> Self {
         let has_old_force = scheme.has_old_forces() || loads.has_total_force();
-        let pattern = Pattern::of_tangent(elements, layout, conduction, D);
+        let pattern = pattern::of_tangent(elements, layout, conduction, D);
         let tangent = LinearSystem::new(&pattern, D);
         let sites = Sites {
             layout,

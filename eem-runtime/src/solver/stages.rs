@@ -21,7 +21,7 @@ use crate::layout::Layout;
 use crate::loads::{Loads, StepLoads};
 use crate::masses::Masses;
 use crate::newton::is_last;
-use crate::pattern::Pattern;
+use crate::pattern;
 use crate::scalar::{Mask, Real};
 use crate::scene::ElementEntry;
 use crate::scheme::Scheme;
@@ -46,9 +46,9 @@ impl<S: Real, const D: usize> Staged<S, D> {
         loads: &Loads<S, D>,
     ) -> Self {
         let stage = || StepLoads::new(masses.len() * D, layout, loads);
-        let pattern = Pattern::of_tangent(elements, layout, conduction, D).doubled();
+        let pattern = pattern::of_tangent(elements, layout, conduction, D).doubled();
         let tangent = LinearSystem::new(&pattern, D);
-        let secant = LinearSystem::new(&Pattern::of_secant(elements, layout, D), 1);
+        let secant = LinearSystem::new(&pattern::of_secant(elements, layout, D), 1);
         let shifts = [0, layout.unknowns];
         let quarters = shifts.map(|down| {
             shifts.map(|right| Sites {

@@ -1,12 +1,12 @@
 //! Which unknowns are eliminated together, and which later ones each elimination touches.
 //!
 //! ```text
-//! front   own runs of unknowns, consecutive in the order of elimination
-//!         rows below: the later runs that any of them is connected with by then
+//! front   own nodes of unknowns, consecutive in the order of elimination
+//!         rows below: the later nodes that any of them is connected with by then
 //! ```
 //!
-//! The pattern is symmetric, so that what one run touches by its column it touches by its row.
-//! Order and fronts depend on the pattern alone, and serve for runs of any length. Runs are ordered by
+//! The pattern is symmetric, so that what one node touches by its column it touches by its row.
+//! Order and fronts depend on the pattern alone, and serve for nodes of any length. Nodes are ordered by
 //! approximate minimum degree (Amestoy, Davis & Duff 1996), or by nested dissection where that fills in
 //! much and the other less.
 
@@ -21,7 +21,7 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::linalg::{SupernodalThreshold, SymbolicSupernodalParams};
 
-use super::dissection;
+use crate::dissection;
 use crate::compact::compact;
 use crate::pattern::Pattern;
 
@@ -33,11 +33,11 @@ const MERGED: [(usize, f64); 2] = [(48, 0.1), (usize::MAX, 0.05)];
 
 /// The fronts in an order in which each follows those that contribute to it, the last of them at once.
 #[derive(Debug)]
-pub(super) struct Fronts {
-    /// The run that is eliminated at a place.
-    pub(super) order: Vec<u32>,
-    /// The place of a run.
-    pub(super) places: Vec<u32>,
+pub(crate) struct Fronts {
+    /// The node that is eliminated at a place.
+    pub(crate) order: Vec<u32>,
+    /// The place of a node.
+    pub(crate) places: Vec<u32>,
     /// Front f has the places `begins[f]..begins[f + 1]`,
     begins: Vec<u32>,
     /// and the rows below `rows[starts[f]..starts[f + 1]]`, as places, ascending.
@@ -47,30 +47,30 @@ pub(super) struct Fronts {
 
 /// One front: its own places and those below.
 #[derive(Clone, Debug)]
-pub(super) struct Front<'a> {
-    pub(super) own: Range<usize>,
-    pub(super) rows: &'a [u32],
+pub(crate) struct Front<'a> {
+    pub(crate) own: Range<usize>,
+    pub(crate) rows: &'a [u32],
 }
 
 /// What fronts need together.
 #[derive(Debug, Default)]
-pub(super) struct Extent {
+pub(crate) struct Extent {
     /// Entries of the columns of fronts, and of their rows to the right of the diagonal blocks.
-    pub(super) lower: usize,
-    pub(super) upper: usize,
+    pub(crate) lower: usize,
+    pub(crate) upper: usize,
     /// Entries, and fronts, that wait at the same time for a later front.
-    pub(super) left: usize,
-    pub(super) waiting: usize,
+    pub(crate) left: usize,
+    pub(crate) waiting: usize,
     /// The most own unknowns and the most unknowns below of a front.
-    pub(super) width: usize,
-    pub(super) height: usize,
+    pub(crate) width: usize,
+    pub(crate) height: usize,
 }
 
 impl Fronts {
     /// Orders and analyses a pattern; `None` if memory is missing.
-    pub(super) fn new(pattern: &Pattern) -> Option<Self> {
+    pub(crate) fn new(pattern: &Pattern) -> Option<Self> {
         let by_degree = Self::ordered(pattern, SymmetricOrdering::Amd)?;
-        let length = pattern.length();
+        let length = pattern.block_length();
         let Extent { lower, upper, .. } = by_degree.extent(0..by_degree.len(), length);
         if lower + upper <= WORTH_DISSECTING * pattern.entries() {
             return Some(by_degree);
@@ -88,10 +88,10 @@ impl Fronts {
 
     /// Analyses a pattern for an order of elimination.
     fn ordered(pattern: &Pattern, order: SymmetricOrdering<'_, u32>) -> Option<Self> {
-        let runs = pattern.runs();
+        let nodes = pattern.nodes();
         let (starts, rows) = (pattern.starts(), pattern.columns());
-        let structure = SymbolicSparseColMatRef::new_checked(runs, runs, starts, None, rows);
-        let merged = MERGED.map(|(most, share)| (most / pattern.length(), share));
+        let structure = SymbolicSparseColMatRef::new_checked(nodes, nodes, starts, None, rows);
+        let merged = MERGED.map(|(most, share)| (most / pattern.block_length(), share));
         let parameters = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             supernodal_params: SymbolicSupernodalParams {
@@ -153,12 +153,12 @@ impl Fronts {
     }
 
     /// Number of fronts.
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.begins.len() - 1
     }
 
     /// A front.
-    pub(super) fn front(&self, at: usize) -> Front<'_> {
+    pub(crate) fn front(&self, at: usize) -> Front<'_> {
         Front {
             own: self.begins[at] as usize..self.begins[at + 1] as usize,
             rows: &self.rows[self.starts[at] as usize..self.starts[at + 1] as usize],
@@ -166,7 +166,7 @@ impl Fronts {
     }
 
     /// The front that takes up what a front leaves.
-    pub(super) fn parent(&self, at: usize) -> Option<usize> {
+    pub(crate) fn parent(&self, at: usize) -> Option<usize> {
         let place = self.front(at).rows.first()?;
         Some(self.begins.partition_point(|begin| begin <= place) - 1)
     }
@@ -182,12 +182,12 @@ impl Fronts {
     }
 
     /// The places that fronts have in the order of elimination.
-    pub(super) fn places(&self, fronts: &Range<usize>) -> Range<usize> {
+    pub(crate) fn places(&self, fronts: &Range<usize>) -> Range<usize> {
         self.begins[fronts.start] as usize..self.begins[fronts.end] as usize
     }
 
-    /// What fronts in a row need together, for runs of this length.
-    pub(super) fn extent(&self, fronts: Range<usize>, length: usize) -> Extent {
+    /// What fronts in a row need together, for nodes of this length.
+    pub(crate) fn extent(&self, fronts: Range<usize>, length: usize) -> Extent {
         let mut extent = Extent::default();
         let mut left = 0;
         let mut waiting: Vec<Front<'_>> = Vec::new();
@@ -213,14 +213,14 @@ impl Fronts {
 }
 
 impl Front<'_> {
-    /// How many unknowns are its own and how many are below, for runs of this length.
+    /// How many unknowns are its own and how many are below, for nodes of this length.
     #[inline]
-    pub(super) fn sizes(&self, length: usize) -> [usize; 2] {
+    pub(crate) fn sizes(&self, length: usize) -> [usize; 2] {
         [self.own.len() * length, self.rows.len() * length]
     }
 
     /// Whether this front, the last that waits, waits for the given one.
-    pub(super) fn contributes_to(&self, front: &Front<'_>) -> bool {
+    pub(crate) fn contributes_to(&self, front: &Front<'_>) -> bool {
         (self.rows[0] as usize) < front.own.end
     }
 }

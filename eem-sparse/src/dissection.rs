@@ -1,6 +1,6 @@
 //! Nested dissection: an order of elimination that keeps the parts of a large net apart.
 //!
-//! Unknowns here are runs: what shares its entries is eliminated together.
+//! Unknowns here are nodes: what shares its entries is eliminated together.
 //!
 //! ```text
 //! order   one side, the other side, what separates them;  each side the same way
@@ -31,8 +31,8 @@ const LARGEST_SHARE: usize = 5;
 const NONE: u32 = u32::MAX;
 
 /// The unknowns in the order of their elimination; `None` if memory is missing.
-pub(super) fn order(pattern: &Pattern) -> Option<Vec<u32>> {
-    let count = pattern.runs();
+pub(crate) fn order(pattern: &Pattern) -> Option<Vec<u32>> {
+    let count = pattern.nodes();
     let mut dissection = Dissection {
         pattern,
         parts: vec![0; count],
@@ -46,7 +46,7 @@ pub(super) fn order(pattern: &Pattern) -> Option<Vec<u32>> {
     let mut parts = vec![(0, count)];
     while let Some((start, end)) = parts.pop() {
         let set = &mut unknowns[start..end];
-        if set.len() * pattern.length() <= SMALL {
+        if set.len() * pattern.block_length() <= SMALL {
             continue;
         }
         let Some([left, right]) = dissection.divide(set) else {

@@ -8,20 +8,20 @@
 use core::array;
 use core::ops::Range;
 
-use super::division::Division;
-use super::elimination::{Blocks, Scratch};
-use super::fronts::{Extent, Front, Fronts};
-use super::gathering::{Matrix, Rows, add, gather};
+use crate::division::Division;
+use crate::elimination::{Blocks, Scratch};
+use crate::fronts::{Extent, Front, Fronts};
+use crate::gathering::{Matrix, Rows, add, gather};
 use crate::compact::compact;
-use crate::scalar::Real;
+use crate::precision::Precision;
 use crate::threads;
 
-/// Where the factors of some fronts go, see [`Factors`](super::factors::Factors).
+/// Where the factors of some fronts go, see [`Factors`](crate::factors::Factors).
 #[derive(Debug)]
-pub(super) struct Memory<'a> {
-    pub(super) lower: &'a mut [f64],
-    pub(super) upper: &'a mut [f64],
-    pub(super) pivots: &'a mut [u32],
+pub(crate) struct Memory<'a> {
+    pub(crate) lower: &'a mut [f64],
+    pub(crate) upper: &'a mut [f64],
+    pub(crate) pivots: &'a mut [u32],
 }
 
 impl Memory<'_> {
@@ -44,15 +44,15 @@ impl Memory<'_> {
     }
 }
 
-/// The most runs below a front among which one is looked for instead of noted.
+/// The most nodes below a front among which one is looked for instead of noted.
 const MOST_SEARCHED: usize = 2;
 
 /// Working memory of a division and of its parts.
 #[derive(Debug)]
-pub(super) struct Branch {
+pub(crate) struct Branch {
     parts: Vec<Branch>,
     own: Range<usize>,
-    /// How much of [`Memory`] it takes with its parts, if runs are one unknown long.
+    /// How much of [`Memory`] it takes with its parts, if nodes are one unknown long.
     sizes: [usize; 3],
     stack: Stack,
     rows: Rows,
@@ -77,10 +77,10 @@ struct Waiting {
 
 impl Waiting {
     /// Takes the last front that waits from the stack if it waits for the given one.
-    fn pop_for<'a, S, const L: usize>(
+    fn pop_for<'a, P: Precision, const L: usize>(
         &mut self,
         front: &Front<'_>,
-        matrix: &Matrix<'a, S, L>,
+        matrix: &Matrix<'a, P, L>,
     ) -> Option<Front<'a>> {
         let last = matrix.fronts.front(*self.fronts.last()? as usize);
         if !last.contributes_to(front) {
@@ -94,8 +94,8 @@ impl Waiting {
 }
 
 impl Branch {
-    /// Memory for a division, for runs of at most this length; `None` if it is missing.
-    pub(super) fn new(fronts: &Fronts, division: Division, length: usize) -> Option<Self> {
+    /// Memory for a division, for nodes of at most this length; `None` if it is missing.
+    pub(crate) fn new(fronts: &Fronts, division: Division, length: usize) -> Option<Self> {
         let Division { parts, own } = division;
         let Extent { lower, upper, .. } = fronts.extent(own.clone(), 1);
         let places = fronts.places(&own);
@@ -133,12 +133,12 @@ impl Branch {
     }
 
     /// Factors its parts, then its own fronts.
-    pub(super) fn factor<S: Real, const L: usize>(
+    pub(crate) fn factor<P: Precision, const L: usize>(
         &mut self,
-        matrix: Matrix<'_, S, L>,
+        matrix: Matrix<'_, P, L>,
         memory: Memory<'_>,
     ) {
-        let of_parts = in_runs(total(&self.parts), L);
+        let of_parts = in_blocks(total(&self.parts), L);
         let (of_parts, mut memory) = memory.split_at(of_parts);
         factor_together(&mut self.parts, matrix, of_parts);
         for at in self.own.clone() {
@@ -152,11 +152,11 @@ impl Branch {
     }
 
     /// Eliminates the own unknowns of a front.
-    fn eliminate<S: Real, const L: usize>(
+    fn eliminate<P: Precision, const L: usize>(
         &mut self,
         at: usize,
         front: &Front<'_>,
-        matrix: &Matrix<'_, S, L>,
+        matrix: &Matrix<'_, P, L>,
         memory: Memory<'_>,
     ) {
         let Memory {
@@ -179,10 +179,10 @@ impl Branch {
         gather(&mut blocks, front, &self.rows, matrix);
         let mut take_up = |child: &Front<'_>, left: &[f64]| {
             let targets = &mut self.targets[..child.rows.len() * L];
-            let runs = targets.as_chunks_mut::<L>().0;
-            for (run, &place) in runs.iter_mut().zip(child.rows) {
+            let nodes = targets.as_chunks_mut::<L>().0;
+            for (node, &place) in nodes.iter_mut().zip(child.rows) {
                 let first = compact(self.rows.of(place as usize, front) * L);
-                (first..).zip(run).for_each(|(row, target)| *target = row);
+                (first..).zip(node).for_each(|(row, target)| *target = row);
             }
             add(&mut blocks, targets, left);
         };
@@ -212,22 +212,22 @@ fn total(branches: &[Branch]) -> [usize; 3] {
     branches.iter().fold([0; 3], add)
 }
 
-/// Sizes for runs of this length.
-fn in_runs([lower, upper, pivots]: [usize; 3], length: usize) -> [usize; 3] {
+/// Sizes for nodes of this length.
+fn in_blocks([lower, upper, pivots]: [usize; 3], length: usize) -> [usize; 3] {
     let square = length * length;
     [lower * square, upper * square, pivots * length]
 }
 
 /// Factors branches that know nothing of each other.
-fn factor_together<S: Real, const L: usize>(
+fn factor_together<P: Precision, const L: usize>(
     branches: &mut [Branch],
-    matrix: Matrix<'_, S, L>,
+    matrix: Matrix<'_, P, L>,
     memory: Memory<'_>,
 ) {
     let Some((first, rest)) = branches.split_first_mut() else {
         return;
     };
-    let (own, others) = memory.split_at(in_runs(first.sizes, L));
+    let (own, others) = memory.split_at(in_blocks(first.sizes, L));
     threads::join(
         || first.factor(matrix, own),
         || factor_together(rest, matrix, others),
@@ -235,7 +235,7 @@ fn factor_together<S: Real, const L: usize>(
 }
 
 /// That many zeros, if there is memory.
-pub(super) fn zeros(count: usize) -> Option<Vec<f64>> {
+pub(crate) fn zeros(count: usize) -> Option<Vec<f64>> {
     let mut zeros = Vec::new();
     zeros.try_reserve_exact(count).ok()?;
     zeros.resize(count, 0.0);
@@ -282,7 +282,7 @@ mod tests {
         let pool = pool.build().unwrap();
         // The second time, memory is as the first time left it.
         for _ in 0..2 {
-            let matrix = Matrix::<_, 1> {
+            let matrix = Matrix::<f64, 1> {
                 fronts: &fronts,
                 pattern: &pattern,
                 values: &values,

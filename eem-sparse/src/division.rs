@@ -6,11 +6,11 @@
 //!
 //! Trees of fronts that do not contribute to each other are independent. As each front follows those
 //! that contribute to it at once, a tree is a range of fronts, its last the root. The division depends on
-//! the fronts and on the length of runs alone.
+//! the fronts and on the length of nodes alone.
 
 use core::ops::Range;
 
-use super::fronts::Fronts;
+use crate::fronts::Fronts;
 use crate::threads;
 
 /// A part is at most one in this many of the whole work, if it can be divided further.
@@ -21,14 +21,14 @@ const SMALL: usize = 1 << 23;
 
 /// A range of fronts: parts that know nothing of each other, and the fronts after them.
 #[derive(Debug)]
-pub(super) struct Division {
-    pub(super) parts: Vec<Division>,
-    pub(super) own: Range<usize>,
+pub(crate) struct Division {
+    pub(crate) parts: Vec<Division>,
+    pub(crate) own: Range<usize>,
 }
 
 impl Division {
-    /// All fronts, for runs of this length; undivided if there are no threads or little work.
-    pub(super) fn new(fronts: &Fronts, length: usize) -> Self {
+    /// All fronts, for nodes of this length; undivided if there are no threads or little work.
+    pub(crate) fn new(fronts: &Fronts, length: usize) -> Self {
         let all = 0..fronts.len();
         if threads::DIVIDE {
             Forest::new(fronts, length).divide(all)
@@ -38,7 +38,7 @@ impl Division {
     }
 
     /// One after the other.
-    pub(super) fn whole(own: Range<usize>) -> Self {
+    pub(crate) fn whole(own: Range<usize>) -> Self {
         let parts = Vec::new();
         Self { parts, own }
     }

@@ -30,19 +30,19 @@ const PIECE: usize = 1 << 22;
 const ALIGNED: usize = 64;
 
 /// The blocks of a front, column by column.
-pub(super) struct Blocks<'a> {
+pub(crate) struct Blocks<'a> {
     /// A₁₁ above A₂₁; then L₁₁ below the diagonal of U₁₁, and L₂₁.
-    pub(super) lower: &'a mut [f64],
+    pub(crate) lower: &'a mut [f64],
     /// A₁₂, then U₁₂.
-    pub(super) upper: &'a mut [f64],
+    pub(crate) upper: &'a mut [f64],
     /// A₂₂, then S.
-    pub(super) schur: &'a mut [f64],
+    pub(crate) schur: &'a mut [f64],
     /// The row of A₁₁ that becomes each row of L₁₁.
-    pub(super) pivots: &'a mut [u32],
+    pub(crate) pivots: &'a mut [u32],
 }
 
 /// Working memory of the elimination.
-pub(super) struct Scratch {
+pub(crate) struct Scratch {
     inverse: Vec<u32>,
     column: Vec<f64>,
     memory: MemBuffer,
@@ -56,7 +56,7 @@ impl fmt::Debug for Scratch {
 
 impl Scratch {
     /// For fronts with at most this many own unknowns; `None` if memory is missing.
-    pub(super) fn new(width: usize) -> Option<Self> {
+    pub(crate) fn new(width: usize) -> Option<Self> {
         let factor = lu_in_place_scratch::<u32, f64>(width, width, Par::Seq, Spec::default());
         Some(Self {
             inverse: vec![0; width],
@@ -68,14 +68,14 @@ impl Scratch {
 
 impl Blocks<'_> {
     /// Makes A zero.
-    pub(super) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.lower.fill(0.0);
         self.upper.fill(0.0);
         self.schur.fill(0.0);
     }
 
     /// Replaces A by L, U and S. A pivot that is zero divides by zero.
-    pub(super) fn eliminate(&mut self, scratch: &mut Scratch) {
+    pub(crate) fn eliminate(&mut self, scratch: &mut Scratch) {
         let width = self.pivots.len();
         if self.lower.len() <= SMALL * width {
             self.eliminate_by_loops();

@@ -1,0 +1,142 @@
+//! Whether a solution is one to rounding, and iterative refinement of those that are not.
+//!
+//! The measure is the componentwise backward error (Arioli, Demmel & Duff 1989)
+//!
+//! ```text
+//! ωᵢ = |b − A x|ᵢ / (|A| |x| + |b|)ᵢ
+//! ```
+//!
+//! the largest relative change of the entries of row i, and of bᵢ, that makes x exact.
+//!
+//! Solutions are in the order of elimination, right-hand sides in that of the unknowns.
+
+use crate::gathering::Matrix;
+use crate::precision::Precision;
+
+/// The backward error of rows with at most 255 entries that counts as rounding, in units of the last
+/// place.
+///
+/// A sum of k products is computed with an error of at most `(k + 1) ε / 2` times the sum of their
+/// magnitudes, and refinement in the same precision brings ω to twice that (Higham 2002, theorem 12.3):
+/// `(k + 1) ε`, which is 256 ε for 255 entries.
+const BACKWARD_ERROR: usize = 256;
+
+/// How often a solution is refined before its factors are given up. Each time gains as many digits as the
+/// factors have, so three are enough if they have six.
+const REFINEMENTS: usize = 3;
+
+/// The largest backward error that counts as rounding, for a row with this many entries.
+pub(crate) fn bound(entries: usize) -> f64 {
+    let units = BACKWARD_ERROR.max(entries + 1);
+    f64::from(u32::try_from(units).unwrap_or(u32::MAX)) * f64::EPSILON
+}
+
+/// A row that fails the check.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Failure {
+    pub(crate) row: usize,
+    pub(crate) backward_error: f64,
+    pub(crate) bound: f64,
+}
+
+/// A matrix and one right-hand side of it, by the number of the node.
+#[derive(Clone, Copy)]
+pub(crate) struct Equations<'a, P: Precision, B, const L: usize> {
+    pub(crate) matrix: Matrix<'a, P, L>,
+    pub(crate) b: B,
+}
+
+impl<P: Precision, B: Fn(usize) -> [f64; L], const L: usize> Equations<'_, P, B, L> {
+    /// `b − A x` and `|b| + |A| |x|` in the rows of a node.
+    ///
+    /// Numbers below the smallest normal one have an absolute error instead of a relative one, so
+    /// this number is added to all magnitudes.
+    #[expect(clippy::inline_always, reason = "a few numbers in registers")]
+    #[inline(always)]
+    fn residual(&self, node: usize, x: &[[f64; L]]) -> ([f64; L], [f64; L]) {
+        let mut residual = (self.b)(node);
+        let mut size = residual.map(|b| b.abs() + f64::MIN_POSITIVE);
+        for (column, block) in self.matrix.blocks_of(node) {
+            let x = &x[self.matrix.fronts.places[column] as usize];
+            for (row, entries) in block.iter().enumerate() {
+                for (&value, x) in entries.iter().zip(x) {
+                    let value = P::widen(value);
+                    residual[row] -= value * x;
+                    size[row] += value.abs() * (x.abs() + f64::MIN_POSITIVE);
+                }
+            }
+        }
+        (residual, size)
+    }
+
+    /// The bound for the rows of a node.
+    fn bound(&self, node: usize) -> f64 {
+        bound(self.matrix.pattern.row(node).len() * L)
+    }
+
+    /// Whether the backward error of every row is within its bound. False if any number is NaN or
+    /// infinite.
+    pub(crate) fn are_solved(&self, x: &[[f64; L]]) -> bool {
+        let mut are_solved = true;
+        for node in 0..x.len() {
+            let (residual, size) = self.residual(node, x);
+            let bound = self.bound(node);
+            for (residual, size) in residual.iter().zip(size) {
+                are_solved &= residual.abs() <= bound * size && size <= f64::MAX;
+            }
+        }
+        are_solved
+    }
+
+    /// The row that misses its bound by the largest factor.
+    #[cold]
+    pub(crate) fn worst(&self, x: &[[f64; L]]) -> Failure {
+        let rows = (0..x.len()).flat_map(|node| {
+            let (residual, size) = self.residual(node, x);
+            let bound = self.bound(node);
+            residual.into_iter().zip(size).enumerate().map(move |(at, (residual, size))| {
+                let ratio = residual.abs() / size;
+                Failure {
+                    row: node * L + at,
+                    backward_error: if ratio.is_finite() { ratio } else { f64::INFINITY },
+                    bound,
+                }
+            })
+        });
+        let excess = |failure: &Failure| failure.backward_error / failure.bound;
+        let worst = rows.max_by(|a, b| excess(a).total_cmp(&excess(b)));
+        worst.unwrap_or(Failure {
+            row: 0,
+            backward_error: f64::INFINITY,
+            bound: bound(0),
+        })
+    }
+
+    /// Adds corrections to a solution until it passes the check; returns how many that took, or `None`
+    /// if it still fails after the last one.
+    ///
+    /// `correct` overwrites a residual in the order of elimination with the correction.
+    #[cold]
+    pub(crate) fn refine(
+        &self,
+        x: &mut [[f64; L]],
+        memory: &mut Vec<f64>,
+        mut correct: impl FnMut(&mut [[f64; L]]),
+    ) -> Option<usize> {
+        memory.resize(memory.len().max(x.as_flattened().len()), 0.0);
+        let rest = &mut memory.as_chunks_mut::<L>().0[..x.len()];
+        for refinement in 1..=REFINEMENTS {
+            for (rest, &node) in rest.iter_mut().zip(&self.matrix.fronts.order) {
+                (*rest, _) = self.residual(node as usize, x);
+            }
+            correct(rest);
+            for (x, correction) in x.as_flattened_mut().iter_mut().zip(rest.as_flattened()) {
+                *x += correction;
+            }
+            if self.are_solved(x) {
+                return Some(refinement);
+            }
+        }
+        None
+    }
+}
