@@ -8,11 +8,11 @@
 use core::array;
 use core::ops::Range;
 
+use crate::compact::compact;
 use crate::division::Division;
 use crate::elimination::{Blocks, Scratch};
 use crate::fronts::{Extent, Front, Fronts};
 use crate::gathering::{Matrix, Rows, add, gather};
-use crate::compact::compact;
 use crate::precision::Precision;
 use crate::threads;
 

@@ -40,7 +40,8 @@ pub enum Error {
         /// Where it is in the array.
         position: usize,
     },
-    /// The matrix is singular, or so close to it that no solution fits all equations.
+    /// No solution fits all equations, as the matrix is singular or has a condition number beyond the
+    /// precision. A matrix that is singular but for its rounding errors can have a huge solution instead.
     #[error("no solution: backward error {backward_error:e} exceeds {bound:e} in row {row}")]
     Unsolved {
         /// The row whose residual is the largest, relative to its bound.

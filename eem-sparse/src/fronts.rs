@@ -21,8 +21,8 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::linalg::{SupernodalThreshold, SymbolicSupernodalParams};
 
-use crate::dissection;
 use crate::compact::compact;
+use crate::dissection;
 use crate::pattern::Pattern;
 
 /// Factors with more than this many times the entries of their matrix are worth a better order.
@@ -69,6 +69,9 @@ pub(crate) struct Extent {
 impl Fronts {
     /// Orders and analyses a pattern; `None` if memory is missing.
     pub(crate) fn new(pattern: &Pattern) -> Option<Self> {
+        if pattern.columns().len() == pattern.nodes() {
+            return Some(Self::uncoupled(pattern.nodes()));
+        }
         let by_degree = Self::ordered(pattern, SymmetricOrdering::Amd)?;
         let length = pattern.block_length();
         let Extent { lower, upper, .. } = by_degree.extent(0..by_degree.len(), length);
@@ -84,6 +87,18 @@ impl Fronts {
         let dissected = Self::ordered(pattern, SymmetricOrdering::Custom(order))?;
         let is_better = dissected.multiplications() < by_degree.multiplications();
         Some(if is_better { dissected } else { by_degree })
+    }
+
+    /// A front for each node, none of which has neighbours; `faer` has no supernodes for such a pattern.
+    fn uncoupled(nodes: usize) -> Self {
+        let order: Vec<u32> = (0..compact(nodes)).collect();
+        Self {
+            places: order.clone(),
+            begins: (0..=compact(nodes)).collect(),
+            starts: vec![0; nodes + 1],
+            rows: Vec::new(),
+            order,
+        }
     }
 
     /// Analyses a pattern for an order of elimination.

@@ -6,7 +6,9 @@
 //! ωᵢ = |b − A x|ᵢ / (|A| |x| + |b|)ᵢ
 //! ```
 //!
-//! the largest relative change of the entries of row i, and of bᵢ, that makes x exact.
+//! the smallest relative change of the entries of row i, and of bᵢ, that makes x exact. If all columns
+//! of A are of similar size, unknowns below `ε max |x|` count as `ε max |x|`: far away from a local
+//! load, a solution decays to numbers without a correct digit.
 //!
 //! Solutions are in the order of elimination, right-hand sides in that of the unknowns.
 
@@ -24,6 +26,10 @@ const BACKWARD_ERROR: usize = 256;
 /// How often a solution is refined before its factors are given up. Each time gains as many digits as the
 /// factors have, so three are enough if they have six.
 const REFINEMENTS: usize = 3;
+
+/// Columns are of similar size if their largest entries differ by less than this factor: then the unknowns
+/// have comparable units, and one that is ε times the largest is no more than its rounding error.
+const SIMILAR: f64 = 1.0 / f64::EPSILON;
 
 /// The largest backward error that counts as rounding, for a row with this many entries.
 pub(crate) fn bound(entries: usize) -> f64 {
@@ -47,13 +53,13 @@ pub(crate) struct Equations<'a, P: Precision, B, const L: usize> {
 }
 
 impl<P: Precision, B: Fn(usize) -> [f64; L], const L: usize> Equations<'_, P, B, L> {
-    /// `b − A x` and `|b| + |A| |x|` in the rows of a node.
+    /// `b − A x` and `|b| + |A| (|x| + floor)` in the rows of a node.
     ///
     /// Numbers below the smallest normal one have an absolute error instead of a relative one, so
-    /// this number is added to all magnitudes.
+    /// this number is added to the size of a row, and is the smallest floor.
     #[expect(clippy::inline_always, reason = "a few numbers in registers")]
     #[inline(always)]
-    fn residual(&self, node: usize, x: &[[f64; L]]) -> ([f64; L], [f64; L]) {
+    fn residual(&self, node: usize, x: &[[f64; L]], floor: f64) -> ([f64; L], [f64; L]) {
         let mut residual = (self.b)(node);
         let mut size = residual.map(|b| b.abs() + f64::MIN_POSITIVE);
         for (column, block) in self.matrix.blocks_of(node) {
@@ -62,7 +68,7 @@ impl<P: Precision, B: Fn(usize) -> [f64; L], const L: usize> Equations<'_, P, B,
                 for (&value, x) in entries.iter().zip(x) {
                     let value = P::widen(value);
                     residual[row] -= value * x;
-                    size[row] += value.abs() * (x.abs() + f64::MIN_POSITIVE);
+                    size[row] += value.abs() * (x.abs() + floor);
                 }
             }
         }
@@ -76,10 +82,15 @@ impl<P: Precision, B: Fn(usize) -> [f64; L], const L: usize> Equations<'_, P, B,
 
     /// Whether the backward error of every row is within its bound. False if any number is NaN or
     /// infinite.
-    pub(crate) fn are_solved(&self, x: &[[f64; L]]) -> bool {
+    pub(crate) fn are_solved(&self, x: &[[f64; L]], memory: &mut Vec<f64>) -> bool {
+        self.are_solved_above(f64::MIN_POSITIVE, x) || self.are_solved_but_for_tiny(x, memory)
+    }
+
+    /// Whether every row is within its bound if unknowns below a floor count as the floor.
+    fn are_solved_above(&self, floor: f64, x: &[[f64; L]]) -> bool {
         let mut are_solved = true;
         for node in 0..x.len() {
-            let (residual, size) = self.residual(node, x);
+            let (residual, size) = self.residual(node, x, floor);
             let bound = self.bound(node);
             for (residual, size) in residual.iter().zip(size) {
                 are_solved &= residual.abs() <= bound * size && size <= f64::MAX;
@@ -88,20 +99,53 @@ impl<P: Precision, B: Fn(usize) -> [f64; L], const L: usize> Equations<'_, P, B,
         are_solved
     }
 
+    /// Whether they are if tiny unknowns count as a rounding of the largest, where columns permit that.
+    #[cold]
+    fn are_solved_but_for_tiny(&self, x: &[[f64; L]], memory: &mut Vec<f64>) -> bool {
+        let unknowns = x.as_flattened();
+        memory.resize(unknowns.len(), 0.0);
+        memory.fill(0.0);
+        for node in 0..x.len() {
+            for (column, block) in self.matrix.blocks_of(node) {
+                let columns = &mut memory[column * L..][..L];
+                for entries in block {
+                    for (largest, &entry) in columns.iter_mut().zip(entries) {
+                        *largest = largest.max(P::widen(entry).abs());
+                    }
+                }
+            }
+        }
+        let extremes = |(least, most): (f64, f64), &size: &f64| (least.min(size), most.max(size));
+        let (least, most) = memory.iter().fold((f64::MAX, 0.0), extremes);
+        let largest = unknowns
+            .iter()
+            .fold(0.0, |largest: f64, x| largest.max(x.abs()));
+        let floor = f64::MIN_POSITIVE.max(f64::EPSILON * largest);
+        most < SIMILAR * least && largest <= f64::MAX && self.are_solved_above(floor, x)
+    }
+
     /// The row that misses its bound by the largest factor.
     #[cold]
     pub(crate) fn worst(&self, x: &[[f64; L]]) -> Failure {
         let rows = (0..x.len()).flat_map(|node| {
-            let (residual, size) = self.residual(node, x);
+            let (residual, size) = self.residual(node, x, f64::MIN_POSITIVE);
             let bound = self.bound(node);
-            residual.into_iter().zip(size).enumerate().map(move |(at, (residual, size))| {
-                let ratio = residual.abs() / size;
-                Failure {
-                    row: node * L + at,
-                    backward_error: if ratio.is_finite() { ratio } else { f64::INFINITY },
-                    bound,
-                }
-            })
+            residual
+                .into_iter()
+                .zip(size)
+                .enumerate()
+                .map(move |(at, (residual, size))| {
+                    let ratio = residual.abs() / size;
+                    Failure {
+                        row: node * L + at,
+                        backward_error: if ratio.is_finite() {
+                            ratio
+                        } else {
+                            f64::INFINITY
+                        },
+                        bound,
+                    }
+                })
         });
         let excess = |failure: &Failure| failure.backward_error / failure.bound;
         let worst = rows.max_by(|a, b| excess(a).total_cmp(&excess(b)));
@@ -123,17 +167,17 @@ impl<P: Precision, B: Fn(usize) -> [f64; L], const L: usize> Equations<'_, P, B,
         memory: &mut Vec<f64>,
         mut correct: impl FnMut(&mut [[f64; L]]),
     ) -> Option<usize> {
-        memory.resize(memory.len().max(x.as_flattened().len()), 0.0);
-        let rest = &mut memory.as_chunks_mut::<L>().0[..x.len()];
         for refinement in 1..=REFINEMENTS {
+            memory.resize(x.as_flattened().len(), 0.0);
+            let rest = memory.as_chunks_mut::<L>().0;
             for (rest, &node) in rest.iter_mut().zip(&self.matrix.fronts.order) {
-                (*rest, _) = self.residual(node as usize, x);
+                (*rest, _) = self.residual(node as usize, x, 0.0);
             }
             correct(rest);
             for (x, correction) in x.as_flattened_mut().iter_mut().zip(rest.as_flattened()) {
                 *x += correction;
             }
-            if self.are_solved(x) {
+            if self.are_solved(x, memory) {
                 return Some(refinement);
             }
         }

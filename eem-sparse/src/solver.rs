@@ -34,7 +34,7 @@ pub struct Solver {
     pivoting: Option<Pivoting>,
     /// A column of X in the order of elimination.
     solution: Vec<f64>,
-    /// Its residual; empty until a solution is refined.
+    /// Its residual, or the size of columns; empty until a solution fails the check.
     residual: Vec<f64>,
 }
 
@@ -168,7 +168,8 @@ impl<P: Precision> Factored<'_, P> {
     /// ```
     ///
     /// before it is rounded to the precision in which it is stored. Magnitudes below the smallest normal
-    /// number count as that number. A solution that does not pass is refined up to three times; then
+    /// number count as that number. If the largest entries of all columns of A are within a factor 1/ε
+    /// of each other, components of x below `ε max |x|` count as `ε max |x|`. A solution that does not pass is refined up to three times; then
     /// elimination with partial pivoting solves, with the same check.
     ///
     /// ```
@@ -193,10 +194,7 @@ impl<P: Precision> Factored<'_, P> {
     /// - [`Error::OutOfMemory`] if the elimination with partial pivoting is needed and has no memory.
     ///
     /// After an error, columns before the one that failed are solved, and all others are unchanged.
-    pub fn solve<const W: usize>(
-        &mut self,
-        right: &mut [[P::Number; W]],
-    ) -> Result<Report, Error> {
+    pub fn solve<const W: usize>(&mut self, right: &mut [[P::Number; W]]) -> Result<Report, Error> {
         let (expected, found) = (self.solver.pattern.unknowns(), right.len());
         if found != expected {
             return Err(Error::Count { expected, found });
@@ -234,12 +232,13 @@ impl<P: Precision> Factored<'_, P> {
                 *x = b(node as usize);
             }
             factors.solve(fronts, x);
-            if !equations.are_solved(x) {
+            if !equations.are_solved(x, residual) {
                 let correct = |rest: &mut [[f64; L]]| factors.solve(fronts, rest);
                 match equations.refine(x, residual, correct) {
                     Some(refinements) => report.refinements += refinements,
                     None => {
-                        report.refinements += solve_by_pivoting(&equations, pivoting, (x, residual))?;
+                        report.refinements +=
+                            solve_by_pivoting(&equations, pivoting, (x, residual))?;
                         report.fallbacks += 1;
                     }
                 }
@@ -270,7 +269,7 @@ fn solve_by_pivoting<P: Precision, B: Fn(usize) -> [f64; L], const L: usize>(
     }
     let refinements = pivoting.factor(matrix, |solve| {
         solve(x);
-        if equations.are_solved(x) {
+        if equations.are_solved(x, residual) {
             Some(0)
         } else {
             equations.refine(x, residual, solve)
