@@ -1,4 +1,4 @@
-//! Factors of a matrix, front by front, and what solves with them.
+//! The factors of a matrix, front by front, and the substitutions that solve with them.
 
 use crate::branch::{Branch, Memory, zeros};
 use crate::division::Division;
@@ -9,20 +9,20 @@ use crate::precision::Precision;
 /// L and U of all fronts, and the memory in which they are found.
 #[derive(Debug)]
 pub(crate) struct Factors {
-    /// The columns of each front, one front after the other.
+    /// The columns of L of each front with its diagonal block, one front after the other.
     lower: Vec<f64>,
-    /// Its rows to the right of its diagonal block.
+    /// The rows of U of each front to the right of its diagonal block.
     upper: Vec<f64>,
-    /// For each place, the pivot among the own unknowns of its front.
+    /// For each row of a diagonal block, the row that became it.
     pivots: Vec<u32>,
-    /// What finds them.
+    /// The working memory of the elimination.
     root: Branch,
-    /// Part of a solution.
+    /// Right-hand sides of one front.
     part: Vec<f64>,
 }
 
 impl Factors {
-    /// Memory for the factors, for nodes of at most this length; `None` if it is missing.
+    /// Memory for the factors with blocks of this many rows; `None` if it cannot be had.
     pub(crate) fn new(fronts: &Fronts, length: usize) -> Option<Self> {
         let extent = fronts.extent(0..fronts.len(), length);
         Some(Self {
@@ -49,8 +49,7 @@ impl Factors {
         self.root.factor(matrix, memory);
     }
 
-    /// Overwrites a right-hand side, in the order of elimination, with the solution, for nodes of `L`
-    /// unknowns, as the matrix has been factored.
+    /// Overwrites a right-hand side with the solution, both in the order of elimination.
     pub(crate) fn solve<const L: usize>(&mut self, fronts: &Fronts, x: &mut [[f64; L]]) {
         let (mut lower, mut upper) = (0, 0);
         for front in (0..fronts.len()).map(|at| fronts.front(at)) {
@@ -72,7 +71,7 @@ impl Factors {
     }
 }
 
-/// Solves with L of a front.
+/// Forward substitution with L of a front.
 fn forward<const L: usize>(
     front: &Front<'_>,
     (columns, pivots): (&[f64], &[u32]),
@@ -106,7 +105,7 @@ fn forward<const L: usize>(
     }
 }
 
-/// Solves with U of a front.
+/// Backward substitution with U of a front.
 fn backward<const L: usize>(front: &Front<'_>, columns: &[f64], upper: &[f64], x: &mut [[f64; L]]) {
     let [width, height] = front.sizes(L);
     let tall = width + height;

@@ -1,14 +1,13 @@
-//! Which unknowns are eliminated together, and which later ones each elimination touches.
+//! Which nodes are eliminated together, and which later nodes each elimination changes.
 //!
 //! ```text
-//! front   own nodes of unknowns, consecutive in the order of elimination
-//!         rows below: the later nodes that any of them is connected with by then
+//! front   own nodes, consecutive in the order of elimination
+//!         rows below: later nodes coupled with an own node, by the matrix or by fill-in
 //! ```
 //!
-//! The pattern is symmetric, so that what one node touches by its column it touches by its row.
-//! Order and fronts depend on the pattern alone, and serve for nodes of any length. Nodes are ordered by
-//! approximate minimum degree (Amestoy, Davis & Duff 1996), or by nested dissection where that fills in
-//! much and the other less.
+//! The pattern is symmetric, so the rows below are also the columns to the right. Nodes are ordered by
+//! approximate minimum degree (Amestoy, Davis & Duff 1996). If that fills in much, nested dissection is tried
+//! as well, and the order with fewer multiplications is taken.
 
 use core::ops::Range;
 
@@ -25,18 +24,19 @@ use crate::compact::compact;
 use crate::dissection;
 use crate::pattern::Pattern;
 
-/// Factors with more than this many times the entries of their matrix are worth a better order.
+/// Nested dissection is tried if the factors have more than this many times the entries of the matrix.
 const WORTH_DISSECTING: usize = 4;
 
-/// Fronts with at most this many own unknowns are merged if no larger share of entries is then zero.
+/// Adjacent fronts are merged if the result has at most so many own unknowns, and at most this share of its
+/// entries is zero.
 const MERGED: [(usize, f64); 2] = [(48, 0.1), (usize::MAX, 0.05)];
 
-/// The fronts in an order in which each follows those that contribute to it, the last of them at once.
+/// The fronts in postorder: each right after the trees of fronts below it.
 #[derive(Debug)]
 pub(crate) struct Fronts {
-    /// The node that is eliminated at a place.
+    /// The node that is eliminated at each place.
     pub(crate) order: Vec<u32>,
-    /// The place of a node.
+    /// The place of each node in the order of elimination.
     pub(crate) places: Vec<u32>,
     /// Front f has the places `begins[f]..begins[f + 1]`,
     begins: Vec<u32>,
@@ -52,22 +52,22 @@ pub(crate) struct Front<'a> {
     pub(crate) rows: &'a [u32],
 }
 
-/// What fronts need together.
+/// How much memory consecutive fronts need.
 #[derive(Debug, Default)]
 pub(crate) struct Extent {
-    /// Entries of the columns of fronts, and of their rows to the right of the diagonal blocks.
+    /// Entries of L with the diagonal blocks, and of U without.
     pub(crate) lower: usize,
     pub(crate) upper: usize,
-    /// Entries, and fronts, that wait at the same time for a later front.
+    /// The most numbers, and the most fronts, on the stack of Schur complements at any time.
     pub(crate) left: usize,
     pub(crate) waiting: usize,
-    /// The most own unknowns and the most unknowns below of a front.
+    /// The most own unknowns, and the most unknowns below, of any front.
     pub(crate) width: usize,
     pub(crate) height: usize,
 }
 
 impl Fronts {
-    /// Orders and analyses a pattern; `None` if memory is missing.
+    /// Orders and analyses a pattern; `None` if its memory cannot be had.
     pub(crate) fn new(pattern: &Pattern) -> Option<Self> {
         if pattern.columns().len() == pattern.nodes() {
             return Some(Self::uncoupled(pattern.nodes()));
@@ -119,17 +119,18 @@ impl Fronts {
     }
 
     fn from_faer(symbolic: &SymbolicCholesky<u32>) -> Option<Self> {
-        let SymbolicCholeskyRaw::Supernodal(nodes) = symbolic.raw() else {
+        let SymbolicCholeskyRaw::Supernodal(supernodes) = symbolic.raw() else {
             return None;
         };
         let (order, _) = symbolic.perm()?.arrays();
-        let own = |node: usize| nodes.supernode_begin()[node]..nodes.supernode_end()[node];
-        let below = |node: usize| nodes.supernode(node).pattern();
+        let own =
+            |node: usize| supernodes.supernode_begin()[node]..supernodes.supernode_end()[node];
+        let below = |node: usize| supernodes.supernode(node).pattern();
         let mut homes = vec![0; order.len()];
-        for node in 0..nodes.n_supernodes() {
+        for node in 0..supernodes.n_supernodes() {
             own(node).for_each(|place| homes[place as usize] = node);
         }
-        let parents = (0..nodes.n_supernodes()).map(|node| {
+        let parents = (0..supernodes.n_supernodes()).map(|node| {
             let first = below(node).iter().min();
             first.map(|&place| homes[place as usize])
         });
@@ -141,7 +142,7 @@ impl Fronts {
             starts: Vec::with_capacity(sequence.len() + 1),
             rows: Vec::new(),
         };
-        // From here, where a place has moved.
+        // Supernodes are sorted anew: by old place, the new one.
         let mut moved = homes;
         fronts.begins.push(0);
         for &node in &sequence {
@@ -180,13 +181,13 @@ impl Fronts {
         }
     }
 
-    /// The front that takes up what a front leaves.
+    /// The front that takes up the Schur complement of a front.
     pub(crate) fn parent(&self, at: usize) -> Option<usize> {
         let place = self.front(at).rows.first()?;
         Some(self.begins.partition_point(|begin| begin <= place) - 1)
     }
 
-    /// How many multiplications an elimination takes.
+    /// The multiplications of an elimination, counted in blocks.
     fn multiplications(&self) -> u128 {
         let fronts = (0..self.len()).map(|at| self.front(at));
         let counts = fronts.map(|front| {
@@ -196,12 +197,12 @@ impl Fronts {
         counts.sum()
     }
 
-    /// The places that fronts have in the order of elimination.
+    /// The places of the own nodes of consecutive fronts.
     pub(crate) fn places(&self, fronts: &Range<usize>) -> Range<usize> {
         self.begins[fronts.start] as usize..self.begins[fronts.end] as usize
     }
 
-    /// What fronts in a row need together, for nodes of this length.
+    /// The memory of consecutive fronts, with blocks of this many rows.
     pub(crate) fn extent(&self, fronts: Range<usize>, length: usize) -> Extent {
         let mut extent = Extent::default();
         let mut left = 0;
@@ -228,19 +229,19 @@ impl Fronts {
 }
 
 impl Front<'_> {
-    /// How many unknowns are its own and how many are below, for nodes of this length.
+    /// How many unknowns are its own and how many are below, with blocks of this many rows.
     #[inline]
     pub(crate) fn sizes(&self, length: usize) -> [usize; 2] {
         [self.own.len() * length, self.rows.len() * length]
     }
 
-    /// Whether this front, the last that waits, waits for the given one.
+    /// Whether the Schur complement of this front, the latest on the stack, belongs to the given front.
     pub(crate) fn contributes_to(&self, front: &Front<'_>) -> bool {
         (self.rows[0] as usize) < front.own.end
     }
 }
 
-/// The nodes of a forest, each right after the trees of its children; children ascend.
+/// The nodes of a forest, each right after the trees of its children, which ascend.
 fn postorder(parents: &[Option<usize>]) -> Vec<usize> {
     let roots = parents.len();
     // The first child of each node and of the forest, and the next child of the same parent.

@@ -9,20 +9,13 @@ use crate::pattern::Pattern;
 use crate::precision::Precision;
 
 /// The matrix to factor, with blocks of `L` rows.
+#[derive(Clone, Copy)]
 pub(crate) struct Matrix<'a, P: Precision, const L: usize> {
     pub(crate) fronts: &'a Fronts,
     pub(crate) pattern: &'a Pattern,
     /// Block by block, each row by row.
     pub(crate) values: &'a [P::Number],
 }
-
-impl<P: Precision, const L: usize> Clone for Matrix<'_, P, L> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<P: Precision, const L: usize> Copy for Matrix<'_, P, L> {}
 
 impl<P: Precision, const L: usize> Matrix<'_, P, L> {
     /// The blocks of a node, each with the node of its columns, ascending.
@@ -45,17 +38,17 @@ impl<P: Precision, const L: usize> Matrix<'_, P, L> {
     }
 }
 
-/// The rows of the front at work, counted in nodes.
+/// Which row of the current front a place of the order of elimination has, counted in nodes.
 #[derive(Debug)]
 pub(crate) struct Rows {
-    /// The first place of the branch,
+    /// The first place of the branch.
     first: usize,
-    /// and the row of each of its places; empty if there are so few fronts that it may be looked for.
+    /// The row of each place from there on; empty if rows are found by search.
     noted: Vec<u32>,
 }
 
 impl Rows {
-    /// For fronts whose own nodes have these places, or any.
+    /// A table for the own places of a branch. Places outside of it are found by search.
     pub(crate) fn new(places: Range<usize>) -> Self {
         Self {
             first: places.start,
@@ -63,6 +56,7 @@ impl Rows {
         }
     }
 
+    /// Writes the rows of a front to the table.
     pub(crate) fn note(&mut self, front: &Front<'_>) {
         let places = front
             .own
@@ -76,7 +70,7 @@ impl Rows {
         }
     }
 
-    /// The row of a place in the front.
+    /// The row of a place in the front, by the table or by search.
     #[inline]
     pub(crate) fn of(&self, place: usize, front: &Front<'_>) -> usize {
         match self.noted.get(place.wrapping_sub(self.first)) {
@@ -87,7 +81,7 @@ impl Rows {
     }
 }
 
-/// Adds the entries of the matrix that belong to the own unknowns of a front.
+/// Writes the rows and columns of the own unknowns of a front, as far as they are not eliminated yet.
 pub(crate) fn gather<P: Precision, const L: usize>(
     blocks: &mut Blocks<'_>,
     front: &Front<'_>,
@@ -121,7 +115,7 @@ pub(crate) fn gather<P: Precision, const L: usize>(
     }
 }
 
-/// Writes a block from the given row of the first columns on, which are so tall.
+/// Writes a block at the given row of the first `L` columns, which have `tall` rows each.
 #[inline]
 fn write<P: Precision, const L: usize>(
     block: &[[P::Number; L]; L],
@@ -135,7 +129,7 @@ fn write<P: Precision, const L: usize>(
     }
 }
 
-/// Adds what an earlier front has left to the rows and columns of these numbers.
+/// Adds a Schur complement from below; `targets` are its rows and columns in this front, ascending.
 pub(crate) fn add(blocks: &mut Blocks<'_>, targets: &[u32], left: &[f64]) {
     let width = blocks.pivots.len();
     let tall = blocks.lower.len() / width;

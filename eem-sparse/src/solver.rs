@@ -43,7 +43,7 @@ pub struct Solver {
 /// Both counts are zero if the elimination by fronts was accurate enough. See [`Factored::solve`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Report {
-    /// Steps of iterative refinement, of all columns together.
+    /// Steps of iterative refinement that led to a solution, of all columns together.
     pub refinements: usize,
     /// Columns that were solved by elimination with partial pivoting.
     pub fallbacks: usize,
@@ -88,6 +88,21 @@ impl Solver {
     #[must_use]
     pub fn pattern(&self) -> &Pattern {
         &self.pattern
+    }
+
+    /// The block rows in the order of their elimination, for comparison with other solvers.
+    ///
+    /// ```
+    /// use eem_sparse::{Pattern, Solver};
+    ///
+    /// // The middle of a star comes last but one, when it has a single neighbour left.
+    /// let star = Pattern::new(5, |pair| (1..5).for_each(|leaf| pair(0, leaf)));
+    /// assert!(Solver::new(&star)?.order()[3..].contains(&0));
+    /// # Ok::<(), eem_sparse::Error>(())
+    /// ```
+    #[must_use]
+    pub fn order(&self) -> &[u32] {
+        &self.fronts.order
     }
 
     /// How many numbers the factors have, L and U together; the entries of the matrix included.
@@ -234,13 +249,11 @@ impl<P: Precision> Factored<'_, P> {
             factors.solve(fronts, x);
             if !equations.are_solved(x, residual) {
                 let correct = |rest: &mut [[f64; L]]| factors.solve(fronts, rest);
-                match equations.refine(x, residual, correct) {
-                    Some(refinements) => report.refinements += refinements,
-                    None => {
-                        report.refinements +=
-                            solve_by_pivoting(&equations, pivoting, (x, residual))?;
-                        report.fallbacks += 1;
-                    }
+                if let Some(refinements) = equations.refine(x, residual, correct) {
+                    report.refinements += refinements;
+                } else {
+                    report.refinements += solve_by_pivoting(&equations, pivoting, (x, residual))?;
+                    report.fallbacks += 1;
                 }
             }
             store::<P, W, L>(x, &fronts.order, (right, column))?;

@@ -3,6 +3,9 @@
 //! Refinement would repair an elimination with a small mistake, so every test asserts that there was
 //! none.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(clippy::float_cmp, reason = "numbers that are compared are exact")]
+
 mod support;
 
 use eem_sparse::{Report, Solver};

@@ -2,6 +2,7 @@
 //! sides have no rounding error.
 
 #![allow(dead_code, reason = "every test file uses its own part of this module")]
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use eem_sparse::{Error, Pattern, Report, Solver};
 
@@ -169,6 +170,8 @@ pub(crate) fn random_graph(nodes: usize, degree: usize, seed: u64) -> Vec<Vec<us
             }
         }
     }
-    graph.iter_mut().for_each(|near| near.sort_unstable());
+    for near in &mut graph {
+        near.sort_unstable();
+    }
     graph
 }
