@@ -8,7 +8,7 @@
 
 mod support;
 
-use eem_sparse::{Report, Solver};
+use eem_sparse::{Precision, Report, Solver};
 use support::{Matrix, Random, lattice, pattern, random_graph, stencil};
 
 /// The backward error that the solver grants to rows with at most 255 entries.
@@ -106,20 +106,30 @@ fn columns_of_x_and_later_matrices_are_independent() {
             assert!((found[0] - x[row]).abs() <= tolerance(&matrix));
             assert!((found[1] - y[row]).abs() <= tolerance(&matrix));
         }
-        values.iter_mut().for_each(|value| *value *= 2.0);
+        for value in &mut values {
+            *value *= 2.0;
+        }
     }
 }
 
 #[test]
 fn single_precision_is_rounded_once() {
     let matrix = lattice([15, 15, 2], 1);
-    let values: Vec<f32> = matrix.values().iter().map(|&value| value as f32).collect();
+    let values: Vec<f32> = matrix
+        .values()
+        .iter()
+        .map(|&value| <f32 as Precision>::round(value))
+        .collect();
     let exact: Vec<f64> = (0..450).map(|row| f64::from(row % 9 + 1) / 8.0).collect();
-    let mut right: Vec<[f32; 1]> = matrix.times(&exact).iter().map(|&b| [b as f32]).collect();
+    let mut right: Vec<[f32; 1]> = matrix
+        .times(&exact)
+        .iter()
+        .map(|&b| [<f32 as Precision>::round(b)])
+        .collect();
     let mut solver = Solver::new(&matrix.pattern).unwrap();
     let report = solver.factor::<f32>(&values).unwrap().solve(&mut right);
     assert_eq!(report, Ok(Report::default()));
     for ([x], exact) in right.iter().zip(exact) {
-        assert_eq!(*x, exact as f32);
+        assert_eq!(*x, <f32 as Precision>::round(exact));
     }
 }
