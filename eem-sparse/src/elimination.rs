@@ -96,7 +96,7 @@ impl Blocks<'_> {
             let (pivot, later) = self.lower[k * tall..].split_at_mut(tall);
             let reciprocal = pivot[k].recip();
             pivot[k + 1..].iter_mut().for_each(|l| *l *= reciprocal);
-            for column in later.chunks_exact_mut(tall).take(width - k - 1) {
+            for column in later.chunks_exact_mut(tall) {
                 subtract(&mut column[k..], &pivot[k..]);
             }
             for column in self.upper.chunks_exact_mut(width) {

@@ -184,3 +184,108 @@ impl<P: Precision, B: Fn(usize) -> [f64; L], const L: usize> Equations<'_, P, B,
         None
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fronts::Fronts;
+    use crate::pattern::Pattern;
+
+    const EPSILON: f64 = f64::EPSILON;
+
+    /// Calls `ask` with the equations `diagonal[i] x[i] = b[i]`.
+    fn ask<R>(
+        [diagonal, b]: [[f64; 2]; 2],
+        ask: impl FnOnce(&Equations<'_, f64, &dyn Fn(usize) -> [f64; 1], 1>) -> R,
+    ) -> R {
+        let pattern = Pattern::new(2, |_| {});
+        let matrix = Matrix {
+            fronts: &Fronts::new(&pattern).unwrap(),
+            pattern: &pattern,
+            values: &diagonal,
+        };
+        let b: &dyn Fn(usize) -> [f64; 1] = &|node| [b[node]];
+        ask(&Equations { matrix, b })
+    }
+
+    fn is_solved(diagonal: [f64; 2], x: [f64; 2], b: [f64; 2]) -> bool {
+        let mut memory = Vec::new();
+        ask([diagonal, b], |equations| {
+            equations.are_solved(&x.map(|x| [x]), &mut memory)
+        })
+    }
+
+    #[test]
+    fn long_rows_have_a_larger_bound() {
+        assert!((bound(3) - 256.0 * EPSILON).abs() <= 0.0);
+        assert!((bound(255) - 256.0 * EPSILON).abs() <= 0.0);
+        assert!((bound(999) - 1000.0 * EPSILON).abs() <= 0.0);
+    }
+
+    // The size of the row is 2.
+    #[test]
+    fn a_solution_is_accepted_up_to_the_bound() {
+        assert!(is_solved([1.0; 2], [1.0 + 511.0 * EPSILON, 1.0], [1.0; 2]));
+        assert!(!is_solved([1.0; 2], [1.0 + 514.0 * EPSILON, 1.0], [1.0; 2]));
+        assert!(!is_solved([1.0; 2], [1.0, 1.0 - 514.0 * EPSILON], [1.0; 2]));
+        assert!(!is_solved([1.0; 2], [1.0, f64::NAN], [1.0; 2]));
+        assert!(!is_solved([1.0; 2], [1.0, f64::INFINITY], [1.0; 2]));
+        // The sizes overflow, the residual does not.
+        assert!(!is_solved([1.0; 2], [1.0, f64::MAX], [1.0, f64::MAX]));
+    }
+
+    #[test]
+    fn tiny_unknowns_count_as_a_rounding_of_the_largest_among_similar_columns() {
+        let x = [1.0, 1e-30];
+        assert!(is_solved([1.0; 2], x, [1.0, 2e-30]));
+        assert!(is_solved([1.0, 1e15], x, [1.0, 2e-15]));
+        assert!(!is_solved([1.0, 1e16], x, [1.0, 2e-14]));
+        assert!(!is_solved([1.0, 1e-16], x, [1.0, 2e-46]));
+        assert!(!is_solved([1.0; 2], [1.0, 1e-10], [1.0, 2e-10]));
+        // ε · 256 ε is 1.3e-29.
+        assert!(is_solved([1.0; 2], [1.0, 1e-35], [1.0, 1.2e-29]));
+        assert!(!is_solved([1.0; 2], [1.0, 1e-35], [1.0, 1.4e-29]));
+    }
+
+    #[test]
+    fn numbers_below_the_normal_ones_are_rounded_absolutely() {
+        let least = f64::from_bits(1);
+        assert!(is_solved([1e-300; 2], [0.0; 2], [100.0 * least; 2]));
+        assert!(!is_solved([1e-300; 2], [0.0; 2], [1000.0 * least; 2]));
+    }
+
+    #[test]
+    fn the_worst_row_is_named() {
+        let worst = ask([[1.0; 2], [3.0; 2]], |equations| {
+            equations.worst(&[[3.0], [1.0]])
+        });
+        assert_eq!(worst.row, 1);
+        assert!((worst.backward_error - 0.5).abs() <= EPSILON);
+        assert!((worst.bound - 256.0 * EPSILON).abs() <= 0.0);
+        let worst = ask([[1.0; 2], [3.0; 2]], |equations| {
+            equations.worst(&[[f64::NAN], [1.0]])
+        });
+        assert_eq!((worst.row, worst.backward_error), (0, f64::INFINITY));
+    }
+
+    // Each correction leaves this share of the error.
+    #[test]
+    fn refinement_stops_when_the_solution_is_accepted_or_after_three_steps() {
+        let steps = |share: f64| {
+            ask([[2.0; 2], [6.0; 2]], |equations| {
+                let mut x = [[0.0]; 2];
+                let correct = |rest: &mut [[f64; 1]]| {
+                    for [rest] in rest {
+                        *rest *= 0.5 * (1.0 - share);
+                    }
+                };
+                let steps = equations.refine(&mut x, &mut Vec::new(), correct);
+                (steps, x.map(|[x]| (x - 3.0).abs() <= 1e3 * EPSILON))
+            })
+        };
+        assert_eq!(steps(0.0), (Some(1), [true; 2]));
+        assert_eq!(steps(1e-8), (Some(2), [true; 2]));
+        assert_eq!(steps(1e-5), (Some(3), [true; 2]));
+        assert_eq!(steps(1e-4), (None, [false; 2]));
+    }
+}

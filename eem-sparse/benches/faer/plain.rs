@@ -8,7 +8,7 @@ use faer::sparse::linalg::lu::supernodal::{
     factorize_supernodal_numeric_lu_scratch, factorize_supernodal_symbolic_lu,
     factorize_supernodal_symbolic_lu_scratch,
 };
-use faer::sparse::linalg::lu::{LuSymbolicParams, factorize_symbolic_lu};
+use faer::sparse::linalg::lu::{LuSymbolicParams, SymbolicLu, factorize_symbolic_lu};
 use faer::sparse::linalg::{SymbolicSupernodalParams, amd, qr};
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Conj, MatMut, Par, Spec};
@@ -66,6 +66,11 @@ impl Plain {
             rows: [vec![0; unknowns], vec![0; unknowns]],
             lu: SupernodalLu::new(),
         }
+    }
+
+    /// The analysis with COLAMD.
+    pub(crate) fn analyse(&self) -> SymbolicLu<u32> {
+        factorize_symbolic_lu(self.matrix.symbolic(), LuSymbolicParams::default()).unwrap()
     }
 
     pub(crate) fn unknowns(&self) -> usize {
