@@ -157,7 +157,7 @@ impl<S: Real> Precision for Stored<S> {
     }
 
     #[inline]
-    fn round(value: f64) -> S {
+    fn narrow(value: f64) -> S {
         S::from_f64(value)
     }
 }

@@ -9,7 +9,7 @@
 /// use eem_sparse::Precision;
 ///
 /// assert_eq!(f32::widen(0.5), 0.5_f64);
-/// assert_eq!(f32::round(0.1_f64), 0.1_f32);
+/// assert_eq!(f32::narrow(0.1_f64), 0.1_f32);
 /// ```
 pub trait Precision: Copy + Send + Sync {
     /// What is stored.
@@ -19,7 +19,7 @@ pub trait Precision: Copy + Send + Sync {
     fn widen(number: Self::Number) -> f64;
 
     /// The nearest number that can be stored.
-    fn round(value: f64) -> Self::Number;
+    fn narrow(value: f64) -> Self::Number;
 }
 
 impl Precision for f64 {
@@ -31,7 +31,7 @@ impl Precision for f64 {
     }
 
     #[inline]
-    fn round(value: f64) -> Self {
+    fn narrow(value: f64) -> Self {
         value
     }
 }
@@ -46,7 +46,7 @@ impl Precision for f32 {
 
     #[inline]
     #[expect(clippy::cast_possible_truncation, reason = "rounding is the purpose")]
-    fn round(value: f64) -> Self {
+    fn narrow(value: f64) -> Self {
         value as Self
     }
 }

@@ -316,7 +316,7 @@ fn store<P: Precision, const W: usize, const L: usize>(
     order: &[u32],
     (right, column): (&mut [[P::Number; W]], usize),
 ) -> Result<(), Error> {
-    let stored = |x: f64| P::widen(P::round(x));
+    let stored = |x: f64| P::widen(P::narrow(x));
     if !x.as_flattened().iter().all(|&x| stored(x).is_finite()) {
         let mut natural = order.iter().zip(x);
         let found = natural.find_map(|(&node, x)| {
@@ -331,7 +331,7 @@ fn store<P: Precision, const W: usize, const L: usize>(
     for (x, &node) in x.iter().zip(order) {
         let rows = &mut right[node as usize * L..][..L];
         for (row, &x) in rows.iter_mut().zip(x) {
-            row[column] = P::round(x);
+            row[column] = P::narrow(x);
         }
     }
     Ok(())

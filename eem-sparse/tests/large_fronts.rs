@@ -118,18 +118,18 @@ fn single_precision_is_rounded_once() {
     let values: Vec<f32> = matrix
         .values()
         .iter()
-        .map(|&value| <f32 as Precision>::round(value))
+        .map(|&value| f32::narrow(value))
         .collect();
     let exact: Vec<f64> = (0..450).map(|row| f64::from(row % 9 + 1) / 8.0).collect();
     let mut right: Vec<[f32; 1]> = matrix
         .times(&exact)
         .iter()
-        .map(|&b| [<f32 as Precision>::round(b)])
+        .map(|&b| [f32::narrow(b)])
         .collect();
     let mut solver = Solver::new(&matrix.pattern).unwrap();
     let report = solver.factor::<f32>(&values).unwrap().solve(&mut right);
     assert_eq!(report, Ok(Report::default()));
     for ([x], exact) in right.iter().zip(exact) {
-        assert_eq!(*x, <f32 as Precision>::round(exact));
+        assert_eq!(*x, f32::narrow(exact));
     }
 }
