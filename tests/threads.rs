@@ -7,7 +7,7 @@ mod support;
 use eem::prelude::*;
 use support::{Hencky, LogarithmicStiffness};
 
-/// Nodes along a side of the lattice: enough for its system to be divided, see `sparse_lu/division.rs`.
+/// Nodes along a side of the lattice: enough for its system to be divided, see `eem-sparse/src/division.rs`.
 const SIDE: usize = 64;
 /// Springs of the chain.
 const SPRINGS: usize = 2_000;

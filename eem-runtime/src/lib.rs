@@ -54,12 +54,8 @@ mod scene;
 mod scheme;
 mod simulation;
 mod solver;
-#[cfg(feature = "sparse")]
-mod sparse_lu;
 mod state;
 mod system;
-#[cfg(feature = "sparse")]
-mod threads;
 
 pub use checkpoint::{Checkpoint, RestoreError};
 pub use describe::{Describe, Description};

@@ -20,7 +20,7 @@ use crate::layout::Layout;
 use crate::loads::StepLoads;
 use crate::masses::Masses;
 use crate::newton::{NewtonSettings, is_last};
-use crate::pattern::Pattern;
+use crate::pattern;
 use crate::scalar::{Mask, Real, natural_power};
 use crate::scene::ElementEntry;
 use crate::scheme::{Ending, Scheme, UnknownSet};
@@ -87,14 +87,14 @@ impl<S: Real, const D: usize> Solver<S, D> {
     ) -> Self {
         let has_old_force = scheme.has_old_forces() || loads.has_total_force();
         let sets = scheme.sets();
-        let mut pattern = Pattern::of_tangent(elements, layout, conduction, D);
+        let mut pattern = pattern::of_tangent(elements, layout, conduction, D);
         if sets.len() > 1 {
             pattern = pattern.repeated(sets.len());
         }
         let tangent = LinearSystem::new(&pattern, D);
         let stages = scheme.tableau().map(|rule| {
             let secant = matches!(rule.ending, Ending::StageByStage)
-                .then(|| LinearSystem::new(&Pattern::of_secant(elements, layout, D), 1));
+                .then(|| LinearSystem::new(&pattern::of_secant(elements, layout, D), 1));
             Stages::new(rule, secant, masses.len())
         });
         let sites = Sites {

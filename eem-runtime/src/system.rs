@@ -14,13 +14,16 @@
 //! one is another variant there, with its answers to `new` (from the pattern), `entries`, `position`
 //! and `solve`. One and two unknowns do not ask it.
 
+#[cfg(feature = "sparse")]
+use core::marker::PhantomData;
 use core::mem;
+
+#[cfg(feature = "sparse")]
+use eem_sparse::{Precision, Solver};
 
 use crate::lu::{self, Singular};
 use crate::pattern::Pattern;
 use crate::scalar::Real;
-#[cfg(feature = "sparse")]
-use crate::sparse_lu::SparseLu;
 
 /// The most unknowns for which the elimination is compiled with their number.
 pub(crate) const MOST_FIXED: usize = 12;
@@ -60,7 +63,7 @@ enum Storage {
     Dense { pivots: Vec<usize> },
     /// The entries of the pattern.
     #[cfg(feature = "sparse")]
-    Sparse(Box<SparseLu>),
+    Sparse(Box<Solver>),
 }
 
 impl Storage {
@@ -73,7 +76,7 @@ impl Storage {
         #[cfg(feature = "sparse")]
         if unknowns > MOST_DENSE
             && pattern.entries() < unknowns * unknowns / SPARSITY
-            && let Some(sparse) = SparseLu::new(pattern)
+            && let Ok(sparse) = Solver::new(pattern)
         {
             return Self::Sparse(Box::new(sparse));
         }
@@ -87,7 +90,7 @@ impl Storage {
             Self::Fixed { unknowns } => unknowns * unknowns,
             Self::Dense { pivots } => pivots.len() * pivots.len(),
             #[cfg(feature = "sparse")]
-            Self::Sparse(sparse) => sparse.entries(),
+            Self::Sparse(sparse) => sparse.pattern().entries(),
         }
     }
 
@@ -104,7 +107,7 @@ impl Storage {
             Self::Fixed { unknowns } => Some(row * unknowns + column),
             Self::Dense { pivots } => Some(row * pivots.len() + column),
             #[cfg(feature = "sparse")]
-            Self::Sparse(sparse) => sparse.position(row, column),
+            Self::Sparse(sparse) => sparse.pattern().position(row, column),
         }
     }
 
@@ -139,16 +142,38 @@ fn solve_dense<S: Real, const W: usize>(
     Ok(())
 }
 
+/// The numbers of a scene, as the sparse elimination reads and writes them.
+#[cfg(feature = "sparse")]
+#[derive(Clone, Copy)]
+struct Stored<S>(PhantomData<S>);
+
+#[cfg(feature = "sparse")]
+impl<S: Real> Precision for Stored<S> {
+    type Number = S;
+
+    #[inline]
+    fn widen(number: S) -> f64 {
+        number.to_f64()
+    }
+
+    #[inline]
+    fn narrow(value: f64) -> S {
+        S::from_f64(value)
+    }
+}
+
 /// The elimination by the pattern, apart for the same reason.
 #[cfg(feature = "sparse")]
 #[inline(never)]
 fn solve_sparse<S: Real, const W: usize>(
     values: &mut [S],
-    sparse: &mut SparseLu,
+    sparse: &mut Solver,
     right: &mut [[S; W]],
 ) -> Result<(), Singular> {
-    let values = &mut values[..sparse.entries()];
-    sparse.solve(sparse.length(), values, right)?;
+    let values = &mut values[..sparse.pattern().entries()];
+    let factored = sparse.factor::<Stored<S>>(values);
+    let solved = factored.and_then(|mut factored| factored.solve(right));
+    solved.map_err(|_| Singular)?;
     values.fill(S::zero());
     Ok(())
 }
@@ -268,13 +293,6 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
             })
         })
         .collect()
-    }
-
-    /// Makes the last rows of X zero, which says that anchors do not move; `RUN` of them belong to a node.
-    pub(crate) fn clear_rest<const RUN: usize>(&mut self) {
-        if let Some(rest) = self.solution.last_chunk_mut::<RUN>() {
-            *rest = [[S::zero(); W]; RUN];
-        }
     }
 
     /// Finds X, but for the rows of anchors; A is then zero, and B is lost.

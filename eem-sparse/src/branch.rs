@@ -1,31 +1,31 @@
-//! Eliminating fronts, one after the other within a branch, and branches at the same time.
+//! The multifrontal elimination (Duff & Reid 1983): fronts of a branch in sequence, branches in parallel.
 //!
-//! The multifrontal method (Duff & Reid 1983): a front gathers the entries of its own unknowns and
-//! what the fronts that contribute to it have left, eliminates its own unknowns as dense blocks, and
-//! leaves the rest to the next one. What is left lies on a stack. Each branch has its own, so that
-//! every sum has the same order whoever does the work.
+//! A front gathers the matrix entries of its own unknowns and the Schur complements of the fronts below
+//! it, eliminates its own unknowns as dense blocks, and leaves a Schur complement for a later front.
+//! Schur complements that wait lie on a stack. Each branch has a stack of its own, so the order of all
+//! sums, and every bit of the factors, is the same on any number of threads.
 
 use core::array;
 use core::ops::Range;
 
-use super::division::Division;
-use super::elimination::{Blocks, Scratch};
-use super::fronts::{Extent, Front, Fronts};
-use super::gathering::{Matrix, Rows, add, gather};
 use crate::compact::compact;
-use crate::scalar::Real;
+use crate::division::Division;
+use crate::elimination::{Blocks, Scratch};
+use crate::fronts::{Extent, Front, Fronts};
+use crate::gathering::{Matrix, Rows, add, gather};
+use crate::precision::Precision;
 use crate::threads;
 
-/// Where the factors of some fronts go, see [`Factors`](super::factors::Factors).
+/// Memory for the factors of consecutive fronts; the layout is that of `Factors`.
 #[derive(Debug)]
-pub(super) struct Memory<'a> {
-    pub(super) lower: &'a mut [f64],
-    pub(super) upper: &'a mut [f64],
-    pub(super) pivots: &'a mut [u32],
+pub(crate) struct Memory<'a> {
+    pub(crate) lower: &'a mut [f64],
+    pub(crate) upper: &'a mut [f64],
+    pub(crate) pivots: &'a mut [u32],
 }
 
 impl Memory<'_> {
-    /// The begin, so many entries of each, and the rest.
+    /// Splits each array after so many numbers.
     fn split_at(self, [lower, upper, pivots]: [usize; 3]) -> (Self, Self) {
         let (lower, later_lower) = self.lower.split_at_mut(lower);
         let (upper, later_upper) = self.upper.split_at_mut(upper);
@@ -44,31 +44,32 @@ impl Memory<'_> {
     }
 }
 
-/// The most runs below a front among which one is looked for instead of noted.
+/// A front with at most this many nodes below finds the row of a node by search; for larger fronts the rows
+/// are written to a table, see `Rows`.
 const MOST_SEARCHED: usize = 2;
 
-/// Working memory of a division and of its parts.
+/// Working memory for the fronts of a division.
 #[derive(Debug)]
-pub(super) struct Branch {
+pub(crate) struct Branch {
     parts: Vec<Branch>,
     own: Range<usize>,
-    /// How much of [`Memory`] it takes with its parts, if runs are one unknown long.
+    /// The lengths of the arrays of [`Memory`] for these fronts, with blocks of one row.
     sizes: [usize; 3],
     stack: Stack,
     rows: Rows,
-    /// The rows of a front that contributes in the front at work.
+    /// For each row of a Schur complement from below, its row in the current front.
     targets: Vec<u32>,
     scratch: Scratch,
 }
 
-/// What the fronts that wait have left, the last one on top.
+/// Schur complements that no front has taken up yet, the latest on top.
 #[derive(Debug)]
 struct Stack {
     entries: Vec<f64>,
     waiting: Waiting,
 }
 
-/// The fronts that wait, and the height of their stack.
+/// The fronts whose Schur complements are on the stack, and how many numbers these have.
 #[derive(Debug)]
 struct Waiting {
     fronts: Vec<u32>,
@@ -76,11 +77,11 @@ struct Waiting {
 }
 
 impl Waiting {
-    /// Takes the last front that waits from the stack if it waits for the given one.
-    fn pop_for<'a, S, const L: usize>(
+    /// Removes the latest front if its Schur complement belongs to the given front, and returns it.
+    fn pop_for<'a, P: Precision, const L: usize>(
         &mut self,
         front: &Front<'_>,
-        matrix: &Matrix<'a, S, L>,
+        matrix: &Matrix<'a, P, L>,
     ) -> Option<Front<'a>> {
         let last = matrix.fronts.front(*self.fronts.last()? as usize);
         if !last.contributes_to(front) {
@@ -94,8 +95,8 @@ impl Waiting {
 }
 
 impl Branch {
-    /// Memory for a division, for runs of at most this length; `None` if it is missing.
-    pub(super) fn new(fronts: &Fronts, division: Division, length: usize) -> Option<Self> {
+    /// Memory for a division and blocks of this many rows; `None` if it cannot be had.
+    pub(crate) fn new(fronts: &Fronts, division: Division, length: usize) -> Option<Self> {
         let Division { parts, own } = division;
         let Extent { lower, upper, .. } = fronts.extent(own.clone(), 1);
         let places = fronts.places(&own);
@@ -110,7 +111,7 @@ impl Branch {
         let parts = parts.into_iter();
         let parts = parts.map(|part| Self::new(fronts, part, length));
         let parts = parts.collect::<Option<Vec<_>>>()?;
-        // The rows of small fronts may be looked for, and those of the few fronts that follow parts.
+        // Small fronts find their rows by search, and so do the few fronts after parts.
         let is_noted = parts.is_empty() && height > MOST_SEARCHED * length;
         let noted = if is_noted { places } else { 0..0 };
         let of_parts = total(&parts);
@@ -133,12 +134,12 @@ impl Branch {
     }
 
     /// Factors its parts, then its own fronts.
-    pub(super) fn factor<S: Real, const L: usize>(
+    pub(crate) fn factor<P: Precision, const L: usize>(
         &mut self,
-        matrix: Matrix<'_, S, L>,
+        matrix: Matrix<'_, P, L>,
         memory: Memory<'_>,
     ) {
-        let of_parts = in_runs(total(&self.parts), L);
+        let of_parts = in_blocks(total(&self.parts), L);
         let (of_parts, mut memory) = memory.split_at(of_parts);
         factor_together(&mut self.parts, matrix, of_parts);
         for at in self.own.clone() {
@@ -152,11 +153,11 @@ impl Branch {
     }
 
     /// Eliminates the own unknowns of a front.
-    fn eliminate<S: Real, const L: usize>(
+    fn eliminate<P: Precision, const L: usize>(
         &mut self,
         at: usize,
         front: &Front<'_>,
-        matrix: &Matrix<'_, S, L>,
+        matrix: &Matrix<'_, P, L>,
         memory: Memory<'_>,
     ) {
         let Memory {
@@ -179,17 +180,18 @@ impl Branch {
         gather(&mut blocks, front, &self.rows, matrix);
         let mut take_up = |child: &Front<'_>, left: &[f64]| {
             let targets = &mut self.targets[..child.rows.len() * L];
-            let runs = targets.as_chunks_mut::<L>().0;
-            for (run, &place) in runs.iter_mut().zip(child.rows) {
+            let nodes = targets.as_chunks_mut::<L>().0;
+            for (node, &place) in nodes.iter_mut().zip(child.rows) {
                 let first = compact(self.rows.of(place as usize, front) * L);
-                (first..).zip(run).for_each(|(row, target)| *target = row);
+                (first..).zip(node).for_each(|(row, target)| *target = row);
             }
             add(&mut blocks, targets, left);
         };
         while let Some(child) = waiting.pop_for(front, matrix) {
             take_up(&child, &below[waiting.top..]);
         }
-        // What they have left lies under that, the last one's on top.
+        // The Schur complements of the parts were pushed before those of the own fronts, so they come
+        // after them, and those of the last part first.
         for Stack { entries, waiting } in self.parts.iter_mut().rev().map(|part| &mut part.stack) {
             while let Some(child) = waiting.pop_for(front, matrix) {
                 take_up(&child, &entries[waiting.top..]);
@@ -206,36 +208,36 @@ impl Branch {
     }
 }
 
-/// What branches take of [`Memory`].
+/// The lengths of the arrays of [`Memory`] for several branches.
 fn total(branches: &[Branch]) -> [usize; 3] {
     let add = |sum: [usize; 3], branch: &Branch| array::from_fn(|of| sum[of] + branch.sizes[of]);
     branches.iter().fold([0; 3], add)
 }
 
-/// Sizes for runs of this length.
-fn in_runs([lower, upper, pivots]: [usize; 3], length: usize) -> [usize; 3] {
+/// The same for blocks of this many rows.
+fn in_blocks([lower, upper, pivots]: [usize; 3], length: usize) -> [usize; 3] {
     let square = length * length;
     [lower * square, upper * square, pivots * length]
 }
 
-/// Factors branches that know nothing of each other.
-fn factor_together<S: Real, const L: usize>(
+/// Factors independent branches.
+fn factor_together<P: Precision, const L: usize>(
     branches: &mut [Branch],
-    matrix: Matrix<'_, S, L>,
+    matrix: Matrix<'_, P, L>,
     memory: Memory<'_>,
 ) {
     let Some((first, rest)) = branches.split_first_mut() else {
         return;
     };
-    let (own, others) = memory.split_at(in_runs(first.sizes, L));
+    let (own, others) = memory.split_at(in_blocks(first.sizes, L));
     threads::join(
         || first.factor(matrix, own),
         || factor_together(rest, matrix, others),
     );
 }
 
-/// That many zeros, if there is memory.
-pub(super) fn zeros(count: usize) -> Option<Vec<f64>> {
+/// A vector of zeros; `None` if its memory cannot be had.
+pub(crate) fn zeros(count: usize) -> Option<Vec<f64>> {
     let mut zeros = Vec::new();
     zeros.try_reserve_exact(count).ok()?;
     zeros.resize(count, 0.0);
@@ -282,7 +284,7 @@ mod tests {
         let pool = pool.build().unwrap();
         // The second time, memory is as the first time left it.
         for _ in 0..2 {
-            let matrix = Matrix::<_, 1> {
+            let matrix = Matrix::<f64, 1> {
                 fronts: &fronts,
                 pattern: &pattern,
                 values: &values,

@@ -1,11 +1,11 @@
-//! Two pieces of one scene's work at once, on the threads of the present pool of rayon.
+//! Two independent tasks, at the same time if a thread of the current rayon pool is free.
 //!
-//! How work is divided never depends on how many threads there are, so that numbers do not either.
+//! Where the work is split never depends on the number of threads, so results do not either.
 
-/// Whether work is divided at all.
+/// Whether work is split into tasks at all.
 pub(crate) const DIVIDE: bool = cfg!(feature = "parallel");
 
-/// Does both, at once if a thread is free.
+/// Runs both tasks, in parallel if a thread is free.
 #[cfg(feature = "parallel")]
 pub(crate) fn join<A: Send, B: Send>(
     first: impl FnOnce() -> A + Send,
@@ -14,7 +14,7 @@ pub(crate) fn join<A: Send, B: Send>(
     rayon::join(first, second)
 }
 
-/// Without threads.
+/// Runs one task after the other.
 #[cfg(not(feature = "parallel"))]
 pub(crate) fn join<A, B>(first: impl FnOnce() -> A, second: impl FnOnce() -> B) -> (A, B) {
     (first(), second())

@@ -1,58 +1,63 @@
-//! What a front consists of before its elimination: entries of the matrix, and what earlier fronts left.
+//! The dense blocks of a front before its elimination: entries of the matrix, and the Schur
+//! complements of earlier fronts.
 
 use core::ops::Range;
 
-use super::elimination::Blocks;
-use super::fronts::{Front, Fronts};
+use crate::elimination::Blocks;
+use crate::fronts::{Front, Fronts};
 use crate::pattern::Pattern;
-use crate::scalar::Real;
+use crate::precision::Precision;
 
-/// What is factored, in runs of `L` unknowns.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Matrix<'a, S, const L: usize> {
-    pub(super) fronts: &'a Fronts,
-    pub(super) pattern: &'a Pattern,
+/// The matrix to factor, with blocks of `L` rows.
+#[derive(Clone, Copy)]
+pub(crate) struct Matrix<'a, P: Precision, const L: usize> {
+    pub(crate) fronts: &'a Fronts,
+    pub(crate) pattern: &'a Pattern,
     /// Block by block, each row by row.
-    pub(super) values: &'a [S],
+    pub(crate) values: &'a [P::Number],
 }
 
-impl<S, const L: usize> Matrix<'_, S, L> {
-    /// The blocks of a run, each with the run that it shares, ascending.
+impl<P: Precision, const L: usize> Matrix<'_, P, L> {
+    /// The blocks of a node, each with the node of its columns, ascending.
     #[inline]
-    pub(super) fn blocks_of(&self, run: usize) -> impl Iterator<Item = (usize, &[[S; L]; L])> {
-        let columns = self.pattern.row(run).iter();
-        let blocks = self.pattern.blocks(run);
+    pub(crate) fn blocks_of(
+        &self,
+        node: usize,
+    ) -> impl Iterator<Item = (usize, &[[P::Number; L]; L])> {
+        let columns = self.pattern.row(node).iter();
+        let blocks = self.pattern.blocks(node);
         columns
             .zip(blocks)
             .map(|(&column, at)| (column as usize, self.block(at)))
     }
 
-    /// A block.
+    /// The block of this number.
     #[inline]
-    fn block(&self, at: usize) -> &[[S; L]; L] {
+    fn block(&self, at: usize) -> &[[P::Number; L]; L] {
         &self.values.as_chunks().0.as_chunks().0[at]
     }
 }
 
-/// The rows of the front at work, counted in runs.
+/// Which row of the current front a place of the order of elimination has, counted in nodes.
 #[derive(Debug)]
-pub(super) struct Rows {
-    /// The first place of the branch,
+pub(crate) struct Rows {
+    /// The first place of the branch.
     first: usize,
-    /// and the row of each of its places; empty if there are so few fronts that it may be looked for.
+    /// The row of each place from there on; empty if rows are found by search.
     noted: Vec<u32>,
 }
 
 impl Rows {
-    /// For fronts whose own runs have these places, or any.
-    pub(super) fn new(places: Range<usize>) -> Self {
+    /// A table for the own places of a branch. Places outside of it are found by search.
+    pub(crate) fn new(places: Range<usize>) -> Self {
         Self {
             first: places.start,
             noted: vec![0; places.len()],
         }
     }
 
-    pub(super) fn note(&mut self, front: &Front<'_>) {
+    /// Writes the rows of a front to the table.
+    pub(crate) fn note(&mut self, front: &Front<'_>) {
         let places = front
             .own
             .clone()
@@ -65,9 +70,9 @@ impl Rows {
         }
     }
 
-    /// The row of a place in the front.
+    /// The row of a place in the front, by the table or by search.
     #[inline]
-    pub(super) fn of(&self, place: usize, front: &Front<'_>) -> usize {
+    pub(crate) fn of(&self, place: usize, front: &Front<'_>) -> usize {
         match self.noted.get(place.wrapping_sub(self.first)) {
             Some(&row) => row as usize,
             None if place < front.own.end => place - front.own.start,
@@ -76,12 +81,12 @@ impl Rows {
     }
 }
 
-/// Adds the entries of the matrix that belong to the own unknowns of a front.
-pub(super) fn gather<S: Real, const L: usize>(
+/// Writes the rows and columns of the own unknowns of a front, as far as they are not eliminated yet.
+pub(crate) fn gather<P: Precision, const L: usize>(
     blocks: &mut Blocks<'_>,
     front: &Front<'_>,
     rows: &Rows,
-    matrix: &Matrix<'_, S, L>,
+    matrix: &Matrix<'_, P, L>,
 ) {
     let Matrix {
         fronts, pattern, ..
@@ -89,43 +94,43 @@ pub(super) fn gather<S: Real, const L: usize>(
     let [width, height] = front.sizes(L);
     let tall = width + height;
     for (own, place) in front.own.clone().enumerate() {
-        let (own, run) = (own * L, fronts.order[place] as usize);
-        for (other, block) in matrix.blocks_of(run) {
+        let (own, node) = (own * L, fronts.order[place] as usize);
+        for (other, block) in matrix.blocks_of(node) {
             let place = fronts.places[other] as usize;
             if place < front.own.start {
                 continue;
             }
             let row = rows.of(place, front) * L;
             if row < width {
-                write(block, &mut blocks.lower[row * tall..], (own, tall));
+                write::<P, L>(block, &mut blocks.lower[row * tall..], (own, tall));
                 continue;
             }
             let right = &mut blocks.upper[(row - width) * width..];
-            write(block, right, (own, width));
-            if let Some(mirror) = pattern.block(other, run) {
+            write::<P, L>(block, right, (own, width));
+            if let Some(mirror) = pattern.block(other, node) {
                 let below = &mut blocks.lower[own * tall..];
-                write(matrix.block(mirror), below, (row, tall));
+                write::<P, L>(matrix.block(mirror), below, (row, tall));
             }
         }
     }
 }
 
-/// Writes a block from the given row of the first columns on, which are so tall.
+/// Writes a block at the given row of the first `L` columns, which have `tall` rows each.
 #[inline]
-fn write<S: Real, const L: usize>(
-    block: &[[S; L]; L],
+fn write<P: Precision, const L: usize>(
+    block: &[[P::Number; L]; L],
     columns: &mut [f64],
     (row, tall): (usize, usize),
 ) {
     for (row, entries) in (row..).zip(block) {
         for (column, entry) in entries.iter().enumerate() {
-            columns[column * tall + row] = entry.to_f64();
+            columns[column * tall + row] = P::widen(*entry);
         }
     }
 }
 
-/// Adds what an earlier front has left to the rows and columns of these numbers.
-pub(super) fn add(blocks: &mut Blocks<'_>, targets: &[u32], left: &[f64]) {
+/// Adds a Schur complement from below; `targets` are its rows and columns in this front, ascending.
+pub(crate) fn add(blocks: &mut Blocks<'_>, targets: &[u32], left: &[f64]) {
     let width = blocks.pivots.len();
     let tall = blocks.lower.len() / width;
     let own = targets.partition_point(|&target| (target as usize) < width);

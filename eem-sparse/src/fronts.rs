@@ -1,14 +1,13 @@
-//! Which unknowns are eliminated together, and which later ones each elimination touches.
+//! Which nodes are eliminated together, and which later nodes each elimination changes.
 //!
 //! ```text
-//! front   own runs of unknowns, consecutive in the order of elimination
-//!         rows below: the later runs that any of them is connected with by then
+//! front   own nodes, consecutive in the order of elimination
+//!         rows below: later nodes coupled with an own node, by the matrix or by fill-in
 //! ```
 //!
-//! The pattern is symmetric, so that what one run touches by its column it touches by its row.
-//! Order and fronts depend on the pattern alone, and serve for runs of any length. Runs are ordered by
-//! approximate minimum degree (Amestoy, Davis & Duff 1996), or by nested dissection where that fills in
-//! much and the other less.
+//! The pattern is symmetric, so the rows below are also the columns to the right. Nodes are ordered by
+//! approximate minimum degree (Amestoy, Davis & Duff 1996). If that fills in much, nested dissection is tried
+//! as well, and the order with fewer multiplications is taken.
 
 use core::ops::Range;
 
@@ -21,23 +20,24 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::linalg::{SupernodalThreshold, SymbolicSupernodalParams};
 
-use super::dissection;
 use crate::compact::compact;
+use crate::dissection;
 use crate::pattern::Pattern;
 
-/// Factors with more than this many times the entries of their matrix are worth a better order.
+/// Nested dissection is tried if the factors have more than this many times the entries of the matrix.
 const WORTH_DISSECTING: usize = 4;
 
-/// Fronts with at most this many own unknowns are merged if no larger share of entries is then zero.
+/// Adjacent fronts are merged if the result has at most so many own unknowns, and at most this share of its
+/// entries is zero.
 const MERGED: [(usize, f64); 2] = [(48, 0.1), (usize::MAX, 0.05)];
 
-/// The fronts in an order in which each follows those that contribute to it, the last of them at once.
+/// The fronts in postorder: each right after the trees of fronts below it.
 #[derive(Debug)]
-pub(super) struct Fronts {
-    /// The run that is eliminated at a place.
-    pub(super) order: Vec<u32>,
-    /// The place of a run.
-    pub(super) places: Vec<u32>,
+pub(crate) struct Fronts {
+    /// The node that is eliminated at each place.
+    pub(crate) order: Vec<u32>,
+    /// The place of each node in the order of elimination.
+    pub(crate) places: Vec<u32>,
     /// Front f has the places `begins[f]..begins[f + 1]`,
     begins: Vec<u32>,
     /// and the rows below `rows[starts[f]..starts[f + 1]]`, as places, ascending.
@@ -47,30 +47,33 @@ pub(super) struct Fronts {
 
 /// One front: its own places and those below.
 #[derive(Clone, Debug)]
-pub(super) struct Front<'a> {
-    pub(super) own: Range<usize>,
-    pub(super) rows: &'a [u32],
+pub(crate) struct Front<'a> {
+    pub(crate) own: Range<usize>,
+    pub(crate) rows: &'a [u32],
 }
 
-/// What fronts need together.
+/// How much memory consecutive fronts need.
 #[derive(Debug, Default)]
-pub(super) struct Extent {
-    /// Entries of the columns of fronts, and of their rows to the right of the diagonal blocks.
-    pub(super) lower: usize,
-    pub(super) upper: usize,
-    /// Entries, and fronts, that wait at the same time for a later front.
-    pub(super) left: usize,
-    pub(super) waiting: usize,
-    /// The most own unknowns and the most unknowns below of a front.
-    pub(super) width: usize,
-    pub(super) height: usize,
+pub(crate) struct Extent {
+    /// Entries of L with the diagonal blocks, and of U without.
+    pub(crate) lower: usize,
+    pub(crate) upper: usize,
+    /// The most numbers, and the most fronts, on the stack of Schur complements at any time.
+    pub(crate) left: usize,
+    pub(crate) waiting: usize,
+    /// The most own unknowns, and the most unknowns below, of any front.
+    pub(crate) width: usize,
+    pub(crate) height: usize,
 }
 
 impl Fronts {
-    /// Orders and analyses a pattern; `None` if memory is missing.
-    pub(super) fn new(pattern: &Pattern) -> Option<Self> {
+    /// Orders and analyses a pattern; `None` if its memory cannot be had.
+    pub(crate) fn new(pattern: &Pattern) -> Option<Self> {
+        if pattern.columns().len() == pattern.nodes() {
+            return Some(Self::uncoupled(pattern.nodes()));
+        }
         let by_degree = Self::ordered(pattern, SymmetricOrdering::Amd)?;
-        let length = pattern.length();
+        let length = pattern.block_length();
         let Extent { lower, upper, .. } = by_degree.extent(0..by_degree.len(), length);
         if lower + upper <= WORTH_DISSECTING * pattern.entries() {
             return Some(by_degree);
@@ -86,12 +89,24 @@ impl Fronts {
         Some(if is_better { dissected } else { by_degree })
     }
 
+    /// A front for each node, none of which has neighbours; `faer` has no supernodes for such a pattern.
+    fn uncoupled(nodes: usize) -> Self {
+        let order: Vec<u32> = (0..compact(nodes)).collect();
+        Self {
+            places: order.clone(),
+            begins: (0..=compact(nodes)).collect(),
+            starts: vec![0; nodes + 1],
+            rows: Vec::new(),
+            order,
+        }
+    }
+
     /// Analyses a pattern for an order of elimination.
     fn ordered(pattern: &Pattern, order: SymmetricOrdering<'_, u32>) -> Option<Self> {
-        let runs = pattern.runs();
+        let nodes = pattern.nodes();
         let (starts, rows) = (pattern.starts(), pattern.columns());
-        let structure = SymbolicSparseColMatRef::new_checked(runs, runs, starts, None, rows);
-        let merged = MERGED.map(|(most, share)| (most / pattern.length(), share));
+        let structure = SymbolicSparseColMatRef::new_checked(nodes, nodes, starts, None, rows);
+        let merged = MERGED.map(|(most, share)| (most / pattern.block_length(), share));
         let parameters = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             supernodal_params: SymbolicSupernodalParams {
@@ -104,17 +119,18 @@ impl Fronts {
     }
 
     fn from_faer(symbolic: &SymbolicCholesky<u32>) -> Option<Self> {
-        let SymbolicCholeskyRaw::Supernodal(nodes) = symbolic.raw() else {
+        let SymbolicCholeskyRaw::Supernodal(supernodes) = symbolic.raw() else {
             return None;
         };
         let (order, _) = symbolic.perm()?.arrays();
-        let own = |node: usize| nodes.supernode_begin()[node]..nodes.supernode_end()[node];
-        let below = |node: usize| nodes.supernode(node).pattern();
+        let own =
+            |node: usize| supernodes.supernode_begin()[node]..supernodes.supernode_end()[node];
+        let below = |node: usize| supernodes.supernode(node).pattern();
         let mut homes = vec![0; order.len()];
-        for node in 0..nodes.n_supernodes() {
+        for node in 0..supernodes.n_supernodes() {
             own(node).for_each(|place| homes[place as usize] = node);
         }
-        let parents = (0..nodes.n_supernodes()).map(|node| {
+        let parents = (0..supernodes.n_supernodes()).map(|node| {
             let first = below(node).iter().min();
             first.map(|&place| homes[place as usize])
         });
@@ -126,7 +142,7 @@ impl Fronts {
             starts: Vec::with_capacity(sequence.len() + 1),
             rows: Vec::new(),
         };
-        // From here, where a place has moved.
+        // Supernodes are sorted anew: by old place, the new one.
         let mut moved = homes;
         fronts.begins.push(0);
         for &node in &sequence {
@@ -153,25 +169,25 @@ impl Fronts {
     }
 
     /// Number of fronts.
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.begins.len() - 1
     }
 
     /// A front.
-    pub(super) fn front(&self, at: usize) -> Front<'_> {
+    pub(crate) fn front(&self, at: usize) -> Front<'_> {
         Front {
             own: self.begins[at] as usize..self.begins[at + 1] as usize,
             rows: &self.rows[self.starts[at] as usize..self.starts[at + 1] as usize],
         }
     }
 
-    /// The front that takes up what a front leaves.
-    pub(super) fn parent(&self, at: usize) -> Option<usize> {
+    /// The front that takes up the Schur complement of a front.
+    pub(crate) fn parent(&self, at: usize) -> Option<usize> {
         let place = self.front(at).rows.first()?;
         Some(self.begins.partition_point(|begin| begin <= place) - 1)
     }
 
-    /// How many multiplications an elimination takes.
+    /// The multiplications of an elimination, counted in blocks.
     fn multiplications(&self) -> u128 {
         let fronts = (0..self.len()).map(|at| self.front(at));
         let counts = fronts.map(|front| {
@@ -181,13 +197,13 @@ impl Fronts {
         counts.sum()
     }
 
-    /// The places that fronts have in the order of elimination.
-    pub(super) fn places(&self, fronts: &Range<usize>) -> Range<usize> {
+    /// The places of the own nodes of consecutive fronts.
+    pub(crate) fn places(&self, fronts: &Range<usize>) -> Range<usize> {
         self.begins[fronts.start] as usize..self.begins[fronts.end] as usize
     }
 
-    /// What fronts in a row need together, for runs of this length.
-    pub(super) fn extent(&self, fronts: Range<usize>, length: usize) -> Extent {
+    /// The memory of consecutive fronts, with blocks of this many rows.
+    pub(crate) fn extent(&self, fronts: Range<usize>, length: usize) -> Extent {
         let mut extent = Extent::default();
         let mut left = 0;
         let mut waiting: Vec<Front<'_>> = Vec::new();
@@ -213,19 +229,19 @@ impl Fronts {
 }
 
 impl Front<'_> {
-    /// How many unknowns are its own and how many are below, for runs of this length.
+    /// How many unknowns are its own and how many are below, with blocks of this many rows.
     #[inline]
-    pub(super) fn sizes(&self, length: usize) -> [usize; 2] {
+    pub(crate) fn sizes(&self, length: usize) -> [usize; 2] {
         [self.own.len() * length, self.rows.len() * length]
     }
 
-    /// Whether this front, the last that waits, waits for the given one.
-    pub(super) fn contributes_to(&self, front: &Front<'_>) -> bool {
+    /// Whether the Schur complement of this front, the latest on the stack, belongs to the given front.
+    pub(crate) fn contributes_to(&self, front: &Front<'_>) -> bool {
         (self.rows[0] as usize) < front.own.end
     }
 }
 
-/// The nodes of a forest, each right after the trees of its children; children ascend.
+/// The nodes of a forest, each right after the trees of its children, which ascend.
 fn postorder(parents: &[Option<usize>]) -> Vec<usize> {
     let roots = parents.len();
     // The first child of each node and of the forest, and the next child of the same parent.

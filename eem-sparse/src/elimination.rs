@@ -5,7 +5,7 @@
 //! ⎣ A₂₁  A₂₂ ⎦ = ⎣    L₂₁   1 ⎦ ⎣  0    S  ⎦     S = A₂₂ − L₂₁ U₁₂
 //! ```
 //!
-//! Pivots are looked for within A₁₁, so that the structure stays what it is.
+//! Partial pivoting within A₁₁ (matrix P) leaves the structure as it was analysed.
 
 use core::fmt;
 
@@ -20,29 +20,31 @@ use faer::{Accum, MatMut, MatRef, Par, Spec};
 
 use crate::threads;
 
-/// The most unknowns of a front for which loops are faster than blocks.
+/// Fronts with at most this many unknowns are eliminated by loops: on larger ones the dense kernels of
+/// `faer` are faster.
 const SMALL: usize = 24;
 
-/// Multiplications that are worth another thread.
+/// A product is split in two tasks if each has more multiplications than this, about a millisecond.
 const PIECE: usize = 1 << 22;
 
-/// Columns are divided at multiples of this, where products begin a new block by themselves.
+/// Products are split at multiples of this many columns, a multiple of the block size of the kernels of
+/// `faer`: so the bits are those of the whole product.
 const ALIGNED: usize = 64;
 
 /// The blocks of a front, column by column.
-pub(super) struct Blocks<'a> {
+pub(crate) struct Blocks<'a> {
     /// A₁₁ above A₂₁; then L₁₁ below the diagonal of U₁₁, and L₂₁.
-    pub(super) lower: &'a mut [f64],
+    pub(crate) lower: &'a mut [f64],
     /// A₁₂, then U₁₂.
-    pub(super) upper: &'a mut [f64],
+    pub(crate) upper: &'a mut [f64],
     /// A₂₂, then S.
-    pub(super) schur: &'a mut [f64],
+    pub(crate) schur: &'a mut [f64],
     /// The row of A₁₁ that becomes each row of L₁₁.
-    pub(super) pivots: &'a mut [u32],
+    pub(crate) pivots: &'a mut [u32],
 }
 
 /// Working memory of the elimination.
-pub(super) struct Scratch {
+pub(crate) struct Scratch {
     inverse: Vec<u32>,
     column: Vec<f64>,
     memory: MemBuffer,
@@ -56,7 +58,7 @@ impl fmt::Debug for Scratch {
 
 impl Scratch {
     /// For fronts with at most this many own unknowns; `None` if memory is missing.
-    pub(super) fn new(width: usize) -> Option<Self> {
+    pub(crate) fn new(width: usize) -> Option<Self> {
         let factor = lu_in_place_scratch::<u32, f64>(width, width, Par::Seq, Spec::default());
         Some(Self {
             inverse: vec![0; width],
@@ -67,15 +69,16 @@ impl Scratch {
 }
 
 impl Blocks<'_> {
-    /// Makes A zero.
-    pub(super) fn clear(&mut self) {
+    /// Sets A to zero.
+    pub(crate) fn clear(&mut self) {
         self.lower.fill(0.0);
         self.upper.fill(0.0);
         self.schur.fill(0.0);
     }
 
-    /// Replaces A by L, U and S. A pivot that is zero divides by zero.
-    pub(super) fn eliminate(&mut self, scratch: &mut Scratch) {
+    /// Replaces A by L, U and S. A zero pivot makes numbers infinite or NaN, which the check of the solution
+    /// finds.
+    pub(crate) fn eliminate(&mut self, scratch: &mut Scratch) {
         let width = self.pivots.len();
         if self.lower.len() <= SMALL * width {
             self.eliminate_by_loops();
@@ -93,7 +96,7 @@ impl Blocks<'_> {
             let (pivot, later) = self.lower[k * tall..].split_at_mut(tall);
             let reciprocal = pivot[k].recip();
             pivot[k + 1..].iter_mut().for_each(|l| *l *= reciprocal);
-            for column in later.chunks_exact_mut(tall).take(width - k - 1) {
+            for column in later.chunks_exact_mut(tall) {
                 subtract(&mut column[k..], &pivot[k..]);
             }
             for column in self.upper.chunks_exact_mut(width) {
@@ -114,7 +117,7 @@ impl Blocks<'_> {
         }
     }
 
-    /// Exchanges row k with the one below whose entry in column k is the largest.
+    /// Swaps row k of the diagonal block with the row below that has the largest entry in column k.
     fn bring_up_the_largest(&mut self, k: usize) {
         let width = self.pivots.len();
         let tall = self.lower.len() / width;
@@ -175,7 +178,7 @@ impl Blocks<'_> {
     }
 }
 
-/// Overwrites columns with their solutions.
+/// Overwrites columns with their solutions for a triangular matrix.
 fn solve_columns(
     solve: fn(MatRef<'_, f64>, MatMut<'_, f64>, Par),
     triangle: MatRef<'_, f64>,
@@ -204,14 +207,13 @@ fn subtract_product(schur: MatMut<'_, f64>, lower: MatRef<'_, f64>, upper: MatRe
     );
 }
 
-/// Where so many columns are divided, each of which takes so many multiplications; `None` if that does not
-/// pay.
+/// Where to split so many columns with so many multiplications each; `None` if that does not pay.
 fn half(columns: usize, each: usize) -> Option<usize> {
     let half = (columns / 2).next_multiple_of(ALIGNED);
     (threads::DIVIDE && half < columns && half * each > PIECE).then_some(half)
 }
 
-/// Subtracts from all entries of a column but the first what its first entry times a column of L is.
+/// `column[i] −= lower[i] · column[0]` for all i > 0.
 fn subtract(column: &mut [f64], lower: &[f64]) {
     let Some((&mut first, rest)) = column.split_first_mut() else {
         return;

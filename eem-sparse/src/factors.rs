@@ -1,29 +1,29 @@
-//! Factors of a matrix, front by front, and what solves with them.
+//! The factors of a matrix, front by front, and the substitutions that solve with them.
 
-use super::branch::{Branch, Memory, zeros};
-use super::division::Division;
-use super::fronts::{Front, Fronts};
-use super::gathering::Matrix;
-use crate::scalar::Real;
+use crate::branch::{Branch, Memory, zeros};
+use crate::division::Division;
+use crate::fronts::{Front, Fronts};
+use crate::gathering::Matrix;
+use crate::precision::Precision;
 
 /// L and U of all fronts, and the memory in which they are found.
 #[derive(Debug)]
-pub(super) struct Factors {
-    /// The columns of each front, one front after the other.
+pub(crate) struct Factors {
+    /// The columns of L of each front with its diagonal block, one front after the other.
     lower: Vec<f64>,
-    /// Its rows to the right of its diagonal block.
+    /// The rows of U of each front to the right of its diagonal block.
     upper: Vec<f64>,
-    /// For each place, the pivot among the own unknowns of its front.
+    /// For each row of a diagonal block, the row that became it.
     pivots: Vec<u32>,
-    /// What finds them.
+    /// The working memory of the elimination.
     root: Branch,
-    /// Part of a solution.
+    /// Right-hand sides of one front.
     part: Vec<f64>,
 }
 
 impl Factors {
-    /// Memory for the factors, for runs of at most this length; `None` if it is missing.
-    pub(super) fn new(fronts: &Fronts, length: usize) -> Option<Self> {
+    /// Memory for the factors with blocks of this many rows; `None` if it cannot be had.
+    pub(crate) fn new(fronts: &Fronts, length: usize) -> Option<Self> {
         let extent = fronts.extent(0..fronts.len(), length);
         Some(Self {
             lower: zeros(extent.lower)?,
@@ -34,8 +34,13 @@ impl Factors {
         })
     }
 
+    /// How many numbers L and U have.
+    pub(crate) fn entries(&self) -> usize {
+        self.lower.len() + self.upper.len()
+    }
+
     /// Factors a matrix.
-    pub(super) fn factor<S: Real, const L: usize>(&mut self, matrix: Matrix<'_, S, L>) {
+    pub(crate) fn factor<P: Precision, const L: usize>(&mut self, matrix: Matrix<'_, P, L>) {
         let memory = Memory {
             lower: &mut self.lower,
             upper: &mut self.upper,
@@ -44,9 +49,8 @@ impl Factors {
         self.root.factor(matrix, memory);
     }
 
-    /// Overwrites a right-hand side, in the order of elimination, with the solution, for runs of `L`
-    /// unknowns, as the matrix has been factored.
-    pub(super) fn solve<const L: usize>(&mut self, fronts: &Fronts, x: &mut [[f64; L]]) {
+    /// Overwrites a right-hand side with the solution, both in the order of elimination.
+    pub(crate) fn solve<const L: usize>(&mut self, fronts: &Fronts, x: &mut [[f64; L]]) {
         let (mut lower, mut upper) = (0, 0);
         for front in (0..fronts.len()).map(|at| fronts.front(at)) {
             let [width, height] = front.sizes(L);
@@ -67,7 +71,7 @@ impl Factors {
     }
 }
 
-/// Solves with L of a front.
+/// Forward substitution with L of a front.
 fn forward<const L: usize>(
     front: &Front<'_>,
     (columns, pivots): (&[f64], &[u32]),
@@ -94,23 +98,23 @@ fn forward<const L: usize>(
         }
     }
     for (&row, sums) in front.rows.iter().zip(part.as_chunks::<L>().0) {
-        let run = &mut later[row as usize - front.own.end];
-        for (x, sum) in run.iter_mut().zip(sums) {
+        let node = &mut later[row as usize - front.own.end];
+        for (x, sum) in node.iter_mut().zip(sums) {
             *x -= sum;
         }
     }
 }
 
-/// Solves with U of a front.
+/// Backward substitution with U of a front.
 fn backward<const L: usize>(front: &Front<'_>, columns: &[f64], upper: &[f64], x: &mut [[f64; L]]) {
     let [width, height] = front.sizes(L);
     let tall = width + height;
     let (head, later) = x.split_at_mut(front.own.end);
     let own = head[front.own.start..].as_flattened_mut();
-    let columns_of_runs = upper.chunks_exact(width * L);
-    for (&row, columns) in front.rows.iter().zip(columns_of_runs) {
-        let run = &later[row as usize - front.own.end];
-        for (&solved, column) in run.iter().zip(columns.chunks_exact(width)) {
+    let columns_of_nodes = upper.chunks_exact(width * L);
+    for (&row, columns) in front.rows.iter().zip(columns_of_nodes) {
+        let node = &later[row as usize - front.own.end];
+        for (&solved, column) in node.iter().zip(columns.chunks_exact(width)) {
             for (x, u) in own.iter_mut().zip(column) {
                 *x -= u * solved;
             }

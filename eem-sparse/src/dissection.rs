@@ -1,15 +1,15 @@
-//! Nested dissection: an order of elimination that keeps the parts of a large net apart.
+//! Nested dissection: an order of elimination that splits a graph into two sides and a separator.
 //!
-//! Unknowns here are runs: what shares its entries is eliminated together.
+//! All unknowns of a node are eliminated together, so "unknown" stands for a node here.
 //!
 //! ```text
-//! order   one side, the other side, what separates them;  each side the same way
+//! order   one side, the other side, the separator;  each side is ordered in the same way
 //! ```
 //!
-//! As long as the separator is not eliminated, nothing fills in between the sides (George 1973).
-//! Separators are looked for among the level sets of distances, and of differences of distances,
-//! from three points far from each other: in a lattice the straight and the diagonal lines. What is
-//! small is ordered by minimum degree.
+//! There is no fill-in between the two sides (George 1973). Candidates for separators are level sets of the
+//! distance from one of three points that are far from each other, and of the difference of two such
+//! distances: in a lattice, diagonal and straight lines. Parts of at most `SMALL` unknowns are ordered by
+//! minimum degree.
 
 use core::cmp::Ordering;
 use core::mem;
@@ -24,15 +24,15 @@ use crate::pattern::Pattern;
 /// Parts with at most this many unknowns are not divided.
 const SMALL: usize = 500;
 
-/// The smaller side has at least one in this many unknowns.
+/// A cut is accepted if the smaller side has at least 1/5 of the unknowns.
 const LARGEST_SHARE: usize = 5;
 
-/// The part, and the distance, of what belongs to none.
+/// The part of an unknown in a separator, and the distance of an unknown that was not reached.
 const NONE: u32 = u32::MAX;
 
 /// The unknowns in the order of their elimination; `None` if memory is missing.
-pub(super) fn order(pattern: &Pattern) -> Option<Vec<u32>> {
-    let count = pattern.runs();
+pub(crate) fn order(pattern: &Pattern) -> Option<Vec<u32>> {
+    let count = pattern.nodes();
     let mut dissection = Dissection {
         pattern,
         parts: vec![0; count],
@@ -46,7 +46,7 @@ pub(super) fn order(pattern: &Pattern) -> Option<Vec<u32>> {
     let mut parts = vec![(0, count)];
     while let Some((start, end)) = parts.pop() {
         let set = &mut unknowns[start..end];
-        if set.len() * pattern.length() <= SMALL {
+        if set.len() * pattern.block_length() <= SMALL {
             continue;
         }
         let Some([left, right]) = dissection.divide(set) else {
@@ -64,7 +64,7 @@ pub(super) fn order(pattern: &Pattern) -> Option<Vec<u32>> {
     Some(order)
 }
 
-/// Orders what is in a part, without what is in separators, by minimum degree.
+/// Orders all unknowns outside of separators by minimum degree.
 fn by_degree(pattern: &Pattern, parts: &[u32]) -> Option<Vec<u32>> {
     let inner = (0..parts.len()).filter(|&unknown| parts[unknown] != NONE);
     let inner: Vec<u32> = inner.map(compact).collect();
@@ -91,10 +91,10 @@ fn by_degree(pattern: &Pattern, parts: &[u32]) -> Option<Vec<u32>> {
     Some(order)
 }
 
-/// Memory that all divisions share, with an element for each unknown.
+/// Memory shared by all levels of the recursion; vectors have an element for each unknown.
 struct Dissection<'a> {
     pattern: &'a Pattern,
-    /// The part to which each unknown belongs; none for separators.
+    /// The part to which each unknown belongs, or `NONE`.
     parts: Vec<u32>,
     last_part: u32,
     distances: [Vec<u32>; 3],
@@ -102,10 +102,11 @@ struct Dissection<'a> {
     queue: Vec<u32>,
 }
 
-/// Unknowns whose key is below a threshold, apart from those with a neighbour that is not.
+/// A split of a part: the left side has a key below the threshold, the right side does not, and the
+/// separator is below it with a neighbour that is not.
 #[derive(Clone, Copy)]
 struct Cut {
-    /// Distance from the first point, less that from the second if there is one.
+    /// Which points: the key is the distance from the first, less that from the second if there is one.
     key: (usize, Option<usize>),
     threshold: u32,
     separator: usize,
@@ -114,7 +115,7 @@ struct Cut {
 }
 
 impl Cut {
-    /// A separator costs its square, and more the less evenly it divides.
+    /// Compares the costs `separator² / (left · right)`.
     fn compare(&self, other: &Self) -> Ordering {
         let cost = |cut: &Self, other: &Self| {
             let [separator, left, right] = [cut.separator, other.left, other.right];
@@ -126,7 +127,7 @@ impl Cut {
 }
 
 impl Dissection<'_> {
-    /// Sorts a part into two sides and a separator, and returns how many unknowns the sides have.
+    /// Sorts a part into left side, right side and separator; returns the sizes of the sides.
     fn divide(&mut self, set: &mut [u32]) -> Option<[usize; 2]> {
         let part = self.parts[set[0] as usize];
         if let Some(left) = self.components(set, part) {
@@ -177,8 +178,8 @@ impl Dissection<'_> {
         }
     }
 
-    /// Queues a part component by component. Where one of them ends that divides it most evenly;
-    /// `None` if it is connected.
+    /// Queues a part component by component. Returns the end of a component that splits the queue most
+    /// evenly, or `None` if the part is connected.
     fn components(&mut self, set: &[u32], part: u32) -> Option<usize> {
         self.queue.clear();
         for &unknown in set {
@@ -199,7 +200,7 @@ impl Dissection<'_> {
         best
     }
 
-    /// The distances from a point to all of a connected part.
+    /// Fills in the distances from a point to all unknowns of a connected part.
     fn measure(&mut self, at: usize, point: u32, set: &[u32], part: u32) {
         self.queue.clear();
         for &unknown in set {
@@ -208,7 +209,7 @@ impl Dissection<'_> {
         self.spread(at, point, part);
     }
 
-    /// Queues what is connected with a point, nearest first.
+    /// Breadth-first search from a point within its part.
     fn spread(&mut self, at: usize, point: u32, part: u32) {
         let distances = &mut self.distances[at];
         let mut head = self.queue.len();
@@ -227,7 +228,7 @@ impl Dissection<'_> {
         }
     }
 
-    /// Evaluates a key, from zero upwards; returns the largest.
+    /// Computes the key of every unknown, shifted so that none is negative; returns the largest.
     fn evaluate(&mut self, (from, less): (usize, Option<usize>), set: &[u32]) -> u32 {
         let mut keys = mem::take(&mut self.key);
         let distance = |at: usize, unknown: u32| self.distances[at][unknown as usize];
@@ -246,7 +247,7 @@ impl Dissection<'_> {
         largest
     }
 
-    /// The key of an unknown, and the largest among its neighbours and itself.
+    /// The key of an unknown, and the largest key among it and its neighbours.
     fn reach(&self, unknown: u32, part: u32) -> (u32, u32) {
         let row = self.pattern.row(unknown as usize).iter();
         let inner = row.filter(|&&neighbour| self.parts[neighbour as usize] == part);
@@ -255,10 +256,11 @@ impl Dissection<'_> {
         (key, keys.fold(key, u32::max))
     }
 
-    /// The best threshold of a key.
+    /// The cut of least cost among all thresholds of a key.
     fn best_cut(&mut self, key: (usize, Option<usize>), set: &[u32], part: u32) -> Option<Cut> {
         let levels = self.evaluate(key, set) as usize + 1;
-        // How many unknowns have a key, and how many more separate from there on than before.
+        // By key: how many unknowns have it, and the change of the size of the separator when the
+        // threshold reaches it.
         let mut counts = vec![(0_usize, 0_isize); levels + 1];
         for &unknown in set {
             let (key, reach) = self.reach(unknown, part);

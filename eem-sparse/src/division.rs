@@ -1,34 +1,35 @@
-//! Which fronts can be eliminated at the same time.
+//! Which fronts can be eliminated in parallel.
 //!
 //! ```text
-//! fronts   part … part, own      parts: whole trees, divided the same way;  own: what follows them
+//! fronts   part … part, own      parts: independent trees, divided in the same way;  own: all later fronts
 //! ```
 //!
-//! Trees of fronts that do not contribute to each other are independent. As each front follows those
-//! that contribute to it at once, a tree is a range of fronts, its last the root. The division depends on
-//! the fronts and on the length of runs alone.
+//! A front and all fronts below it are a tree, and disjoint trees are independent. Fronts are in postorder,
+//! so a tree is a range of fronts whose last is the root. The division depends on the fronts and on the
+//! block length alone, not on the number of threads.
 
 use core::ops::Range;
 
-use super::fronts::Fronts;
+use crate::fronts::Fronts;
 use crate::threads;
 
-/// A part is at most one in this many of the whole work, if it can be divided further.
+/// A part with more than 1/32 of the whole work is divided further if possible: enough parts for a few
+/// dozen threads.
 const PARTS: usize = 32;
 
-/// Work that is not worth another thread: some milliseconds.
+/// Parts with at most this many multiplications, some milliseconds, are not divided.
 const SMALL: usize = 1 << 23;
 
-/// A range of fronts: parts that know nothing of each other, and the fronts after them.
+/// A range of fronts: independent parts, and the fronts after them.
 #[derive(Debug)]
-pub(super) struct Division {
-    pub(super) parts: Vec<Division>,
-    pub(super) own: Range<usize>,
+pub(crate) struct Division {
+    pub(crate) parts: Vec<Division>,
+    pub(crate) own: Range<usize>,
 }
 
 impl Division {
-    /// All fronts, for runs of this length; undivided if there are no threads or little work.
-    pub(super) fn new(fronts: &Fronts, length: usize) -> Self {
+    /// Divides all fronts, for blocks of this many rows; without the feature `parallel`, not at all.
+    pub(crate) fn new(fronts: &Fronts, length: usize) -> Self {
         let all = 0..fronts.len();
         if threads::DIVIDE {
             Forest::new(fronts, length).divide(all)
@@ -37,8 +38,8 @@ impl Division {
         }
     }
 
-    /// One after the other.
-    pub(super) fn whole(own: Range<usize>) -> Self {
+    /// A range without parts.
+    pub(crate) fn whole(own: Range<usize>) -> Self {
         let parts = Vec::new();
         Self { parts, own }
     }
@@ -48,9 +49,9 @@ impl Division {
 struct Forest {
     /// The first front of the tree below each front.
     firsts: Vec<usize>,
-    /// The work of all fronts before each front, and of all.
+    /// Prefix sums of the work of the fronts.
     works: Vec<usize>,
-    /// The most work of a part.
+    /// A part with more work is divided further.
     most: usize,
 }
 
@@ -65,7 +66,7 @@ impl Forest {
             let front = fronts.front(at);
             let [width, height] = front.sizes(length);
             let tall = width + height;
-            // Moving an entry costs as much as a few multiplications.
+            // Multiplications per entry of the front, and 8 for gathering and moving it.
             work += tall * tall * (width + 8);
             works.push(work);
             if let Some(parent) = fronts.parent(at) {
@@ -123,7 +124,8 @@ impl Forest {
         }
     }
 
-    /// Trees from the begin of a range, such that the only large one among them would be divided.
+    /// The trees of a range. While exactly one of them is large, it is replaced by the trees below its root,
+    /// as a single large tree could not run in parallel to anything.
     fn branches(&self, mut range: Range<usize>) -> Vec<Range<usize>> {
         let mut branches = Vec::new();
         loop {
@@ -135,7 +137,7 @@ impl Forest {
                 branches.extend(trees);
                 return branches;
             };
-            // What is below the root.
+            // The trees below the root of the large one.
             range = trees[only].start..trees[only].end - 1;
             branches.extend_from_slice(&trees[..only]);
         }

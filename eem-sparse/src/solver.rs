@@ -1,0 +1,338 @@
+//! Factors a matrix and solves with it; every solution that is returned has passed the check.
+
+use core::array;
+
+use crate::error::{Error, Operand};
+use crate::factors::Factors;
+use crate::fronts::Fronts;
+use crate::gathering::Matrix;
+use crate::pattern::Pattern;
+use crate::pivoting::Pivoting;
+use crate::precision::Precision;
+use crate::refinement::{Equations, Failure};
+
+/// The analysis of a pattern, and the memory for factors of matrices with this pattern.
+///
+/// ```
+/// use eem_sparse::{Pattern, Solver};
+///
+/// let pattern = Pattern::new(2, |pair| pair(0, 1));
+/// let mut solver = Solver::new(&pattern)?;
+/// // ⎡ 4 1 ⎤ x = ⎡ 6 ⎤
+/// // ⎣ 2 3 ⎦     ⎣ 8 ⎦
+/// let mut x = [[6.0], [8.0]];
+/// solver.factor::<f64>(&[4.0, 1.0, 2.0, 3.0])?.solve(&mut x)?;
+/// assert_eq!(x, [[1.0], [2.0]]);
+/// # Ok::<(), eem_sparse::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Solver {
+    pattern: Pattern,
+    fronts: Fronts,
+    factors: Factors,
+    /// From the first matrix on that needs it.
+    pivoting: Option<Pivoting>,
+    /// A column of X in the order of elimination.
+    solution: Vec<f64>,
+    /// Its residual, or the size of columns; empty until a solution fails the check.
+    residual: Vec<f64>,
+}
+
+/// What solutions took besides the elimination.
+///
+/// Both counts are zero if the elimination by fronts was accurate enough. See [`Factored::solve`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Report {
+    /// Steps of iterative refinement that led to a solution, of all columns together.
+    pub refinements: usize,
+    /// Columns that were solved by elimination with partial pivoting.
+    pub fallbacks: usize,
+}
+
+impl Solver {
+    /// Orders and analyses a pattern, and reserves the memory for the factors.
+    ///
+    /// ```
+    /// use eem_sparse::{Pattern, Solver};
+    ///
+    /// let solver = Solver::new(&Pattern::new(3, |_| {}))?;
+    /// assert_eq!(solver.pattern().entries(), 3);
+    /// # Ok::<(), eem_sparse::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`Error::OutOfMemory`].
+    pub fn new(pattern: &Pattern) -> Result<Self, Error> {
+        let fronts = Fronts::new(pattern).ok_or(Error::OutOfMemory)?;
+        let factors = Factors::new(&fronts, pattern.block_length());
+        Ok(Self {
+            pattern: pattern.clone(),
+            factors: factors.ok_or(Error::OutOfMemory)?,
+            fronts,
+            pivoting: None,
+            solution: vec![0.0; pattern.unknowns()],
+            residual: Vec::new(),
+        })
+    }
+
+    /// The pattern that was analysed.
+    ///
+    /// ```
+    /// use eem_sparse::{Pattern, Solver};
+    ///
+    /// let solver = Solver::new(&Pattern::new(3, |pair| pair(0, 2)))?;
+    /// assert_eq!(solver.pattern().position(2, 0), Some(3));
+    /// # Ok::<(), eem_sparse::Error>(())
+    /// ```
+    #[must_use]
+    pub fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
+    /// The block rows in the order of their elimination, for comparison with other solvers.
+    ///
+    /// ```
+    /// use eem_sparse::{Pattern, Solver};
+    ///
+    /// // The middle of a star comes last but one, when it has a single neighbour left.
+    /// let star = Pattern::new(5, |pair| (1..5).for_each(|leaf| pair(0, leaf)));
+    /// assert!(Solver::new(&star)?.order()[3..].contains(&0));
+    /// # Ok::<(), eem_sparse::Error>(())
+    /// ```
+    #[must_use]
+    pub fn order(&self) -> &[u32] {
+        &self.fronts.order
+    }
+
+    /// How many numbers the factors have, L and U together; the entries of the matrix included.
+    ///
+    /// ```
+    /// use eem_sparse::{Pattern, Solver};
+    ///
+    /// let chain = Pattern::new(40, |pair| (1..40).for_each(|at| pair(at - 1, at)));
+    /// assert_eq!(Solver::new(&chain)?.factor_entries(), 118);
+    /// # Ok::<(), eem_sparse::Error>(())
+    /// ```
+    #[must_use]
+    pub fn factor_entries(&self) -> usize {
+        self.factors.entries()
+    }
+
+    /// Factors the matrix whose entries are at their [positions](Pattern::position).
+    ///
+    /// ```
+    /// use eem_sparse::{Pattern, Solver};
+    ///
+    /// let mut solver = Solver::new(&Pattern::new(1, |_| {}))?;
+    /// let mut factored = solver.factor::<f32>(&[4.0])?;
+    /// let mut x = [[1.0, 2.0]];
+    /// factored.solve(&mut x)?;
+    /// assert_eq!(x, [[0.25, 0.5]]);
+    /// # Ok::<(), eem_sparse::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Count`] unless there are as many values as the pattern has entries. A singular matrix is
+    /// found when a right-hand side is solved.
+    pub fn factor<'a, P: Precision>(
+        &'a mut self,
+        values: &'a [P::Number],
+    ) -> Result<Factored<'a, P>, Error> {
+        let expected = self.pattern.entries();
+        if values.len() != expected {
+            let found = values.len();
+            return Err(Error::Count { expected, found });
+        }
+        match self.pattern.block_length() {
+            1 => self.factor_blocks::<P, 1>(values),
+            2 => self.factor_blocks::<P, 2>(values),
+            _ => self.factor_blocks::<P, 3>(values),
+        }
+        Ok(Factored {
+            solver: self,
+            values,
+        })
+    }
+
+    fn factor_blocks<P: Precision, const L: usize>(&mut self, values: &[P::Number]) {
+        let matrix = Matrix::<P, L> {
+            fronts: &self.fronts,
+            pattern: &self.pattern,
+            values,
+        };
+        self.factors.factor(matrix);
+    }
+}
+
+/// A matrix with its factors.
+#[derive(Debug)]
+pub struct Factored<'a, P: Precision> {
+    solver: &'a mut Solver,
+    values: &'a [P::Number],
+}
+
+impl<P: Precision> Factored<'_, P> {
+    /// Overwrites `W` right-hand sides with their solutions.
+    ///
+    /// Each solution has a componentwise backward error of a few roundings: in row i with k entries
+    ///
+    /// ```text
+    /// |b − A x|ᵢ ≤ max(256, k + 1) ε (|A| |x| + |b|)ᵢ        ε = 2⁻⁵²
+    /// ```
+    ///
+    /// before it is rounded to the precision in which it is stored. Magnitudes below the smallest normal
+    /// number count as that number. If the largest entries of all columns of A are within a factor 1/ε
+    /// of each other, components of x below `ε max |x|` count as `ε max |x|`. A solution that does not pass is refined up to three times; then
+    /// elimination with partial pivoting solves, with the same check.
+    ///
+    /// ```
+    /// use eem_sparse::{Error, Pattern, Solver};
+    ///
+    /// let mut solver = Solver::new(&Pattern::new(2, |pair| pair(0, 1)))?;
+    /// let mut x = [[2.0], [3.0]];
+    /// let report = solver.factor::<f64>(&[0.0, 1.0, 1.0, 0.0])?.solve(&mut x)?;
+    /// assert_eq!(x, [[3.0], [2.0]]);
+    /// assert_eq!(report.fallbacks, 0);
+    /// // Two equations that contradict each other.
+    /// let refused = solver.factor::<f64>(&[1.0, 1.0, 1.0, 1.0])?.solve(&mut x);
+    /// assert!(matches!(refused, Err(Error::Unsolved { .. })));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// - [`Error::Count`] unless `right` has a row for each unknown;
+    /// - [`Error::NotFinite`] if an entry, a right-hand side or a solution is infinite or NaN;
+    /// - [`Error::Unsolved`] if no solution passes the check, as for a singular matrix;
+    /// - [`Error::OutOfMemory`] if the elimination with partial pivoting is needed and has no memory.
+    ///
+    /// After an error, columns before the one that failed are solved, and all others are unchanged.
+    pub fn solve<const W: usize>(&mut self, right: &mut [[P::Number; W]]) -> Result<Report, Error> {
+        let (expected, found) = (self.solver.pattern.unknowns(), right.len());
+        if found != expected {
+            return Err(Error::Count { expected, found });
+        }
+        match self.solver.pattern.block_length() {
+            1 => self.solve_blocks::<W, 1>(right),
+            2 => self.solve_blocks::<W, 2>(right),
+            _ => self.solve_blocks::<W, 3>(right),
+        }
+    }
+
+    fn solve_blocks<const W: usize, const L: usize>(
+        &mut self,
+        right: &mut [[P::Number; W]],
+    ) -> Result<Report, Error> {
+        let Solver {
+            pattern,
+            fronts,
+            factors,
+            pivoting,
+            solution,
+            residual,
+        } = &mut *self.solver;
+        let matrix = Matrix::<P, L> {
+            fronts,
+            pattern,
+            values: self.values,
+        };
+        let mut report = Report::default();
+        for column in 0..W {
+            let b = |node: usize| array::from_fn(|at| P::widen(right[node * L + at][column]));
+            let equations = Equations { matrix, b };
+            let x = solution.as_chunks_mut::<L>().0;
+            for (x, &node) in x.iter_mut().zip(&fronts.order) {
+                *x = b(node as usize);
+            }
+            factors.solve(fronts, x);
+            if !equations.are_solved(x, residual) {
+                let correct = |rest: &mut [[f64; L]]| factors.solve(fronts, rest);
+                if let Some(refinements) = equations.refine(x, residual, correct) {
+                    report.refinements += refinements;
+                } else {
+                    report.refinements += solve_by_pivoting(&equations, pivoting, (x, residual))?;
+                    report.fallbacks += 1;
+                }
+            }
+            store::<P, W, L>(x, &fronts.order, (right, column))?;
+        }
+        Ok(report)
+    }
+}
+
+/// Solves with partial pivoting; returns the number of refinements.
+#[cold]
+fn solve_by_pivoting<P: Precision, B: Fn(usize) -> [f64; L], const L: usize>(
+    equations: &Equations<'_, P, B, L>,
+    pivoting: &mut Option<Pivoting>,
+    (x, residual): (&mut [[f64; L]], &mut Vec<f64>),
+) -> Result<usize, Error> {
+    let matrix = &equations.matrix;
+    let entries = matrix.values.iter().map(|&value| P::widen(value));
+    all_finite(Operand::Matrix, entries)?;
+    all_finite(Operand::Right, (0..x.len()).flat_map(&equations.b))?;
+    let pivoting = match pivoting {
+        Some(pivoting) => pivoting,
+        None => pivoting.insert(Pivoting::new(matrix.pattern)?),
+    };
+    for (x, &node) in x.iter_mut().zip(&matrix.fronts.order) {
+        *x = (equations.b)(node as usize);
+    }
+    let refinements = pivoting.factor(matrix, |solve| {
+        solve(x);
+        if equations.are_solved(x, residual) {
+            Some(0)
+        } else {
+            equations.refine(x, residual, solve)
+        }
+    });
+    refinements.flatten().ok_or_else(|| {
+        let Failure {
+            row,
+            backward_error,
+            bound,
+        } = equations.worst(x);
+        Error::Unsolved {
+            row,
+            backward_error,
+            bound,
+        }
+    })
+}
+
+/// An error that names the first number that is not finite.
+fn all_finite(what: Operand, mut numbers: impl Iterator<Item = f64>) -> Result<(), Error> {
+    match numbers.position(|number| !number.is_finite()) {
+        Some(position) => Err(Error::NotFinite { what, position }),
+        None => Ok(()),
+    }
+}
+
+/// Writes a solution in the order of elimination to a column in that of the unknowns.
+fn store<P: Precision, const W: usize, const L: usize>(
+    x: &[[f64; L]],
+    order: &[u32],
+    (right, column): (&mut [[P::Number; W]], usize),
+) -> Result<(), Error> {
+    let stored = |x: f64| P::widen(P::narrow(x));
+    if !x.as_flattened().iter().all(|&x| stored(x).is_finite()) {
+        let mut natural = order.iter().zip(x);
+        let found = natural.find_map(|(&node, x)| {
+            let at = x.iter().position(|&x| !stored(x).is_finite())?;
+            Some(node as usize * L + at)
+        });
+        return Err(Error::NotFinite {
+            what: Operand::Solution,
+            position: found.unwrap_or(0),
+        });
+    }
+    for (x, &node) in x.iter().zip(order) {
+        let rows = &mut right[node as usize * L..][..L];
+        for (row, &x) in rows.iter_mut().zip(x) {
+            row[column] = P::narrow(x);
+        }
+    }
+    Ok(())
+}
