@@ -8,18 +8,12 @@ use crate::free_energy::FreeEnergy;
 use crate::group::{ElementGroup, Group, Placed, StageGroup};
 use crate::handle::Element;
 use crate::kinematics::Kinematics;
+use crate::layout::Shape;
 use crate::scalar::Real;
 use crate::scheme::{
     EemEntropy, EemTemperature, ElementScheme, Midpoint, MidpointTemperature, Scheme, Trapezoidal,
     TrapezoidalTemperature, Variational,
 };
-
-/// What a model has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Shape {
-    pub(crate) dashpots: usize,
-    pub(crate) thermal: bool,
-}
 
 /// A set of elements of one model, whatever the model is.
 pub(crate) trait Blueprint<S: Real, const D: usize>: Any + Debug + Send + Sync {

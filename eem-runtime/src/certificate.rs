@@ -36,10 +36,8 @@ use crate::scalar::{Mask, Real};
 
 pub(crate) use motion::{Kept, Motion, NodeStep};
 pub(crate) use recount::Recount;
+use tally::ROUNDINGS;
 pub(crate) use tally::{Care, Tally};
-
-/// Roundings of the amplitude that a law may be off by.
-const ROUNDINGS: f64 = 64.0;
 
 /// Roundings that the certificate itself may be off by: those of the values of ψ and θs at both ends. What
 /// it says has to stay below the bound by as much.

@@ -1,7 +1,8 @@
 //! A saved state: everything that the next steps depend on, bit for bit.
 
-mod digest;
-mod error;
+pub(crate) mod digest;
+pub(crate) mod error;
+mod expect;
 mod outline;
 #[cfg(feature = "serde")]
 mod scheme_name;
@@ -9,13 +10,14 @@ mod scheme_name;
 use crate::compensated::{Compensated, Sum};
 use crate::newton::NewtonSettings;
 use crate::scalar::Real;
-use crate::scene::is_positive;
+use crate::scalar::is_positive;
 use crate::scheme::Scheme;
 use crate::solver::SavedPast;
 use crate::state::State;
 
 pub(crate) use digest::{Digest, Numbers};
 pub use error::RestoreError;
+use expect::{expect_all, expect_count};
 pub(crate) use outline::Outline;
 
 /// A state of a [`Simulation`](crate::Simulation) to go on from later: values, what rounding took
@@ -191,37 +193,6 @@ fn check_sums<S: Real>(
             quantity,
             value: value.to_f64(),
             carry: carry.to_f64(),
-        }),
-    }
-}
-
-fn expect_count(
-    quantity: &'static str,
-    checkpoint: usize,
-    simulation: usize,
-) -> Result<(), RestoreError> {
-    if checkpoint == simulation {
-        return Ok(());
-    }
-    Err(RestoreError::Count {
-        quantity,
-        checkpoint,
-        simulation,
-    })
-}
-
-fn expect_all<S: Real>(
-    required: &'static str,
-    quantity: &'static str,
-    mut values: impl Iterator<Item = S>,
-    is_met: fn(S) -> bool,
-) -> Result<(), RestoreError> {
-    match values.find(|&value| !is_met(value)) {
-        None => Ok(()),
-        Some(value) => Err(RestoreError::Value {
-            quantity,
-            value: value.to_f64(),
-            required,
         }),
     }
 }

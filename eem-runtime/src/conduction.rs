@@ -1,11 +1,10 @@
 //! Fourier conduction between elements and to reservoirs.
 
 use crate::compact::compact;
-use crate::handle::HeatPartner;
+use crate::handle::{Element, HeatPartner};
 use crate::kernel::two_sum;
 use crate::layout::Layout;
 use crate::scalar::Real;
-use crate::scene::Scene;
 
 /// The far end of a path of heat.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +23,14 @@ pub(crate) struct Link<S> {
     pub(crate) conductance: S,
 }
 
+/// A path of heat.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Conductor<S> {
+    pub(crate) element: Element,
+    pub(crate) partner: HeatPartner,
+    pub(crate) conductance: S,
+}
+
 /// All paths of heat of a scene, sorted by thermal slot.
 #[derive(Clone, Debug)]
 pub(crate) struct Conduction<S> {
@@ -36,15 +43,15 @@ pub(crate) struct Conduction<S> {
 
 impl<S: Real> Conduction<S> {
     /// The paths of a scene.
-    pub(crate) fn new<const D: usize>(scene: &Scene<D, S>, layout: &Layout) -> Self {
-        let slots = if scene.conductors.is_empty() {
+    pub(crate) fn new(conductors: &[Conductor<S>], reservoirs: &[S], layout: &Layout) -> Self {
+        let slots = if conductors.is_empty() {
             0
         } else {
             layout.thermal
         };
         let mut by_slot = vec![Vec::new(); slots];
         let slot = |index: usize| layout.elements[index].thermal;
-        for conductor in &scene.conductors {
+        for conductor in conductors {
             let conductance = conductor.conductance;
             let near = slot(conductor.element.index);
             let (partner, back) = match conductor.partner {
@@ -77,7 +84,7 @@ impl<S: Real> Conduction<S> {
         Self {
             links,
             ranges,
-            reservoirs: scene.reservoirs.clone(),
+            reservoirs: reservoirs.to_vec(),
         }
     }
 

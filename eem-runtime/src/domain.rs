@@ -9,13 +9,15 @@ mod error;
 mod point;
 mod sample;
 mod search;
+mod state;
 
 use crate::free_energy::{Array, FreeEnergy};
 use crate::scalar::Real;
 
 pub use error::DomainError;
-pub use point::{DomainPoint, DomainReport, Least};
+pub use point::{DomainReport, Least};
 use point::{Shape, Space};
+pub use state::DomainPoint;
 
 /// A box of states: an interval for each variable of a model.
 ///

@@ -4,7 +4,7 @@
 //! whatever the scalar of the scene.
 
 mod scene;
-mod state;
+pub(crate) mod state;
 
 use thiserror::Error;
 

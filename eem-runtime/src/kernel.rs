@@ -34,6 +34,7 @@
 //! Comp. 43 (1984) 501–528; as a program transformation Reps & Rall,
 //! Higher-Order and Symbolic Computation 16 (2003).
 
+mod differences;
 mod exponential;
 mod hyperbolic;
 mod inverse;
@@ -46,6 +47,7 @@ mod whole_power;
 
 pub(crate) use primitives::two_sum;
 
+pub use differences::Differences;
 pub use exponential::{exp_dd, exp_dd2, exp_m1_dd, exp_m1_dd2, power_dd, power_dd2, power_dds};
 pub use hyperbolic::{cosh_dd, cosh_dd2, sinh_dd, sinh_dd2, tanh_dd, tanh_dd2};
 pub use inverse::{asinh_dd, asinh_dd2, atan_dd, atan_dd2, atanh_dd, atanh_dd2};
@@ -56,16 +58,3 @@ pub use power::{powf_dd, powf_dd2};
 pub use root::{cbrt_dd, cbrt_dd2, recip_dd, recip_dd2, sqrt_dd, sqrt_dd2};
 pub use trigonometric::{cos_dd, cos_dd2, sin_dd, sin_dd2, tan_dd, tan_dd2};
 pub use whole_power::{powi_dd, powi_dd2};
-
-/// All divided differences of a function between two ends, the bits of the single kernels.
-///
-/// They have most of their work in common.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Differences<S> {
-    /// `f[a,b]`.
-    pub first: S,
-    /// `f[b,a,a] = ∂f[a,b]/∂a`.
-    pub second_a: S,
-    /// `f[a,b,b] = ∂f[a,b]/∂b`.
-    pub second_b: S,
-}

@@ -4,10 +4,14 @@
 //! elements, the algorithmic temperature that their neighbours see. Viscous stretches and
 //! temperatures proper are condensed within their element.
 
-use crate::blueprint::Shape;
-use crate::handle::HeatPartner;
-use crate::scalar::Real;
-use crate::scene::Scene;
+use crate::handle::{Element, HeatPartner};
+
+/// What a model has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Shape {
+    pub(crate) dashpots: usize,
+    pub(crate) thermal: bool,
+}
 
 /// Where an element keeps its internal variables in the [`State`](crate::state::State).
 #[derive(Clone, Copy, Debug)]
@@ -37,16 +41,20 @@ pub(crate) struct Layout {
 
 impl Layout {
     /// Numbers a scene.
-    pub(crate) fn new<const D: usize, S: Real>(scene: &Scene<D, S>) -> Self {
+    pub(crate) fn new(
+        dimension: usize,
+        is_mass: impl Iterator<Item = bool>,
+        shapes: impl Iterator<Item = Shape>,
+        paths: impl Iterator<Item = (Element, HeatPartner)>,
+    ) -> Self {
         let (mut unknowns, mut viscous, mut thermal) = (0, 0, 0);
-        let mut nodes = Vec::with_capacity(scene.nodes.len());
-        for node in &scene.nodes {
-            nodes.push(node.mass.is_some().then_some(unknowns));
-            unknowns += if node.mass.is_some() { D } else { 0 };
+        let mut nodes = Vec::with_capacity(is_mass.size_hint().0);
+        for is_mass in is_mass {
+            nodes.push(is_mass.then_some(unknowns));
+            unknowns += if is_mass { dimension } else { 0 };
         }
-        let mut elements = Vec::with_capacity(scene.elements.len());
-        for entry in &scene.elements {
-            let shape: Shape = scene.groups[entry.group].shape();
+        let mut elements = Vec::with_capacity(shapes.size_hint().0);
+        for shape in shapes {
             elements.push(Slots {
                 viscous,
                 thermal: shape.thermal.then_some(thermal),
@@ -55,11 +63,11 @@ impl Layout {
             thermal += usize::from(shape.thermal);
         }
         let mut coupled = vec![None; thermal];
-        for conductor in &scene.conductors {
-            let HeatPartner::Element(partner) = conductor.partner else {
+        for (element, partner) in paths {
+            let HeatPartner::Element(partner) = partner else {
                 continue;
             };
-            for element in [conductor.element, partner] {
+            for element in [element, partner] {
                 let slot = elements[element.index].thermal;
                 if let Some(unknown @ None) = slot.map(|slot| &mut coupled[slot]) {
                     *unknown = Some(unknowns);

@@ -71,4 +71,7 @@ pub use recorder::{Column, CustomQuantity, Quantity, RecordError, Recorder};
 pub use scalar::{Mask, Real, Scalar};
 pub use scene::Scene;
 pub use scheme::Scheme;
-pub use simulation::{Generic, RunEnd, Simulation, StepTangent};
+pub use simulation::Simulation;
+pub use simulation::generic::Generic;
+pub use simulation::linearize::StepTangent;
+pub use simulation::run::RunEnd;

@@ -13,7 +13,7 @@ use crate::handle::{Element, Node};
 use crate::layout::Layout;
 use crate::masses::Masses;
 use crate::scalar::Real;
-use crate::scene::is_positive;
+use crate::scalar::is_positive;
 use crate::scheme::Scheme;
 
 /// By how many ε of its size a prescribed function may differ from a state that follows it: a

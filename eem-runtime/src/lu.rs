@@ -6,14 +6,12 @@
 
 mod few;
 mod fixed;
+mod singular;
 
 use crate::scalar::Real;
 pub(crate) use few::{solve_one, solve_two};
 pub(crate) use fixed::solve_fixed;
-
-/// A matrix that has no usable pivot in some column.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Singular;
+pub(crate) use singular::Singular;
 
 /// Factors the row-major `n × n` matrix, `n` the length of `pivots`: `P A = L U`.
 pub(crate) fn factor<S: Real>(matrix: &mut [S], pivots: &mut [usize]) -> Result<(), Singular> {

@@ -14,7 +14,7 @@ mod full;
 use crate::conduction::{Conduction, Partner};
 use crate::layout::Layout;
 use crate::scalar::Real;
-use crate::scene::ElementEntry;
+use crate::scene::entry::ElementEntry;
 
 #[cfg(feature = "sparse")]
 pub(crate) use eem_sparse::Pattern;

@@ -7,8 +7,8 @@
 
 mod real;
 
-pub(crate) use real::unless;
 pub use real::{Mask, Real};
+pub(crate) use real::{is_positive, unless};
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 

@@ -4,58 +4,19 @@
 
 mod act;
 mod check;
+pub(crate) mod entry;
 mod start;
 
-use nalgebra::SVector;
-
 use crate::blueprint::{Blueprint, ModelSet};
+use crate::conduction::Conductor;
 use crate::error::SceneError;
 use crate::free_energy::FreeEnergy;
 use crate::handle::{Element, HeatPartner, Node, Reservoir, SceneId};
 use crate::kinematics::Stretch;
+use crate::layout::Layout;
 use crate::loads::Loads;
 use crate::scalar::Real;
-
-pub(crate) use check::is_positive;
-
-/// A node: an anchor or a mass.
-#[derive(Clone, Debug)]
-pub(crate) struct NodeEntry<S, const D: usize> {
-    /// `None` for an anchor.
-    pub(crate) mass: Option<S>,
-    pub(crate) position: SVector<S, D>,
-    pub(crate) velocity: SVector<S, D>,
-    /// Given instead of the velocity.
-    pub(crate) momentum: Option<SVector<S, D>>,
-}
-
-impl<S: Real, const D: usize> NodeEntry<S, D> {
-    /// The initial momentum of a node of this mass, kg m/s.
-    pub(crate) fn start_momentum(&self, mass: S) -> SVector<S, D> {
-        let from_velocity = || self.velocity.map(|velocity| mass * velocity);
-        self.momentum.unwrap_or_else(from_velocity)
-    }
-}
-
-/// What the scene knows of an element apart from its model.
-#[derive(Clone, Debug)]
-pub(crate) struct ElementEntry<S> {
-    pub(crate) nodes: Vec<usize>,
-    pub(crate) temperature: Option<S>,
-    /// `(dashpot, γ)` as given.
-    pub(crate) viscous_stretches: Vec<(usize, S)>,
-    /// The blueprint that holds the model, and its place there.
-    pub(crate) group: usize,
-    pub(crate) place: usize,
-}
-
-/// A path of heat.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Conductor<S> {
-    pub(crate) element: Element,
-    pub(crate) partner: HeatPartner,
-    pub(crate) conductance: S,
-}
+use entry::{ElementEntry, NodeEntry};
 
 /// Masses on springs that heat up, in `D` dimensions.
 ///
@@ -113,6 +74,16 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// A node that does not move; position in m.
     pub fn anchor(&mut self, position: [S; D]) -> Node {
         self.node(None, position, [S::zero(); D])
+    }
+
+    /// The numbering of its unknowns and variables.
+    pub(crate) fn layout(&self) -> Layout {
+        let is_mass = self.nodes.iter().map(|node| node.mass.is_some());
+        let elements = self.elements.iter();
+        let shapes = elements.map(|entry| self.groups[entry.group].shape());
+        let paths = self.conductors.iter();
+        let paths = paths.map(|path| (path.element, path.partner));
+        Layout::new(D, is_mass, shapes, paths)
     }
 
     /// A point mass (kg) with its initial position (m) and velocity (m/s).

@@ -2,18 +2,17 @@
 
 mod audit;
 mod event;
-mod generic;
+pub(crate) mod generic;
 mod inspect;
-mod linearize;
+pub(crate) mod linearize;
 mod resume;
-mod run;
+pub(crate) mod run;
 mod start;
 mod stepper;
 mod totals;
 
 use core::fmt;
 
-use crate::blueprint::Shape;
 use crate::certificate::Certificate;
 use crate::compact::compact;
 use crate::conduction::Conduction;
@@ -21,11 +20,13 @@ use crate::error::{SceneError, StepError, StepFailure};
 use crate::group::{Placed, StepView};
 use crate::handle::SceneId;
 use crate::layout::Layout;
+use crate::layout::Shape;
 use crate::loads::Loads;
 use crate::masses::Masses;
 use crate::newton::{NewtonSettings, StepReport};
+use crate::scalar::is_positive;
 use crate::scalar::{Mask, Real};
-use crate::scene::{Scene, is_positive};
+use crate::scene::Scene;
 use crate::scheme::{Phase, Scheme};
 use crate::solver::Effort;
 use crate::state::State;
@@ -33,10 +34,6 @@ use crate::system::MOST_FIXED;
 use start::initial_state;
 use stepper::{Parts, Stepper};
 use totals::check_totals;
-
-pub use generic::Generic;
-pub use linearize::StepTangent;
-pub use run::RunEnd;
 
 /// What the elements share during the next step; borrows only the fields that it names.
 macro_rules! view {
@@ -100,8 +97,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub fn new(scene: Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, SceneError> {
         scene.check()?;
         check_step(step)?;
-        let mut layout = Layout::new(&scene);
-        let conduction = Conduction::new(&scene, &layout);
+        let mut layout = scene.layout();
+        let conduction = Conduction::new(&scene.conductors, &scene.reservoirs, &layout);
         let mut state = Box::new(initial_state(&scene, &layout));
         let places = scene
             .elements

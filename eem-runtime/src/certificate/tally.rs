@@ -1,7 +1,9 @@
 //! What the elements and the paths of heat of a step contribute to its certificate.
 
-use super::ROUNDINGS;
 use crate::scalar::{Mask, Real};
+
+/// Roundings of the amplitude that a law may be off by.
+pub(super) const ROUNDINGS: f64 = 64.0;
 
 /// Roundings of the terms of the balance of a node, a dashpot or a temperature that it may be off by, when
 /// the arguments of the forces are left out: what is left of a small update is of this size, where false

@@ -1,6 +1,6 @@
 //! The numbers of a scene in a few words: whether two scenes have the same, and if not, which differ.
 
-use super::RestoreError;
+use crate::checkpoint::error::RestoreError;
 use crate::scalar::Real;
 
 /// A 64-bit digest (FNV-1a; Fowler, Noll & Vo 1991). Against mistakes, not against malice.

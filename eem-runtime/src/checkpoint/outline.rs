@@ -1,7 +1,8 @@
 //! The shape of a scene: what two scenes must share to have states in common.
 
-use super::{RestoreError, expect_count};
-use crate::blueprint::Shape;
+use crate::checkpoint::error::RestoreError;
+use crate::checkpoint::expect::expect_count;
+use crate::layout::Shape;
 use crate::masses::Masses;
 use crate::scalar::Real;
 

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::point::DomainPoint;
+use crate::domain::state::DomainPoint;
 use crate::readable::Readable;
 
 /// Why a model is not a sound material in a box of states, or cannot be checked there.

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use super::StateError;
+use crate::error::state::StateError;
 use crate::handle::{Element, HeatPartner, Node, Reservoir};
 use crate::readable::Readable;
 

@@ -1,8 +1,8 @@
 //! Arithmetic with the arms of an element, and with what there is per arm.
 
-use super::Trial;
 use crate::compensated::Compensated;
 use crate::free_energy::Array;
+use crate::group::view::Trial;
 use crate::kinematics::{Arms, Gradient, Kinematics, Measures};
 use crate::scalar::Real;
 

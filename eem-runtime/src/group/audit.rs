@@ -1,13 +1,14 @@
 //! Whether elements can be in a state that comes from outside, and which parameters they have.
 
-use super::ElementGroup;
 use super::member::Member;
-use crate::checkpoint::{Digest, RestoreError};
+use crate::checkpoint::digest::Digest;
+use crate::checkpoint::error::RestoreError;
 use crate::error::StateError;
 use crate::free_energy::FreeEnergy;
+use crate::group::element_group::ElementGroup;
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
-use crate::scene::is_positive;
+use crate::scalar::is_positive;
 use crate::scheme::{ElementScheme, Infeasible};
 use crate::state::State;
 

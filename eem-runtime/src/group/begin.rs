@@ -3,9 +3,10 @@
 use super::arms::{along, arms_in, measures_in, points, spread};
 use super::member::Member;
 use super::pose::Pose;
-use super::{ElementGroup, Old, StepView, variables};
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
+use crate::group::element_group::{ElementGroup, variables};
+use crate::group::view::{Old, StepView};
 use crate::kinematics::{Arms, Kinematics, Measures};
 use crate::scalar::Real;
 use crate::scheme::{ElementScheme, Placement};

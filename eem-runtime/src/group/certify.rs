@@ -1,12 +1,12 @@
 //! What the elements contribute to the certificate of a step.
 
-use super::ElementGroup;
 use super::arms::{along, arms_in};
 use super::member::Member;
 use super::site::Contact;
-use super::{StepView, Trial};
 use crate::certificate::{Care, Recount, Tally};
 use crate::free_energy::{Array, FreeEnergy};
+use crate::group::element_group::ElementGroup;
+use crate::group::view::{StepView, Trial};
 use crate::kinematics::{Arms, Ends, Kinematics};
 use crate::scalar::Real;
 use crate::scheme::ElementScheme;

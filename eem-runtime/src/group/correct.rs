@@ -1,11 +1,11 @@
 //! From the solution of the global system to the internal variables of the elements.
 
-use super::ElementGroup;
 use super::arms::along;
 use super::member::Member;
 use super::scatter::run;
 use super::site::{Contact, Site};
 use crate::free_energy::{Array, FreeEnergy};
+use crate::group::element_group::ElementGroup;
 use crate::kinematics::{Arms, Kinematics};
 use crate::scalar::Real;
 use crate::scheme::ElementScheme;

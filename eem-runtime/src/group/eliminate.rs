@@ -4,7 +4,7 @@ use crate::free_energy::{Array, FreeEnergy};
 use crate::kinematics::Kinematics;
 use crate::lu::Singular;
 use crate::scalar::Real;
-use crate::scene::is_positive;
+use crate::scalar::is_positive;
 
 /// A number per local unknown: the viscous stretches, then the temperature.
 #[derive(Clone, Copy, Debug)]

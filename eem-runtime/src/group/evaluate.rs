@@ -1,9 +1,10 @@
 //! One look at a trial state: responses, condensed local systems, contributions.
 
 use super::assemble::Target;
-use super::{ElementGroup, StepView, Trial};
 use crate::error::StateError;
 use crate::free_energy::FreeEnergy;
+use crate::group::element_group::ElementGroup;
+use crate::group::view::{StepView, Trial};
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
 use crate::scheme::ElementScheme;

@@ -2,8 +2,8 @@
 
 use super::arms::arms_in;
 use super::member::Member;
-use super::{ElementGroup, variables};
 use crate::free_energy::{Array, FreeEnergy};
+use crate::group::element_group::{ElementGroup, variables};
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
 use crate::scheme::{ElementScheme, Placement};

@@ -2,9 +2,10 @@
 
 use super::arms::arms_in;
 use super::member::Member;
-use super::{ElementGroup, ElementView, GroupTotals, variables};
 use crate::error::StateError;
 use crate::free_energy::FreeEnergy;
+use crate::group::element_group::{ElementGroup, variables};
+use crate::group::view::{ElementView, GroupTotals};
 use crate::handle::Element;
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;

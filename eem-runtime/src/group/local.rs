@@ -14,14 +14,14 @@
 
 use core::hint;
 
-use super::StepView;
 use super::eliminate::{LocalSystem, eliminate};
 use super::member::Member;
-use super::respond::temperature_in;
 use super::site::Contact;
 use crate::conduction::{HeatFlow, SeenTemperatures};
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
+use crate::group::member::temperature_in;
+use crate::group::view::StepView;
 use crate::kinematics::Kinematics;
 use crate::lu::Singular;
 use crate::scalar::Real;

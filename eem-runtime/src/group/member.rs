@@ -2,7 +2,6 @@
 
 use super::at_point::MemoryAtPoint;
 use super::eliminate::{Condensed, PerUnknown};
-use super::respond::temperature_in;
 use super::site::{Contact, Site};
 use crate::compact::compact;
 use crate::error::StateError;
@@ -11,7 +10,7 @@ use crate::handle::Element;
 use crate::kinematics::{Arms, Gradient, Kinematics};
 use crate::layout::Slots;
 use crate::scalar::Real;
-use crate::scene::is_positive;
+use crate::scalar::is_positive;
 use crate::scheme::{ElementScheme, Form, Placement, Start};
 
 /// An element, with everything that one step of the scheme `C` needs to remember of it.
@@ -276,3 +275,13 @@ pub(super) fn grown<S: Real>(theta: S, change: S) -> S {
 /// Half the largest change of ln θ in one Newton iteration: a factor of 7. It bounds the reach of
 /// a wild first iteration and is never met near the solution.
 const LARGEST_HALF_CHANGE: f64 = 0.75;
+
+/// θ* of a response, K; zero without temperature.
+#[inline]
+pub(super) fn temperature_in<S: Real, M: FreeEnergy<S>>(response: &M::Response) -> S {
+    if M::THERMAL {
+        response[M::MEASURES + M::DASHPOTS]
+    } else {
+        S::zero()
+    }
+}

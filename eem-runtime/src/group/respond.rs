@@ -1,15 +1,15 @@
 //! The response of the elements at a trial state, and what must be true of it.
 
 use super::arms::{change_in, measures_in};
-use super::member::Member;
+use super::member::{Member, temperature_in};
 use super::pose::{Pose, seen_arms, seen_measures};
-use super::{StepView, Trial};
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
+use crate::group::view::{StepView, Trial};
 use crate::handle::Element;
 use crate::kinematics::{Arms, Ends, Kinematics, Measures};
 use crate::scalar::Real;
-use crate::scene::is_positive;
+use crate::scalar::is_positive;
 use crate::scheme::{ElementScheme, Form};
 
 /// Arms and measures of the configuration that a scheme looks at.
@@ -229,16 +229,6 @@ fn not_admissible<K: Kinematics<S, D>, S: Real, const D: usize>(
         value: kinematics.true_measure(r)[index].to_f64(),
         least,
         most,
-    }
-}
-
-/// θ* of a response, K; zero without temperature.
-#[inline]
-pub(super) fn temperature_in<S: Real, M: FreeEnergy<S>>(response: &M::Response) -> S {
-    if M::THERMAL {
-        response[M::MEASURES + M::DASHPOTS]
-    } else {
-        S::zero()
     }
 }
 

@@ -3,10 +3,11 @@
 use super::arms::arms_in;
 use super::member::Member;
 use super::respond::{check_measures, check_temperature};
-use super::{ElementGroup, StepView, Trial, variables};
 use crate::certificate::Tally;
 use crate::error::StateError;
 use crate::free_energy::{Array, Caloric, FreeEnergy};
+use crate::group::element_group::{ElementGroup, variables};
+use crate::group::view::{StepView, Trial};
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
 use crate::scheme::{ElementScheme, Infeasible, Placement, settled_at};

@@ -1,9 +1,9 @@
 //! Where the elements write in the global systems, found once per scene.
 
-use super::Sites;
 use crate::compact::compact;
 use crate::conduction::Partner;
 use crate::free_energy::Array;
+use crate::group::view::Sites;
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
 

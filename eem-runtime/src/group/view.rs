@@ -6,7 +6,7 @@ use crate::layout::Layout;
 use crate::loads::StepLoads;
 use crate::masses::Masses;
 use crate::scalar::Real;
-use crate::scene::ElementEntry;
+use crate::scene::entry::ElementEntry;
 use crate::scheme::{MOST_STAGES, Phase, Placement};
 use crate::state::State;
 use crate::system::LinearSystem;

@@ -1,7 +1,7 @@
 //! The exponential function, and powers in which base and exponent both vary.
 
-use super::Differences;
 use super::primitives::{ends, phi, phi2, phi3};
+use crate::kernel::differences::Differences;
 use crate::scalar::Scalar;
 
 /// `f[a,b]` of the exponential function.

@@ -1,7 +1,7 @@
 //! Logarithms, summed up between close ends and based at the smaller of distant ones.
 
-use super::Differences;
 use super::primitives::{area_tangent_tail, by_definition, half, log_difference};
+use crate::kernel::differences::Differences;
 use crate::scalar::Scalar;
 
 /// Up to this |z| = |b − a|/(a + b), a ratio of 3/2, differences are sums of series.

@@ -2,8 +2,8 @@
 
 use core::array;
 
-use super::{Ends, Kinematics};
 use crate::free_energy::Entry;
+use crate::kinematics::measures::{Ends, Kinematics};
 use crate::scalar::{Real, Scalar};
 
 /// The stretch `λ = |r|`, `r = q_j − q_i`, of two nodes in `D` dimensions, m.

@@ -1,7 +1,7 @@
 //! One and two unknowns, solved by a division.
 
-use super::Singular;
 use super::fixed::{LARGEST_RATIO, solve_fixed};
+use crate::lu::singular::Singular;
 use crate::scalar::Real;
 
 /// The first row of `x` becomes the solution of `A x = b` for one unknown, and A zero.

@@ -7,7 +7,7 @@
 
 use core::array;
 
-use super::Singular;
+use crate::lu::singular::Singular;
 use crate::scalar::Real;
 
 /// A row is divided by its diagonal entry unless its other entries, all together, are larger by more than

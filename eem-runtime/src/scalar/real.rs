@@ -131,6 +131,12 @@ pub trait Real: Scalar<Mask: Mask> + PartialOrd {
     }
 }
 
+/// Finite and greater than zero.
+#[inline]
+pub(crate) fn is_positive<S: Real>(value: S) -> bool {
+    (S::zero().less(value) & value.at_most(S::MAX)).decide()
+}
+
 /// `kept` in the lanes that are settled, `new` in all others.
 ///
 /// A single number that is settled is not asked any more.

@@ -1,16 +1,11 @@
 //! The rules that a scene must satisfy, one function per rule.
 
-use super::{ElementEntry, NodeEntry, Scene};
-use crate::blueprint::Shape;
+use super::Scene;
 use crate::error::{SceneError, StateError};
 use crate::handle::{Element, HeatPartner, Node, Reservoir};
-use crate::scalar::{Mask, Real};
-
-/// Finite and greater than zero.
-#[inline]
-pub(crate) fn is_positive<S: Real>(value: S) -> bool {
-    (S::zero().less(value) & value.at_most(S::MAX)).decide()
-}
+use crate::layout::Shape;
+use crate::scalar::{Real, is_positive};
+use crate::scene::entry::{ElementEntry, NodeEntry};
 
 impl<const D: usize, S: Real> Scene<D, S> {
     /// The first thing that is wrong with the description.

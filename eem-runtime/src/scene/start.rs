@@ -1,11 +1,12 @@
 //! The rules of the initial state: products of the user's numbers are finite, and what is
 //! prescribed begins where the scene does.
 
-use super::{NodeEntry, Scene};
+use super::Scene;
 use crate::error::SceneError;
 use crate::handle::{Element, HeatPartner, Node};
 use crate::loads::{MOTION_ROUNDINGS, extent};
 use crate::scalar::{Mask, Real};
+use crate::scene::entry::NodeEntry;
 
 impl<const D: usize, S: Real> Scene<D, S> {
     /// The first product that is not finite, or the first jump at t = 0. All single numbers have

@@ -11,9 +11,10 @@
 //! The local unknown is the new temperature. The temperatures of the mixed states on the way from
 //! old to new come from the Legendre inversion θ̂, by Newton's method, for any free energy.
 
-use super::{ElementScheme, Form, Infeasible, Placement, Start, temperature_at};
 use crate::free_energy::{Array, Entry, FreeEnergy};
 use crate::scalar::Real;
+use crate::scheme::element::{ElementScheme, Form, Infeasible, Placement, Start};
+use crate::scheme::temperature::temperature_at;
 
 /// See the module.
 #[derive(Debug)]

@@ -9,9 +9,9 @@
 //! a mean of temperatures weighted with the heat capacity, hence positive, hence the second. No
 //! inversion is needed: the new temperature is the unknown.
 
-use super::{ElementScheme, Form, Infeasible, Placement, Start};
 use crate::free_energy::{Array, Entry, FreeEnergy};
 use crate::scalar::Real;
+use crate::scheme::element::{ElementScheme, Form, Infeasible, Placement, Start};
 
 /// See the module.
 #[derive(Debug)]

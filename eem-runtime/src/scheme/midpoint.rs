@@ -6,8 +6,8 @@
 //!
 //! It keeps the momenta exactly (Noether), energy and entropy only to second order.
 
-use super::Placement;
 use super::point::PointRule;
+use crate::scheme::element::Placement;
 
 /// See the module.
 #[derive(Debug)]

@@ -6,8 +6,8 @@
 //!
 //! as Conde Martín, Betsch & García Orden (2016) run it. It keeps the momenta exactly.
 
-use super::Placement;
 use super::point::PointRule;
+use crate::scheme::element::Placement;
 
 /// See the module.
 #[derive(Debug)]

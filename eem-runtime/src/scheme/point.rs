@@ -3,9 +3,10 @@
 //! They are solved by Newton's method in the variables that they integrate, hence with the entropy
 //! as unknown.
 
-use super::{ElementScheme, Form, Infeasible, Placement, Start, temperature_at};
 use crate::free_energy::{Array, Entry, FreeEnergy};
 use crate::scalar::Real;
+use crate::scheme::element::{ElementScheme, Form, Infeasible, Placement, Start};
+use crate::scheme::temperature::temperature_at;
 
 /// A rule that looks at one point of the step.
 pub(crate) trait PointRule: Send + Sync + 'static {

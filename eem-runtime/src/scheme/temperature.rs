@@ -3,10 +3,10 @@
 //! Newton's method in ln θ, as long as it contracts; anything else is left to
 //! [`invert`], which finds the temperature from any start on the same stable branch.
 
-use super::Infeasible;
 use crate::free_energy::{Caloric, FreeEnergy};
 use crate::inversion::invert;
 use crate::scalar::{Mask, Real, unless};
+use crate::scheme::element::Infeasible;
 use crate::state::Energy;
 
 /// The largest correction of ln θ, in units of √ε, after which the entropy need not be evaluated

@@ -6,8 +6,8 @@
 //!
 //! It keeps none of the laws.
 
-use super::Placement;
 use super::point::PointRule;
+use crate::scheme::element::Placement;
 
 /// See the module.
 #[derive(Debug)]

@@ -12,8 +12,8 @@
 //! Momenta are kept exactly, the energy stays near its value. With λ of the mean configuration
 //! instead of the mean length it would be the implicit midpoint rule.
 
-use super::Placement;
 use super::point::PointRule;
+use crate::scheme::element::Placement;
 
 /// See the module.
 #[derive(Debug)]

@@ -7,7 +7,7 @@ use crate::layout::Layout;
 use crate::loads::{Loads, StepLoads};
 use crate::masses::Masses;
 use crate::scalar::Real;
-use crate::scene::ElementEntry;
+use crate::scene::entry::ElementEntry;
 use crate::scheme::{Scheme, Tableau};
 use crate::solver::{SavedPast, Solver};
 use crate::state::State;

@@ -6,13 +6,14 @@
 
 use core::array;
 
+use super::Solver;
 use super::places::Seen;
-use super::{SavedPast, Solver};
 use crate::error::StepFailure;
 use crate::group::{Group, Old, StepView, points};
 use crate::loads::StepLoads;
 use crate::scalar::{Mask, Real};
 use crate::scheme::{MOST_SETS, Scheme};
+use crate::solver::past::SavedPast;
 
 /// Where a trial starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -13,7 +13,6 @@ use crate::newton::Largest;
 use crate::scalar::{Mask, Real};
 use crate::scheme::Closing;
 use crate::state::State;
-pub(super) use stages::Stages;
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// Writes the new state to `next`, from the increments at which the elements have been evaluated, and

@@ -1,9 +1,11 @@
 //! How hard a step tries, and what it did.
 
-use super::CONTINUATION_STEPS;
 use crate::error::NewtonIteration;
 use crate::newton::NewtonSettings;
 use crate::scalar::{Mask, Real, unless};
+
+/// Parts of a step through which a solution is followed when it is not found at once.
+pub(super) const CONTINUATION_STEPS: u8 = 8;
 
 /// Iterations for which memory is kept; settings that ask for more allocate when they get there.
 const LONGEST_HISTORY: usize = 4096;

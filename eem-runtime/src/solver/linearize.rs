@@ -1,10 +1,12 @@
 //! The global system at a trial state of choice.
 
+use super::Solver;
 use super::begin::Start;
-use super::{Effort, Iteration, Purpose, Solver};
 use crate::error::StepFailure;
 use crate::group::{Group, StepView};
 use crate::scalar::{Mask, Real};
+use crate::solver::converge::Purpose;
+use crate::solver::effort::{Effort, Iteration};
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// Residual and tangent at given global unknowns, with the local ones solved for.

@@ -1,12 +1,13 @@
 //! From where Newton's method is tried, one start after the other.
 
+use super::Solver;
 use super::begin::Start;
-use super::conclusion::Target;
-use super::{CONTINUATION_STEPS, Effort, Solver};
 use crate::certificate::Certificate;
 use crate::error::StepFailure;
 use crate::group::{Group, StepView};
 use crate::scalar::Real;
+use crate::solver::effort::{CONTINUATION_STEPS, Effort};
+use crate::solver::progress::Target;
 use crate::state::State;
 
 impl<S: Real, const D: usize> Solver<S, D> {

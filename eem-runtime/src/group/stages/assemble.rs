@@ -1,12 +1,13 @@
 //! From the stages of the elements to the global system.
 
+use super::heat;
 use super::local::LocalStages;
 use super::member::StageMember;
-use super::{StageGroup, heat};
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
 use crate::group::arms::{add_scaled, measures_in, scale};
-use crate::group::{StepView, Trial};
+use crate::group::stages::stage_group::StageGroup;
+use crate::group::view::{StepView, Trial};
 use crate::kinematics::{Arms, Kinematics};
 use crate::scalar::Real;
 use crate::scheme::{MOST_SETS, Tableau};

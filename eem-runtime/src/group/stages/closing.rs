@@ -4,14 +4,14 @@
 //! and evaluating the remaining relations explicitly from them makes the balances of momentum and
 //! entropy hold to rounding whatever that error is.
 
-use super::StageGroup;
 use super::member::StageMember;
 use crate::conduction::Partner;
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
 use crate::group::arms::{arms_in, measures_in, resultant};
 use crate::group::closing::pull;
-use crate::group::{StepView, Trial};
+use crate::group::stages::stage_group::StageGroup;
+use crate::group::view::{StepView, Trial};
 use crate::impulse::Impulses;
 use crate::kinematics::{Kinematics, Weights};
 use crate::layout::Slots;

@@ -1,10 +1,10 @@
 //! From the solution of the global system to the internal variables of the stages.
 
-use super::StageGroup;
 use super::local::LocalStages;
 use super::member::StageMember;
 use crate::free_energy::{Array, FreeEnergy};
 use crate::group::arms::along;
+use crate::group::stages::stage_group::StageGroup;
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
 use crate::scheme::Tableau;
@@ -71,5 +71,20 @@ where
             largest = largest.maximum((change / scale).abs());
         }
         largest
+    }
+
+    /// The change of Q at a stage that a solution means, W.
+    fn heat_change(&self, rule: &Tableau, stage: usize, solution: &[[S; 1]]) -> S {
+        let mut change = S::zero();
+        for (set, contacts) in self.site.contacts.iter().flatten().enumerate() {
+            let share = S::from_f64(rule.share(stage, set));
+            let contact = &contacts[set];
+            let near = solution[contact.unknown as usize][0];
+            for partner in &contact.partners {
+                let far = solution[partner.unknown as usize][0];
+                change += share * partner.conductance * (far - near);
+            }
+        }
+        change
     }
 }

@@ -6,11 +6,9 @@
 //!
 //! except that a thermostat gives its `θ_i` directly.
 
-use super::member::StageMember;
 use crate::conduction::Partner;
-use crate::free_energy::FreeEnergy;
 use crate::group::site::Contact;
-use crate::group::{StepView, Trial};
+use crate::group::view::{StepView, Trial};
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
 use crate::scheme::Tableau;
@@ -62,27 +60,5 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
     pub(super) fn conductance(&self) -> S {
         let partners = self.partners.iter();
         partners.fold(S::zero(), |sum, partner| sum + partner.conductance)
-    }
-}
-
-impl<S, M, K, const D: usize> StageMember<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-{
-    /// The change of Q at a stage that a solution means, W.
-    pub(super) fn heat_change(&self, rule: &Tableau, stage: usize, solution: &[[S; 1]]) -> S {
-        let mut change = S::zero();
-        for (set, contacts) in self.site.contacts.iter().flatten().enumerate() {
-            let share = S::from_f64(rule.share(stage, set));
-            let contact = &contacts[set];
-            let near = solution[contact.unknown as usize][0];
-            for partner in &contact.partners {
-                let far = solution[partner.unknown as usize][0];
-                change += share * partner.conductance * (far - near);
-            }
-        }
-        change
     }
 }

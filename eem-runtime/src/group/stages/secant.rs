@@ -1,10 +1,10 @@
 //! The system that closes a step through stages: one unknown per mass and a right-hand side per axis.
 
-use super::super::Sites;
 use super::super::closing::pull_of_arms;
 use super::super::site::Site;
 use crate::compact::compact;
 use crate::free_energy::Array;
+use crate::group::view::Sites;
 use crate::kinematics::{Arms, Kinematics, Weights};
 use crate::scalar::Real;
 

@@ -6,8 +6,8 @@
 use core::array;
 
 use super::secant::SecantSite;
-use crate::group::Sites;
 use crate::group::site::{Contact, Site};
+use crate::group::view::Sites;
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
 use crate::scheme::MOST_SETS;

@@ -2,55 +2,16 @@
 
 use core::array;
 
-use super::move_node;
 use crate::certificate::{Motion, NodeStep};
 use crate::error::StepFailure;
 use crate::group::{Along, Group, StepView, points};
 use crate::impulse::Impulses;
 use crate::scalar::Real;
-use crate::scheme::{Ending, MOST_STAGES, Tableau};
+use crate::scheme::Ending;
 use crate::solver::Solver;
+use crate::solver::closing::move_node;
+use crate::solver::stages::Stages;
 use crate::state::State;
-use crate::system::LinearSystem;
-
-/// What only a scheme with stages needs.
-#[derive(Debug)]
-pub(in crate::solver) struct Stages<S, const D: usize> {
-    rule: &'static Tableau,
-    /// The system of a stage that feels its own force.
-    pub(in crate::solver) secant: Option<LinearSystem<S, D>>,
-    /// Impulses `h` times loads less forces of the elements, per node and stage, N s.
-    impulses: Vec<[[S; D]; MOST_STAGES]>,
-    /// Displacements of all nodes at the end of the step, m.
-    ends: Vec<[S; D]>,
-}
-
-impl<S: Real, const D: usize> Stages<S, D> {
-    /// Memory for a scene with so many nodes.
-    pub(in crate::solver) fn new(
-        rule: &'static Tableau,
-        secant: Option<LinearSystem<S, D>>,
-        nodes: usize,
-    ) -> Self {
-        Self {
-            rule,
-            secant,
-            impulses: vec![[[S::zero(); D]; MOST_STAGES]; nodes],
-            ends: vec![[S::zero(); D]; nodes],
-        }
-    }
-
-    /// `Σ_i weight_i impulse_i` on a node, N s.
-    fn combined(&self, node: usize, weights: &[f64]) -> [S; D] {
-        let mut sum = [S::zero(); D];
-        for (&weight, impulse) in weights.iter().zip(&self.impulses[node]) {
-            for (sum, &impulse) in sum.iter_mut().zip(impulse) {
-                *sum += S::from_f64(weight) * impulse;
-            }
-        }
-        sum
-    }
-}
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// New positions and momenta, all finite, and the work of loads and supports.

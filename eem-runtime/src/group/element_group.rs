@@ -1,0 +1,194 @@
+//! The elements of one model, with one set of forces in a step.
+
+use super::generic::ElementGeneric;
+use super::interface::{Elements, Group};
+use super::member::Member;
+use super::site::{Contact, Site};
+use super::view::{Along, ElementView, GroupTotals, Old, Placed, Sites, StepView, Trial};
+use crate::certificate::{Recount, Tally};
+use crate::checkpoint::digest::Digest;
+use crate::checkpoint::error::RestoreError;
+use crate::compact::compact;
+use crate::error::StateError;
+use crate::free_energy::{Array, FreeEnergy};
+use crate::handle::Element;
+use crate::impulse::Impulses;
+use crate::kinematics::Kinematics;
+use crate::layout::Slots;
+use crate::scalar::Real;
+use crate::scheme::ElementScheme;
+use crate::state::State;
+use crate::system::LinearSystem;
+
+/// Elements of the model `M` with the kinematics `K`, stepped by the scheme `C`.
+pub(crate) struct ElementGroup<S, M, K, C, const D: usize>
+where
+    S: Real,
+    M: FreeEnergy<S>,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    pub(super) kinematics: K,
+    pub(super) members: Vec<Member<S, M, K, C, D>>,
+    pub(super) contacts: Vec<Contact<K, S, D>>,
+}
+
+impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    pub(crate) fn new(kinematics: K, models: Vec<(Element, M)>, placed: Placed<'_>) -> Self {
+        let members = models.into_iter().map(|(element, model)| {
+            let slots = placed.layout.elements[element.index];
+            Member::new(element, model, slots, placed.nodes.nodes_of(element))
+        });
+        Self {
+            kinematics,
+            members: members.collect(),
+            contacts: Vec::new(),
+        }
+    }
+}
+
+impl<S, M, K, C, const D: usize> Elements<S, D> for ElementGroup<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    fn initialize(&mut self, state: &mut State<S>) -> Result<(), StateError> {
+        self.initialize_all(state)
+    }
+
+    fn totals(&self, state: &State<S>) -> GroupTotals<S> {
+        self.sum(state)
+    }
+
+    fn find_energies(&self, state: &mut State<S>) {
+        self.find_all_energies(state);
+    }
+
+    fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>> {
+        self.generic_in_all(state)
+    }
+
+    fn slots(&self, place: usize) -> Slots {
+        self.members[place].slots()
+    }
+
+    fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {
+        self.inspect_at(place, state)
+    }
+
+    fn digest(&self, digest: &mut Digest) {
+        self.digest_all(digest);
+    }
+
+    fn audit(&self, state: &State<S>) -> Result<(), RestoreError> {
+        self.audit_all(state)
+    }
+}
+
+impl<S, M, K, C, const D: usize> Group<S, D> for ElementGroup<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    fn connect(&mut self, sites: &Sites<'_, S, D>) {
+        self.contacts.clear();
+        for member in &mut self.members {
+            let (nodes, slot) = (member.site.nodes, member.slots().thermal);
+            member.site = Site::new(nodes, sites);
+            member.meets_reservoirs =
+                slot.is_some_and(|slot| sites.conduction.meets_reservoirs(slot));
+            if let Some(contact) = Contact::new(&nodes, slot, sites) {
+                member.contact = compact(self.contacts.len());
+                self.contacts.push(contact);
+            }
+        }
+    }
+
+    fn begin(&mut self, view: &StepView<'_, S>, old: &mut Old<'_, S, D>) -> Result<(), StateError> {
+        self.begin_all(view, old)
+    }
+
+    fn evaluate(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        system: Option<&mut LinearSystem<S, 1>>,
+    ) -> Result<(), StateError> {
+        self.evaluate_all(view, trial, system)
+    }
+
+    fn correct(&mut self, solution: &[[S; 1]], settled: S::Mask) -> S {
+        self.correct_all(solution, settled)
+    }
+
+    fn apply(&mut self, share: S) {
+        for member in &mut self.members {
+            member.apply(share);
+        }
+    }
+
+    fn hold(&mut self) {
+        for member in &mut self.members {
+            member.hold();
+        }
+    }
+
+    fn add_impulse(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        along: Along,
+        impulses: &mut Impulses<'_, S, D>,
+        magnitudes: &mut [S],
+    ) {
+        self.add_impulse_all(view, trial, along, (impulses, magnitudes));
+    }
+
+    fn close(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        next: &mut State<S>,
+        tally: &mut Tally<S>,
+    ) -> Result<(), StateError> {
+        self.close_all(view, trial, next, tally)
+    }
+
+    fn recount(&self, ends: [&State<S>; 2], recount: &mut Recount<S>) {
+        self.recount_all(ends, recount);
+    }
+
+    fn generic_of_step(&self, ends: [&State<S>; 2]) -> Vec<ElementGeneric<S>> {
+        self.generic_of_step_all(ends)
+    }
+}
+
+/// The variables `x = (π, γ, θ)` of an element in a state.
+#[inline]
+pub(super) fn variables<S: Real, M: FreeEnergy<S>>(
+    measures: &[S],
+    slots: Slots,
+    state: &State<S>,
+) -> M::Variables {
+    let mut x = M::Variables::filled(S::zero());
+    for (a, &measure) in measures.iter().enumerate() {
+        x[a] = measure;
+    }
+    for k in 0..M::DASHPOTS {
+        x[M::MEASURES + k] = state.viscous.values()[slots.viscous + k];
+    }
+    if let Some(slot) = slots.thermal {
+        x[M::MEASURES + M::DASHPOTS] = state.temperatures[slot];
+    }
+    x
+}

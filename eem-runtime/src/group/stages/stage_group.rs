@@ -1,0 +1,189 @@
+//! The elements of one model, stepped through stages.
+
+use super::local::LocalStages;
+use super::member::StageMember;
+use super::site::StageSite;
+use crate::certificate::{Recount, Tally};
+use crate::checkpoint::digest::Digest;
+use crate::checkpoint::error::RestoreError;
+use crate::error::StateError;
+use crate::free_energy::FreeEnergy;
+use crate::group::element_group::ElementGroup;
+use crate::group::generic::ElementGeneric;
+use crate::group::interface::{Elements, Group};
+use crate::group::view::{Along, ElementView, GroupTotals};
+use crate::group::view::{Old, Placed, Sites, StepView, Trial};
+use crate::handle::Element;
+use crate::impulse::Impulses;
+use crate::kinematics::Kinematics;
+use crate::layout::Slots;
+use crate::scalar::Real;
+use crate::scheme::{Tableau, Variational};
+use crate::state::State;
+use crate::system::LinearSystem;
+
+/// Elements of the model `M` with the kinematics `K`.
+pub(crate) struct StageGroup<S, M, K, const D: usize>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+{
+    pub(super) rule: &'static Tableau,
+    /// What they are in a state.
+    pub(super) elements: ElementGroup<S, M, K, Variational, D>,
+    pub(super) members: Vec<StageMember<S, M, K, D>>,
+    pub(super) local: LocalStages<S>,
+}
+
+impl<S, M, K, const D: usize> StageGroup<S, M, K, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+{
+    pub(crate) fn new(
+        rule: &'static Tableau,
+        kinematics: K,
+        models: Vec<(Element, M)>,
+        placed: Placed<'_>,
+    ) -> Self {
+        let elements = ElementGroup::new(kinematics, models, placed);
+        let members = elements.members.iter();
+        let members = members.map(|member| StageMember::new(member, rule));
+        Self {
+            rule,
+            members: members.collect(),
+            local: LocalStages::new::<M>(rule),
+            elements,
+        }
+    }
+}
+
+impl<S, M, K, const D: usize> Group<S, D> for StageGroup<S, M, K, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+{
+    fn connect(&mut self, sites: &Sites<'_, S, D>) {
+        for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
+            stages.site = StageSite::new(&member.site.nodes, member.slots().thermal, sites);
+        }
+    }
+
+    fn begin(&mut self, view: &StepView<'_, S>, old: &mut Old<'_, S, D>) -> Result<(), StateError> {
+        let kinematics = self.elements.kinematics;
+        for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
+            stages.begin(kinematics, member, view, old.lengths);
+        }
+        Ok(())
+    }
+
+    fn evaluate(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        system: Option<&mut LinearSystem<S, 1>>,
+    ) -> Result<(), StateError> {
+        self.evaluate_all(view, trial)?;
+        match system {
+            None => Ok(()),
+            Some(system) => self.assemble_all(view, trial, system),
+        }
+    }
+
+    fn correct(&mut self, solution: &[[S; 1]], _: S::Mask) -> S {
+        self.correct_all(solution)
+    }
+
+    fn apply(&mut self, share: S) {
+        for stages in &mut self.members {
+            stages.apply(self.rule, share);
+        }
+    }
+
+    fn hold(&mut self) {
+        for stages in &mut self.members {
+            stages.hold();
+        }
+    }
+
+    fn add_impulse(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        along: Along,
+        impulses: &mut Impulses<'_, S, D>,
+        _: &mut [S],
+    ) {
+        if let Along::Stage(stage) = along {
+            self.add_impulse_of(stage, view, trial, impulses);
+        }
+    }
+
+    fn add_secant(
+        &mut self,
+        set: usize,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        system: &mut LinearSystem<S, D>,
+    ) {
+        self.add_secant_all(set, view, trial, system);
+    }
+
+    fn close(
+        &mut self,
+        view: &StepView<'_, S>,
+        _: &Trial<S, D>,
+        next: &mut State<S>,
+        _: &mut Tally<S>,
+    ) -> Result<(), StateError> {
+        self.close_all(view, next)
+    }
+
+    fn recount(&self, _: [&State<S>; 2], _: &mut Recount<S>) {}
+
+    fn generic_of_step(&self, _: [&State<S>; 2]) -> Vec<ElementGeneric<S>> {
+        Vec::new()
+    }
+}
+
+impl<S, M, K, const D: usize> Elements<S, D> for StageGroup<S, M, K, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+{
+    fn initialize(&mut self, state: &mut State<S>) -> Result<(), StateError> {
+        self.elements.initialize(state)
+    }
+
+    fn totals(&self, state: &State<S>) -> GroupTotals<S> {
+        self.elements.totals(state)
+    }
+
+    fn find_energies(&self, state: &mut State<S>) {
+        self.elements.find_energies(state);
+    }
+
+    fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>> {
+        self.elements.generic_in(state)
+    }
+
+    fn slots(&self, place: usize) -> Slots {
+        self.elements.slots(place)
+    }
+
+    fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {
+        self.elements.inspect(place, state)
+    }
+
+    fn digest(&self, digest: &mut Digest) {
+        self.elements.digest(digest);
+    }
+
+    fn audit(&self, state: &State<S>) -> Result<(), RestoreError> {
+        self.elements.audit(state)
+    }
+}

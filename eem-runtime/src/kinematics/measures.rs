@@ -1,0 +1,103 @@
+//! The measures of an element as functions of its arms.
+
+use crate::free_energy::{Array, Entry};
+use crate::scalar::{Mask, Real};
+
+/// The arms of an element, m.
+pub type Arms<K, S, const D: usize> = <K as Kinematics<S, D>>::PerArm<[S; D]>;
+
+/// A number per measure: the measures themselves, or the forces that belong to them.
+pub type Measures<K, S, const D: usize> = <K as Kinematics<S, D>>::PerMeasure<S>;
+
+/// Derivatives of measures by arms: per measure and arm.
+pub type Gradient<K, S, const D: usize> = <K as Kinematics<S, D>>::PerMeasure<Arms<K, S, D>>;
+
+/// Second derivatives by arms: a square block per pair of arms.
+pub type Blocks<K, S, const D: usize> =
+    <K as Kinematics<S, D>>::PerArm<<K as Kinematics<S, D>>::PerArm<[[S; D]; D]>>;
+
+/// A number per pair of arms.
+pub type Weights<K, S, const D: usize> =
+    <K as Kinematics<S, D>>::PerArm<<K as Kinematics<S, D>>::PerArm<S>>;
+
+/// The arms and measures of one element at both ends of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Ends<K: Kinematics<S, D>, S: Real, const D: usize> {
+    /// Old arms `r⁰`, m.
+    pub r0: Arms<K, S, D>,
+    /// New arms `r¹`, m.
+    pub r1: Arms<K, S, D>,
+    /// Old measures `π⁰`.
+    pub measures0: Measures<K, S, D>,
+    /// New measures `π¹`.
+    pub measures1: Measures<K, S, D>,
+}
+
+/// The measures of one element as functions of its arms in `D` dimensions.
+pub trait Kinematics<S: Real, const D: usize>:
+    Copy + Send + Sync + core::fmt::Debug + 'static
+{
+    /// `[T; number of nodes]`.
+    type PerNode<T: Entry>: Array<T>;
+    /// `[T; number of nodes − 1]`.
+    type PerArm<T: Entry>: Array<T>;
+    /// `[T; number of measures]`.
+    type PerMeasure<T: Entry>: Array<T>;
+
+    /// The smallest and the largest measure that an element can have.
+    fn admissible(&self) -> [S; 2];
+
+    /// Whether an element can have this measure: it lies in the [admissible](Self::admissible)
+    /// range, and is a number.
+    #[inline]
+    fn is_admissible(&self, measure: S) -> bool {
+        let [least, most] = self.admissible();
+        (least.at_most(measure) & measure.at_most(most)).decide()
+    }
+
+    /// The measures `π(r)`, exact to rounding where they are admissible. Elsewhere they are not
+    /// admissible either, but may be zero or infinite.
+    fn measure(&self, r: &Arms<Self, S, D>) -> Measures<Self, S, D>;
+
+    /// The measures `π(r)` to rounding even where they are not admissible: for messages, since it
+    /// takes longer than [`measure`](Self::measure).
+    fn true_measure(&self, r: &Arms<Self, S, D>) -> Measures<Self, S, D>;
+
+    /// `∂π/∂r` at `r`, whose measures are given.
+    fn gradient(
+        &self,
+        r: &Arms<Self, S, D>,
+        measures: &Measures<Self, S, D>,
+    ) -> Gradient<Self, S, D>;
+
+    /// `Σ_a f_a ∂²π_a/∂r²`.
+    fn curvature(
+        &self,
+        r: &Arms<Self, S, D>,
+        measures: &Measures<Self, S, D>,
+        force: &Measures<Self, S, D>,
+    ) -> Blocks<Self, S, D>;
+
+    /// The mean-value gradient `D*π` between two states.
+    fn discrete_gradient(&self, ends: &Ends<Self, S, D>) -> Gradient<Self, S, D>;
+
+    /// The derivative of `Σ_a f_a D*π_a` by `r¹`, where that of the forces is given,
+    ///
+    /// ```text
+    /// Σ_a (f_a ∂(D*π_a)/∂r¹ + D*π_a ∂f_a/∂r¹)
+    /// ```
+    fn discrete_tangent(
+        &self,
+        ends: &Ends<Self, S, D>,
+        force: &Measures<Self, S, D>,
+        force_by_arm: &Gradient<Self, S, D>,
+    ) -> Blocks<Self, S, D>;
+
+    /// A of `Σ_a f_a D*π_a = A r_m`, with the measures held.
+    fn secant(
+        &self,
+        measures0: &Measures<Self, S, D>,
+        measures1: &Measures<Self, S, D>,
+        force: &Measures<Self, S, D>,
+    ) -> Weights<Self, S, D>;
+}

@@ -1,0 +1,36 @@
+//! What a scene knows of its nodes and elements.
+
+use nalgebra::SVector;
+
+use crate::scalar::Real;
+
+/// A node: an anchor or a mass.
+#[derive(Clone, Debug)]
+pub(crate) struct NodeEntry<S, const D: usize> {
+    /// `None` for an anchor.
+    pub(crate) mass: Option<S>,
+    pub(crate) position: SVector<S, D>,
+    pub(crate) velocity: SVector<S, D>,
+    /// Given instead of the velocity.
+    pub(crate) momentum: Option<SVector<S, D>>,
+}
+
+impl<S: Real, const D: usize> NodeEntry<S, D> {
+    /// The initial momentum of a node of this mass, kg m/s.
+    pub(crate) fn start_momentum(&self, mass: S) -> SVector<S, D> {
+        let from_velocity = || self.velocity.map(|velocity| mass * velocity);
+        self.momentum.unwrap_or_else(from_velocity)
+    }
+}
+
+/// What the scene knows of an element apart from its model.
+#[derive(Clone, Debug)]
+pub(crate) struct ElementEntry<S> {
+    pub(crate) nodes: Vec<usize>,
+    pub(crate) temperature: Option<S>,
+    /// `(dashpot, γ)` as given.
+    pub(crate) viscous_stretches: Vec<(usize, S)>,
+    /// The blueprint that holds the model, and its place there.
+    pub(crate) group: usize,
+    pub(crate) place: usize,
+}
