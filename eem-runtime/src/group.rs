@@ -39,7 +39,6 @@ mod view;
 
 pub(crate) use arms::points;
 pub(crate) use element_group::ElementGroup;
-pub(crate) use generic::ElementGeneric;
 pub(crate) use interface::{Elements, Group};
 pub(crate) use stages::StageGroup;
-pub(crate) use view::{Along, ElementView, Old, Placed, Sites, StepView, Trial};
+pub(crate) use view::{Along, ElementGeneric, ElementView, Old, Placed, Sites, StepView, Trial};

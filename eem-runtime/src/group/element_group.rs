@@ -1,6 +1,5 @@
 //! The elements of one model, with one set of forces in a step.
 
-use super::generic::ElementGeneric;
 use super::interface::{Elements, Group};
 use super::member::Member;
 use super::site::{Contact, Site};
@@ -11,6 +10,7 @@ use crate::checkpoint::error::RestoreError;
 use crate::compact::compact;
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
+use crate::group::view::ElementGeneric;
 use crate::handle::Element;
 use crate::impulse::Impulses;
 use crate::kinematics::Kinematics;

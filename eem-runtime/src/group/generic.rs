@@ -2,23 +2,13 @@
 
 use super::arms::arms_in;
 use super::member::Member;
+use super::view::ElementGeneric;
 use crate::free_energy::{Array, FreeEnergy};
 use crate::group::element_group::{ElementGroup, variables};
 use crate::kinematics::Kinematics;
 use crate::scalar::Real;
 use crate::scheme::{ElementScheme, Placement};
 use crate::state::State;
-
-/// Derivatives of the energy of an element, and what makes its dashpots move.
-#[derive(Clone, Debug)]
-pub(crate) struct ElementGeneric<S> {
-    /// `(coordinate, ∂e/∂q)`, N.
-    pub(crate) forces: Vec<(usize, S)>,
-    /// `(slot, g, η)`: dashpot force, N, and viscosity, N s/m.
-    pub(crate) dashpots: Vec<(usize, S, S)>,
-    /// `(slot, θ)`, K, if the element has a temperature.
-    pub(crate) temperature: Option<(usize, S)>,
-}
 
 impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
 where

@@ -1,11 +1,11 @@
 //! What the solver sees of elements: one dynamic call per group and phase.
 
-use super::generic::ElementGeneric;
 use super::view::{Along, ElementView, GroupTotals, Old, Sites, StepView, Trial};
 use crate::certificate::{Recount, Tally};
 use crate::checkpoint::digest::Digest;
 use crate::checkpoint::error::RestoreError;
 use crate::error::StateError;
+use crate::group::view::ElementGeneric;
 use crate::impulse::Impulses;
 use crate::layout::Slots;
 use crate::scalar::Real;

@@ -114,6 +114,17 @@ pub(crate) struct ElementView<S> {
     pub(crate) internal_energy: S,
 }
 
+/// Derivatives of the energy of an element, and what makes its dashpots move.
+#[derive(Clone, Debug)]
+pub(crate) struct ElementGeneric<S> {
+    /// `(coordinate, ∂e/∂q)`, N.
+    pub(crate) forces: Vec<(usize, S)>,
+    /// `(slot, g, η)`: dashpot force, N, and viscosity, N s/m.
+    pub(crate) dashpots: Vec<(usize, S, S)>,
+    /// `(slot, θ)`, K, if the element has a temperature.
+    pub(crate) temperature: Option<(usize, S)>,
+}
+
 /// What the old state gives to the nodes.
 #[derive(Debug)]
 pub(crate) struct Old<'a, S, const D: usize> {
