@@ -15,11 +15,16 @@ mod warm;
 
 use crate::free_energy::Caloric;
 use crate::scalar::Real;
+use crate::scene::is_positive;
 
 pub use error::InversionError;
 use point::Point;
 use search::Search;
-use warm::Warm;
+pub(crate) use warm::temperature_near;
+
+/// The largest correction of ln θ, in ε, that [`invert`] applies without another evaluation: the
+/// resolution of a temperature.
+const ENOUGH: f64 = 2.0;
 
 /// A temperature found by [`invert`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,39 +80,44 @@ pub fn invert<S: Real>(
     entropy: S,
     start: S,
 ) -> Result<Inversion<S>, InversionError> {
+    if !is_positive(start) {
+        return Err(InversionError::InvalidStart {
+            start: start.to_f64(),
+        });
+    }
+    let mut evaluations = 0;
+    let counted = |theta| {
+        evaluations += 1;
+        (evaluate(theta), [])
+    };
+    let enough = S::from_f64(ENOUGH) * S::EPSILON;
+    let (temperature, _) = temperature_near(counted, entropy, start, enough)?;
+    Ok(Inversion {
+        temperature,
+        evaluations,
+    })
+}
+
+/// The search from a start that is not known to be close, for a single number.
+#[cold]
+fn search<S: Real>(
+    mut evaluate: impl FnMut(S) -> Caloric<S>,
+    entropy: S,
+    start: S,
+) -> Result<S, InversionError> {
     if !entropy.is_finite() {
         return Err(InversionError::EntropyNotFinite {
             entropy: entropy.to_f64(),
         });
     }
-    if !(start > S::zero() && start.is_finite()) {
-        return Err(InversionError::InvalidStart {
-            start: start.to_f64(),
-        });
-    }
-    match warm::start(&mut evaluate, entropy, start) {
-        Warm::Found(inversion) => Ok(inversion),
-        Warm::Cold(first, evaluations) => cold(evaluate, entropy, start, first, evaluations),
-    }
-}
-
-/// The search from a start that is not known to be close; `first` is the entropy there.
-#[cold]
-fn cold<S: Real>(
-    mut evaluate: impl FnMut(S) -> Caloric<S>,
-    entropy: S,
-    start: S,
-    first: Caloric<S>,
-    evaluations: usize,
-) -> Result<Inversion<S>, InversionError> {
-    let first = Point::new(start.ln(), start, first, entropy);
+    let first = Point::new(start.ln(), start, evaluate(start), entropy);
     if !first.stable() {
         return Err(InversionError::UnstableStart {
             start: start.to_f64(),
             heat_capacity: first.heat_capacity.to_f64(),
         });
     }
-    let mut search = Search::new(entropy, first, evaluations);
+    let mut search = Search::new(entropy, first);
     while !search.converged() {
         let mut step = search.step();
         loop {

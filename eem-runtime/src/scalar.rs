@@ -8,7 +8,7 @@
 mod real;
 
 pub(crate) use real::unless;
-pub use real::{Mask, Real};
+pub use real::{Discord, Mask, Real};
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 

@@ -6,7 +6,7 @@ use crate::checkpoint::{Digest, RestoreError};
 use crate::error::StateError;
 use crate::free_energy::FreeEnergy;
 use crate::kinematics::Kinematics;
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 use crate::scene::is_positive;
 use crate::scheme::{ElementScheme, Infeasible};
 use crate::state::State;
@@ -109,7 +109,7 @@ where
             size += (by[index] * x[index]).abs();
         }
         let bound = S::from_f64(ENTROPY_ROUNDINGS) * S::EPSILON * size;
-        if (caloric.entropy - entropy).abs() <= bound {
+        if (caloric.entropy - entropy).abs().at_most(bound).all() {
             return Ok(());
         }
         Err(RestoreError::Entropy {

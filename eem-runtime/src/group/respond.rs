@@ -8,7 +8,7 @@ use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
 use crate::handle::Element;
 use crate::kinematics::{Arms, Ends, Kinematics, Measures};
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 use crate::scene::is_positive;
 use crate::scheme::{ElementScheme, Form};
 
@@ -257,7 +257,7 @@ fn check_response<S: Real, M: FreeEnergy<S>>(
         .as_ref()
         .iter()
         .fold(zero, |sum, &value| sum + zero * value);
-    if sum == zero {
+    if sum.equal(zero).all() {
         return Ok(());
     }
     Err(not_finite(element, response.as_ref()))

@@ -66,11 +66,15 @@ pub(crate) struct Trial<S: Real, const D: usize> {
     pub(crate) settled: S::Mask,
 }
 
-/// Internal energy (J) and entropy (J/K) of a group.
+/// Internal energy and entropy of a group.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GroupTotals<S> {
+    /// `Σ (ψ + θ s)` with the kept entropies, J.
     pub(crate) energy: S,
+    /// `Σ s` as kept, J/K.
     pub(crate) entropy: S,
+    /// `Σ s(λ, γ, θ)`, J/K.
+    pub(crate) entropy_of_state: S,
 }
 
 /// One element in a state, from the definitions.

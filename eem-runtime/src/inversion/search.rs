@@ -1,12 +1,11 @@
 //! The intervals that enclose the temperature, and the choice of the next step.
 //!
 //! Every step either reduces the residual as fast as Newton's method should, or
-//! halves an interval.
+//! halves an interval. It is for a single number: masks are one `bool`.
 
-use super::Inversion;
 use super::error::InversionError;
 use super::point::{Model, Point};
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 
 /// Evaluations after which [`invert`](crate::invert) gives up: twice what bisection of the
 /// whole range of `ln θ` to the last bit would take.
@@ -42,8 +41,8 @@ pub(super) struct Search<S> {
 }
 
 impl<S: Real> Search<S> {
-    /// Starts from a stable point, after some evaluations.
-    pub(super) fn new(target: S, first: Point<S>, evaluations: usize) -> Self {
+    /// Starts from a stable point.
+    pub(super) fn new(target: S, first: Point<S>) -> Self {
         let infinity = S::one() / S::zero();
         // All normal numbers with normal reciprocals, but for a factor e².
         let widest = S::MAX.ln() - S::from_f64(2.0);
@@ -62,7 +61,7 @@ impl<S: Real> Search<S> {
             modelled: false,
             failures: 0,
             bisections_due: 0,
-            evaluations,
+            evaluations: 1,
         };
         search.narrow();
         search
@@ -70,12 +69,13 @@ impl<S: Real> Search<S> {
 
     /// Moves the end of the bracket on the side of the current point.
     fn narrow(&mut self) {
-        if self.point.residual < S::zero() {
+        if self.point.residual.less(S::zero()).all() {
             self.below = Some(self.point.x);
         } else {
             self.above = Some(self.point.x);
         }
-        if self.point.residual.abs() < self.best.residual.abs() {
+        let own = self.point.residual.abs();
+        if own.less(self.best.residual.abs()).all() {
             self.best = self.point;
         }
     }
@@ -83,7 +83,8 @@ impl<S: Real> Search<S> {
     /// Makes a stable trial the current point.
     pub(super) fn accept(&mut self, trial: Point<S>, step: S) {
         self.model = self.point.better_model(step, trial.entropy);
-        if self.modelled && trial.residual.abs() > self.point.residual.abs() {
+        let own = self.point.residual.abs();
+        if self.modelled && own.less(trial.residual.abs()).all() {
             self.failures += 1;
             self.bisections_due = self.failures;
         }
@@ -96,14 +97,15 @@ impl<S: Real> Search<S> {
     /// Notes that `x` is beyond a spinodal, and forgets what lies farther off:
     /// it belongs to another branch.
     pub(super) fn exclude(&mut self, x: S) {
-        if x < self.point.x {
+        if x.less(self.point.x).all() {
             self.edge_low = x;
-            self.below = self.below.filter(|&below| below > x);
+            self.below = self.below.filter(|&below| x.less(below).all());
         } else {
             self.edge_high = x;
-            self.above = self.above.filter(|&above| above < x);
+            self.above = self.above.filter(|&above| above.less(x).all());
         }
-        if self.best.x < self.edge_low || self.best.x > self.edge_high {
+        let best = self.best.x;
+        if (best.less(self.edge_low) | self.edge_high.less(best)).all() {
             self.best = self.point;
         }
     }
@@ -122,7 +124,8 @@ impl<S: Real> Search<S> {
 
     /// The residual is rounding noise, or what it asks for is below the resolution.
     pub(super) fn converged(&self) -> bool {
-        self.point.is_noise() || self.point.newton().abs() <= self.point.resolution()
+        let size = self.point.newton().abs();
+        self.point.is_noise() || size.at_most(self.point.resolution()).all()
     }
 
     /// The search must end without convergence.
@@ -132,15 +135,13 @@ impl<S: Real> Search<S> {
 
     /// There is no number left between the bounds.
     fn exhausted(&self) -> bool {
-        self.high() - self.low() <= self.point.resolution()
+        let width = self.high() - self.low();
+        width.at_most(self.point.resolution()).all()
     }
 
     /// The current point after one more correction, which needs no evaluation.
-    pub(super) fn solution(&self) -> Inversion<S> {
-        Inversion {
-            temperature: self.point.theta * self.point.last_correction().exp(),
-            evaluations: self.evaluations,
-        }
+    pub(super) fn solution(&self) -> S {
+        self.point.theta * self.point.last_correction().exp()
     }
 
     /// The next step from the current point.
@@ -161,13 +162,16 @@ impl<S: Real> Search<S> {
 
     /// A step that does not shrink to half of the one before the last is too slow.
     fn slow(&self, step: S) -> bool {
-        step.abs() > S::from_f64(0.5) * self.last_but_one
+        (S::from_f64(0.5) * self.last_but_one).less(step.abs()).all()
     }
 
     /// A step with the solution between two known points.
     fn bracketed(&mut self, first: S, second: S, below: S, above: S) -> S {
         let (x, limit) = (self.point.x, S::from_f64(0.5) * self.last_but_one);
-        let usable = |step: S| below < x + step && x + step < above && step.abs() <= limit;
+        let usable = |step: S| {
+            let is_inside = below.less(x + step) & (x + step).less(above);
+            (is_inside & step.abs().at_most(limit)).all()
+        };
         if self.bisections_due == 0 {
             self.modelled = true;
             if usable(first) {
@@ -186,9 +190,10 @@ impl<S: Real> Search<S> {
     fn unbracketed(&mut self, first: S, second: S) -> S {
         let size = first.abs();
         let slow = self.slow(first);
-        let length = if size > self.reach {
+        let is_long = (S::from_f64(0.5) * self.last).less(size).all();
+        let length = if self.reach.less(size).all() {
             self.reach
-        } else if slow || size > S::from_f64(0.5) * self.last {
+        } else if slow || is_long {
             let longer = size.maximum(second.abs().minimum(self.reach));
             if slow {
                 longer.maximum(self.reach)
@@ -198,19 +203,19 @@ impl<S: Real> Search<S> {
         } else {
             return first;
         };
-        if length >= self.reach {
+        if self.reach.at_most(length).all() {
             self.reach *= S::from_f64(2.0);
         }
-        if first < S::zero() { -length } else { length }
+        S::select(first.less(S::zero()), -length, length)
     }
 
     /// A step that would leave the stable range goes half way to its end instead.
     fn inside_edges(&self, step: S) -> S {
         let x = self.point.x + step;
         let half = S::from_f64(0.5);
-        if x >= self.edge_high {
+        if self.edge_high.at_most(x).all() {
             half * (self.edge_high - self.point.x)
-        } else if x <= self.edge_low {
+        } else if x.at_most(self.edge_low).all() {
             half * (self.edge_low - self.point.x)
         } else {
             step
@@ -218,7 +223,7 @@ impl<S: Real> Search<S> {
     }
 
     /// The result when the bounds have met: the best point, or that there is no solution.
-    pub(super) fn conclude(&self) -> Result<Inversion<S>, InversionError> {
+    pub(super) fn conclude(&self) -> Result<S, InversionError> {
         let entropy = self.target.to_f64();
         let temperature = self.best.theta.to_f64();
         let residual = self.best.residual.to_f64();
@@ -232,10 +237,7 @@ impl<S: Real> Search<S> {
             });
         }
         if self.below.is_some() && self.above.is_some() {
-            return Ok(Inversion {
-                temperature: self.best.theta,
-                evaluations,
-            });
+            return Ok(self.best.theta);
         }
         Err(InversionError::NoSuchTemperature {
             entropy,

@@ -9,7 +9,7 @@ use crate::scalar::{Mask, Real};
 /// Finite and greater than zero.
 #[inline]
 pub(crate) fn is_positive<S: Real>(value: S) -> bool {
-    (S::zero().less(value) & value.at_most(S::MAX)).decide()
+    (S::zero().less(value) & value.at_most(S::MAX)).all()
 }
 
 impl<const D: usize, S: Real> Scene<D, S> {
@@ -89,7 +89,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
                 }
             }
             let value = conductor.conductance;
-            if !value.is_finite() || value < S::zero() {
+            if !value.is_finite() || value.less(S::zero()).any() {
                 return Err(SceneError::Conductance {
                     element,
                     partner,

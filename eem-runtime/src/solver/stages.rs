@@ -242,11 +242,12 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
             if !update.is_finite() {
                 break;
             }
-            let full = share == S::one();
+            let full = share.equal(S::one()).all();
             share = self.advance(groups, view)?;
+            let is_full = share.equal(S::one()).all();
             let before = before.replace(update).filter(|_| full);
             let is_last = is_last(update, before, effort.settings.tolerance);
-            if share == S::one() && is_last.decide() {
+            if is_full && is_last.all() {
                 return Ok(());
             }
         }

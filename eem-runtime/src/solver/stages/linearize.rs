@@ -4,7 +4,7 @@ use super::StageSolver;
 use super::assemble::correct_locally;
 use crate::error::StepFailure;
 use crate::group::{StageGroup, StageView};
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 use crate::solver::places::Seen;
 use crate::solver::{Effort, Iteration};
 
@@ -20,11 +20,11 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
         self.begin(groups, view);
         self.distribute(unknowns);
         let no_change = vec![[S::zero()]; self.tangent.right().len()];
-        let mut before = None;
+        let mut before = S::MAX;
         loop {
             self.advance(groups, view)?;
             let residual = self.assemble(groups, view);
-            if before.is_some_and(|update| update <= S::EPSILON) {
+            if before.at_most(S::EPSILON).decide()? {
                 break;
             }
             self.remember();
@@ -34,15 +34,15 @@ impl<S: Real, const D: usize> StageSolver<S, D> {
             }
             let update = correct_locally(groups, view, &no_change);
             effort.history.push(Iteration { residual, update });
-            let stagnated = before.is_some_and(|before| update >= before);
+            let stagnated = before.at_most(update);
             if !update.is_finite() || effort.history.len() > effort.settings.max_iterations {
                 let update = update.to_f64();
                 return Err(StepFailure::NotConverged { update });
             }
-            if stagnated && update <= effort.settings.tolerance {
+            if (stagnated & update.at_most(effort.settings.tolerance)).decide()? {
                 break;
             }
-            before = Some(update);
+            before = update;
         }
         let right = &self.tangent.right()[..unknowns.len()];
         let residual = right.iter().map(|&[entry]| -entry).collect();
