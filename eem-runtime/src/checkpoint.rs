@@ -115,7 +115,9 @@ impl<S: Real> Checkpoint<S> {
             check_sums(quantity, [(value, carry)].into_iter())?;
         }
         let time = [self.state.time.value].into_iter();
-        expect_all("not negative", "time", time, |time| S::zero().at_most(time).all())?;
+        expect_all("not negative", "time", time, |time| {
+            S::zero().at_most(time).all()
+        })?;
         let (own, other) = (&self.state.temperatures, &state.temperatures);
         expect_count("temperatures", own.len(), other.len())?;
         let positive = "positive and finite";
@@ -132,7 +134,9 @@ impl<S: Real> Checkpoint<S> {
         }
         let errors = self.past.errors.into_iter();
         let quantity = "errors of foretold forces";
-        expect_all("not negative", quantity, errors, |error| S::zero().at_most(error).all())
+        expect_all("not negative", quantity, errors, |error| {
+            S::zero().at_most(error).all()
+        })
     }
 }
 

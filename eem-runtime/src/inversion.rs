@@ -18,8 +18,6 @@ use crate::scalar::Real;
 use crate::scene::is_positive;
 
 pub use error::InversionError;
-use point::Point;
-use search::Search;
 pub(crate) use warm::temperature_near;
 
 /// The largest correction of ln θ, in ε, that [`invert`] applies without another evaluation: the
@@ -96,45 +94,4 @@ pub fn invert<S: Real>(
         temperature,
         evaluations,
     })
-}
-
-/// The search from a start that is not known to be close, for a single number.
-#[cold]
-fn search<S: Real>(
-    mut evaluate: impl FnMut(S) -> Caloric<S>,
-    entropy: S,
-    start: S,
-) -> Result<S, InversionError> {
-    if !entropy.is_finite() {
-        return Err(InversionError::EntropyNotFinite {
-            entropy: entropy.to_f64(),
-        });
-    }
-    let first = Point::new(start.ln(), start, evaluate(start), entropy);
-    if !first.stable() {
-        return Err(InversionError::UnstableStart {
-            start: start.to_f64(),
-            heat_capacity: first.heat_capacity.to_f64(),
-        });
-    }
-    let mut search = Search::new(entropy, first);
-    while !search.converged() {
-        let mut step = search.step();
-        loop {
-            if search.spent() {
-                return search.conclude();
-            }
-            let x = search.point.x + step;
-            let theta = x.exp();
-            let trial = Point::new(x, theta, evaluate(theta), entropy);
-            search.evaluations += 1;
-            if trial.stable() && trial.follows(&search.point) {
-                search.accept(trial, step);
-                break;
-            }
-            search.exclude(x);
-            step *= S::from_f64(0.5);
-        }
-    }
-    Ok(search.solution())
 }

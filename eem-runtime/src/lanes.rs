@@ -4,6 +4,7 @@
 //! the processor; elementary functions are those of the platform's library, lane by lane. Lanes have no
 //! order: comparisons return a mask, and whoever branches on it says what happens where lanes differ.
 
+mod forward;
 mod mask;
 #[cfg(test)]
 mod tests;
@@ -12,7 +13,8 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 
 use wide::f64x4;
 
-use crate::scalar::{Mask, Real, Scalar};
+use crate::scalar::{Mask, Real, Scalar, Sealed};
+use forward::forward;
 pub(crate) use mask::LaneMask;
 
 /// How many numbers move together. Wider ones gain nothing with the instructions that every
@@ -53,43 +55,6 @@ impl Lanes {
         Self(lanes)
     }
 }
-
-/// Forwards operators to the packed type.
-macro_rules! forward {
-    ($own:ident: $($operator:ident $method:ident),*; $($unary:ident $unary_method:ident),*) => {
-        $(
-            impl $operator for $own {
-                type Output = Self;
-
-                #[inline]
-                fn $method(self, other: Self) -> Self {
-                    Self::from_packed($operator::$method(self.packed(), other.packed()))
-                }
-            }
-        )*
-        $(
-            impl $unary for $own {
-                type Output = Self;
-
-                #[inline]
-                fn $unary_method(self) -> Self {
-                    Self::from_packed($unary::$unary_method(self.packed()))
-                }
-            }
-        )*
-    };
-    ($own:ident: $($assign:ident $method:ident by $operator:ident $by:ident),*) => {
-        $(
-            impl $assign for $own {
-                #[inline]
-                fn $method(&mut self, other: Self) {
-                    *self = $operator::$by(*self, other);
-                }
-            }
-        )*
-    };
-}
-use forward;
 
 forward!(Lanes: Add add, Sub sub, Mul mul, Div div; Neg neg);
 forward!(
@@ -186,6 +151,8 @@ impl Scalar for Lanes {
         atan2, hypot, powf
     );
 }
+
+impl Sealed for Lanes {}
 
 impl Real for Lanes {
     const EPSILON: Self = Self::splat(f64::EPSILON);

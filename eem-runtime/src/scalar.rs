@@ -7,6 +7,8 @@
 
 mod real;
 
+#[cfg(feature = "lanes")]
+pub(crate) use real::sealed::Sealed;
 pub(crate) use real::unless;
 pub use real::{Discord, Mask, Real};
 

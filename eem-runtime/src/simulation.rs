@@ -334,10 +334,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             max_iterations,
             tolerance,
         } = settings;
-        if max_iterations == 0
-            || !is_positive(tolerance)
-            || S::one().at_most(tolerance).any()
-        {
+        if max_iterations == 0 || !is_positive(tolerance) || S::one().at_most(tolerance).any() {
             self.part();
             return Err(SceneError::NewtonSettings {
                 max_iterations,

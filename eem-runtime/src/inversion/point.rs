@@ -90,16 +90,16 @@ impl<S: Real> Point<S> {
         let correction = self.newton();
         let magnitude = self.noise / (S::from_f64(NOISE) * S::EPSILON);
         let trusted = S::from_f64(TRUST) * self.heat_capacity / magnitude;
-        let is_sound = correction
-            .abs()
-            .at_most(trusted.maximum(self.resolution()));
+        let is_sound = correction.abs().at_most(trusted.maximum(self.resolution()));
         S::select(is_sound, correction, S::zero())
     }
 
     /// Newton's correction for `ln S`, exact for `S ∝ θⁿ`, if both entropies are positive.
     pub(super) fn logarithmic_newton(&self, target: S) -> Option<S> {
         let positive = S::zero().less(self.entropy) & S::zero().less(target);
-        positive.all().then(|| -(self.entropy / self.heat_capacity) * (self.entropy / target).ln())
+        positive
+            .all()
+            .then(|| -(self.entropy / self.heat_capacity) * (self.entropy / target).ln())
     }
 
     /// Before anything is known: a power law if the entropies differ by a large factor.

@@ -5,6 +5,7 @@
 
 use super::error::InversionError;
 use super::point::{Model, Point};
+use crate::free_energy::Caloric;
 use crate::scalar::{Mask, Real};
 
 /// Evaluations after which [`invert`](crate::invert) gives up: twice what bisection of the
@@ -12,10 +13,10 @@ use crate::scalar::{Mask, Real};
 const BUDGET: usize = 128;
 
 /// What is known about the solution.
-pub(super) struct Search<S> {
+struct Search<S> {
     target: S,
     /// The current point.
-    pub(super) point: Point<S>,
+    point: Point<S>,
     /// The point of smallest |residual|.
     best: Point<S>,
     /// Largest `x` with a negative and smallest with a positive residual.
@@ -37,12 +38,53 @@ pub(super) struct Search<S> {
     /// are still due for the last of them.
     failures: u32,
     bisections_due: u32,
-    pub(super) evaluations: usize,
+    evaluations: usize,
+}
+
+/// The search from a start that is not known to be close, for a single number.
+#[cold]
+pub(super) fn search_from<S: Real>(
+    mut evaluate: impl FnMut(S) -> Caloric<S>,
+    entropy: S,
+    start: S,
+) -> Result<S, InversionError> {
+    if !entropy.is_finite() {
+        return Err(InversionError::EntropyNotFinite {
+            entropy: entropy.to_f64(),
+        });
+    }
+    let first = Point::new(start.ln(), start, evaluate(start), entropy);
+    if !first.stable() {
+        return Err(InversionError::UnstableStart {
+            start: start.to_f64(),
+            heat_capacity: first.heat_capacity.to_f64(),
+        });
+    }
+    let mut search = Search::new(entropy, first);
+    while !search.converged() {
+        let mut step = search.step();
+        loop {
+            if search.spent() {
+                return search.conclude();
+            }
+            let x = search.point.x + step;
+            let theta = x.exp();
+            let trial = Point::new(x, theta, evaluate(theta), entropy);
+            search.evaluations += 1;
+            if trial.stable() && trial.follows(&search.point) {
+                search.accept(trial, step);
+                break;
+            }
+            search.exclude(x);
+            step *= S::from_f64(0.5);
+        }
+    }
+    Ok(search.solution())
 }
 
 impl<S: Real> Search<S> {
     /// Starts from a stable point.
-    pub(super) fn new(target: S, first: Point<S>) -> Self {
+    fn new(target: S, first: Point<S>) -> Self {
         let infinity = S::one() / S::zero();
         // All normal numbers with normal reciprocals, but for a factor e².
         let widest = S::MAX.ln() - S::from_f64(2.0);
@@ -81,7 +123,7 @@ impl<S: Real> Search<S> {
     }
 
     /// Makes a stable trial the current point.
-    pub(super) fn accept(&mut self, trial: Point<S>, step: S) {
+    fn accept(&mut self, trial: Point<S>, step: S) {
         self.model = self.point.better_model(step, trial.entropy);
         let own = self.point.residual.abs();
         if self.modelled && own.less(trial.residual.abs()).all() {
@@ -96,7 +138,7 @@ impl<S: Real> Search<S> {
 
     /// Notes that `x` is beyond a spinodal, and forgets what lies farther off:
     /// it belongs to another branch.
-    pub(super) fn exclude(&mut self, x: S) {
+    fn exclude(&mut self, x: S) {
         if x.less(self.point.x).all() {
             self.edge_low = x;
             self.below = self.below.filter(|&below| x.less(below).all());
@@ -123,13 +165,13 @@ impl<S: Real> Search<S> {
     }
 
     /// The residual is rounding noise, or what it asks for is below the resolution.
-    pub(super) fn converged(&self) -> bool {
+    fn converged(&self) -> bool {
         let size = self.point.newton().abs();
         self.point.is_noise() || size.at_most(self.point.resolution()).all()
     }
 
     /// The search must end without convergence.
-    pub(super) fn spent(&self) -> bool {
+    fn spent(&self) -> bool {
         self.evaluations >= BUDGET || self.exhausted()
     }
 
@@ -140,12 +182,12 @@ impl<S: Real> Search<S> {
     }
 
     /// The current point after one more correction, which needs no evaluation.
-    pub(super) fn solution(&self) -> S {
+    fn solution(&self) -> S {
         self.point.theta * self.point.last_correction().exp()
     }
 
     /// The next step from the current point.
-    pub(super) fn step(&mut self) -> S {
+    fn step(&mut self) -> S {
         let linear = self.point.newton();
         let logarithmic = self.point.logarithmic_newton(self.target).unwrap_or(linear);
         let (first, second) = match self.model {
@@ -162,7 +204,9 @@ impl<S: Real> Search<S> {
 
     /// A step that does not shrink to half of the one before the last is too slow.
     fn slow(&self, step: S) -> bool {
-        (S::from_f64(0.5) * self.last_but_one).less(step.abs()).all()
+        (S::from_f64(0.5) * self.last_but_one)
+            .less(step.abs())
+            .all()
     }
 
     /// A step with the solution between two known points.
@@ -223,7 +267,7 @@ impl<S: Real> Search<S> {
     }
 
     /// The result when the bounds have met: the best point, or that there is no solution.
-    pub(super) fn conclude(&self) -> Result<S, InversionError> {
+    fn conclude(&self) -> Result<S, InversionError> {
         let entropy = self.target.to_f64();
         let temperature = self.best.theta.to_f64();
         let residual = self.best.residual.to_f64();

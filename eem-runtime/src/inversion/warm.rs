@@ -5,11 +5,11 @@
 //! ```
 //!
 //! The one warm start of the crate: [`invert`](super::invert) and the schemes begin with it. Where it does
-//! not contract, the [search](super::search) takes over from the start, which finds the temperature from
+//! not contract, the [search](search_from) takes over from the start, which finds the temperature from
 //! anywhere on the same stable branch.
 
 use super::error::InversionError;
-use super::search;
+use super::search::search_from;
 use crate::free_energy::Caloric;
 use crate::scalar::{Mask, Real, unless};
 
@@ -81,7 +81,7 @@ fn search_far<S: Real>(
     is_far: S::Mask,
 ) -> Result<S, InversionError> {
     if S::LANES == 1 {
-        return search(caloric_at, entropy, guess);
+        return search_from(caloric_at, entropy, guess);
     }
     let mut failure = None;
     let temperatures = S::pack(|lane| {
@@ -102,7 +102,7 @@ fn search_far<S: Real>(
                 magnitude: magnitude.lane(lane),
             }
         };
-        search(caloric_at, entropy.lane(lane), start).unwrap_or_else(|error| {
+        search_from(caloric_at, entropy.lane(lane), start).unwrap_or_else(|error| {
             failure = Some(error);
             start
         })

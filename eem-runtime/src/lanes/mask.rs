@@ -4,7 +4,7 @@ use core::ops::{BitAnd, BitOr, Not};
 
 use wide::f64x4;
 
-use super::forward;
+use super::forward::forward;
 use crate::scalar::Mask;
 
 /// All bits of a lane where it holds, none where it does not.

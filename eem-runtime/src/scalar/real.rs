@@ -81,13 +81,11 @@ impl Mask for bool {
 }
 
 /// Keeps [`Real`] closed: what a step decides by masks is known to be right for these types only.
-mod sealed {
+pub(crate) mod sealed {
     pub trait Sealed {}
 
     impl Sealed for f64 {}
     impl Sealed for f32 {}
-    #[cfg(feature = "lanes")]
-    impl Sealed for crate::lanes::Lanes {}
 }
 
 /// A real number that a time step can take decisions on: `f64`, `f32`.

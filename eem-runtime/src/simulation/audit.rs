@@ -100,9 +100,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 let at = node * D + axis;
                 audit_zero(node, axis, momenta[at])?;
                 let (value, carry) = positions[at];
-                let is_right = motion.map_or(value.equal(created[at]).all() && carry.equal(S::zero()).all(), |by| {
-                    follows(&|time| by(time)[axis], value, (time, step), scale)
-                });
+                let is_right = motion.map_or(
+                    value.equal(created[at]).all() && carry.equal(S::zero()).all(),
+                    |by| follows(&|time| by(time)[axis], value, (time, step), scale),
+                );
                 if !is_right {
                     let expected = motion.map_or(created[at], |by| by(time)[axis]);
                     return Err(RestoreError::Anchor {
