@@ -37,7 +37,7 @@ pub struct Ledger<S: Real, const D: usize> {
     pub potential_energy: S,
     /// `Σ (ψ + θ s)` of the elements, with ψ and θ of the state and the kept entropy s, J.
     pub internal_energy: S,
-    /// Heat that the reservoirs received since the start, `Σ θ_r σ_r`, from the kept σ_r, J.
+    /// Heat that the reservoirs received since the start, `Σ θ_r σ_r`, from the kept `σ_r`, J.
     pub reservoir_heat: S,
     /// Heat that dashpots of elements without temperature gave away since the start, as booked by the
     /// steps, J.
