@@ -286,7 +286,7 @@ fn an_experiment_may_depend_on_its_numbers() {
 
 #[test]
 fn what_never_comes_for_all_at_once_comes_for_each() {
-    for turning in [Turning::ByOperator, Turning::ByOrder] {
+    for turning in [Turning::ByDecision, Turning::ByRecord] {
         let results = ensemble(Scheme::EemEntropy, 0.1).run_experiment(&turning, &[0.5, -0.5]);
         let steps: Vec<_> = results.into_iter().map(Result::unwrap).collect();
         // The momentum falls from its start, in one case to zero a quarter of a period later: with a

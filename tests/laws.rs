@@ -5,7 +5,7 @@
 mod support;
 
 use eem::prelude::*;
-use support::{Laws, Pendulum, single_pendulum};
+use support::{DoublePendulum, Laws, LogarithmicStiffness, Pendulum, single_pendulum};
 
 /// A few roundings of a sum of a handful of terms; the closing evaluation leaves no drift.
 const ENERGY_TOLERANCE: f64 = 4e-15;
@@ -90,6 +90,48 @@ fn hold_for_random_steps_of(scheme: Scheme) {
     }
     println!("t = {} s", run.time());
     assert_laws(&laws, &format!("{}, random steps", scheme.name()));
+}
+
+/// Roundings of the terms of an entropy by which the kept one may differ from that of the state.
+const ENTROPY_ROUNDINGS: f64 = 4.0;
+
+/// The scale of the entropy of a spring, `|s| + |∂s/∂λ| λ + c`, J/K.
+fn entropy_scale(run: &Simulation<3>, law: &LogarithmicStiffness, spring: Element) -> f64 {
+    let lambda = run.stretch(spring).unwrap();
+    let x = [lambda, run.temperature(spring).unwrap()];
+    // ∂s/∂λ = −∂²ψ/∂λ∂θ.
+    let (_, [_, [by_lambda, _]]) = law.hessian(&x);
+    let heat_capacity = law.caloric(&x).heat_capacity;
+    run.entropy(spring).unwrap().abs() + (by_lambda * lambda).abs() + heat_capacity
+}
+
+#[test]
+fn the_kept_entropy_is_that_of_the_state() {
+    let case = DoublePendulum::LOGARITHMIC;
+    let laws = [0, 1].map(|i| LogarithmicStiffness {
+        stiffness: case.stiffness[i],
+        softening: case.softening[i],
+        coupling: case.coupling,
+        capacity: case.capacity[i],
+        natural_length: [2.0, 1.0][i],
+        theta_ref: 300.0,
+    });
+    for scheme in [Scheme::EemEntropy, Scheme::EemTemperature] {
+        let mut double = case.simulation(scheme, case.step);
+        let mut worst = 0.0_f64;
+        for _ in 0..1_000 {
+            double.run.step().unwrap();
+            let springs = laws.iter().zip(double.springs);
+            let scale: f64 = springs
+                .map(|(law, spring)| entropy_scale(&double.run, law, spring))
+                .sum();
+            let ledger = double.run.ledger();
+            let difference = ledger.element_entropy_of_state - ledger.element_entropy;
+            worst = worst.max(difference.abs() / (f64::EPSILON * scale));
+        }
+        println!("{}: {worst:.2} ε of the terms", scheme.name());
+        assert!(worst <= ENTROPY_ROUNDINGS, "{}: {worst}", scheme.name());
+    }
 }
 
 /// When a run is no longer one: the time at which Newton's method finds no state, and the first time

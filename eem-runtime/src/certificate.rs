@@ -176,7 +176,7 @@ impl<S: Real> Certificate<S> {
     /// Whether the balances of all nodes, dashpots and temperatures hold to rounding.
     #[inline]
     pub(crate) fn is_balanced(&self) -> bool {
-        self.is_balanced.decide()
+        self.is_balanced.all()
     }
 
     /// Whether the balances and all laws hold to what rounding explains.
@@ -235,7 +235,7 @@ impl<S: Real> Certificate<S> {
         // Not a number is not kept.
         let broken = laws
             .into_iter()
-            .find(|(_, defect, bound)| !defect.abs().at_most(*bound).decide());
+            .find(|(_, defect, bound)| !defect.abs().at_most(*bound).all());
         broken.map(|(law, defect, bound)| (law, [defect, bound]))
     }
 }

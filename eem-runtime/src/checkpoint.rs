@@ -9,8 +9,7 @@ mod scheme_name;
 
 use crate::compensated::{Compensated, Sum};
 use crate::newton::NewtonSettings;
-use crate::scalar::Real;
-use crate::scalar::is_positive;
+use crate::scalar::{Mask, Real, is_positive};
 use crate::scheme::Scheme;
 use crate::solver::SavedPast;
 use crate::state::State;
@@ -117,7 +116,9 @@ impl<S: Real> Checkpoint<S> {
             check_sums(quantity, [(value, carry)].into_iter())?;
         }
         let time = [self.state.time.value].into_iter();
-        expect_all("not negative", "time", time, |time| time >= S::zero())?;
+        expect_all("not negative", "time", time, |time| {
+            S::zero().at_most(time).all()
+        })?;
         let (own, other) = (&self.state.temperatures, &state.temperatures);
         expect_count("temperatures", own.len(), other.len())?;
         let positive = "positive and finite";
@@ -134,7 +135,9 @@ impl<S: Real> Checkpoint<S> {
         }
         let errors = self.past.errors.into_iter();
         let quantity = "errors of foretold forces";
-        expect_all("not negative", quantity, errors, |error| error >= S::zero())
+        expect_all("not negative", quantity, errors, |error| {
+            S::zero().at_most(error).all()
+        })
     }
 }
 
@@ -186,7 +189,7 @@ fn check_sums<S: Real>(
     let numbers = sums.clone().flat_map(|(value, carry)| [value, carry]);
     expect_all("finite", quantity, numbers, Real::is_finite)?;
     let half = S::from_f64(0.5) * S::EPSILON;
-    let is_rest = |value: S, carry: S| carry.abs() <= half * value.abs();
+    let is_rest = |value: S, carry: S| carry.abs().at_most(half * value.abs()).all();
     match sums.find(|&(value, carry)| !is_rest(value, carry)) {
         None => Ok(()),
         Some((value, carry)) => Err(RestoreError::Carry {

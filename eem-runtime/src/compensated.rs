@@ -21,6 +21,7 @@ impl<S: Scalar> Compensated<S> {
     }
 
     /// The sums, rounded.
+    #[inline]
     pub(crate) fn values(&self) -> &[S] {
         &self.values
     }
@@ -31,7 +32,17 @@ impl<S: Scalar> Compensated<S> {
         self.values.iter().copied().zip(carries)
     }
 
+    /// One sum.
+    #[inline]
+    pub(crate) fn sum(&self, index: usize) -> Sum<S> {
+        Sum {
+            value: self.values[index],
+            carry: self.carries[index],
+        }
+    }
+
     /// Restarts one sum at `value`.
+    #[inline]
     pub(crate) fn set(&mut self, index: usize, value: S) {
         self.values[index] = value;
         self.carries[index] = S::zero();
@@ -40,11 +51,7 @@ impl<S: Scalar> Compensated<S> {
     /// One sum of `old` and an increment.
     #[inline]
     pub(crate) fn advance(&mut self, index: usize, old: &Self, increment: S) {
-        let from = Sum {
-            value: old.values[index],
-            carry: old.carries[index],
-        };
-        let sum = from.plus(increment);
+        let sum = old.sum(index).plus(increment);
         self.values[index] = sum.value;
         self.carries[index] = sum.carry;
     }
@@ -85,11 +92,7 @@ impl<S: Scalar> Compensated<S> {
     /// Adds to one sum.
     #[inline]
     pub(crate) fn add(&mut self, index: usize, increment: S) {
-        let from = Sum {
-            value: self.values[index],
-            carry: self.carries[index],
-        };
-        let sum = from.plus(increment);
+        let sum = self.sum(index).plus(increment);
         self.values[index] = sum.value;
         self.carries[index] = sum.carry;
     }
@@ -97,7 +100,7 @@ impl<S: Scalar> Compensated<S> {
     /// `self − old` of one sum, to rounding of the difference.
     #[inline]
     pub(crate) fn change(&self, index: usize, old: &Self) -> S {
-        (self.values[index] - old.values[index]) + (self.carries[index] - old.carries[index])
+        self.sum(index).change(old.sum(index))
     }
 
     /// Takes over the sums of `other`, which has as many, without allocation.
@@ -148,6 +151,13 @@ impl<S: Scalar> Sum<S> {
     pub(crate) fn change(self, old: Self) -> S {
         (self.value - old.value) + (self.carry - old.carry)
     }
+}
+
+/// Adds to a value and what is missing of it a change that is large beside what is missing: the corrections
+/// of Newton's method. One addition less than [`Sum::add`], for which every digit of the carry counts.
+#[inline]
+pub(crate) fn correct<S: Scalar>(value: &mut S, carry: &mut S, change: S) {
+    (*value, *carry) = two_sum(*value, *carry + change);
 }
 
 /// A sum to twice the precision, so that adding up a large scene costs no digits.

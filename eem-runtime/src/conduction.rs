@@ -1,8 +1,8 @@
 //! Fourier conduction between elements and to reservoirs.
 
 use crate::compact::compact;
+use crate::compensated::Compensated;
 use crate::handle::{Element, HeatPartner};
-use crate::kernel::two_sum;
 use crate::layout::Layout;
 use crate::scalar::Real;
 
@@ -195,41 +195,39 @@ impl<S: Real> Exchange<S> {
 
 /// The algorithmic temperatures Θ = θ* as elements in contact see each other, per thermal slot, K.
 ///
-/// Each is a value and the rounding that is missing of it: where conduction is stiff, the heat
-/// `hκ(Θ_b − Θ_a)` needs more digits of the difference than the temperatures have.
+/// Each is a compensated sum: where conduction is stiff, the heat `hκ(Θ_b − Θ_a)` needs more digits of
+/// the difference than the temperatures have.
 #[derive(Clone, Debug)]
-pub(crate) struct SeenTemperatures<S> {
-    pub(crate) values: Vec<S>,
-    rests: Vec<S>,
-}
+pub(crate) struct SeenTemperatures<S>(Compensated<S>);
 
 impl<S: Real> SeenTemperatures<S> {
     /// Room for so many.
     pub(crate) fn new(slots: usize) -> Self {
-        let zeros = vec![S::zero(); slots];
-        Self {
-            values: zeros.clone(),
-            rests: zeros,
-        }
+        Self(Compensated::new(vec![S::zero(); slots]))
+    }
+
+    /// Each of them, rounded.
+    #[inline]
+    pub(crate) fn values(&self) -> &[S] {
+        self.0.values()
     }
 
     /// Restarts one.
     #[inline]
     pub(crate) fn set(&mut self, slot: usize, theta: S) {
-        (self.values[slot], self.rests[slot]) = (theta, S::zero());
+        self.0.set(slot, theta);
     }
 
     /// Adds to one.
     #[inline]
     pub(crate) fn add(&mut self, slot: usize, change: S) {
-        let (value, error) = two_sum(self.values[slot], change);
-        (self.values[slot], self.rests[slot]) = two_sum(value, error + self.rests[slot]);
+        self.0.add(slot, change);
     }
 
     /// `Θ_far − Θ_near`, K.
     #[inline]
     pub(crate) fn drop(&self, near: usize, far: usize) -> S {
-        (self.values[far] - self.values[near]) + (self.rests[far] - self.rests[near])
+        self.0.sum(far).change(self.0.sum(near))
     }
 
     /// What flows in a step to a slot from another, with `hκ` in J/K. The one of the two that comes first
@@ -238,7 +236,7 @@ impl<S: Real> SeenTemperatures<S> {
     pub(crate) fn exchange(&self, conducted: S, slot: usize, other: usize) -> Exchange<S> {
         let first = slot.min(other);
         let drop = self.drop(first, slot.max(other));
-        let path = Exchange::at_cool_end(conducted, drop, self.values[first]);
+        let path = Exchange::at_cool_end(conducted, drop, self.values()[first]);
         if slot == first { path } else { path.reversed() }
     }
 }

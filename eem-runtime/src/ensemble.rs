@@ -183,9 +183,11 @@ impl Ensemble<'_> {
     ///
     /// Members that move together may need different numbers of Newton iterations. But if one of them
     /// fails, if a correction leads it beyond the admissible states, if its elimination needs other
-    /// pivots, or if a comparison of the caller's own holds for some of them only, all four are run
-    /// again one by one; that costs time and nothing else. Scenes of more than twelve unknowns and
-    /// [`Scheme::Variational4`] always run one by one.
+    /// pivots, or if the caller asks for a decision ([`Mask::decide`]) in which they differ, all four are
+    /// run again one by one; that costs time and nothing else. Scenes of more than twelve unknowns,
+    /// [`Scheme::Variational4`], recorders and events always run one by one.
+    ///
+    /// [`Mask::decide`]: crate::Mask::decide
     ///
     /// Pendulums on springs of different stiffness, which is a field of the material:
     ///

@@ -10,6 +10,7 @@ use thiserror::Error;
 
 use crate::handle::{Element, Node};
 use crate::readable::Readable;
+use crate::scalar::Discord;
 
 pub use scene::SceneError;
 pub use state::StateError;
@@ -171,6 +172,10 @@ pub enum StepFailure {
         /// How many there are.
         expected: usize,
     },
+    /// Members that are stepped together would go on differently, or one of them has failed before; the
+    /// ensemble runs them one by one.
+    #[error(transparent)]
+    Discord(#[from] Discord),
     /// An element has no admissible state where Newton's method leads.
     #[error(transparent)]
     State(#[from] StateError),

@@ -15,11 +15,14 @@ mod warm;
 
 use crate::free_energy::Caloric;
 use crate::scalar::Real;
+use crate::scalar::is_positive;
 
 pub use error::InversionError;
-use point::Point;
-use search::Search;
-use warm::Warm;
+pub(crate) use warm::temperature_near;
+
+/// The largest correction of ln θ, in ε, that [`invert`] applies without another evaluation: the
+/// resolution of a temperature.
+const ENOUGH: f64 = 2.0;
 
 /// A temperature found by [`invert`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,56 +78,20 @@ pub fn invert<S: Real>(
     entropy: S,
     start: S,
 ) -> Result<Inversion<S>, InversionError> {
-    if !entropy.is_finite() {
-        return Err(InversionError::EntropyNotFinite {
-            entropy: entropy.to_f64(),
-        });
-    }
-    if !(start > S::zero() && start.is_finite()) {
+    if !is_positive(start) {
         return Err(InversionError::InvalidStart {
             start: start.to_f64(),
         });
     }
-    match warm::start(&mut evaluate, entropy, start) {
-        Warm::Found(inversion) => Ok(inversion),
-        Warm::Cold(first, evaluations) => cold(evaluate, entropy, start, first, evaluations),
-    }
-}
-
-/// The search from a start that is not known to be close; `first` is the entropy there.
-#[cold]
-fn cold<S: Real>(
-    mut evaluate: impl FnMut(S) -> Caloric<S>,
-    entropy: S,
-    start: S,
-    first: Caloric<S>,
-    evaluations: usize,
-) -> Result<Inversion<S>, InversionError> {
-    let first = Point::new(start.ln(), start, first, entropy);
-    if !first.stable() {
-        return Err(InversionError::UnstableStart {
-            start: start.to_f64(),
-            heat_capacity: first.heat_capacity.to_f64(),
-        });
-    }
-    let mut search = Search::new(entropy, first, evaluations);
-    while !search.converged() {
-        let mut step = search.step();
-        loop {
-            if search.spent() {
-                return search.conclude();
-            }
-            let x = search.point.x + step;
-            let theta = x.exp();
-            let trial = Point::new(x, theta, evaluate(theta), entropy);
-            search.evaluations += 1;
-            if trial.stable() && trial.follows(&search.point) {
-                search.accept(trial, step);
-                break;
-            }
-            search.exclude(x);
-            step *= S::from_f64(0.5);
-        }
-    }
-    Ok(search.solution())
+    let mut evaluations = 0;
+    let counted = |theta| {
+        evaluations += 1;
+        (evaluate(theta), [])
+    };
+    let enough = S::from_f64(ENOUGH) * S::EPSILON;
+    let (temperature, _) = temperature_near(counted, entropy, start, enough)?;
+    Ok(Inversion {
+        temperature,
+        evaluations,
+    })
 }

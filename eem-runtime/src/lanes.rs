@@ -1,20 +1,20 @@
 //! Four numbers in the place of one: the same scene with four sets of numbers, one per SIMD lane.
 //!
 //! Every lane has the bits that it would have alone. Arithmetic, roots and comparisons are those of
-//! the processor; elementary functions are those of the platform's library, lane by lane. Where lanes
-//! cannot go on together, [`discord`] remembers it, and what they compute is thrown away.
+//! the processor; elementary functions are those of the platform's library, lane by lane. Lanes have no
+//! order: comparisons return a mask, and whoever branches on it says what happens where lanes differ.
 
-pub(crate) mod discord;
+mod forward;
 mod mask;
 #[cfg(test)]
 mod tests;
 
-use core::cmp::Ordering;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use wide::f64x4;
 
-use crate::scalar::{Mask, Real, Scalar};
+use crate::scalar::{Mask, Real, Scalar, Sealed};
+use forward::forward;
 pub(crate) use mask::LaneMask;
 
 /// How many numbers move together. Wider ones gain nothing with the instructions that every
@@ -56,83 +56,17 @@ impl Lanes {
     }
 }
 
-/// Forwards operators to the packed type.
-macro_rules! operators {
-    ($($operator:ident $method:ident $assign:ident $method_assign:ident),*) => {
-        $(
-            impl $operator for Lanes {
-                type Output = Self;
-
-                #[inline]
-                fn $method(self, other: Self) -> Self {
-                    Self::from_packed($operator::$method(self.packed(), other.packed()))
-                }
-            }
-
-            impl $assign for Lanes {
-                #[inline]
-                fn $method_assign(&mut self, other: Self) {
-                    *self = $operator::$method(*self, other);
-                }
-            }
-        )*
-    };
-}
-
-operators!(
-    Add add AddAssign add_assign,
-    Sub sub SubAssign sub_assign,
-    Mul mul MulAssign mul_assign,
-    Div div DivAssign div_assign
+forward!(Lanes: Add add, Sub sub, Mul mul, Div div; Neg neg);
+forward!(
+    Lanes: AddAssign add_assign by Add add, SubAssign sub_assign by Sub sub,
+    MulAssign mul_assign by Mul mul, DivAssign div_assign by Div div
 );
 
-impl Neg for Lanes {
-    type Output = Self;
-
-    #[inline]
-    fn neg(self) -> Self {
-        Self::from_packed(-self.packed())
-    }
-}
-
-/// Equal in all lanes.
+/// Equal in all lanes. To branch where lanes may differ there is [`Scalar::equal`].
 impl PartialEq for Lanes {
     #[inline]
     fn eq(&self, other: &Self) -> bool {
-        self.equal(*other).decide()
-    }
-}
-
-/// Every comparison holds if it holds in all lanes.
-impl PartialOrd for Lanes {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        if self < other {
-            Some(Ordering::Less)
-        } else if self > other {
-            Some(Ordering::Greater)
-        } else {
-            (self == other).then_some(Ordering::Equal)
-        }
-    }
-
-    #[inline]
-    fn lt(&self, other: &Self) -> bool {
-        self.less(*other).decide()
-    }
-
-    #[inline]
-    fn le(&self, other: &Self) -> bool {
-        self.at_most(*other).decide()
-    }
-
-    #[inline]
-    fn gt(&self, other: &Self) -> bool {
-        other.less(*self).decide()
-    }
-
-    #[inline]
-    fn ge(&self, other: &Self) -> bool {
-        other.at_most(*self).decide()
+        self.equal(*other).all()
     }
 }
 
@@ -164,12 +98,12 @@ impl Scalar for Lanes {
 
     #[inline]
     fn equal(self, other: Self) -> LaneMask {
-        LaneMask(self.packed().simd_eq(other.packed()))
+        LaneMask::from_packed(self.packed().simd_eq(other.packed()))
     }
 
     #[inline]
     fn less(self, other: Self) -> LaneMask {
-        LaneMask(self.packed().simd_lt(other.packed()))
+        LaneMask::from_packed(self.packed().simd_lt(other.packed()))
     }
 
     /// One closure where the lanes agree: most branches are about rare cases.
@@ -218,6 +152,8 @@ impl Scalar for Lanes {
     );
 }
 
+impl Sealed for Lanes {}
+
 impl Real for Lanes {
     const EPSILON: Self = Self::splat(f64::EPSILON);
     const MAX: Self = Self::splat(f64::MAX);
@@ -229,33 +165,23 @@ impl Real for Lanes {
         if rest == [first; LANES - 1] {
             f64::from_bits(first)
         } else {
-            discord::note();
             f64::NAN
         }
     }
 
     #[inline]
     fn is_finite(self) -> bool {
-        self.abs() <= Self::MAX
+        self.abs().at_most(Self::MAX).all()
     }
 
     #[inline]
     fn at_most(self, other: Self) -> LaneMask {
-        LaneMask(self.packed().simd_le(other.packed()))
+        LaneMask::from_packed(self.packed().simd_le(other.packed()))
     }
 
     #[inline]
     fn select(mask: LaneMask, then: Self, otherwise: Self) -> Self {
-        Self::from_packed(mask.0.select(then.packed(), otherwise.packed()))
-    }
-
-    fn give_up() {
-        discord::note();
-    }
-
-    #[inline]
-    fn has_given_up() -> bool {
-        discord::is_noted()
+        Self::from_packed(mask.packed().select(then.packed(), otherwise.packed()))
     }
 
     #[inline]

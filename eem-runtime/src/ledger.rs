@@ -1,6 +1,9 @@
-//! Energy, entropy and momenta of a state, from their definitions.
+//! Energy, entropy and momenta of a state: what the free energies say of it, beside what the steps have booked.
 //!
-//! Nothing here comes from the sums of a scheme: what the ledger says of conservation is a test.
+//! Kinetic, potential and internal energy and the momenta are evaluated from positions, momenta, viscous
+//! stretches, temperatures and the kept entropies of the state. The entropies of elements, reservoirs and
+//! thermostats, work, heat and lost heat are sums that the steps have kept; of the entropy there is also
+//! the value of the state, [`Ledger::element_entropy_of_state`], which no step has touched.
 
 use nalgebra::SVector;
 
@@ -11,6 +14,15 @@ use crate::scalar::Real;
 use crate::state::State;
 
 /// The balance sheet of a scene.
+///
+/// The schemes in entropy form, and [`EemTemperature`](crate::Scheme::EemTemperature), keep the entropy s of
+/// an element as a sum of what it receives, and find the temperature from it. That S never decreases is
+/// a statement about these sums; that they are entropies is one about the state, whose own entropies are
+/// `s(λ, γ, θ)`. Both are here, and differ by rounding:
+///
+/// ```text
+/// |Σ s(λ, γ, θ) − Σ s| ≤ 4 ε Σ (|s| + Σ |∂s/∂x| |x| + c),     x = λ, γ,   c = θ ∂s/∂θ
+/// ```
 ///
 /// ```text
 /// E = Σ p²/2m − Σ m g·q + Σ (ψ + θ s) + Σ θ_r σ_r + heat lost
@@ -23,28 +35,32 @@ pub struct Ledger<S: Real, const D: usize> {
     pub kinetic_energy: S,
     /// `−Σ m g·q`, J.
     pub potential_energy: S,
-    /// `Σ (ψ + θ s)` of the elements, J.
+    /// `Σ (ψ + θ s)` of the elements, with ψ and θ of the state and the kept entropy s, J.
     pub internal_energy: S,
-    /// Heat that the reservoirs received since the start, `Σ θ_r σ_r`, J.
+    /// Heat that the reservoirs received since the start, `Σ θ_r σ_r`, from the kept `σ_r`, J.
     pub reservoir_heat: S,
-    /// Heat that dashpots of elements without temperature gave away since the start, J.
+    /// Heat that dashpots of elements without temperature gave away since the start, as booked by the
+    /// steps, J.
     pub lost_heat: S,
     /// The sum of all energies, E, J. Constant by the first law unless loads do work or
     /// thermostats give heat.
     pub energy: S,
-    /// Work that loads and moved anchors have done since the start, J.
+    /// Work that loads and moved anchors have done since the start, as booked by the steps, J.
     pub work: S,
-    /// Heat that thermostats have given since the start, J.
+    /// Heat that thermostats have given since the start, as booked by the steps, J.
     pub heat: S,
     /// `E − work − heat`, J. Constant by the first law.
     pub balance: S,
-    /// `Σ s` of the elements, J/K.
+    /// `Σ s` of the elements as kept by the steps, J/K.
     pub element_entropy: S,
-    /// `Σ σ_r`, entropy that the reservoirs received since the start, J/K.
+    /// `Σ s(λ, γ, θ)`, the entropies of the elements that the model has in the state, J/K.
+    pub element_entropy_of_state: S,
+    /// `Σ σ_r`, entropy that the reservoirs received since the start, as kept by the steps, J/K.
     pub reservoir_entropy: S,
-    /// Entropy that thermostats have received since the start, J/K.
+    /// Entropy that thermostats have received since the start, as booked by the steps, J/K.
     pub thermostat_entropy: S,
-    /// The sum of all entropies, S, J/K. Never decreasing by the second law.
+    /// The sum of all kept entropies, S, J/K. Never decreasing by the second law, but for two roundings of
+    /// this sum.
     pub entropy: S,
     /// `Σ p`, kg m/s.
     pub linear_momentum: SVector<S, D>,
@@ -65,6 +81,7 @@ impl<S: Real, const D: usize> Ledger<S, D> {
         let mut potential = Total::new();
         let (mut kinetic, mut internal, mut heat) = (Total::new(), Total::new(), Total::new());
         let (mut element_entropy, mut reservoir_entropy) = (Total::new(), Total::new());
+        let mut entropy_of_state = Total::new();
         let momenta = state.momenta.values();
         for (p, mass) in momenta.chunks_exact(D).zip(masses.iter()) {
             let Some(mass) = mass else { continue };
@@ -76,6 +93,7 @@ impl<S: Real, const D: usize> Ledger<S, D> {
             let totals = group.totals(state);
             internal.add(totals.energy);
             element_entropy.add(totals.entropy);
+            entropy_of_state.add(totals.entropy_of_state);
         }
         for (&entropy, &theta) in state.reservoir_entropies.values().iter().zip(reservoirs) {
             heat.add(theta * entropy);
@@ -117,6 +135,7 @@ impl<S: Real, const D: usize> Ledger<S, D> {
             heat: given_heat,
             balance: Total::of(energy.into_iter().chain([-work, -given_heat])),
             element_entropy: element_entropy.value(),
+            element_entropy_of_state: entropy_of_state.value(),
             reservoir_entropy: reservoir_entropy.value(),
             thermostat_entropy,
             entropy: Total::of(entropy),

@@ -68,7 +68,7 @@ pub use inversion::{Inversion, InversionError, invert};
 pub use ledger::Ledger;
 pub use newton::{NewtonSettings, StepReport};
 pub use recorder::{Column, CustomQuantity, Quantity, RecordError, Recorder};
-pub use scalar::{Mask, Real, Scalar};
+pub use scalar::{Discord, Mask, Real, Scalar};
 pub use scene::Scene;
 pub use scheme::Scheme;
 pub use simulation::Simulation;

@@ -12,8 +12,7 @@ use crate::error::StepFailure;
 use crate::handle::{Element, Node};
 use crate::layout::Layout;
 use crate::masses::Masses;
-use crate::scalar::Real;
-use crate::scalar::is_positive;
+use crate::scalar::{Mask, Real, is_positive};
 use crate::scheme::Scheme;
 
 /// By how many ε of its size a prescribed function may differ from a state that follows it: a
@@ -64,7 +63,19 @@ impl<S: Real, const D: usize> Loads<S, D> {
     }
 
     fn have_weight(&self) -> bool {
-        self.gravity.iter().any(|&component| component != S::zero())
+        self.has_weight().any()
+    }
+
+    fn has_weight(&self) -> S::Mask {
+        let none = S::Mask::none();
+        let components = self.gravity.iter();
+        components.fold(none, |any, &component| any | !component.equal(S::zero()))
+    }
+
+    /// Whether several numbers in one S have weight all of them, or none of them.
+    pub(crate) fn suit_lanes(&self) -> bool {
+        let has_weight = self.has_weight();
+        has_weight.decide().is_ok()
     }
 }
 

@@ -8,10 +8,17 @@ mod few;
 mod fixed;
 mod singular;
 
-use crate::scalar::Real;
+use crate::scalar::{Discord, Mask, Real};
 pub(crate) use few::{solve_one, solve_two};
 pub(crate) use fixed::solve_fixed;
 pub(crate) use singular::Singular;
+
+/// Numbers that need different pivots have none in common.
+impl From<Discord> for Singular {
+    fn from(Discord: Discord) -> Self {
+        Self
+    }
+}
 
 /// Factors the row-major `n × n` matrix, `n` the length of `pivots`: `P A = L U`.
 pub(crate) fn factor<S: Real>(matrix: &mut [S], pivots: &mut [usize]) -> Result<(), Singular> {
@@ -19,13 +26,14 @@ pub(crate) fn factor<S: Real>(matrix: &mut [S], pivots: &mut [usize]) -> Result<
     for column in 0..n {
         let mut pivot = column;
         for row in column + 1..n {
-            if matrix[row * n + column].abs() > matrix[pivot * n + column].abs() {
+            let size = |row: usize| matrix[row * n + column].abs();
+            if size(pivot).less(size(row)).decide()? {
                 pivot = row;
             }
         }
         pivots[column] = pivot;
         let value = matrix[pivot * n + column];
-        if !value.is_finite() || value == S::zero() {
+        if !value.is_finite() || value.equal(S::zero()).any() {
             return Err(Singular);
         }
         if pivot != column {

@@ -1,6 +1,6 @@
 //! The masses of the nodes, of which anchors have none.
 
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 
 /// A mass per node, kg. That of an anchor is stored as zero, which no other node has.
 #[derive(Clone, Debug)]
@@ -23,7 +23,7 @@ impl<S: Real> Masses<S> {
     #[inline]
     pub(crate) fn get(&self, node: usize) -> Option<S> {
         let mass = self.0[node];
-        (mass != S::zero()).then_some(mass)
+        (!mass.equal(S::zero()).all()).then_some(mass)
     }
 
     /// The masses of all nodes.

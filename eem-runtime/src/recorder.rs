@@ -192,6 +192,8 @@ impl<const D: usize, S: Real> Recorder<D, S> {
     /// [`SceneError::ForeignHandle`] if `run` is not the simulation that the recorder was made
     /// for. Nothing is kept then.
     pub fn record(&mut self, run: &Simulation<D, S>) -> Result<(), SceneError> {
+        // A row has one value per quantity.
+        run.part();
         let mut ledger = None;
         self.row.clear();
         self.row.push(run.time().to_f64());

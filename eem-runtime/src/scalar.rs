@@ -7,7 +7,9 @@
 
 mod real;
 
-pub use real::{Mask, Real};
+#[cfg(feature = "lanes")]
+pub(crate) use real::sealed::Sealed;
+pub use real::{Discord, Mask, Real};
 pub(crate) use real::{is_positive, unless};
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};

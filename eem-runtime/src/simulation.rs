@@ -12,6 +12,7 @@ mod stepper;
 mod totals;
 
 use core::fmt;
+use core::sync::atomic::{AtomicBool, Ordering};
 
 use crate::certificate::Certificate;
 use crate::compact::compact;
@@ -24,8 +25,7 @@ use crate::layout::Shape;
 use crate::loads::Loads;
 use crate::masses::Masses;
 use crate::newton::{NewtonSettings, StepReport};
-use crate::scalar::is_positive;
-use crate::scalar::{Mask, Real};
+use crate::scalar::{Discord, Mask, Real, is_positive};
 use crate::scene::Scene;
 use crate::scheme::{Phase, Scheme};
 use crate::solver::Effort;
@@ -76,6 +76,9 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     has_stepped: bool,
     /// The report with the largest `|defect|/bound` so far.
     worst: Option<StepReport<S>>,
+    /// Something failed while S was several numbers: alone, some of them might not have failed, so that
+    /// nothing that follows counts. Never set where S is a single number.
+    has_parted: AtomicBool,
 }
 
 impl<const D: usize, S: Real> fmt::Debug for Simulation<D, S> {
@@ -141,6 +144,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             state,
             has_stepped: false,
             worst: None,
+            has_parted: AtomicBool::new(false),
         };
         check_totals(&run.ledger())?;
         Ok(run)
@@ -178,9 +182,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Writes the next state.
     fn find_next(&mut self) -> Result<Certificate<S>, StepFailure> {
-        if S::has_given_up() {
-            // Who waits for what all numbers agree on might wait forever.
-            return Err(StepFailure::NotConverged { update: f64::NAN });
+        if self.has_parted() {
+            // An experiment that ignores failed steps and waits for something would loop forever.
+            return Err(Discord.into());
         }
         check_end(self.time() + self.step)?;
         self.evaluate_loads()?;
@@ -228,10 +232,22 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         )
     }
 
+    /// Whether several numbers in one S have to be run one by one.
+    #[inline]
+    pub(crate) fn has_parted(&self) -> bool {
+        S::LANES > 1 && self.has_parted.load(Ordering::Relaxed)
+    }
+
+    /// Notes that something is not possible for several numbers together; nothing for a single one.
+    pub(crate) fn part(&self) {
+        if S::LANES > 1 {
+            self.has_parted.store(true, Ordering::Relaxed);
+        }
+    }
+
     #[cold]
     fn failed(&self, failure: StepFailure) -> StepError {
-        // One of several numbers may be why; the others might have gone on.
-        S::give_up();
+        self.part();
         StepError {
             time: self.time().to_f64(),
             step: self.step.to_f64(),
@@ -277,7 +293,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// [`SceneError::Step`] if it is not positive and finite; the old size then stays.
     pub fn set_step_size(&mut self, step: S) -> Result<(), SceneError> {
-        check_step(step)?;
+        check_step(step).inspect_err(|_| self.part())?;
         self.step = step;
         Ok(())
     }
@@ -299,7 +315,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             max_iterations,
             tolerance,
         } = settings;
-        if max_iterations == 0 || !is_positive(tolerance) || tolerance >= S::one() {
+        if max_iterations == 0 || !is_positive(tolerance) || S::one().at_most(tolerance).any() {
+            self.part();
             return Err(SceneError::NewtonSettings {
                 max_iterations,
                 tolerance: tolerance.to_f64(),
@@ -316,9 +333,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Whether several numbers in one S can go through a step together: in the dense elimination of a
-    /// few unknowns, whose pivots are on the diagonal, and in a scheme with one set of forces.
-    pub(crate) const fn suits_lanes(&self) -> bool {
-        self.stepper.stages.is_empty() && self.unknowns() <= MOST_FIXED
+    /// few unknowns, whose pivots are on the diagonal, in a scheme with one set of forces, and with weight
+    /// for all of them or for none.
+    pub(crate) fn suits_lanes(&self) -> bool {
+        let is_small = self.stepper.stages.is_empty() && self.unknowns() <= MOST_FIXED;
+        is_small && self.loads.suit_lanes()
     }
 }
 

@@ -1,7 +1,7 @@
 //! An experiment whose course depends on its numbers: it counts steps until something happens.
 
 use eem::prelude::*;
-use eem::{Experiment, MemberFailure, Members, Outputs, Real};
+use eem::{Experiment, Mask, MemberFailure, Members, Outputs, Real};
 
 use super::scenes::Driven;
 use super::watched::{Case, Input, Parts};
@@ -40,7 +40,8 @@ impl Experiment<2> for Until {
                 }
                 Self::Colder(limit) => {
                     run.step()?;
-                    if run.temperature(parts.elements[1])? < S::from_f64(limit) {
+                    let theta = run.temperature(parts.elements[1])?;
+                    if theta.less(S::from_f64(limit)).decide()? {
                         break;
                     }
                 }

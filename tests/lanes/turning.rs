@@ -1,9 +1,7 @@
 //! Masses that swing against each other, so that what one of them waits for never comes for all at once.
 
-use core::cmp::Ordering;
-
 use eem::prelude::*;
-use eem::{Experiment, MemberFailure, Members, Outputs, Real};
+use eem::{Experiment, Mask, MemberFailure, Members, Outputs, Real};
 
 /// A spring whose force is linear: opposite speeds are opposite motions.
 #[derive(Clone, Debug, FreeEnergy)]
@@ -16,10 +14,10 @@ struct Linear {
 /// Counts steps until a mass, started at the speed of the input in m/s, moves towards its hook.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Turning {
-    /// Found by `<`.
-    ByOperator,
-    /// Found by an order that the numbers of one member always have.
-    ByOrder,
+    /// Found by a decision of all members.
+    ByDecision,
+    /// Found in the column of a recorder.
+    ByRecord,
 }
 
 impl Experiment<1> for Turning {
@@ -44,13 +42,19 @@ impl Experiment<1> for Turning {
         members: Members<'_, f64, S>,
     ) -> Result<Outputs<usize>, MemberFailure> {
         let mut steps = 0;
+        let momentum = [("p", Quantity::Momentum(mass))];
+        let mut recorder = Recorder::new(run, momentum).map_err(MemberFailure::other)?;
         loop {
             run.step()?;
             steps += 1;
             let momentum = run.momentum(mass)?.x;
             let is_back = match self {
-                Self::ByOperator => momentum < S::zero(),
-                Self::ByOrder => momentum.partial_cmp(&S::zero()).unwrap() == Ordering::Less,
+                Self::ByDecision => momentum.less(S::zero()).decide()?,
+                Self::ByRecord => {
+                    recorder.record(run)?;
+                    let column = recorder.column("p").or(recorder.column("p_x"));
+                    column.and_then(<[f64]>::last) < Some(&0.0)
+                }
             };
             if is_back {
                 return Ok(members.outputs(|_, _| steps));

@@ -41,7 +41,7 @@ impl<S: Real> Recount<S> {
         let defect = (by_differences - found).abs();
         let is_worse = self
             .worst
-            .is_none_or(|(_, worst)| !defect.at_most(worst).decide());
+            .is_none_or(|(_, worst)| !defect.at_most(worst).all());
         if is_worse {
             self.worst = Some((element, defect));
         }

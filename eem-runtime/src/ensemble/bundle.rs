@@ -6,9 +6,9 @@ use core::sync::atomic::{AtomicBool, Ordering};
 use super::error::MemberFailure;
 use super::experiment::{Experiment, Members};
 #[cfg(feature = "lanes")]
-use crate::lanes::{Lanes, discord};
+use crate::lanes::Lanes;
 use crate::newton::NewtonSettings;
-use crate::scalar::Real;
+use crate::scalar::{Discord, Real};
 use crate::scheme::Scheme;
 use crate::simulation::Simulation;
 
@@ -78,7 +78,7 @@ impl Bundles {
         if inputs.len() == 1 || self.is_unsuited.load(Ordering::Relaxed) {
             return None;
         }
-        let outputs = discord::unless_any(|| self.run_as::<Lanes, D, E>(experiment, inputs).ok());
+        let outputs = self.run_as::<Lanes, D, E>(experiment, inputs).ok();
         outputs.filter(|outputs| outputs.len() == inputs.len())
     }
 
@@ -99,6 +99,11 @@ impl Bundles {
             self.is_unsuited.store(true, Ordering::Relaxed);
             return Err(MemberFailure::other("the scene does not suit lanes"));
         }
-        Ok(experiment.observe(&mut run, handles, members)?.0)
+        let outputs = experiment.observe(&mut run, handles, members)?;
+        if run.has_parted() {
+            // The experiment has gone on after an error.
+            return Err(Discord.into());
+        }
+        Ok(outputs.0)
     }
 }

@@ -5,6 +5,7 @@ use core::error::Error;
 use thiserror::Error;
 
 use crate::error::{SceneError, StepError};
+use crate::scalar::Discord;
 
 /// A member of an ensemble without a result.
 #[derive(Debug, Error)]
@@ -28,6 +29,10 @@ pub enum MemberFailure {
     /// A step failed.
     #[error(transparent)]
     Step(#[from] StepError),
+    /// Members that are stepped together would go on differently. The ensemble then runs them one by one,
+    /// so that it is no result of [`Ensemble::run_experiment`](crate::Ensemble::run_experiment).
+    #[error(transparent)]
+    Discord(#[from] Discord),
     /// The ensemble was stopped before the member began.
     #[error("the ensemble was stopped before it began")]
     Stopped,

@@ -14,10 +14,14 @@ use crate::simulation::Simulation;
 /// is no number is common to all members: nodes, elements, contacts, kinds of material, number of
 /// steps. The parameters of a material may differ if its struct has them as fields of the type S.
 ///
-/// What a comparison of numbers decides is common too. Where members would decide differently, they
-/// are run one by one; both methods may therefore be called a second time for an input. Numbers are
-/// to be compared on the thread that calls, and leave it by [`Members::outputs`] only: several of
-/// them have no one value in double precision, as a [`Recorder`](crate::Recorder) would need.
+/// What a comparison of numbers decides is common too: `a.less(b).decide()?` is one `bool`, or the error
+/// [`Discord`](crate::Discord) where members would decide differently. After that error, or any other
+/// error of the simulation, the members are run one by one; both methods may therefore be called a second
+/// time for an input. They should pass errors on and not panic on them, as a step of members together may
+/// fail that succeeds alone. `==` is not for decisions: of members that differ it says nothing. Numbers
+/// leave the experiment by [`Members::outputs`]: several of them have no one value in double precision,
+/// so that members with a [`Recorder`](crate::Recorder) or with events
+/// ([`Simulation::run_until_event`]) always run one by one.
 pub trait Experiment<const D: usize>: Sync {
     /// What a member is made from.
     type Input: Sync;

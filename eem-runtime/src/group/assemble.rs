@@ -127,7 +127,7 @@ where
             return;
         };
         let row = self.condensed_row(Self::TEMPERATURE, form, true);
-        let seen = trial.seen.values[slot];
+        let seen = trial.seen.values()[slot];
         target.right[contact.unknown as usize][0] += row.value - seen;
         let by_arm = self.by_arm(&row, S::one());
         self.site

@@ -7,8 +7,7 @@ use crate::error::StateError;
 use crate::free_energy::FreeEnergy;
 use crate::group::element_group::ElementGroup;
 use crate::kinematics::Kinematics;
-use crate::scalar::Real;
-use crate::scalar::is_positive;
+use crate::scalar::{Mask, Real, is_positive};
 use crate::scheme::{ElementScheme, Infeasible};
 use crate::state::State;
 
@@ -110,7 +109,7 @@ where
             size += (by[index] * x[index]).abs();
         }
         let bound = S::from_f64(ENTROPY_ROUNDINGS) * S::EPSILON * size;
-        if (caloric.entropy - entropy).abs() <= bound {
+        if (caloric.entropy - entropy).abs().at_most(bound).all() {
             return Ok(());
         }
         Err(RestoreError::Entropy {

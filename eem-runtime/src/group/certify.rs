@@ -176,7 +176,7 @@ where
             && let Some(slot) = self.slots().thermal
         {
             let terms = self.known_to(Self::TEMPERATURE, tally.care);
-            tally.balance(trial.seen.values[slot] - theta, terms);
+            tally.balance(trial.seen.values()[slot] - theta, terms);
         }
     }
 

@@ -3,8 +3,7 @@
 use crate::free_energy::{Array, FreeEnergy};
 use crate::kinematics::Kinematics;
 use crate::lu::Singular;
-use crate::scalar::Real;
-use crate::scalar::is_positive;
+use crate::scalar::{Mask, Real, is_positive};
 
 /// A number per local unknown: the viscous stretches, then the temperature.
 #[derive(Clone, Copy, Debug)]
@@ -96,7 +95,8 @@ pub(super) fn eliminate<S: Real, M: FreeEnergy<S>, const HEAT: bool>(
     for k in 0..unknowns {
         let at = M::MEASURES + k;
         for row in k + 1..unknowns {
-            if (units[row] * rows[row][at]).abs() > (units[k] * rows[k][at]).abs() {
+            let size = |row: usize| (units[row] * rows[row][at]).abs();
+            if size(k).less(size(row)).decide()? {
                 units.as_mut().swap(row, k);
                 rows.as_mut().swap(row, k);
                 constant.as_mut().swap(row, k);

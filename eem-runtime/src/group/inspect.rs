@@ -59,15 +59,20 @@ where
 
     /// See [`Elements::totals`](super::Elements::totals).
     pub(super) fn sum(&self, state: &State<S>) -> GroupTotals<S> {
-        let (mut energy, mut entropy) = (S::zero(), S::zero());
+        let [mut energy, mut entropy, mut entropy_of_state] = [S::zero(); 3];
         for member in &self.members {
             let x = member.variables_in(self.kinematics, state);
             energy += member.internal_energy(&x, state);
             if let Some(slot) = member.slots().thermal {
                 entropy += state.entropies.values()[slot];
+                entropy_of_state += member.model.caloric(&x).entropy;
             }
         }
-        GroupTotals { energy, entropy }
+        GroupTotals {
+            energy,
+            entropy,
+            entropy_of_state,
+        }
     }
 
     /// See [`Elements::inspect`](super::Elements::inspect).

@@ -12,8 +12,6 @@
 //! other element: what elements in contact see of each other is the global unknown Θ = θ*. So their
 //! corrections are eliminated here.
 
-use core::hint;
-
 use super::eliminate::{LocalSystem, eliminate};
 use super::member::Member;
 use super::site::Contact;
@@ -277,19 +275,12 @@ where
             by_theta += residual * per_theta;
         }
         for column in 0..Self::VARIABLES {
-            let mut entry = alone(&tangent[Self::ENTROPY][column])
-                + by_theta * tangent[Self::TEMPERATURE][column];
+            let mut entry =
+                tangent[Self::ENTROPY][column] + by_theta * tangent[Self::TEMPERATURE][column];
             if M::DASHPOTS > 0 {
                 entry -= weight * dissipation.by[column];
             }
             system.rows[row][column] = entry;
         }
     }
-}
-
-/// An entry, read by itself: a pair that the model has written one by one would have to be waited for.
-/// Nothing but time depends on whether the compiler takes the hint.
-#[inline]
-fn alone<S: Copy>(entry: &S) -> S {
-    *hint::black_box(entry)
 }

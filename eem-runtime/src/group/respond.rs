@@ -8,8 +8,7 @@ use crate::free_energy::{Array, FreeEnergy};
 use crate::group::view::{StepView, Trial};
 use crate::handle::Element;
 use crate::kinematics::{Arms, Ends, Kinematics, Measures};
-use crate::scalar::Real;
-use crate::scalar::is_positive;
+use crate::scalar::{Mask, Real, is_positive};
 use crate::scheme::{ElementScheme, Form};
 
 /// Arms and measures of the configuration that a scheme looks at.
@@ -247,7 +246,7 @@ fn check_response<S: Real, M: FreeEnergy<S>>(
         .as_ref()
         .iter()
         .fold(zero, |sum, &value| sum + zero * value);
-    if sum == zero {
+    if sum.equal(zero).all() {
         return Ok(());
     }
     Err(not_finite(element, response.as_ref()))

@@ -92,15 +92,19 @@ impl<S: Real, const D: usize> Trial<S, D> {
 
     /// Where the temperature that is seen of a thermal slot is in a set.
     pub(crate) fn seen_of_set(&self, set: usize, slot: usize) -> usize {
-        set * (self.seen.values.len() / self.sets) + slot
+        set * (self.seen.values().len() / self.sets) + slot
     }
 }
 
-/// Internal energy (J) and entropy (J/K) of a group.
+/// Internal energy and entropy of a group.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct GroupTotals<S> {
+    /// `Σ (ψ + θ s)` with the kept entropies, J.
     pub(crate) energy: S,
+    /// `Σ s` as kept, J/K.
     pub(crate) entropy: S,
+    /// `Σ s(λ, γ, θ)`, J/K.
+    pub(crate) entropy_of_state: S,
 }
 
 /// One element in a state, from the definitions.

@@ -36,7 +36,7 @@ pub enum InversionError {
         temperature: f64,
         /// `S(θ) − s` there.
         residual: f64,
-        /// How many times the entropy was evaluated.
+        /// How many times the search evaluated the entropy.
         evaluations: usize,
     },
     /// The entropy is not the continuous function that it should be.
@@ -48,7 +48,7 @@ pub enum InversionError {
         temperature: f64,
         /// `S(θ) − s` there.
         residual: f64,
-        /// How many times the entropy was evaluated.
+        /// How many times the search evaluated the entropy.
         evaluations: usize,
     },
 }

@@ -1,7 +1,7 @@
 //! One evaluation of the entropy, and what two local models of it propose.
 
 use crate::free_energy::Caloric;
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 
 /// The residual is rounding noise below this many ε of the sum of |terms of S|.
 const NOISE: f64 = 4.0;
@@ -58,7 +58,7 @@ impl<S: Real> Point<S> {
 
     /// On a stable branch: `0 < C < ∞` and `S` finite.
     pub(super) fn stable(&self) -> bool {
-        self.heat_capacity > S::zero()
+        S::zero().less(self.heat_capacity).all()
             && self.heat_capacity.is_finite()
             && self.residual.is_finite()
     }
@@ -66,16 +66,17 @@ impl<S: Real> Point<S> {
     /// The entropy has increased with the temperature since `other`, as on one stable branch.
     pub(super) fn follows(&self, other: &Self) -> bool {
         let increase = self.residual - other.residual;
-        if self.x < other.x {
-            increase <= other.noise + self.noise
+        let noise = other.noise + self.noise;
+        if self.x.less(other.x).all() {
+            increase.at_most(noise).all()
         } else {
-            increase >= -(other.noise + self.noise)
+            (-noise).at_most(increase).all()
         }
     }
 
     /// The residual is not more than rounding.
     pub(super) fn is_noise(&self) -> bool {
-        self.residual.abs() <= self.noise
+        self.residual.abs().at_most(self.noise).all()
     }
 
     /// Newton's correction of `x`.
@@ -89,23 +90,23 @@ impl<S: Real> Point<S> {
         let correction = self.newton();
         let magnitude = self.noise / (S::from_f64(NOISE) * S::EPSILON);
         let trusted = S::from_f64(TRUST) * self.heat_capacity / magnitude;
-        if correction.abs() <= trusted.maximum(self.resolution()) {
-            correction
-        } else {
-            S::zero()
-        }
+        let is_sound = correction.abs().at_most(trusted.maximum(self.resolution()));
+        S::select(is_sound, correction, S::zero())
     }
 
     /// Newton's correction for `ln S`, exact for `S ∝ θⁿ`, if both entropies are positive.
     pub(super) fn logarithmic_newton(&self, target: S) -> Option<S> {
-        let positive = self.entropy > S::zero() && target > S::zero();
-        positive.then(|| -(self.entropy / self.heat_capacity) * (self.entropy / target).ln())
+        let positive = S::zero().less(self.entropy) & S::zero().less(target);
+        positive
+            .all()
+            .then(|| -(self.entropy / self.heat_capacity) * (self.entropy / target).ln())
     }
 
     /// Before anything is known: a power law if the entropies differ by a large factor.
     pub(super) fn first_model(&self, target: S) -> Model {
         let large = S::from_f64(LARGE_FACTOR);
-        if self.entropy > large * target || target > large * self.entropy {
+        let differ = (large * target).less(self.entropy) | (large * self.entropy).less(target);
+        if differ.all() {
             Model::Logarithmic
         } else {
             Model::Linear
@@ -117,7 +118,7 @@ impl<S: Real> Point<S> {
         let growth = self.heat_capacity * step;
         let linear = self.entropy + growth - entropy;
         let logarithmic = self.entropy * (growth / self.entropy).exp() - entropy;
-        if logarithmic.abs() < linear.abs() {
+        if logarithmic.abs().less(linear.abs()).all() {
             Model::Logarithmic
         } else {
             Model::Linear

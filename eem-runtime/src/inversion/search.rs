@@ -1,22 +1,22 @@
 //! The intervals that enclose the temperature, and the choice of the next step.
 //!
 //! Every step either reduces the residual as fast as Newton's method should, or
-//! halves an interval.
+//! halves an interval. It is for a single number: masks are one `bool`.
 
-use super::Inversion;
 use super::error::InversionError;
 use super::point::{Model, Point};
-use crate::scalar::Real;
+use crate::free_energy::Caloric;
+use crate::scalar::{Mask, Real};
 
 /// Evaluations after which [`invert`](crate::invert) gives up: twice what bisection of the
 /// whole range of `ln θ` to the last bit would take.
 const BUDGET: usize = 128;
 
 /// What is known about the solution.
-pub(super) struct Search<S> {
+struct Search<S> {
     target: S,
     /// The current point.
-    pub(super) point: Point<S>,
+    point: Point<S>,
     /// The point of smallest |residual|.
     best: Point<S>,
     /// Largest `x` with a negative and smallest with a positive residual.
@@ -38,12 +38,53 @@ pub(super) struct Search<S> {
     /// are still due for the last of them.
     failures: u32,
     bisections_due: u32,
-    pub(super) evaluations: usize,
+    evaluations: usize,
+}
+
+/// The search from a start that is not known to be close, for a single number.
+#[cold]
+pub(super) fn search_from<S: Real>(
+    mut evaluate: impl FnMut(S) -> Caloric<S>,
+    entropy: S,
+    start: S,
+) -> Result<S, InversionError> {
+    if !entropy.is_finite() {
+        return Err(InversionError::EntropyNotFinite {
+            entropy: entropy.to_f64(),
+        });
+    }
+    let first = Point::new(start.ln(), start, evaluate(start), entropy);
+    if !first.stable() {
+        return Err(InversionError::UnstableStart {
+            start: start.to_f64(),
+            heat_capacity: first.heat_capacity.to_f64(),
+        });
+    }
+    let mut search = Search::new(entropy, first);
+    while !search.converged() {
+        let mut step = search.step();
+        loop {
+            if search.spent() {
+                return search.conclude();
+            }
+            let x = search.point.x + step;
+            let theta = x.exp();
+            let trial = Point::new(x, theta, evaluate(theta), entropy);
+            search.evaluations += 1;
+            if trial.stable() && trial.follows(&search.point) {
+                search.accept(trial, step);
+                break;
+            }
+            search.exclude(x);
+            step *= S::from_f64(0.5);
+        }
+    }
+    Ok(search.solution())
 }
 
 impl<S: Real> Search<S> {
-    /// Starts from a stable point, after some evaluations.
-    pub(super) fn new(target: S, first: Point<S>, evaluations: usize) -> Self {
+    /// Starts from a stable point.
+    fn new(target: S, first: Point<S>) -> Self {
         let infinity = S::one() / S::zero();
         // All normal numbers with normal reciprocals, but for a factor e².
         let widest = S::MAX.ln() - S::from_f64(2.0);
@@ -62,7 +103,7 @@ impl<S: Real> Search<S> {
             modelled: false,
             failures: 0,
             bisections_due: 0,
-            evaluations,
+            evaluations: 1,
         };
         search.narrow();
         search
@@ -70,20 +111,22 @@ impl<S: Real> Search<S> {
 
     /// Moves the end of the bracket on the side of the current point.
     fn narrow(&mut self) {
-        if self.point.residual < S::zero() {
+        if self.point.residual.less(S::zero()).all() {
             self.below = Some(self.point.x);
         } else {
             self.above = Some(self.point.x);
         }
-        if self.point.residual.abs() < self.best.residual.abs() {
+        let own = self.point.residual.abs();
+        if own.less(self.best.residual.abs()).all() {
             self.best = self.point;
         }
     }
 
     /// Makes a stable trial the current point.
-    pub(super) fn accept(&mut self, trial: Point<S>, step: S) {
+    fn accept(&mut self, trial: Point<S>, step: S) {
         self.model = self.point.better_model(step, trial.entropy);
-        if self.modelled && trial.residual.abs() > self.point.residual.abs() {
+        let own = self.point.residual.abs();
+        if self.modelled && own.less(trial.residual.abs()).all() {
             self.failures += 1;
             self.bisections_due = self.failures;
         }
@@ -95,15 +138,16 @@ impl<S: Real> Search<S> {
 
     /// Notes that `x` is beyond a spinodal, and forgets what lies farther off:
     /// it belongs to another branch.
-    pub(super) fn exclude(&mut self, x: S) {
-        if x < self.point.x {
+    fn exclude(&mut self, x: S) {
+        if x.less(self.point.x).all() {
             self.edge_low = x;
-            self.below = self.below.filter(|&below| below > x);
+            self.below = self.below.filter(|&below| x.less(below).all());
         } else {
             self.edge_high = x;
-            self.above = self.above.filter(|&above| above < x);
+            self.above = self.above.filter(|&above| above.less(x).all());
         }
-        if self.best.x < self.edge_low || self.best.x > self.edge_high {
+        let best = self.best.x;
+        if (best.less(self.edge_low) | self.edge_high.less(best)).all() {
             self.best = self.point;
         }
     }
@@ -121,30 +165,29 @@ impl<S: Real> Search<S> {
     }
 
     /// The residual is rounding noise, or what it asks for is below the resolution.
-    pub(super) fn converged(&self) -> bool {
-        self.point.is_noise() || self.point.newton().abs() <= self.point.resolution()
+    fn converged(&self) -> bool {
+        let size = self.point.newton().abs();
+        self.point.is_noise() || size.at_most(self.point.resolution()).all()
     }
 
     /// The search must end without convergence.
-    pub(super) fn spent(&self) -> bool {
+    fn spent(&self) -> bool {
         self.evaluations >= BUDGET || self.exhausted()
     }
 
     /// There is no number left between the bounds.
     fn exhausted(&self) -> bool {
-        self.high() - self.low() <= self.point.resolution()
+        let width = self.high() - self.low();
+        width.at_most(self.point.resolution()).all()
     }
 
     /// The current point after one more correction, which needs no evaluation.
-    pub(super) fn solution(&self) -> Inversion<S> {
-        Inversion {
-            temperature: self.point.theta * self.point.last_correction().exp(),
-            evaluations: self.evaluations,
-        }
+    fn solution(&self) -> S {
+        self.point.theta * self.point.last_correction().exp()
     }
 
     /// The next step from the current point.
-    pub(super) fn step(&mut self) -> S {
+    fn step(&mut self) -> S {
         let linear = self.point.newton();
         let logarithmic = self.point.logarithmic_newton(self.target).unwrap_or(linear);
         let (first, second) = match self.model {
@@ -161,13 +204,18 @@ impl<S: Real> Search<S> {
 
     /// A step that does not shrink to half of the one before the last is too slow.
     fn slow(&self, step: S) -> bool {
-        step.abs() > S::from_f64(0.5) * self.last_but_one
+        (S::from_f64(0.5) * self.last_but_one)
+            .less(step.abs())
+            .all()
     }
 
     /// A step with the solution between two known points.
     fn bracketed(&mut self, first: S, second: S, below: S, above: S) -> S {
         let (x, limit) = (self.point.x, S::from_f64(0.5) * self.last_but_one);
-        let usable = |step: S| below < x + step && x + step < above && step.abs() <= limit;
+        let usable = |step: S| {
+            let is_inside = below.less(x + step) & (x + step).less(above);
+            (is_inside & step.abs().at_most(limit)).all()
+        };
         if self.bisections_due == 0 {
             self.modelled = true;
             if usable(first) {
@@ -186,9 +234,10 @@ impl<S: Real> Search<S> {
     fn unbracketed(&mut self, first: S, second: S) -> S {
         let size = first.abs();
         let slow = self.slow(first);
-        let length = if size > self.reach {
+        let is_long = (S::from_f64(0.5) * self.last).less(size).all();
+        let length = if self.reach.less(size).all() {
             self.reach
-        } else if slow || size > S::from_f64(0.5) * self.last {
+        } else if slow || is_long {
             let longer = size.maximum(second.abs().minimum(self.reach));
             if slow {
                 longer.maximum(self.reach)
@@ -198,19 +247,19 @@ impl<S: Real> Search<S> {
         } else {
             return first;
         };
-        if length >= self.reach {
+        if self.reach.at_most(length).all() {
             self.reach *= S::from_f64(2.0);
         }
-        if first < S::zero() { -length } else { length }
+        S::select(first.less(S::zero()), -length, length)
     }
 
     /// A step that would leave the stable range goes half way to its end instead.
     fn inside_edges(&self, step: S) -> S {
         let x = self.point.x + step;
         let half = S::from_f64(0.5);
-        if x >= self.edge_high {
+        if self.edge_high.at_most(x).all() {
             half * (self.edge_high - self.point.x)
-        } else if x <= self.edge_low {
+        } else if x.at_most(self.edge_low).all() {
             half * (self.edge_low - self.point.x)
         } else {
             step
@@ -218,7 +267,7 @@ impl<S: Real> Search<S> {
     }
 
     /// The result when the bounds have met: the best point, or that there is no solution.
-    pub(super) fn conclude(&self) -> Result<Inversion<S>, InversionError> {
+    fn conclude(&self) -> Result<S, InversionError> {
         let entropy = self.target.to_f64();
         let temperature = self.best.theta.to_f64();
         let residual = self.best.residual.to_f64();
@@ -232,10 +281,7 @@ impl<S: Real> Search<S> {
             });
         }
         if self.below.is_some() && self.above.is_some() {
-            return Ok(Inversion {
-                temperature: self.best.theta,
-                evaluations,
-            });
+            return Ok(self.best.theta);
         }
         Err(InversionError::NoSuchTemperature {
             entropy,

@@ -1,73 +1,111 @@
-//! Starts that are close already: a few Newton steps, none of the machinery of a search.
+//! Newton's method in ln θ from a temperature that is nearly right.
 //!
 //! ```text
-//! θ ← θ e^(−r/C),   r = S(θ) − s
+//! θ ← θ e^((s − S)/C)
 //! ```
 //!
-//! A step is taken if it is short and a fraction of the one before, and its result has to be stable and
-//! in line with the entropy before it. Anything else is left to the search, from the start.
+//! The one warm start of the crate: [`invert`](super::invert) and the schemes begin with it. Where it does
+//! not contract, the [search](search_from) takes over from the start, which finds the temperature from
+//! anywhere on the same stable branch.
 
-use super::Inversion;
-use super::point::Point;
+use super::error::InversionError;
+use super::search::search_from;
 use crate::free_energy::Caloric;
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real, unless};
 
-/// The longest first step in ln θ: far below the factor e that an unenclosed step may have.
-const LONGEST: f64 = 0.25;
+/// A first correction of ln θ for which the start is not nearly right.
+const LARGEST_CORRECTION: f64 = 0.25;
 
-/// A step has to shrink to this part of the one before, far less than where Newton's method
-/// converges as its theory says.
-const SHRINKING: f64 = 0.125;
+/// Roundings of the largest terms of an entropy, in the evaluation of which several add up.
+const ENTROPY_ROUNDINGS: f64 = 4.0;
 
-/// Below this, `1 + x + x²/2 + x³/6 + x⁴/24` is eˣ to rounding: x⁵/120 < 2⁻⁵⁶.
-const SMALL: f64 = 1.0 / 1024.0;
+/// The least by which a correction must be smaller than the one before.
+const CONTRACTION: f64 = 0.25;
 
-/// The outcome of a warm start.
-pub(super) enum Warm<S> {
-    Found(Inversion<S>),
-    /// Not close enough: the entropy at the start, and what has been spent.
-    Cold(Caloric<S>, usize),
-}
-
-/// Newton's method from a start that may be close. Points count `x` from the start.
-pub(super) fn start<S: Real>(
-    evaluate: &mut impl FnMut(S) -> Caloric<S>,
+/// The temperature of the entropy, and what else was evaluated at the last temperature that was tried.
+///
+/// The first correction of ln θ that is at most `enough` is the last one.
+#[inline]
+pub(crate) fn temperature_near<S: Real, const W: usize>(
+    mut caloric_at: impl FnMut(S) -> (Caloric<S>, [S; W]),
     entropy: S,
-    start: S,
-) -> Warm<S> {
-    let first = evaluate(start);
-    let mut point = Point::new(S::zero(), start, first, entropy);
-    let mut evaluations = 1;
-    let mut longest = S::from_f64(LONGEST);
+    guess: S,
+    enough: S,
+) -> Result<(S, [S; W]), InversionError> {
+    let mut limit = S::from_f64(LARGEST_CORRECTION);
+    let mut theta = guess;
+    let (mut found, mut found_other) = (theta, [theta; W]);
+    let mut settled = S::Mask::none();
     loop {
-        let step = point.newton();
-        // What is not a number ends here too.
-        if !(point.stable() && step.abs() <= longest) {
-            return Warm::Cold(first, evaluations);
+        let (caloric, mut other) = caloric_at(theta);
+        let lacking = entropy - caloric.entropy;
+        let mut correction = lacking / caloric.heat_capacity;
+        let size = correction.abs();
+        let is_stable = S::zero().less(caloric.heat_capacity);
+        let is_far = !(settled | (is_stable & size.at_most(limit)));
+        let mut last = size.at_most(enough);
+        if is_far.any() {
+            // Where rounding of the entropy is all that is left, no search finds better.
+            let rounding = S::from_f64(ENTROPY_ROUNDINGS) * S::EPSILON * caloric.magnitude;
+            let is_noise = is_far & is_stable & lacking.abs().at_most(rounding);
+            let is_far = is_far & !is_noise;
+            if is_far.any() {
+                let sought = search_far(|theta| caloric_at(theta).0, entropy, guess, is_far)?;
+                theta = S::select(is_far, sought, theta);
+                if W > 0 {
+                    other = caloric_at(theta).1;
+                }
+            }
+            correction = S::select(is_noise | is_far, S::zero(), correction);
+            last = last | is_noise | is_far;
         }
-        if point.is_noise() || step.abs() <= point.resolution() {
-            return Warm::Found(Inversion {
-                temperature: point.theta * exponential(point.last_correction()),
-                evaluations,
-            });
+        found = unless(settled, found, theta + theta * correction);
+        for (found, other) in found_other.iter_mut().zip(other) {
+            *found = unless(settled, *found, other);
         }
-        let theta = point.theta * exponential(step);
-        let trial = Point::new(point.x + step, theta, evaluate(theta), entropy);
-        evaluations += 1;
-        if !(trial.stable() && trial.follows(&point)) {
-            return Warm::Cold(first, evaluations);
+        settled = settled | last;
+        if settled.all() {
+            return Ok((found, found_other));
         }
-        longest = S::from_f64(SHRINKING) * step.abs();
-        point = trial;
+        theta *= correction.exp();
+        limit = S::from_f64(CONTRACTION) * size;
     }
 }
 
-/// eˣ, without the library where a few terms are enough.
-fn exponential<S: Real>(x: S) -> S {
-    if x.abs() > S::from_f64(SMALL) {
-        return x.exp();
+/// The temperatures of the numbers that are far off; several in one are searched one by one.
+#[cold]
+fn search_far<S: Real>(
+    mut caloric_at: impl FnMut(S) -> Caloric<S>,
+    entropy: S,
+    guess: S,
+    is_far: S::Mask,
+) -> Result<S, InversionError> {
+    if S::LANES == 1 {
+        return search_from(caloric_at, entropy, guess);
     }
-    let [half, third, quarter] = [0.5, 1.0 / 3.0, 0.25].map(S::from_f64);
-    let one = S::one();
-    one + x * (one + half * x * (one + third * x * (one + quarter * x)))
+    let mut failure = None;
+    let temperatures = S::pack(|lane| {
+        let start = guess.lane(lane);
+        let is_needed = S::select(is_far, S::one(), S::zero()).lane(lane) > 0.0;
+        if !is_needed {
+            return start;
+        }
+        let caloric_at = |theta: f64| {
+            let Caloric {
+                entropy,
+                heat_capacity,
+                magnitude,
+            } = caloric_at(S::from_f64(theta));
+            Caloric {
+                entropy: entropy.lane(lane),
+                heat_capacity: heat_capacity.lane(lane),
+                magnitude: magnitude.lane(lane),
+            }
+        };
+        search_from(caloric_at, entropy.lane(lane), start).unwrap_or_else(|error| {
+            failure = Some(error);
+            start
+        })
+    });
+    failure.map_or(Ok(temperatures), Err)
 }

@@ -52,7 +52,7 @@ pub trait Kinematics<S: Real, const D: usize>:
     #[inline]
     fn is_admissible(&self, measure: S) -> bool {
         let [least, most] = self.admissible();
-        (least.at_most(measure) & measure.at_most(most)).decide()
+        (least.at_most(measure) & measure.at_most(most)).all()
     }
 
     /// The measures `π(r)`, exact to rounding where they are admissible. Elsewhere they are not

@@ -1,42 +1,29 @@
-//! One `bool` per lane, and the one decision of all.
+//! One `bool` per lane.
 
 use core::ops::{BitAnd, BitOr, Not};
 
 use wide::f64x4;
 
-use super::discord;
+use super::forward::forward;
 use crate::scalar::Mask;
 
 /// All bits of a lane where it holds, none where it does not.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LaneMask(pub(super) f64x4);
+pub(crate) struct LaneMask(f64x4);
 
-impl BitAnd for LaneMask {
-    type Output = Self;
+impl LaneMask {
+    #[inline]
+    pub(super) fn packed(self) -> f64x4 {
+        self.0
+    }
 
     #[inline]
-    fn bitand(self, other: Self) -> Self {
-        Self(self.0 & other.0)
+    pub(super) fn from_packed(packed: f64x4) -> Self {
+        Self(packed)
     }
 }
 
-impl BitOr for LaneMask {
-    type Output = Self;
-
-    #[inline]
-    fn bitor(self, other: Self) -> Self {
-        Self(self.0 | other.0)
-    }
-}
-
-impl Not for LaneMask {
-    type Output = Self;
-
-    #[inline]
-    fn not(self) -> Self {
-        Self(!self.0)
-    }
-}
+forward!(LaneMask: BitAnd bitand, BitOr bitor; Not not);
 
 impl Mask for LaneMask {
     #[inline]
@@ -52,16 +39,5 @@ impl Mask for LaneMask {
     #[inline]
     fn any(self) -> bool {
         self.0.any()
-    }
-
-    #[inline]
-    fn decide(self) -> bool {
-        if self.all() {
-            return true;
-        }
-        if self.any() {
-            discord::note();
-        }
-        false
     }
 }

@@ -2,7 +2,7 @@
 
 use super::fixed::{LARGEST_RATIO, solve_fixed};
 use crate::lu::singular::Singular;
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 
 /// The first row of `x` becomes the solution of `A x = b` for one unknown, and A zero.
 #[inline]
@@ -14,7 +14,7 @@ pub(crate) fn solve_one<S: Real, const W: usize>(
     let ([pivot, ..], [right, ..], [x, ..]) = (matrix, b, x) else {
         return Err(Singular);
     };
-    if !(pivot.is_finite() && *pivot != S::zero()) {
+    if !pivot.is_finite() || pivot.equal(S::zero()).any() {
         return Err(Singular);
     }
     *x = right.map(|value| value / *pivot);
@@ -42,7 +42,8 @@ pub(crate) fn solve_two<S: Real, const W: usize>(
     };
     let (a, u) = (matrix[0], matrix[1]);
     // A decision in between keeps the compiler from reading u and c together.
-    if S::from_f64(LARGEST_RATIO) * a.abs() <= u.abs() {
+    let is_small = (S::from_f64(LARGEST_RATIO) * a.abs()).at_most(u.abs());
+    if is_small.decide()? {
         *x = *b;
         return solve_fixed::<S, 2, W>(matrix, x);
     }
@@ -50,7 +51,8 @@ pub(crate) fn solve_two<S: Real, const W: usize>(
     let determinant = a * d - c * u;
     let square = determinant * determinant;
     // Neither the products nor the reciprocal have left the range of full precision.
-    if !(square > S::MAX.recip() && square <= S::MAX) {
+    let is_normal = S::MAX.recip().less(square) & square.at_most(S::MAX);
+    if !is_normal.decide()? {
         *x = *b;
         return solve_fixed::<S, 2, W>(matrix, x);
     }

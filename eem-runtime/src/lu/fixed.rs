@@ -8,7 +8,7 @@
 use core::array;
 
 use crate::lu::singular::Singular;
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 
 /// A row is divided by its diagonal entry unless its other entries, all together, are larger by more than
 /// this factor; that bounds the growth of entries nearly as well as the largest pivot does.
@@ -95,6 +95,10 @@ fn exchange_from<S: Real, const N: usize, const W: usize>(
     a: &mut [[S; N]; N],
     b: &mut [[S; W]; N],
 ) -> Result<(), Singular> {
+    if S::LANES > 1 {
+        // Some of the numbers may have good pivots.
+        return Err(Singular);
+    }
     let mut order: [usize; N] = array::from_fn(|at| at);
     for at in first..N {
         for k in 0..at {
@@ -128,11 +132,11 @@ fn largest_behind<S: Real, const N: usize>(
 ) -> Result<usize, Singular> {
     let (mut pivot, mut size) = (diagonal, row[diagonal].abs());
     for (column, entry) in row.iter().enumerate().skip(diagonal + 1) {
-        if entry.abs() > size {
+        if size.less(entry.abs()).decide()? {
             (pivot, size) = (column, entry.abs());
         }
     }
-    if size.is_finite() && size > S::zero() {
+    if size.is_finite() && S::zero().less(size).all() {
         Ok(pivot)
     } else {
         Err(Singular)
@@ -165,7 +169,7 @@ fn dominates<S: Real, const N: usize>(row: &[S; N], diagonal: usize) -> bool {
     }
     let own = row[diagonal] * row[diagonal];
     let least = S::from_f64(1.0 / (LARGEST_RATIO * LARGEST_RATIO)) * (squares[0] + squares[1]);
-    own > least && own <= S::MAX
+    (least.less(own) & own.at_most(S::MAX)).all()
 }
 
 /// `x −= factor y`.

@@ -1,17 +1,26 @@
-//! What a time step needs of its numbers to take decisions: an order, and one mask per decision.
+//! What a time step needs of its numbers to take decisions: comparisons that return masks.
 
 use core::fmt::Debug;
 use core::ops::{BitAnd, BitOr, Not};
 
 use super::Scalar;
 
+/// Several numbers in one would decide differently, so that they cannot take one branch together.
+///
+/// A single number never does. An [`Ensemble`](crate::Ensemble) runs the members of a bundle one by one
+/// when this error reaches it, by `?`, from an [`Experiment`](crate::Experiment).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("members that are stepped together would decide differently")]
+pub struct Discord;
+
 /// The result of a comparison: `bool`, or one `bool` for each of several numbers that move together.
 ///
 /// ```
 /// use eem_runtime::Mask;
 ///
-/// assert!(true.all() && true.any() && true.decide());
+/// assert!(true.all() && true.any());
 /// assert!(!bool::none().any());
+/// assert_eq!(true.decide(), Ok(true));
 /// ```
 pub trait Mask:
     Copy
@@ -26,17 +35,27 @@ pub trait Mask:
     /// False everywhere.
     fn none() -> Self;
 
-    /// True everywhere. What is decided by it must be right for all numbers: nobody notices that they
-    /// differ.
+    /// True everywhere. A branch on it must be right for every number, also for those whose own answer
+    /// is another one: as in "an error of one number is an error of all".
     fn all(self) -> bool;
 
-    /// True somewhere. What is decided by it must be right for all numbers: nobody notices that they
-    /// differ.
+    /// True somewhere. A branch on it must be right for every number, as for [`all`](Self::all).
     fn any(self) -> bool;
 
-    /// The one decision for all numbers, as in a comparison with `<`. Numbers that would decide
-    /// differently cannot go on together: then it is `false`, and what they compute is not used.
-    fn decide(self) -> bool;
+    /// The one decision of all numbers, for a branch that differs between them.
+    ///
+    /// # Errors
+    ///
+    /// [`Discord`] if it is true for some numbers and false for others.
+    #[inline]
+    fn decide(self) -> Result<bool, Discord> {
+        let all = self.all();
+        if all == self.any() {
+            Ok(all)
+        } else {
+            Err(Discord)
+        }
+    }
 }
 
 impl Mask for bool {
@@ -56,18 +75,29 @@ impl Mask for bool {
     }
 
     #[inline]
-    fn decide(self) -> bool {
-        self
+    fn decide(self) -> Result<bool, Discord> {
+        Ok(self)
     }
+}
+
+/// Keeps [`Real`] closed: what a step decides by masks is known to be right for these types only.
+pub(crate) mod sealed {
+    pub trait Sealed {}
+
+    impl Sealed for f64 {}
+    impl Sealed for f32 {}
 }
 
 /// A real number that a time step can take decisions on: `f64`, `f32`.
 ///
 /// An [`Ensemble`](crate::Ensemble) puts several `f64` in the place of one, one for each of so many
-/// scenes. The operators of comparison then hold only if they hold for all of them, and an
-/// ensemble whose scenes differ in what such a comparison says runs them one by one; masks
-/// ([`less`](Scalar::less), [`at_most`](Self::at_most), [`select`](Self::select)) decide for each
-/// scene apart.
+/// scenes. Such numbers have no order: comparisons ([`equal`](Scalar::equal), [`less`](Scalar::less),
+/// [`at_most`](Self::at_most)) return a [`Mask`], from which [`select`](Self::select) takes the right
+/// value for each scene, and [`Mask::decide`] one branch for all of them, or the error that they differ.
+/// `==` says whether all of them are equal; a branch on it hides that they differ.
+///
+/// The trait is sealed: `f64`, `f32` and the numbers of a bundle are all there are. A number for
+/// evaluating formulas, as a dual number, implements [`Scalar`].
 ///
 /// ```
 /// use eem_runtime::Real;
@@ -76,7 +106,7 @@ impl Mask for bool {
 /// assert!(!Real::is_finite(f64::NAN));
 /// assert_eq!(f64::select(2.0.at_most(1.0), 3.0, 4.0), 4.0);
 /// ```
-pub trait Real: Scalar<Mask: Mask> + PartialOrd {
+pub trait Real: Scalar<Mask: Mask> + sealed::Sealed {
     /// The distance from 1 to the next larger number.
     const EPSILON: Self;
 
@@ -89,10 +119,10 @@ pub trait Real: Scalar<Mask: Mask> + PartialOrd {
     /// Of how many numbers it consists.
     const LANES: usize = 1;
 
-    /// The value in double precision; of several numbers only if they are the same, else NaN.
+    /// The value in double precision, for messages and records; NaN for several numbers that differ.
     fn to_f64(self) -> f64;
 
-    /// Neither infinite nor NaN.
+    /// Neither infinite nor NaN, for every number.
     fn is_finite(self) -> bool;
 
     /// `self <= other`.
@@ -103,18 +133,6 @@ pub trait Real: Scalar<Mask: Mask> + PartialOrd {
     #[must_use]
     fn select(mask: Self::Mask, then: Self, otherwise: Self) -> Self {
         Self::branch(mask, || then, || otherwise)
-    }
-
-    /// Says that its numbers cannot go on together, as when a comparison holds for some of them;
-    /// nothing for a single one.
-    #[inline]
-    fn give_up() {}
-
-    /// Whether that has been said, or found by a comparison: then what they compute is not used.
-    #[inline]
-    #[must_use]
-    fn has_given_up() -> bool {
-        false
     }
 
     /// The numbers of the lanes `0, 1, …` in one.
@@ -134,7 +152,7 @@ pub trait Real: Scalar<Mask: Mask> + PartialOrd {
 /// Finite and greater than zero.
 #[inline]
 pub(crate) fn is_positive<S: Real>(value: S) -> bool {
-    (S::zero().less(value) & value.at_most(S::MAX)).decide()
+    (S::zero().less(value) & value.at_most(S::MAX)).all()
 }
 
 /// `kept` in the lanes that are settled, `new` in all others.

@@ -4,7 +4,7 @@ use super::Scene;
 use crate::error::{SceneError, StateError};
 use crate::handle::{Element, HeatPartner, Node, Reservoir};
 use crate::layout::Shape;
-use crate::scalar::{Real, is_positive};
+use crate::scalar::{Mask, Real, is_positive};
 use crate::scene::entry::{ElementEntry, NodeEntry};
 
 impl<const D: usize, S: Real> Scene<D, S> {
@@ -84,7 +84,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
                 }
             }
             let value = conductor.conductance;
-            if !value.is_finite() || value < S::zero() {
+            if !value.is_finite() || value.less(S::zero()).any() {
                 return Err(SceneError::Conductance {
                     element,
                     partner,

@@ -140,5 +140,5 @@ impl<const D: usize, S: Real> Scene<D, S> {
 /// Whether a difference is a number and not more than rounding does to a function of this size.
 fn is_rounding<S: Real>(difference: S, size: S) -> bool {
     let bound = S::from_f64(MOTION_ROUNDINGS) * S::EPSILON * size;
-    difference.abs().at_most(bound).decide()
+    difference.abs().at_most(bound).all()
 }

@@ -8,7 +8,7 @@ use crate::checkpoint::{Digest, Numbers, RestoreError};
 use crate::conduction::Partner;
 use crate::ledger::Ledger;
 use crate::loads::{MOTION_ROUNDINGS, extent};
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 use crate::state::State;
 
 /// By how many ε of the time a function of time may have been evaluated beside the time of a state.
@@ -100,9 +100,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 let at = node * D + axis;
                 audit_zero(node, axis, momenta[at])?;
                 let (value, carry) = positions[at];
-                let is_right = motion.map_or(value == created[at] && carry == S::zero(), |by| {
-                    follows(&|time| by(time)[axis], value, (time, step), scale)
-                });
+                let is_right = motion.map_or(
+                    value.equal(created[at]).all() && carry.equal(S::zero()).all(),
+                    |by| follows(&|time| by(time)[axis], value, (time, step), scale),
+                );
                 if !is_right {
                     let expected = motion.map_or(created[at], |by| by(time)[axis]);
                     return Err(RestoreError::Anchor {
@@ -145,7 +146,7 @@ fn audit_zero<S: Real>(
     axis: usize,
     (value, carry): (S, S),
 ) -> Result<(), RestoreError> {
-    if value == S::zero() && carry == S::zero() {
+    if value.equal(S::zero()).all() && carry.equal(S::zero()).all() {
         return Ok(());
     }
     let value = (value + carry).to_f64();
@@ -162,7 +163,7 @@ fn follows<S: Real>(function: &dyn Fn(S) -> S, value: S, (time, step): (S, S), s
     let now = function(time);
     let roundings = S::from_f64(MOTION_ROUNDINGS) * S::EPSILON;
     let bound = roundings * scale.maximum(now.abs());
-    if (value - now).abs() <= bound {
+    if (value - now).abs().at_most(bound).all() {
         return true;
     }
     let beside = S::from_f64(TIME_ROUNDINGS) * S::EPSILON * time;
@@ -171,5 +172,5 @@ fn follows<S: Real>(function: &dyn Fn(S) -> S, value: S, (time, step): (S, S), s
     let bound = bound.maximum(roundings * begin.abs());
     let low = ends.into_iter().fold(now, S::minimum) - bound;
     let high = ends.into_iter().fold(now, S::maximum) + bound;
-    low <= value && value <= high
+    (low.at_most(value) & value.at_most(high)).all()
 }

@@ -11,7 +11,7 @@ use super::Simulation;
 use super::run::RunEnd;
 use crate::error::{StepError, StepFailure};
 use crate::newton::StepReport;
-use crate::scalar::Real;
+use crate::scalar::{Discord, Mask, Real};
 
 /// The least distance of two times that a search tells apart, in units in the last place.
 const SHARPEST: f64 = 4.0;
@@ -57,6 +57,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         mut function: impl FnMut(&Self) -> S,
         mut observer: impl FnMut(&Self, &StepReport<S>) -> ControlFlow<()>,
     ) -> Result<RunEnd, StepError> {
+        if S::LANES > 1 {
+            // Each of the numbers has its events at other times.
+            return Err(self.refused(Discord.into()));
+        }
         self.check_end(end)?;
         let value = tolerance.to_f64();
         if value.is_nan() || value < 0.0 {
@@ -66,7 +70,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         if before.to_f64().is_nan() {
             return Err(self.refused(StepFailure::EventFunction));
         }
-        while self.time() < end {
+        while self.is_before(end)? {
             let mut report = self.step_towards(end)?;
             let after = self.value(&mut function)?;
             let found = Bracket::new(report.step, [before, after]);
@@ -134,7 +138,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 }
 
-/// Step sizes on both sides of a change of sign.
+/// Step sizes on both sides of a change of sign, of a single number.
 #[derive(Clone, Copy, Debug)]
 struct Bracket<S> {
     low: S,
@@ -153,20 +157,18 @@ impl<S: Real> Bracket<S> {
     /// From zero to a whole step, if the sign of the function changes in it.
     fn new(step: S, [before, after]: [S; 2]) -> Option<Self> {
         let zero = S::zero();
-        let changes = match before {
-            before if before > zero => after <= zero,
-            before if before < zero => after >= zero,
-            _ => false,
-        };
+        let is_rising = before.less(zero);
+        let falls = zero.less(before) & after.at_most(zero);
+        let rises = is_rising & zero.at_most(after);
         let bracket = Self {
-            low: if after == zero { step } else { zero },
+            low: S::select(after.equal(zero), step, zero),
             high: step,
-            is_rising: before < zero,
+            is_rising: is_rising.all(),
             values: [before, after],
             moved: None,
             widths: [S::MAX; 2],
         };
-        changes.then_some(bracket)
+        (falls | rises).all().then_some(bracket)
     }
 
     /// The next size to try; none if the bracket is as narrow as wanted.
@@ -177,29 +179,31 @@ impl<S: Real> Bracket<S> {
     fn candidate(&self, resolution: S) -> Option<S> {
         let half = S::from_f64(0.5);
         let width = self.high - self.low;
-        if width <= resolution {
+        if width.at_most(resolution).all() {
             return None;
         }
         let [below, above] = self.values;
         let secant = self.high - width * (above / (above - below));
         let margin = half * resolution;
-        let guess = if secant.is_finite() && width <= half * self.widths[0] {
+        let is_short = width.at_most(half * self.widths[0]).all();
+        let guess = if secant.is_finite() && is_short {
             secant
                 .maximum(self.low + margin)
                 .minimum(self.high - margin)
         } else {
             self.low + half * width
         };
-        (self.low < guess && guess < self.high).then_some(guess)
+        let is_inside = self.low.less(guess) & guess.less(self.high);
+        is_inside.all().then_some(guess)
     }
 
     /// Takes the value at a size between; whether that size lies behind the event.
     fn narrow(&mut self, size: S, value: S) -> bool {
         self.widths = [self.widths[1], self.high - self.low];
         let is_behind = if self.is_rising {
-            value >= S::zero()
+            S::zero().at_most(value).all()
         } else {
-            value <= S::zero()
+            value.at_most(S::zero()).all()
         };
         self.values[usize::from(is_behind)] = value;
         if is_behind {
@@ -207,7 +211,7 @@ impl<S: Real> Bracket<S> {
         } else {
             self.low = size;
         }
-        if value == S::zero() {
+        if value.equal(S::zero()).all() {
             self.low = size;
         }
         if self.moved.replace(is_behind) == Some(is_behind) {

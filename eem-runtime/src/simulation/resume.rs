@@ -53,8 +53,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub fn restore(&mut self, checkpoint: &Checkpoint<S>) -> Result<(), RestoreError> {
         let past = self.stepper.past();
         let scene = (&self.outline(), &self.numbers());
-        checkpoint.check(self.scheme, scene, &self.state, &past)?;
-        self.audit(&checkpoint.state, checkpoint.step)?;
+        checkpoint
+            .check(self.scheme, scene, &self.state, &past)
+            .and_then(|()| self.audit(&checkpoint.state, checkpoint.step))
+            .inspect_err(|_| self.part())?;
         self.set_newton_settings(checkpoint.newton)?;
         self.has_stepped = false;
         self.state.copy_from(&checkpoint.state);

@@ -7,7 +7,7 @@ use super::Simulation;
 use crate::compensated::Sum;
 use crate::error::{StepError, StepFailure};
 use crate::newton::StepReport;
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -69,7 +69,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         mut observer: impl FnMut(&Self, &StepReport<S>) -> ControlFlow<()>,
     ) -> Result<RunEnd, StepError> {
         self.check_end(end)?;
-        while self.time() < end {
+        while self.is_before(end)? {
             let report = self.step_towards(end)?;
             if observer(self, &report).is_break() {
                 return Ok(RunEnd::Stopped);
@@ -80,15 +80,27 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// An error unless a run can end at this time.
     pub(super) fn check_end(&self, end: S) -> Result<(), StepError> {
-        if end >= self.time() {
+        if self.time().at_most(end).all() {
             return Ok(());
         }
         let end = end.to_f64();
         Err(self.refused(StepFailure::End { end }))
     }
 
+    /// Whether the end of a run lies ahead.
+    pub(super) fn is_before(&self, end: S) -> Result<bool, StepError> {
+        self.decide(self.time().less(end))
+    }
+
+    /// One decision for all numbers in S.
+    fn decide(&self, mask: S::Mask) -> Result<bool, StepError> {
+        let decided = mask.decide();
+        decided.map_err(|discord| self.refused(discord.into()))
+    }
+
     /// A run that ends before its first step.
     pub(super) fn refused(&self, failure: StepFailure) -> StepError {
+        self.part();
         StepError {
             time: self.time().to_f64(),
             step: self.step_size().to_f64(),
@@ -103,10 +115,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let full = self.step_size();
         let scale = self.time().abs() + full.minimum(left);
         let rounding = S::from_f64(END_ROUNDINGS) * S::EPSILON * scale;
-        if left > full + rounding {
+        if self.decide((full + rounding).less(left))? {
             return self.step_by(full);
         }
-        let is_full = (left - full).abs() <= rounding;
+        let is_full = self.decide((left - full).abs().at_most(rounding))?;
         let mut report = self.step_by(if is_full { full } else { left })?;
         self.state.time = Sum::new(end);
         report.time = end;

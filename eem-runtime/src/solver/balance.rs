@@ -4,7 +4,6 @@ use core::array;
 
 use super::places::MovingNode;
 use crate::group::StepView;
-use crate::kernel::two_sum;
 use crate::scalar::Real;
 
 /// What Newton's method knows of a node that moves, during one step.
@@ -80,10 +79,4 @@ impl<S: Real, const D: usize> Balance<S, D> {
         let impulse = self.impulse(displacement, inertia_per_mass);
         *rows = array::from_fn(|axis| self.push[axis] - impulse[axis]);
     }
-}
-
-/// Adds to a displacement along an axis, to twice the precision.
-#[inline]
-pub(super) fn displace<S: Real>(displacement: &mut S, rest: &mut S, change: S) {
-    (*displacement, *rest) = two_sum(*displacement, *rest + change);
 }

@@ -182,7 +182,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
 /// number there is, is 1 m.
 #[inline]
 pub(super) fn inverse_length<S: Real>(length: S) -> S {
-    if length == S::MAX {
+    if length.equal(S::MAX).all() {
         S::one()
     } else {
         length.recip()

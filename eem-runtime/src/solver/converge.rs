@@ -117,7 +117,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             share = self.retreat(groups, view, share, error)?;
             goes_on = true;
         }
-        Ok(share == S::one())
+        Ok(share.equal(S::one()).all())
     }
 
     /// Half the share of the correction that failed, applied. Several numbers in one do not go back, as
@@ -132,7 +132,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         error: StateError,
     ) -> Result<S, StepFailure> {
         let half = S::from_f64(0.5);
-        if S::LANES > 1 || share <= natural_power(half, HALVINGS) {
+        if S::LANES > 1 || share.at_most(natural_power(half, HALVINGS)).all() {
             return Err(error.into());
         }
         self.obstacle = Some(error);

@@ -1,8 +1,8 @@
 //! The global system of an iteration, and what its solution means.
 
 use super::Solver;
-use super::balance::displace;
 use super::places::Seen;
+use crate::compensated::correct;
 use crate::group::{Group, StepView};
 use crate::newton::Largest;
 use crate::scalar::{Real, unless};
@@ -67,7 +67,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 for axis in 0..D {
                     let change = change[axis];
                     let applied = unless(settled, S::zero(), change);
-                    displace(&mut displacement[axis], &mut rest[axis], applied);
+                    correct(&mut displacement[axis], &mut rest[axis], applied);
                     largest.see(change * per_length);
                 }
                 (trial.displacements[at], trial.rests[at]) = (displacement, rest);
@@ -77,7 +77,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for &Seen { in_trial, row, .. } in &self.seen {
             let change = solution[row][0];
             right[row] = [S::zero()];
-            largest.see(change / trial.seen.values[in_trial]);
+            largest.see(change / trial.seen.values()[in_trial]);
             trial.seen.add(in_trial, unless(settled, S::zero(), change));
         }
         for group in groups.iter_mut() {
@@ -97,7 +97,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 let at = node.place.in_trial();
                 for (axis, &change) in change.iter().enumerate() {
                     let displacement = &mut trial.displacements[at][axis];
-                    displace(displacement, &mut trial.rests[at][axis], -share * change);
+                    correct(displacement, &mut trial.rests[at][axis], -share * change);
                 }
             }
         }
@@ -125,7 +125,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 for (axis, change) in change.iter_mut().enumerate() {
                     let displacement = &mut self.trial.displacements[at][axis];
                     *change = growth * *displacement;
-                    displace(displacement, &mut self.trial.rests[at][axis], *change);
+                    correct(displacement, &mut self.trial.rests[at][axis], *change);
                 }
             }
         }

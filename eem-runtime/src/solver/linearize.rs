@@ -31,12 +31,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         // Whatever fails, the global unknowns stay.
         self.tangent.solution_mut().fill([S::zero()]);
-        let mut before = None;
+        let mut before = S::MAX;
         loop {
             self.balance(view);
             self.advance(groups, view, Purpose::Iterate)?;
             let residual = self.residual();
-            if before.is_some_and(|update| update <= S::EPSILON) {
+            if before.at_most(S::EPSILON).decide()? {
                 break;
             }
             let updates = groups.iter_mut();
@@ -44,15 +44,15 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 updates.map(|group| group.correct(self.tangent.solution(), S::Mask::none()));
             let update = updates.fold(S::zero(), S::maximum);
             effort.history.push(Iteration { residual, update });
-            let stagnated = before.is_some_and(|before| update >= before);
+            let stagnated = before.at_most(update);
             if !update.is_finite() || effort.history.len() > effort.settings.max_iterations {
                 let update = update.to_f64();
                 return Err(StepFailure::NotConverged { update });
             }
-            if stagnated && update <= effort.settings.tolerance {
+            if (stagnated & update.at_most(effort.settings.tolerance)).decide()? {
                 break;
             }
-            before = Some(update);
+            before = update;
         }
         let right = &self.tangent.right()[..unknowns.len()];
         let residual = right.iter().map(|&[entry]| -entry).collect();

@@ -98,13 +98,13 @@ impl<S: Real> Progress<S> {
 
     /// No update has been small for long.
     pub(super) fn is_hopeless(&self) -> bool {
-        self.iterations >= PATIENCE && self.smallest > S::from_f64(CONTRACTION)
+        self.iterations >= PATIENCE && S::from_f64(CONTRACTION).less(self.smallest).all()
     }
 
     /// Counts a refused state with this residual; one with a smaller residual than before shows that
     /// iterating helps, however slowly.
     pub(super) fn draw(&mut self, residual: S) {
-        if residual < S::from_f64(SLOWEST) * self.residual {
+        if residual.less(S::from_f64(SLOWEST) * self.residual).all() {
             self.draws = 0;
             self.residual = residual;
         } else {

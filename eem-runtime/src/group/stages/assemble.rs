@@ -187,7 +187,7 @@ where
             let by_arms = self.by_arms(rule, target.local);
             let by_heat = &target.local.row[1 + rule.sets() * M::MEASURES..];
             let own = &contacts[set][set];
-            let seen = trial.seen.values[trial.seen_of_set(set, slot)];
+            let seen = trial.seen.values()[trial.seen_of_set(set, slot)];
             target.right[own.unknown as usize][0] += theta - seen;
             target.values[own.diagonal as usize] += S::one();
             for (column, contact) in contacts[set].iter().enumerate() {
