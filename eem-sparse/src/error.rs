@@ -19,7 +19,7 @@ pub enum Error {
     #[error("not enough memory for the factors")]
     OutOfMemory,
     /// Blocks of this size are not supported.
-    #[error("a block has 1 to {} rows, not {length}", crate::LARGEST_BLOCK)]
+    #[error("a block has one to three rows, not {length}")]
     BlockLength {
         /// The size that was asked for.
         length: usize,

@@ -3,7 +3,7 @@
 use core::fmt::Debug;
 use core::ops::{BitAnd, BitOr, Not};
 
-use super::Scalar;
+use super::number::Scalar;
 
 /// Several numbers in one would decide differently, so that they cannot take one branch together.
 ///
