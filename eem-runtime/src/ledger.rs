@@ -78,17 +78,14 @@ impl<S: Real, const D: usize> Ledger<S, D> {
         reservoirs: &[S],
         gravity: &SVector<S, D>,
     ) -> Self {
-        let mut potential = Total::new();
-        let (mut kinetic, mut internal, mut heat) = (Total::new(), Total::new(), Total::new());
+        let (kinetic, potential) = (
+            kinetic_energy::<S, D>(state, masses),
+            potential_energy(state, masses, gravity),
+        );
+        let (mut internal, mut heat) = (Total::new(), Total::new());
         let (mut element_entropy, mut reservoir_entropy) = (Total::new(), Total::new());
         let mut entropy_of_state = Total::new();
         let momenta = state.momenta.values();
-        for (p, mass) in momenta.chunks_exact(D).zip(masses.iter()) {
-            let Some(mass) = mass else { continue };
-            for &component in p {
-                kinetic.add(component * component / (mass + mass));
-            }
-        }
         for group in groups {
             let totals = group.totals(state);
             internal.add(totals.energy);
@@ -99,12 +96,6 @@ impl<S: Real, const D: usize> Ledger<S, D> {
             heat.add(theta * entropy);
             reservoir_entropy.add(entropy);
         }
-        for (q, mass) in state.positions.values().chunks_exact(D).zip(masses.iter()) {
-            let Some(mass) = mass else { continue };
-            for (&coordinate, &component) in q.iter().zip(gravity.iter()) {
-                potential.add(-mass * component * coordinate);
-            }
-        }
         let [lost_heat, work, given_heat, thermostat_entropy] = [
             state.dissipated,
             state.work,
@@ -113,8 +104,8 @@ impl<S: Real, const D: usize> Ledger<S, D> {
         ]
         .map(|booked| booked.value);
         let energy = [
-            kinetic.value(),
-            potential.value(),
+            kinetic,
+            potential,
             internal.value(),
             heat.value(),
             lost_heat,
@@ -125,8 +116,8 @@ impl<S: Real, const D: usize> Ledger<S, D> {
             thermostat_entropy,
         ];
         Self {
-            kinetic_energy: kinetic.value(),
-            potential_energy: potential.value(),
+            kinetic_energy: kinetic,
+            potential_energy: potential,
             internal_energy: internal.value(),
             reservoir_heat: heat.value(),
             lost_heat,
@@ -145,6 +136,36 @@ impl<S: Real, const D: usize> Ledger<S, D> {
             angular_momentum: angular_momentum::<S, D>(state, masses),
         }
     }
+}
+
+/// `Σ p²/2m`, J.
+fn kinetic_energy<S: Real, const D: usize>(state: &State<S>, masses: &Masses<S>) -> S {
+    let mut sum = Total::new();
+    let momenta = state.momenta.values().chunks_exact(D);
+    for (p, mass) in momenta.zip(masses.iter()) {
+        let Some(mass) = mass else { continue };
+        for &component in p {
+            sum.add(component * component / (mass + mass));
+        }
+    }
+    sum.value()
+}
+
+/// `−Σ m g·q`, J.
+fn potential_energy<S: Real, const D: usize>(
+    state: &State<S>,
+    masses: &Masses<S>,
+    gravity: &SVector<S, D>,
+) -> S {
+    let mut sum = Total::new();
+    let positions = state.positions.values().chunks_exact(D);
+    for (q, mass) in positions.zip(masses.iter()) {
+        let Some(mass) = mass else { continue };
+        for (&coordinate, &component) in q.iter().zip(gravity.iter()) {
+            sum.add(-mass * component * coordinate);
+        }
+    }
+    sum.value()
 }
 
 fn angular_momentum<S: Real, const D: usize>(

@@ -70,7 +70,7 @@ pub use newton::{NewtonSettings, StepReport};
 pub use recorder::{Column, CustomQuantity, Quantity, RecordError, Recorder};
 pub use scalar::{Discord, Mask, Real, Scalar};
 pub use scene::Scene;
-pub use scheme::Scheme;
+pub use scheme::{Scheme, UnknownScheme};
 pub use simulation::Simulation;
 pub use simulation::generic::Generic;
 pub use simulation::linearize::StepTangent;

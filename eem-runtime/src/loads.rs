@@ -191,10 +191,23 @@ impl<S: Real> StepLoads<S> {
     ) -> Result<(), StepFailure> {
         let half = S::from_f64(0.5);
         let (middle, end) = (time + half * step, time + step);
+        self.evaluate_forces(loads, scheme, [time, middle, end])?;
+        self.add_weights(loads, masses);
+        self.evaluate_motions(loads, end, q0)?;
+        self.evaluate_temperatures(loads, [middle, end])
+    }
+
+    fn evaluate_forces<const D: usize>(
+        &mut self,
+        loads: &Loads<S, D>,
+        scheme: Scheme,
+        [start, middle, end]: [S; 3],
+    ) -> Result<(), StepFailure> {
+        let half = S::from_f64(0.5);
         self.force.fill(S::zero());
         for (node, force) in &loads.forces {
             let value = if scheme.has_old_forces() {
-                let [start, end] = [time, end].map(|time| force(time).map(|f| half * f));
+                let [start, end] = [start, end].map(|time| force(time).map(|f| half * f));
                 start + end
             } else {
                 force(middle)
@@ -213,7 +226,15 @@ impl<S: Real> StepLoads<S> {
                 }
             }
         }
-        self.add_weights(loads, masses);
+        Ok(())
+    }
+
+    fn evaluate_motions<const D: usize>(
+        &mut self,
+        loads: &Loads<S, D>,
+        end: S,
+        q0: &[S],
+    ) -> Result<(), StepFailure> {
         for (node, motion) in &loads.motions {
             let position = motion(end);
             for axis in 0..D {
@@ -229,6 +250,14 @@ impl<S: Real> StepLoads<S> {
                 }
             }
         }
+        Ok(())
+    }
+
+    fn evaluate_temperatures<const D: usize>(
+        &mut self,
+        loads: &Loads<S, D>,
+        [middle, end]: [S; 2],
+    ) -> Result<(), StepFailure> {
         for ((element, temperature), slot) in loads.temperatures.iter().zip(&self.slots) {
             let at = |time: S| match temperature(time) {
                 value if is_positive(value) => Ok(value),

@@ -7,6 +7,7 @@ mod inspect;
 pub(crate) mod linearize;
 mod resume;
 pub(crate) mod run;
+mod settings;
 mod start;
 mod stepper;
 mod totals;
@@ -24,13 +25,14 @@ use crate::layout::Layout;
 use crate::layout::Shape;
 use crate::loads::Loads;
 use crate::masses::Masses;
-use crate::newton::{NewtonSettings, StepReport};
-use crate::scalar::{Discord, Mask, Real, is_positive};
+use crate::newton::StepReport;
+use crate::scalar::{Discord, Mask, Real};
 use crate::scene::Scene;
 use crate::scheme::{Phase, Scheme};
 use crate::solver::Effort;
 use crate::state::State;
 use crate::system::MOST_FIXED;
+use settings::check_step;
 use start::initial_state;
 use stepper::{Parts, Stepper};
 use totals::check_totals;
@@ -280,52 +282,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.scheme
     }
 
-    /// The size of the next steps, s.
-    #[must_use]
-    pub const fn step_size(&self) -> S {
-        self.step
-    }
-
-    /// Changes the size of the next steps, s. All laws hold step by step, so that it may change
-    /// at any time.
-    ///
-    /// # Errors
-    ///
-    /// [`SceneError::Step`] if it is not positive and finite; the old size then stays.
-    pub fn set_step_size(&mut self, step: S) -> Result<(), SceneError> {
-        check_step(step).inspect_err(|_| self.part())?;
-        self.step = step;
-        Ok(())
-    }
-
-    /// How hard a step tries.
-    #[must_use]
-    pub const fn newton_settings(&self) -> NewtonSettings<S> {
-        self.effort.settings
-    }
-
-    /// Changes how hard a step tries.
-    ///
-    /// # Errors
-    ///
-    /// [`SceneError::NewtonSettings`] unless there is at least one iteration and the tolerance lies
-    /// between 0 and 1; the old settings then stay.
-    pub fn set_newton_settings(&mut self, settings: NewtonSettings<S>) -> Result<(), SceneError> {
-        let NewtonSettings {
-            max_iterations,
-            tolerance,
-        } = settings;
-        if max_iterations == 0 || !is_positive(tolerance) || S::one().at_most(tolerance).any() {
-            self.part();
-            return Err(SceneError::NewtonSettings {
-                max_iterations,
-                tolerance: tolerance.to_f64(),
-            });
-        }
-        self.effort.settings = settings;
-        Ok(())
-    }
-
     /// Number of unknowns of the global system of one Newton iteration.
     #[must_use]
     pub const fn unknowns(&self) -> usize {
@@ -348,14 +304,5 @@ fn check_end<S: Real>(time: S) -> Result<(), StepFailure> {
     } else {
         let value = time.to_f64();
         Err(StepFailure::Time { value })
-    }
-}
-
-fn check_step<S: Real>(step: S) -> Result<(), SceneError> {
-    if is_positive(step) {
-        Ok(())
-    } else {
-        let value = step.to_f64();
-        Err(SceneError::Step { value })
     }
 }

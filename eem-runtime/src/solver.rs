@@ -14,7 +14,7 @@ mod progress;
 mod stages;
 mod starts;
 
-use crate::conduction::{Conduction, SeenTemperatures};
+use crate::conduction::Conduction;
 use crate::error::StateError;
 use crate::group::{Sites, Trial};
 use crate::handle::Element;
@@ -105,8 +105,6 @@ impl<S: Real, const D: usize> Solver<S, D> {
             nodes.extend(moving(masses, &sites).into_iter().map(Balance::new));
             all_seen.extend(seen(&sites));
         }
-        let points = vec![[S::zero(); D]; masses.len()];
-        let of_sets = vec![[S::zero(); D]; sets.len() * masses.len()];
         // Nobody asks for any unless some are seen.
         let slots = if all_seen.is_empty() {
             0
@@ -119,21 +117,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
             nodes,
             seen: all_seen,
             tangent,
-            trial: Trial {
-                sets: sets.len(),
-                displacements: of_sets.clone(),
-                rests: of_sets,
-                seen: SeenTemperatures::new(sets.len() * slots),
-                is_start: false,
-                settled: S::Mask::none(),
-            },
+            trial: Trial::new(sets.len(), masses.len(), slots),
             sets,
             stages,
-            old_force: if has_old_force {
-                points.clone()
-            } else {
-                Vec::new()
-            },
+            old_force: vec![[S::zero(); D]; if has_old_force { masses.len() } else { 0 }],
             per_length: vec![S::one(); masses.len()],
             has_other_starts: false,
             anchors: masses.anchors().collect(),

@@ -91,6 +91,13 @@ where
             quantity: "inverse of the local tangent",
             value: f64::INFINITY,
         })?;
+        self.keep_solved(&system, depends_on_heat);
+        Ok(())
+    }
+
+    /// Keeps a local system that has been solved.
+    #[inline]
+    fn keep_solved(&mut self, system: &LocalSystem<S, M>, depends_on_heat: bool) {
         for u in 0..Self::UNKNOWNS {
             self.condensed.constant.set(u, system.constant[u]);
             for a in 0..M::MEASURES {
@@ -100,7 +107,6 @@ where
                 self.condensed.by_heat.set(u, system.by_heat[u]);
             }
         }
-        Ok(())
     }
 
     /// What makes an energy of a row of the local system.

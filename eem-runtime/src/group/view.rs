@@ -5,7 +5,7 @@ use crate::handle::Element;
 use crate::layout::Layout;
 use crate::loads::StepLoads;
 use crate::masses::Masses;
-use crate::scalar::Real;
+use crate::scalar::{Mask, Real};
 use crate::scene::entry::ElementEntry;
 use crate::scheme::{MOST_STAGES, Phase, Placement};
 use crate::state::State;
@@ -80,6 +80,19 @@ pub(crate) struct Trial<S: Real, const D: usize> {
 }
 
 impl<S: Real, const D: usize> Trial<S, D> {
+    /// At rest, for so many sets of unknowns, nodes and temperatures that are seen.
+    pub(crate) fn new(sets: usize, nodes: usize, seen: usize) -> Self {
+        let points = vec![[S::zero(); D]; sets * nodes];
+        Self {
+            sets,
+            displacements: points.clone(),
+            rests: points,
+            seen: SeenTemperatures::new(sets * seen),
+            is_start: false,
+            settled: S::Mask::none(),
+        }
+    }
+
     /// Where the first node of a set is.
     pub(crate) fn first_of_set(&self, set: usize) -> usize {
         set * (self.displacements.len() / self.sets)

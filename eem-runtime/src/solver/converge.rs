@@ -57,12 +57,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             if left == 0 {
                 break;
             }
-            let residual = self.residual();
-            let solved = self.tangent.solve();
-            solved.map_err(|_| StepFailure::SingularTangent)?;
-            let update = self.correct(groups, view);
-            effort.note(residual, update, settled);
-            self.final_residual = residual;
+            let update = self.iterate(groups, view, effort, settled)?;
             if !update.is_finite() {
                 break;
             }
@@ -88,6 +83,23 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 update: before.map_or(f64::NAN, Real::to_f64),
             },
         })
+    }
+
+    /// Solves the system of an iteration and applies its solution; the largest scaled update.
+    #[inline]
+    fn iterate(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        effort: &mut Effort<S>,
+        settled: S::Mask,
+    ) -> Result<S, StepFailure> {
+        self.final_residual = self.residual();
+        let solved = self.tangent.solve();
+        solved.map_err(|_| StepFailure::SingularTangent)?;
+        let update = self.correct(groups, view);
+        effort.note(self.final_residual, update, settled);
+        Ok(update)
     }
 
     /// Lets everybody know which of several numbers are done while others are not.
