@@ -22,7 +22,7 @@ use crate::layout::Layout;
 use crate::loads::StepLoads;
 use crate::masses::Masses;
 use crate::pattern;
-use crate::scalar::{Mask, Real};
+use crate::scalar::Real;
 use crate::scene::entry::ElementEntry;
 use crate::scheme::{Ending, Scheme, UnknownSet};
 use crate::system::LinearSystem;

@@ -372,6 +372,6 @@ mod tests {
         (values[own], values[nobody]) = (2.0, 9.0);
         (right[0], right[1]) = ([6.0], [9.0]);
         system.solve().unwrap();
-        assert_eq!(system.solution()[0], [3.0]);
+        assert_eq!(system.solution()[0].map(f64::to_bits), [3.0_f64.to_bits()]);
     }
 }
