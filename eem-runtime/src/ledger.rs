@@ -85,7 +85,6 @@ impl<S: Real, const D: usize> Ledger<S, D> {
         let (mut internal, mut heat) = (Total::new(), Total::new());
         let (mut element_entropy, mut reservoir_entropy) = (Total::new(), Total::new());
         let mut entropy_of_state = Total::new();
-        let momenta = state.momenta.values();
         for group in groups {
             let totals = group.totals(state);
             internal.add(totals.energy);
@@ -96,13 +95,9 @@ impl<S: Real, const D: usize> Ledger<S, D> {
             heat.add(theta * entropy);
             reservoir_entropy.add(entropy);
         }
-        let [lost_heat, work, given_heat, thermostat_entropy] = [
-            state.dissipated,
-            state.work,
-            state.heat,
-            state.thermostat_entropy,
-        ]
-        .map(|booked| booked.value);
+        let [lost_heat, work, given_heat] =
+            [state.dissipated, state.work, state.heat].map(|booked| booked.value);
+        let thermostat_entropy = state.thermostat_entropy.value;
         let energy = [
             kinetic,
             potential,
@@ -130,9 +125,7 @@ impl<S: Real, const D: usize> Ledger<S, D> {
             reservoir_entropy: reservoir_entropy.value(),
             thermostat_entropy,
             entropy: Total::of(entropy),
-            linear_momentum: SVector::from_fn(|axis, _| {
-                Total::of(momenta.chunks_exact(D).map(|p| p[axis]))
-            }),
+            linear_momentum: linear_momentum(state),
             angular_momentum: angular_momentum::<S, D>(state, masses),
         }
     }
@@ -166,6 +159,11 @@ fn potential_energy<S: Real, const D: usize>(
         }
     }
     sum.value()
+}
+
+fn linear_momentum<S: Real, const D: usize>(state: &State<S>) -> SVector<S, D> {
+    let momenta = state.momenta.values().chunks_exact(D);
+    SVector::from_fn(|axis, _| Total::of(momenta.clone().map(|p| p[axis])))
 }
 
 fn angular_momentum<S: Real, const D: usize>(

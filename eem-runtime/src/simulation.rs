@@ -1,6 +1,7 @@
 //! A scene in motion.
 
 mod audit;
+mod check;
 mod event;
 pub(crate) mod generic;
 mod inspect;
@@ -32,7 +33,7 @@ use crate::scheme::{Phase, Scheme};
 use crate::solver::Effort;
 use crate::state::State;
 use crate::system::MOST_FIXED;
-use settings::check_step;
+use check::{check_end, check_step};
 use start::initial_state;
 use stepper::{Parts, Stepper};
 use totals::check_totals;
@@ -294,15 +295,5 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub(crate) fn suits_lanes(&self) -> bool {
         let is_small = self.stepper.stages.is_empty() && self.unknowns() <= MOST_FIXED;
         is_small && self.loads.suit_lanes()
-    }
-}
-
-/// The time at the end of a step is finite.
-fn check_end<S: Real>(time: S) -> Result<(), StepFailure> {
-    if time.is_finite() {
-        Ok(())
-    } else {
-        let value = time.to_f64();
-        Err(StepFailure::Time { value })
     }
 }

@@ -1,6 +1,7 @@
 //! How large a step is, and how hard it tries.
 
 use super::Simulation;
+use super::check::check_step;
 use crate::error::SceneError;
 use crate::newton::NewtonSettings;
 use crate::scalar::{Mask, Real, is_positive};
@@ -50,15 +51,5 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         self.effort.settings = settings;
         Ok(())
-    }
-}
-
-/// A step is positive and finite.
-pub(super) fn check_step<S: Real>(step: S) -> Result<(), SceneError> {
-    if is_positive(step) {
-        Ok(())
-    } else {
-        let value = step.to_f64();
-        Err(SceneError::Step { value })
     }
 }

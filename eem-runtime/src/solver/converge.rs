@@ -77,12 +77,18 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 purpose = Purpose::Close;
             }
         }
-        Err(match self.obstacle.take() {
+        Err(self.not_converged(before))
+    }
+
+    /// Why there is no solution: what kept the last update from being applied, or its size.
+    #[cold]
+    fn not_converged(&mut self, update: Option<S>) -> StepFailure {
+        match self.obstacle.take() {
             Some(obstacle) => obstacle.into(),
             None => StepFailure::NotConverged {
-                update: before.map_or(f64::NAN, Real::to_f64),
+                update: update.map_or(f64::NAN, Real::to_f64),
             },
-        })
+        }
     }
 
     /// Solves the system of an iteration and applies its solution; the largest scaled update.
