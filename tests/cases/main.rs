@@ -9,5 +9,6 @@ mod logarithmic_stiffness;
 mod midpoint_identity;
 mod order;
 mod reference_trajectory;
+mod same_bits;
 mod step_tangent;
 mod variational_4_equations;
