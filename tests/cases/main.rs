@@ -1,0 +1,14 @@
+//! The published cases against reference data, and equations solved a second way.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod logarithmic_stiffness;
+mod midpoint_identity;
+mod order;
+mod reference_trajectory;
+mod same_bits;
+mod step_tangent;
+mod variational_4_equations;

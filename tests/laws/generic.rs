@@ -1,0 +1,143 @@
+//! The scenes are GENERIC systems, and the EEM schemes discrete ones.
+
+use eem::Generic;
+use eem::prelude::*;
+use nalgebra::{DMatrix, DVector};
+
+use crate::support::{DoublePendulum, Hencky, ThermoViscoElastic};
+
+/// Roundings of one sum of products, relative to its terms.
+const ROUNDING: f64 = 1e-14;
+
+/// Three springs of two models, two of them in contact with each other and with the air.
+fn scene(scheme: Scheme, step: f64) -> Simulation<2> {
+    let mut scene = Scene::<2>::new();
+    let pivot = scene.anchor([0.0, 0.0]);
+    let masses = [
+        scene.mass(1.0, [1.3, 0.0], [0.0, 1.0]),
+        scene.mass(2.0, [1.3, 1.2], [-0.5, 0.3]),
+    ];
+    let springs = [
+        scene.spring(ThermoViscoElastic::PENDULUM, [pivot, masses[0]]),
+        scene.spring(ThermoViscoElastic::PENDULUM, [masses[0], masses[1]]),
+    ];
+    let hencky = Hencky {
+        stiffness: 30.0,
+        natural_length: 1.5,
+    };
+    scene.spring(hencky, [pivot, masses[1]]);
+    let air = scene.reservoir(295.0);
+    for (spring, temperature) in springs.into_iter().zip([330.0, 305.0]) {
+        scene.set_temperature(spring, temperature);
+        scene.set_viscous_stretch(spring, 0, 0.01);
+        scene.conduct(spring, air, 2.0);
+    }
+    scene.conduct(springs[0], springs[1], 5.0);
+    Simulation::new(scene, scheme, step).unwrap()
+}
+
+/// |A x| against |A| |x|, entry by entry.
+fn assert_vanishes(matrix: &DMatrix<f64>, vector: &DVector<f64>) {
+    let product = matrix * vector;
+    let size = matrix.abs() * vector.abs();
+    for (entry, size) in product.iter().zip(size.iter()) {
+        assert!(entry.abs() <= ROUNDING * size, "{entry:e} of {size:e}");
+    }
+}
+
+fn assert_structure(generic: &Generic<f64>) {
+    let (l, m) = (&generic.reversible, &generic.irreversible);
+    assert_eq!(l.transpose(), -l);
+    assert_eq!(&m.transpose(), m);
+    let smallest = m.symmetric_eigenvalues().min();
+    assert!(smallest >= -ROUNDING * m.norm(), "{smallest}");
+    assert!(m.norm() > 0.0);
+    assert_vanishes(l, &generic.entropy_gradient);
+    assert_vanishes(m, &generic.energy_gradient);
+}
+
+/// L ∇E + M ∇S.
+fn rate(generic: &Generic<f64>) -> DVector<f64> {
+    &generic.reversible * &generic.energy_gradient
+        + &generic.irreversible * &generic.entropy_gradient
+}
+
+#[test]
+fn the_continuous_equations_are_generic() {
+    let mut run = scene(Scheme::EemEntropy, 1e-6);
+    let z0 = run.generic_state();
+    let before = run.generic();
+    assert_structure(&before);
+    run.step().unwrap();
+    let after = run.generic();
+    let mean = (rate(&before) + rate(&after)) * 0.5;
+    let difference = (run.generic_state() - z0) / 1e-6;
+    // Trapezoidal rule: h² = 1e-12 times derivatives of the motion; the differences carry the rounding
+    // of the state, ε |z|/h ≈ 1e-9.
+    for (found, exact) in difference.iter().zip(mean.iter()) {
+        assert!(
+            (found - exact).abs() <= 1e-7 * (1.0 + exact.abs()),
+            "{found} {exact}"
+        );
+    }
+}
+
+#[test]
+fn a_step_that_is_no_longer_known_has_no_discrete_form() {
+    let mut run = scene(Scheme::EemEntropy, 0.05);
+    run.step().unwrap();
+    assert!(run.generic_of_last_step().is_some());
+    run.linearize(&vec![0.0; run.unknowns()]).unwrap();
+    assert!(run.generic_of_last_step().is_none());
+
+    run.step().unwrap();
+    let end = run.time() + 1.0;
+    let no_number = |now: &Simulation<2>| {
+        if now.time() < end - 0.5 {
+            1.0
+        } else {
+            f64::NAN
+        }
+    };
+    let failed = run.run_until_event(end, 0.0, no_number, |_, _| ControlFlow::Continue(()));
+    assert!(failed.is_err());
+    assert!(run.generic_of_last_step().is_none());
+}
+
+#[test]
+fn steps_are_discrete_generic_systems() {
+    for scheme in [Scheme::EemEntropy, Scheme::EemTemperature] {
+        let mut run = scene(scheme, 0.05);
+        assert!(run.generic_of_last_step().is_none());
+        for _ in 0..100 {
+            let z0 = run.generic_state();
+            run.step().unwrap();
+            let generic = run.generic_of_last_step().unwrap();
+            assert_structure(&generic);
+            let change = run.generic_state() - &z0;
+            let expected = rate(&generic) * 0.05;
+            let size = z0.abs() + run.generic_state().abs();
+            for ((found, exact), size) in change.iter().zip(expected.iter()).zip(size.iter()) {
+                // Discrete forces are those of the state before closing, off by rounding.
+                let tolerance = 1e-13 * (1.0 + size + exact.abs());
+                assert!((found - exact).abs() <= tolerance, "{found} {exact}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_double_pendulum_has_the_published_form() {
+    let case = DoublePendulum::KRUEGER;
+    let mut run = case.simulation(Scheme::EemTemperature, case.step).run;
+    let generic = run.generic();
+    assert_structure(&generic);
+    // q and p of two masses in space, two entropies.
+    assert_eq!(generic.energy_gradient.len(), 14);
+    // Conde Martín, Betsch & García Orden (2016), eq. (23): κ θ₁θ₂ (1/θ₁², −1/(θ₁θ₂); …).
+    let (theta1, theta2, kappa) = (380.0, 310.0, 10.0);
+    let m = &generic.irreversible;
+    approx::assert_relative_eq!(m[(12, 12)], kappa * theta2 / theta1, max_relative = 1e-15);
+    approx::assert_relative_eq!(m[(12, 13)], -kappa, max_relative = 1e-15);
+    approx::assert_relative_eq!(m[(13, 13)], kappa * theta1 / theta2, max_relative = 1e-15);
+}

@@ -1,0 +1,16 @@
+//! What every step and every run keeps: energy, entropy and momenta, with their loads, and the GENERIC form.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod double_pendulums;
+mod free_bodies;
+mod generic;
+mod invariants_under_loads;
+mod loads;
+mod several_dashpots;
+mod single_pendulum;
+mod spoilt_force;
+mod variational_4;

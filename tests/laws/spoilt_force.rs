@@ -1,0 +1,157 @@
+//! A step whose forces are wrong is refused, however it was found.
+
+use eem::prelude::*;
+use eem::{Caloric, Law, StepFailure};
+
+use crate::support::{LogarithmicStiffness, ThermoViscoElastic};
+
+/// Relative error of the force f*.
+const ERROR: f64 = 1e-7;
+
+/// A material whose discrete force f* is wrong: everything else is that of the material, and the wrong
+/// force moves momenta and does work alike.
+#[derive(Clone, Debug)]
+struct Spoilt<M> {
+    material: M,
+    error: f64,
+}
+
+macro_rules! forward {
+    ($($method:ident($($argument:ident: $kind:ty),*) -> $result:ty;)*) => {
+        $(fn $method(&self, $($argument: $kind),*) -> $result {
+            self.material.$method($($argument),*)
+        })*
+    };
+}
+
+impl<M: FreeEnergy<f64>> FreeEnergy<f64> for Spoilt<M> {
+    const MEASURES: usize = M::MEASURES;
+    const DASHPOTS: usize = M::DASHPOTS;
+    const THERMAL: bool = M::THERMAL;
+    const PARAMETERS: &'static [&'static str] = M::PARAMETERS;
+
+    type Variables = M::Variables;
+    type Hessian = M::Hessian;
+    type Viscosities = M::Viscosities;
+    type Corners = M::Corners;
+    type Response = M::Response;
+    type Tangent = M::Tangent;
+    type EntropyFormOld = M::EntropyFormOld;
+    type TemperatureFormOld = M::TemperatureFormOld;
+
+    forward! {
+        parameter(index: usize) -> f64;
+        free_energy(x: &M::Variables) -> f64;
+        energy_magnitude(x: &M::Variables) -> f64;
+        internal_energy(x: &M::Variables) -> f64;
+        gradient(x: &M::Variables) -> M::Variables;
+        hessian(x: &M::Variables) -> (M::Variables, M::Hessian);
+        caloric(x: &M::Variables) -> Caloric<f64>;
+        entropy_hessian(x: &M::Variables) -> M::Hessian;
+        viscosity(theta: f64) -> (M::Viscosities, M::Viscosities);
+        entropy_form_old(x0: &M::Variables) -> M::EntropyFormOld;
+        temperature_form_old(x0: &M::Variables) -> M::TemperatureFormOld;
+    }
+
+    fn entropy_form(
+        &self,
+        old: &M::EntropyFormOld,
+        x1: &M::Variables,
+        corners: &M::Corners,
+    ) -> (M::Response, M::Tangent) {
+        self.spoil(self.material.entropy_form(old, x1, corners))
+    }
+
+    fn temperature_form(
+        &self,
+        old: &M::TemperatureFormOld,
+        x1: &M::Variables,
+    ) -> (M::Response, M::Tangent) {
+        self.spoil(self.material.temperature_form(old, x1))
+    }
+}
+
+impl<M: FreeEnergy<f64>> Spoilt<M> {
+    fn spoil(
+        &self,
+        (mut response, mut tangent): (M::Response, M::Tangent),
+    ) -> (M::Response, M::Tangent) {
+        response[0] *= 1.0 + self.error;
+        for entry in tangent[0].as_mut() {
+            *entry *= 1.0 + self.error;
+        }
+        (response, tangent)
+    }
+}
+
+/// The published single pendulum.
+fn single(error: f64, scheme: Scheme) -> Simulation<2> {
+    let material = ThermoViscoElastic::PENDULUM;
+    let mut scene = Scene::<2>::new();
+    let pivot = scene.anchor([0.0; 2]);
+    let bob = scene.mass(1.0, [3.0, 0.0], [0.0, 1.0]);
+    let spring = scene.spring(Spoilt { material, error }, [pivot, bob]);
+    scene.set_temperature(spring, 380.0);
+    let air = scene.reservoir(300.0);
+    scene.conduct(spring, air, 10.0);
+    Simulation::new(scene, scheme, 0.2).unwrap()
+}
+
+/// The published double pendulum with logarithmic stiffness.
+fn log(error: f64, scheme: Scheme) -> Simulation<3> {
+    let first = LogarithmicStiffness::FIRST;
+    let second = LogarithmicStiffness {
+        stiffness: 10_000.0,
+        softening: 60.0,
+        capacity: 2000.0,
+        natural_length: 1.0,
+        ..first.clone()
+    };
+    let mut scene = Scene::<3>::new();
+    let pivot = scene.anchor([0.0; 3]);
+    let [upper, lower] = [(10.0, [3.0, 0.0, 0.5]), (20.0, [3.0, 1.0, 1.0])]
+        .map(|(mass, position)| scene.mass(mass, position, [0.0; 3]));
+    scene.set_momentum(upper, [0.0, 10.0, 0.0]);
+    scene.set_momentum(lower, [0.0, 0.0, -20.0]);
+    let mut spring = |material, nodes, theta| {
+        let spring = scene.spring(Spoilt { material, error }, nodes);
+        scene.set_temperature(spring, theta);
+        spring
+    };
+    let upper_spring = spring(first, [pivot, upper], 380.0);
+    let lower_spring = spring(second, [upper, lower], 298.0);
+    scene.conduct(upper_spring, lower_spring, 300.0);
+    Simulation::new(scene, scheme, 0.1).unwrap()
+}
+
+/// The first step is refused with the wrong force and taken with the right one.
+fn check<const D: usize>(case: impl Fn(f64, Scheme) -> Simulation<D>) {
+    for scheme in [Scheme::EemEntropy, Scheme::EemTemperature] {
+        case(0.0, scheme).step().unwrap();
+        let mut run = case(ERROR, scheme);
+        let before = run.ledger();
+        let failure = run.step().unwrap_err().failure;
+        assert!(
+            matches!(
+                failure,
+                StepFailure::LawNotKept {
+                    law: Law::Energy,
+                    element: Some(_),
+                    ..
+                }
+            ),
+            "{scheme:?}: {failure}"
+        );
+        assert_eq!(run.ledger(), before);
+    }
+}
+
+#[test]
+fn a_step_of_the_single_pendulum_with_a_wrong_force_is_refused() {
+    check(single);
+}
+
+#[test]
+fn a_step_of_the_double_pendulum_with_a_wrong_force_is_refused() {
+    check(log);
+}

@@ -1,0 +1,24 @@
+//! What the derive makes of a free energy: legal forms, derivatives against independent oracles, descriptions.
+
+// For `lint_silence`.
+#![deny(future_incompatible)]
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+// A second name of the crate, which `hygiene` derives with.
+extern crate eem as renamed;
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod describing;
+mod domain;
+mod dual_numbers;
+mod generated_against_interpreter;
+mod generics;
+mod guide;
+mod hygiene;
+mod legal_forms;
+pub mod lint_silence;
+mod spellings;
+mod transcendental_count;
+mod zoo;

@@ -1,0 +1,15 @@
+//! How scenes are run: to an end, recorded, resumed, many at once, in lanes and on threads.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod allocation;
+mod ends;
+mod ensemble;
+mod lanes;
+mod recording;
+mod resuming;
+#[cfg(feature = "parallel")]
+mod threads;

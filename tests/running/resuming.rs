@@ -1,0 +1,227 @@
+//! A run that is resumed from a saved state has the bits of one that was never interrupted.
+
+use eem::RestoreError;
+use eem::prelude::*;
+
+use crate::support::{DoublePendulum, Hencky, ThermoViscoElastic, single_pendulum};
+
+const STEP: f64 = 0.05;
+
+/// Everything that a step depends on, as text that tells all doubles apart.
+fn bits<const D: usize>(run: &Simulation<D>) -> String {
+    format!("{:?}", run.checkpoint())
+}
+
+/// A scene with everything in it: two models, gravity, a pushed mass, a moved anchor, a thermostat.
+fn busy_scene(scheme: Scheme) -> Simulation<2> {
+    let mut scene = Scene::<2>::new();
+    let support = scene.anchor([0.0, 0.0]);
+    let bob = scene.mass(1.0, [1.5, 0.0], [0.0, 1.0]);
+    let tail = scene.mass(0.5, [1.5, -1.1], [0.2, 0.0]);
+    let warm = scene.spring(ThermoViscoElastic::PENDULUM, [support, bob]);
+    let kept = scene.spring(ThermoViscoElastic::PENDULUM, [bob, tail]);
+    let hencky = Hencky {
+        stiffness: 30.0,
+        natural_length: 1.5,
+    };
+    scene.spring(hencky, [support, tail]);
+    scene.set_temperature(warm, 320.0);
+    scene.set_temperature(kept, 310.0);
+    scene.prescribe_temperature(kept, |t| 310.0 + 5.0 * t.sin());
+    scene.conduct(warm, kept, 3.0);
+    let air = scene.reservoir(300.0);
+    scene.conduct(warm, air, 10.0);
+    scene.set_gravity([0.0, -9.81]);
+    scene.force(bob, |t| [(3.0 * t).sin(), 0.2]);
+    scene.move_anchor(support, |t| [0.1 * (2.0 * t).sin(), 0.0]);
+    Simulation::new(scene, scheme, 0.01).unwrap()
+}
+
+/// Steps on and keeps the bits of every report and of the state at the end.
+fn trace<const D: usize>(run: &mut Simulation<D>, steps: usize) -> (Vec<[u64; 5]>, String) {
+    let reports = (0..steps).map(|_| {
+        let report = run.step().unwrap();
+        let numbers = [report.time, report.step, report.update, report.residual];
+        let [time, step, update, residual] = numbers.map(f64::to_bits);
+        [time, step, update, residual, report.iterations as u64]
+    });
+    (reports.collect(), bits(run))
+}
+
+/// A resumed run has the bits of an uninterrupted one, in a new simulation and in one that has
+/// been elsewhere.
+fn assert_resumes<const D: usize>(build: impl Fn() -> Simulation<D>) {
+    let mut whole = build();
+    let settings = NewtonSettings {
+        tolerance: 1e-9,
+        ..whole.newton_settings()
+    };
+    whole.set_newton_settings(settings).unwrap();
+    trace(&mut whole, 20);
+    whole.set_step_size(0.7 * whole.step_size()).unwrap();
+    trace(&mut whole, 3);
+    let checkpoint = whole.checkpoint();
+    let expected = trace(&mut whole, 40);
+
+    let mut fresh = build();
+    let mut elsewhere = build();
+    elsewhere
+        .set_step_size(0.3 * elsewhere.step_size())
+        .unwrap();
+    trace(&mut elsewhere, 7);
+    for (place, run) in [
+        ("fresh", &mut fresh),
+        ("elsewhere", &mut elsewhere),
+        ("back", &mut whole),
+    ] {
+        run.restore(&checkpoint).unwrap();
+        assert_eq!(run.checkpoint(), checkpoint);
+        let scheme = run.scheme().name();
+        assert!(trace(run, 40) == expected, "{scheme}, {place}");
+    }
+}
+
+#[test]
+fn resumed_runs_have_the_bits_of_uninterrupted_ones() {
+    for scheme in Scheme::ALL {
+        assert_resumes(|| single_pendulum(scheme, STEP).run);
+        assert_resumes(|| DoublePendulum::KRUEGER.simulation(scheme, STEP).run);
+        assert_resumes(|| DoublePendulum::LOGARITHMIC.simulation(scheme, 0.02).run);
+        assert_resumes(|| busy_scene(scheme));
+    }
+}
+
+/// The error of restoring `from` into `to`.
+fn refusal<const D: usize, const E: usize>(
+    from: &Simulation<D>,
+    to: &mut Simulation<E>,
+) -> RestoreError {
+    let before = bits(to);
+    let error = to.restore(&from.checkpoint()).unwrap_err();
+    assert_eq!(before, bits(to));
+    error
+}
+
+#[test]
+fn a_scene_of_another_shape_is_refused_with_what_differs() {
+    /// Two nodes, the second an anchor or a mass, and a spring with or without temperature.
+    fn scene<const D: usize>(
+        second_is_mass: bool,
+        thermal: bool,
+        reservoirs: usize,
+    ) -> Simulation<D> {
+        let mut scene = Scene::<D>::new();
+        let first = scene.anchor([0.0; D]);
+        let second = if second_is_mass {
+            scene.mass(1.0, [1.0; D], [0.0; D])
+        } else {
+            scene.anchor([1.0; D])
+        };
+        if thermal {
+            let spring = scene.spring(ThermoViscoElastic::PENDULUM, [first, second]);
+            scene.set_temperature(spring, 300.0);
+        } else {
+            let hencky = Hencky {
+                stiffness: 1.0,
+                natural_length: 1.0,
+            };
+            scene.spring(hencky, [first, second]);
+        }
+        for _ in 0..reservoirs {
+            scene.reservoir(300.0);
+        }
+        Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap()
+    }
+    let mut target = scene::<2>(true, true, 1);
+    let mut expect = |from: &Simulation<2>, text: &str| {
+        assert_eq!(refusal(from, &mut target).to_string(), text);
+    };
+    expect(
+        &scene(true, true, 2),
+        "number of reservoirs: the checkpoint has 2, the simulation has 1",
+    );
+    expect(
+        &scene(false, true, 1),
+        "node 1 is an anchor in the checkpoint and a mass in the simulation",
+    );
+    expect(
+        &scene(true, false, 1),
+        "element 0 has 0 dashpots in the checkpoint and 1 in the simulation",
+    );
+    expect(
+        &single_pendulum(Scheme::Midpoint, 0.1).run,
+        "the checkpoint is one of the scheme midpoint, the simulation has eem-entropy",
+    );
+    expect(
+        &Simulation::new(Scene::new(), Scheme::EemEntropy, 0.1).unwrap(),
+        "number of nodes: the checkpoint has 0, the simulation has 2",
+    );
+    assert_eq!(
+        refusal(&scene::<3>(true, true, 1), &mut target).to_string(),
+        "number of dimensions: the checkpoint has 3, the simulation has 2"
+    );
+}
+
+#[cfg(feature = "serde")]
+mod files {
+    use super::*;
+
+    fn through_text<const D: usize>(run: &Simulation<D>) -> Checkpoint {
+        let text = serde_json::to_string(&run.checkpoint()).unwrap();
+        serde_json::from_str(&text).unwrap()
+    }
+
+    #[test]
+    fn checkpoints_survive_text_bit_for_bit() {
+        for scheme in Scheme::ALL {
+            let mut run = busy_scene(scheme);
+            trace(&mut run, 50);
+            let read = through_text(&run);
+            assert_eq!(bits(&run), format!("{read:?}"));
+            let mut resumed = busy_scene(scheme);
+            resumed.restore(&read).unwrap();
+            assert_eq!(trace(&mut run, 50), trace(&mut resumed, 50));
+        }
+    }
+
+    /// The error of restoring a pendulum from a text in which `from` has been replaced by `to`.
+    fn damaged(from: &str, to: &str) -> String {
+        let mut run = single_pendulum(Scheme::EemEntropy, 0.125).run;
+        let text = serde_json::to_string(&run.checkpoint()).unwrap();
+        assert!(text.contains(from), "{text}");
+        let before = bits(&run);
+        let error = match serde_json::from_str(&text.replacen(from, to, 1)) {
+            Ok(checkpoint) => run.restore(&checkpoint).unwrap_err().to_string(),
+            Err(error) => error.to_string(),
+        };
+        assert_eq!(before, bits(&run));
+        error
+    }
+
+    #[test]
+    fn damaged_files_are_errors() {
+        assert_eq!(
+            damaged("\"viscous\":[[0.0,0.0]]", "\"viscous\":[]"),
+            "number of viscous stretches: the checkpoint has 0, the simulation has 1"
+        );
+        let error = damaged("\"time\":[0.0,0.0]", "\"time\":[]");
+        assert!(error.starts_with("invalid length 0"), "{error}");
+        assert_eq!(
+            damaged("\"temperatures\":[380.0]", "\"temperatures\":[-1.0]"),
+            "the checkpoint has -1 among its values of temperatures, they must be positive and finite"
+        );
+        assert_eq!(
+            damaged("\"step\":0.125", "\"step\":0.0"),
+            "the checkpoint has 0 among its values of step size, they must be positive and finite"
+        );
+        let error = damaged("eem-entropy", "leapfrog");
+        assert!(
+            error.starts_with("there is no scheme `leapfrog`"),
+            "{error}"
+        );
+        let error = damaged("\"temperatures\"", "\"colours\"");
+        assert!(error.starts_with("unknown field `colours`"), "{error}");
+        let error = damaged("380.0", "null");
+        assert!(error.starts_with("invalid type: null"), "{error}");
+    }
+}

@@ -1,0 +1,90 @@
+//! A large scene has the same bits on any number of threads.
+
+use eem::prelude::*;
+
+use crate::support::{Hencky, LogarithmicStiffness};
+
+/// Nodes along a side of the lattice: enough for its system to be divided, see `eem-sparse/src/division.rs`.
+const SIDE: usize = 64;
+/// Springs of the chain.
+const SPRINGS: usize = 2_000;
+/// W/K
+const CONDUCTANCE: f64 = 10.0;
+
+const THERMAL: LogarithmicStiffness = LogarithmicStiffness {
+    natural_length: 1.0,
+    ..LogarithmicStiffness::FIRST
+};
+const ELASTIC: Hencky = Hencky {
+    stiffness: 5000.0,
+    natural_length: 1.0,
+};
+
+/// A mass in motion; neighbours move differently.
+fn node(scene: &mut Scene<2>, [column, row]: [usize; 2]) -> Node {
+    let [x, y] = [column, row].map(|count| f64::from(u16::try_from(count).unwrap()));
+    scene.mass(1.0, [x, y], [(0.7 * x + y).sin(), (x - 0.3 * y).cos()])
+}
+
+/// Nodes in a row with thermoelastic springs, each of which conducts heat to the next if any does.
+fn row(scene: &mut Scene<2>, length: usize, row: usize, conducts: bool) -> Vec<Node> {
+    let nodes: Vec<_> = (0..length)
+        .map(|column| node(scene, [column, row]))
+        .collect();
+    let springs: Vec<_> = nodes
+        .windows(2)
+        .map(|ends| scene.spring(THERMAL, [ends[0], ends[1]]))
+        .collect();
+    for (spring, warmth) in springs.iter().zip((0..11).cycle()) {
+        scene.set_temperature(*spring, 300.0 + f64::from(warmth));
+    }
+    for pair in springs.windows(2).filter(|_| conducts) {
+        scene.conduct(pair[0], pair[1], CONDUCTANCE);
+    }
+    nodes
+}
+
+fn chain(conducts: bool) -> Scene<2> {
+    let mut scene = Scene::new();
+    row(&mut scene, SPRINGS + 1, 0, conducts);
+    scene
+}
+
+fn lattice(conducts: bool) -> Scene<2> {
+    let mut scene = Scene::new();
+    let rows: Vec<_> = (0..SIDE)
+        .map(|at| row(&mut scene, SIDE, at, conducts))
+        .collect();
+    for pair in rows.windows(2) {
+        for (&above, &below) in pair[0].iter().zip(&pair[1]) {
+            scene.spring(ELASTIC, [above, below]);
+        }
+    }
+    scene
+}
+
+/// All that the next step depends on, as text that tells all doubles apart.
+fn bits(scene: Scene<2>, threads: usize) -> String {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    pool.build().unwrap().install(|| {
+        let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.01).unwrap();
+        run.step().unwrap();
+        format!("{:?}", run.checkpoint())
+    })
+}
+
+#[test]
+fn chains_have_the_same_bits_on_any_number_of_threads() {
+    for conducts in [false, true] {
+        let [one, two] = [1, 2].map(|threads| bits(chain(conducts), threads));
+        assert!(one == two, "conducts: {conducts}");
+    }
+}
+
+#[test]
+fn lattices_have_the_same_bits_on_any_number_of_threads() {
+    for conducts in [false, true] {
+        let [one, two] = [1, 2].map(|threads| bits(lattice(conducts), threads));
+        assert!(one == two, "conducts: {conducts}");
+    }
+}

@@ -1,0 +1,15 @@
+//! What a scene may consist of: mixed networks, what an element costs, and what is refused.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod bad_handles;
+mod bad_input;
+mod bad_loads;
+#[cfg(feature = "sparse")]
+mod memory;
+mod networks;
+mod refusals;
+mod unknowns;
