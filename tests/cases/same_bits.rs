@@ -21,7 +21,7 @@ const SINGLE: [(Scheme, u64); 5] = [
     (Scheme::EemEntropy, 0xa60b_b76c_668d_200b),
     (Scheme::EemTemperature, 0xd77d_14c0_05e2_ac1e),
     (Scheme::Variational, 0x0568_db72_3370_1181),
-    (Scheme::Variational4, 0x1fa2_a64c_077b_26a0),
+    (Scheme::Variational4, 0x88c5_f128_5bea_af80),
     (Scheme::Staggered, 0x9258_d2f2_d6e2_0896),
 ];
 
@@ -54,9 +54,9 @@ const DOUBLE: [(Scheme, [u64; 3]); 5] = [
     (
         Scheme::Variational4,
         [
-            0xa341_0fc8_c506_f322,
-            0xbc13_07d7_c5f3_94d5,
-            0x013e_591e_728b_a9d7,
+            0x999c_f404_0181_aef9,
+            0x8237_1296_469f_9538,
+            0x14d2_76ce_cf5b_6b44,
         ],
     ),
     (
