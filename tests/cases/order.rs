@@ -2,7 +2,7 @@
 
 use eem::prelude::*;
 
-use crate::support::{reference, single_pendulum};
+use crate::support::{DoublePendulum, reference, single_pendulum};
 
 /// What a fitted slope over a factor of four in h may be off.
 const SLOPE_TOLERANCE: f64 = 0.1;
@@ -66,4 +66,31 @@ fn every_scheme_has_its_order() {
         let slope = slope(scheme, [0.02, 0.01, 0.005], 5.0);
         assert!((slope - order).abs() <= SLOPE_TOLERANCE);
     }
+}
+
+/// The seam of rules with several stages: a file of constants gives a scheme its order also where heat
+/// flows between elements.
+#[test]
+fn gauss_collocation_is_of_fourth_order_on_the_logarithmic_pendulum() {
+    const END: f64 = 1.0;
+    let end_state = |step: f64| {
+        let mut pendulum = DoublePendulum::LOGARITHMIC.simulation(Scheme::Gauss4, step);
+        while pendulum.run.time() < END - 0.5 * step {
+            pendulum.run.step().unwrap();
+        }
+        pendulum.row()
+    };
+    let steps = [0.0125, 0.00625];
+    // time, q, p, θ, error estimate
+    let rows = reference("double_pendulum_log_exact.csv");
+    let exact = rows.iter().find(|row| row[0] >= END).unwrap();
+    let [coarse, fine] = steps.map(|step| {
+        let differences = end_state(step).into_iter().zip(&exact[1..]);
+        differences.fold(0.0_f64, |largest, (x, exact)| {
+            largest.max((x - exact).abs() / exact.abs().max(1.0))
+        })
+    });
+    let slope = (coarse / fine).log2();
+    println!("errors {coarse:e}, {fine:e}, slope {slope}");
+    assert!((slope - 4.0).abs() <= SLOPE_TOLERANCE, "{slope}");
 }
