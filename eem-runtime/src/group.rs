@@ -4,7 +4,7 @@
 //! implementation, monomorphic in model, kinematics and scheme. The phases of a step are
 //!
 //! ```text
-//! begin      look at the old state, once                            (begin)
+//! begin      take over the old state, once                           (begin)
 //! evaluate   response at the trial                                  (evaluate, respond, pose, arms)
 //!            local unknowns eliminated                              (local, eliminate)
 //!            contributions written to their places                  (assemble, scatter, site)

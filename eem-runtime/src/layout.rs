@@ -85,8 +85,8 @@ impl Layout {
         }
     }
 
-    /// Keeps the numbers of unknowns and variables and forgets which is whose, for which nobody asks
-    /// once all places are found.
+    /// Drops the tables from nodes and elements to unknowns, which are not needed once all places are
+    /// found; the numbers of unknowns and variables stay.
     pub(crate) fn forget_places(&mut self) {
         self.nodes = Vec::new();
         self.elements = Vec::new();

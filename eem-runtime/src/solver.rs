@@ -105,7 +105,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             nodes.extend(moving(masses, &sites).into_iter().map(Balance::new));
             all_seen.extend(seen(&sites));
         }
-        // Nobody asks for any unless some are seen.
+        // Without conduction between elements no temperature is seen.
         let slots = if all_seen.is_empty() {
             0
         } else {

@@ -38,7 +38,7 @@ pub(crate) struct State<S> {
     pub(crate) heat: Sum<S>,
     /// Entropy that thermostats have received, J/K.
     pub(crate) thermostat_entropy: Sum<S>,
-    /// Heat that dashpots without temperature gave to nobody in the scene, J.
+    /// Heat of dashpots in elements without temperature: it leaves the scene, J.
     pub(crate) dissipated: Sum<S>,
 }
 

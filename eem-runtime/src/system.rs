@@ -43,9 +43,9 @@ pub(crate) struct LinearSystem<S, const W: usize> {
     storage: Storage,
     /// A is zero.
     is_clear: bool,
-    /// The entries of A, then the place for what nobody reads.
+    /// The entries of A, then a scratch entry for anchors, written but never read.
     values: Vec<S>,
-    /// The rows of B, then the place for what nobody reads.
+    /// The rows of B, then a scratch row for anchors, written but never read.
     right: Vec<[S; W]>,
     /// The rows of X, then what is said of those that have none.
     solution: Vec<[S; W]>,
@@ -222,13 +222,13 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
         self.unknowns
     }
 
-    /// The place of a row of B: the place that nobody reads for no unknown.
+    /// The place of a row of B; the scratch row without an unknown.
     pub(crate) fn row(&self, unknown: Option<usize>) -> usize {
         unknown.unwrap_or(self.unknowns)
     }
 
     /// The place of an entry of A, which the pattern must have; without one of the unknowns, the
-    /// place that nobody reads.
+    /// scratch entry.
     pub(crate) fn place(&self, row: Option<usize>, column: Option<usize>) -> usize {
         let position = row.zip(column).map(|(row, column)| {
             let position = self.storage.position(row, column);

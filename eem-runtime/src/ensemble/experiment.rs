@@ -37,7 +37,7 @@ pub trait Experiment<const D: usize>: Sync {
     ///
     /// Members that move together need as many Newton iterations as the slowest of them, which is
     /// what [`StepReport::iterations`](crate::StepReport::iterations) says; no other number depends
-    /// on the company.
+    /// on which members move together.
     ///
     /// # Errors
     ///

@@ -27,7 +27,7 @@ impl fmt::Debug for Progress<'_> {
 }
 
 impl<'w> Progress<'w> {
-    /// Nothing is done yet; without a watch nobody counts.
+    /// Nothing is done yet; without a watch there is no count.
     pub(super) fn new(watch: Option<Watch<'w>>, total: usize) -> Self {
         Self {
             total,

@@ -60,7 +60,7 @@ where
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    /// Looks at the old state, where the trial starts.
+    /// Takes measures, γ and θ from the old state, where the trial starts.
     #[inline]
     fn begin(&mut self, view: &StepView<'_, S>, r0: &Arms<K, S, D>, measures: &Measures<K, S, D>) {
         let slots = self.slots();

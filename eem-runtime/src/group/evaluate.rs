@@ -1,4 +1,4 @@
-//! One look at a trial state: responses, condensed local systems, contributions.
+//! Evaluation of a trial state: responses, condensed local systems, contributions.
 
 use super::assemble::Target;
 use crate::error::StateError;

@@ -45,7 +45,7 @@ pub(crate) trait Group<S: Real, const D: usize>: Elements<S, D> {
     /// Learns where its elements write in the global systems; once per scene.
     fn connect(&mut self, sites: &Sites<'_, S, D>);
 
-    /// Looks at the old state, adds to what it gives to the nodes, and starts the trial there.
+    /// Takes over the old state, adds what it contributes to the nodes, and starts the trial there.
     fn begin(&mut self, view: &StepView<'_, S>, old: &mut Old<'_, S, D>) -> Result<(), StateError>;
 
     /// Computes everything that depends on the trial state, element by element, and adds residual and

@@ -95,7 +95,7 @@ where
         self.accept_response(&form.0)
     }
 
-    /// The response at the trial that has been located, for the last look at a step.
+    /// The response at the trial that has been located, where no tangent is needed: at the end of a step.
     #[inline]
     pub(super) fn respond_alone(
         &mut self,

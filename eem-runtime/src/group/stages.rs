@@ -4,7 +4,7 @@
 //! eliminated together, element by element.
 //!
 //! ```text
-//! begin     look at the old state, once                                     (member)
+//! begin     take over the old state, once                                   (member)
 //! evaluate  free energy at the stages                                       (point, heat)
 //!           local unknowns eliminated                                       (local)
 //!           contributions to the global residual and tangent                (assemble)

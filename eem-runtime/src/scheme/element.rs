@@ -49,14 +49,14 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static
     /// What the scheme keeps of the old state.
     type Old: Copy + Send + Sync;
 
-    /// What it keeps from one look at a step to the next, as starting values.
+    /// What it keeps from one iteration to the next, as starting values.
     type Memory: Copy + Send + Sync;
 
     /// `[T; 1]` for a rule that looks at one point of the step, `[T; 0]` for others: room for what
     /// only such rules need.
     type AtPoint<T: Entry>: Array<T>;
 
-    /// Looks at the old variables and the old entropy, once per step.
+    /// What the scheme needs of the old variables and the old entropy, once per step.
     fn old(model: &M, x0: &M::Variables, entropy: S) -> Self::Old;
 
     /// The first starting values of a step, from the old temperature.
@@ -118,8 +118,8 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static
         M::Variables::filled(S::zero())
     }
 
-    /// The response alone: for the last look at a step. That the new state is stable is left to the
-    /// one who finds its temperature.
+    /// The response alone, without its tangent, at the end of a step. That the new state is stable is
+    /// checked where its temperature is found.
     #[inline]
     fn response(
         model: &M,

@@ -1,4 +1,4 @@
-//! The system that Newton's method solves, for those who want to look at it.
+//! Residual and tangent of the system that Newton's method solves, at given unknowns.
 
 use super::stepper::Stepper;
 use super::{Simulation, view};

@@ -108,7 +108,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(update)
     }
 
-    /// Lets everybody know which of several numbers are done while others are not.
+    /// Marks in the trial which of several numbers are done while others are not.
     #[inline]
     fn settle(&mut self, settled: S::Mask) -> S::Mask {
         if S::LANES == 1 {

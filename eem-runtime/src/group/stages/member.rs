@@ -12,7 +12,7 @@ use crate::kinematics::{Arms, Gradient, Kinematics};
 use crate::scalar::Real;
 use crate::scheme::{MOST_STAGES, Tableau, Variational};
 
-/// The same element as those see it who look at states.
+/// The same element in a state, apart from any step.
 pub(super) type StateMember<S, M, K, const D: usize> = Member<S, M, K, Variational, D>;
 
 /// What one step needs to remember of an element.
@@ -70,7 +70,7 @@ where
         }
     }
 
-    /// Looks at the old state, where the trial starts.
+    /// Takes measures, γ and θ from the old state, where the trial starts.
     pub(super) fn begin(
         &mut self,
         kinematics: K,
