@@ -14,8 +14,7 @@ mod search;
 mod warm;
 
 use crate::free_energy::Caloric;
-use crate::scalar::Real;
-use crate::scalar::is_positive;
+use crate::scalar::{Real, is_positive};
 
 pub use error::InversionError;
 pub(crate) use warm::temperature_near;

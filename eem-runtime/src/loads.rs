@@ -197,6 +197,19 @@ impl<S: Real> StepLoads<S> {
         self.evaluate_temperatures(loads, [middle, end])
     }
 
+    /// Evaluates what is prescribed in the step from `time` by `step`, motions and temperatures; forces are
+    /// those of its stages.
+    pub(crate) fn evaluate_supports<const D: usize>(
+        &mut self,
+        loads: &Loads<S, D>,
+        [time, step]: [S; 2],
+        q0: &[S],
+    ) -> Result<(), StepFailure> {
+        let (middle, end) = (time + S::from_f64(0.5) * step, time + step);
+        self.evaluate_motions(loads, end, q0)?;
+        self.evaluate_temperatures(loads, [middle, end])
+    }
+
     fn evaluate_forces<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,

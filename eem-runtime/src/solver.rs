@@ -80,7 +80,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
         conduction: &Conduction<S>,
         loads: &StepLoads<S>,
     ) -> Self {
-        let has_old_force = scheme.has_old_forces() || loads.has_total_force();
+        // Those of stages are taken where the stages are.
+        let has_loads = loads.has_total_force() && scheme.tableau().is_none();
+        let has_old_force = scheme.has_old_forces() || has_loads;
         let sets = scheme.sets();
         let mut pattern = pattern::of_tangent(elements, layout, conduction, D);
         if sets.len() > 1 {

@@ -21,23 +21,6 @@ pub(super) fn dot<S: Real, const D: usize>(a: &[S; D], b: &[S; D]) -> S {
     a.iter().zip(b).fold(S::zero(), |sum, (&a, &b)| sum + a * b)
 }
 
-/// The arms of an element, given something per node of the scene.
-#[inline]
-pub(super) fn arms<K: Kinematics<S, D>, S: Real, const D: usize>(
-    nodes: &K::PerNode<u32>,
-    of: &[[S; D]],
-) -> Arms<K, S, D> {
-    let first = &of[nodes[0] as usize];
-    let mut arms = Arms::<K, S, D>::filled([S::zero(); D]);
-    for (arm, &node) in arms.as_mut().iter_mut().zip(&nodes.as_ref()[1..]) {
-        let other = &of[node as usize];
-        for axis in 0..D {
-            arm[axis] = other[axis] - first[axis];
-        }
-    }
-    arms
-}
-
 /// The arms of an element in a state, to rounding of the arms wherever the origin is: what rounding
 /// took from the positions is part of them.
 #[inline]
@@ -62,21 +45,7 @@ pub(super) fn change_in<K: Kinematics<S, D>, S: Real, const D: usize>(
     nodes: &K::PerNode<u32>,
     trial: &Trial<S, D>,
 ) -> Arms<K, S, D> {
-    let of = |node: u32| {
-        (
-            &trial.displacements[node as usize],
-            &trial.rests[node as usize],
-        )
-    };
-    let (first, first_rest) = of(nodes[0]);
-    let mut change = Arms::<K, S, D>::filled([S::zero(); D]);
-    for (arm, &node) in change.as_mut().iter_mut().zip(&nodes.as_ref()[1..]) {
-        let (other, rest) = of(node);
-        for axis in 0..D {
-            arm[axis] = (other[axis] - first[axis]) + (rest[axis] - first_rest[axis]);
-        }
-    }
-    change
+    change_of::<K, S, D>(nodes, [&trial.displacements, &trial.rests])
 }
 
 /// The same at the stage of a set of unknowns.
@@ -87,10 +56,26 @@ pub(super) fn change_in_set<K: Kinematics<S, D>, S: Real, const D: usize>(
     set: usize,
 ) -> Arms<K, S, D> {
     let first = trial.first_of_set(set);
-    let [displacements, rests] = [&trial.displacements, &trial.rests].map(|all| &all[first..]);
-    let mut change = arms::<K, S, D>(nodes, displacements);
-    let rest = arms::<K, S, D>(nodes, rests);
-    add_scaled::<K, S, D>(&mut change, S::one(), &rest);
+    change_of::<K, S, D>(
+        nodes,
+        [&trial.displacements[first..], &trial.rests[first..]],
+    )
+}
+
+#[inline]
+fn change_of<K: Kinematics<S, D>, S: Real, const D: usize>(
+    nodes: &K::PerNode<u32>,
+    [displacements, rests]: [&[[S; D]]; 2],
+) -> Arms<K, S, D> {
+    let of = |node: u32| (&displacements[node as usize], &rests[node as usize]);
+    let (first, first_rest) = of(nodes[0]);
+    let mut change = Arms::<K, S, D>::filled([S::zero(); D]);
+    for (arm, &node) in change.as_mut().iter_mut().zip(&nodes.as_ref()[1..]) {
+        let (other, rest) = of(node);
+        for axis in 0..D {
+            arm[axis] = (other[axis] - first[axis]) + (rest[axis] - first_rest[axis]);
+        }
+    }
     change
 }
 

@@ -100,6 +100,14 @@ where
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
+    fn elements(&self) -> &dyn Elements<S, D> {
+        self
+    }
+
+    fn elements_mut(&mut self) -> &mut dyn Elements<S, D> {
+        self
+    }
+
     fn connect(&mut self, sites: &Sites<'_, S, D>) {
         self.contacts.clear();
         for member in &mut self.members {

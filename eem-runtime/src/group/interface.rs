@@ -41,7 +41,13 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
 }
 
 /// Elements of one model, whatever model, kinematics and scheme are.
-pub(crate) trait Group<S: Real, const D: usize>: Elements<S, D> {
+pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
+    /// The elements in a state.
+    fn elements(&self) -> &dyn Elements<S, D>;
+
+    /// The same, to be changed.
+    fn elements_mut(&mut self) -> &mut dyn Elements<S, D>;
+
     /// Learns where its elements write in the global systems; once per scene.
     fn connect(&mut self, sites: &Sites<'_, S, D>);
 

@@ -9,8 +9,7 @@ use crate::free_energy::{Array, FreeEnergy};
 use crate::handle::Element;
 use crate::kinematics::{Arms, Gradient, Kinematics};
 use crate::layout::Slots;
-use crate::scalar::Real;
-use crate::scalar::is_positive;
+use crate::scalar::{Real, is_positive};
 use crate::scheme::{ElementScheme, Form, Placement, Start};
 
 /// An element, with everything that one step of the scheme `C` needs to remember of it.

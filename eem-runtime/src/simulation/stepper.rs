@@ -43,7 +43,7 @@ impl<S: Real, const D: usize> Stepper<S, D> {
         state: &mut State<S>,
     ) -> Result<Self, SceneError> {
         for group in &mut groups {
-            group.initialize(state)?;
+            group.elements_mut().initialize(state)?;
         }
         let Parts {
             scheme,
@@ -79,9 +79,11 @@ impl<S: Real, const D: usize> Stepper<S, D> {
         q0: &[S],
     ) -> Result<(), StepFailure> {
         let span = [time, step];
-        self.loads.evaluate(loads, masses, scheme, span, q0)?;
-        let times = scheme.tableau().map_or(&[][..], |rule| rule.times);
-        for (stage, &share) in self.stages.iter_mut().zip(times) {
+        let Some(rule) = scheme.tableau() else {
+            return self.loads.evaluate(loads, masses, scheme, span, q0);
+        };
+        self.loads.evaluate_supports(loads, span, q0)?;
+        for (stage, &share) in self.stages.iter_mut().zip(rule.times) {
             let at = [time + S::from_f64(share) * step, S::zero()];
             stage.evaluate(loads, masses, scheme, at, q0)?;
         }
@@ -105,20 +107,18 @@ impl<S: Real, const D: usize> Stepper<S, D> {
 
     /// A group.
     pub(super) fn elements(&self, group: usize) -> &dyn Elements<S, D> {
-        &*self.groups[group]
+        self.groups[group].elements()
     }
 
     /// All groups.
     pub(super) fn all(&self) -> impl Iterator<Item = &dyn Elements<S, D>> {
-        self.groups
-            .iter()
-            .map(|group| &**group as &dyn Elements<S, D>)
+        self.groups.iter().map(|group| group.elements())
     }
 
     /// Does something with all groups.
     pub(super) fn each_mut(&mut self, mut visit: impl FnMut(&mut dyn Elements<S, D>)) {
         for group in &mut self.groups {
-            visit(&mut **group);
+            visit(group.elements_mut());
         }
     }
 }

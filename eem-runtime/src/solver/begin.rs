@@ -5,8 +5,10 @@
 //! ```
 
 use core::array;
+use core::ops::Range;
 
 use super::Solver;
+use super::balance::Balance;
 use super::places::Seen;
 use crate::error::StepFailure;
 use crate::group::{Group, Old, StepView, points};
@@ -67,6 +69,17 @@ impl<S: Real, const D: usize> Solver<S, D> {
     pub(super) fn moving(&self) -> usize {
         // No chunk is empty.
         (self.nodes.len() / self.sets.len()).max(1)
+    }
+
+    /// Where the nodes of a set of unknowns are among all.
+    pub(super) fn range_of_set(&self, set: usize) -> Range<usize> {
+        let count = self.nodes.len() / self.sets.len();
+        set * count..(set + 1) * count
+    }
+
+    /// The nodes of a set of unknowns.
+    pub(super) fn nodes_of_set(&self, set: usize) -> &[Balance<S, D>] {
+        &self.nodes[self.range_of_set(set)]
     }
 
     /// How many rows each set of unknowns has.

@@ -3,7 +3,7 @@
 use super::point::Point;
 use super::site::StageSite;
 use crate::free_energy::{Array, FreeEnergy};
-use crate::group::arms::{arms_in, change_in_set};
+use crate::group::arms::{add_scaled, arms_in, change_in_set};
 use crate::group::begin::shorten;
 use crate::group::element_group::variables;
 use crate::group::member::{Member, grown};
@@ -102,11 +102,7 @@ where
     /// The arms at the stage of a set of unknowns, m.
     pub(super) fn arms_of_set(&self, set: usize, trial: &Trial<S, D>) -> Arms<K, S, D> {
         let mut r = change_in_set::<K, S, D>(&self.site.common().nodes, trial, set);
-        for (arm, old) in r.as_mut().iter_mut().zip(self.r0.as_ref()) {
-            for axis in 0..D {
-                arm[axis] += old[axis];
-            }
-        }
+        add_scaled::<K, S, D>(&mut r, S::one(), &self.r0);
         r
     }
 

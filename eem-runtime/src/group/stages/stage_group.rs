@@ -4,19 +4,14 @@ use super::local::LocalStages;
 use super::member::StageMember;
 use super::site::StageSite;
 use crate::certificate::{Recount, Tally};
-use crate::checkpoint::digest::Digest;
-use crate::checkpoint::error::RestoreError;
 use crate::error::StateError;
 use crate::free_energy::FreeEnergy;
 use crate::group::element_group::ElementGroup;
 use crate::group::interface::{Elements, Group};
-use crate::group::view::ElementGeneric;
-use crate::group::view::{Along, ElementView, GroupTotals};
-use crate::group::view::{Old, Placed, Sites, StepView, Trial};
+use crate::group::view::{Along, ElementGeneric, Old, Placed, Sites, StepView, Trial};
 use crate::handle::Element;
 use crate::impulse::Impulses;
 use crate::kinematics::Kinematics;
-use crate::layout::Slots;
 use crate::scalar::Real;
 use crate::scheme::{Tableau, Variational};
 use crate::state::State;
@@ -66,6 +61,14 @@ where
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
 {
+    fn elements(&self) -> &dyn Elements<S, D> {
+        &self.elements
+    }
+
+    fn elements_mut(&mut self) -> &mut dyn Elements<S, D> {
+        &mut self.elements
+    }
+
     fn connect(&mut self, sites: &Sites<'_, S, D>) {
         for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
             stages.site = StageSite::new(&member.site.nodes, member.slots().thermal, sites);
@@ -146,44 +149,5 @@ where
 
     fn generic_of_step(&self, _: [&State<S>; 2]) -> Vec<ElementGeneric<S>> {
         Vec::new()
-    }
-}
-
-impl<S, M, K, const D: usize> Elements<S, D> for StageGroup<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-{
-    fn initialize(&mut self, state: &mut State<S>) -> Result<(), StateError> {
-        self.elements.initialize(state)
-    }
-
-    fn totals(&self, state: &State<S>) -> GroupTotals<S> {
-        self.elements.totals(state)
-    }
-
-    fn find_energies(&self, state: &mut State<S>) {
-        self.elements.find_energies(state);
-    }
-
-    fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>> {
-        self.elements.generic_in(state)
-    }
-
-    fn slots(&self, place: usize) -> Slots {
-        self.elements.slots(place)
-    }
-
-    fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {
-        self.elements.inspect(place, state)
-    }
-
-    fn digest(&self, digest: &mut Digest) {
-        self.elements.digest(digest);
-    }
-
-    fn audit(&self, state: &State<S>) -> Result<(), RestoreError> {
-        self.elements.audit(state)
     }
 }

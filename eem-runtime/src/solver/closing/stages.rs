@@ -60,12 +60,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             }
         }
         let momenta = points::<S, D>(view.state.momenta.values());
-        for mass in self
-            .nodes
-            .iter()
-            .take(self.moving())
-            .map(|node| &node.place)
-        {
+        for mass in self.nodes_of_set(0).iter().map(|node| &node.place) {
             let node = mass.node();
             stages.ends[node] = match rule.ending {
                 Ending::StageByStage => self.trial.displacements_of_set(rule.sets() - 1)[node],
@@ -84,8 +79,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let weights = stages.rule.positions[set];
         let time = S::from_f64(self.sets[set].time);
         let momenta = points::<S, D>(view.state.momenta.values());
-        let first = set * self.moving();
-        for at in first..first + self.nodes.len() / self.sets.len() {
+        for at in self.range_of_set(set) {
             let mass = self.nodes[at].place;
             let (momentum, impulse) =
                 (&momenta[mass.node()], stages.combined(mass.node(), weights));
@@ -119,11 +113,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         );
         let momenta = points::<S, D>(view.state.momenta.values());
         let inertia = self.inertias(view)[set];
-        let nodes = self
-            .nodes
-            .chunks(self.moving())
-            .nth(set)
-            .unwrap_or_default();
+        let nodes = self.nodes_of_set(set);
         let (values, right) = secant.parts();
         for (mass, right) in nodes.iter().map(|node| &node.place).zip(right) {
             values[mass.secant_diagonal()] += inertia * mass.mass;
@@ -136,12 +126,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         let solved = secant.solve();
         if solved.is_ok() {
-            let first = set * self.moving();
-            for (at, &displacement) in secant.solution().iter().enumerate() {
-                let Some(node) = self.nodes.get(first + at) else {
-                    break;
-                };
-                self.place(node.place.in_trial(), displacement);
+            for (at, &displacement) in self.range_of_set(set).zip(secant.solution()) {
+                self.place(self.nodes[at].place.in_trial(), displacement);
             }
         }
         stages.secant = Some(secant);
@@ -162,12 +148,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         motion: &mut Motion<S, D>,
     ) -> Result<(), StepFailure> {
         let none = [S::zero(); D];
-        for mass in self
-            .nodes
-            .iter()
-            .take(self.moving())
-            .map(|node| &node.place)
-        {
+        for mass in self.nodes_of_set(0).iter().map(|node| &node.place) {
             let node = mass.node();
             let displacement = &stages.ends[node];
             let impulse = stages.combined(node, stages.rule.weights);
