@@ -31,6 +31,7 @@ pub mod guide {}
 pub mod __private {
     pub use core;
     pub use eem_runtime::{
-        Array, Caloric, Describe, Description, FreeEnergy, Scalar, describe, kernel,
+        Array, Caloric, Describe, Description, FreeEnergy, Scalar, Strain, StrainEnergy, describe,
+        kernel,
     };
 }

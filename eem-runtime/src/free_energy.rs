@@ -86,6 +86,9 @@ pub trait FreeEnergy<S: Scalar> {
     const DASHPOTS: usize;
     /// Whether there is a temperature, T.
     const THERMAL: bool;
+    /// Whether it is one per reference volume, a function of strains: all that stands below in J, N and
+    /// J/K is then per m³. See [`StrainEnergy`](crate::StrainEnergy).
+    const PER_VOLUME: bool = false;
     /// The names of the parameters that the model uses.
     const PARAMETERS: &'static [&'static str];
 

@@ -55,6 +55,7 @@ mod scheme;
 mod simulation;
 mod solver;
 mod state;
+mod strain;
 mod system;
 
 pub use checkpoint::{Checkpoint, RestoreError};
@@ -75,3 +76,4 @@ pub use simulation::Simulation;
 pub use simulation::generic::Generic;
 pub use simulation::linearize::StepTangent;
 pub use simulation::run::RunEnd;
+pub use strain::{Strain, StrainEnergy};

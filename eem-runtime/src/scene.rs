@@ -114,7 +114,10 @@ impl<const D: usize, S: Real> Scene<D, S> {
         M: FreeEnergy<S> + Send + Sync + 'static,
     {
         const {
-            assert!(M::MEASURES == 1, "a spring has one measure, its stretch");
+            assert!(
+                M::MEASURES == 1 && !M::PER_VOLUME,
+                "a spring has one measure, its stretch"
+            );
         }
         let element = Element {
             scene: self.id,
