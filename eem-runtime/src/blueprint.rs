@@ -7,12 +7,13 @@ use crate::error::SceneError;
 use crate::free_energy::FreeEnergy;
 use crate::group::{ElementGroup, Group, Placed, StageGroup};
 use crate::handle::Element;
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Kinematics, Quad4};
 use crate::layout::Shape;
+use crate::point_energy::PointEnergy;
 use crate::scalar::Real;
 use crate::scheme::{
-    EemEntropy, EemTemperature, ElementScheme, Midpoint, MidpointTemperature, Scheme, Trapezoidal,
-    TrapezoidalTemperature, Variational,
+    Closing, EemEntropy, EemTemperature, ElementScheme, Midpoint, MidpointTemperature, Scheme,
+    Trapezoidal, TrapezoidalTemperature, Variational,
 };
 
 /// A set of elements of one model, whatever the model is.
@@ -22,13 +23,15 @@ pub(crate) trait Blueprint<S: Real, const D: usize>: Any + Debug + Send + Sync {
     /// Number of elements.
     fn len(&self) -> usize;
     fn shape(&self) -> Shape;
+    /// An error if its elements cannot be stepped by a scheme.
+    fn check_scheme(&self, scheme: Scheme) -> Result<(), SceneError>;
     /// All parameters of the element at `place` are finite.
     fn check_parameters(&self, place: usize, element: Element) -> Result<(), SceneError>;
     /// The elements, ready to be stepped by `scheme`.
     fn build(self: Box<Self>, scheme: Scheme, placed: Placed<'_>) -> Box<dyn Group<S, D>>;
 }
 
-/// Elements of the model `M` with the kinematics `K`.
+/// Elements of the model `M` with the kinematics `K`, which have one point each.
 pub(crate) struct ModelSet<M, K> {
     kinematics: K,
     models: Vec<(Element, M)>,
@@ -78,47 +81,168 @@ where
         Shape {
             dashpots: M::DASHPOTS,
             thermal: M::THERMAL,
+            is_spring: true,
+            viscous_unit: K::VISCOUS_UNIT,
         }
     }
 
-    fn check_parameters(&self, place: usize, element: Element) -> Result<(), SceneError> {
-        for (index, &parameter) in M::PARAMETERS.iter().enumerate() {
-            let value = self.models[place].1.parameter(index);
-            if !value.is_finite() {
-                let value = value.to_f64();
-                return Err(SceneError::Parameter {
-                    element,
-                    parameter,
-                    value,
-                });
-            }
-        }
+    fn check_scheme(&self, _: Scheme) -> Result<(), SceneError> {
         Ok(())
+    }
+
+    fn check_parameters(&self, place: usize, element: Element) -> Result<(), SceneError> {
+        parameters_are_finite(&self.models[place].1, element)
     }
 
     fn build(self: Box<Self>, scheme: Scheme, placed: Placed<'_>) -> Box<dyn Group<S, D>> {
         let Self { kinematics, models } = *self;
+        let parts = models.into_iter();
+        let parts = parts.map(|(element, model)| (element, [(model, kinematics)]));
+        let parts = parts.collect();
         if let Some(rule) = scheme.tableau() {
-            let group = StageGroup::<S, M, K, D>::new(rule, kinematics, models, placed);
-            return Box::new(group);
+            return Box::new(StageGroup::<S, M, K, D>::new(rule, parts, placed));
         }
         let group = match scheme {
-            Scheme::EemEntropy | Scheme::Staggered => boxed::<S, M, K, EemEntropy, D>,
-            Scheme::EemTemperature => boxed::<S, M, K, EemTemperature, D>,
-            Scheme::Variational | Scheme::Variational4 => boxed::<S, M, K, Variational, D>,
-            Scheme::MidpointTemperature => boxed::<S, M, K, MidpointTemperature, D>,
-            Scheme::TrapezoidalTemperature => boxed::<S, M, K, TrapezoidalTemperature, D>,
-            Scheme::Midpoint | Scheme::Gauss4 => boxed::<S, M, K, Midpoint, D>,
-            Scheme::Trapezoidal => boxed::<S, M, K, Trapezoidal, D>,
+            Scheme::EemEntropy | Scheme::Staggered => boxed::<S, M, K, EemEntropy, [(M, K); 1], D>,
+            Scheme::EemTemperature => boxed::<S, M, K, EemTemperature, [(M, K); 1], D>,
+            Scheme::Variational | Scheme::Variational4 => {
+                boxed::<S, M, K, Variational, [(M, K); 1], D>
+            }
+            Scheme::MidpointTemperature => boxed::<S, M, K, MidpointTemperature, [(M, K); 1], D>,
+            Scheme::TrapezoidalTemperature => {
+                boxed::<S, M, K, TrapezoidalTemperature, [(M, K); 1], D>
+            }
+            Scheme::Midpoint | Scheme::Gauss4 => boxed::<S, M, K, Midpoint, [(M, K); 1], D>,
+            Scheme::Trapezoidal => boxed::<S, M, K, Trapezoidal, [(M, K); 1], D>,
         };
-        group(kinematics, models, placed)
+        group(parts, placed)
     }
 }
 
+/// All parameters of a model are finite.
+fn parameters_are_finite<S: Real, M: FreeEnergy<S>>(
+    model: &M,
+    element: Element,
+) -> Result<(), SceneError> {
+    for (index, &parameter) in M::PARAMETERS.iter().enumerate() {
+        let value = model.parameter(index);
+        if !value.is_finite() {
+            let value = value.to_f64();
+            return Err(SceneError::Parameter {
+                element,
+                parameter,
+                value,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// A quadrilateral: what each of its points consists of.
+type QuadPoints<S, M, const N: usize> = [(PointEnergy<S, M>, Quad4<S, N>); 4];
+
+/// Quadrilaterals of the model `M`, of N measures of strain.
+pub(crate) struct QuadSet<S: Real, M, const N: usize> {
+    /// Their first points, by handle.
+    quads: Vec<(Element, QuadPoints<S, M, N>)>,
+}
+
+impl<S: Real, M: FreeEnergy<S>, const N: usize> QuadSet<S, M, N> {
+    /// An empty set.
+    pub(crate) fn new() -> Self {
+        Self { quads: Vec::new() }
+    }
+
+    /// Adds a quadrilateral.
+    pub(crate) fn push(&mut self, model: &M, points: [Quad4<S, N>; 4], first: Element)
+    where
+        M: Clone,
+    {
+        let points = points.map(|point| (PointEnergy::new(model.clone(), point.volume()), point));
+        self.quads.push((first, points));
+    }
+}
+
+impl<S: Real, M, const N: usize> Debug for QuadSet<S, M, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = core::any::type_name::<M>();
+        write!(f, "{} quadrilaterals of {name}", self.quads.len())
+    }
+}
+
+impl<S, M, const N: usize> Blueprint<S, 2> for QuadSet<S, M, N>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+{
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+
+    fn as_any_mut(&mut self) -> &mut dyn Any {
+        self
+    }
+
+    fn len(&self) -> usize {
+        4 * self.quads.len()
+    }
+
+    fn shape(&self) -> Shape {
+        Shape {
+            dashpots: M::DASHPOTS,
+            thermal: M::THERMAL,
+            is_spring: false,
+            viscous_unit: <Quad4<S, N> as Kinematics<S, 2>>::VISCOUS_UNIT,
+        }
+    }
+
+    /// Masses that couple nodes leave the end of a step to the increments.
+    fn check_scheme(&self, scheme: Scheme) -> Result<(), SceneError> {
+        match scheme.closing() {
+            Closing::Increments => Ok(()),
+            Closing::Start | Closing::Stages => Err(SceneError::NotForSolids {
+                scheme: scheme.name(),
+            }),
+        }
+    }
+
+    fn check_parameters(&self, place: usize, element: Element) -> Result<(), SceneError> {
+        let (_, points) = &self.quads[place / 4];
+        parameters_are_finite(&points[place % 4].0, element)
+    }
+
+    fn build(self: Box<Self>, scheme: Scheme, placed: Placed<'_>) -> Box<dyn Group<S, 2>> {
+        let group = match scheme {
+            Scheme::EemEntropy | Scheme::Staggered => quads::<S, M, N, EemEntropy>,
+            Scheme::EemTemperature => quads::<S, M, N, EemTemperature>,
+            Scheme::MidpointTemperature => quads::<S, M, N, MidpointTemperature>,
+            Scheme::TrapezoidalTemperature => quads::<S, M, N, TrapezoidalTemperature>,
+            Scheme::Midpoint => quads::<S, M, N, Midpoint>,
+            Scheme::Trapezoidal => quads::<S, M, N, Trapezoidal>,
+            Scheme::Variational | Scheme::Variational4 | Scheme::Gauss4 => {
+                unreachable!("`check_scheme` refuses it")
+            }
+        };
+        group(self.quads, placed)
+    }
+}
+
+/// Quadrilaterals with a scheme.
+fn quads<S, M, const N: usize, C>(
+    parts: Vec<(Element, QuadPoints<S, M, N>)>,
+    placed: Placed<'_>,
+) -> Box<dyn Group<S, 2>>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    C: ElementScheme<S, PointEnergy<S, M>>,
+{
+    boxed::<S, PointEnergy<S, M>, Quad4<S, N>, C, _, 2>(parts, placed)
+}
+
 /// The group of a scheme with one set of forces.
-fn boxed<S, M, K, C, const D: usize>(
-    kinematics: K,
-    models: Vec<(Element, M)>,
+fn boxed<S, M, K, C, P, const D: usize>(
+    parts: Vec<(Element, P)>,
     placed: Placed<'_>,
 ) -> Box<dyn Group<S, D>>
 where
@@ -126,8 +250,7 @@ where
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
+    P: IntoIterator<Item = (M, K)>,
 {
-    Box::new(ElementGroup::<S, M, K, C, D>::new(
-        kinematics, models, placed,
-    ))
+    Box::new(ElementGroup::<S, M, K, C, D>::new(parts, placed))
 }

@@ -34,7 +34,7 @@ use crate::error::{Law, StepFailure};
 use crate::handle::Element;
 use crate::scalar::{Mask, Real};
 
-pub(crate) use motion::{Kept, Motion, NodeStep};
+pub(crate) use motion::{Kept, Motion, NodeStep, Speeds};
 pub(crate) use recount::Recount;
 use tally::ROUNDINGS;
 pub(crate) use tally::{Care, Tally};

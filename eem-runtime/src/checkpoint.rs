@@ -142,10 +142,11 @@ impl<S: Real> Checkpoint<S> {
 }
 
 /// All lists of sums of a state with their names.
-fn sums<S>(state: &State<S>) -> [(&'static str, &Compensated<S>); 5] {
+fn sums<S>(state: &State<S>) -> [(&'static str, &Compensated<S>); 6] {
     [
         ("coordinates", &state.positions),
         ("momenta", &state.momenta),
+        ("velocities", &state.velocities),
         ("viscous stretches", &state.viscous),
         ("entropies", &state.entropies),
         ("reservoir entropies", &state.reservoir_entropies),
@@ -158,6 +159,7 @@ fn single_sums<S: Copy>(state: &State<S>) -> [(&'static str, Sum<S>); 5] {
         time,
         positions: _,
         momenta: _,
+        velocities: _,
         viscous: _,
         entropies: _,
         temperatures: _,

@@ -13,6 +13,16 @@ pub(crate) struct Compensated<S> {
     carries: Vec<S>,
 }
 
+/// None.
+impl<S> Default for Compensated<S> {
+    fn default() -> Self {
+        Self {
+            values: Vec::new(),
+            carries: Vec::new(),
+        }
+    }
+}
+
 impl<S: Scalar> Compensated<S> {
     /// Sums that start at `values`, exactly.
     pub(crate) fn new(values: Vec<S>) -> Self {
@@ -46,6 +56,12 @@ impl<S: Scalar> Compensated<S> {
     pub(crate) fn set(&mut self, index: usize, value: S) {
         self.values[index] = value;
         self.carries[index] = S::zero();
+    }
+
+    /// Replaces all of them, exactly.
+    pub(crate) fn write(&mut self, values: impl FnOnce(&mut [S])) {
+        values(&mut self.values);
+        self.carries.fill(S::zero());
     }
 
     /// One sum of `old` and an increment.

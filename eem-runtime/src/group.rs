@@ -8,7 +8,7 @@
 //! evaluate   response at the trial                                  (evaluate, respond, pose, arms)
 //!            local unknowns eliminated                              (local, eliminate)
 //!            contributions written to their places                  (assemble, scatter, site)
-//! correct    local unknowns from the global solution                (correct, member)
+//! correct    local unknowns from the global solution                (correct, point)
 //! close      impulses, what is booked, and the new state            (closing, settle, certify)
 //! ```
 
@@ -28,6 +28,7 @@ mod inspect;
 mod interface;
 mod local;
 mod member;
+mod point;
 mod pose;
 mod respond;
 mod scatter;

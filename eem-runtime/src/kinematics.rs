@@ -24,7 +24,12 @@
 //! over an element have no bounds but those of its arrays.
 
 mod measures;
+mod plane;
+mod quad4;
+mod strain;
 mod stretch;
 
-pub use measures::{Arms, Blocks, Ends, Gradient, Kinematics, Measures, Weights};
+pub use measures::{Arms, Blocks, Ends, Gradient, Kinematics, Measures, Points, Weights};
+pub use quad4::Quad4;
+pub use strain::{Strain, StrainEnergy};
 pub use stretch::Stretch;

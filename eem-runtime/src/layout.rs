@@ -11,6 +11,10 @@ use crate::handle::{Element, HeatPartner};
 pub(crate) struct Shape {
     pub(crate) dashpots: usize,
     pub(crate) thermal: bool,
+    /// Whether it has a length and a force.
+    pub(crate) is_spring: bool,
+    /// The unit of a viscous stretch.
+    pub(crate) viscous_unit: &'static str,
 }
 
 /// Where an element keeps its internal variables in the [`State`](crate::state::State).

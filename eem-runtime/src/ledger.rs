@@ -31,7 +31,7 @@ use crate::state::State;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ledger<S: Real, const D: usize> {
-    /// `Σ p²/2m`, J.
+    /// `Σ p·v/2`, J, which is `Σ p²/2m` where masses do not couple nodes.
     pub kinetic_energy: S,
     /// `−Σ m g·q`, J.
     pub potential_energy: S,
@@ -131,11 +131,16 @@ impl<S: Real, const D: usize> Ledger<S, D> {
     }
 }
 
-/// `Σ p²/2m`, J.
+/// `Σ p·v/2`, J, which is `Σ p²/2m` where masses do not couple nodes.
 fn kinetic_energy<S: Real, const D: usize>(state: &State<S>, masses: &Masses<S>) -> S {
     let mut sum = Total::new();
-    let momenta = state.momenta.values().chunks_exact(D);
-    for (p, mass) in momenta.zip(masses.iter()) {
+    let momenta = state.momenta.values();
+    if !masses.pairs().is_empty() {
+        let half = S::from_f64(0.5);
+        let both = momenta.iter().zip(state.velocities.values());
+        return Total::of(both.map(|(&p, &v)| half * p * v));
+    }
+    for (p, mass) in momenta.chunks_exact(D).zip(masses.iter()) {
         let Some(mass) = mass else { continue };
         for &component in p {
             sum.add(component * component / (mass + mass));
@@ -152,8 +157,7 @@ fn potential_energy<S: Real, const D: usize>(
 ) -> S {
     let mut sum = Total::new();
     let positions = state.positions.values().chunks_exact(D);
-    for (q, mass) in positions.zip(masses.iter()) {
-        let Some(mass) = mass else { continue };
+    for (q, mass) in positions.zip(masses.weights()) {
         for (&coordinate, &component) in q.iter().zip(gravity.iter()) {
             sum.add(-mass * component * coordinate);
         }

@@ -291,13 +291,25 @@ impl<S: Real> StepLoads<S> {
     }
 
     fn add_weights<const D: usize>(&mut self, loads: &Loads<S, D>, masses: &Masses<S>) {
-        let total = self.total_force.as_chunks_mut::<D>().0.iter_mut();
-        for (node, (total, mass)) in total.zip(masses.iter()).enumerate() {
+        let total = self.total_force.as_chunks_mut::<D>().0;
+        for (node, (total, mass)) in total.iter_mut().zip(masses.iter()).enumerate() {
             *total = point(&self.force, node);
-            for (total, &acceleration) in total.iter_mut().zip(loads.gravity.iter()) {
-                *total += mass.map_or(S::zero(), |mass| mass * acceleration);
+            weigh(total, mass.unwrap_or(S::zero()), loads);
+        }
+        for pair in masses.pairs() {
+            for node in pair.nodes() {
+                if let Some(total) = total.get_mut(node) {
+                    weigh(total, pair.mass, loads);
+                }
             }
         }
+    }
+}
+
+/// Adds the weight of a mass.
+fn weigh<S: Real, const D: usize>(total: &mut [S; D], mass: S, loads: &Loads<S, D>) {
+    for (total, &acceleration) in total.iter_mut().zip(loads.gravity.iter()) {
+        *total += mass * acceleration;
     }
 }
 

@@ -5,6 +5,8 @@
 mod act;
 mod check;
 pub(crate) mod entry;
+mod solid;
+pub use solid::Section;
 mod start;
 
 use crate::blueprint::{Blueprint, ModelSet};
@@ -35,6 +37,8 @@ use entry::{ElementEntry, NodeEntry};
 pub struct Scene<const D: usize, S: Real = f64> {
     pub(crate) id: SceneId,
     pub(crate) nodes: Vec<NodeEntry<S, D>>,
+    /// Masses of solids that couple two nodes, kg.
+    pub(crate) pairs: Vec<([usize; 2], S)>,
     pub(crate) elements: Vec<ElementEntry<S>>,
     pub(crate) reservoirs: Vec<S>,
     pub(crate) conductors: Vec<Conductor<S>>,
@@ -60,6 +64,7 @@ impl<const D: usize, S: Real> Default for Scene<D, S> {
         Self {
             id: SceneId::unique(),
             nodes: Vec::new(),
+            pairs: Vec::new(),
             elements: Vec::new(),
             reservoirs: Vec::new(),
             conductors: Vec::new(),
@@ -73,7 +78,7 @@ impl<const D: usize, S: Real> Default for Scene<D, S> {
 impl<const D: usize, S: Real> Scene<D, S> {
     /// A node that does not move; position in m.
     pub fn anchor(&mut self, position: [S; D]) -> Node {
-        self.node(None, position, [S::zero(); D])
+        self.push_node(None, position, [S::zero(); D])
     }
 
     /// The numbering of its unknowns and variables.
@@ -88,10 +93,10 @@ impl<const D: usize, S: Real> Scene<D, S> {
 
     /// A point mass (kg) with its initial position (m) and velocity (m/s).
     pub fn mass(&mut self, mass: S, position: [S; D], velocity: [S; D]) -> Node {
-        self.node(Some(mass), position, velocity)
+        self.push_node(Some(mass), position, velocity)
     }
 
-    fn node(&mut self, mass: Option<S>, position: [S; D], velocity: [S; D]) -> Node {
+    fn push_node(&mut self, mass: Option<S>, position: [S; D], velocity: [S; D]) -> Node {
         self.nodes.push(NodeEntry {
             mass,
             position: position.into(),
@@ -126,12 +131,15 @@ impl<const D: usize, S: Real> Scene<D, S> {
         for node in nodes {
             self.expect_own(node.scene, &node);
         }
-        let group = self.group_of::<M>();
-        let place = self.groups[group].len();
-        let set = self.groups[group].as_any_mut().downcast_mut();
-        let set: &mut ModelSet<M, Stretch<D>> =
-            set.unwrap_or_else(|| unreachable!("`group_of` returns a set of this model"));
+        let new = || ModelSet::<M, _>::new(Stretch::<D>);
+        let (group, set) = self.set_of(new);
+        let place = Blueprint::<S, D>::len(set);
         set.push(model, element);
+        self.push_element(&nodes, [group, place]);
+        element
+    }
+
+    fn push_element(&mut self, nodes: &[Node], [group, place]: [usize; 2]) {
         self.elements.push(ElementEntry {
             nodes: nodes.iter().map(|node| node.index).collect(),
             temperature: None,
@@ -139,21 +147,19 @@ impl<const D: usize, S: Real> Scene<D, S> {
             group,
             place,
         });
-        element
     }
 
-    /// The group of springs of model `M`, new if there is none yet.
-    fn group_of<M>(&mut self) -> usize
-    where
-        M: FreeEnergy<S> + Send + Sync + 'static,
-    {
+    /// The elements of one type, new if there are none yet, and their group.
+    fn set_of<B: Blueprint<S, D>>(&mut self, new: impl FnOnce() -> B) -> (usize, &mut B) {
         let mut groups = self.groups.iter();
-        let same = groups.position(|group| group.as_any().is::<ModelSet<M, Stretch<D>>>());
-        same.unwrap_or_else(|| {
-            self.groups
-                .push(Box::new(ModelSet::<M, _>::new(Stretch::<D>)));
+        let same = groups.position(|group| group.as_any().is::<B>());
+        let group = same.unwrap_or_else(|| {
+            self.groups.push(Box::new(new()));
             self.groups.len() - 1
-        })
+        });
+        let set = self.groups[group].as_any_mut().downcast_mut();
+        let set = set.unwrap_or_else(|| unreachable!("the group has this type"));
+        (group, set)
     }
 
     /// The initial temperature of an element, K.

@@ -101,6 +101,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// The first thing that is wrong with the scene, its initial state or the step.
     pub fn new(scene: Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, SceneError> {
         scene.check()?;
+        for group in &scene.groups {
+            group.check_scheme(scheme)?;
+        }
         check_step(step)?;
         let mut layout = scene.layout();
         let conduction = Conduction::new(&scene.conductors, &scene.reservoirs, &layout);
@@ -111,7 +114,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             .map(|entry| [entry.group, entry.place].map(compact))
             .collect();
         let shapes = scene.groups.iter().map(|group| group.shape()).collect();
-        let masses = Masses::new(scene.nodes.iter().map(|node| node.mass));
+        let masses = Masses::new(scene.nodes.iter().map(|node| node.mass), scene.pairs);
+        state.follow_velocities(D, &masses);
         // Large, and all that it said is in the masses and in the state.
         drop(scene.nodes);
         let placed = Placed {

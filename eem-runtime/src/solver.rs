@@ -5,6 +5,7 @@ mod begin;
 mod closing;
 mod conclusion;
 mod converge;
+mod coupling;
 mod effort;
 mod iteration;
 mod linearize;
@@ -27,6 +28,7 @@ use crate::scene::entry::ElementEntry;
 use crate::scheme::{Ending, Scheme, UnknownSet};
 use crate::system::LinearSystem;
 use balance::Balance;
+use coupling::Coupling;
 
 pub(crate) use effort::Effort;
 use past::Past;
@@ -42,6 +44,8 @@ pub(crate) struct Solver<S: Real, const D: usize> {
     sets: Vec<UnknownSet>,
     /// The nodes that move, in the order of their unknowns, set after set.
     nodes: Vec<Balance<S, D>>,
+    /// The masses that couple them.
+    coupling: Coupling<S, D>,
     /// The temperatures that neighbours see, set after set.
     seen: Vec<Seen>,
     /// The system of an iteration.
@@ -107,6 +111,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             nodes.extend(moving(masses, &sites).into_iter().map(Balance::new));
             all_seen.extend(seen(&sites));
         }
+        let coupling = Coupling::new(masses, &sites);
         // Without conduction between elements no temperature is seen.
         let slots = if all_seen.is_empty() {
             0
@@ -117,6 +122,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             scheme,
             past: Past::none(masses.len()),
             nodes,
+            coupling,
             seen: all_seen,
             tangent,
             trial: Trial::new(sets.len(), masses.len(), slots),

@@ -2,6 +2,7 @@
 
 use crate::compensated::{Compensated, Sum};
 use crate::free_energy::Caloric;
+use crate::masses::Masses;
 use crate::scalar::Real;
 
 /// Positions, momenta, viscous stretches, entropies and what has been booked.
@@ -21,6 +22,12 @@ pub(crate) struct State<S> {
     pub(crate) positions: Compensated<S>,
     /// p, kg m/s; zero for anchors.
     pub(crate) momenta: Compensated<S>,
+    /// v, m/s, where masses couple nodes: then the momenta follow, `p = M v`. Empty where they do not.
+    #[cfg_attr(
+        feature = "serde",
+        serde(default)
+    )]
+    pub(crate) velocities: Compensated<S>,
     /// γ, m.
     pub(crate) viscous: Compensated<S>,
     /// s, J/K.
@@ -88,6 +95,26 @@ impl<S: Real> Energy<S> {
 }
 
 impl<S: Real> State<S> {
+    /// Finds the momenta where masses couple nodes, which velocities decide there.
+    pub(crate) fn follow_velocities(&mut self, dimension: usize, masses: &Masses<S>) {
+        if masses.pairs().is_empty() {
+            return;
+        }
+        let velocities = self.velocities.values();
+        let momenta = &mut self.momenta;
+        momenta.write(|momenta| masses.find_momenta(dimension, velocities, momenta));
+    }
+
+    /// The velocity of a node of this mass, m/s.
+    #[inline]
+    pub(crate) fn velocity<const D: usize>(&self, node: usize, mass: S) -> [S; D] {
+        let velocities = self.velocities.values().as_chunks::<D>().0;
+        match velocities.get(node) {
+            Some(velocity) => *velocity,
+            None => self.momenta.values().as_chunks::<D>().0[node].map(|p| p / mass),
+        }
+    }
+
     /// Takes over what has been booked in `old`, a state of the same scene; a step adds to it.
     pub(crate) fn copy_books(&mut self, old: &Self) {
         self.time = old.time;
@@ -103,6 +130,7 @@ impl<S: Real> State<S> {
         self.copy_books(other);
         self.positions.copy_from(&other.positions);
         self.momenta.copy_from(&other.momenta);
+        self.velocities.copy_from(&other.velocities);
         self.viscous.copy_from(&other.viscous);
         self.entropies.copy_from(&other.entropies);
         self.temperatures.copy_from_slice(&other.temperatures);

@@ -35,8 +35,7 @@ pub(crate) enum Kept<S, const D: usize> {
 /// What a node did in a step.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NodeStep<'a, S, const D: usize> {
-    /// `1/m`, 1/kg.
-    pub(crate) per_mass: S,
+    pub(crate) speeds: Speeds<S, D>,
     /// q⁰, m.
     pub(crate) position: &'a [S; D],
     /// p⁰, kg m/s.
@@ -45,6 +44,43 @@ pub(crate) struct NodeStep<'a, S, const D: usize> {
     pub(crate) displacement: &'a [S; D],
     /// Δp, kg m/s.
     pub(crate) impulse: &'a [S; D],
+}
+
+/// What says how fast a node moves.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Speeds<S, const D: usize> {
+    /// `1/m`, 1/kg: `v = p/m`.
+    OfMass(S),
+    /// v⁰ and Δv, m/s, where masses couple nodes.
+    Given { old: [S; D], change: [S; D] },
+}
+
+impl<S: Real, const D: usize> NodeStep<'_, S, D> {
+    /// `v̄·Δp` and `½(|v⁰·p⁰| + |v¹·p¹|)`, J.
+    #[inline]
+    fn energies(&self) -> [S; 2] {
+        let half = S::from_f64(0.5);
+        let (mut gain, mut size) = (S::zero(), S::zero());
+        match &self.speeds {
+            Speeds::OfMass(per_mass) => {
+                for (&p, &change) in self.momentum.iter().zip(self.impulse) {
+                    let end = p + change;
+                    gain += (p + half * change) * change;
+                    size += p * p + end * end;
+                }
+                [gain * *per_mass, half * size * *per_mass]
+            }
+            Speeds::Given { old, change } => {
+                for axis in 0..D {
+                    let (v, p) = (old[axis], self.momentum[axis]);
+                    gain += (v + half * change[axis]) * self.impulse[axis];
+                    let end = (v + change[axis]) * (p + self.impulse[axis]);
+                    size += (v * p).abs() + end.abs();
+                }
+                [gain, half * size]
+            }
+        }
+    }
 }
 
 impl<S: Real, const D: usize> Motion<S, D> {
@@ -66,15 +102,9 @@ impl<S: Real, const D: usize> Motion<S, D> {
     /// A node that moves, with the force of its loads if there are any, N.
     #[inline]
     pub(crate) fn see(&mut self, node: &NodeStep<'_, S, D>, force: Option<&[S; D]>, step: S) {
-        let half = S::from_f64(0.5);
-        let (mut gain, mut square) = (S::zero(), S::zero());
-        for (&p, &change) in node.momentum.iter().zip(node.impulse) {
-            let end = p + change;
-            gain += (p + half * change) * change;
-            square += p * p + end * end;
-        }
-        self.energy.add(gain * node.per_mass);
-        self.amplitude += half * square * node.per_mass;
+        let [gain, size] = node.energies();
+        self.energy.add(gain);
+        self.amplitude += size;
         if D > 0 && !matches!(self.kept, Kept::None) {
             let load = force.map(|force| force.map(|force| step * force));
             self.see_momenta(node, &load.unwrap_or([S::zero(); D]));

@@ -16,6 +16,57 @@ pub enum SceneError {
         /// The handle as text.
         handle: String,
     },
+    /// A solid is stepped by a scheme that is not for solids.
+    #[error(
+        "{scheme} is not for solids: their masses couple nodes, and only schemes that take the end of a step from its increments allow that; use eem-entropy or eem-temperature"
+    )]
+    NotForSolids {
+        /// The name of the scheme.
+        scheme: &'static str,
+    },
+    /// A quadrilateral is inside out at a point of its reference configuration, or has no area there.
+    #[error(
+        "the solid at {element} is inside out: det dX/dxi is {value} m^2, it must be positive and finite; give its corners against the clock",
+        value = Readable(*value)
+    )]
+    InsideOut {
+        /// The point.
+        element: Element,
+        /// `det ∂X/∂ξ`, m².
+        value: f64,
+    },
+    /// A density or a thickness is not positive and finite.
+    #[error("the {quantity} of the solid at {element} is {value} {unit}, it must be positive and finite", value = Readable(*value))]
+    Section {
+        /// Its first point.
+        element: Element,
+        /// Which one.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+    /// Something is asked of a node of a solid that only a point mass has.
+    #[error(
+        "{node} belongs to a solid, whose mass couples nodes, and cannot have {quantity}; {instead}"
+    )]
+    NodeOfSolid {
+        /// The node.
+        node: Node,
+        /// What was asked for.
+        quantity: &'static str,
+        /// What to do.
+        instead: &'static str,
+    },
+    /// A point of a solid has no stretch and no force.
+    #[error("{element} is a point of a solid, which has no {quantity}")]
+    NotASpring {
+        /// The point.
+        element: Element,
+        /// What was asked for.
+        quantity: &'static str,
+    },
     /// A coordinate is not finite.
     #[error("coordinate {axis} of the position of {node} is {value} m, it must be finite", value = Readable(*value))]
     Position {

@@ -26,16 +26,31 @@ pub enum StateError {
         /// The largest one, m.
         most: f64,
     },
+    /// A solid is inside out at a point, or its deformation is not finite.
+    #[error(
+        "the solid at {element} is inside out: det F is {value}, it must be positive and finite; a smaller step or a finer mesh may help",
+        value = Readable(*value)
+    )]
+    InsideOut {
+        /// The point.
+        element: Element,
+        /// `det F`.
+        value: f64,
+    },
     /// A viscous stretch is not finite.
     #[error(
-        "the viscous stretch of dashpot {dashpot} of {element} is {value} m, it must be finite", value = Readable(*value))]
+        "the viscous stretch of dashpot {dashpot} of {element} is {value}{unit}, it must be finite",
+        value = Readable(*value), unit = spaced(unit)
+    )]
     ViscousStretch {
         /// The element.
         element: Element,
         /// The dashpot, from 0.
         dashpot: usize,
-        /// The viscous stretch, m.
+        /// The viscous stretch.
         value: f64,
+        /// Its unit: m for a spring, none for a solid.
+        unit: &'static str,
     },
     /// A temperature is not positive and finite.
     #[error("the temperature of {element} is {value} K, it must be positive and finite", value = Readable(*value))]
@@ -58,15 +73,17 @@ pub enum StateError {
     },
     /// A viscosity is not positive and finite.
     #[error(
-        "the viscosity of dashpot {dashpot} of {element} is {value} N s/m{}, it must be positive and finite",
+        "the viscosity of dashpot {dashpot} of {element} is {value} {unit}{}, it must be positive and finite",
         temperature.as_ref().map_or_else(String::new, |theta| format!(" at {} K", Readable(*theta))), value = Readable(*value))]
     Viscosity {
         /// The element.
         element: Element,
         /// The dashpot, from 0.
         dashpot: usize,
-        /// The viscosity, N s/m.
+        /// The viscosity.
         value: f64,
+        /// Its unit: N s/m for a spring, J s for a point of a solid.
+        unit: &'static str,
         /// The temperature, K, if the model has one.
         temperature: Option<f64>,
     },
@@ -90,4 +107,13 @@ pub enum StateError {
         /// Its value.
         value: f64,
     },
+}
+
+/// A unit behind its number.
+fn spaced(unit: &str) -> String {
+    if unit.is_empty() {
+        String::new()
+    } else {
+        format!(" {unit}")
+    }
 }

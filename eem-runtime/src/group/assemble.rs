@@ -1,12 +1,12 @@
 //! From the elements to the global system.
 
 use super::arms::{add_scaled, scale};
-use super::member::Member;
+use super::point::Point;
 use super::pose::Pose;
 use super::site::{Contact, Site};
 use crate::free_energy::{Array, FreeEnergy};
-use crate::group::view::{StepView, Trial};
-use crate::kinematics::{Arms, Gradient, Kinematics, Measures};
+use crate::group::view::Trial;
+use crate::kinematics::{Arms, Blocks, Kinematics, Measures};
 use crate::scalar::Real;
 use crate::scheme::{ElementScheme, Form};
 
@@ -14,7 +14,36 @@ use crate::scheme::{ElementScheme, Form};
 pub(super) struct Target<'a, K: Kinematics<S, D>, S: Real, const D: usize> {
     pub(super) values: &'a mut [S],
     pub(super) right: &'a mut [[S; 1]],
+    pub(super) site: &'a Site<K, S, D>,
     pub(super) contact: Option<&'a Contact<K, S, D>>,
+}
+
+/// What the points of an element add to the momentum balances of its nodes.
+pub(super) struct Momentum<K: Kinematics<S, D>, S: Real, const D: usize> {
+    /// `h w Gᵀ f*`, with the internal variables eliminated, N s.
+    pub(super) pull: Arms<K, S, D>,
+    /// Its derivatives.
+    pub(super) blocks: Blocks<K, S, D>,
+}
+
+/// Adds the share of a point to that of the points before it.
+#[inline]
+pub(super) fn gather<K: Kinematics<S, D>, S: Real, const D: usize>(
+    sum: &mut Option<Momentum<K, S, D>>,
+    own: Momentum<K, S, D>,
+) {
+    let Some(sum) = sum else {
+        *sum = Some(own);
+        return;
+    };
+    add_scaled::<K, S, D>(&mut sum.pull, S::one(), &own.pull);
+    for (sum, own) in sum.blocks.as_mut().iter_mut().zip(own.blocks.as_ref()) {
+        for (sum, own) in sum.as_mut().iter_mut().zip(own.as_ref()) {
+            for (sum, own) in sum.as_flattened_mut().iter_mut().zip(own.as_flattened()) {
+                *sum += *own;
+            }
+        }
+    }
 }
 
 /// A response with the internal variables eliminated: `value + Σ_a by_measure_a δπ_a − by_heat δr_s`.
@@ -24,7 +53,7 @@ struct CondensedRow<K: Kinematics<S, D>, S: Real, const D: usize> {
     by_heat: S,
 }
 
-impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
@@ -77,41 +106,41 @@ where
         sum
     }
 
-    /// The impulse `h w Gᵀ f*` on the nodes and its derivatives.
+    /// The impulse `h w Gᵀ f*` on the nodes and its derivatives by them; those by seen temperatures go to
+    /// their places.
     #[inline]
-    pub(super) fn assemble_momentum(
+    pub(super) fn momentum(
         &self,
-        kinematics: K,
-        view: &StepView<'_, S>,
+        step: S,
         pose: &Pose<K, S, D>,
         form: &Form<S, M>,
         target: &mut Target<'_, K, S, D>,
-    ) {
-        let impulse = view.step * S::from_f64(C::IMPLICIT);
+    ) -> Momentum<K, S, D> {
+        let impulse = step * S::from_f64(C::IMPLICIT);
         let mut forces = Measures::<K, S, D>::filled(S::zero());
-        let mut forces_by_arm = Gradient::<K, S, D>::filled(self.r0);
+        let mut forces_by_arm = pose.direction;
+        let mut sum = pose.direction[0];
         for a in 0..M::MEASURES {
             let row = self.condensed_row(a, form, target.contact.is_some());
             forces[a] = impulse * form.0[a];
             forces_by_arm[a] = self.by_arm(&row, impulse);
-            let mut pull = pose.direction[a];
-            scale::<K, S, D>(&mut pull, impulse * row.value);
-            self.site
-                .subtract_arms(&pull, &self.site.rows, target.right.as_flattened_mut());
+            if a == 0 {
+                scale::<K, S, D>(&mut sum, impulse * row.value);
+            } else {
+                add_scaled::<K, S, D>(&mut sum, impulse * row.value, &pose.direction[a]);
+            }
             if M::THERMAL
                 && let Some(contact) = target.contact
             {
                 let mut heat = pose.direction[a];
                 let factor = impulse * row.by_heat * self.condensed.heat_factor;
                 scale::<K, S, D>(&mut heat, -factor);
-                contact.add_partners(&self.site, &heat, target.values);
+                contact.add_partners(target.site, &heat, target.values);
             }
         }
-        let blocks = pose.tangent(kinematics, C::PLACEMENT, &forces, &forces_by_arm);
-        for (i, row) in blocks.as_ref().iter().enumerate() {
-            for (j, block) in row.as_ref().iter().enumerate() {
-                self.site.add_block([i + 1, j + 1], block, target.values);
-            }
+        Momentum {
+            pull: sum,
+            blocks: pose.tangent(self.kinematics, C::PLACEMENT, &forces, &forces_by_arm),
         }
     }
 
@@ -130,7 +159,8 @@ where
         let seen = trial.seen.values()[slot];
         target.right[contact.unknown as usize][0] += row.value - seen;
         let by_arm = self.by_arm(&row, S::one());
-        self.site
+        target
+            .site
             .subtract_arms(&by_arm, &contact.row, target.values);
         let heat = row.by_heat * self.condensed.heat_factor;
         let mut diagonal = S::one();
@@ -140,6 +170,24 @@ where
             diagonal -= entry;
         }
         target.values[contact.diagonal as usize] += diagonal;
+    }
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
+    /// Adds what the points of the element add to the balances of its nodes.
+    #[inline]
+    pub(super) fn add_momentum(
+        &self,
+        momentum: &Momentum<K, S, D>,
+        right: &mut [S],
+        values: &mut [S],
+    ) {
+        self.subtract_arms(&momentum.pull, &self.rows, right);
+        for (i, row) in momentum.blocks.as_ref().iter().enumerate() {
+            for (j, block) in row.as_ref().iter().enumerate() {
+                self.add_block([i + 1, j + 1], block, values);
+            }
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Whether elements can be in a state that comes from outside, and which parameters they have.
 
-use super::member::Member;
+use super::point::Point;
 use crate::checkpoint::digest::Digest;
 use crate::checkpoint::error::RestoreError;
 use crate::error::StateError;
@@ -31,26 +31,32 @@ where
             digest.bytes(name.as_bytes());
             digest.bytes(&[0]);
         }
-        for member in &self.members {
-            digest.count(member.element.index);
+        for point in self.points() {
+            digest.count(point.element.index);
             for index in 0..M::PARAMETERS.len() {
-                digest.number(member.model.parameter(index));
+                digest.number(point.model.parameter(index));
             }
+            point
+                .kinematics
+                .numbers(&mut |number| digest.number(number));
         }
     }
 
     /// See [`Elements::audit`](super::Elements::audit).
     pub(super) fn audit_all(&self, state: &State<S>) -> Result<(), RestoreError> {
         for member in &self.members {
-            let x = member.locate(self.kinematics, state)?;
-            member.audit_response(&x)?;
-            member.audit_entropy(&x, state)?;
+            let r = member.arms_in(state);
+            for point in member.points.as_ref() {
+                let x = point.locate(&r, state)?;
+                point.audit_response(&x)?;
+                point.audit_entropy(&x, state)?;
+            }
         }
         Ok(())
     }
 }
 
-impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
@@ -81,6 +87,7 @@ where
                 element: self.element,
                 dashpot,
                 value: eta.to_f64(),
+                unit: K::VISCOSITY_UNIT,
                 temperature: M::THERMAL.then(|| theta.to_f64()),
             }),
         }

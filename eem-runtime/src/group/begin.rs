@@ -1,7 +1,8 @@
 //! The old state of the elements, where a step and its trial start.
 
-use super::arms::{along, arms_in, measures_in, points, spread};
+use super::arms::{along, measures_in, spread};
 use super::member::Member;
+use super::point::Point;
 use super::pose::Pose;
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
@@ -25,31 +26,33 @@ where
         old: &mut Old<'_, S, D>,
     ) -> Result<(), StateError> {
         for member in &mut self.members {
-            let r0 = arms_in::<K, S, D>(&member.site.nodes, &view.state.positions);
-            let measures = self.kinematics.measure(&r0);
-            member.begin(view, &r0, &measures);
-            if C::IMPLICIT < 1.0 {
-                member.old_share(self.kinematics, view, old.force)?;
+            let r0 = member.arms_in(view.state);
+            member.r0 = r0;
+            for point in member.points.as_mut() {
+                let measures = point.kinematics.measure(&r0);
+                point.begin(view, &measures);
+                let length = point.kinematics.length(&measures);
+                shorten::<K, S, D>(&member.site.nodes, length, old.lengths);
             }
-            shorten::<K, S, D>(&member.site.nodes, &measures, old.lengths);
+            if C::IMPLICIT < 1.0 {
+                member.take_old_share(view, old.force)?;
+            }
         }
         Ok(())
     }
 }
 
-/// Reduces the unit of length of each node to the shortest measure of its elements.
+/// Reduces the unit of length of each node to that of its elements, if that is shorter.
 #[inline]
 pub(super) fn shorten<K: Kinematics<S, D>, S: Real, const D: usize>(
     nodes: &K::PerNode<u32>,
-    measures: &Measures<K, S, D>,
+    own: S,
     lengths: &mut [S],
 ) {
     for &node in nodes.as_ref() {
         let length = &mut lengths[node as usize];
         // Of a state: they are numbers.
-        for &own in measures.as_ref() {
-            *length = S::select(own.less(*length), own, *length);
-        }
+        *length = S::select(own.less(*length), own, *length);
     }
 }
 
@@ -60,9 +63,42 @@ where
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
+    /// The part of rates and nodal forces that the scheme takes from the old state.
+    fn take_old_share(
+        &mut self,
+        view: &StepView<'_, S>,
+        old_force: &mut [[S; D]],
+    ) -> Result<(), StateError> {
+        let velocities = self.old_velocities(view);
+        let share = S::one() - S::from_f64(C::IMPLICIT);
+        for point in self.points.as_mut() {
+            let gradient = point.take_old_share(view, &self.r0, &velocities)?;
+            let measures0 = measures_in::<K, S, D>(&point.start.x0);
+            let ends = [&self.r0, &self.r0];
+            let pose = Pose::between(point.kinematics, C::PLACEMENT, ends, measures0);
+            for (a, row) in pose.direction.as_ref().iter().enumerate() {
+                let by_node = spread::<K, S, D>(row);
+                for (entry, &node) in by_node.as_ref().iter().zip(self.site.nodes.as_ref()) {
+                    for (force, &entry) in old_force[node as usize].iter_mut().zip(entry) {
+                        *force += share * gradient[a] * entry;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
     /// Takes measures, γ and θ from the old state, where the trial starts.
     #[inline]
-    fn begin(&mut self, view: &StepView<'_, S>, r0: &Arms<K, S, D>, measures: &Measures<K, S, D>) {
+    fn begin(&mut self, view: &StepView<'_, S>, measures: &Measures<K, S, D>) {
         let slots = self.slots();
         let x0 = variables::<S, M>(measures.as_ref(), slots, view.state);
         let entropy = slots
@@ -70,7 +106,6 @@ where
             .map(|slot| view.state.entropies.values()[slot]);
         self.start.x0 = x0;
         self.start.old = C::old(&self.model, &x0, entropy.unwrap_or(S::zero()));
-        self.r0 = *r0;
         self.x = x0;
         self.creep = M::Viscosities::filled(S::zero());
         if let Some(slot) = slots.thermal {
@@ -86,15 +121,14 @@ where
         self.hold();
     }
 
-    /// The part of rates and nodal forces that the scheme takes from the old state.
-    fn old_share(
+    /// The part of the rates that the scheme takes from the old state; returns the old gradient.
+    fn take_old_share(
         &mut self,
-        kinematics: K,
         view: &StepView<'_, S>,
-        old_force: &mut [[S; D]],
-    ) -> Result<(), StateError> {
+        r0: &Arms<K, S, D>,
+        velocities: &Arms<K, S, D>,
+    ) -> Result<M::Variables, StateError> {
         let share = S::one() - S::from_f64(C::IMPLICIT);
-        let r0 = self.r0;
         let x0 = self.start.x0;
         let theta = x0[Self::VARIABLES - 1];
         self.find_viscosities(theta)?;
@@ -116,34 +150,29 @@ where
         for at_point in self.at_point.as_mut() {
             at_point.old_rates = rates;
         }
-        let measures0 = measures_in::<K, S, D>(&x0);
-        let pose = Pose::between(kinematics, C::PLACEMENT, [&r0, &r0], measures0);
         if M::THERMAL && C::IN_TEMPERATURE {
-            let at_rest = Pose::between(kinematics, Placement::End, [&r0, &r0], measures0);
-            self.find_old_heating(view, &at_rest, heat / theta);
+            let measures0 = measures_in::<K, S, D>(&x0);
+            let at_rest = Pose::between(self.kinematics, Placement::End, [r0, r0], measures0);
+            self.find_old_heating(&at_rest, heat / theta, velocities);
         }
-        for (a, row) in pose.direction.as_ref().iter().enumerate() {
-            let by_node = spread::<K, S, D>(row);
-            for (entry, &node) in by_node.as_ref().iter().zip(self.site.nodes.as_ref()) {
-                for (force, &entry) in old_force[node as usize].iter_mut().zip(entry) {
-                    *force += share * gradient[a] * entry;
-                }
-            }
-        }
-        Ok(())
+        Ok(gradient)
     }
 
     /// `(1 − w) θ̇⁰` of a scheme in temperature, which takes the place of `(1 − w) ṡ⁰`.
-    fn find_old_heating(&mut self, view: &StepView<'_, S>, pose: &Pose<K, S, D>, entropy_rate: S) {
+    fn find_old_heating(
+        &mut self,
+        pose: &Pose<K, S, D>,
+        entropy_rate: S,
+        velocities: &Arms<K, S, D>,
+    ) {
         let share = S::one() - S::from_f64(C::IMPLICIT);
         let last = Self::TEMPERATURE;
         let (_, hessian) = self.model.hessian(&self.start.x0);
         // ∂s/∂x = −∂²ψ/∂θ∂x
         let slope = |index: usize| -hessian[last][index];
-        let velocities = self.old_velocities(view);
         let mut rest = share * entropy_rate;
         for a in 0..M::MEASURES {
-            let rate = along::<K, S, D>(&pose.direction[a], &velocities);
+            let rate = along::<K, S, D>(&pose.direction[a], velocities);
             rest -= slope(a) * share * rate;
         }
         for at_point in self.at_point.as_mut() {
@@ -153,22 +182,5 @@ where
             at_point.old_heating = rest / slope(last);
             at_point.old_rates[last] = S::zero();
         }
-    }
-
-    /// The old velocities of the arms; those of anchors are means over the step, m/s.
-    pub(super) fn old_velocities(&self, view: &StepView<'_, S>) -> Arms<K, S, D> {
-        let momenta = points::<S, D>(view.state.momenta.values());
-        let velocity = |node: u32, axis: usize| match view.masses.get(node as usize) {
-            Some(mass) => momenta[node as usize][axis] / mass,
-            None => view.loads.motion::<D>(node as usize)[axis] / view.step,
-        };
-        let nodes = self.site.nodes.as_ref();
-        let mut velocities = Arms::<K, S, D>::filled([S::zero(); D]);
-        for (arm, &node) in velocities.as_mut().iter_mut().zip(&nodes[1..]) {
-            for (axis, component) in arm.iter_mut().enumerate() {
-                *component = velocity(node, axis) - velocity(nodes[0], axis);
-            }
-        }
-        velocities
     }
 }

@@ -8,8 +8,9 @@
 //! with the exchange `u` and the production `P ≥ 0` of every path of heat, see
 //! [`conduction`](crate::conduction). Both ends of a path book the same numbers.
 
-use super::arms::{change_in, measures_in, resultant, spread};
+use super::arms::{change_in, mean, measures_in, resultant, spread};
 use super::member::Member;
+use super::point::Point;
 use super::pose::Pose;
 use super::site::Contact;
 use crate::certificate::Tally;
@@ -18,7 +19,7 @@ use crate::free_energy::{Array, FreeEnergy};
 use crate::group::element_group::ElementGroup;
 use crate::group::view::{Along, StepView, Trial};
 use crate::impulse::Impulses;
-use crate::kinematics::{Arms, Kinematics, Weights};
+use crate::kinematics::{Arms, Ends, Kinematics, Weights};
 use crate::scalar::Real;
 use crate::scheme::{ElementScheme, Placement};
 use crate::state::State;
@@ -46,28 +47,83 @@ where
         };
         for member in &self.members {
             let (nodes, r0) = (&member.site.nodes, &member.r0);
+            let r1 = member.new_arms(trial);
             let (h, force) = if let Some(at) = at {
-                let r1 = member.new_arms(trial);
                 let share = view.step * S::from_f64(C::IMPLICIT);
-                (share, member.force(self.kinematics, at, [r0, &r1]))
+                (share, member.force(at, [r0, &r1]))
             } else {
                 let mut mean = change_in::<K, S, D>(nodes, trial);
                 if C::EXACT && !magnitudes.is_empty() {
-                    member.add_magnitude(view.step, &mean, magnitudes);
+                    member.add_magnitude(view.step, [&r1, &mean], magnitudes);
                 }
                 for (mean, old) in mean.as_mut().iter_mut().zip(r0.as_ref()) {
                     for (mean, &old) in mean.iter_mut().zip(old) {
                         *mean = old + S::from_f64(0.5) * *mean;
                     }
                 }
-                let weights = member.secant(self.kinematics);
-                (view.step, pull::<K, S, D>(&weights, &mean))
+                (view.step, member.pull([r0, &r1], &mean))
             };
             for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
                 for (impulse, &force) in impulses.of(node as usize).iter_mut().zip(force) {
                     *impulse -= h * force;
                 }
             }
+        }
+    }
+}
+
+impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// The nodal forces of the found responses along the gradient between two configurations, N.
+    pub(super) fn force(&self, at: Placement, ends: [&Arms<K, S, D>; 2]) -> K::PerNode<[S; D]> {
+        let mut sum = None;
+        for point in self.points.as_ref() {
+            sum_nodes::<K, S, D>(&mut sum, point.force(at, ends));
+        }
+        sum.unwrap_or_else(|| K::PerNode::filled([S::zero(); D]))
+    }
+
+    /// The same as `A r_m`.
+    #[inline]
+    fn pull(&self, ends: [&Arms<K, S, D>; 2], mean: &Arms<K, S, D>) -> K::PerNode<[S; D]> {
+        let mut sum: Option<Weights<K, S, D>> = None;
+        for point in self.points.as_ref() {
+            let own = point.secant(ends);
+            let Some(sum) = &mut sum else {
+                sum = Some(own);
+                continue;
+            };
+            for (sum, own) in sum.as_mut().iter_mut().zip(own.as_ref()) {
+                for (sum, &own) in sum.as_mut().iter_mut().zip(own.as_ref()) {
+                    *sum += own;
+                }
+            }
+        }
+        match sum {
+            Some(weights) => pull::<K, S, D>(&weights, mean),
+            None => K::PerNode::filled([S::zero(); D]),
+        }
+    }
+}
+
+/// Adds the nodal forces of a point to those of the points before it.
+#[inline]
+fn sum_nodes<K: Kinematics<S, D>, S: Real, const D: usize>(
+    sum: &mut Option<K::PerNode<[S; D]>>,
+    own: K::PerNode<[S; D]>,
+) {
+    let Some(sum) = sum else {
+        *sum = Some(own);
+        return;
+    };
+    for (sum, own) in sum.as_mut().iter_mut().zip(own.as_ref()) {
+        for (sum, &own) in sum.iter_mut().zip(own) {
+            *sum += own;
         }
     }
 }
@@ -98,7 +154,7 @@ pub(super) fn pull_of_arms<K: Kinematics<S, D>, S: Real, const D: usize>(
     force
 }
 
-impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
@@ -107,26 +163,33 @@ where
 {
     /// A of the force `A r_m` at the found response.
     #[inline]
-    fn secant(&self, kinematics: K) -> Weights<K, S, D> {
-        let measures = measures_in::<K, S, D>(&self.x);
-        let old = match C::PLACEMENT {
-            Placement::Middle => measures,
-            Placement::Ends | Placement::End | Placement::Start => {
-                measures_in::<K, S, D>(&self.start.x0)
+    fn secant(&self, [r0, r1]: [&Arms<K, S, D>; 2]) -> Weights<K, S, D> {
+        let measures1 = measures_in::<K, S, D>(&self.x);
+        let ends = match C::PLACEMENT {
+            Placement::Middle => {
+                let middle = mean::<K, S, D>(r0, r1);
+                Ends {
+                    r0: middle,
+                    r1: middle,
+                    measures0: measures1,
+                    measures1,
+                }
             }
+            Placement::Ends | Placement::End | Placement::Start => Ends {
+                r0: *r0,
+                r1: *r1,
+                measures0: measures_in::<K, S, D>(&self.start.x0),
+                measures1,
+            },
         };
-        kinematics.secant(&old, &measures, &measures_in::<K, S, D>(&self.response))
+        let forces = measures_in::<K, S, D>(&self.response);
+        self.kinematics.secant(&ends, &forces)
     }
 
     /// The nodal forces of the found response along the gradient between two configurations, N.
-    pub(super) fn force(
-        &self,
-        kinematics: K,
-        at: Placement,
-        ends: [&Arms<K, S, D>; 2],
-    ) -> K::PerNode<[S; D]> {
+    pub(super) fn force(&self, at: Placement, ends: [&Arms<K, S, D>; 2]) -> K::PerNode<[S; D]> {
         let measures0 = measures_in::<K, S, D>(&self.start.x0);
-        let pose = Pose::between(kinematics, at, ends, measures0);
+        let pose = Pose::between(self.kinematics, at, ends, measures0);
         resultant::<K, S, D>(&pose.direction, &measures_in::<K, S, D>(&self.response))
     }
 

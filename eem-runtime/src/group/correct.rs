@@ -1,7 +1,7 @@
 //! From the solution of the global system to the internal variables of the elements.
 
 use super::arms::along;
-use super::member::Member;
+use super::point::Point;
 use super::scatter::run;
 use super::site::{Contact, Site};
 use crate::free_energy::{Array, FreeEnergy};
@@ -20,41 +20,42 @@ where
     /// See [`Group::correct`](super::Group::correct).
     pub(super) fn correct_all(&mut self, solution: &[[S; 1]], settled: S::Mask) -> S {
         let mut largest = S::zero();
-        if Member::<S, M, K, C, D>::UNKNOWNS == 0 {
+        if Point::<S, M, K, C, D>::UNKNOWNS == 0 {
             return largest;
         }
         for member in &mut self.members {
-            let found = member.found_by(settled);
-            let contact = member.contact_in(&self.contacts);
-            let update = member.correct(contact, solution);
-            member.return_to(found, settled);
-            largest = largest.maximum(update);
+            let motion = member.site.motion_in(solution);
+            for point in member.points.as_mut() {
+                let found = point.found_by(settled);
+                let contact = point.contact_in(&self.contacts);
+                let update = point.correct(&motion, contact, solution);
+                point.return_to(found, settled);
+                largest = largest.maximum(update);
+            }
         }
         largest
     }
 }
 
-impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    /// Finds the corrections of the measures; returns those of the arms.
+    /// Finds and applies the corrections of the local unknowns that go with a motion of the arms; the
+    /// largest in their units.
     #[inline]
-    fn correct_measures(&mut self, solution: &[[S; 1]]) -> Arms<K, S, D> {
-        let motion = self.site.motion_in(solution);
+    fn correct(
+        &mut self,
+        motion: &Arms<K, S, D>,
+        contact: Option<&Contact<K, S, D>>,
+        solution: &[[S; 1]],
+    ) -> S {
         for a in 0..M::MEASURES {
-            self.correction[a] = along::<K, S, D>(&self.sensitivity[a], &motion);
+            self.correction[a] = along::<K, S, D>(&self.sensitivity[a], motion);
         }
-        motion
-    }
-
-    /// Finds and applies the corrections of the local unknowns; the largest in their units.
-    #[inline]
-    fn correct(&mut self, contact: Option<&Contact<K, S, D>>, solution: &[[S; 1]]) -> S {
-        let motion = self.correct_measures(solution);
         let mut heat = S::zero();
         if M::THERMAL
             && let Some(contact) = contact
@@ -63,7 +64,7 @@ where
         }
         if C::IN_TEMPERATURE {
             for at_point in self.at_point.as_ref() {
-                heat += along::<K, S, D>(&at_point.by_increment, &motion);
+                heat += along::<K, S, D>(&at_point.by_increment, motion);
             }
         }
         for u in 0..Self::UNKNOWNS {
@@ -94,8 +95,9 @@ where
     #[inline]
     fn scaled_update(&self) -> S {
         let mut largest = S::zero();
+        let unit = self.viscous_unit();
         for index in M::MEASURES..Self::TEMPERATURE {
-            let scaled = self.correction[index] / self.start.x0[0];
+            let scaled = self.correction[index] / unit;
             largest = largest.maximum(scaled.abs());
         }
         if M::THERMAL {

@@ -2,6 +2,7 @@
 
 use super::interface::{Elements, Group};
 use super::member::Member;
+use super::point::Point;
 use super::site::{Contact, Site};
 use super::view::{Along, ElementView, GroupTotals, Old, Placed, Sites, StepView, Trial};
 use crate::certificate::{Recount, Tally};
@@ -13,7 +14,7 @@ use crate::free_energy::{Array, FreeEnergy};
 use crate::group::view::ElementGeneric;
 use crate::handle::Element;
 use crate::impulse::Impulses;
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Kinematics, Points};
 use crate::layout::Slots;
 use crate::scalar::Real;
 use crate::scheme::ElementScheme;
@@ -24,11 +25,10 @@ use crate::system::LinearSystem;
 pub(crate) struct ElementGroup<S, M, K, C, const D: usize>
 where
     S: Real,
-    M: FreeEnergy<S>,
+    M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    pub(super) kinematics: K,
     pub(super) members: Vec<Member<S, M, K, C, D>>,
     pub(super) contacts: Vec<Contact<K, S, D>>,
 }
@@ -40,16 +40,43 @@ where
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    pub(crate) fn new(kinematics: K, models: Vec<(Element, M)>, placed: Placed<'_>) -> Self {
-        let members = models.into_iter().map(|(element, model)| {
-            let slots = placed.layout.elements[element.index];
-            Member::new(element, model, slots, placed.nodes.nodes_of(element))
+    /// Of the first handles of the elements, and what their points consist of.
+    pub(crate) fn new<P>(parts: Vec<(Element, P)>, placed: Placed<'_>) -> Self
+    where
+        P: IntoIterator<Item = (M, K)>,
+    {
+        let members = parts.into_iter().map(|(first, parts)| {
+            let mut parts = parts.into_iter();
+            let next = |_| {
+                parts
+                    .next()
+                    .unwrap_or_else(|| unreachable!("one per point"))
+            };
+            Member::new(first, next, placed)
         });
         Self {
-            kinematics,
             members: members.collect(),
             contacts: Vec::new(),
         }
+    }
+
+    /// All points.
+    pub(super) fn points(&self) -> impl Iterator<Item = &Point<S, M, K, C, D>> {
+        let members = self.members.iter();
+        members.flat_map(|member| member.points.as_ref())
+    }
+
+    /// All points, to be changed.
+    pub(super) fn points_mut(&mut self) -> impl Iterator<Item = &mut Point<S, M, K, C, D>> {
+        let members = self.members.iter_mut();
+        members.flat_map(|member| member.points.as_mut())
+    }
+
+    /// The point at a place, with its element.
+    pub(super) fn at(&self, place: usize) -> (&Member<S, M, K, C, D>, &Point<S, M, K, C, D>) {
+        let points = K::PerPoint::<Point<S, M, K, C, D>>::LEN;
+        let member = &self.members[place / points];
+        (member, &member.points.as_ref()[place % points])
     }
 }
 
@@ -77,7 +104,7 @@ where
     }
 
     fn slots(&self, place: usize) -> Slots {
-        self.members[place].slots()
+        self.at(place).1.slots()
     }
 
     fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {
@@ -111,13 +138,16 @@ where
     fn connect(&mut self, sites: &Sites<'_, S, D>) {
         self.contacts.clear();
         for member in &mut self.members {
-            let (nodes, slot) = (member.site.nodes, member.slots().thermal);
+            let nodes = member.site.nodes;
             member.site = Site::new(nodes, sites);
-            member.meets_reservoirs =
-                slot.is_some_and(|slot| sites.conduction.meets_reservoirs(slot));
-            if let Some(contact) = Contact::new(&nodes, slot, sites) {
-                member.contact = compact(self.contacts.len());
-                self.contacts.push(contact);
+            for point in member.points.as_mut() {
+                let slot = point.slots().thermal;
+                point.meets_reservoirs =
+                    slot.is_some_and(|slot| sites.conduction.meets_reservoirs(slot));
+                if let Some(contact) = Contact::new(&nodes, slot, sites) {
+                    point.contact = compact(self.contacts.len());
+                    self.contacts.push(contact);
+                }
             }
         }
     }
@@ -140,15 +170,11 @@ where
     }
 
     fn apply(&mut self, share: S) {
-        for member in &mut self.members {
-            member.apply(share);
-        }
+        self.points_mut().for_each(|point| point.apply(share));
     }
 
     fn hold(&mut self) {
-        for member in &mut self.members {
-            member.hold();
-        }
+        self.points_mut().for_each(Point::hold);
     }
 
     fn add_impulse(

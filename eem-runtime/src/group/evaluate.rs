@@ -1,6 +1,6 @@
 //! Evaluation of a trial state: responses, condensed local systems, contributions.
 
-use super::assemble::Target;
+use super::assemble::{Target, gather};
 use crate::error::StateError;
 use crate::free_energy::FreeEnergy;
 use crate::group::element_group::ElementGroup;
@@ -27,10 +27,13 @@ where
         match system {
             Some(system) => self.linearize_all(view, trial, system),
             None => self.members.iter_mut().try_for_each(|member| {
-                let found = member.found_by(trial.settled);
-                member.respond_alone(self.kinematics, view, trial)?;
-                member.return_to(found, trial.settled);
-                Ok(())
+                let arms = member.trial_arms(view, trial);
+                member.points.as_mut().iter_mut().try_for_each(|point| {
+                    let found = point.found_by(trial.settled);
+                    point.respond_alone(view.step, trial, &arms)?;
+                    point.return_to(found, trial.settled);
+                    Ok(())
+                })
             }),
         }
     }
@@ -42,32 +45,42 @@ where
         trial: &Trial<S, D>,
         system: &mut LinearSystem<S, 1>,
     ) -> Result<(), StateError> {
-        let kinematics = self.kinematics;
         let (values, right) = system.parts();
         for member in &mut self.members {
-            let found = member.found_by(trial.settled);
-            let seen = member.locate_trial(kinematics, trial)?;
-            let pose = member.pose(kinematics, &seen);
-            member.sensitivity = pose.sensitivity;
-            // It stays where the model writes it: copies of it would be a good part of the work.
-            let mut form = member.form(trial);
-            if M::THERMAL && C::IN_TEMPERATURE {
-                member.change_entropy_at_rates(kinematics, view, trial, &seen, &mut form);
+            let arms = member.trial_arms(view, trial);
+            let mut share = None;
+            for point in member.points.as_mut() {
+                let found = point.found_by(trial.settled);
+                let seen = point.locate_trial(arms.ends(), trial)?;
+                let pose = point.pose(&arms.old, &seen);
+                point.sensitivity = pose.sensitivity;
+                // It stays where the model writes it: copies of it would be a good part of the work.
+                let mut form = point.form(trial);
+                if M::THERMAL && C::IN_TEMPERATURE {
+                    point.change_entropy_at_rates(view.step, &pose, &arms.motion, &mut form);
+                }
+                point.accept(&form)?;
+                let contact = point.contact_in(&self.contacts);
+                point.condense(view, &trial.seen, &form, contact)?;
+                let mut target = Target {
+                    values: &mut *values,
+                    right: &mut *right,
+                    site: &member.site,
+                    contact,
+                };
+                if view.phase.moves() {
+                    let own = point.momentum(view.step, &pose, &form, &mut target);
+                    gather(&mut share, own);
+                }
+                point.assemble_temperature(trial, &form, &mut target);
+                point.keep(&form);
+                point.return_to(found, trial.settled);
             }
-            member.accept(&form)?;
-            let contact = member.contact_in(&self.contacts);
-            member.condense(view, &trial.seen, &form, contact)?;
-            let mut target = Target {
-                values: &mut *values,
-                right: &mut *right,
-                contact,
-            };
-            if view.phase.moves() {
-                member.assemble_momentum(kinematics, view, &pose, &form, &mut target);
+            if let Some(share) = share {
+                member
+                    .site
+                    .add_momentum(&share, right.as_flattened_mut(), values);
             }
-            member.assemble_temperature(trial, &form, &mut target);
-            member.keep(&form);
-            member.return_to(found, trial.settled);
         }
         Ok(())
     }

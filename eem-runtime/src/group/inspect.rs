@@ -1,13 +1,12 @@
 //! What the elements are in a state, from the definitions and not from what a step computed.
 
-use super::arms::arms_in;
-use super::member::Member;
+use super::point::Point;
 use crate::error::StateError;
 use crate::free_energy::FreeEnergy;
 use crate::group::element_group::{ElementGroup, variables};
 use crate::group::view::{ElementView, GroupTotals};
 use crate::handle::Element;
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Arms, Kinematics};
 use crate::scalar::Real;
 use crate::scheme::{ElementScheme, Infeasible};
 use crate::state::{Energy, State};
@@ -22,20 +21,10 @@ where
     /// See [`Elements::initialize`](super::Elements::initialize).
     pub(super) fn initialize_all(&mut self, state: &mut State<S>) -> Result<(), StateError> {
         for member in &mut self.members {
-            let x = member.locate(self.kinematics, state)?;
-            let slot = member.slots().thermal;
-            let theta = slot.map_or(S::zero(), |slot| state.temperatures[slot]);
-            member.find_viscosities(theta)?;
-            let caloric = member.model.caloric(&x);
-            let energy = member.energy_at(&x, caloric)?;
-            check_gradient::<S, M>(member.element, &member.model.gradient(&x))?;
-            state.energies[member.element.index] = energy;
-            let Some(slot) = slot else {
-                continue;
-            };
-            Infeasible::unless_stable(caloric.heat_capacity, theta)
-                .map_err(|infeasible| infeasible.of(member.element))?;
-            state.entropies.set(slot, caloric.entropy);
+            let r = member.arms_in(state);
+            for point in member.points.as_mut() {
+                point.initialize(&r, state)?;
+            }
         }
         Ok(())
     }
@@ -43,17 +32,20 @@ where
     /// See [`Elements::find_energies`](super::Elements::find_energies).
     pub(super) fn find_all_energies(&self, state: &mut State<S>) {
         for member in &self.members {
-            let x = member.variables_in(self.kinematics, state);
-            let psi = member.model.free_energy(&x);
-            let energy = match member.slots().thermal {
-                None => Energy::without_temperature(psi),
-                Some(slot) => {
-                    let theta = state.temperatures[slot];
-                    let entropy = state.entropies.values()[slot];
-                    Energy::new(psi, [theta, entropy], &member.model.caloric(&x))
-                }
-            };
-            state.energies[member.element.index] = energy;
+            let r = member.arms_in(state);
+            for point in member.points.as_ref() {
+                let x = point.variables_in(&r, state);
+                let psi = point.model.free_energy(&x);
+                let energy = match point.slots().thermal {
+                    None => Energy::without_temperature(psi),
+                    Some(slot) => {
+                        let theta = state.temperatures[slot];
+                        let entropy = state.entropies.values()[slot];
+                        Energy::new(psi, [theta, entropy], &point.model.caloric(&x))
+                    }
+                };
+                state.energies[point.element.index] = energy;
+            }
         }
     }
 
@@ -61,11 +53,14 @@ where
     pub(super) fn sum(&self, state: &State<S>) -> GroupTotals<S> {
         let [mut energy, mut entropy, mut entropy_of_state] = [S::zero(); 3];
         for member in &self.members {
-            let x = member.variables_in(self.kinematics, state);
-            energy += member.internal_energy(&x, state);
-            if let Some(slot) = member.slots().thermal {
-                entropy += state.entropies.values()[slot];
-                entropy_of_state += member.model.caloric(&x).entropy;
+            let r = member.arms_in(state);
+            for point in member.points.as_ref() {
+                let x = point.variables_in(&r, state);
+                energy += point.internal_energy(&x, state);
+                if let Some(slot) = point.slots().thermal {
+                    entropy += state.entropies.values()[slot];
+                    entropy_of_state += point.model.caloric(&x).entropy;
+                }
             }
         }
         GroupTotals {
@@ -77,27 +72,45 @@ where
 
     /// See [`Elements::inspect`](super::Elements::inspect).
     pub(super) fn inspect_at(&self, place: usize, state: &State<S>) -> ElementView<S> {
-        let member = &self.members[place];
-        let x = member.variables_in(self.kinematics, state);
+        let (member, point) = self.at(place);
+        let x = point.variables_in(&member.arms_in(state), state);
         ElementView {
             measure: x[0],
-            force: member.model.gradient(&x)[0],
-            internal_energy: member.internal_energy(&x, state),
+            force: point.model.gradient(&x)[0],
+            internal_energy: point.internal_energy(&x, state),
         }
     }
 }
 
-impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    /// The variables in a state.
-    pub(super) fn variables_in(&self, kinematics: K, state: &State<S>) -> M::Variables {
-        let r = arms_in::<K, S, D>(&self.site.nodes, &state.positions);
-        variables::<S, M>(kinematics.measure(&r).as_ref(), self.slots(), state)
+    /// Finds its entropy and energy in an initial state with these arms.
+    fn initialize(&mut self, r: &Arms<K, S, D>, state: &mut State<S>) -> Result<(), StateError> {
+        let x = self.locate(r, state)?;
+        let slot = self.slots().thermal;
+        let theta = slot.map_or(S::zero(), |slot| state.temperatures[slot]);
+        self.find_viscosities(theta)?;
+        let caloric = self.model.caloric(&x);
+        let energy = self.energy_at(&x, caloric)?;
+        check_gradient::<S, M>(self.element, &self.model.gradient(&x))?;
+        state.energies[self.element.index] = energy;
+        let Some(slot) = slot else {
+            return Ok(());
+        };
+        Infeasible::unless_stable(caloric.heat_capacity, theta)
+            .map_err(|infeasible| infeasible.of(self.element))?;
+        state.entropies.set(slot, caloric.entropy);
+        Ok(())
+    }
+
+    /// The variables in a state with these arms.
+    pub(super) fn variables_in(&self, r: &Arms<K, S, D>, state: &State<S>) -> M::Variables {
+        variables::<S, M>(self.kinematics.measure(r).as_ref(), self.slots(), state)
     }
 
     /// `ψ + θ s`, with the entropy that is the state, J.

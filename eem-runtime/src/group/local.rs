@@ -13,12 +13,12 @@
 //! corrections are eliminated here.
 
 use super::eliminate::{LocalSystem, eliminate};
-use super::member::Member;
+use super::point::Point;
 use super::site::Contact;
 use crate::conduction::{HeatFlow, SeenTemperatures};
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
-use crate::group::member::temperature_in;
+use crate::group::point::temperature_in;
 use crate::group::view::StepView;
 use crate::kinematics::Kinematics;
 use crate::lu::Singular;
@@ -31,7 +31,7 @@ struct Dissipation<S: Real, M: FreeEnergy<S>> {
     by: M::Variables,
 }
 
-impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S>,
@@ -113,7 +113,7 @@ where
     #[inline]
     fn pivot_units(&self, theta: S) -> [S; 2] {
         if C::EXACT {
-            [self.start.x0[0], theta]
+            [self.viscous_unit(), theta]
         } else {
             [S::one(); 2]
         }

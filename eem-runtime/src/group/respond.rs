@@ -1,35 +1,52 @@
 //! The response of the elements at a trial state, and what must be true of it.
 
-use super::arms::{change_in, measures_in};
-use super::member::{Member, temperature_in};
+use super::arms::measures_in;
+use super::point::{Point, temperature_in};
 use super::pose::{Pose, seen_arms, seen_measures};
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
-use crate::group::view::{StepView, Trial};
+use crate::group::view::Trial;
 use crate::handle::Element;
 use crate::kinematics::{Arms, Ends, Kinematics, Measures};
 use crate::scalar::{Mask, Real, is_positive};
 use crate::scheme::{ElementScheme, Form};
 
+/// Arms of an element at a trial.
+pub(super) struct TrialArms<K: Kinematics<S, D>, S: Real, const D: usize> {
+    pub(super) old: Arms<K, S, D>,
+    pub(super) new: Arms<K, S, D>,
+    /// `r¹ − r⁰ − (1 − w) h ṙ⁰`, if the scheme is one in temperature.
+    pub(super) motion: Arms<K, S, D>,
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> TrialArms<K, S, D> {
+    /// The old and the new ones.
+    #[inline]
+    pub(super) fn ends(&self) -> [&Arms<K, S, D>; 2] {
+        [&self.old, &self.new]
+    }
+}
+
 /// Arms and measures of the configuration that a scheme looks at.
 pub(super) type Seen<K, S, const D: usize> = (Arms<K, S, D>, Measures<K, S, D>);
 
-impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    /// Finds the measures of the trial state, its temperature if that is not an unknown, and what
-    /// the form of the scheme needs besides.
+    /// Finds the measures of the trial state between old and new arms, its temperature if that is not an
+    /// unknown, and what the form of the scheme needs besides.
     #[inline]
     pub(super) fn locate_trial(
         &mut self,
-        kinematics: K,
+        [r0, r1]: [&Arms<K, S, D>; 2],
         trial: &Trial<S, D>,
     ) -> Result<Seen<K, S, D>, StateError> {
-        let r1 = seen_arms::<K, S, D>(C::PLACEMENT, &self.r0, self.new_arms(trial));
+        let kinematics = self.kinematics;
+        let r1 = seen_arms::<K, S, D>(C::PLACEMENT, r0, *r1);
         let measures1 = kinematics.measure(&r1);
         let measures0 = measures_in::<K, S, D>(&self.start.x0);
         let measures = seen_measures::<K, S, D>(C::PLACEMENT, &measures0, measures1);
@@ -52,28 +69,16 @@ where
         Ok((r1, measures1))
     }
 
-    /// The new arms `r¹ = r⁰ + Δr`.
-    #[inline]
-    pub(super) fn new_arms(&self, trial: &Trial<S, D>) -> Arms<K, S, D> {
-        let mut r1 = change_in::<K, S, D>(&self.site.nodes, trial);
-        for (arm, old) in r1.as_mut().iter_mut().zip(self.r0.as_ref()) {
-            for axis in 0..D {
-                arm[axis] += old[axis];
-            }
-        }
-        r1
-    }
-
     /// The gradients at the configuration that the scheme looks at.
     #[inline]
-    pub(super) fn pose(&self, kinematics: K, seen: &Seen<K, S, D>) -> Pose<K, S, D> {
+    pub(super) fn pose(&self, r0: &Arms<K, S, D>, seen: &Seen<K, S, D>) -> Pose<K, S, D> {
         let ends = Ends {
-            r0: self.r0,
+            r0: *r0,
             r1: seen.0,
             measures0: measures_in::<K, S, D>(&self.start.x0),
             measures1: seen.1,
         };
-        Pose::new(kinematics, C::PLACEMENT, ends)
+        Pose::new(self.kinematics, C::PLACEMENT, ends)
     }
 
     /// The response and its tangent at the trial that has been located.
@@ -99,11 +104,11 @@ where
     #[inline]
     pub(super) fn respond_alone(
         &mut self,
-        kinematics: K,
-        view: &StepView<'_, S>,
+        step: S,
         trial: &Trial<S, D>,
+        arms: &TrialArms<K, S, D>,
     ) -> Result<(), StateError> {
-        let seen = self.locate_trial(kinematics, trial)?;
+        let seen = self.locate_trial(arms.ends(), trial)?;
         if trial.is_start {
             let form = self.form(trial);
             self.accept(&form)?;
@@ -112,7 +117,8 @@ where
         }
         if M::THERMAL && C::IN_TEMPERATURE {
             let mut form = self.form(trial);
-            self.change_entropy_at_rates(kinematics, view, trial, &seen, &mut form);
+            let pose = self.pose(&arms.old, &seen);
+            self.change_entropy_at_rates(step, &pose, &arms.motion, &mut form);
             self.accept(&form)?;
             self.response = form.0;
             return Ok(());
@@ -131,34 +137,18 @@ where
     /// For a scheme in temperature: replaces the Δs of the response by that of rates.
     pub(super) fn change_entropy_at_rates(
         &mut self,
-        kinematics: K,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
-        seen: &Seen<K, S, D>,
+        step: S,
+        pose: &Pose<K, S, D>,
+        motion: &Arms<K, S, D>,
         form: &mut Form<S, M>,
     ) {
-        let motion = self.motion(view, trial);
-        let pose = self.pose(kinematics, seen);
-        let (own, by_arm) = pose.increase(kinematics, C::PLACEMENT, &motion);
-        let increments = self.increments(&own, view.step);
+        let (own, by_arm) = pose.increase(self.kinematics, C::PLACEMENT, motion);
+        let increments = self.increments(&own, step);
         let (model, start) = (&self.model, &self.start);
         let slopes = C::change_entropy_at_rates(model, start, &self.x, &increments, form);
         for at_point in self.at_point.as_mut() {
             at_point.by_increment = combined::<K, S, M, D>(&slopes, by_arm.as_ref());
         }
-    }
-
-    /// The motion `r¹ − r⁰ − (1 − w) h ṙ⁰` of the arms.
-    fn motion(&self, view: &StepView<'_, S>, trial: &Trial<S, D>) -> Arms<K, S, D> {
-        let rest = (S::one() - S::from_f64(C::IMPLICIT)) * view.step;
-        let mut motion = change_in::<K, S, D>(&self.site.nodes, trial);
-        let velocities = self.old_velocities(view);
-        for (motion, velocity) in motion.as_mut().iter_mut().zip(velocities.as_ref()) {
-            for (motion, &velocity) in motion.iter_mut().zip(velocity) {
-                *motion -= rest * velocity;
-            }
-        }
-        motion
     }
 
     /// The increments of measures, viscous stretches and temperature, less what the old state
@@ -207,28 +197,10 @@ pub(super) fn check_measures<K: Kinematics<S, D>, S: Real, const D: usize>(
     measures: &Measures<K, S, D>,
     r: &Arms<K, S, D>,
 ) -> Result<(), StateError> {
-    let mut measures = measures.as_ref().iter();
-    match measures.position(|&measure| !kinematics.is_admissible(measure)) {
-        None => Ok(()),
-        Some(index) => Err(not_admissible::<K, S, D>(kinematics, element, index, r)),
+    if kinematics.is_admissible(r, measures) {
+        return Ok(());
     }
-}
-
-/// The measure may have under- or overflowed; the message says the true one.
-#[cold]
-fn not_admissible<K: Kinematics<S, D>, S: Real, const D: usize>(
-    kinematics: K,
-    element: Element,
-    index: usize,
-    r: &Arms<K, S, D>,
-) -> StateError {
-    let [least, most] = kinematics.admissible().map(Real::to_f64);
-    StateError::Stretch {
-        element,
-        value: kinematics.true_measure(r)[index].to_f64(),
-        least,
-        most,
-    }
+    Err(kinematics.refusal(element, r))
 }
 
 /// The temperature of a response is one, and everything in it finite.

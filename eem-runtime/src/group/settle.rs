@@ -1,14 +1,13 @@
 //! The new state of each element: its temperature, and all that must be true of a state.
 
-use super::arms::arms_in;
-use super::member::Member;
+use super::point::Point;
 use super::respond::{check_measures, check_temperature};
 use crate::certificate::Tally;
 use crate::error::StateError;
 use crate::free_energy::{Array, Caloric, FreeEnergy};
 use crate::group::element_group::{ElementGroup, variables};
 use crate::group::view::{StepView, Trial};
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Arms, Kinematics};
 use crate::scalar::Real;
 use crate::scheme::{ElementScheme, Infeasible, Placement, settled_at};
 use crate::state::{Energy, State};
@@ -29,41 +28,43 @@ where
         tally: &mut Tally<S>,
     ) -> Result<(), StateError> {
         for member in &mut self.members {
-            let contact = member.contact_in(&self.contacts);
-            let received = member.book(view, (contact, trial), next, tally);
-            let near = member.x[M::Variables::LEN - 1];
-            if let Some(entropy) = member.settle(self.kinematics, view, near, next)? {
-                member.book_thermostat(view, [entropy, received], next);
-            }
-            if C::EXACT {
-                let forces = member.amplitude(tally.care);
-                tally.force(forces);
-                tally.exchange(view.step * member.response[0]);
-                let magnitude = next.energies[member.element.index].magnitude + forces;
-                member.judge(view, (contact, trial), [received, magnitude], tally);
+            let r1 = member.arms_in(next);
+            for point in member.points.as_mut() {
+                let contact = point.contact_in(&self.contacts);
+                let received = point.book(view, (contact, trial), next, tally);
+                let near = point.x[M::Variables::LEN - 1];
+                if let Some(entropy) = point.settle(&r1, view, near, next)? {
+                    point.book_thermostat(view, [entropy, received], next);
+                }
+                if C::EXACT {
+                    let forces = point.amplitude([&member.r0, &r1], tally.care);
+                    tally.force(forces);
+                    tally.exchange(view.step * point.largest_pull(&r1));
+                    let magnitude = next.energies[point.element.index].magnitude + forces;
+                    point.judge(view, (contact, trial, &r1), [received, magnitude], tally);
+                }
             }
         }
         Ok(())
     }
 }
 
-impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    /// The variables in a state, if the element can have its deformation.
+    /// The variables in a state with these arms, if the element can have its deformation.
     #[inline]
     pub(super) fn locate(
         &self,
-        kinematics: K,
+        r: &Arms<K, S, D>,
         state: &State<S>,
     ) -> Result<M::Variables, StateError> {
-        let r = arms_in::<K, S, D>(&self.site.nodes, &state.positions);
-        let measures = kinematics.measure(&r);
-        check_measures::<K, S, D>(kinematics, self.element, &measures, &r)?;
+        let measures = self.kinematics.measure(r);
+        check_measures::<K, S, D>(self.kinematics, self.element, &measures, r)?;
         Ok(variables::<S, M>(measures.as_ref(), self.slots(), state))
     }
 
@@ -74,12 +75,12 @@ where
     #[inline]
     pub(super) fn settle(
         &mut self,
-        kinematics: K,
+        r: &Arms<K, S, D>,
         view: &StepView<'_, S>,
         near: S,
         state: &mut State<S>,
     ) -> Result<Option<S>, StateError> {
-        let mut x = self.locate(kinematics, state)?;
+        let mut x = self.locate(r, state)?;
         self.check_viscous(&x)?;
         let at = self.element.index;
         let Some(slot) = self.slots().thermal else {
@@ -158,6 +159,7 @@ where
                     element: self.element,
                     dashpot,
                     value: stretch.to_f64(),
+                    unit: K::VISCOUS_UNIT,
                 });
             }
         }

@@ -1,6 +1,6 @@
 //! Where several numbers move together, those that have found their new state keep it.
 
-use super::member::Member;
+use super::point::Point;
 use crate::free_energy::FreeEnergy;
 use crate::kinematics::Kinematics;
 use crate::scalar::{Mask, Real};
@@ -15,7 +15,7 @@ pub(super) struct Found<S: Real, M: FreeEnergy<S>> {
     viscosities: M::Viscosities,
 }
 
-impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S>,

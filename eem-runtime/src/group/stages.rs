@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! begin     take over the old state, once                                   (member)
-//! evaluate  free energy at the stages                                       (point, heat)
+//! evaluate  free energy at the stages                                       (at_stage, heat)
 //!           local unknowns eliminated                                       (local)
 //!           contributions to the global residual and tangent                (assemble)
 //! correct   local unknowns from the global solution                         (correct)
@@ -13,13 +13,13 @@
 //! ```
 
 mod assemble;
+mod at_stage;
 mod closing;
 mod correct;
 mod evaluate;
 mod heat;
 mod local;
 mod member;
-mod point;
 mod secant;
 mod site;
 mod stage_group;

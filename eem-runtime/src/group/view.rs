@@ -30,6 +30,14 @@ pub(crate) struct StepView<'a, S> {
 }
 
 impl<S: Real> StepView<'_, S> {
+    /// The old velocity of a node; that of an anchor is its mean over the step, m/s.
+    pub(super) fn old_velocity<const D: usize>(&self, node: usize) -> [S; D] {
+        match self.masses.get(node) {
+            Some(mass) => self.state.velocity(node, mass),
+            None => self.loads.motion(node).map(|motion: S| motion / self.step),
+        }
+    }
+
     /// The time during which internal variables evolve, s.
     pub(super) fn thermal_step(&self) -> S {
         if self.phase.heats() {

@@ -1,7 +1,9 @@
 //! The measures of an element as functions of its arms.
 
+use crate::error::StateError;
 use crate::free_energy::{Array, Entry};
-use crate::scalar::{Mask, Real};
+use crate::handle::Element;
+use crate::scalar::Real;
 
 /// The arms of an element, m.
 pub type Arms<K, S, const D: usize> = <K as Kinematics<S, D>>::PerArm<[S; D]>;
@@ -33,7 +35,7 @@ pub struct Ends<K: Kinematics<S, D>, S: Real, const D: usize> {
     pub measures1: Measures<K, S, D>,
 }
 
-/// The measures of one element as functions of its arms in `D` dimensions.
+/// The measures at a point of an element as functions of its arms in `D` dimensions.
 pub trait Kinematics<S: Real, const D: usize>:
     Copy + Send + Sync + core::fmt::Debug + 'static
 {
@@ -44,24 +46,40 @@ pub trait Kinematics<S: Real, const D: usize>:
     /// `[T; number of measures]`.
     type PerMeasure<T: Entry>: Array<T>;
 
-    /// The smallest and the largest measure that an element can have.
-    fn admissible(&self) -> [S; 2];
+    /// `[T; number of points]`, at which the free energy is evaluated.
+    type PerPoint<T: Send + Sync>: Points<T>;
 
-    /// Whether an element can have this measure: it lies in the [admissible](Self::admissible)
-    /// range, and is a number.
-    #[inline]
-    fn is_admissible(&self, measure: S) -> bool {
-        let [least, most] = self.admissible();
-        (least.at_most(measure) & measure.at_most(most)).all()
-    }
+    /// Unit of a viscous stretch, whose rate times the viscosity is the force of a dashpot.
+    const VISCOUS_UNIT: &'static str;
+    /// Unit of a viscosity.
+    const VISCOSITY_UNIT: &'static str;
+
+    /// Whether an element can have these arms, whose measures are given.
+    fn is_admissible(&self, r: &Arms<Self, S, D>, measures: &Measures<Self, S, D>) -> bool;
+
+    /// Why an element cannot have these arms.
+    fn refusal(&self, element: Element, r: &Arms<Self, S, D>) -> StateError;
+
+    /// What makes an energy of the force of a dashpot: its own measure, m, for a force in N; one for
+    /// strains.
+    fn unit(&self, measures: &Measures<Self, S, D>) -> S;
+
+    /// The distance over which its gradients change by themselves, m.
+    fn length(&self, measures: &Measures<Self, S, D>) -> S;
+
+    /// What the measures are computed from, `|∂π/∂r| |r|`: times ε, what rounding of the arms does.
+    fn sizes(&self, r: &Arms<Self, S, D>, measures: &Measures<Self, S, D>) -> Measures<Self, S, D>;
+
+    /// The largest `|∂π/∂r|` of each measure.
+    fn slopes(&self, r: &Arms<Self, S, D>, measures: &Measures<Self, S, D>)
+    -> Measures<Self, S, D>;
+
+    /// Names the numbers of the reference configuration, which tell one element from another.
+    fn numbers(&self, see: &mut dyn FnMut(S));
 
     /// The measures `π(r)`, exact to rounding where they are admissible. Elsewhere they are not
     /// admissible either, but may be zero or infinite.
     fn measure(&self, r: &Arms<Self, S, D>) -> Measures<Self, S, D>;
-
-    /// The measures `π(r)` to rounding even where they are not admissible: for messages, since it
-    /// takes longer than [`measure`](Self::measure).
-    fn true_measure(&self, r: &Arms<Self, S, D>) -> Measures<Self, S, D>;
 
     /// `∂π/∂r` at `r`, whose measures are given.
     fn gradient(
@@ -94,10 +112,23 @@ pub trait Kinematics<S: Real, const D: usize>:
     ) -> Blocks<Self, S, D>;
 
     /// A of `Σ_a f_a D*π_a = A r_m`, with the measures held.
-    fn secant(
-        &self,
-        measures0: &Measures<Self, S, D>,
-        measures1: &Measures<Self, S, D>,
-        force: &Measures<Self, S, D>,
-    ) -> Weights<Self, S, D>;
+    fn secant(&self, ends: &Ends<Self, S, D>, force: &Measures<Self, S, D>) -> Weights<Self, S, D>;
+}
+
+/// What an element has at each of its points. Implemented for arrays.
+pub trait Points<T>: AsRef<[T]> + AsMut<[T]> + Send + Sync {
+    /// Number of points.
+    const LEN: usize;
+
+    /// Makes them, point by point.
+    fn from_fn(make: impl FnMut(usize) -> T) -> Self;
+}
+
+impl<T: Send + Sync, const N: usize> Points<T> for [T; N] {
+    const LEN: usize = N;
+
+    #[inline]
+    fn from_fn(make: impl FnMut(usize) -> T) -> Self {
+        core::array::from_fn(make)
+    }
 }

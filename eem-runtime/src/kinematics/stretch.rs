@@ -2,9 +2,11 @@
 
 use core::array;
 
+use crate::error::StateError;
 use crate::free_energy::Entry;
+use crate::handle::Element;
 use crate::kinematics::measures::{Ends, Kinematics};
-use crate::scalar::{Real, Scalar};
+use crate::scalar::{Mask, Real, Scalar};
 
 /// The stretch `λ = |r|`, `r = q_j − q_i`, of two nodes in `D` dimensions, m.
 ///
@@ -22,13 +24,14 @@ use crate::scalar::{Real, Scalar};
 /// ```
 /// use eem_runtime::kinematics::{Kinematics, Stretch};
 ///
-/// let stretch = Stretch::<2>.measure(&[[3.0, 4.0]]);
-/// assert_eq!(stretch, [5.0]);
+/// let arms = [[3.0, 4.0]];
+/// assert_eq!(Stretch::<2>.measure(&arms), [5.0]);
+/// assert!(Stretch::<2>.is_admissible(&arms, &[5.0]));
 ///
-/// // Too short for the square, which a message can say all the same.
-/// let [least, _] = Kinematics::<f64, 2>::admissible(&Stretch::<2>);
-/// let short = Stretch::<2>.true_measure(&[[3e-170, 4e-170]])[0];
-/// assert!(short < least && (short / 5e-170 - 1.0_f64).abs() < 1e-15);
+/// // Too short for the square.
+/// let arms = [[3e-170, 4e-170]];
+/// let stretch = Stretch::<2>.measure(&arms);
+/// assert!(!Stretch::<2>.is_admissible(&arms, &stretch));
 /// ```
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Stretch<const D: usize>;
@@ -52,13 +55,54 @@ impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
     type PerArm<T: Entry> = [T; 1];
     type PerMeasure<T: Entry> = [T; 1];
 
-    // Below √MIN_POSITIVE the square Σr² is subnormal and has lost digits, or is zero; above √MAX
-    // it is infinite. In between, squares of single components may underflow: that takes at most
-    // ε/2 of Σr² per component. Both ends are constants to the compiler.
+    type PerPoint<T: Send + Sync> = [T; 1];
+
+    const VISCOUS_UNIT: &'static str = "m";
+    const VISCOSITY_UNIT: &'static str = "N s/m";
+
     #[inline]
-    fn admissible(&self) -> [S; 2] {
-        [S::MIN_POSITIVE.sqrt(), S::MAX.sqrt()]
+    fn is_admissible(&self, _: &[[S; D]; 1], &[lambda]: &[S; 1]) -> bool {
+        let [least, most] = admissible::<S>();
+        (least.at_most(lambda) & lambda.at_most(most)).all()
     }
+
+    // The stretch may have under- or overflowed; the message says the true one.
+    #[cold]
+    fn refusal(&self, element: Element, [r]: &[[S; D]; 1]) -> StateError {
+        let lambda = r
+            .iter()
+            .fold(S::zero(), |length, &component| length.hypot(component));
+        let [least, most] = admissible::<S>().map(Real::to_f64);
+        StateError::Stretch {
+            element,
+            value: lambda.to_f64(),
+            least,
+            most,
+        }
+    }
+
+    #[inline]
+    fn unit(&self, &[lambda]: &[S; 1]) -> S {
+        lambda
+    }
+
+    #[inline]
+    fn length(&self, &[lambda]: &[S; 1]) -> S {
+        lambda
+    }
+
+    // ∂λ/∂r·r = λ
+    #[inline]
+    fn sizes(&self, _: &[[S; D]; 1], &lambda: &[S; 1]) -> [S; 1] {
+        lambda
+    }
+
+    #[inline]
+    fn slopes(&self, _: &[[S; D]; 1], _: &[S; 1]) -> [S; 1] {
+        [S::one()]
+    }
+
+    fn numbers(&self, _: &mut dyn FnMut(S)) {}
 
     #[inline]
     fn measure(&self, [r]: &[[S; D]; 1]) -> [S; 1] {
@@ -66,12 +110,6 @@ impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
             .iter()
             .fold(S::zero(), |sum, &component| sum + component * component);
         [square.sqrt()]
-    }
-
-    #[cold]
-    fn true_measure(&self, [r]: &[[S; D]; 1]) -> [S; 1] {
-        [r.iter()
-            .fold(S::zero(), |length, &component| length.hypot(component))]
     }
 
     #[inline]
@@ -117,9 +155,20 @@ impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
     }
 
     #[inline]
-    fn secant(&self, &[lambda0]: &[S; 1], &[lambda1]: &[S; 1], &[force]: &[S; 1]) -> [[S; 1]; 1] {
+    fn secant(&self, ends: &Ends<Self, S, D>, &[force]: &[S; 1]) -> [[S; 1]; 1] {
+        let ([lambda0], [lambda1]) = (ends.measures0, ends.measures1);
         [[(force + force) / (lambda0 + lambda1)]]
     }
+}
+
+/// The shortest and the longest stretch, m.
+///
+/// Below `√MIN_POSITIVE` the square Σr² is subnormal and has lost digits, or is zero; above `√MAX`
+/// it is infinite. In between, squares of single components may underflow: that takes at most
+/// ε/2 of Σr² per component. Both ends are constants to the compiler.
+#[inline]
+fn admissible<S: Real>() -> [S; 2] {
+    [S::MIN_POSITIVE.sqrt(), S::MAX.sqrt()]
 }
 
 /// `2 r_m/(λ⁰ + λ¹)`.

@@ -1,5 +1,7 @@
 //! The rules that a scene must satisfy, one function per rule.
 
+use std::collections::BTreeSet;
+
 use super::Scene;
 use crate::error::{SceneError, StateError};
 use crate::handle::{Element, HeatPartner, Node, Reservoir};
@@ -20,6 +22,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             };
             check_node(node, entry)?;
         }
+        self.check_solids()?;
         for (index, &temperature) in self.reservoirs.iter().enumerate() {
             let reservoir = Reservoir {
                 scene: self.id,
@@ -39,6 +42,33 @@ impl<const D: usize, S: Real> Scene<D, S> {
         self.check_loads()?;
         self.check_conductors()?;
         self.check_start()
+    }
+
+    /// Nodes of solids have velocities, and are not moved.
+    fn check_solids(&self) -> Result<(), SceneError> {
+        let coupled: BTreeSet<_> = self.pairs.iter().flat_map(|&(nodes, _)| nodes).collect();
+        for &index in &coupled {
+            let node = Node {
+                scene: self.id,
+                index,
+            };
+            if self.nodes[index].momentum.is_some() {
+                return Err(SceneError::NodeOfSolid {
+                    node,
+                    quantity: "a momentum",
+                    instead: "give its velocity",
+                });
+            }
+        }
+        let mut moved = self.loads.motions.iter().map(|(anchor, _)| *anchor);
+        match moved.find(|anchor| coupled.contains(&anchor.index)) {
+            None => Ok(()),
+            Some(node) => Err(SceneError::NodeOfSolid {
+                node,
+                quantity: "a prescribed motion",
+                instead: "join it to a moved anchor by a stiff spring",
+            }),
+        }
     }
 
     fn check_loads(&self) -> Result<(), SceneError> {
@@ -164,6 +194,7 @@ fn check_element<S: Real>(
                 element,
                 dashpot,
                 value,
+                unit: shape.viscous_unit,
             }
             .into());
         }

@@ -30,6 +30,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 for mass in self.masses.iter() {
                     digest.number(mass.unwrap_or(S::zero()));
                 }
+                for pair in self.masses.pairs() {
+                    let [first, second] = pair.nodes();
+                    digest.count(first);
+                    digest.count(second);
+                    digest.number(pair.mass);
+                }
             }),
             conductances: Digest::of(|digest| self.digest_conductances(digest)),
             reservoirs: Digest::of(|digest| {

@@ -8,6 +8,7 @@ use crate::conduction::Partner;
 use crate::group::{ElementGeneric, Elements};
 use crate::scalar::Real;
 use crate::scheme::Scheme;
+use crate::state::State;
 
 /// The two gradients and the two matrices of `ż = L ∇E + M ∇S`.
 ///
@@ -64,8 +65,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let mut elements = Vec::new();
         let each = |group: &mut dyn Elements<S, D>| elements.extend(group.generic_in(state));
         self.stepper.each_mut(each);
-        let momenta = self.state.momenta.values().to_vec();
-        self.generic_from(&elements, &momenta)
+        let velocities = self.velocities_in(&self.state);
+        self.generic_from(&elements, &velocities)
     }
 
     /// Discrete gradients and matrices of the last step; `None` before the first, after a failed
@@ -82,16 +83,25 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             .flat_map(|group| group.generic_of_step(ends))
             .collect();
         let half = S::from_f64(0.5);
-        let (new, old) = (self.state.momenta.values(), self.next.momenta.values());
+        let [old, new] = ends.map(|state| self.velocities_in(state));
         let mean: Vec<_> = old
             .iter()
-            .zip(new)
+            .zip(&new)
             .map(|(&old, &new)| half * (old + new))
             .collect();
         Some(self.generic_from(&elements, &mean))
     }
 
-    fn generic_from(&self, elements: &[ElementGeneric<S>], momenta: &[S]) -> Generic<S> {
+    /// v, m/s; zero for anchors.
+    fn velocities_in(&self, state: &State<S>) -> Vec<S> {
+        let nodes = self.masses.iter().enumerate();
+        let of = |(node, mass): (usize, Option<S>)| {
+            mass.map_or([S::zero(); D], |mass| state.velocity(node, mass))
+        };
+        nodes.flat_map(of).collect()
+    }
+
+    fn generic_from(&self, elements: &[ElementGeneric<S>], velocities: &[S]) -> Generic<S> {
         let places = self.generic_places();
         let size = places.size;
         let mut energy_gradient = DVector::from_element(size, S::zero());
@@ -99,11 +109,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let mut reversible = DMatrix::from_element(size, size, S::zero());
         let mut irreversible = reversible.clone();
         for (coordinate, place) in places.positions.iter().enumerate() {
-            let (Some(q), Some(mass)) = (*place, self.masses.get(coordinate / D)) else {
+            let Some(q) = *place else {
                 continue;
             };
             let p = q + places.momenta;
-            energy_gradient[p] = momenta[coordinate] / mass;
+            energy_gradient[p] = velocities[coordinate];
             reversible[(q, p)] = S::one();
             reversible[(p, q)] = -S::one();
         }

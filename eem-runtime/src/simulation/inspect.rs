@@ -41,10 +41,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// For a foreign handle.
     pub fn velocity(&self, node: Node) -> Result<SVector<S, D>, SceneError> {
-        let momentum = self.momentum(node)?;
+        self.expect_own(node.scene, &node)?;
         Ok(match self.masses.get(node.index) {
-            Some(mass) => momentum.map(|component| component / mass),
-            None => momentum,
+            Some(mass) => SVector::from(self.state.velocity::<D>(node.index, mass)),
+            None => SVector::from([S::zero(); D]),
         })
     }
 
@@ -54,6 +54,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// For a foreign handle.
     pub fn stretch(&self, element: Element) -> Result<S, SceneError> {
+        self.expect_spring(element, "stretch")?;
         Ok(self.view(element)?.measure)
     }
 
@@ -63,6 +64,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// For a foreign handle.
     pub fn force(&self, element: Element) -> Result<S, SceneError> {
+        self.expect_spring(element, "force")?;
         Ok(self.view(element)?.force)
     }
 
@@ -143,6 +145,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             &self.conduction.reservoirs,
             &self.loads.gravity,
         )
+    }
+
+    /// An error unless an element is a spring of this scene.
+    fn expect_spring(&self, element: Element, quantity: &'static str) -> Result<(), SceneError> {
+        self.expect_own(element.scene, &element)?;
+        let [group, _] = self.place(element);
+        if self.shapes[group].is_spring {
+            return Ok(());
+        }
+        Err(SceneError::NotASpring { element, quantity })
     }
 
     fn view(&self, element: Element) -> Result<ElementView<S>, SceneError> {

@@ -60,6 +60,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.set_newton_settings(checkpoint.newton)?;
         self.has_stepped = false;
         self.state.copy_from(&checkpoint.state);
+        self.state.follow_velocities(D, &self.masses);
         let state = &mut self.state;
         self.stepper.each_mut(|group| group.find_energies(state));
         self.worst = None;

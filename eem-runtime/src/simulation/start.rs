@@ -1,5 +1,7 @@
 //! The state in which a scene begins.
 
+use nalgebra::SVector;
+
 use crate::compensated::{Compensated, Sum};
 use crate::layout::Layout;
 use crate::scalar::Real;
@@ -14,10 +16,17 @@ pub(super) fn initial_state<const D: usize, S: Real>(
     let coordinates = scene.nodes.len() * D;
     let mut positions = Vec::with_capacity(coordinates);
     let mut momenta = Vec::with_capacity(coordinates);
+    let mut velocities = Vec::new();
+    let still = SVector::from([S::zero(); D]);
+    let is_coupled = !scene.pairs.is_empty();
     for node in &scene.nodes {
         let mass = node.mass.unwrap_or(S::zero());
         positions.extend(node.position.iter());
         momenta.extend(node.start_momentum(mass).iter());
+        if is_coupled {
+            let moving = node.mass.map_or(still, |_| node.velocity);
+            velocities.extend(moving.iter());
+        }
     }
     let mut viscous = vec![S::zero(); layout.viscous];
     let mut temperatures = vec![S::zero(); layout.thermal];
@@ -33,6 +42,7 @@ pub(super) fn initial_state<const D: usize, S: Real>(
         time: Sum::new(S::zero()),
         positions: Compensated::new(positions),
         momenta: Compensated::new(momenta),
+        velocities: Compensated::new(velocities),
         viscous: Compensated::new(viscous),
         entropies: Compensated::new(vec![S::zero(); temperatures.len()]),
         temperatures,

@@ -3,7 +3,7 @@
 use core::array;
 
 use super::places::MovingNode;
-use crate::group::StepView;
+use crate::group::{StepView, Trial, points};
 use crate::scalar::Real;
 
 /// What Newton's method knows of a node that moves, during one step.
@@ -26,22 +26,39 @@ impl<S: Real, const D: usize> Balance<S, D> {
         }
     }
 
-    /// What does not change during a step, given the share c of the step up to the stage, p⁰ and F⁰.
+    /// `c h v⁰`, m.
     #[inline]
-    pub(super) fn weigh(
-        &mut self,
-        view: &StepView<'_, S>,
-        time: S,
-        momentum: &[S; D],
-        force: [S; D],
-    ) {
+    pub(super) fn flight_in(&self, view: &StepView<'_, S>, time: S) -> [S; D] {
+        let at = self.place.node();
+        let velocities = points::<S, D>(view.state.velocities.values());
+        if let Some(velocity) = velocities.get(at) {
+            return velocity.map(|velocity| time * view.step * velocity);
+        }
+        let mobility = time * view.step * self.place.per_mass;
+        points::<S, D>(view.state.momenta.values())[at].map(|momentum| mobility * momentum)
+    }
+
+    /// What does not change during a step, given the share c of the step up to the stage and F⁰.
+    #[inline]
+    pub(super) fn weigh(&mut self, view: &StepView<'_, S>, time: S, force: [S; D]) {
         if view.phase.moves() {
-            let mobility = time * view.step * self.place.per_mass;
-            self.flight = momentum.map(|momentum| mobility * momentum);
+            self.flight = self.flight_in(view, time);
             self.push = force.map(|force| -view.step * force);
         } else {
             (self.flight, self.push) = ([S::zero(); D], [S::zero(); D]);
         }
+    }
+
+    /// `Δq` at a trial, m.
+    pub(super) fn displacement(&self, trial: &Trial<S, D>) -> [S; D] {
+        trial.displacements[self.place.in_trial()]
+    }
+
+    /// `Δq − h v⁰` at a trial, m.
+    pub(super) fn change(&self, trial: &Trial<S, D>) -> [S; D] {
+        let at = self.place.in_trial();
+        let (displacement, rest) = (&trial.displacements[at], &trial.rests[at]);
+        array::from_fn(|axis| (displacement[axis] - self.flight[axis]) + rest[axis])
     }
 
     /// `Δp = (2m/h)(Δq − (h/m) p⁰)`, N s, of a displacement; `inertia_per_mass` is 2/h, or 1/(ch) for a stage.

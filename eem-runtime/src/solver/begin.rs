@@ -52,14 +52,13 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// Inertia and impulses that do not change during the step.
     pub(super) fn weigh(&mut self, view: &StepView<'_, S>) {
-        let momenta = points::<S, D>(view.state.momenta.values());
         let moving = self.moving();
         for (set, nodes) in self.nodes.chunks_mut(moving).enumerate() {
             let time = S::from_f64(self.sets[set].time);
             for node in nodes {
                 let at = node.place.node();
                 let force = force_of_set(self.scheme, set, at, (&self.old_force, view.stages));
-                node.weigh(view, time, &momenta[at], force);
+                node.weigh(view, time, force);
             }
         }
     }
@@ -119,6 +118,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// Moving nodes are where they are foretold, seen temperatures where they were.
     fn start(&mut self, view: &StepView<'_, S>, start: Start) {
         self.trial.settled = S::Mask::none();
+        let is_coupled = !self.coupling.is_none();
         let momenta = points::<S, D>(view.state.momenta.values());
         let (moving, per_set) = (self.moving(), self.rows_per_set());
         let inertia = self.inertias(view);
@@ -145,15 +145,17 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let changes = changes.as_chunks_mut::<D>().0;
             for ((node, rows), change) in nodes.iter_mut().zip(rows).zip(changes) {
                 let (at, trial) = (node.place.node(), node.place.in_trial());
-                let momentum = &momenta[at];
                 let force = force_of_set(self.scheme, set, at, (&self.old_force, view.stages));
-                node.weigh(view, time, momentum, force);
+                node.weigh(view, time, force);
                 if set == 0 {
                     let per_length = &mut self.per_length[at];
                     *per_length = inverse_length(*per_length);
                 }
                 let mut displacement = [S::zero(); D];
-                if is_foretold {
+                if is_foretold && is_coupled {
+                    displacement = node.flight;
+                } else if is_foretold {
+                    let momentum = &momenta[at];
                     let (force, mobility) =
                         (forecast.of(at), time * view.step * node.place.per_mass);
                     displacement = array::from_fn(|axis| {
@@ -166,6 +168,19 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 node.balance([&displacement, &rest], inertia[set], values, rows);
             }
         }
+        self.couple(view);
+    }
+
+    /// Adds the inertia of masses that couple nodes to the system of an iteration.
+    #[inline]
+    pub(super) fn couple(&mut self, view: &StepView<'_, S>) {
+        if self.coupling.is_none() {
+            return;
+        }
+        let [inertia, ..] = self.inertias(view);
+        let (values, right) = self.tangent.parts();
+        let nodes = (&self.nodes[..], &self.trial);
+        self.coupling.balance(nodes, inertia, values, right);
     }
 
     /// Takes back what the last step left for the next ones.

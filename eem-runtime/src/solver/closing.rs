@@ -6,7 +6,9 @@ use core::array;
 
 use super::Solver;
 use super::begin::old_force;
-use crate::certificate::{Care, Certificate, Kept, Motion, NodeStep, Reach, Recount, Tally};
+use crate::certificate::{
+    Care, Certificate, Kept, Motion, NodeStep, Reach, Recount, Speeds, Tally,
+};
 use crate::error::StepFailure;
 use crate::group::{Along, Group, StepView, points};
 use crate::newton::Largest;
@@ -78,6 +80,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         } else {
             next.positions.copy_from(&view.state.positions);
             next.momenta.copy_from(&view.state.momenta);
+            next.velocities.copy_from(&view.state.velocities);
         }
         for group in groups.iter_mut() {
             group.close(view, &self.trial, next, &mut tally)?;
@@ -149,20 +152,33 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let has_load = view.loads.has_total_force();
         let is_exact = self.scheme.is_exact();
         let takes_increments = self.scheme.closing() == Closing::Increments;
+        let velocities = points::<S, D>(view.state.velocities.values());
         let mut largest = Largest::none();
         let mut remembering = self.past.remember();
-        for node in &self.nodes {
+        if !self.coupling.is_none() {
+            let nodes = (&self.nodes[..], &self.trial);
+            self.coupling.find_impulses(nodes, twice_per_step);
+        }
+        for (moving, node) in self.nodes.iter().enumerate() {
             let at = node.place.node();
             let (displacement, rest) = (&self.trial.displacements[at], &self.trial.rests[at]);
             if takes_increments {
-                let impulse = node.impulse([displacement, rest], twice_per_step);
+                let coupled = self.coupling.impulse(moving);
+                let impulse = match coupled {
+                    None => node.impulse([displacement, rest], twice_per_step),
+                    Some([impulse, _]) => *impulse,
+                };
                 let found = remembering.impulse_mut(at);
                 for axis in 0..D {
                     let residual = impulse[axis] - found[axis];
                     largest.see(residual);
                     if is_exact {
                         let inertia = node.place.mass * twice_per_step;
-                        let terms = impulse[axis].abs() + inertia * displacement[axis].abs();
+                        let moved = match coupled {
+                            None => inertia * displacement[axis].abs(),
+                            Some([_, terms]) => terms[axis],
+                        };
+                        let terms = impulse[axis].abs() + moved;
                         let magnitude = self.magnitudes.get(at).copied();
                         tally.balance(residual, terms + magnitude.unwrap_or(S::zero()));
                     }
@@ -171,7 +187,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
             }
             let impulse = remembering.impulse(at);
             let moved = NodeStep {
-                per_mass: node.place.per_mass,
+                speeds: match velocities.get(at) {
+                    None => Speeds::OfMass(node.place.per_mass),
+                    Some(velocity) => {
+                        let change = node.change(&self.trial);
+                        Speeds::Given {
+                            old: *velocity,
+                            change: change.map(|change| twice_per_step * change),
+                        }
+                    }
+                },
                 position: &points(view.state.positions.values())[at],
                 momentum: &points(view.state.momenta.values())[at],
                 displacement,
@@ -182,11 +207,17 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 has_load.then(|| view.loads.total_force(at)).as_ref(),
                 view.step,
             );
+            if let Speeds::Given { change, .. } = &moved.speeds {
+                let none = [S::zero(); D];
+                let old = &view.state.velocities;
+                next.velocities.advance_point(at, old, [change, &none]);
+            }
             move_node(at, [displacement, rest, impulse], view.state, next)?;
             remembering.take(at, per_step, node.place.per_mass);
         }
         remembering.finish();
         self.final_residual = largest.found();
+        next.follow_velocities(D, view.masses);
         Ok(())
     }
 

@@ -28,6 +28,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 );
             }
         }
+        self.couple(view);
     }
 
     /// The largest entry of R.
@@ -80,6 +81,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             largest.see(change / trial.seen.values()[in_trial]);
             trial.seen.add(in_trial, unless(settled, S::zero(), change));
         }
+        self.couple(view);
         for group in groups.iter_mut() {
             largest.see(group.correct(self.tangent.solution(), settled));
         }

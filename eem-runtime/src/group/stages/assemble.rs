@@ -26,11 +26,12 @@ where
         trial: &Trial<S, D>,
         system: &mut LinearSystem<S, 1>,
     ) -> Result<(), StateError> {
-        let (kinematics, rule) = (self.elements.kinematics, self.rule);
+        let rule = self.rule;
         let (values, right) = system.parts();
         let members = self.elements.members.iter().zip(&mut self.members);
         for (member, stages) in members {
-            stages.condense(rule, &mut self.local, view.step, member.element)?;
+            let point = member.only();
+            stages.condense(rule, &mut self.local, view.step, point.element)?;
             let mut target = Target {
                 rule,
                 step: view.step,
@@ -42,9 +43,9 @@ where
                 for measure in 0..M::MEASURES {
                     stages.assemble_force(stage, measure, &mut target);
                 }
-                stages.assemble_turn(kinematics, stage, trial, &mut target);
+                stages.assemble_turn(stage, trial, &mut target);
             }
-            if let Some(slot) = member.slots().thermal {
+            if let Some(slot) = point.slots().thermal {
                 stages.assemble_temperatures(slot, trial, &mut target);
             }
         }
@@ -147,13 +148,7 @@ where
     }
 
     /// What the forces of a stage do when their directions turn.
-    fn assemble_turn(
-        &self,
-        kinematics: K,
-        stage: usize,
-        trial: &Trial<S, D>,
-        target: &mut Target<'_, S>,
-    ) {
+    fn assemble_turn(&self, stage: usize, trial: &Trial<S, D>, target: &mut Target<'_, S>) {
         let Some(own) = target.rule.set_of(stage) else {
             return;
         };
@@ -161,7 +156,7 @@ where
             let r = self.arms_of_set(own, trial);
             let measures = measures_in::<K, S, D>(&self.x[stage]);
             let forces = measures_in::<K, S, D>(&self.points[stage].gradient);
-            let blocks = kinematics.curvature(&r, &measures, &forces);
+            let blocks = self.kinematics.curvature(&r, &measures, &forces);
             let site = &self.site.sets[set][own];
             for (i, row) in blocks.as_ref().iter().enumerate() {
                 for (j, block) in row.as_ref().iter().enumerate() {

@@ -13,7 +13,7 @@ use crate::group::closing::pull;
 use crate::group::stages::stage_group::StageGroup;
 use crate::group::view::{StepView, Trial};
 use crate::impulse::Impulses;
-use crate::kinematics::{Kinematics, Weights};
+use crate::kinematics::{Ends, Kinematics, Weights};
 use crate::layout::Slots;
 use crate::scalar::Real;
 use crate::scheme::{Ending, Tableau};
@@ -39,7 +39,7 @@ where
         let impulse = view.step * S::from_f64(rule.positions[set][stage]);
         let (values, right) = system.parts();
         for stages in &self.members {
-            let weights = stages.secant(self.elements.kinematics, stage);
+            let weights = stages.secant(stage);
             let (site, secant) = (stages.site.common(), &stages.site.secant);
             let mut known = arms_in::<K, S, D>(&site.nodes, &view.state.positions);
             site.add_anchors(&mut known, trial.displacements_of_set(set), S::one());
@@ -57,15 +57,16 @@ where
         trial: &Trial<S, D>,
         impulses: &mut Impulses<'_, S, D>,
     ) {
-        let (kinematics, rule) = (self.elements.kinematics, self.rule);
+        let rule = self.rule;
         let feels_itself = rule
             .set_of(stage)
             .is_some_and(|set| rule.positions[set][stage] != 0.0);
         for stages in &self.members {
             let r = stages.arms_at(rule, stage, trial);
             let force = if feels_itself && matches!(rule.ending, Ending::StageByStage) {
-                pull::<K, S, D>(&stages.secant(kinematics, stage), &r)
+                pull::<K, S, D>(&stages.secant(stage), &r)
             } else {
+                let kinematics = stages.kinematics;
                 let gradient = kinematics.gradient(&r, &kinematics.measure(&r));
                 let found = measures_in::<K, S, D>(&stages.points[stage].gradient);
                 resultant::<K, S, D>(&gradient, &found)
@@ -85,11 +86,13 @@ where
         view: &StepView<'_, S>,
         next: &mut State<S>,
     ) -> Result<(), StateError> {
-        let (kinematics, rule) = (self.elements.kinematics, self.rule);
+        let rule = self.rule;
         for (member, stages) in self.elements.members.iter_mut().zip(&mut self.members) {
-            stages.close(rule, member.slots(), view, next);
+            let r1 = member.arms_in(next);
+            let point = member.only_mut();
+            stages.close(rule, point.slots(), view, next);
             let near = stages.temperature(rule.stages() - 1);
-            if let Some(entropy) = member.settle(kinematics, view, near, next)? {
+            if let Some(entropy) = point.settle(&r1, view, near, next)? {
                 stages.book_thermostat(rule, view.step, entropy, next);
             }
         }
@@ -104,10 +107,17 @@ where
     K: Kinematics<S, D>,
 {
     /// A of the nodal force `A q_i` of the found stage.
-    fn secant(&self, kinematics: K, stage: usize) -> Weights<K, S, D> {
+    fn secant(&self, stage: usize) -> Weights<K, S, D> {
         let measures = measures_in::<K, S, D>(&self.x[stage]);
         let forces = measures_in::<K, S, D>(&self.points[stage].gradient);
-        kinematics.secant(&measures, &measures, &forces)
+        // At rest in the stage; the arms of an element with one point are not asked for.
+        let ends = Ends {
+            r0: self.r0,
+            r1: self.r0,
+            measures0: measures,
+            measures1: measures,
+        };
+        self.kinematics.secant(&ends, &forces)
     }
 
     /// The increments of the internal variables and of the reservoirs' entropies.

@@ -1,12 +1,13 @@
 //! The model at the stages of a trial.
 
 use super::heat;
-use super::member::{StageMember, StateMember};
+use super::member::{StageMember, StatePoint};
 use crate::error::StateError;
 use crate::free_energy::{Array, FreeEnergy};
 use crate::group::respond::{check_measures, check_temperature};
 use crate::group::stages::stage_group::StageGroup;
 use crate::group::view::{StepView, Trial};
+use crate::handle::Element;
 use crate::kinematics::{Arms, Kinematics};
 use crate::scalar::Real;
 use crate::scheme::Infeasible;
@@ -23,20 +24,21 @@ where
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
     ) -> Result<(), StateError> {
-        let (kinematics, rule) = (self.elements.kinematics, self.rule);
+        let rule = self.rule;
         let members = self.elements.members.iter_mut().zip(&mut self.members);
         for (member, stages) in members {
+            let point = member.only_mut();
             for stage in 0..rule.stages() {
                 // The measures of a known stage are those of the old state.
                 if let Some(set) = rule.set_of(stage) {
                     let r = stages.arms_of_set(set, trial);
-                    stages.move_to(kinematics, member, stage, &r)?;
+                    stages.move_to(point.element, stage, &r)?;
                 }
-                let heat = match member.slots().thermal {
+                let heat = match point.slots().thermal {
                     Some(slot) => heat::received(rule, stage, slot, view, trial),
                     None => S::zero(),
                 };
-                stages.evaluate(member, view, stage, heat)?;
+                stages.evaluate(point, view, stage, heat)?;
             }
         }
         Ok(())
@@ -52,14 +54,13 @@ where
     /// Measures and their gradients at a stage, whose arms are given.
     fn move_to(
         &mut self,
-        kinematics: K,
-        member: &StateMember<S, M, K, D>,
+        element: Element,
         stage: usize,
         r: &Arms<K, S, D>,
     ) -> Result<(), StateError> {
-        let measures = kinematics.measure(r);
-        check_measures::<K, S, D>(kinematics, member.element, &measures, r)?;
-        self.gradients[stage] = kinematics.gradient(r, &measures);
+        let measures = self.kinematics.measure(r);
+        check_measures::<K, S, D>(self.kinematics, element, &measures, r)?;
+        self.gradients[stage] = self.kinematics.gradient(r, &measures);
         for (a, &measure) in measures.as_ref().iter().enumerate() {
             self.x[stage][a] = measure;
         }
@@ -69,7 +70,7 @@ where
     /// The model at a stage whose variables are known, with the heat from other elements, W.
     fn evaluate(
         &mut self,
-        member: &mut StateMember<S, M, K, D>,
+        own: &mut StatePoint<S, M, K, D>,
         view: &StepView<'_, S>,
         stage: usize,
         heat: S,
@@ -77,25 +78,25 @@ where
         let (x, point) = (&self.x[stage], &mut self.points[stage]);
         let theta = x[M::Variables::LEN - 1];
         if M::THERMAL {
-            check_temperature(member.element, theta)?;
+            check_temperature(own.element, theta)?;
         }
-        (point.gradient, point.hessian) = member.model.hessian(x);
+        (point.gradient, point.hessian) = own.model.hessian(x);
         let mut values = point.gradient.as_ref().iter();
         if let Some(value) = values.find(|value| !value.is_finite()) {
             return Err(StateError::NotFinite {
-                element: member.element,
+                element: own.element,
                 quantity: "force or entropy",
                 value: value.to_f64(),
             });
         }
-        member.find_viscosities(theta)?;
-        let dissipation_by = point.creep(&member.viscosities);
-        let Some(slot) = member.slots().thermal else {
+        own.find_viscosities(theta)?;
+        let dissipation_by = point.creep(&own.viscosities);
+        let Some(slot) = own.slots().thermal else {
             return Ok(());
         };
         let slope = point.entropy_by()[M::Variables::LEN - 1];
         Infeasible::unless_stable(theta * slope, theta)
-            .map_err(|infeasible| infeasible.of(member.element))?;
+            .map_err(|infeasible| infeasible.of(own.element))?;
         let mut flow = view.conduction.reservoir_flow(slot, theta);
         flow.heat += heat;
         point.warm(theta, &flow, &dissipation_by);

@@ -1,12 +1,13 @@
 //! One element at the stages of a step.
 
-use super::point::Point;
+use super::at_stage::AtStage;
 use super::site::StageSite;
 use crate::free_energy::{Array, FreeEnergy};
 use crate::group::arms::{add_scaled, arms_in, change_in_set};
 use crate::group::begin::shorten;
 use crate::group::element_group::variables;
-use crate::group::member::{Member, grown};
+use crate::group::member::Member;
+use crate::group::point::{Point, grown};
 use crate::group::view::{StepView, Trial};
 use crate::kinematics::{Arms, Gradient, Kinematics};
 use crate::scalar::Real;
@@ -15,15 +16,19 @@ use crate::scheme::{MOST_STAGES, Tableau, Variational};
 /// The same element in a state, apart from any step.
 pub(super) type StateMember<S, M, K, const D: usize> = Member<S, M, K, Variational, D>;
 
+/// Its point.
+pub(super) type StatePoint<S, M, K, const D: usize> = Point<S, M, K, Variational, D>;
+
 /// What one step needs to remember of an element.
 pub(super) struct StageMember<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {
+    pub(super) kinematics: K,
     pub(super) site: StageSite<K, S, D>,
     /// s⁰, J/K; zero without temperature.
     pub(super) entropy: S,
     /// The temperatures of the stages, if a thermostat gives them, K.
     pub(super) prescribed: Option<[S; MOST_STAGES]>,
-    /// The old arms, m, and the first old measure.
-    r0: Arms<K, S, D>,
+    /// The old arms and the unit of viscous stretches, m.
+    pub(super) r0: Arms<K, S, D>,
     pub(super) length: S,
     /// γ⁰, m.
     pub(super) old_viscous: M::Viscosities,
@@ -34,7 +39,7 @@ pub(super) struct StageMember<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, co
     previous: [M::Variables; MOST_STAGES],
     pub(super) correction: [M::Variables; MOST_STAGES],
     /// What the model says there.
-    pub(super) points: [Point<S, M>; MOST_STAGES],
+    pub(super) points: [AtStage<S, M>; MOST_STAGES],
     /// `∂π/∂r` there.
     pub(super) gradients: [Gradient<K, S, D>; MOST_STAGES],
     /// The entropy that dashpots and conduction gave it in the step, J/K.
@@ -54,6 +59,7 @@ where
         let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
         let length = (1 + inputs::<S, M>(rule)) * unknowns::<S, M>(rule);
         Self {
+            kinematics: member.only().kinematics,
             site: StageSite::unconnected(member.site),
             entropy: S::zero(),
             prescribed: None,
@@ -63,7 +69,7 @@ where
             x: zeros,
             previous: zeros,
             correction: zeros,
-            points: [(); MOST_STAGES].map(|()| Point::zero()),
+            points: [(); MOST_STAGES].map(|()| AtStage::zero()),
             gradients: [Gradient::<K, S, D>::filled(nowhere); MOST_STAGES],
             entropy_received: S::zero(),
             solved: vec![S::zero(); length],
@@ -73,17 +79,16 @@ where
     /// Takes measures, γ and θ from the old state, where the trial starts.
     pub(super) fn begin(
         &mut self,
-        kinematics: K,
         member: &StateMember<S, M, K, D>,
         view: &StepView<'_, S>,
         lengths: &mut [S],
     ) {
-        let (nodes, slots) = (&member.site.nodes, member.slots());
+        let (nodes, slots) = (&member.site.nodes, member.only().slots());
         self.r0 = arms_in::<K, S, D>(nodes, &view.state.positions);
-        let measures = kinematics.measure(&self.r0);
-        self.length = measures[0];
-        shorten::<K, S, D>(nodes, &measures, lengths);
-        self.gradients = [kinematics.gradient(&self.r0, &measures); MOST_STAGES];
+        let measures = self.kinematics.measure(&self.r0);
+        self.length = self.kinematics.length(&measures);
+        shorten::<K, S, D>(nodes, self.length, lengths);
+        self.gradients = [self.kinematics.gradient(&self.r0, &measures); MOST_STAGES];
         self.x = [variables::<S, M>(measures.as_ref(), slots, view.state); MOST_STAGES];
         for k in 0..M::DASHPOTS {
             self.old_viscous[k] = self.x[0][M::MEASURES + k];

@@ -17,7 +17,7 @@ use crate::scheme::{Tableau, Variational};
 use crate::state::State;
 use crate::system::LinearSystem;
 
-/// Elements of the model `M` with the kinematics `K`.
+/// Elements of the model `M` with the kinematics `K`, which have one point each.
 pub(crate) struct StageGroup<S, M, K, const D: usize>
 where
     S: Real,
@@ -39,11 +39,10 @@ where
 {
     pub(crate) fn new(
         rule: &'static Tableau,
-        kinematics: K,
-        models: Vec<(Element, M)>,
+        parts: Vec<(Element, [(M, K); 1])>,
         placed: Placed<'_>,
     ) -> Self {
-        let elements = ElementGroup::new(kinematics, models, placed);
+        let elements = ElementGroup::new(parts, placed);
         let members = elements.members.iter();
         let members = members.map(|member| StageMember::new(member, rule));
         Self {
@@ -71,14 +70,13 @@ where
 
     fn connect(&mut self, sites: &Sites<'_, S, D>) {
         for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
-            stages.site = StageSite::new(&member.site.nodes, member.slots().thermal, sites);
+            stages.site = StageSite::new(&member.site.nodes, member.only().slots().thermal, sites);
         }
     }
 
     fn begin(&mut self, view: &StepView<'_, S>, old: &mut Old<'_, S, D>) -> Result<(), StateError> {
-        let kinematics = self.elements.kinematics;
         for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
-            stages.begin(kinematics, member, view, old.lengths);
+            stages.begin(member, view, old.lengths);
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use core::array;
 
-use crate::certificate::{Motion, NodeStep};
+use crate::certificate::{Motion, NodeStep, Speeds};
 use crate::error::StepFailure;
 use crate::group::{Along, Group, StepView, points};
 use crate::impulse::Impulses;
@@ -158,7 +158,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 next.work.add(self.work(stages, node, axis, load));
             }
             let moved = NodeStep {
-                per_mass: mass.per_mass,
+                speeds: Speeds::OfMass(mass.per_mass),
                 position: &points(view.state.positions.values())[node],
                 momentum: &points(view.state.momenta.values())[node],
                 displacement,

@@ -6,7 +6,7 @@ use crate::scalar::Real;
 
 /// What a model says at a stage.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Point<S: Real, M: FreeEnergy<S>> {
+pub(super) struct AtStage<S: Real, M: FreeEnergy<S>> {
     /// `∂ψ/∂x = (f, −g, −s)`.
     pub(super) gradient: M::Variables,
     /// `∂²ψ/∂x²`.
@@ -19,7 +19,7 @@ pub(super) struct Point<S: Real, M: FreeEnergy<S>> {
     pub(super) dissipation: S,
 }
 
-impl<S: Real, M: FreeEnergy<S>> Point<S, M> {
+impl<S: Real, M: FreeEnergy<S>> AtStage<S, M> {
     pub(super) fn zero() -> Self {
         let zeros = M::Variables::filled(S::zero());
         Self {

@@ -1,0 +1,169 @@
+//! Solids of a scene.
+
+use super::Scene;
+use crate::blueprint::{Blueprint, QuadSet};
+use crate::error::SceneError;
+use crate::free_energy::FreeEnergy;
+use crate::handle::{Element, Node};
+use crate::kinematics::{Quad4, Strain, StrainEnergy};
+use crate::scalar::{Real, is_positive};
+
+/// What a solid in the plane is besides its material and its corners.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Section<S = f64> {
+    /// ρ, kg/m³.
+    pub density: S,
+    /// Out of the plane, m.
+    pub thickness: S,
+}
+
+/// # Nodes of solids
+impl<const D: usize, S: Real> Scene<D, S> {
+    /// A node that moves and has no mass of its own: solids give it theirs. Position in m, velocity in m/s.
+    pub fn node(&mut self, position: [S; D], velocity: [S; D]) -> Node {
+        self.push_node(Some(S::zero()), position, velocity)
+    }
+
+    /// Replaces the initial position of a node, m. Solids keep the shape that they were created with,
+    /// so that they start deformed.
+    pub fn set_position(&mut self, node: Node, position: [S; D]) {
+        if self.expect_own(node.scene, &node) {
+            self.nodes[node.index].position = position.into();
+        }
+    }
+}
+
+/// # Solids in the plane
+impl<S: Real> Scene<2, S> {
+    /// A quadrilateral of a solid in plane strain, whose corners are nodes, against the clock; returns its
+    /// points, at each of which the free energy per volume is evaluated, the first coordinate fastest.
+    ///
+    /// Where the nodes are now it is free of strain. A point has a temperature and viscous strains of its
+    /// own, and handles of points are what [`conduct`](Self::conduct) and
+    /// [`set_temperature`](Self::set_temperature) take. Its mass is consistent, `∫ ρ N_a N_b dV`: it
+    /// couples nodes, so that [`Scheme::EemEntropy`](crate::Scheme::EemEntropy),
+    /// [`EemTemperature`](crate::Scheme::EemTemperature),
+    /// [`Staggered`](crate::Scheme::Staggered) and the midpoint and trapezoidal rules can step it.
+    /// Corners may be anchors; those stay where they are.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    /// use eem::Section;
+    ///
+    /// /// Saint-Venant and Kirchhoff.
+    /// #[derive(Clone, FreeEnergy)]
+    /// #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * lame * e1.powi(2) + shear * e2)]
+    /// struct Elastic {
+    ///     lame: f64,
+    ///     shear: f64,
+    /// }
+    ///
+    /// let mut scene = Scene::<2>::new();
+    /// let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]];
+    /// let nodes = corners.map(|corner| scene.node(corner, [-corner[1], corner[0]]));
+    /// let steel = Elastic { lame: 2000.0, shear: 1000.0 };
+    /// let section = Section { density: 10.0, thickness: 1.0 };
+    /// scene.quadrilateral(steel, nodes, section);
+    ///
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// let before = run.ledger();
+    /// assert!((before.kinetic_energy - 0.5 * 20.0 * 5.0 / 3.0).abs() < 1e-12);
+    /// for _ in 0..10 {
+    ///     run.step()?;
+    /// }
+    /// let after = run.ledger();
+    /// assert!((after.balance - before.balance).abs() < 1e-13 * before.energy);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn quadrilateral<M, const N: usize>(
+        &mut self,
+        model: M,
+        nodes: [Node; 4],
+        section: Section<S>,
+    ) -> [Element; 4]
+    where
+        M: FreeEnergy<S> + StrainEnergy<N> + Clone + Send + Sync + 'static,
+    {
+        let scene = self.id;
+        let first = self.elements.len();
+        let points = [0, 1, 2, 3].map(|point| Element {
+            scene,
+            index: first + point,
+        });
+        let place = match self.expect_quad::<N>(nodes, (M::STRAINS, section), points) {
+            Ok(quad) => {
+                let (group, set) = self.set_of(QuadSet::<S, M, N>::new);
+                let place = set.len();
+                set.push(&model, quad, points[0]);
+                [group, place]
+            }
+            // Handles have to mean something until the scene is checked.
+            Err(misuse) => {
+                self.misuse.extend(misuse);
+                [usize::MAX; 2]
+            }
+        };
+        for point in 0..points.len() {
+            self.push_element(&nodes, [place[0], place[1].saturating_add(point)]);
+        }
+        points
+    }
+
+    /// The points of a quadrilateral, whose mass goes to its nodes.
+    fn expect_quad<const N: usize>(
+        &mut self,
+        nodes: [Node; 4],
+        (strains, section): ([Strain; N], Section<S>),
+        points: [Element; 4],
+    ) -> Result<[Quad4<S, N>; 4], Option<SceneError>> {
+        for node in &nodes {
+            if !self.expect_own(node.scene, node) {
+                return Err(None);
+            }
+        }
+        section.check(points[0])?;
+        let corners = nodes.map(|node| self.nodes[node.index].position.into());
+        let quad = Quad4::points(&corners, section.thickness, strains);
+        let quad = quad.map_err(|(point, area)| SceneError::InsideOut {
+            element: points[point],
+            value: area.to_f64(),
+        })?;
+        self.add_masses(nodes, &corners, section);
+        Ok(quad)
+    }
+
+    /// Adds the consistent mass of a quadrilateral.
+    fn add_masses(&mut self, nodes: [Node; 4], corners: &[[S; 2]; 4], section: Section<S>) {
+        let masses = Quad4::<S, 1>::masses(corners, section.density * section.thickness);
+        for (a, row) in masses.iter().enumerate() {
+            if let Some(mass) = &mut self.nodes[nodes[a].index].mass {
+                *mass += row[a];
+            }
+            for (b, &mass) in row.iter().enumerate().take(a) {
+                let [i, j] = [nodes[a].index, nodes[b].index];
+                self.pairs.push(([i.min(j), i.max(j)], mass));
+            }
+        }
+    }
+}
+
+impl<S: Real> Section<S> {
+    /// An error unless density and thickness are positive.
+    fn check(self, element: Element) -> Result<(), SceneError> {
+        let numbers = [
+            ("density", self.density, "kg/m^3"),
+            ("thickness", self.thickness, "m"),
+        ];
+        for (quantity, value, unit) in numbers {
+            if !is_positive(value) {
+                return Err(SceneError::Section {
+                    element,
+                    quantity,
+                    value: value.to_f64(),
+                    unit,
+                });
+            }
+        }
+        Ok(())
+    }
+}
