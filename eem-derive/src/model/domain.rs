@@ -44,7 +44,7 @@ impl Lowering<'_> {
         let sign = self.sign(base);
         let outside = !integer && !sign.zero && !sign.positive;
         self.unless(outside, expr, &message::negative_base)?;
-        let [positive, any] = [self.positive(), self.of_role(Role::Viscous)];
+        let [positive, any] = [self.positive(), self.symbols(|role| role == Role::Viscous)];
         let negative = range(&self.graph, base, &positive, &any).lower < 0.0;
         let Some(name) = self.argument_in(base) else {
             return Some(());
@@ -134,7 +134,6 @@ impl Lowering<'_> {
 
     /// Lengths and absolute temperatures.
     fn positive(&self) -> Vec<Symbol> {
-        let roles = [Role::Stretch, Role::Temperature].into_iter();
-        roles.flat_map(|role| self.of_role(role)).collect()
+        self.symbols(|role| matches!(role, Role::Stretch | Role::Temperature))
     }
 }
