@@ -4,6 +4,7 @@
 //! the expressions exist: exponents, dependences and domains.
 
 mod domain;
+mod rest;
 mod smooth;
 
 use eem_symbolic::{ExprId, Graph, Model, Number, Symbol, diff};
@@ -38,6 +39,7 @@ pub(crate) fn lower(cx: &Ctxt, checked: &Checked<'_>) -> Option<Model> {
     let viscosities: Vec<Option<ExprId>> = viscosities.collect();
     Some(Model {
         measures: lowering.symbols(Role::is_measure),
+        strains: lowering.strains(),
         dashpots: lowering.symbols(|role| role == Role::Viscous),
         temperature: lowering.symbols(|role| role == Role::Temperature).pop(),
         parameters: lowering.parameters,
