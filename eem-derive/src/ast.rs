@@ -31,6 +31,14 @@ pub(crate) struct Input<'a> {
     pub(crate) laws_complete: bool,
 }
 
+impl Input<'_> {
+    /// It has strains: a free energy per volume.
+    pub(crate) fn per_volume(&self) -> bool {
+        let mut roles = self.arguments.iter().filter_map(|argument| argument.role);
+        roles.any(|role| role.strain().is_some())
+    }
+}
+
 /// A named field: a parameter if its type allows and an expression mentions it.
 pub(crate) struct Field<'a> {
     pub(crate) ident: &'a Ident,
@@ -53,22 +61,88 @@ pub(crate) struct Argument<'a> {
 pub(crate) enum Role {
     /// The kinematic measure of a spring: its length.
     Stretch,
+    /// A kinematic measure of a point of a solid.
+    Strain(Strain),
     /// An internal variable with a viscosity.
     Viscous,
     /// The absolute temperature.
     Temperature,
 }
 
+/// An invariant of the Green–Lagrange strain E.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Strain {
+    /// `tr E`
+    Trace,
+    /// `E:E`
+    Square,
+    /// `J − 1`
+    Dilatation,
+}
+
+impl Strain {
+    /// All strains, in the order in which messages list them.
+    pub(crate) const ALL: [Self; 3] = [Self::Trace, Self::Square, Self::Dilatation];
+
+    /// Its variant of `Strain` in the runtime.
+    pub(crate) fn variant(self) -> &'static str {
+        match self {
+            Self::Trace => "Trace",
+            Self::Square => "Square",
+            Self::Dilatation => "Dilatation",
+        }
+    }
+}
+
 impl Role {
     /// All roles, in the order in which messages list them.
-    pub(crate) const ALL: [Self; 3] = [Self::Stretch, Self::Viscous, Self::Temperature];
+    pub(crate) const ALL: [Self; 6] = [
+        Self::Stretch,
+        Self::Strain(Strain::Trace),
+        Self::Strain(Strain::Square),
+        Self::Strain(Strain::Dilatation),
+        Self::Viscous,
+        Self::Temperature,
+    ];
 
     /// The name that the closure uses as a type.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Stretch => "Stretch",
+            Self::Strain(Strain::Trace) => "StrainTrace",
+            Self::Strain(Strain::Square) => "StrainSquare",
+            Self::Strain(Strain::Dilatation) => "Dilatation",
             Self::Viscous => "Viscous",
             Self::Temperature => "Temperature",
+        }
+    }
+
+    /// What the literature means by a name.
+    pub(crate) fn usual(name: &str) -> Option<Self> {
+        match name {
+            "lambda" | "λ" => Some(Self::Stretch),
+            "e1" => Some(Self::Strain(Strain::Trace)),
+            "e2" => Some(Self::Strain(Strain::Square)),
+            "j" => Some(Self::Strain(Strain::Dilatation)),
+            "gamma" | "γ" => Some(Self::Viscous),
+            "theta" | "θ" | "temperature" => Some(Self::Temperature),
+            _ => None,
+        }
+    }
+
+    /// The strain that it is.
+    pub(crate) fn strain(self) -> Option<Strain> {
+        match self {
+            Self::Strain(strain) => Some(strain),
+            Self::Stretch | Self::Viscous | Self::Temperature => None,
+        }
+    }
+
+    /// Whether it is a function of the places of nodes.
+    pub(crate) fn is_measure(self) -> bool {
+        match self {
+            Self::Stretch | Self::Strain(_) => true,
+            Self::Viscous | Self::Temperature => false,
         }
     }
 }

@@ -7,7 +7,7 @@
 use eem_symbolic::{Function, Number};
 use proc_macro2::Ident;
 
-use crate::ast::{Operator, Role};
+use crate::ast::{Operator, Role, Strain};
 
 /// A checked model.
 pub(crate) struct Checked<'a> {
@@ -27,6 +27,18 @@ pub(crate) struct Checked<'a> {
     pub(crate) viscosities: Vec<Option<Body<'a>>>,
     /// The roles are complete, and no expression has a hole: this is the model that was meant.
     pub(crate) sound: bool,
+}
+
+impl Checked<'_> {
+    /// The measures of strain in the order of the state; none in a spring.
+    pub(crate) fn strains(&self) -> impl Iterator<Item = Strain> {
+        self.variables.iter().filter_map(|v| v.role.strain())
+    }
+
+    /// It is a free energy per volume, of strains.
+    pub(crate) fn per_volume(&self) -> bool {
+        self.strains().next().is_some()
+    }
 }
 
 /// The scalar that the implementation is for.

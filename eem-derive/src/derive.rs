@@ -33,5 +33,5 @@ pub(crate) fn derive(input: &DeriveInput) -> TokenStream {
             cx.barrier(Some(()))?;
             Ok(expand::expand(checked, &model, &programs, &units))
         })
-        .unwrap_or_else(|error| fallback::expand(input, &attributes.krate, shape, &error))
+        .unwrap_or_else(|error| fallback::expand(input, &attributes.krate, &shape, &error))
 }

@@ -1,9 +1,10 @@
-//! Expand phase: the programs of a model → one `impl FreeEnergy` and one `impl Describe`.
+//! Expand phase: the programs of a model → one `impl FreeEnergy` and one `impl Describe`, with one
+//! `impl StrainEnergy` for a solid.
 //!
 //! Prints and decides nothing: which values exist, in which order and at which stage they are
 //! computed, is the business of [`eem_symbolic::Program`].
 
-mod constants;
+pub(crate) mod constants;
 pub(crate) mod description;
 mod docs;
 mod equation;
@@ -13,6 +14,7 @@ mod inputs;
 mod lines;
 mod points;
 mod statements;
+pub(crate) mod strains;
 
 use eem_symbolic::{Model, Programs};
 use proc_macro2::TokenStream;
@@ -41,8 +43,9 @@ pub(crate) fn expand(
     let description = description::description(checked, model, programs, &equations, units);
     let body = quote! { #constants #points #forms };
     let implementation = header.implementation(&body);
-    let both = quote! { #formulas #implementation #description };
-    wrap(checked.krate, &both)
+    let strains = strains::strains(checked.original, checked.strains());
+    let all = quote! { #formulas #implementation #strains #description };
+    wrap(checked.krate, &all)
 }
 
 // Expands to: a scope of its own, in which `__eem` is the private module of the crate. Everything

@@ -8,13 +8,14 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 use syn::{DeriveInput, Path};
 
-use crate::ast::{self, Input, Role};
+use crate::ast::{self, Input, Role, Strain};
 use crate::checked::Scalar;
-use crate::expand::{Header, description, wrap};
+use crate::expand::{Header, constants::per_volume, description, strains, wrap};
 
 /// The numbers of variables that the closure declares, as far as it could be read.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Shape {
+    strains: Vec<Strain>,
     dashpots: usize,
     thermal: bool,
 }
@@ -29,7 +30,9 @@ impl Shape {
                 .filter(|a| a.role == Some(role))
                 .count()
         };
+        let strain = |&strain: &Strain| count(Role::Strain(strain)) > 0;
         Self {
+            strains: Strain::ALL.into_iter().filter(strain).collect(),
             dashpots: count(Role::Viscous),
             thermal: count(Role::Temperature) > 0,
         }
@@ -40,14 +43,15 @@ impl Shape {
 pub(crate) fn expand(
     input: &DeriveInput,
     krate: &Path,
-    shape: Shape,
+    shape: &Shape,
     error: &syn::Error,
 ) -> TokenStream {
     let errors = error.to_compile_error();
     let header = Header::new(input, Scalar::Any);
     let implementation = header.implementation(&body(&header.scalar, shape));
+    let strains = strains::strains(input, shape.strains.iter().copied());
     let description = empty_description(input);
-    let stub = wrap(krate, &quote! { #implementation #description });
+    let stub = wrap(krate, &quote! { #implementation #strains #description });
     quote! { #errors #stub }
 }
 
@@ -61,7 +65,7 @@ fn empty_description(input: &DeriveInput) -> TokenStream {
 }
 
 // Expands to: a model whose functions are never run because the program does not compile.
-fn body(scalar: &TokenStream, shape: Shape) -> TokenStream {
+fn body(scalar: &TokenStream, shape: &Shape) -> TokenStream {
     let shape = constants(scalar, shape);
     let never = quote! { __eem::core::panic!("the free energy has errors") };
     quote! {
@@ -91,9 +95,14 @@ fn body(scalar: &TokenStream, shape: Shape) -> TokenStream {
     }
 }
 
-fn constants(scalar: &TokenStream, shape: Shape) -> TokenStream {
-    let Shape { dashpots, thermal } = shape;
-    let variables = 1 + dashpots + usize::from(thermal);
+fn constants(scalar: &TokenStream, shape: &Shape) -> TokenStream {
+    let &Shape {
+        ref strains,
+        dashpots,
+        thermal,
+    } = shape;
+    let measures = strains.len().max(1);
+    let variables = measures + dashpots + usize::from(thermal);
     let array = |length: usize| {
         let length = Literal::usize_unsuffixed(length);
         quote!([#scalar; #length])
@@ -107,11 +116,13 @@ fn constants(scalar: &TokenStream, shape: Shape) -> TokenStream {
     let (state, hessian, viscosities) = (array(variables), matrix(variables), array(dashpots));
     let (corners, nothing) = (array(corners), array(0));
     let (response, tangent) = (array(responses), matrix(responses));
-    let dashpots = Literal::usize_unsuffixed(dashpots);
+    let [measures, dashpots] = [measures, dashpots].map(Literal::usize_unsuffixed);
+    let per_volume = per_volume(!strains.is_empty());
     quote! {
-        const MEASURES: __eem::core::primitive::usize = 1;
+        const MEASURES: __eem::core::primitive::usize = #measures;
         const DASHPOTS: __eem::core::primitive::usize = #dashpots;
         const THERMAL: __eem::core::primitive::bool = #thermal;
+        #per_volume
         const PARAMETERS: &'static [&'static __eem::core::primitive::str] = &[];
 
         type Variables = #state;

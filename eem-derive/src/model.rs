@@ -4,6 +4,7 @@
 //! the expressions exist: exponents, dependences and domains.
 
 mod domain;
+mod rest;
 mod smooth;
 
 use eem_symbolic::{ExprId, Graph, Model, Number, Symbol, diff};
@@ -37,9 +38,10 @@ pub(crate) fn lower(cx: &Ctxt, checked: &Checked<'_>) -> Option<Model> {
     let viscosities = laws.map(|law| lowering.body(law.as_ref()?));
     let viscosities: Vec<Option<ExprId>> = viscosities.collect();
     Some(Model {
-        measures: lowering.of_role(Role::Stretch),
-        dashpots: lowering.of_role(Role::Viscous),
-        temperature: lowering.of_role(Role::Temperature).first().copied(),
+        measures: lowering.symbols(Role::is_measure),
+        strains: lowering.strains(),
+        dashpots: lowering.symbols(|role| role == Role::Viscous),
+        temperature: lowering.symbols(|role| role == Role::Temperature).pop(),
         parameters: lowering.parameters,
         graph: lowering.graph,
         psi: psi?,
@@ -60,10 +62,11 @@ struct Lowering<'l> {
 }
 
 impl Lowering<'_> {
-    fn of_role(&self, role: Role) -> Vec<Symbol> {
+    /// The variables of the roles that are `wanted`.
+    fn symbols(&self, wanted: impl Fn(Role) -> bool) -> Vec<Symbol> {
         let pairs = self.checked.variables.iter().zip(&self.variables);
-        let of_role = pairs.filter(|(variable, _)| variable.role == role);
-        of_role.map(|(_, &symbol)| symbol).collect()
+        let pairs = pairs.filter(|(variable, _)| wanted(variable.role));
+        pairs.map(|(_, &symbol)| symbol).collect()
     }
 
     fn body(&mut self, body: &Body<'_>) -> Option<ExprId> {

@@ -15,7 +15,7 @@ pub(crate) fn check(cx: &Ctxt, checked: &Checked<'_>, model: &Model) {
     for flaw in model.flaws() {
         match flaw {
             Flaw::Independent(symbol) => {
-                report(cx, checked, model.graph.name(symbol), message::independent);
+                report_independent(cx, checked, model.graph.name(symbol));
             }
             Flaw::NoHeatCapacity => report_thermal(cx, checked, message::no_heat_capacity),
             Flaw::NegativeHeatCapacity => {
@@ -38,10 +38,15 @@ pub(crate) fn check_programs(cx: &Ctxt, checked: &Checked<'_>, programs: &Progra
     }
 }
 
-fn report(cx: &Ctxt, checked: &Checked<'_>, name: &str, message: fn(&Variable<'_>) -> Message) {
+fn report_independent(cx: &Ctxt, checked: &Checked<'_>, name: &str) {
     let mut variables = checked.variables.iter();
     if let Some(variable) = variables.find(|variable| ast::name(variable.ident) == name) {
-        cx.error(variable.ident, &message(variable));
+        let measure = checked
+            .variables
+            .first()
+            .map(|first| ast::name(first.ident));
+        let message = message::independent(variable, &measure.unwrap_or_default());
+        cx.error(variable.ident, &message);
     }
 }
 

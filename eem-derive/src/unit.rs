@@ -90,16 +90,6 @@ impl Unit {
         Self::of([(Base::Kelvin, 1)])
     }
 
-    /// J
-    pub(crate) fn joule() -> Self {
-        Self::of([(Base::Kilogram, 1), (Base::Metre, 2), (Base::Second, -2)])
-    }
-
-    /// N s/m
-    pub(crate) fn viscosity() -> Self {
-        Self::of([(Base::Kilogram, 1), (Base::Second, -1)])
-    }
-
     /// Whether this is the unit of pure numbers.
     pub(crate) fn is_one(&self) -> bool {
         self.exponents.is_empty()

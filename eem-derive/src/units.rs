@@ -1,7 +1,8 @@
 //! Units: [`checked`](crate::checked) → the units of its fields, every operation in order.
 //!
-//! A model is checked if one of the fields in its formulas has a unit. Then all of them need one; λ and γ are in m, θ is in K, ψ has to come out in J and viscosities in N s/m. Numbers in a
-//! formula have no unit, so that a factor of 1000 never stands for a prefix: the scale of a unit is
+//! A model is checked if one of the fields in its formulas has a unit. Then all of them
+//! need one; θ is in K. In a spring λ and γ are in m, ψ has to come out in J and viscosities in N s/m; in
+//! a solid strains and γ are pure numbers, ψ is in J/m³ and viscosities are in Pa s. Numbers in a formula have no unit, so that a factor of 1000 never stands for a prefix: the scale of a unit is
 //! compared like its dimension, and a value in mm cannot be added to one in m.
 //!
 //! The rules are one function each in `rules`, which walk the expression as it was written. An
@@ -10,27 +11,35 @@
 mod declared;
 mod excerpt;
 pub(crate) mod grammar;
+mod quantities;
 mod rules;
 mod unknowns;
 
+use crate::ast::Role;
 use crate::checked::Checked;
 use crate::ctxt::Ctxt;
 use crate::message::unit as message;
-use crate::unit::Unit;
-pub(crate) use declared::{Units, of_role};
+pub(crate) use declared::Units;
+pub(crate) use quantities::Quantities;
+use quantities::unit;
 use rules::Rules;
 
 /// Reads the units of the fields and checks the formulas with them.
 pub(crate) fn check(cx: &Ctxt, checked: &Checked<'_>) -> Units {
     let units = Units::read(cx, checked.original);
     let mut used = checked.parameters.iter();
-    if !used.any(|parameter| units.is_declared(parameter.field)) {
+    // What is a spring and a solid has been reported.
+    let both = checked.per_volume() && checked.variables.iter().any(|v| v.role == Role::Stretch);
+    if both || !used.any(|parameter| units.is_declared(parameter.field)) {
         return units;
     }
     let mut rules = Rules::new(cx, checked, &units);
-    rules.body("the free energy", "J", &Unit::joule(), &checked.energy);
-    for viscosity in checked.viscosities.iter().flatten() {
-        rules.body("a viscosity", "N s/m", &Unit::viscosity(), viscosity);
+    let &Quantities {
+        energy, viscosity, ..
+    } = rules.quantities;
+    rules.body("the free energy", energy, &unit(energy), &checked.energy);
+    for law in checked.viscosities.iter().flatten() {
+        rules.body("a viscosity", viscosity, &unit(viscosity), law);
     }
     let unknowns = rules.unknowns;
     for parameter in &checked.parameters {

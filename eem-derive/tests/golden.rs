@@ -4,7 +4,7 @@
 
 extern crate energies as eem;
 
-use eem::FreeEnergy as _;
+use eem::{FreeEnergy as _, Strain, StrainEnergy as _};
 
 pub struct ElasticSpring {
     pub stiffness: f64,
@@ -23,6 +23,27 @@ fn elastic_spring() {
     let old = spring.entropy_form_old(&[2.0_f64]);
     // (ψ(3) − ψ(2))/(3 − 2) and its derivative
     assert_eq!(spring.entropy_form(&old, &[3.0], &[]), ([6.0], [[2.0]]));
+}
+
+pub struct ElasticSolid {
+    pub la: f64,
+    pub mu: f64,
+}
+include!("../src/tests/golden/elastic_solid.rs");
+
+#[test]
+fn elastic_solid() {
+    let solid = ElasticSolid { la: 4.0, mu: 2.0 };
+    assert_eq!(<ElasticSolid as eem::FreeEnergy<f64>>::MEASURES, 2);
+    assert!(<ElasticSolid as eem::FreeEnergy<f64>>::PER_VOLUME);
+    assert_eq!(ElasticSolid::STRAINS, [Strain::Trace, Strain::Square]);
+    assert_eq!(solid.free_energy(&[0.5_f64, 0.25]), 1.0);
+    assert_eq!(solid.gradient(&[0.5_f64, 0.25]), [2.0, 2.0]);
+    let old = solid.entropy_form_old(&[0.5_f64, 0.25]);
+    // ½·4·(1 + ½), 2
+    let (response, tangent) = solid.entropy_form(&old, &[1.0, 0.5], &[]);
+    assert_eq!(response, [3.0, 2.0]);
+    assert_eq!(tangent, [[2.0, 0.0], [0.0, 0.0]]);
 }
 
 pub struct ThermoViscoElasticSpring {

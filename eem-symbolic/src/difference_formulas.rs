@@ -22,7 +22,7 @@ impl Model {
     /// F[x⁰, x¹] = (F(x¹) − F(x⁰))/(x¹ − x⁰)
     /// ```
     ///
-    /// of ψ and s along lengths and viscous stretches, of e and s along the temperature: discrete
+    /// of ψ and s along measures and viscous variables, of e and s along the temperature: discrete
     /// derivatives are means of these over the edges between the two states of a step.
     ///
     /// ```
@@ -33,9 +33,16 @@ impl Model {
     /// let (stiffness, length) = (graph.variable(k), graph.variable(x));
     /// let square = graph.powi(length, 2);
     /// let psi = graph.mul(stiffness, square);
-    /// let (measures, parameters) = (vec![x], vec![k]);
-    /// let (dashpots, viscosities, temperature) = (vec![], vec![], None);
-    /// let model = Model { graph, measures, dashpots, temperature, parameters, psi, viscosities };
+    /// let model = Model {
+    ///     graph,
+    ///     measures: vec![x],
+    ///     strains: vec![],
+    ///     dashpots: vec![],
+    ///     temperature: None,
+    ///     parameters: vec![k],
+    ///     psi,
+    ///     viscosities: vec![],
+    /// };
     /// assert_eq!(model.difference_formulas()[0].formula, "k*(x⁰ + x¹)");
     /// ```
     #[must_use]

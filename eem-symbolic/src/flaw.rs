@@ -9,7 +9,7 @@ use crate::sign::sign;
 
 /// A reason why a model cannot be integrated.
 ///
-/// Flaws are certain: they follow from the formulas and from λ > 0 and θ > 0, for every value of
+/// Flaws are certain: they follow from the formulas and from λ > 0, the bounds of strains and θ > 0, for every value of
 /// the parameters. A model without flaws may still be wrong for some values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flaw {
@@ -36,6 +36,7 @@ impl Model {
     /// let model = Model {
     ///     graph,
     ///     measures: vec![lambda],
+    ///     strains: vec![],
     ///     dashpots: vec![],
     ///     temperature: Some(theta),
     ///     parameters: vec![],
@@ -57,7 +58,7 @@ impl Model {
             }
         }
         for (dashpot, &law) in self.viscosities.iter().enumerate() {
-            if !sign(&graph, law, &self.positive()).positive {
+            if !sign(&graph, law, &self.bounds()).positive {
                 flaws.push(Flaw::NoViscosity(dashpot));
             }
         }
@@ -70,7 +71,7 @@ impl Model {
         if is_zero(graph, curvature) {
             return Some(Flaw::NoHeatCapacity);
         }
-        let possible = sign(graph, curvature, &self.positive()).negative;
+        let possible = sign(graph, curvature, &self.bounds()).negative;
         (!possible).then_some(Flaw::NegativeHeatCapacity)
     }
 }

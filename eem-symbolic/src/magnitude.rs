@@ -21,7 +21,8 @@ use std::collections::HashMap;
 
 use crate::function::Function;
 use crate::graph::Graph;
-use crate::node::{ExprId, Node, Symbol};
+use crate::lower_bound::LowerBound;
+use crate::node::{ExprId, Node};
 use crate::number::{Number, Rational};
 use crate::sign::{Sign, Signs};
 
@@ -43,10 +44,10 @@ const SMALLEST: f32 = f32::MIN_POSITIVE;
 ///
 /// It is at least |e|, and `Σ |terms|` for a sum of plain terms. Inside products, powers and
 /// functions it carries on what rounding has done to their operands. Symbols are taken as exact;
-/// those in `positive` are above zero. A divided difference counts as one operation.
+/// `bounds` say from where on their values are. A divided difference counts as one operation.
 ///
 /// ```
-/// use eem_symbolic::{Function, Graph, Number, format, magnitude};
+/// use eem_symbolic::{Function, Graph, LowerBound, Number, format, magnitude};
 ///
 /// // The terms of 1e8 (λ − ln λ − 1) cancel near λ = 1.
 /// let mut graph = Graph::new();
@@ -57,18 +58,18 @@ const SMALLEST: f32 = f32::MIN_POSITIVE;
 /// let sum = graph.sub(stretch, logarithm);
 /// let sum = graph.sub(sum, one);
 /// let psi = graph.scale(Number::from(100_000_000_i64), sum);
-/// let bound = magnitude(&mut graph, psi, &[lambda]);
+/// let bound = magnitude(&mut graph, psi, &[LowerBound::positive(lambda)]);
 /// assert_eq!(
 ///     format(&graph, bound),
 ///     "100000000*(lambda + abs(ln(lambda)) + 1) + abs(100000000*(lambda - ln(lambda) - 1))"
 /// );
 /// ```
 #[must_use]
-pub fn magnitude(graph: &mut Graph, e: ExprId, positive: &[Symbol]) -> ExprId {
+pub fn magnitude(graph: &mut Graph, e: ExprId, bounds: &[LowerBound]) -> ExprId {
     let nodes = graph.reachable(e, |_| true);
     let mut analysis = Analysis {
         graph,
-        signs: Signs::new(positive),
+        signs: Signs::new(bounds),
         known: HashMap::new(),
     };
     for id in nodes {

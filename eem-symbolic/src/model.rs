@@ -3,6 +3,7 @@
 use crate::diff::diff;
 use crate::graph::Graph;
 use crate::internal_energy::internal_energy;
+use crate::lower_bound::LowerBound;
 use crate::node::{ExprId, Node, Symbol};
 use crate::number::Number;
 
@@ -13,6 +14,8 @@ pub struct Model {
     pub graph: Graph,
     /// Kinematic measures `λ_a`, a = 1 … M.
     pub measures: Vec<Symbol>,
+    /// The measures that are strains, and from where on they are; all others are positive.
+    pub strains: Vec<LowerBound>,
     /// Viscous stretches `γ_k`, k = 1 … K.
     pub dashpots: Vec<Symbol>,
     /// Absolute temperature θ, if the model has one.
@@ -47,10 +50,15 @@ impl Model {
         }
     }
 
-    /// Lengths and absolute temperatures.
-    pub(crate) fn positive(&self) -> Vec<Symbol> {
-        let measures = self.measures.iter();
-        measures.chain(&self.temperature).copied().collect()
+    /// What is known of measures and temperature.
+    pub(crate) fn bounds(&self) -> Vec<LowerBound> {
+        let positive = self.measures.iter().chain(&self.temperature);
+        let bound = |&symbol: &Symbol| {
+            let mut strains = self.strains.iter();
+            let strain = strains.find(|strain| strain.symbol == symbol);
+            strain.map_or_else(|| LowerBound::positive(symbol), |&strain| strain)
+        };
+        positive.map(bound).collect()
     }
 }
 

@@ -9,6 +9,7 @@ use std::collections::HashMap;
 use crate::function::Function;
 use crate::graph::Graph;
 use crate::interpret::{Arithmetic, F64};
+use crate::lower_bound::LowerBound;
 use crate::node::{ExprId, Node, Symbol};
 use crate::number::{Number, Rational};
 
@@ -21,14 +22,14 @@ pub struct Range {
     pub upper: f64,
 }
 
-/// The range of `e` over all states: symbols that are `positive`, and symbols that have `any` sign.
+/// The range of `e` over all states: symbols with `bounds`, and symbols that have `any` value.
 ///
 /// Other symbols are parameters, taken as positive. So is a factor of parameters alone that can have
 /// both signs, such as `1 − 2ν`: its sign does not change with the state. Sums are flat, so that
 /// the terms of `λ − (l − a)` count one by one.
 ///
 /// ```
-/// use eem_symbolic::{Function, Graph, Number, range};
+/// use eem_symbolic::{Function, Graph, LowerBound, Number, range};
 ///
 /// let mut graph = Graph::new();
 /// let [lambda, l] = ["lambda", "l"].map(|name| graph.symbol(name));
@@ -39,23 +40,31 @@ pub struct Range {
 /// let decay = graph.apply(Function::Exp, decay);
 /// let one = graph.integer(1);
 /// let saturation = graph.sub(one, decay);
-/// let lower = |e| range(&graph, e, &[lambda], &[]).lower;
+/// let lower = |e| range(&graph, e, &[LowerBound::positive(lambda)], &[]).lower;
 /// assert_eq!(lower(ratio), 0.0);
 /// assert_eq!(lower(saturation), 0.0);
 /// assert_eq!(lower(difference), f64::NEG_INFINITY);
 /// ```
 #[must_use]
-pub fn range(graph: &Graph, e: ExprId, positive: &[Symbol], any: &[Symbol]) -> Range {
+pub fn range(graph: &Graph, e: ExprId, bounds: &[LowerBound], any: &[Symbol]) -> Range {
     let mut known = HashMap::new();
+    let bound = |symbol: &Symbol| {
+        let mut bounds = bounds.iter();
+        let found = bounds.find(|bound| bound.symbol == *symbol);
+        found.map(|found| found.bound)
+    };
     for id in graph.reachable(e, |_| true) {
         let get = |operand| known.get(&operand).copied().unwrap_or(Range::ALL);
         let node = graph.node(id);
         let mut range = match node {
             Node::Variable(symbol) if any.contains(symbol) => Range::ALL,
-            Node::Variable(_) => Range::POSITIVE,
+            Node::Variable(symbol) => Range {
+                lower: bound(symbol).map_or(0.0, Rational::to_f64),
+                upper: f64::INFINITY,
+            },
             _ => of_node(node, get),
         };
-        let mut state = positive.iter().chain(any);
+        let mut state = bounds.iter().map(|bound| &bound.symbol).chain(any);
         let of_state = state.any(|&symbol| graph.depends_on(id, symbol));
         if !of_state && range.lower < 0.0 && range.upper > 0.0 {
             range.lower = 0.0;

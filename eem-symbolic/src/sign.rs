@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use crate::function::Function;
 use crate::graph::Graph;
+use crate::lower_bound::LowerBound;
 use crate::node::{ExprId, Node, Symbol};
 use crate::number::{Number, Rational};
 
@@ -21,10 +22,10 @@ pub struct Sign {
     pub positive: bool,
 }
 
-/// The signs of `e`, given symbols that are positive; all other symbols may have any sign.
+/// The signs of `e`, given bounds of symbols; all other symbols may have any sign.
 ///
 /// ```
-/// use eem_symbolic::{Graph, sign};
+/// use eem_symbolic::{Graph, LowerBound, sign};
 ///
 /// let mut graph = Graph::new();
 /// let (theta, eta) = (graph.symbol("theta"), graph.symbol("eta"));
@@ -32,35 +33,82 @@ pub struct Sign {
 /// let square = graph.powi(factor, 2);
 /// let law = graph.product(&[square, at]);
 /// let law = graph.neg(law);
-/// assert!(!sign(&graph, law, &[theta]).positive);
+/// assert!(!sign(&graph, law, &[LowerBound::positive(theta)]).positive);
 /// assert!(sign(&graph, law, &[]).positive);
 /// ```
 #[must_use]
-pub fn sign(graph: &Graph, e: ExprId, positive: &[Symbol]) -> Sign {
-    Signs::new(positive).of(graph, e)
+pub fn sign(graph: &Graph, e: ExprId, bounds: &[LowerBound]) -> Sign {
+    Signs::new(bounds).of(graph, e)
 }
 
 /// The signs of many expressions of one graph; each node is looked at once.
 #[derive(Debug)]
 pub(crate) struct Signs<'p> {
-    positive: &'p [Symbol],
+    bounds: &'p [LowerBound],
     known: HashMap<ExprId, Sign>,
 }
 
 impl<'p> Signs<'p> {
-    pub(crate) fn new(positive: &'p [Symbol]) -> Self {
+    pub(crate) fn new(bounds: &'p [LowerBound]) -> Self {
         Self {
-            positive,
+            bounds,
             known: HashMap::new(),
         }
     }
 
     pub(crate) fn of(&mut self, graph: &Graph, e: ExprId) -> Sign {
         for id in graph.reachable(e, |id| !self.known.contains_key(&id)) {
-            let sign = of_node(graph.node(id), self.positive, |operand| self.get(operand));
+            let node = graph.node(id);
+            let mut sign = of_node(node, self.bounds, |operand| self.get(operand));
+            if let (true, Node::Sum { constant, terms }) = (sign.is_open(), node) {
+                sign = self.of_shifted(graph, *constant, terms).unwrap_or(sign);
+            }
             self.known.insert(id, sign);
         }
         self.get(e)
+    }
+
+    /// The sign of a sum such as `1 + j` or `−2 − 2j`, which follows from the bound of j and not from its
+    /// sign.
+    fn of_shifted(
+        &self,
+        graph: &Graph,
+        constant: Number,
+        terms: &[(Number, ExprId)],
+    ) -> Option<Sign> {
+        let negative = terms.first()?.0.is_negative();
+        let toward = |c: Number| if negative { -c } else { c };
+        let mut lowest = toward(constant).exact()?;
+        let mut reached = true;
+        for &(coefficient, term) in terms {
+            let coefficient = toward(coefficient).exact()?;
+            if let Some(bound) = self.bound(graph, term) {
+                if coefficient.is_negative() {
+                    return None;
+                }
+                lowest = lowest.checked_add(coefficient.checked_mul(bound.bound)?)?;
+                reached &= bound.reached;
+            } else {
+                let sign = Sign::of_number(coefficient.into()).times(self.get(term));
+                if sign.negative {
+                    return None;
+                }
+                reached &= sign.zero;
+            }
+        }
+        let sign = match (lowest.is_negative(), lowest.is_zero() && reached) {
+            (true, _) => return None,
+            (false, true) => Sign::NOT_NEGATIVE,
+            (false, false) => Sign::POSITIVE,
+        };
+        Some(if negative { sign.opposite() } else { sign })
+    }
+
+    fn bound(&self, graph: &Graph, term: ExprId) -> Option<LowerBound> {
+        match graph.node(term) {
+            Node::Variable(symbol) => bound_of(self.bounds, *symbol),
+            _ => None,
+        }
     }
 
     fn get(&self, e: ExprId) -> Sign {
@@ -68,10 +116,15 @@ impl<'p> Signs<'p> {
     }
 }
 
-fn of_node(node: &Node, positive: &[Symbol], sign: impl Fn(ExprId) -> Sign) -> Sign {
+fn bound_of(bounds: &[LowerBound], symbol: Symbol) -> Option<LowerBound> {
+    let mut bounds = bounds.iter();
+    bounds.find(|bound| bound.symbol == symbol).copied()
+}
+
+fn of_node(node: &Node, bounds: &[LowerBound], sign: impl Fn(ExprId) -> Sign) -> Sign {
     match *node {
         Node::Number(number) => Sign::of_number(number),
-        Node::Variable(symbol) if positive.contains(&symbol) => Sign::POSITIVE,
+        Node::Variable(symbol) => bound_of(bounds, symbol).map_or(Sign::ANY, Sign::from_bound),
         Node::Sum {
             constant,
             ref terms,
@@ -89,8 +142,7 @@ fn of_node(node: &Node, positive: &[Symbol], sign: impl Fn(ExprId) -> Sign) -> S
         Node::Power(..) => Sign::POSITIVE,
         Node::Apply(function, argument) => sign(argument).under(function),
         Node::PairSum(a, b) => sign(a).plus(sign(b)),
-        Node::Variable(_)
-        | Node::DividedDifference(..)
+        Node::DividedDifference(..)
         | Node::SecondDividedDifference(..)
         | Node::PowerDifference { .. } => Sign::ANY,
     }
@@ -109,6 +161,35 @@ impl Sign {
         zero: false,
         positive: true,
     };
+
+    /// Not below zero.
+    const NOT_NEGATIVE: Sign = Sign {
+        negative: false,
+        zero: true,
+        positive: true,
+    };
+
+    fn from_bound(bound: LowerBound) -> Sign {
+        match (bound.bound.is_negative(), bound.bound.is_zero()) {
+            (true, _) => Sign::ANY,
+            (false, true) if bound.reached => Sign::NOT_NEGATIVE,
+            (false, _) => Sign::POSITIVE,
+        }
+    }
+
+    /// Both signs are possible.
+    fn is_open(self) -> bool {
+        self.negative && self.positive
+    }
+
+    /// The signs of −x.
+    fn opposite(self) -> Sign {
+        Sign {
+            negative: self.positive,
+            zero: self.zero,
+            positive: self.negative,
+        }
+    }
 
     pub(crate) fn of_number(number: Number) -> Sign {
         if number.to_f64().is_nan() {

@@ -57,6 +57,7 @@ fn spring(reversed: bool) -> Model {
     Model {
         graph,
         measures: vec![symbols[0]],
+        strains: vec![],
         dashpots: Vec::new(),
         temperature: Some(symbols[1]),
         parameters: symbols[2..].to_vec(),

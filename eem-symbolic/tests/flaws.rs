@@ -4,7 +4,7 @@ mod oracle;
 mod reader;
 mod support;
 
-use eem_symbolic::{F64, Flaw, Graph, Model, range, sign};
+use eem_symbolic::{F64, Flaw, Graph, LowerBound, Model, Rational, Sign, range, sign};
 use oracle::value;
 use reader::read;
 use support::random::{Random, expression};
@@ -17,6 +17,7 @@ fn flaws(psi: &str, viscosity: &str) -> Vec<String> {
     let model = Model {
         graph,
         measures: vec![lambda],
+        strains: vec![],
         dashpots: vec![gamma],
         temperature: Some(theta),
         parameters: vec![],
@@ -118,7 +119,7 @@ fn a_sign_that_is_ruled_out_does_not_occur() {
         let symbol = graph.symbol("x");
         let x = graph.variable(symbol);
         let e = expression(&mut graph, &mut random, x, 5);
-        let sign = sign(&graph, e, &[symbol]);
+        let sign = sign(&graph, e, &[LowerBound::positive(symbol)]);
         for _ in 0..8 {
             let at = 0.1 + 3.0 * random.unit();
             let found = value(&F64, &mut graph, e, &[("x", at)]);
@@ -149,7 +150,7 @@ fn values_are_in_their_range() {
         let symbol = graph.symbol("x");
         let x = graph.variable(symbol);
         let e = expression(&mut graph, &mut random, x, 5);
-        let range = range(&graph, e, &[symbol], &[]);
+        let range = range(&graph, e, &[LowerBound::positive(symbol)], &[]);
         for _ in 0..8 {
             let at = 0.1 + 3.0 * random.unit();
             let found = value(&F64, &mut graph, e, &[("x", at)]);
@@ -170,7 +171,13 @@ fn lower(text: &str) -> f64 {
     let mut graph = Graph::new();
     let [lambda, gamma, theta] = ["lambda", "gamma", "theta"].map(|name| graph.symbol(name));
     let e = read(&mut graph, text);
-    range(&graph, e, &[lambda, theta], &[gamma]).lower
+    range(
+        &graph,
+        e,
+        &[lambda, theta].map(LowerBound::positive),
+        &[gamma],
+    )
+    .lower
 }
 
 #[test]
@@ -211,5 +218,46 @@ fn what_is_never_negative_is_known() {
         "tan(theta)",
     ] {
         assert!(lower(text) < 0.0, "{text}: {}", lower(text));
+    }
+}
+
+/// The sign of a formula of strains: e1 > −3/2, e2 ≥ 0, j > −1.
+fn strained(text: &str) -> (Sign, f64) {
+    let mut graph = Graph::new();
+    let [e1, e2, j] = ["e1", "e2", "j"].map(|name| graph.symbol(name));
+    let e = read(&mut graph, text);
+    let bounds = [
+        LowerBound::above(e1, Rational::new(-3, 2).expect("a fraction")),
+        LowerBound::from(e2, Rational::ZERO),
+        LowerBound::above(j, Rational::MINUS_ONE),
+    ];
+    let lower = range(&graph, e, &bounds, &[]).lower;
+    (sign(&graph, e, &bounds), lower)
+}
+
+#[test]
+fn strains_are_no_lengths() {
+    for text in [
+        "1 + j",
+        "3 + 2*e1",
+        "2 + j + e2",
+        "1 + j + j^2",
+        "(1 + j)*(3 + 2*e1)^3",
+        "-1/(-1 - j)",
+    ] {
+        let (sign, lower) = strained(text);
+        assert!(!sign.negative && !sign.zero, "{text}");
+        assert!(lower >= 0.0, "{text}: {lower}");
+    }
+    let (sign, lower) = strained("e2");
+    assert!(sign.zero && !sign.negative && lower >= 0.0);
+    let (sign, _) = strained("-1 - j - e2");
+    assert!(!sign.positive && !sign.zero && sign.negative);
+    for text in [
+        "j", "e1", "1/2 + j", "1 + e1", "1 - j", "e1 - j", "e2 - 1", "1 + e1*j",
+    ] {
+        let (sign, lower) = strained(text);
+        assert!(sign.negative && sign.zero && sign.positive, "{text}");
+        assert!(lower < 0.0, "{text}");
     }
 }

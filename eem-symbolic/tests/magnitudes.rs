@@ -4,7 +4,8 @@ mod reader;
 mod support;
 
 use eem_symbolic::{
-    Bounded, ExprId, F64, Graph, Input, Program, RunningError, Stage, Symbol, magnitude, schedule,
+    Bounded, ExprId, F64, Graph, Input, LowerBound, Program, RunningError, Stage, Symbol,
+    magnitude, schedule,
 };
 use reader::read;
 use support::laws::{self, Law};
@@ -39,7 +40,7 @@ fn of_formula(text: &str, inputs: [f64; 4]) -> [f64; 2] {
     let names = ["lambda", "gamma", "theta", "k"];
     let symbols = names.map(|name| graph.symbol(name));
     let e = read(&mut graph, text);
-    let positive = [symbols[0], symbols[2]];
+    let positive = [symbols[0], symbols[2]].map(LowerBound::positive);
     let bound = magnitude(&mut graph, e, &positive);
     [e, bound].map(|e| run(&program(&graph, &symbols, e), &inputs))
 }
@@ -60,7 +61,7 @@ fn sample(precise: &Precise, seed: u64) -> Sample {
     let variable = graph.variable(symbol);
     let e = expression(&mut graph, &mut random, variable, DEPTH);
     let of_value = program(&graph, &[symbol], e);
-    let bound = magnitude(&mut graph, e, &[symbol]);
+    let bound = magnitude(&mut graph, e, &[LowerBound::positive(symbol)]);
     let of_magnitude = program(&graph, &[symbol], bound);
     let x = 0.3 + 1.5 * Random::new(seed ^ 0xabcd).unit();
     let exact = of_value.interpret(precise, &precise.all(&[x]));
@@ -115,7 +116,7 @@ fn next_to_one(text: &str) -> [f64; 2] {
     let mut graph = Graph::new();
     let lambda = graph.symbol("lambda");
     let psi = read(&mut graph, text);
-    let bound = magnitude(&mut graph, psi, &[lambda]);
+    let bound = magnitude(&mut graph, psi, &[LowerBound::positive(lambda)]);
     let [of_psi, of_bound] = [psi, bound].map(|e| program(&graph, &[lambda], e));
     let [mut largest, mut smallest] = [0.0_f64, f64::INFINITY];
     for i in 0..20 {

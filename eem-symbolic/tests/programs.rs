@@ -356,6 +356,7 @@ fn wide(terms: i64) -> Model {
     Model {
         graph,
         measures: vec![symbols[0]],
+        strains: vec![],
         dashpots: Vec::new(),
         temperature: Some(symbols[1]),
         parameters: Vec::new(),

@@ -95,6 +95,7 @@ impl Recipe {
         Model {
             graph,
             measures: vec![lambda],
+            strains: vec![],
             dashpots: vec![gamma],
             temperature: Some(theta),
             parameters: vec![k, c],

@@ -9,6 +9,7 @@ use crate::checked::{Body, Variable};
 use crate::ctxt::Ctxt;
 use crate::message::attribute as message;
 use crate::nearest::nearest;
+use crate::units::Quantities;
 
 /// The laws with their names resolved, in the order of the dashpots.
 pub(super) fn viscosities<'a>(
@@ -133,7 +134,9 @@ pub(super) fn check_complete(cx: &Ctxt, input: &Input<'_>) {
         let name = ast::name(argument.ident);
         let has_law = input.laws.iter().any(|law| ast::name(law.dashpot) == name);
         if argument.role == Some(Role::Viscous) && !has_law {
-            cx.error(argument.ident, &message::missing_viscosity(argument.ident));
+            let unit = Quantities::of(input.per_volume()).viscosity;
+            let message = message::missing_viscosity(argument.ident, unit);
+            cx.error(argument.ident, &message);
         }
     }
 }

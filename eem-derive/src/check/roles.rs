@@ -2,36 +2,51 @@
 
 use std::collections::BTreeSet;
 
-use crate::ast::{self, Argument, Input, Role};
+use proc_macro2::Ident;
+
+use crate::ast::{self, Argument, Input, Role, Strain};
 use crate::checked::Variable;
 use crate::ctxt::Ctxt;
 use crate::message::attribute as message;
 
-/// The arguments in the order of the state, which is independent of the order of the closure:
-/// measures, dashpots, temperature.
+/// The arguments in the order of the state: measures, dashpots, temperature, each as in the closure.
 pub(super) fn variables<'a>(input: &Input<'a>) -> Vec<Variable<'a>> {
-    let by_role = Role::ALL.into_iter().flat_map(|role| of_role(input, role));
-    by_role
+    let arguments = input.arguments.iter();
+    let mut variables: Vec<Variable<'a>> = arguments
         .filter_map(|&Argument { ident, role }| Some(Variable { ident, role: role? }))
-        .collect()
+        .collect();
+    variables.sort_by_key(|variable| match variable.role {
+        Role::Stretch | Role::Strain(_) => 0,
+        Role::Viscous => 1,
+        Role::Temperature => 2,
+    });
+    variables
 }
 
-/// Without a length there is no spring.
-pub(super) fn check_stretch(cx: &Ctxt, input: &Input<'_>) {
+/// Without a measure there is neither a spring nor a solid, and nothing is both.
+pub(super) fn check_measures(cx: &Ctxt, input: &Input<'_>) {
     let closure = input.closure;
-    if of_role(input, Role::Stretch).next().is_some() || !input.arguments_complete {
-        return;
-    }
-    if closure.inputs.is_empty() {
-        cx.error(closure.inputs_begin, &message::no_stretch());
-    } else {
-        cx.error(&closure.inputs, &message::no_stretch());
+    let mut measures = measures(input);
+    match measures.next() {
+        Some((first, role)) => {
+            let others =
+                measures.filter(|(_, other)| other.strain().is_some() != role.strain().is_some());
+            for (other, its_role) in others {
+                let message = message::spring_and_solid([other, first], [its_role, role]);
+                cx.error(other, &message);
+            }
+        }
+        None if !input.arguments_complete => {}
+        None if closure.inputs.is_empty() => {
+            cx.error(closure.inputs_begin, &message::no_measure());
+        }
+        None => cx.error(&closure.inputs, &message::no_measure()),
     }
 }
 
-/// A spring has one length and one temperature.
+/// There may be many dashpots, but one of everything else.
 pub(super) fn check_counts(cx: &Ctxt, input: &Input<'_>) {
-    for role in [Role::Stretch, Role::Temperature] {
+    for role in Role::ALL.into_iter().filter(|&role| role != Role::Viscous) {
         let mut arguments = of_role(input, role);
         if let Some(first) = arguments.next() {
             for second in arguments {
@@ -42,13 +57,16 @@ pub(super) fn check_counts(cx: &Ctxt, input: &Input<'_>) {
     }
 }
 
-/// One stretch, at most one temperature, and all names differ.
+/// One stretch or different strains, at most one temperature, and all names differ.
 pub(super) fn are_sound(input: &Input<'_>) -> bool {
     let count = |role| of_role(input, role).count();
     let names = input.arguments.iter().map(|argument| argument.ident);
     let names: BTreeSet<String> = names.map(ast::name).collect();
+    let strains = Strain::ALL.map(|strain| count(Role::Strain(strain)));
+    let strained = strains.iter().any(|&count| count > 0);
     input.arguments_complete
-        && count(Role::Stretch) == 1
+        && count(Role::Stretch) == usize::from(!strained)
+        && strains.iter().all(|&count| count <= 1)
         && count(Role::Temperature) <= 1
         && names.len() == input.arguments.len()
 }
@@ -56,4 +74,10 @@ pub(super) fn are_sound(input: &Input<'_>) -> bool {
 fn of_role<'i, 'a>(input: &'i Input<'a>, role: Role) -> impl Iterator<Item = &'i Argument<'a>> {
     let arguments = input.arguments.iter();
     arguments.filter(move |argument| argument.role == Some(role))
+}
+
+fn measures<'a>(input: &Input<'a>) -> impl Iterator<Item = (&'a Ident, Role)> {
+    let arguments = input.arguments.iter();
+    let roles = arguments.filter_map(|argument| Some((argument.ident, argument.role?)));
+    roles.filter(|(_, role)| role.is_measure())
 }

@@ -22,6 +22,7 @@ pub(super) fn constants(
     let types = types(programs, inputs);
     let (dashpots, thermal) = (Literal::usize_unsuffixed(inputs.dashpots), inputs.thermal);
     let measures = Literal::usize_unsuffixed(inputs.measures());
+    let per_volume = per_volume(checked.per_volume());
     let names = checked.parameters.iter().map(|p| ast::name(p.ident));
     let (scalar, parameters) = (&inputs.scalar, &inputs.parameters);
     let count = Literal::usize_unsuffixed(parameters.len());
@@ -29,6 +30,7 @@ pub(super) fn constants(
         const MEASURES: __eem::core::primitive::usize = #measures;
         const DASHPOTS: __eem::core::primitive::usize = #dashpots;
         const THERMAL: __eem::core::primitive::bool = #thermal;
+        #per_volume
         const PARAMETERS: &'static [&'static __eem::core::primitive::str] = &[#(#names),*];
 
         #types
@@ -38,6 +40,11 @@ pub(super) fn constants(
             __parameters[__index]
         }
     }
+}
+
+/// Nothing for a spring: that is the default.
+pub(crate) fn per_volume(per_volume: bool) -> Option<TokenStream> {
+    per_volume.then(|| quote! { const PER_VOLUME: __eem::core::primitive::bool = true; })
 }
 
 fn types(programs: &Programs, inputs: &Inputs) -> TokenStream {

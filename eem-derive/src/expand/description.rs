@@ -7,7 +7,7 @@ use quote::quote;
 use super::equation::{Equation, differences};
 use crate::ast;
 use crate::checked::Checked;
-use crate::units::{self, Units};
+use crate::units::{Quantities, Units};
 
 // Expands to:
 //
@@ -54,9 +54,10 @@ pub(crate) fn implementation(input: &syn::DeriveInput, body: &TokenStream) -> To
 }
 
 fn arguments(checked: &Checked<'_>) -> impl Iterator<Item = TokenStream> {
+    let quantities = Quantities::of(checked.per_volume());
     checked.variables.iter().map(|variable| {
         let (name, role) = (ast::name(variable.ident), variable.role.name());
-        let unit = units::of_role(variable.role).to_string();
+        let unit = quantities.of_role(variable.role).to_string();
         quote! { __eem::describe::Argument::new(#name, #role, #unit) }
     })
 }

@@ -7,6 +7,7 @@ use quote::quote;
 use super::lines::lines;
 use crate::ast::{self, Role};
 use crate::checked::Checked;
+use crate::units::Quantities;
 
 /// A formula, its left side and its unit.
 pub(super) struct Equation {
@@ -35,46 +36,46 @@ impl Equation {
 
 /// All formulas of a model: potentials, forces, heat capacity, viscosities.
 pub(super) fn equations(checked: &Checked<'_>, formulas: &Formulas) -> Vec<Equation> {
-    let names = |role| {
-        let variables = checked.variables.iter().filter(move |v| v.role == role);
+    let names = |wanted: fn(Role) -> bool| {
+        let variables = checked.variables.iter();
+        let variables = variables.filter(move |v| wanted(v.role));
         variables.map(|v| ast::name(v.ident))
     };
-    let theta = names(Role::Temperature).next().unwrap_or_default();
-    let mut equations = vec![Equation::new("ψ", "", &formulas.free_energy, "J")];
+    let units = Quantities::of(checked.per_volume());
+    let theta = names(|role| role == Role::Temperature).next();
+    let theta = theta.unwrap_or_default();
+    let mut equations = vec![Equation::new("ψ", "", &formulas.free_energy, units.energy)];
     if let Some(entropy) = &formulas.entropy {
         let meaning = format!(" = −∂ψ/∂{theta}");
-        equations.push(Equation::new("s", &meaning, entropy, "J/K"));
+        equations.push(Equation::new("s", &meaning, entropy, units.entropy));
         let meaning = format!(" = ψ + {theta} s");
         let energy = &formulas.internal_energy;
-        equations.push(Equation::new("e", &meaning, energy, "J"));
+        equations.push(Equation::new("e", &meaning, energy, units.energy));
     }
-    for (name, force) in names(Role::Stretch).zip(&formulas.forces) {
+    let measures = formulas.forces.len();
+    let forces = names(Role::is_measure).zip(&formulas.forces);
+    for (a, (name, force)) in forces.enumerate() {
+        let symbol = subscript("f", a, measures);
         let meaning = format!(" = ∂ψ/∂{name}");
-        equations.push(Equation::new("f", &meaning, force, "N"));
+        equations.push(Equation::new(&symbol, &meaning, force, units.force));
     }
     let dashpots = formulas.dashpot_forces.len();
-    for (k, (name, force)) in names(Role::Viscous)
-        .zip(&formulas.dashpot_forces)
-        .enumerate()
-    {
+    let forces = names(|role| role == Role::Viscous).zip(&formulas.dashpot_forces);
+    for (k, (name, force)) in forces.enumerate() {
+        let symbol = subscript("g", k, dashpots);
         let meaning = format!(" = −∂ψ/∂{name}");
-        equations.push(Equation::new(
-            &subscript("g", k, dashpots),
-            &meaning,
-            force,
-            "N",
-        ));
+        equations.push(Equation::new(&symbol, &meaning, force, units.force));
     }
     if let Some(capacity) = &formulas.heat_capacity {
         let meaning = format!(" = {theta} ∂s/∂{theta}");
-        equations.push(Equation::new("c", &meaning, capacity, "J/K"));
+        equations.push(Equation::new("c", &meaning, capacity, units.entropy));
     }
     for (k, viscosity) in formulas.viscosities.iter().enumerate() {
         equations.push(Equation::new(
             &subscript("η", k, dashpots),
             "",
             viscosity,
-            "N s/m",
+            units.viscosity,
         ));
     }
     equations
@@ -92,15 +93,16 @@ fn subscript(symbol: &str, index: usize, count: usize) -> String {
 /// The divided differences that discrete derivatives consist of.
 pub(super) fn differences(checked: &Checked<'_>, model: &Model) -> Vec<Equation> {
     let formulas = model.difference_formulas();
+    let units = Quantities::of(checked.per_volume());
     let equation = |formula: &DifferenceFormula| {
         let name = &formula.variable;
         let mut variables = checked.variables.iter();
         let thermal = variables.any(|v| v.role == Role::Temperature && ast::name(v.ident) == *name);
         let unit = match (formula.potential, thermal) {
-            ("s", true) => "J/K^2",
-            ("s", false) => "N/K",
-            (_, true) => "J/K",
-            (_, false) => "N",
+            ("s", true) => units.entropy_per_kelvin,
+            ("s", false) => units.force_per_kelvin,
+            (_, true) => units.entropy,
+            (_, false) => units.force,
         };
         let symbol = format!("{}[{name}]", formula.potential);
         let left = format!("{}[{name}⁰, {name}¹]", formula.potential);

@@ -2,7 +2,7 @@
 
 use proc_macro2::Ident;
 
-use super::{Message, list};
+use super::{Message, alternatives, list};
 use crate::ast::{self, Role};
 
 pub(crate) mod physics;
@@ -109,12 +109,13 @@ pub(crate) fn closure_output() -> Message {
 }
 
 pub(crate) fn argument_without_role(argument: &str) -> Message {
-    Message::new(
-        format!("the argument `{argument}` has no role"),
-        format!(
+    let help = match Role::usual(argument) {
+        Some(role @ Role::Strain(_)) => format!("write `{argument}: {}`", role.name()),
+        _ => format!(
             "say what it stands for: `{argument}: Stretch`, `{argument}: Viscous` or `{argument}: Temperature`"
         ),
-    )
+    };
+    Message::new(format!("the argument `{argument}` has no role"), help)
 }
 
 pub(crate) fn argument_pattern() -> Message {
@@ -124,10 +125,11 @@ pub(crate) fn argument_pattern() -> Message {
     )
 }
 
-pub(crate) fn unknown_role(role: &str, nearest: Option<&str>) -> Message {
-    let help = match nearest {
-        Some(nearest) => format!("did you mean `{nearest}`?"),
-        None => format!(
+/// `meant` are the roles that may have been meant.
+pub(crate) fn unknown_role(role: &str, meant: &[&str]) -> Message {
+    let help = match meant {
+        [_, ..] => format!("did you mean {}?", alternatives(meant.iter().copied())),
+        [] => format!(
             "the roles are {}, as bare words",
             list(Role::ALL.map(Role::name))
         ),
@@ -135,10 +137,20 @@ pub(crate) fn unknown_role(role: &str, nearest: Option<&str>) -> Message {
     Message::new(format!("unknown role `{role}`"), help)
 }
 
-pub(crate) fn no_stretch() -> Message {
+pub(crate) fn no_measure() -> Message {
     Message::new(
-        "the free energy has no argument of role `Stretch`",
-        "add one: `lambda: Stretch` is the length of the spring",
+        "the free energy has no argument of role `Stretch`, and none of a strain",
+        "add one: `lambda: Stretch` is the length of a spring; `e1: StrainTrace`, `e2: StrainSquare` and `j: Dilatation` are strains of a solid",
+    )
+}
+
+/// The later one of two measures comes first here.
+pub(crate) fn spring_and_solid([later, first]: [&Ident; 2], roles: [Role; 2]) -> Message {
+    let [later, first] = [later, first].map(ast::name);
+    let [its_role, role] = roles.map(Role::name);
+    Message::new(
+        format!("`{later}` is a `{its_role}` after the `{role}` `{first}`"),
+        "a spring has one `Stretch` and no strain, a solid has strains and no `Stretch`",
     )
 }
 
@@ -146,6 +158,7 @@ pub(crate) fn second_role(role: Role, argument: &Ident, first: &Ident) -> Messag
     let (argument, first) = (ast::name(argument), ast::name(first));
     let help = match role {
         Role::Stretch => "a spring has one length; an internal variable is `Viscous`",
+        Role::Strain(_) => "a strain has one name",
         Role::Temperature => "an element has one temperature",
         Role::Viscous => unreachable!("there may be many dashpots"),
     };
@@ -185,11 +198,11 @@ pub(crate) fn unreadable_viscosity(error: &syn::Error) -> Message {
     )
 }
 
-pub(crate) fn missing_viscosity(dashpot: &Ident) -> Message {
+pub(crate) fn missing_viscosity(dashpot: &Ident, unit: &str) -> Message {
     let name = ast::name(dashpot);
     Message::new(
         format!("the dashpot `{name}` has no viscosity law"),
-        format!("write `#[viscosity({name} = …)]` on top of the struct, in N s/m"),
+        format!("write `#[viscosity({name} = …)]` on top of the struct, in {unit}"),
     )
 }
 

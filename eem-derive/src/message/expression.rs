@@ -5,11 +5,12 @@ use proc_macro2::Ident;
 use super::{Message, list};
 use crate::ast::{self, Role};
 
+pub(crate) mod rest;
 pub(crate) mod syntax;
 
 pub(crate) fn unknown_name(name: &Ident, nearest: Option<&str>) -> Message {
     let name = ast::name(name);
-    let help = match (nearest, usual_role(&name)) {
+    let help = match (nearest, Role::usual(&name)) {
         (Some(nearest), _) => format!("did you mean `{nearest}`?"),
         (None, Some(role)) => format!(
             "declare it as an argument, `{name}: {}`, or as a field, `{name}: f64`",
@@ -23,16 +24,6 @@ pub(crate) fn unknown_name(name: &Ident, nearest: Option<&str>) -> Message {
         ),
     };
     Message::new(format!("unknown name `{name}`"), help)
-}
-
-/// What the literature means by a name.
-fn usual_role(name: &str) -> Option<Role> {
-    match name {
-        "lambda" | "λ" => Some(Role::Stretch),
-        "gamma" | "γ" => Some(Role::Viscous),
-        "theta" | "θ" | "temperature" => Some(Role::Temperature),
-        _ => None,
-    }
 }
 
 pub(crate) fn binding_hides(binding: &Ident, what: &str, free: &str) -> Message {

@@ -1,12 +1,13 @@
 //! Domains: a subexpression that has no value, whatever the parameters and the state are.
 //!
 //! Decided by the value of constants, and for other expressions by their sign, given that lengths
-//! and temperatures are positive. The base of a power has to be on the right side in every state.
+//! and temperatures are positive and strains above their bounds. The base of a power has to be on the
+//! right side in every state. What a solid does at rest is looked at in `rest`.
 
-use eem_symbolic::{ExprId, F64, Function, Sign, Symbol, range, schedule, sign};
+use eem_symbolic::{ExprId, F64, Function, LowerBound, Rational, Sign, range, schedule, sign};
 
 use super::Lowering;
-use crate::ast::Role;
+use crate::ast::{Role, Strain};
 use crate::checked::Expr;
 use crate::message::expression as message;
 
@@ -19,23 +20,30 @@ impl Lowering<'_> {
     }
 
     /// A divisor is not identically zero, nor so small that its inverse overflows.
-    pub(super) fn check_divisor(&self, expr: &Expr<'_>, value: ExprId) -> Option<()> {
+    pub(super) fn check_divisor(&mut self, expr: &Expr<'_>, value: ExprId) -> Option<()> {
         let zero = self.constant(value).is_some_and(|c| !c.recip().is_finite());
-        self.unless(zero, expr, &message::divisor_is_zero)
+        self.unless(zero, expr, &message::divisor_is_zero)?;
+        self.check_divisor_at_rest(expr, value)
     }
 
     /// `√x`, x ≥ 0.
-    pub(super) fn check_root(&self, expr: &Expr<'_>, value: ExprId) -> Option<()> {
+    pub(super) fn check_root(&mut self, expr: &Expr<'_>, value: ExprId) -> Option<()> {
         let sign = self.sign(value);
         let outside = !sign.zero && !sign.positive;
         self.unless(outside, expr, &|| {
             message::outside_domain("sqrt", "negative", "x >= 0")
-        })
+        })?;
+        self.check_slope_at_rest("sqrt", expr, value)
     }
 
     /// `x^y`, x > 0, unless y is an integer. What changes its sign with the state is refused: the
     /// first step on the wrong side would be NaN.
-    pub(super) fn check_base(&self, expr: &Expr<'_>, base: ExprId, exponent: ExprId) -> Option<()> {
+    pub(super) fn check_base(
+        &mut self,
+        expr: &Expr<'_>,
+        base: ExprId,
+        exponent: ExprId,
+    ) -> Option<()> {
         let exponent = self.constant(exponent);
         if exponent.is_some_and(|y| y < 0.0) {
             self.check_divisor(expr, base)?;
@@ -44,19 +52,23 @@ impl Lowering<'_> {
         let sign = self.sign(base);
         let outside = !integer && !sign.zero && !sign.positive;
         self.unless(outside, expr, &message::negative_base)?;
-        let [positive, any] = [self.positive(), self.of_role(Role::Viscous)];
-        let negative = range(&self.graph, base, &positive, &any).lower < 0.0;
+        let any = self.symbols(|role| role == Role::Viscous);
+        let negative = range(&self.graph, base, &self.bounds(), &any).lower < 0.0;
         let Some(name) = self.argument_in(base) else {
             return Some(());
         };
         self.unless(!integer && negative, expr, &|| {
             message::base_can_be_negative(&name, exponent)
-        })
+        })?;
+        if integer || exponent.is_some_and(|y| y > 1.0) {
+            return Some(());
+        }
+        self.check_slope_at_rest("powf", expr, base)
     }
 
     /// The functions that are not defined everywhere.
     pub(super) fn check_argument(
-        &self,
+        &mut self,
         function: Function,
         expr: &Expr<'_>,
         value: ExprId,
@@ -76,6 +88,7 @@ impl Lowering<'_> {
                 "not between -1 and 1",
                 "-1 < x < 1",
             ),
+            Function::Cbrt => return self.check_slope_at_rest("cbrt", expr, value),
             Function::Exp
             | Function::ExpM1
             | Function::Sin
@@ -86,15 +99,15 @@ impl Lowering<'_> {
             | Function::Tanh
             | Function::Asinh
             | Function::Atan
-            | Function::Cbrt
             | Function::Abs => return Some(()),
         };
         self.unless(outside, expr, &|| {
             message::outside_domain(function.name(), what, domain)
-        })
+        })?;
+        self.check_value_at_rest(function, domain, expr, value)
     }
 
-    fn unless(
+    pub(super) fn unless(
         &self,
         wrong: bool,
         expr: &Expr<'_>,
@@ -108,7 +121,7 @@ impl Lowering<'_> {
     }
 
     /// The value of an expression, if there are no symbols in it.
-    fn constant(&self, e: ExprId) -> Option<f64> {
+    pub(super) fn constant(&self, e: ExprId) -> Option<f64> {
         if let Some(number) = self.graph.as_number(e) {
             return Some(number.to_f64());
         }
@@ -120,7 +133,8 @@ impl Lowering<'_> {
         program.interpret(&F64, &[]).first().copied()
     }
 
-    /// The signs of an expression, given that lengths and temperatures are positive.
+    /// The signs of an expression, given that lengths and temperatures are positive and strains above
+    /// their bounds.
     pub(super) fn sign(&self, e: ExprId) -> Sign {
         if let Some(constant) = self.constant(e) {
             return Sign {
@@ -129,12 +143,28 @@ impl Lowering<'_> {
                 positive: constant > 0.0,
             };
         }
-        sign(&self.graph, e, &self.positive())
+        sign(&self.graph, e, &self.bounds())
     }
 
-    /// Lengths and absolute temperatures.
-    fn positive(&self) -> Vec<Symbol> {
-        let roles = [Role::Stretch, Role::Temperature].into_iter();
-        roles.flat_map(|role| self.of_role(role)).collect()
+    /// What is known of lengths, strains and temperature.
+    fn bounds(&self) -> Vec<LowerBound> {
+        let positive = self.symbols(|role| matches!(role, Role::Stretch | Role::Temperature));
+        let positive = positive.into_iter().map(LowerBound::positive);
+        positive.chain(self.strains()).collect()
+    }
+
+    /// From where on strains are.
+    pub(super) fn strains(&self) -> Vec<LowerBound> {
+        let pairs = self.checked.variables.iter().zip(&self.variables);
+        let bounds = pairs.filter_map(|(variable, &symbol)| {
+            let zero = Rational::ZERO;
+            Some(match variable.role.strain()? {
+                // (tr C − 3)/2 and det F − 1, where tr C and det F are positive.
+                Strain::Trace => LowerBound::above(symbol, Rational::new(-3, 2)?),
+                Strain::Square => LowerBound::from(symbol, zero),
+                Strain::Dilatation => LowerBound::above(symbol, Rational::MINUS_ONE),
+            })
+        });
+        bounds.collect()
     }
 }

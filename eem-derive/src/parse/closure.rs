@@ -4,7 +4,7 @@ use quote::ToTokens;
 use syn::{ExprClosure, Pat, PatIdent, PatType, ReturnType, Type};
 
 use super::{block, expr};
-use crate::ast::{Argument, Block, Role};
+use crate::ast::{Argument, Block, Role, Strain};
 use crate::ctxt::Ctxt;
 use crate::message::attribute as message;
 use crate::message::expression::syntax::mutable;
@@ -85,17 +85,42 @@ fn plain_name<'a>(cx: &Ctxt, pat: &'a Pat) -> Option<&'a syn::Ident> {
 }
 
 /// Other words for the roles.
-const SYNONYMS: [(&str, Role); 10] = [
-    ("Length", Role::Stretch),
-    ("Strain", Role::Stretch),
-    ("Elongation", Role::Stretch),
-    ("Lambda", Role::Stretch),
-    ("Dashpot", Role::Viscous),
-    ("Internal", Role::Viscous),
-    ("Damper", Role::Viscous),
-    ("Gamma", Role::Viscous),
-    ("Temp", Role::Temperature),
-    ("Theta", Role::Temperature),
+const SYNONYMS: [(&[&str], &[Role]); 7] = [
+    (&["Length", "Elongation", "Lambda"], &[Role::Stretch]),
+    (
+        &["Strain"],
+        &[
+            Role::Stretch,
+            Role::Strain(Strain::Trace),
+            Role::Strain(Strain::Square),
+            Role::Strain(Strain::Dilatation),
+        ],
+    ),
+    (
+        &["Trace", "FirstInvariant", "I1", "E1"],
+        &[Role::Strain(Strain::Trace)],
+    ),
+    (
+        &["Square", "SecondInvariant", "I2", "E2"],
+        &[Role::Strain(Strain::Square)],
+    ),
+    (
+        &[
+            "Jacobian",
+            "Determinant",
+            "Volume",
+            "VolumeChange",
+            "ThirdInvariant",
+            "I3",
+            "J",
+        ],
+        &[Role::Strain(Strain::Dilatation)],
+    ),
+    (
+        &["Dashpot", "Internal", "Damper", "Gamma"],
+        &[Role::Viscous],
+    ),
+    (&["Temp", "Theta"], &[Role::Temperature]),
 ];
 
 fn role(cx: &Ctxt, argument: Option<&syn::Ident>, ty: &Type) -> Option<Role> {
@@ -117,13 +142,21 @@ fn role(cx: &Ctxt, argument: Option<&syn::Ident>, ty: &Type) -> Option<Role> {
         }
         _ => {
             let word = last_word(ty).unwrap_or_default();
-            let role_of = |(synonym, role): &(&str, Role)| (word == *synonym).then(|| role.name());
-            let synonym = SYNONYMS.iter().find_map(role_of);
-            let nearest = synonym.or_else(|| nearest(&word, Role::ALL.map(Role::name)));
-            cx.error(ty, &message::unknown_role(&text, nearest));
+            cx.error(ty, &message::unknown_role(&text, &meant(&word)));
         }
     }
     None
+}
+
+/// The roles that may have been meant by a word.
+fn meant(word: &str) -> Vec<&'static str> {
+    let synonym = SYNONYMS.iter().find(|(words, _)| words.contains(&word));
+    match synonym {
+        Some((_, roles)) => roles.iter().map(|role| role.name()).collect(),
+        None => nearest(word, Role::ALL.map(Role::name))
+            .into_iter()
+            .collect(),
+    }
 }
 
 /// The name at the end of a path, also behind a reference.

@@ -60,6 +60,20 @@ fn thermo_visco_elastic_spring() {
 }
 
 #[test]
+fn elastic_solid() {
+    let item = quote! {
+        #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * la * e1.powi(2) + mu * e2)]
+        pub struct ElasticSolid {
+            #[unit("Pa")]
+            pub la: f64,
+            #[unit("Pa")]
+            pub mu: f64,
+        }
+    };
+    compare("elastic_solid.rs", &pretty(expand(item)));
+}
+
+#[test]
 fn formulas_of_the_pendulum() {
     let expansion = pretty(expand(super::pendulum()));
     let lines = expansion.lines().map(str::trim_start);

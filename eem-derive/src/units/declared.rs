@@ -3,7 +3,6 @@
 use syn::{Attribute, Data, DeriveInput, LitStr};
 
 use super::grammar;
-use crate::ast::Role;
 use crate::ctxt::Ctxt;
 use crate::message::unit as message;
 use crate::unit::Unit;
@@ -61,14 +60,6 @@ impl Units {
     pub(super) fn is_declared(&self, index: usize) -> bool {
         let declaration = self.declarations.get(index);
         declaration.is_some_and(|declaration| !matches!(declaration, Declaration::Missing))
-    }
-}
-
-/// The unit of an argument of the free energy.
-pub(crate) fn of_role(role: Role) -> Unit {
-    match role {
-        Role::Stretch | Role::Viscous => Unit::metre(),
-        Role::Temperature => Unit::kelvin(),
     }
 }
 

@@ -5,8 +5,9 @@ mod sum;
 
 use eem_symbolic::{Function, Rational};
 
-use super::declared::{Declaration, Units, of_role};
+use super::declared::{Declaration, Units};
 use super::excerpt::excerpt;
+use super::quantities::Quantities;
 use super::unknowns::Unknowns;
 use crate::ast::{self, Operator};
 use crate::checked::{Body, Checked, Expr, ExprKind};
@@ -51,6 +52,8 @@ pub(super) struct Rules<'r> {
     cx: &'r Ctxt,
     checked: &'r Checked<'r>,
     units: &'r Units,
+    /// The units of what the model computes.
+    pub(super) quantities: &'static Quantities,
     /// The units of fields that have none, as far as the formulas say them.
     pub(super) unknowns: Unknowns,
     /// The bindings of the current body; nothing where an error was reported.
@@ -63,12 +66,13 @@ impl<'r> Rules<'r> {
             cx,
             checked,
             units,
+            quantities: Quantities::of(checked.per_volume()),
             unknowns: Unknowns::default(),
             bindings: Vec::new(),
         }
     }
 
-    /// A free energy is in J, a viscosity in N s/m.
+    /// A free energy of a spring is in J, its viscosities are in N s/m.
     pub(super) fn body(&mut self, what: &str, wanted_text: &str, wanted: &Unit, body: &Body<'_>) {
         self.bindings.clear();
         for binding in &body.bindings {
@@ -100,7 +104,7 @@ impl<'r> Rules<'r> {
             ExprKind::Parameter(field) => self.parameter(*field),
             ExprKind::Variable(index) => {
                 let role = self.checked.variables.get(*index)?.role;
-                Some(Quantity::new(of_role(role)))
+                Some(Quantity::new(self.quantities.of_role(role)))
             }
             ExprKind::Binding(index) => self.bindings.get(*index)?.clone(),
             ExprKind::Negate(inner) => {
@@ -169,7 +173,7 @@ impl<'r> Rules<'r> {
     ) -> Option<Quantity> {
         let role = self.checked.variables.get(variable)?.role;
         let inner = self.quantity(inner)?;
-        let unit = self.fits(expr, inner.unit.over(&of_role(role)))?;
+        let unit = self.fits(expr, inner.unit.over(&self.quantities.of_role(role)))?;
         // The derivative of a number is zero.
         let value = inner.value.map(|_| Rational::ZERO);
         let scaled = inner.scaled;

@@ -58,18 +58,20 @@ impl Unknowns {
 #[cfg(test)]
 mod tests {
     use super::{Unit, Unknowns};
+    use crate::units::grammar;
 
     #[test]
     fn equations_in_any_order_determine_units() {
         let (a, b, c) = (Unit::unknown(0), Unit::unknown(1), Unit::unknown(2));
+        let joule = grammar::parse("J").unwrap();
         let mut unknowns = Unknowns::default();
         // a b = c, c = J, a = K
         unknowns.equate(&a.times(&b).unwrap(), &c).unwrap();
         assert_eq!(unknowns.unit(0), None);
-        unknowns.equate(&c, &Unit::joule()).unwrap();
+        unknowns.equate(&c, &joule).unwrap();
         unknowns.equate(&a, &Unit::kelvin()).unwrap();
         assert_eq!(unknowns.unit(0), Some(Unit::kelvin()));
-        assert_eq!(unknowns.unit(1), Unit::joule().over(&Unit::kelvin()));
-        assert_eq!(unknowns.unit(2), Some(Unit::joule()));
+        assert_eq!(unknowns.unit(1), joule.over(&Unit::kelvin()));
+        assert_eq!(unknowns.unit(2), Some(joule));
     }
 }

@@ -32,8 +32,8 @@ impl<'m> PointPrograms<'m> {
     }
 
     pub(super) fn energy_magnitude(&mut self) -> Program {
-        let positive = self.model.positive();
-        let magnitude = crate::magnitude::magnitude(&mut self.graph, self.model.psi, &positive);
+        let bounds = self.model.bounds();
+        let magnitude = crate::magnitude::magnitude(&mut self.graph, self.model.psi, &bounds);
         self.program(&self.variables, &[magnitude])
     }
 

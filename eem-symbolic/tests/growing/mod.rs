@@ -60,6 +60,7 @@ impl Writer {
         Model {
             graph: self.graph,
             measures: vec![self.symbols[0]],
+            strains: vec![],
             dashpots: Vec::new(),
             temperature: Some(self.symbols[1]),
             parameters: Vec::new(),

@@ -147,6 +147,7 @@ fn thermo_visco_elastic(name: &'static str, dashpots: usize, state: Vec<f64>) ->
     let model = Model {
         graph: w.graph,
         measures: vec![lambda],
+        strains: vec![],
         dashpots: gammas.iter().map(|&(symbol, _)| symbol).collect(),
         temperature: Some(theta),
         parameters: w.parameters,
@@ -186,6 +187,7 @@ pub(crate) fn logarithmic_stiffness() -> Law {
     let model = Model {
         graph: w.graph,
         measures: vec![lambda],
+        strains: vec![],
         dashpots: Vec::new(),
         temperature: Some(theta),
         parameters: w.parameters,
@@ -226,6 +228,7 @@ pub(crate) fn einstein() -> Law {
     let model = Model {
         graph: w.graph,
         measures: vec![first, second],
+        strains: vec![],
         dashpots: Vec::new(),
         temperature: Some(theta),
         parameters: w.parameters,
@@ -265,6 +268,7 @@ pub(crate) fn elastic() -> Law {
     let model = Model {
         graph: w.graph,
         measures: vec![lambda],
+        strains: vec![],
         dashpots: vec![gamma],
         temperature: None,
         parameters: w.parameters,

@@ -52,6 +52,7 @@ pub(crate) fn model(arguments: &[(Role, E)], parameters: &[E], psi: E, viscositi
     };
     Model {
         measures: of_role(|role| matches!(role, Role::Stretch)),
+        strains: vec![],
         dashpots: of_role(|role| matches!(role, Role::Viscous)),
         temperature: of_role(|role| matches!(role, Role::Temperature))
             .first()

@@ -97,6 +97,7 @@ pub(crate) fn model(
     let mechanical = x.len() - usize::from(thermal);
     Model {
         measures: x[..1].to_vec(),
+        strains: vec![],
         dashpots: x[1..mechanical].to_vec(),
         temperature: x.get(mechanical).copied(),
         parameters: p.iter().map(|p| symbol(p.0)).collect(),

@@ -12,4 +12,10 @@ struct Float {
     k: f64,
 }
 
+#[derive(FreeEnergy)]
+#[free_energy(|e1, e2: f64, j| k * e1)]
+struct Solid {
+    k: f64,
+}
+
 fn main() {}

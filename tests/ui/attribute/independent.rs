@@ -18,4 +18,11 @@ struct Cancelled {
     k: f64,
 }
 
+#[derive(FreeEnergy)]
+#[free_energy(|e1: StrainTrace, e2: StrainSquare, j: Dilatation, gamma: Viscous| k)]
+#[viscosity(gamma = k)]
+struct Solid {
+    k: f64,
+}
+
 fn main() {}

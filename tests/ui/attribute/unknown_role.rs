@@ -12,4 +12,10 @@ struct OtherWords {
     k: f64,
 }
 
+#[derive(FreeEnergy)]
+#[free_energy(|e1: StrainTrce, e2: Square, j: Jacobian, e: Strain, p: Pressure| k * e1)]
+struct Solid {
+    k: f64,
+}
+
 fn main() {}

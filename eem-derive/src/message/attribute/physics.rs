@@ -1,17 +1,28 @@
 //! Messages about free energies and viscosities that no material can have.
 
 use super::Message;
-use crate::ast::{self, Role};
+use crate::ast::{self, Role, Strain};
 use crate::checked::Variable;
 
-pub(crate) fn independent(variable: &Variable<'_>) -> Message {
+/// `measure` is the name of one of the model.
+pub(crate) fn independent(variable: &Variable<'_>, measure: &str) -> Message {
     let name = ast::name(variable.ident);
     let help = match variable.role {
+        Role::Strain(strain) => {
+            let term = match strain {
+                Strain::Trace => format!("0.5 * la * {name}.powi(2)"),
+                Strain::Square => format!("mu * {name}"),
+                Strain::Dilatation => format!("0.5 * bulk * {name}.powi(2)"),
+            };
+            format!(
+                "there is no stress; add its term, for example `{term}`, or remove the argument"
+            )
+        }
         Role::Stretch => format!(
             "there is no force; add its term, for example `0.5 * stiffness * ({name} - length).powi(2)`"
         ),
         Role::Viscous => format!(
-            "nothing drives the dashpot; add its term, for example `0.5 * branch * (lambda - {name}).powi(2)`, or remove the argument and its viscosity"
+            "nothing drives the dashpot; add its term, for example `0.5 * branch * ({measure} - {name}).powi(2)`, or remove the argument and its viscosity"
         ),
         Role::Temperature => format!(
             "there is no entropy; add a heat capacity, for example `capacity * ({name} - {name} * ln({name} / theta_ref))`, or remove the argument"

@@ -1,0 +1,45 @@
+//! Messages about solids at rest.
+
+use crate::ast::Strain;
+use crate::message::Message;
+
+const AT_REST: &str = "where the solid is at rest and all strains are zero";
+
+pub(crate) fn divisor(name: &str, strain: Strain) -> Message {
+    Message::new(
+        format!("this divisor is zero {AT_REST}"),
+        meaning(name, strain),
+    )
+}
+
+pub(crate) fn value(function: &str, domain: &str, name: &str, strain: Strain) -> Message {
+    Message::new(
+        format!("`{function}` has no value {AT_REST}: it is defined for `{domain}`"),
+        meaning(name, strain),
+    )
+}
+
+pub(crate) fn slope(function: &str) -> Message {
+    Message::new(
+        format!("this `{function}` has no derivative {AT_REST}: its argument is zero"),
+        "add a small constant to the argument",
+    )
+}
+
+pub(crate) fn negative(function: &str) -> Message {
+    Message::new(
+        format!("this `{function}` has no value {AT_REST}: its argument is negative"),
+        "check the signs in the argument",
+    )
+}
+
+/// What the strain is, and what may have been meant.
+fn meaning(name: &str, strain: Strain) -> String {
+    match strain {
+        Strain::Trace => format!("`{name}` is tr E; tr C is `3 + 2 * {name}`"),
+        Strain::Square => format!("`{name}` is E:E, which is zero at rest"),
+        Strain::Dilatation => {
+            format!("`{name}` is J - 1; J is `1 + {name}`, and its logarithm is `ln_1p({name})`")
+        }
+    }
+}

@@ -1,0 +1,71 @@
+//! The solid at rest, where all strains are zero: a free energy has a value and a stress there.
+
+use eem_symbolic::{ExprId, Function, substitute};
+
+use super::Lowering;
+use crate::ast::{self, Strain};
+use crate::checked::Expr;
+use crate::message::expression::rest as message;
+
+impl Lowering<'_> {
+    /// `1/j`
+    pub(super) fn check_divisor_at_rest(&mut self, expr: &Expr<'_>, value: ExprId) -> Option<()> {
+        let Some((name, strain, at_rest)) = self.at_rest(value) else {
+            return Some(());
+        };
+        let zero = !at_rest.recip().is_finite();
+        self.unless(zero, expr, &|| message::divisor(&name, strain))
+    }
+
+    /// `√e2`, whose slope is infinite.
+    pub(super) fn check_slope_at_rest(
+        &mut self,
+        function: &str,
+        expr: &Expr<'_>,
+        value: ExprId,
+    ) -> Option<()> {
+        let Some((_, _, at_rest)) = self.at_rest(value) else {
+            return Some(());
+        };
+        self.unless(at_rest == 0.0, expr, &|| message::slope(function))?;
+        let negative = at_rest < 0.0 && function != Function::Cbrt.name();
+        self.unless(negative, expr, &|| message::negative(function))
+    }
+
+    /// `ln(j)`
+    pub(super) fn check_value_at_rest(
+        &mut self,
+        function: Function,
+        domain: &str,
+        expr: &Expr<'_>,
+        value: ExprId,
+    ) -> Option<()> {
+        let Some((name, strain, at_rest)) = self.at_rest(value) else {
+            return Some(());
+        };
+        let outside = match function {
+            Function::Ln1p => at_rest <= -1.0,
+            Function::Atanh => at_rest.abs() >= 1.0,
+            _ => at_rest <= 0.0,
+        };
+        self.unless(outside, expr, &|| {
+            message::value(function.name(), domain, &name, strain)
+        })
+    }
+
+    /// The first strain in an expression, and what is left of the expression without strains if that is
+    /// a number.
+    fn at_rest(&mut self, e: ExprId) -> Option<(String, Strain, f64)> {
+        let pairs = self.checked.variables.iter().zip(&self.variables);
+        let strains = pairs.filter(|(variable, _)| variable.role.strain().is_some());
+        let strains: Vec<_> = strains
+            .filter(|&(_, &symbol)| self.graph.depends_on(e, symbol))
+            .collect();
+        let (first, _) = strains.first()?;
+        let (name, strain) = (ast::name(first.ident), first.role.strain()?);
+        let zero = self.graph.integer(0);
+        let zeros: Vec<_> = strains.iter().map(|&(_, &symbol)| (symbol, zero)).collect();
+        let rest = substitute(&mut self.graph, e, &zeros);
+        Some((name, strain, self.constant(rest)?))
+    }
+}
