@@ -23,10 +23,7 @@ pub(crate) struct State<S> {
     /// p, kg m/s; zero for anchors.
     pub(crate) momenta: Compensated<S>,
     /// v, m/s, where masses couple nodes: then the momenta follow, `p = M v`. Empty where they do not.
-    #[cfg_attr(
-        feature = "serde",
-        serde(default)
-    )]
+    #[cfg_attr(feature = "serde", serde(default = "Compensated::default"))]
     pub(crate) velocities: Compensated<S>,
     /// γ, m.
     pub(crate) viscous: Compensated<S>,
