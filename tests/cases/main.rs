@@ -8,6 +8,7 @@ mod support;
 mod logarithmic_stiffness;
 mod midpoint_identity;
 mod order;
+mod plate;
 mod reference_trajectory;
 mod same_bits;
 mod step_tangent;

@@ -12,5 +12,6 @@ mod invariants_under_loads;
 mod loads;
 mod several_dashpots;
 mod single_pendulum;
+mod solids;
 mod spoilt_force;
 mod variational_4;
