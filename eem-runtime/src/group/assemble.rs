@@ -119,16 +119,12 @@ where
         let impulse = step * S::from_f64(C::IMPLICIT);
         let mut forces = Measures::<K, S, D>::filled(S::zero());
         let mut forces_by_arm = pose.direction;
-        let mut sum = pose.direction[0];
+        let mut values = forces;
         for a in 0..M::MEASURES {
             let row = self.condensed_row(a, form, target.contact.is_some());
             forces[a] = impulse * form.0[a];
             forces_by_arm[a] = self.by_arm(&row, impulse);
-            if a == 0 {
-                scale::<K, S, D>(&mut sum, impulse * row.value);
-            } else {
-                add_scaled::<K, S, D>(&mut sum, impulse * row.value, &pose.direction[a]);
-            }
+            values[a] = impulse * row.value;
             if M::THERMAL
                 && let Some(contact) = target.contact
             {
@@ -139,7 +135,7 @@ where
             }
         }
         Momentum {
-            pull: sum,
+            pull: pose.pull(self.kinematics, C::PLACEMENT, &values),
             blocks: pose.tangent(self.kinematics, C::PLACEMENT, &forces, &forces_by_arm),
         }
     }

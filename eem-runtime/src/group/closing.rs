@@ -8,7 +8,7 @@
 //! with the exchange `u` and the production `P ≥ 0` of every path of heat, see
 //! [`conduction`](crate::conduction). Both ends of a path book the same numbers.
 
-use super::arms::{change_in, mean, measures_in, resultant, spread};
+use super::arms::{change_in, mean, measures_in, spread};
 use super::member::Member;
 use super::point::Point;
 use super::pose::Pose;
@@ -190,7 +190,8 @@ where
     pub(super) fn force(&self, at: Placement, ends: [&Arms<K, S, D>; 2]) -> K::PerNode<[S; D]> {
         let measures0 = measures_in::<K, S, D>(&self.start.x0);
         let pose = Pose::between(self.kinematics, at, ends, measures0);
-        resultant::<K, S, D>(&pose.direction, &measures_in::<K, S, D>(&self.response))
+        let forces = measures_in::<K, S, D>(&self.response);
+        spread::<K, S, D>(&pose.pull(self.kinematics, at, &forces))
     }
 
     /// Books the increments of the internal variables and of the reservoirs' entropies; returns the

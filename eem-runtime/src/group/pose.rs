@@ -85,6 +85,25 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Pose<K, S, D> {
         Self::new(kinematics, at, ends)
     }
 
+    /// `Σ_a f_a direction_a`.
+    #[inline]
+    pub(super) fn pull(
+        &self,
+        kinematics: K,
+        at: Placement,
+        force: &Measures<K, S, D>,
+    ) -> Arms<K, S, D> {
+        let mut ends = self.ends;
+        match at {
+            Placement::Ends => {}
+            Placement::End | Placement::Middle => {
+                (ends.r0, ends.measures0) = (ends.r1, ends.measures1);
+            }
+            Placement::Start => (ends.r1, ends.measures1) = (ends.r0, ends.measures0),
+        }
+        kinematics.pull(&ends, &self.direction, force)
+    }
+
     /// The derivative of `Σ_a f_a direction_a` by the new arms, where that of the forces is given.
     #[inline]
     pub(super) fn tangent(

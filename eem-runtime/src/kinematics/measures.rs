@@ -99,6 +99,27 @@ pub trait Kinematics<S: Real, const D: usize>:
     /// The mean-value gradient `D*π` between two states.
     fn discrete_gradient(&self, ends: &Ends<Self, S, D>) -> Gradient<Self, S, D>;
 
+    /// `Σ_a f_a D*π_a` along gradients that are given. Where forces of several measures cancel, they are
+    /// summed before they act on the nodes, whose torque is then zero to the rounding of the sum.
+    #[inline]
+    fn pull(
+        &self,
+        _: &Ends<Self, S, D>,
+        gradient: &Gradient<Self, S, D>,
+        force: &Measures<Self, S, D>,
+    ) -> Arms<Self, S, D> {
+        let mut sum = gradient[0];
+        for (a, (row, &force)) in gradient.as_ref().iter().zip(force.as_ref()).enumerate() {
+            for (sum, row) in sum.as_mut().iter_mut().zip(row.as_ref()) {
+                for (sum, &entry) in sum.iter_mut().zip(row) {
+                    let term = force * entry;
+                    *sum = if a == 0 { term } else { *sum + term };
+                }
+            }
+        }
+        sum
+    }
+
     /// The derivative of `Σ_a f_a D*π_a` by `r¹`, where that of the forces is given,
     ///
     /// ```text

@@ -177,6 +177,16 @@ impl<S: Real, const N: usize> Quad4<S, N> {
         })
     }
 
+    /// `Σ_a f_a P_a`.
+    #[inline]
+    fn stress(&self, between: &Between<S>, force: &[S; N]) -> Symmetric<S> {
+        let mut stress = [S::zero(); 3];
+        for (&strain, &force) in self.strains.iter().zip(force) {
+            add(&mut stress, force, &between.slope(strain));
+        }
+        stress
+    }
+
     /// `Σ_a f_a (share (B_i·P_a B_j) 1 + F ∂P_a B_i)` with the change ∂P by a new deformation.
     #[inline]
     fn turned(
@@ -187,10 +197,7 @@ impl<S: Real, const N: usize> Quad4<S, N> {
         share: S,
     ) -> [[[[S; 2]; 2]; 3]; 3] {
         let slopes = self.strains.map(|strain| between.slope(strain));
-        let mut stress = [S::zero(); 3];
-        for (slope, &force) in slopes.iter().zip(force) {
-            add(&mut stress, force, slope);
-        }
+        let stress = self.stress(between, force);
         let mut blocks = [[[[S::zero(); 2]; 2]; 3]; 3];
         for (j, by) in self.gradients.iter().enumerate() {
             for axis in 0..2 {
@@ -329,6 +336,13 @@ impl<S: Real, const N: usize> Kinematics<S, 2> for Quad4<S, N> {
         self.along(&mean, &between)
     }
 
+    #[inline]
+    fn pull(&self, ends: &Ends<Self, S, 2>, _: &[[[S; 2]; 3]; N], force: &[S; N]) -> [[S; 2]; 3] {
+        let ([mean, _], between) = self.between(ends);
+        let stress = self.stress(&between, force);
+        self.gradients.map(|b| pushed(&mean, &applied(&stress, &b)))
+    }
+
     fn discrete_tangent(
         &self,
         ends: &Ends<Self, S, 2>,
@@ -354,10 +368,7 @@ impl<S: Real, const N: usize> Kinematics<S, 2> for Quad4<S, N> {
     // Σ f F_m P B_i = Σ_j (B_i·S* B_j) r_m,j
     fn secant(&self, ends: &Ends<Self, S, 2>, force: &[S; N]) -> [[S; 3]; 3] {
         let (_, between) = self.between(ends);
-        let mut stress = [S::zero(); 3];
-        for (&strain, &force) in self.strains.iter().zip(force) {
-            add(&mut stress, force, &between.slope(strain));
-        }
+        let stress = self.stress(&between, force);
         self.gradients.map(|b| {
             let pulled = applied(&stress, &b);
             self.gradients

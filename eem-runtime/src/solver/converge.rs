@@ -30,7 +30,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             max_iterations,
             tolerance,
         } = effort.settings;
-        let tolerance = target.tolerance(tolerance);
+        let tolerance = self.coupling.tolerance(target.tolerance(tolerance));
         let mut before = None;
         let mut purpose = Purpose::Iterate;
         let mut progress = Progress::new();

@@ -63,6 +63,18 @@ impl<S: Real, const D: usize> Coupling<S, D> {
         self.pairs.is_empty()
     }
 
+    /// The largest update that may be the last one, where without coupled masses it is the usual one.
+    ///
+    /// A stiff body pulls `(ωh)²` times as hard as its inertia, so that what an update u leaves, u², has to
+    /// lie as far below ε: with `u = ε^¾` it may be ε^−½.
+    pub(super) fn tolerance(&self, usual: S) -> S {
+        if self.is_none() {
+            return usual;
+        }
+        let root = S::EPSILON.sqrt();
+        usual.minimum(root * root.sqrt())
+    }
+
     /// Adds inertia to residual and tangent at a trial, as a [`Balance`] does on the diagonal.
     pub(super) fn balance(
         &self,
