@@ -1,10 +1,9 @@
 //! Runtime of `eem`: scenes, schemes, Newton's method, ledger.
 //!
-//! The flow is one way:
+//! Each folder uses only those before it:
 //!
 //! ```text
-//! free_energy (generated) ─▶ scheme ─▶ group ─▶ solver ─▶ simulation ─▶ ledger
-//!          kernel, inversion ─┘   kinematics ─┘
+//! number ─▶ algebra ─▶ material ─▶ element ─▶ scene ─▶ step ─▶ run
 //! ```
 //!
 //! | symbol | name | unit | meaning |
@@ -20,60 +19,36 @@
 //!
 //! Index 0 is the old, 1 the new state of a step, `m` their mean, `*` an algorithmic quantity.
 
-pub mod describe;
-pub mod kernel;
-pub mod kinematics;
-
-mod blueprint;
-mod certificate;
-mod checkpoint;
-mod compact;
-mod compensated;
-mod conduction;
-mod domain;
-mod ensemble;
-mod error;
-mod free_energy;
-mod group;
-mod handle;
-mod impulse;
-mod inversion;
-#[cfg(feature = "lanes")]
-mod lanes;
-mod layout;
-mod ledger;
-mod loads;
-mod lu;
-mod masses;
-mod newton;
-mod pattern;
-mod point_energy;
-mod readable;
-mod recorder;
-mod scalar;
+mod algebra;
+mod element;
+mod material;
+mod number;
+mod run;
 mod scene;
-mod scheme;
-mod simulation;
-mod solver;
-mod state;
-mod system;
+mod step;
 
-pub use checkpoint::{Checkpoint, RestoreError};
-pub use describe::{Describe, Description};
-pub use domain::{Domain, DomainError, DomainPoint, DomainReport, Least, check_domain};
-pub use ensemble::{Ensemble, Experiment, MemberError, MemberFailure, Members, Outputs};
-pub use error::{Law, NewtonIteration, SceneError, StateError, StepError, StepFailure};
-pub use free_energy::{Array, Caloric, Entry, FreeEnergy};
-pub use handle::{Element, HeatPartner, Node, Reservoir};
-pub use inversion::{Inversion, InversionError, invert};
-pub use kinematics::{Strain, StrainEnergy};
-pub use ledger::Ledger;
-pub use newton::{NewtonSettings, StepReport};
-pub use recorder::{Column, CustomQuantity, Quantity, RecordError, Recorder};
-pub use scalar::{Discord, Mask, Real, Scalar};
-pub use scene::{Scene, Section};
-pub use scheme::{Scheme, UnknownScheme};
-pub use simulation::Simulation;
-pub use simulation::generic::Generic;
-pub use simulation::linearize::StepTangent;
-pub use simulation::run::RunEnd;
+pub use element::error::StateError;
+pub use element::handle::{Element, HeatPartner, Node, Reservoir};
+pub use element::kinematics;
+pub use element::kinematics::{Strain, StrainEnergy};
+pub use material::describe;
+pub use material::describe::{Describe, Description};
+pub use material::domain::{Domain, DomainError, DomainPoint, DomainReport, Least, check_domain};
+pub use material::free_energy::{Array, Caloric, Entry, FreeEnergy};
+pub use material::inversion::{Inversion, InversionError, invert};
+pub use number::kernel;
+pub use number::scalar::{Discord, Mask, Real, Scalar};
+pub use run::checkpoint::{Checkpoint, RestoreError};
+pub use run::ensemble::{Ensemble, Experiment, MemberError, MemberFailure, Members, Outputs};
+pub use run::ledger::Ledger;
+pub use run::recorder::{Column, CustomQuantity, Quantity, RecordError, Recorder};
+pub use run::simulation::Simulation;
+pub use run::simulation::generic::Generic;
+pub use run::simulation::linearize::StepTangent;
+pub use run::simulation::run::RunEnd;
+pub use scene::Scene;
+pub use scene::error::SceneError;
+pub use scene::solid::Section;
+pub use step::error::{Law, NewtonIteration, StepError, StepFailure};
+pub use step::newton::{NewtonSettings, StepReport};
+pub use step::scheme::{Scheme, UnknownScheme};

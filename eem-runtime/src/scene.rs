@@ -3,21 +3,23 @@
 //! Describing never fails; [`Simulation::new`](crate::Simulation::new) checks all of it and says what is wrong.
 
 mod act;
+pub(crate) mod blueprint;
 mod check;
 pub(crate) mod entry;
-mod solid;
-pub use solid::Section;
+pub(crate) mod error;
+pub(crate) mod loads;
+pub(crate) mod solid;
 mod start;
 
-use crate::blueprint::{Blueprint, ModelSet};
-use crate::conduction::Conductor;
-use crate::error::SceneError;
-use crate::free_energy::FreeEnergy;
-use crate::handle::{Element, HeatPartner, Node, Reservoir, SceneId};
-use crate::kinematics::Stretch;
-use crate::layout::Layout;
-use crate::loads::Loads;
-use crate::scalar::Real;
+use crate::element::conduction::Conductor;
+use crate::element::handle::{Element, HeatPartner, Node, Reservoir, SceneId};
+use crate::element::kinematics::Stretch;
+use crate::element::layout::Layout;
+use crate::material::free_energy::FreeEnergy;
+use crate::number::scalar::Real;
+use crate::scene::blueprint::{Blueprint, ModelSet};
+use crate::scene::error::SceneError;
+use crate::scene::loads::Loads;
 use entry::{ElementEntry, NodeEntry};
 
 /// Masses on springs that heat up, in `D` dimensions.

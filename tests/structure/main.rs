@@ -19,6 +19,11 @@ const FILE: usize = 350;
 /// Lines of a function, from `fn` to the closing brace.
 const FUNCTION: usize = 60;
 
+/// The folders of `eem-runtime`, each of which imports only from those before it.
+const FOLDERS: [&str; 8] = [
+    "number", "algebra", "material", "element", "scene", "step", "run", "lib",
+];
+
 /// What is said about one crate of the workspace.
 struct Crate {
     name: &'static str,
@@ -68,6 +73,27 @@ fn files_do_not_import_each_other_in_circles() {
         }
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+/// The place of the folder of a file among [`FOLDERS`].
+fn folder(file: &str) -> usize {
+    let first = file.split(['/', '.']).next();
+    let place = FOLDERS.iter().position(|folder| Some(*folder) == first);
+    place.unwrap_or_else(|| panic!("{file} is in none of the folders"))
+}
+
+#[test]
+fn folders_import_in_one_direction() {
+    let imports = imports(&Sources::of_crate("eem-runtime"));
+    let mut faults = Vec::new();
+    for (file, imported) in &imports {
+        let later = imported.iter().filter(|other| folder(other) > folder(file));
+        faults.extend(later.map(|other| format!("{file} imports {other}")));
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    // What is checked is there.
+    let has_run = |file: &str| folder(file) == folder("run.rs");
+    assert!(imports.keys().filter(|file| has_run(file)).count() > 10);
 }
 
 #[test]

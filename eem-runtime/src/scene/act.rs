@@ -3,9 +3,9 @@
 use nalgebra::SVector;
 
 use super::Scene;
-use crate::error::SceneError;
-use crate::handle::{Element, Node};
-use crate::scalar::Real;
+use crate::element::handle::{Element, Node};
+use crate::number::scalar::Real;
+use crate::scene::error::SceneError;
 
 /// # Loads and prescribed quantities
 impl<const D: usize, S: Real> Scene<D, S> {

@@ -3,11 +3,12 @@
 use std::collections::BTreeSet;
 
 use super::Scene;
-use crate::error::{SceneError, StateError};
-use crate::handle::{Element, HeatPartner, Node, Reservoir};
-use crate::layout::Shape;
-use crate::scalar::{Mask, Real, is_positive};
+use crate::element::error::StateError;
+use crate::element::handle::{Element, HeatPartner, Node, Reservoir};
+use crate::element::layout::Shape;
+use crate::number::scalar::{Mask, Real, is_positive};
 use crate::scene::entry::{ElementEntry, NodeEntry};
+use crate::scene::error::SceneError;
 
 impl<const D: usize, S: Real> Scene<D, S> {
     /// The first thing that is wrong with the description.

@@ -2,7 +2,9 @@
 
 use nalgebra::SVector;
 
-use crate::scalar::Real;
+use crate::element::group::NodesOf;
+use crate::element::handle::Element;
+use crate::number::scalar::Real;
 
 /// A node: an anchor or a mass.
 #[derive(Clone, Debug)]
@@ -33,4 +35,10 @@ pub(crate) struct ElementEntry<S> {
     /// The blueprint that holds the model, and its place there.
     pub(crate) group: usize,
     pub(crate) place: usize,
+}
+
+impl<S: core::fmt::Debug> NodesOf for Vec<ElementEntry<S>> {
+    fn nodes_of(&self, element: Element) -> &[usize] {
+        &self[element.index].nodes
+    }
 }

@@ -1,12 +1,12 @@
 //! Solids of a scene.
 
 use super::Scene;
-use crate::blueprint::{Blueprint, QuadSet};
-use crate::error::SceneError;
-use crate::free_energy::FreeEnergy;
-use crate::handle::{Element, Node};
-use crate::kinematics::{Quad4, Strain, StrainEnergy};
-use crate::scalar::{Real, is_positive};
+use crate::element::handle::{Element, Node};
+use crate::element::kinematics::{Quad4, Strain, StrainEnergy};
+use crate::material::free_energy::FreeEnergy;
+use crate::number::scalar::{Real, is_positive};
+use crate::scene::blueprint::{Blueprint, QuadSet};
+use crate::scene::error::SceneError;
 
 /// What a solid in the plane is besides its material and its corners.
 #[derive(Clone, Copy, Debug, PartialEq)]

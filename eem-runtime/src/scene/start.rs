@@ -2,11 +2,11 @@
 //! prescribed begins where the scene does.
 
 use super::Scene;
-use crate::error::SceneError;
-use crate::handle::{Element, HeatPartner, Node};
-use crate::loads::{MOTION_ROUNDINGS, extent};
-use crate::scalar::{Mask, Real};
+use crate::element::handle::{Element, HeatPartner, Node};
+use crate::number::scalar::{Mask, Real};
 use crate::scene::entry::NodeEntry;
+use crate::scene::error::SceneError;
+use crate::scene::loads::{MOTION_ROUNDINGS, extent};
 
 impl<const D: usize, S: Real> Scene<D, S> {
     /// The first product that is not finite, or the first jump at t = 0. All single numbers have

@@ -1,0 +1,242 @@
+//! Elimination for a number of unknowns that the compiler knows, at most twelve.
+//!
+//! Row by row: what lies above has been divided by its pivots, so that a row is finished, from loading it
+//! to its own division, without being stored in between. The pivot of a row is its diagonal entry
+//! as long as that is not small beside the others; from the first row on where it is, the unknowns change
+//! places.
+
+use core::array;
+
+use crate::algebra::lu::singular::Singular;
+use crate::number::scalar::{Mask, Real};
+
+/// A row is divided by its diagonal entry unless its other entries, all together, are larger by more than
+/// this factor; that bounds the growth of entries nearly as well as the largest pivot does.
+pub(super) const LARGEST_RATIO: f64 = 4.0;
+
+/// Overwrites the columns of `b` with the solutions of `A x = b` for `N` unknowns, and A with zeros.
+pub(crate) fn solve_fixed<S: Real, const N: usize, const W: usize>(
+    matrix: &mut [S],
+    b: &mut [[S; W]],
+) -> Result<(), Singular> {
+    let [a, ..] = matrix.as_chunks_mut::<N>().0.as_chunks_mut::<N>().0 else {
+        return Err(Singular);
+    };
+    let [b, ..] = b.as_chunks_mut::<N>().0 else {
+        return Err(Singular);
+    };
+    // An exchange does not come back: what it changes would have to be loaded again.
+    match eliminate(a, b) {
+        Ok(()) => substitute(a, b),
+        Err(row) => exchange_from(row, a, b)?,
+    }
+    *a = [[S::zero(); N]; N];
+    Ok(())
+}
+
+/// From A to its upper factor, whose diagonal is one; the first row without a good pivot, if there is one.
+#[inline]
+fn eliminate<S: Real, const N: usize, const W: usize>(
+    a: &mut [[S; N]; N],
+    b: &mut [[S; W]; N],
+) -> Result<(), usize> {
+    // One by one: the compiler does not unroll loops in loops, and so keeps rows in registers.
+    eliminate_row::<S, 0, N, W>(a, b)?;
+    eliminate_row::<S, 1, N, W>(a, b)?;
+    eliminate_row::<S, 2, N, W>(a, b)?;
+    eliminate_row::<S, 3, N, W>(a, b)?;
+    eliminate_row::<S, 4, N, W>(a, b)?;
+    eliminate_row::<S, 5, N, W>(a, b)?;
+    eliminate_row::<S, 6, N, W>(a, b)?;
+    eliminate_row::<S, 7, N, W>(a, b)?;
+    eliminate_row::<S, 8, N, W>(a, b)?;
+    eliminate_row::<S, 9, N, W>(a, b)?;
+    eliminate_row::<S, 10, N, W>(a, b)?;
+    eliminate_row::<S, 11, N, W>(a, b)?;
+    Ok(())
+}
+
+/// Subtracts from row `I` what eliminates its entries before the diagonal, and divides by its diagonal
+/// entry; nothing if that is no good pivot.
+#[inline(always)]
+#[expect(clippy::inline_always, reason = "for this the row is a constant")]
+fn eliminate_row<S: Real, const I: usize, const N: usize, const W: usize>(
+    a: &mut [[S; N]; N],
+    b: &mut [[S; W]; N],
+) -> Result<(), usize> {
+    if I >= N {
+        return Ok(());
+    }
+    let (mut row, mut right) = (a[I], b[I]);
+    for k in 0..I {
+        let factor = row[k];
+        let first = even(k + 1);
+        subtract(&mut row[first..], factor, &a[k][first..]);
+        subtract(&mut right, factor, &b[k]);
+    }
+    if !dominates(&row, I) {
+        return Err(I);
+    }
+    let inverse = row[I].recip();
+    let first = even(I + 1);
+    for (entry, &value) in a[I][first..].iter_mut().zip(&row[first..]) {
+        *entry = value * inverse;
+    }
+    b[I] = right.map(|value| value * inverse);
+    Ok(())
+}
+
+/// Does the rest, from row `first` on, with the largest entry of each row for its pivot: where that is not
+/// on the diagonal, two unknowns change places.
+#[cold]
+#[inline(never)]
+fn exchange_from<S: Real, const N: usize, const W: usize>(
+    first: usize,
+    a: &mut [[S; N]; N],
+    b: &mut [[S; W]; N],
+) -> Result<(), Singular> {
+    if S::LANES > 1 {
+        // Some of the numbers may have good pivots.
+        return Err(Singular);
+    }
+    let mut order: [usize; N] = array::from_fn(|at| at);
+    for at in first..N {
+        for k in 0..at {
+            let factor = a[at][k];
+            let (above, below) = a.split_at_mut(at);
+            subtract(&mut below[0][k + 1..], factor, &above[k][k + 1..]);
+            let (above, below) = b.split_at_mut(at);
+            subtract(&mut below[0], factor, &above[k]);
+        }
+        let pivot = largest_behind(&a[at], at)?;
+        for row in a.iter_mut() {
+            row.swap(at, pivot);
+        }
+        order.swap(at, pivot);
+        let inverse = a[at][at].recip();
+        a[at] = a[at].map(|value| value * inverse);
+        b[at] = b[at].map(|value| value * inverse);
+    }
+    substitute(a, b);
+    let found = *b;
+    for (&unknown, value) in order.iter().zip(found) {
+        b[unknown] = value;
+    }
+    Ok(())
+}
+
+/// The column of the largest entry of a row, on the diagonal or behind it.
+fn largest_behind<S: Real, const N: usize>(
+    row: &[S; N],
+    diagonal: usize,
+) -> Result<usize, Singular> {
+    let (mut pivot, mut size) = (diagonal, row[diagonal].abs());
+    for (column, entry) in row.iter().enumerate().skip(diagonal + 1) {
+        if size.less(entry.abs()).decide()? {
+            (pivot, size) = (column, entry.abs());
+        }
+    }
+    if size.is_finite() && S::zero().less(size).all() {
+        Ok(pivot)
+    } else {
+        Err(Singular)
+    }
+}
+
+/// From the upper factor, whose diagonal is one, to the solution.
+#[inline]
+fn substitute<S: Real, const N: usize, const W: usize>(a: &[[S; N]; N], b: &mut [[S; W]; N]) {
+    for (row, entries) in a.iter().enumerate().rev() {
+        let (head, known) = b.split_at_mut(row + 1);
+        // The latest is the last to be waited for.
+        for (known, &factor) in known.iter().zip(&entries[row + 1..]).rev() {
+            subtract(&mut head[row], factor, known);
+        }
+    }
+}
+
+/// Entries are subtracted two by two: from an even column on.
+const fn even(column: usize) -> usize {
+    column & !1
+}
+
+/// Whether the diagonal entry of a row will do as its pivot.
+#[inline]
+fn dominates<S: Real, const N: usize>(row: &[S; N], diagonal: usize) -> bool {
+    let mut squares = [S::zero(); 2];
+    for (column, &entry) in row.iter().enumerate().skip(diagonal + 1) {
+        squares[column % 2] += entry * entry;
+    }
+    let own = row[diagonal] * row[diagonal];
+    let least = S::from_f64(1.0 / (LARGEST_RATIO * LARGEST_RATIO)) * (squares[0] + squares[1]);
+    (least.less(own) & own.at_most(S::MAX)).all()
+}
+
+/// `x −= factor y`.
+#[inline]
+fn subtract<S: Real>(x: &mut [S], factor: S, y: &[S]) {
+    for (x, &y) in x.iter_mut().zip(y) {
+        *x -= factor * y;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `A x` with `x = (1, 2, …)`.
+    fn image<const N: usize>(a: &[[f64; N]; N]) -> [[f64; 1]; N] {
+        let x = |column: u8| f64::from(column + 1);
+        a.map(|row| [row.iter().zip(0..).map(|(&entry, at)| entry * x(at)).sum()])
+    }
+
+    fn check<const N: usize>(mut a: [[f64; N]; N]) {
+        let mut b = image(&a);
+        solve_fixed::<f64, N, 1>(a.as_flattened_mut(), &mut b).unwrap();
+        for (found, exact) in b.iter().zip(1_u8..) {
+            let exact = f64::from(exact);
+            assert!((found[0] - exact).abs() <= 16.0 * f64::EPSILON * exact);
+        }
+    }
+
+    #[test]
+    fn solves_a_system_that_needs_pivoting() {
+        check([[0.0, 2.0, 1.0], [1.0, 1.0, 0.0], [3.0, 0.0, 1.0]]);
+        check([[0.0, 1.0], [1.0, 0.0]]);
+        check([[1e-3, 1.0], [1.0, 1.0]]);
+        check([[1e-200, 3e-200], [3e-200, 1e-200]]);
+    }
+
+    /// Cyclic neighbours, which only an exchange in every row but the last brings to the diagonal.
+    #[test]
+    fn every_number_of_unknowns_is_solved() {
+        fn both<const N: usize>() {
+            check::<N>(array::from_fn(|i| {
+                array::from_fn(|j| if i == j { 4.0 } else { 0.25 })
+            }));
+            check::<N>(array::from_fn(|i| {
+                array::from_fn(|j| if (i + 1) % N == j { 4.0 } else { 0.25 })
+            }));
+        }
+        both::<1>();
+        both::<2>();
+        both::<3>();
+        both::<5>();
+        both::<8>();
+        both::<12>();
+    }
+
+    #[test]
+    fn a_singular_matrix_is_reported() {
+        for [a, b, c, d] in [
+            [1.0, 2.0, 2.0, 4.0],
+            [0.0; 4],
+            [f64::NAN, 1.0, 1.0, 1.0],
+            [1.0, 0.0, 0.0, f64::INFINITY],
+            [f64::INFINITY, 1.0, 1.0, 1.0],
+        ] {
+            let solved = solve_fixed::<f64, 2, 1>(&mut [a, b, c, d], &mut [[1.0]; 2]);
+            assert_eq!(solved, Err(Singular));
+        }
+    }
+}

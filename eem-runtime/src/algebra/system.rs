@@ -1,0 +1,377 @@
+//! A linear system whose matrix keeps its pattern.
+//!
+//! ```text
+//! A X = B     A: unknowns × unknowns, entries only where the Pattern has them;  B: W columns
+//! ```
+//!
+//! The entries of A are one array, [`values`](LinearSystem::values). Where an entry is in it is
+//! asked once, when the scene is built ([`place`](LinearSystem::place)); an iteration then writes
+//! to places. The entries of a row that belong to the unknowns of one node lie next to each other, as do
+//! the rows of B. What belongs to an anchor has a place too, behind everything else, which no
+//! elimination reads.
+//!
+//! How entries are laid out and what solves with them is the business of the [`Storage`]: another
+//! one is another variant there, with its answers to `new` (from the pattern), `entries`, `position`
+//! and `solve`. One and two unknowns do not ask it.
+
+#[cfg(feature = "sparse")]
+use core::marker::PhantomData;
+use core::mem;
+
+#[cfg(feature = "sparse")]
+use eem_sparse::{Precision, Solver};
+
+use crate::algebra::lu::{self, Singular};
+use crate::algebra::pattern::Pattern;
+use crate::number::scalar::Real;
+
+/// The most unknowns for which the elimination is compiled with their number.
+pub(crate) const MOST_FIXED: usize = 12;
+
+/// The most unknowns whose elimination is dense whatever the pattern.
+#[cfg(feature = "sparse")]
+const MOST_DENSE: usize = 24;
+
+/// The largest share of entries, one in this many, that is worth looking for.
+#[cfg(feature = "sparse")]
+const SPARSITY: usize = 4;
+
+/// `A X = B` with `W` right-hand sides, in memory that is reused.
+#[derive(Debug)]
+pub(crate) struct LinearSystem<S, const W: usize> {
+    unknowns: usize,
+    storage: Storage,
+    /// A is zero.
+    is_clear: bool,
+    /// The entries of A, then a scratch entry for anchors, written but never read.
+    values: Vec<S>,
+    /// The rows of B, then a scratch row for anchors, written but never read.
+    right: Vec<[S; W]>,
+    /// The rows of X, then what is said of those that have none.
+    solution: Vec<[S; W]>,
+}
+
+/// The entries of A and the rows of B.
+pub(crate) type Parts<'a, S, const W: usize> = (&'a mut [S], &'a mut [[S; W]]);
+
+/// Where the entries of A are, and how the system is solved.
+#[derive(Debug)]
+enum Storage {
+    /// All entries, row by row; at most [`MOST_FIXED`] unknowns.
+    Fixed { unknowns: usize },
+    /// All entries, row by row.
+    Dense { pivots: Vec<usize> },
+    /// The entries of the pattern.
+    #[cfg(feature = "sparse")]
+    Sparse(Box<Solver>),
+}
+
+impl Storage {
+    /// What suits the pattern.
+    fn new(pattern: &Pattern) -> Self {
+        let unknowns = pattern.unknowns();
+        if unknowns <= MOST_FIXED {
+            return Self::Fixed { unknowns };
+        }
+        #[cfg(feature = "sparse")]
+        if unknowns > MOST_DENSE
+            && pattern.entries() < unknowns * unknowns / SPARSITY
+            && let Ok(sparse) = Solver::new(pattern)
+        {
+            return Self::Sparse(Box::new(sparse));
+        }
+        let pivots = vec![0; unknowns];
+        Self::Dense { pivots }
+    }
+
+    /// How many values are stored.
+    fn entries(&self) -> usize {
+        match self {
+            Self::Fixed { unknowns } => unknowns * unknowns,
+            Self::Dense { pivots } => pivots.len() * pivots.len(),
+            #[cfg(feature = "sparse")]
+            Self::Sparse(sparse) => sparse.pattern().entries(),
+        }
+    }
+
+    /// Where an entry is among the values, if the pattern has it.
+    #[cfg_attr(
+        not(feature = "sparse"),
+        expect(
+            clippy::unnecessary_wraps,
+            reason = "all that is dense has every entry"
+        )
+    )]
+    fn position(&self, row: usize, column: usize) -> Option<usize> {
+        match self {
+            Self::Fixed { unknowns } => Some(row * unknowns + column),
+            Self::Dense { pivots } => Some(row * pivots.len() + column),
+            #[cfg(feature = "sparse")]
+            Self::Sparse(sparse) => sparse.pattern().position(row, column),
+        }
+    }
+
+    /// Overwrites the right-hand sides with the solutions, and the values with zeros; what follows the
+    /// values is not looked at.
+    #[inline(never)]
+    fn solve<S: Real, const W: usize>(
+        &mut self,
+        values: &mut [S],
+        right: &mut [[S; W]],
+    ) -> Result<(), Singular> {
+        match self {
+            Self::Fixed { unknowns } => solve_fixed(*unknowns, values, right),
+            Self::Dense { pivots } => solve_dense(values, pivots, right),
+            #[cfg(feature = "sparse")]
+            Self::Sparse(sparse) => solve_sparse(values, sparse, right),
+        }
+    }
+}
+
+/// The elimination of a full matrix. Apart, so that small systems do not pay for its registers.
+#[inline(never)]
+fn solve_dense<S: Real, const W: usize>(
+    values: &mut [S],
+    pivots: &mut [usize],
+    right: &mut [[S; W]],
+) -> Result<(), Singular> {
+    let values = &mut values[..pivots.len() * pivots.len()];
+    lu::factor(values, pivots)?;
+    lu::solve(values, pivots, right);
+    values.fill(S::zero());
+    Ok(())
+}
+
+/// The numbers of a scene, as the sparse elimination reads and writes them.
+#[cfg(feature = "sparse")]
+#[derive(Clone, Copy)]
+struct Stored<S>(PhantomData<S>);
+
+#[cfg(feature = "sparse")]
+impl<S: Real> Precision for Stored<S> {
+    type Number = S;
+
+    #[inline]
+    fn widen(number: S) -> f64 {
+        number.to_f64()
+    }
+
+    #[inline]
+    fn narrow(value: f64) -> S {
+        S::from_f64(value)
+    }
+}
+
+/// The elimination by the pattern, apart for the same reason.
+#[cfg(feature = "sparse")]
+#[inline(never)]
+fn solve_sparse<S: Real, const W: usize>(
+    values: &mut [S],
+    sparse: &mut Solver,
+    right: &mut [[S; W]],
+) -> Result<(), Singular> {
+    let values = &mut values[..sparse.pattern().entries()];
+    let factored = sparse.factor::<Stored<S>>(values);
+    let solved = factored.and_then(|mut factored| factored.solve(right));
+    solved.map_err(|_| Singular)?;
+    values.fill(S::zero());
+    Ok(())
+}
+
+/// The elimination that is compiled for this number of unknowns, more than two.
+#[inline]
+fn solve_fixed<S: Real, const W: usize>(
+    unknowns: usize,
+    values: &mut [S],
+    right: &mut [[S; W]],
+) -> Result<(), Singular> {
+    match unknowns {
+        3 => lu::solve_fixed::<S, 3, W>(values, right),
+        4 => lu::solve_fixed::<S, 4, W>(values, right),
+        5 => lu::solve_fixed::<S, 5, W>(values, right),
+        6 => lu::solve_fixed::<S, 6, W>(values, right),
+        7 => lu::solve_fixed::<S, 7, W>(values, right),
+        8 => lu::solve_fixed::<S, 8, W>(values, right),
+        9 => lu::solve_fixed::<S, 9, W>(values, right),
+        10 => lu::solve_fixed::<S, 10, W>(values, right),
+        11 => lu::solve_fixed::<S, 11, W>(values, right),
+        MOST_FIXED => lu::solve_fixed::<S, MOST_FIXED, W>(values, right),
+        0 => Ok(()),
+        _ => {
+            unreachable!("{unknowns} unknowns are solved in line, or not by a compiled elimination")
+        }
+    }
+}
+
+impl<S: Real, const W: usize> LinearSystem<S, W> {
+    /// A system in which what belongs to an anchor has so many rows.
+    pub(crate) fn new(pattern: &Pattern, run: usize) -> Self {
+        let storage = Storage::new(pattern);
+        Self {
+            unknowns: pattern.unknowns(),
+            is_clear: true,
+            values: vec![S::zero(); storage.entries() + run],
+            right: vec![[S::zero(); W]; pattern.unknowns() + run],
+            solution: vec![[S::zero(); W]; pattern.unknowns() + run],
+            storage,
+        }
+    }
+
+    /// Number of unknowns.
+    pub(crate) fn unknowns(&self) -> usize {
+        self.unknowns
+    }
+
+    /// The place of a row of B; the scratch row without an unknown.
+    pub(crate) fn row(&self, unknown: Option<usize>) -> usize {
+        unknown.unwrap_or(self.unknowns)
+    }
+
+    /// The place of an entry of A, which the pattern must have; without one of the unknowns, the
+    /// scratch entry.
+    pub(crate) fn place(&self, row: Option<usize>, column: Option<usize>) -> usize {
+        let position = row.zip(column).map(|(row, column)| {
+            let position = self.storage.position(row, column);
+            debug_assert!(position.is_some(), "the pattern has no {row}, {column}");
+            position
+        });
+        position.flatten().unwrap_or(self.storage.entries())
+    }
+
+    /// Makes everything zero.
+    pub(crate) fn clear(&mut self) {
+        self.clear_matrix();
+        self.right.fill([S::zero(); W]);
+    }
+
+    /// Makes A zero.
+    #[inline]
+    pub(crate) fn clear_matrix(&mut self) {
+        if !self.is_clear {
+            self.values.fill(S::zero());
+            self.is_clear = true;
+        }
+    }
+
+    /// The entries of A and the rows of B.
+    #[inline]
+    pub(crate) fn parts(&mut self) -> Parts<'_, S, W> {
+        self.is_clear = false;
+        (&mut self.values, &mut self.right)
+    }
+
+    /// The entries of A and the rows of B for the next system, of which A is zero, and the rows of X.
+    #[inline]
+    pub(crate) fn renew(&mut self) -> (&mut [S], &mut [[S; W]], &mut [[S; W]]) {
+        self.clear_matrix();
+        self.is_clear = false;
+        (&mut self.values, &mut self.right, &mut self.solution)
+    }
+
+    /// The rows of B.
+    pub(crate) fn right(&self) -> &[[S; W]] {
+        &self.right
+    }
+
+    /// The rows of X, once [`solve`](Self::solve) has succeeded.
+    pub(crate) fn solution(&self) -> &[[S; W]] {
+        &self.solution
+    }
+
+    /// The same, to be written.
+    pub(crate) fn solution_mut(&mut self) -> &mut [[S; W]] {
+        &mut self.solution
+    }
+
+    /// All entries of A, row-major.
+    pub(crate) fn dense(&self) -> Vec<S> {
+        let rows = 0..self.unknowns;
+        rows.flat_map(|row| {
+            (0..self.unknowns).map(move |column| {
+                let position = self.storage.position(row, column);
+                position.map_or(S::zero(), |position| self.values[position])
+            })
+        })
+        .collect()
+    }
+
+    /// Finds X, but for the rows of anchors; A is then zero, and B is lost.
+    #[inline]
+    pub(crate) fn solve(&mut self) -> Result<(), Singular> {
+        match self.unknowns {
+            // In line, as they are hardly longer than the call.
+            1 => lu::solve_one(&mut self.values, &self.right, &mut self.solution)?,
+            2 => lu::solve_two(&mut self.values, &self.right, &mut self.solution)?,
+            unknowns => {
+                self.storage
+                    .solve(&mut self.values, &mut self.right[..unknowns])?;
+                mem::swap(&mut self.right, &mut self.solution);
+            }
+        }
+        self.is_clear = true;
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Diagonally dominant, not symmetric, of any size and width of its band.
+    fn solves(unknowns: usize, band: usize) {
+        let pattern = Pattern::new(unknowns, |pair| {
+            for row in 0..unknowns {
+                (0..row)
+                    .filter(|column| row - column <= band)
+                    .for_each(|column| pair(row, column));
+            }
+        });
+        let mut system = LinearSystem::<f64, 2>::new(&pattern, 1);
+        let entry = |row: usize, column: usize| {
+            let off = f64::from(u8::try_from((3 * row + 5 * column) % 7).unwrap()) - 3.0;
+            if row == column { 50.0 } else { off }
+        };
+        let exact = |row: usize| {
+            let x = f64::from(u8::try_from(row).unwrap());
+            [1.0 + x, 2.0 - x]
+        };
+        for row in 0..unknowns {
+            for column in (0..unknowns).filter(|&column| row.abs_diff(column) <= band) {
+                let place = system.place(Some(row), Some(column));
+                let x = exact(column);
+                let (values, right) = system.parts();
+                values[place] = entry(row, column);
+                for (b, x) in right[row].iter_mut().zip(x) {
+                    *b += entry(row, column) * x;
+                }
+            }
+        }
+        system.solve().unwrap();
+        for (row, found) in system.solution()[..unknowns].iter().enumerate() {
+            for (found, exact) in found.iter().zip(exact(row)) {
+                // Condition number at most 4, numbers up to 61, and a rounding per entry of a row.
+                assert!(
+                    (found - exact).abs() <= 1e3 * f64::EPSILON,
+                    "{unknowns} unknowns"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn systems_of_every_size_are_solved() {
+        (0..=MOST_FIXED + 2).for_each(|unknowns| solves(unknowns, unknowns));
+        solves(60, 2);
+    }
+
+    #[test]
+    fn what_belongs_to_an_anchor_is_read_by_nobody() {
+        let mut system = LinearSystem::<f64, 1>::new(&Pattern::new(1, |_| {}), 1);
+        let (own, nobody) = (system.place(Some(0), Some(0)), system.place(Some(0), None));
+        let (values, right) = system.parts();
+        (values[own], values[nobody]) = (2.0, 9.0);
+        (right[0], right[1]) = ([6.0], [9.0]);
+        system.solve().unwrap();
+        assert_eq!(system.solution()[0].map(f64::to_bits), [3.0_f64.to_bits()]);
+    }
+}

@@ -1,0 +1,262 @@
+//! Fourier conduction between elements and to reservoirs.
+
+use crate::element::handle::{Element, HeatPartner};
+use crate::element::layout::Layout;
+use crate::number::compact::compact;
+use crate::number::compensated::Compensated;
+use crate::number::scalar::Real;
+
+/// The far end of a path of heat.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Partner {
+    /// The element with this thermal slot.
+    Slot(usize),
+    /// The reservoir with this index.
+    Reservoir(usize),
+}
+
+/// A path of heat as one of its elements sees it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Link<S> {
+    pub(crate) partner: Partner,
+    /// κ, W/K.
+    pub(crate) conductance: S,
+}
+
+/// A path of heat.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Conductor<S> {
+    pub(crate) element: Element,
+    pub(crate) partner: HeatPartner,
+    pub(crate) conductance: S,
+}
+
+/// All paths of heat of a scene, sorted by thermal slot.
+#[derive(Clone, Debug)]
+pub(crate) struct Conduction<S> {
+    links: Vec<Link<S>>,
+    /// Where the links of each slot begin and end; none for a scene without paths.
+    ranges: Vec<[u32; 2]>,
+    /// `θ_r`, K.
+    pub(crate) reservoirs: Vec<S>,
+}
+
+impl<S: Real> Conduction<S> {
+    /// The paths of a scene.
+    pub(crate) fn new(conductors: &[Conductor<S>], reservoirs: &[S], layout: &Layout) -> Self {
+        let slots = if conductors.is_empty() {
+            0
+        } else {
+            layout.thermal
+        };
+        let mut by_slot = vec![Vec::new(); slots];
+        let slot = |index: usize| layout.elements[index].thermal;
+        for conductor in conductors {
+            let conductance = conductor.conductance;
+            let near = slot(conductor.element.index);
+            let (partner, back) = match conductor.partner {
+                HeatPartner::Reservoir(far) => (Some(Partner::Reservoir(far.index)), None),
+                HeatPartner::Element(far) => {
+                    let far = slot(far.index);
+                    (far.map(Partner::Slot), far.zip(near.map(Partner::Slot)))
+                }
+            };
+            if let (Some(near), Some(partner)) = (near, partner) {
+                by_slot[near].push(Link {
+                    partner,
+                    conductance,
+                });
+            }
+            if let Some((far, partner)) = back {
+                by_slot[far].push(Link {
+                    partner,
+                    conductance,
+                });
+            }
+        }
+        let mut links = Vec::new();
+        let mut ranges = Vec::with_capacity(by_slot.len());
+        for list in by_slot {
+            let start = compact(links.len());
+            links.extend(list);
+            ranges.push([start, compact(links.len())]);
+        }
+        Self {
+            links,
+            ranges,
+            reservoirs: reservoirs.to_vec(),
+        }
+    }
+
+    /// The paths that end at a slot.
+    #[inline]
+    pub(crate) fn links(&self, slot: usize) -> &[Link<S>] {
+        let Some(&[start, end]) = self.ranges.get(slot) else {
+            return &[];
+        };
+        self.links
+            .get(start as usize..end as usize)
+            .unwrap_or_default()
+    }
+
+    /// Whether a slot exchanges heat with reservoirs.
+    pub(crate) fn meets_reservoirs(&self, slot: usize) -> bool {
+        let mut links = self.links(slot).iter();
+        links.any(|link| matches!(link.partner, Partner::Reservoir(_)))
+    }
+
+    /// The heat flow from reservoirs into a slot with the temperature θ, `Σ κ (θ_r − θ)`.
+    #[inline(never)]
+    pub(crate) fn reservoir_flow(&self, slot: usize, theta: S) -> HeatFlow<S> {
+        let mut flow = HeatFlow::none();
+        for link in self.links(slot) {
+            if let Partner::Reservoir(index) = link.partner {
+                flow.conductance += link.conductance;
+                flow.heat += link.conductance * (self.reservoirs[index] - theta);
+            }
+        }
+        flow
+    }
+
+    /// The heat flow into a slot, `Σ κ (Θ_partner − Θ) + Σ κ (θ_r − θ)`.
+    ///
+    /// Flows between elements are computed from `seen` temperatures Θ at both ends, so that one end
+    /// receives exactly what the other gives, whatever rounding does to a large κ; flows
+    /// from reservoirs from the temperature θ of the slot.
+    pub(crate) fn heat_flow(&self, slot: usize, theta: S, seen: &[S]) -> HeatFlow<S> {
+        let mut flow = self.reservoir_flow(slot, theta);
+        for link in self.links(slot) {
+            if let Partner::Slot(partner) = link.partner {
+                flow.heat += link.conductance * (seen[partner] - seen[slot]);
+            }
+        }
+        flow
+    }
+}
+
+/// What a path of heat moves in a step, as one of its ends sees it.
+///
+/// With the heat `Q = hκ D` that flows down the difference D of two temperatures, the entropy
+///
+/// ```text
+/// u = Q/θ,     P = Q D/(θ (θ + D)) ≥ 0
+/// ```
+///
+/// leaves one end and reaches the other, where P is produced. Both ends book the same u, and P has the
+/// sign of D² to the last bit, so that the total entropy does not decrease even where D is far below the
+/// rounding of the temperatures.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Exchange<S> {
+    /// Heat that this end receives, J.
+    pub(crate) heat: S,
+    /// Entropy that this end receives, without what is produced, J/K.
+    pub(crate) entropy: S,
+    /// D and θ, K.
+    drop: S,
+    theta: S,
+}
+
+impl<S: Real> Exchange<S> {
+    /// The end at the temperature θ of a path to one that is warmer by `drop`, K, with `hκ` in J/K.
+    #[inline]
+    fn at_cool_end(conducted: S, drop: S, theta: S) -> Self {
+        let heat = conducted * drop;
+        Self {
+            heat,
+            entropy: heat / theta,
+            drop,
+            theta,
+        }
+    }
+
+    /// P, J/K.
+    #[inline]
+    pub(crate) fn production(&self) -> S {
+        // The heat at this end may have either sign.
+        self.entropy.abs() * (self.drop.abs() / (self.theta + self.drop))
+    }
+
+    /// An element that is cooler by `drop` than a reservoir.
+    #[inline]
+    pub(crate) fn from_reservoir(conducted: S, drop: S, theta_r: S) -> Self {
+        Self::at_cool_end(conducted, -drop, theta_r).reversed()
+    }
+
+    /// The other end.
+    #[inline]
+    fn reversed(self) -> Self {
+        Self {
+            heat: -self.heat,
+            entropy: -self.entropy,
+            ..self
+        }
+    }
+}
+
+/// The algorithmic temperatures Θ = θ* as elements in contact see each other, per thermal slot, K.
+///
+/// Each is a compensated sum: where conduction is stiff, the heat `hκ(Θ_b − Θ_a)` needs more digits of
+/// the difference than the temperatures have.
+#[derive(Clone, Debug)]
+pub(crate) struct SeenTemperatures<S>(Compensated<S>);
+
+impl<S: Real> SeenTemperatures<S> {
+    /// Room for so many.
+    pub(crate) fn new(slots: usize) -> Self {
+        Self(Compensated::new(vec![S::zero(); slots]))
+    }
+
+    /// Each of them, rounded.
+    #[inline]
+    pub(crate) fn values(&self) -> &[S] {
+        self.0.values()
+    }
+
+    /// Restarts one.
+    #[inline]
+    pub(crate) fn set(&mut self, slot: usize, theta: S) {
+        self.0.set(slot, theta);
+    }
+
+    /// Adds to one.
+    #[inline]
+    pub(crate) fn add(&mut self, slot: usize, change: S) {
+        self.0.add(slot, change);
+    }
+
+    /// `Θ_far − Θ_near`, K.
+    #[inline]
+    pub(crate) fn drop(&self, near: usize, far: usize) -> S {
+        self.0.sum(far).change(self.0.sum(near))
+    }
+
+    /// What flows in a step to a slot from another, with `hκ` in J/K. The one of the two that comes first
+    /// is where u is formed.
+    #[inline]
+    pub(crate) fn exchange(&self, conducted: S, slot: usize, other: usize) -> Exchange<S> {
+        let first = slot.min(other);
+        let drop = self.drop(first, slot.max(other));
+        let path = Exchange::at_cool_end(conducted, drop, self.values()[first]);
+        if slot == first { path } else { path.reversed() }
+    }
+}
+
+/// What flows into a slot.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HeatFlow<S> {
+    /// Q, W.
+    pub(crate) heat: S,
+    /// `−∂Q/∂θ = Σ κ` to reservoirs, W/K.
+    pub(crate) conductance: S,
+}
+
+impl<S: Real> HeatFlow<S> {
+    /// Nothing flows.
+    #[inline]
+    pub(crate) fn none() -> Self {
+        Self {
+            heat: S::zero(),
+            conductance: S::zero(),
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! The energy–entropy–momentum scheme in temperature form.
+//!
+//! ```text
+//! θ* = D_θ e / D_θ s,   f* = D_λ e − θ* D_λ s,   g* = −(D_γ e − θ* D_γ s)
+//! ```
+//!
+//! with partitioned discrete derivatives of e(λ, γ, θ) and s(λ, γ, θ) (Conde Martín, Betsch & García
+//! Orden 2016, eqs. 37–39). `f*Δλ − g*Δγ + θ*Δs = Δe` exactly, hence the first law; `θ*` is
+//! a mean of temperatures weighted with the heat capacity, hence positive, hence the second. No
+//! inversion is needed: the new temperature is the unknown.
+
+use crate::element::conjugates::element::{ElementScheme, Form, Infeasible, Placement, Start};
+use crate::material::free_energy::{Array, Entry, FreeEnergy};
+use crate::number::scalar::Real;
+
+/// See the module.
+#[derive(Debug)]
+pub(crate) enum EemTemperature {}
+
+impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for EemTemperature {
+    const PLACEMENT: Placement = Placement::Ends;
+    const IMPLICIT: f64 = 1.0;
+    const EXACT: bool = true;
+
+    type Old = M::TemperatureFormOld;
+    type Memory = ();
+    type AtPoint<T: Entry> = [T; 0];
+
+    #[inline]
+    fn old(model: &M, x0: &M::Variables, _: S) -> Self::Old {
+        model.temperature_form_old(x0)
+    }
+
+    fn memory(_: S) -> Self::Memory {}
+
+    #[inline]
+    fn form(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        x: &M::Variables,
+        (): &Self::Memory,
+    ) -> Form<S, M> {
+        model.temperature_form(&start.old, x)
+    }
+
+    #[inline]
+    fn check(x: &M::Variables, form: &Form<S, M>) -> Result<(), Infeasible> {
+        if !M::THERMAL {
+            return Ok(());
+        }
+        // ∂Δs/∂θ¹ = C/θ¹
+        let last = M::Variables::LEN - 1;
+        let theta = x[last];
+        let slope = form.1[last + 1][last];
+        Infeasible::unless_stable(theta * slope, theta)
+    }
+
+    #[inline]
+    fn response(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        x: &M::Variables,
+        (): &Self::Memory,
+    ) -> M::Response {
+        model.temperature_form_response(&start.old, x)
+    }
+}

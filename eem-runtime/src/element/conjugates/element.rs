@@ -1,0 +1,202 @@
+//! What an element does during one step: the side of a scheme that elements see.
+
+use crate::element::error::StateError;
+use crate::element::handle::Element;
+use crate::material::free_energy::{Array, Entry, FreeEnergy};
+use crate::material::inversion::InversionError;
+use crate::number::scalar::{Real, is_positive};
+
+/// Where along a step the measures and their gradient are taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Placement {
+    /// New measures; force along the mean-value gradient between both ends.
+    Ends,
+    /// Measures and gradient of the mean configuration.
+    Middle,
+    /// Measures and gradient of the new configuration.
+    End,
+    /// Means of the old and new measures; force along the gradient of the old configuration, and
+    /// then along that of the new one.
+    Start,
+}
+
+/// What an element does during one step.
+///
+/// Variables are `x = (π…, γ…, τ)` with a temperature τ > 0 of the scheme's own: the new one for
+/// schemes that look at the ends, the mean one for those that look at the middle. Newton's method
+/// corrects τ, or the entropy change Δs if [`temperature`](Self::temperature) finds τ from it.
+pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static {
+    /// Where the measures are taken.
+    const PLACEMENT: Placement;
+
+    /// The part of forces and rates that is taken from the response; the rest, `1 − IMPLICIT`, is
+    /// that of the old state.
+    const IMPLICIT: f64;
+
+    /// Whether `f*Δλ − g*Δγ + θ*Δs = Δe` exactly, so that every step has to keep the laws.
+    const EXACT: bool = false;
+
+    /// Whether Newton's method works on `θ* r_s` instead of `r_s`, which converges for stiff
+    /// conduction too. The ordinary rules are solved the ordinary way.
+    const SCALES_HEAT: bool = true;
+
+    /// Whether the temperature is the state that the scheme integrates, and not the entropy.
+    const IN_TEMPERATURE: bool = false;
+
+    /// Whether the scheme takes the entropy for its unknown and finds τ from it.
+    const FINDS_TEMPERATURE: bool = false;
+
+    /// What the scheme keeps of the old state.
+    type Old: Copy + Send + Sync;
+
+    /// What it keeps from one iteration to the next, as starting values.
+    type Memory: Copy + Send + Sync;
+
+    /// `[T; 1]` for a rule that looks at one point of the step, `[T; 0]` for others: room for what
+    /// only such rules need.
+    type AtPoint<T: Entry>: Array<T>;
+
+    /// What the scheme needs of the old variables and the old entropy, once per step.
+    fn old(model: &M, x0: &M::Variables, entropy: S) -> Self::Old;
+
+    /// The first starting values of a step, from the old temperature.
+    fn memory(theta0: S) -> Self::Memory;
+
+    /// The temperature τ of the trial, given its other variables and Δs.
+    ///
+    /// The present τ unless the scheme takes the entropy for its unknown.
+    fn temperature(
+        _: &M,
+        _: &Start<S, M, Self::Old>,
+        x: &M::Variables,
+        _entropy_change: S,
+    ) -> Result<S, Infeasible> {
+        Ok(x.as_ref()[M::Variables::LEN - 1])
+    }
+
+    /// Finds what the form needs besides the variables.
+    #[inline]
+    fn prepare(
+        _: &M,
+        _: &Start<S, M, Self::Old>,
+        _: &M::Variables,
+        _: &mut Self::Memory,
+    ) -> Result<(), Infeasible> {
+        Ok(())
+    }
+
+    /// The response `(f*…, g*…, θ*, Δs)` and its tangent.
+    fn form(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        x: &M::Variables,
+        memory: &Self::Memory,
+    ) -> Form<S, M>;
+
+    /// A form that is easier to solve for where this one is hard to start, if there is one.
+    #[cold]
+    fn starting_form(_: &M, _: &Start<S, M, Self::Old>, _: &M::Variables) -> Option<Form<S, M>> {
+        None
+    }
+
+    /// Refuses a trial that is not stable, as its form tells.
+    #[inline]
+    fn check(_: &M::Variables, _: &Form<S, M>) -> Result<(), Infeasible> {
+        Ok(())
+    }
+
+    /// For a scheme in temperature: replaces the Δs of the form by that of rates, where increments
+    /// say by how much the rates along the step change measures, viscous stretches and temperature,
+    /// apart from what the old state contributes. Returns its derivative by the increments.
+    fn change_entropy_at_rates(
+        _: &M,
+        _: &Start<S, M, Self::Old>,
+        _: &M::Variables,
+        _: &M::Variables,
+        _: &mut Form<S, M>,
+    ) -> M::Variables {
+        M::Variables::filled(S::zero())
+    }
+
+    /// The response alone, without its tangent, at the end of a step. That the new state is stable is
+    /// checked where its temperature is found.
+    #[inline]
+    fn response(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        x: &M::Variables,
+        memory: &Self::Memory,
+    ) -> M::Response {
+        Self::form(model, start, x, memory).0
+    }
+}
+
+/// A response and its derivative by the variables.
+pub(crate) type Form<S, M> = (
+    <M as FreeEnergy<S>>::Response,
+    <M as FreeEnergy<S>>::Tangent,
+);
+
+/// The old state of an element as its scheme sees it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Start<S: Real, M: FreeEnergy<S>, Old> {
+    /// x⁰.
+    pub(crate) x0: M::Variables,
+    /// What the scheme keeps of the old state.
+    pub(crate) old: Old,
+}
+
+/// Why an element has no response.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Infeasible {
+    /// No temperature has this entropy.
+    Entropy {
+        entropy: f64,
+        source: InversionError,
+    },
+    /// The heat capacity is not positive at this temperature.
+    HeatCapacity { value: f64, temperature: f64 },
+}
+
+impl Infeasible {
+    /// An error unless the heat capacity is positive and finite.
+    pub(crate) fn unless_stable<S: Real>(heat_capacity: S, theta: S) -> Result<(), Self> {
+        if is_positive(heat_capacity) {
+            return Ok(());
+        }
+        Err(Self::HeatCapacity {
+            value: heat_capacity.to_f64(),
+            temperature: theta.to_f64(),
+        })
+    }
+
+    /// The same, said of an element.
+    pub(crate) fn of(self, element: Element) -> StateError {
+        match self {
+            // The inversion starts from a state of the same element: an unstable start is a heat
+            // capacity that is not positive.
+            Self::Entropy {
+                source:
+                    InversionError::UnstableStart {
+                        start,
+                        heat_capacity,
+                    },
+                ..
+            } => StateError::HeatCapacity {
+                element,
+                value: heat_capacity,
+                temperature: start,
+            },
+            Self::Entropy { entropy, source } => StateError::NoSuchTemperature {
+                element,
+                entropy,
+                source,
+            },
+            Self::HeatCapacity { value, temperature } => StateError::HeatCapacity {
+                element,
+                value,
+                temperature,
+            },
+        }
+    }
+}

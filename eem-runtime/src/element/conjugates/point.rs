@@ -1,0 +1,197 @@
+//! The response of schemes that evaluate the free energy at one point of the step.
+//!
+//! They are solved by Newton's method in the variables that they integrate, hence with the entropy
+//! as unknown.
+
+use crate::element::conjugates::element::{ElementScheme, Form, Infeasible, Placement, Start};
+use crate::element::conjugates::temperature::temperature_at;
+use crate::material::free_energy::{Array, Entry, FreeEnergy};
+use crate::number::scalar::Real;
+
+/// A rule that looks at one point of the step.
+pub(crate) trait PointRule: Send + Sync + 'static {
+    /// Where the measures are taken.
+    const PLACEMENT: Placement;
+    /// The part of forces and rates that is taken at the point; the rest is that of the old state.
+    const IMPLICIT: f64;
+    /// The share c of the step after which the point lies.
+    const AT: f64;
+    /// Whether the temperature is the state that the rule integrates.
+    const IN_TEMPERATURE: bool = false;
+}
+
+impl<R, S, M> ElementScheme<S, M> for R
+where
+    R: PointRule,
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+{
+    const PLACEMENT: Placement = R::PLACEMENT;
+    const IMPLICIT: f64 = R::IMPLICIT;
+    const IN_TEMPERATURE: bool = R::IN_TEMPERATURE;
+    const SCALES_HEAT: bool = false;
+    const FINDS_TEMPERATURE: bool = !R::IN_TEMPERATURE;
+
+    /// s⁰, J/K.
+    type Old = S;
+    type Memory = ();
+    type AtPoint<T: Entry> = [T; 1];
+
+    fn old(_: &M, _: &M::Variables, entropy: S) -> Self::Old {
+        entropy
+    }
+
+    fn memory(_: S) -> Self::Memory {}
+
+    // The entropy at the point is s⁰ + c Δs.
+    fn temperature(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        x: &M::Variables,
+        entropy_change: S,
+    ) -> Result<S, Infeasible> {
+        if R::IN_TEMPERATURE {
+            return Ok(x.as_ref()[M::Variables::LEN - 1]);
+        }
+        let c = S::from_f64(R::AT);
+        let guess = x.as_ref()[M::Variables::LEN - 1];
+        let entropy = start.old + c * entropy_change;
+        temperature_at(model, point(start, x, c), entropy, guess)
+    }
+
+    fn form(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        x: &M::Variables,
+        (): &Self::Memory,
+    ) -> Form<S, M> {
+        respond(model, start, x, S::from_f64(R::AT))
+    }
+
+    fn change_entropy_at_rates(
+        model: &M,
+        start: &Start<S, M, Self::Old>,
+        x: &M::Variables,
+        increments: &M::Variables,
+        form: &mut Form<S, M>,
+    ) -> M::Variables {
+        let c = S::from_f64(R::AT);
+        let point = point(start, x, c);
+        change_entropy_at_rates(model, &point, increments, c, form)
+    }
+}
+
+/// `(π, γ⁰ + c (γ − γ⁰), τ)` for `x = (π, γ, τ)`.
+fn point<S: Real, M: FreeEnergy<S>>(
+    start: &Start<S, M, S>,
+    x: &M::Variables,
+    c: S,
+) -> M::Variables {
+    let mut point = *x;
+    for index in M::MEASURES..M::MEASURES + M::DASHPOTS {
+        let old = start.x0.as_ref()[index];
+        point.as_mut()[index] = old + c * (x.as_ref()[index] - old);
+    }
+    point
+}
+
+/// The response at `x_c = (π, γ⁰ + c (γ − γ⁰), τ)`, where `x = (π, γ, τ)`.
+///
+/// ```text
+/// f* = ∂ψ/∂π,  g* = −∂ψ/∂γ,  θ* = τ,  Δs = (S − s⁰)/c       at x_c
+/// ```
+///
+/// `c = ½` is the midpoint, where `s_m = s⁰ + ½Δs`; `c = 1` the end of the step.
+fn respond<S: Real, M: FreeEnergy<S>>(
+    model: &M,
+    start: &Start<S, M, S>,
+    x: &M::Variables,
+    c: S,
+) -> Form<S, M> {
+    let variables = M::Variables::LEN;
+    let dashpots = M::MEASURES..M::MEASURES + M::DASHPOTS;
+    let (gradient, hessian) = model.hessian(&point(start, x, c));
+    let (gradient, hessian) = (gradient.as_ref(), hessian.as_ref());
+    let mut response = M::Response::filled(S::zero());
+    let mut tangent = M::Tangent::filled(M::Variables::filled(S::zero()));
+    let by = |column: usize| {
+        if dashpots.contains(&column) {
+            c
+        } else {
+            S::one()
+        }
+    };
+    for row in 0..M::MEASURES + M::DASHPOTS {
+        let sign = if row < M::MEASURES {
+            S::one()
+        } else {
+            -S::one()
+        };
+        response.as_mut()[row] = sign * gradient[row];
+        for column in 0..variables {
+            let entry = hessian[row].as_ref()[column];
+            tangent.as_mut()[row].as_mut()[column] = sign * by(column) * entry;
+        }
+    }
+    if M::THERMAL {
+        let last = variables - 1;
+        response.as_mut()[last] = x.as_ref()[last];
+        tangent.as_mut()[last].as_mut()[last] = S::one();
+        response.as_mut()[variables] = (-gradient[last] - start.old) / c;
+        for column in 0..variables {
+            let entry = hessian[last].as_ref()[column];
+            tangent.as_mut()[variables].as_mut()[column] = -by(column) * entry / c;
+        }
+    }
+    (response, tangent)
+}
+
+/// Replaces the Δs of entropies by that of rates, `Δs = Σ_i (∂s/∂x_i) δ_i` at the point, with the
+/// increments `δ` of measures, viscous stretches and temperature along the step.
+///
+/// Returns `∂s/∂x`. With `θ ṡ = Σ g²/η + Q` written as `θ (s_λ λ̇ + s_γ γ̇ + s_θ θ̇)` this is the rule for θ̇.
+fn change_entropy_at_rates<S: Real, M: FreeEnergy<S>>(
+    model: &M,
+    point: &M::Variables,
+    increments: &M::Variables,
+    c: S,
+    (response, tangent): &mut Form<S, M>,
+) -> M::Variables {
+    let (variables, last) = (M::Variables::LEN, M::Variables::LEN - 1);
+    let entropy_hessian = model.entropy_hessian(point);
+    // ∂s/∂x, of which the tangent of Δs = (S − s⁰)/c is made: for γ with dγ_c/dγ = c.
+    let slopes = tangent.as_ref()[variables];
+    let slope = |i: usize| {
+        let entry = slopes.as_ref()[i];
+        if (M::MEASURES..last).contains(&i) {
+            entry
+        } else {
+            c * entry
+        }
+    };
+    let mut change = S::zero();
+    for (i, &increment) in increments.as_ref().iter().enumerate() {
+        change += slope(i) * increment;
+    }
+    response.as_mut()[variables] = change;
+    for column in 0..variables {
+        let mut entry = S::zero();
+        for (i, &increment) in increments.as_ref().iter().enumerate() {
+            entry += entropy_hessian.as_ref()[i].as_ref()[column] * increment;
+        }
+        // dγ_c/dγ = c and dδ_γ/dγ = 1; dδ_θ/dτ = 1/c; measures enter through their increments.
+        let entry = if column < M::MEASURES {
+            entry
+        } else if column < last {
+            c * entry + slope(column)
+        } else {
+            entry + slope(column) / c
+        };
+        tangent.as_mut()[variables].as_mut()[column] = entry;
+    }
+    let mut by_increment = M::Variables::filled(S::zero());
+    for (i, by) in by_increment.as_mut().iter_mut().enumerate() {
+        *by = slope(i);
+    }
+    by_increment
+}

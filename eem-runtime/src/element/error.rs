@@ -1,0 +1,119 @@
+//! Why an element cannot be in a state.
+
+use thiserror::Error;
+
+use crate::element::handle::Element;
+use crate::material::inversion::InversionError;
+use crate::number::readable::Readable;
+
+/// Why an element cannot be in a state.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum StateError {
+    /// The nodes of an element coincide, or are so near or far that the square of their distance,
+    /// of which the stretch is the root, underflows or overflows.
+    #[error(
+        "the stretch of {element} is {value} m, it must lie between {:.1e} m and {:.1e} m, so that its square neither underflows nor overflows",
+        least, most, value = Readable(*value)
+    )]
+    Stretch {
+        /// The element.
+        element: Element,
+        /// The stretch, m.
+        value: f64,
+        /// The smallest stretch that the scalar of the scene allows, m.
+        least: f64,
+        /// The largest one, m.
+        most: f64,
+    },
+    /// A solid is inside out at a point, or its deformation is not finite.
+    #[error(
+        "the solid at {element} is inside out: det F is {value}, it must be positive and finite; a smaller step or a finer mesh may help",
+        value = Readable(*value)
+    )]
+    InsideOut {
+        /// The point.
+        element: Element,
+        /// `det F`.
+        value: f64,
+    },
+    /// A viscous stretch is not finite.
+    #[error(
+        "the viscous stretch of dashpot {dashpot} of {element} is {value}{unit}, it must be finite",
+        value = Readable(*value), unit = spaced(unit)
+    )]
+    ViscousStretch {
+        /// The element.
+        element: Element,
+        /// The dashpot, from 0.
+        dashpot: usize,
+        /// The viscous stretch.
+        value: f64,
+        /// Its unit: m for a spring, none for a solid.
+        unit: &'static str,
+    },
+    /// A temperature is not positive and finite.
+    #[error("the temperature of {element} is {value} K, it must be positive and finite", value = Readable(*value))]
+    Temperature {
+        /// The element.
+        element: Element,
+        /// The temperature, K.
+        value: f64,
+    },
+    /// A heat capacity is not positive and finite.
+    #[error(
+        "the heat capacity of {element} is {value} J/K at {temperature} K, it must be positive and finite", value = Readable(*value), temperature = Readable(*temperature))]
+    HeatCapacity {
+        /// The element.
+        element: Element,
+        /// The heat capacity `θ ∂s/∂θ`, J/K.
+        value: f64,
+        /// The temperature, K.
+        temperature: f64,
+    },
+    /// A viscosity is not positive and finite.
+    #[error(
+        "the viscosity of dashpot {dashpot} of {element} is {value} {unit}{}, it must be positive and finite",
+        temperature.as_ref().map_or_else(String::new, |theta| format!(" at {} K", Readable(*theta))), value = Readable(*value))]
+    Viscosity {
+        /// The element.
+        element: Element,
+        /// The dashpot, from 0.
+        dashpot: usize,
+        /// The viscosity.
+        value: f64,
+        /// Its unit: N s/m for a spring, J s for a point of a solid.
+        unit: &'static str,
+        /// The temperature, K, if the model has one.
+        temperature: Option<f64>,
+    },
+    /// No temperature has the entropy that the element must have.
+    #[error("{element}: {source}")]
+    NoSuchTemperature {
+        /// The element.
+        element: Element,
+        /// The entropy, J/K.
+        entropy: f64,
+        /// What the inversion says.
+        source: InversionError,
+    },
+    /// A quantity that a model computes is not finite.
+    #[error("the {quantity} of {element} is {value}, it must be finite", value = Readable(*value))]
+    NotFinite {
+        /// The element.
+        element: Element,
+        /// The quantity.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+    },
+}
+
+/// A unit behind its number.
+fn spaced(unit: &str) -> String {
+    if unit.is_empty() {
+        String::new()
+    } else {
+        format!(" {unit}")
+    }
+}

@@ -1,0 +1,49 @@
+//! All elements of one model, stepped together.
+//!
+//! [`Group`] is what the solver sees: one dynamic call per group and phase. [`ElementGroup`] is the one
+//! implementation, monomorphic in model, kinematics and scheme. The phases of a step are
+//!
+//! ```text
+//! begin      take over the old state, once                           (begin)
+//! evaluate   response at the trial                                  (evaluate, respond, pose, arms)
+//!            local unknowns eliminated                              (local, eliminate)
+//!            contributions written to their places                  (assemble, scatter, site)
+//! correct    local unknowns from the global solution                (correct, point)
+//! close      impulses, what is booked, and the new state            (closing, settle, certify)
+//! ```
+
+mod arms;
+mod assemble;
+mod at_point;
+mod audit;
+mod begin;
+mod certify;
+mod closing;
+mod correct;
+mod element_group;
+mod eliminate;
+mod evaluate;
+mod generic;
+mod inspect;
+mod interface;
+mod local;
+mod member;
+mod misfit;
+mod point;
+mod pose;
+mod respond;
+mod scatter;
+mod settle;
+mod settled;
+mod site;
+mod stages;
+mod view;
+
+pub(crate) use arms::points;
+pub(crate) use element_group::ElementGroup;
+pub(crate) use interface::{Elements, Group};
+pub(crate) use misfit::Misfit;
+pub(crate) use stages::StageGroup;
+pub(crate) use view::{
+    Along, ElementGeneric, ElementView, NodesOf, Old, Placed, Sites, StepView, Trial,
+};

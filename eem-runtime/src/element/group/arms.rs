@@ -1,0 +1,171 @@
+//! Arithmetic with the arms of an element, and with what there is per arm.
+
+use crate::element::group::view::Trial;
+use crate::element::kinematics::{Arms, Gradient, Kinematics, Measures};
+use crate::material::free_energy::Array;
+use crate::number::compensated::Compensated;
+use crate::number::scalar::Real;
+
+/// `Σ_i g_i · w_i` over the arms.
+#[inline]
+pub(super) fn along<K: Kinematics<S, D>, S: Real, const D: usize>(
+    gradient: &Arms<K, S, D>,
+    motion: &Arms<K, S, D>,
+) -> S {
+    let pairs = gradient.as_ref().iter().zip(motion.as_ref());
+    pairs.fold(S::zero(), |sum, (g, w)| sum + dot(g, w))
+}
+
+#[inline]
+pub(super) fn dot<S: Real, const D: usize>(a: &[S; D], b: &[S; D]) -> S {
+    a.iter().zip(b).fold(S::zero(), |sum, (&a, &b)| sum + a * b)
+}
+
+/// The arms of an element in a state, to rounding of the arms wherever the origin is: what rounding
+/// took from the positions is part of them.
+#[inline]
+pub(super) fn arms_in<K: Kinematics<S, D>, S: Real, const D: usize>(
+    nodes: &K::PerNode<u32>,
+    positions: &Compensated<S>,
+) -> Arms<K, S, D> {
+    let [first, first_carry] = positions.point::<D>(nodes[0] as usize);
+    let mut arms = Arms::<K, S, D>::filled([S::zero(); D]);
+    for (arm, &node) in arms.as_mut().iter_mut().zip(&nodes.as_ref()[1..]) {
+        let [other, carry] = positions.point::<D>(node as usize);
+        for axis in 0..D {
+            arm[axis] = (other[axis] - first[axis]) + (carry[axis] - first_carry[axis]);
+        }
+    }
+    arms
+}
+
+/// The change of the arms of an element at a trial, to rounding of the change wherever the nodes go.
+#[inline]
+pub(super) fn change_in<K: Kinematics<S, D>, S: Real, const D: usize>(
+    nodes: &K::PerNode<u32>,
+    trial: &Trial<S, D>,
+) -> Arms<K, S, D> {
+    change_of::<K, S, D>(nodes, [&trial.displacements, &trial.rests])
+}
+
+/// The same at the stage of a set of unknowns.
+#[inline]
+pub(super) fn change_in_set<K: Kinematics<S, D>, S: Real, const D: usize>(
+    nodes: &K::PerNode<u32>,
+    trial: &Trial<S, D>,
+    set: usize,
+) -> Arms<K, S, D> {
+    let first = trial.first_of_set(set);
+    change_of::<K, S, D>(
+        nodes,
+        [&trial.displacements[first..], &trial.rests[first..]],
+    )
+}
+
+#[inline]
+fn change_of<K: Kinematics<S, D>, S: Real, const D: usize>(
+    nodes: &K::PerNode<u32>,
+    [displacements, rests]: [&[[S; D]]; 2],
+) -> Arms<K, S, D> {
+    let of = |node: u32| (&displacements[node as usize], &rests[node as usize]);
+    let (first, first_rest) = of(nodes[0]);
+    let mut change = Arms::<K, S, D>::filled([S::zero(); D]);
+    for (arm, &node) in change.as_mut().iter_mut().zip(&nodes.as_ref()[1..]) {
+        let (other, rest) = of(node);
+        for axis in 0..D {
+            arm[axis] = (other[axis] - first[axis]) + (rest[axis] - first_rest[axis]);
+        }
+    }
+    change
+}
+
+/// Derivatives by arms as derivatives by positions.
+#[inline]
+pub(super) fn spread<K: Kinematics<S, D>, S: Real, const D: usize>(
+    by_arm: &Arms<K, S, D>,
+) -> K::PerNode<[S; D]> {
+    let mut by_node = K::PerNode::filled([S::zero(); D]);
+    for (i, by) in by_arm.as_ref().iter().enumerate() {
+        by_node[i + 1] = *by;
+        for (sum, &entry) in by_node[0].iter_mut().zip(by) {
+            *sum -= entry;
+        }
+    }
+    by_node
+}
+
+/// The nodal forces `Σ_a f_a g_a` along a gradient.
+#[inline]
+pub(super) fn resultant<K: Kinematics<S, D>, S: Real, const D: usize>(
+    gradient: &Gradient<K, S, D>,
+    force: &Measures<K, S, D>,
+) -> K::PerNode<[S; D]> {
+    let mut sum = Arms::<K, S, D>::filled([S::zero(); D]);
+    for (row, &magnitude) in gradient.as_ref().iter().zip(force.as_ref()) {
+        for (sum, entry) in sum.as_mut().iter_mut().zip(row.as_ref()) {
+            for (sum, &entry) in sum.iter_mut().zip(entry) {
+                *sum += magnitude * entry;
+            }
+        }
+    }
+    spread::<K, S, D>(&sum)
+}
+
+/// Numbers per measure, the first of an array.
+#[inline]
+pub(super) fn measures_in<K: Kinematics<S, D>, S: Real, const D: usize>(
+    values: &impl Array<S>,
+) -> Measures<K, S, D> {
+    let mut measures = Measures::<K, S, D>::filled(S::zero());
+    for (a, measure) in measures.as_mut().iter_mut().enumerate() {
+        *measure = values[a];
+    }
+    measures
+}
+
+/// Coordinates as points.
+#[inline]
+pub(crate) fn points<S, const D: usize>(coordinates: &[S]) -> &[[S; D]] {
+    coordinates.as_chunks().0
+}
+
+#[inline]
+pub(super) fn mean<K: Kinematics<S, D>, S: Real, const D: usize>(
+    r0: &Arms<K, S, D>,
+    r1: &Arms<K, S, D>,
+) -> Arms<K, S, D> {
+    let mut mean = *r1;
+    for (mean, old) in mean.as_mut().iter_mut().zip(r0.as_ref()) {
+        for (mean, &old) in mean.iter_mut().zip(old) {
+            *mean = S::from_f64(0.5) * (old + *mean);
+        }
+    }
+    mean
+}
+
+/// Multiplies all arms by a factor.
+#[inline]
+pub(super) fn scale<K: Kinematics<S, D>, S: Real, const D: usize>(
+    arms: &mut Arms<K, S, D>,
+    factor: S,
+) {
+    for arm in arms.as_mut() {
+        for entry in arm {
+            *entry *= factor;
+        }
+    }
+}
+
+/// `sum += factor arms`.
+#[inline]
+pub(super) fn add_scaled<K: Kinematics<S, D>, S: Real, const D: usize>(
+    sum: &mut Arms<K, S, D>,
+    factor: S,
+    arms: &Arms<K, S, D>,
+) {
+    for (sum, arm) in sum.as_mut().iter_mut().zip(arms.as_ref()) {
+        for (sum, &entry) in sum.iter_mut().zip(arm) {
+            *sum += factor * entry;
+        }
+    }
+}

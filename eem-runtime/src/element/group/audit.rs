@@ -1,0 +1,130 @@
+//! Whether elements can be in a state that comes from outside, and which parameters they have.
+
+use super::point::Point;
+use crate::element::conjugates::{ElementScheme, Infeasible};
+use crate::element::error::StateError;
+use crate::element::group::element_group::ElementGroup;
+use crate::element::group::misfit::Misfit;
+use crate::element::kinematics::Kinematics;
+use crate::element::state::State;
+use crate::material::free_energy::FreeEnergy;
+use crate::number::digest::Digest;
+use crate::number::scalar::{Mask, Real, is_positive};
+
+/// How many ε of its terms an entropy may differ from that of the model.
+///
+/// A step finds the temperature of its entropy within 4 ε of the terms of S, or within 2 ε in the
+/// larger of 1 and |ln θ|, which is that times the heat capacity in the entropy (`inversion`);
+/// stretches and viscous stretches are rounded once each. As much again is for evaluating S here.
+const ENTROPY_ROUNDINGS: f64 = 8.0;
+
+impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// See [`Elements::digest`](super::Elements::digest).
+    pub(super) fn digest_all(&self, digest: &mut Digest) {
+        for name in M::PARAMETERS {
+            digest.bytes(name.as_bytes());
+            digest.bytes(&[0]);
+        }
+        for point in self.points() {
+            digest.count(point.element.index);
+            for index in 0..M::PARAMETERS.len() {
+                digest.number(point.model.parameter(index));
+            }
+            point
+                .kinematics
+                .numbers(&mut |number| digest.number(number));
+        }
+    }
+
+    /// See [`Elements::audit`](super::Elements::audit).
+    pub(super) fn audit_all(&self, state: &State<S>) -> Result<(), Misfit> {
+        for member in &self.members {
+            let r = member.arms_in(state);
+            for point in member.points.as_ref() {
+                let x = point.locate(&r, state)?;
+                point.audit_response(&x)?;
+                point.audit_entropy(&x, state)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// Energy, forces and viscosities are those of a state that a scene can begin with.
+    fn audit_response(&self, x: &M::Variables) -> Result<(), StateError> {
+        self.unless_infinite(self.model.free_energy(x))?;
+        let gradient = self.model.gradient(x);
+        if let Some(value) = gradient.as_ref().iter().find(|value| !value.is_finite()) {
+            return Err(StateError::NotFinite {
+                element: self.element,
+                quantity: "force or entropy",
+                value: value.to_f64(),
+            });
+        }
+        let theta = if M::THERMAL {
+            x[Self::TEMPERATURE]
+        } else {
+            S::zero()
+        };
+        let (viscosities, _) = self.model.viscosity(theta);
+        let mut viscosities = viscosities.as_ref().iter().enumerate();
+        match viscosities.find(|&(_, &eta)| !is_positive(eta)) {
+            None => Ok(()),
+            Some((dashpot, eta)) => Err(StateError::Viscosity {
+                element: self.element,
+                dashpot,
+                value: eta.to_f64(),
+                unit: K::VISCOSITY_UNIT,
+                temperature: M::THERMAL.then(|| theta.to_f64()),
+            }),
+        }
+    }
+
+    /// `s = S(λ, γ, θ)` to rounding,
+    ///
+    /// ```text
+    /// |S − s| ≤ 8 ε (Σ|terms of S| + Σ |∂S/∂x| |x| + C max(1, |ln θ|)),   x = λ, γ
+    /// ```
+    fn audit_entropy(&self, x: &M::Variables, state: &State<S>) -> Result<(), Misfit> {
+        let Some(slot) = self.slots().thermal else {
+            return Ok(());
+        };
+        let theta = x[Self::TEMPERATURE];
+        let caloric = self.model.caloric(x);
+        Infeasible::unless_stable(caloric.heat_capacity, theta)
+            .map_err(|infeasible| infeasible.of(self.element))?;
+        let entropy = state.entropies.values()[slot];
+        let (_, hessian) = self.model.hessian(x);
+        let by = hessian[Self::TEMPERATURE];
+        let resolution = theta.ln().abs().maximum(S::one());
+        let mut size = caloric.magnitude.maximum(entropy.abs());
+        size += caloric.heat_capacity * resolution;
+        for index in 0..Self::TEMPERATURE {
+            size += (by[index] * x[index]).abs();
+        }
+        let bound = S::from_f64(ENTROPY_ROUNDINGS) * S::EPSILON * size;
+        if (caloric.entropy - entropy).abs().at_most(bound).all() {
+            return Ok(());
+        }
+        Err(Misfit::Entropy {
+            element: self.element.index,
+            entropy: entropy.to_f64(),
+            expected: caloric.entropy.to_f64(),
+            temperature: theta.to_f64(),
+            bound: bound.to_f64(),
+        })
+    }
+}

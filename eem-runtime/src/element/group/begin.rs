@@ -1,0 +1,186 @@
+//! The old state of the elements, where a step and its trial start.
+
+use super::arms::{along, measures_in, spread};
+use super::member::Member;
+use super::point::Point;
+use super::pose::Pose;
+use crate::element::conjugates::{ElementScheme, Placement};
+use crate::element::error::StateError;
+use crate::element::group::element_group::{ElementGroup, variables};
+use crate::element::group::view::{Old, StepView};
+use crate::element::kinematics::{Arms, Kinematics, Measures};
+use crate::material::free_energy::{Array, FreeEnergy};
+use crate::number::scalar::Real;
+
+impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// See [`Group::begin`](super::Group::begin).
+    pub(super) fn begin_all(
+        &mut self,
+        view: &StepView<'_, S>,
+        old: &mut Old<'_, S, D>,
+    ) -> Result<(), StateError> {
+        for member in &mut self.members {
+            let r0 = member.arms_in(view.state);
+            member.r0 = r0;
+            for point in member.points.as_mut() {
+                let measures = point.kinematics.measure(&r0);
+                point.begin(view, &measures);
+                let length = point.kinematics.length(&measures);
+                shorten::<K, S, D>(&member.site.nodes, length, old.lengths);
+            }
+            if C::IMPLICIT < 1.0 {
+                member.take_old_share(view, old.force)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Reduces the unit of length of each node to that of its elements, if that is shorter.
+#[inline]
+pub(super) fn shorten<K: Kinematics<S, D>, S: Real, const D: usize>(
+    nodes: &K::PerNode<u32>,
+    own: S,
+    lengths: &mut [S],
+) {
+    for &node in nodes.as_ref() {
+        let length = &mut lengths[node as usize];
+        // Of a state: they are numbers.
+        *length = S::select(own.less(*length), own, *length);
+    }
+}
+
+impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// The part of rates and nodal forces that the scheme takes from the old state.
+    fn take_old_share(
+        &mut self,
+        view: &StepView<'_, S>,
+        old_force: &mut [[S; D]],
+    ) -> Result<(), StateError> {
+        let velocities = self.old_velocities(view);
+        let share = S::one() - S::from_f64(C::IMPLICIT);
+        for point in self.points.as_mut() {
+            let gradient = point.take_old_share(view, &self.r0, &velocities)?;
+            let measures0 = measures_in::<K, S, D>(&point.start.x0);
+            let ends = [&self.r0, &self.r0];
+            let pose = Pose::between(point.kinematics, C::PLACEMENT, ends, measures0);
+            for (a, row) in pose.direction.as_ref().iter().enumerate() {
+                let by_node = spread::<K, S, D>(row);
+                for (entry, &node) in by_node.as_ref().iter().zip(self.site.nodes.as_ref()) {
+                    for (force, &entry) in old_force[node as usize].iter_mut().zip(entry) {
+                        *force += share * gradient[a] * entry;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// Takes measures, γ and θ from the old state, where the trial starts.
+    #[inline]
+    fn begin(&mut self, view: &StepView<'_, S>, measures: &Measures<K, S, D>) {
+        let slots = self.slots();
+        let x0 = variables::<S, M>(measures.as_ref(), slots, view.state);
+        let entropy = slots
+            .thermal
+            .map(|slot| view.state.entropies.values()[slot]);
+        self.start.x0 = x0;
+        self.start.old = C::old(&self.model, &x0, entropy.unwrap_or(S::zero()));
+        self.x = x0;
+        self.creep = M::Viscosities::filled(S::zero());
+        if let Some(slot) = slots.thermal {
+            let theta = x0[Self::TEMPERATURE];
+            self.memory = C::memory(theta);
+            let prescribed = view.prescribed(slot, C::PLACEMENT);
+            self.is_prescribed = prescribed.is_some();
+            self.x[Self::TEMPERATURE] = prescribed.unwrap_or(theta);
+        }
+        for at_point in self.at_point.as_mut() {
+            at_point.entropy_change = S::zero();
+        }
+        self.hold();
+    }
+
+    /// The part of the rates that the scheme takes from the old state; returns the old gradient.
+    fn take_old_share(
+        &mut self,
+        view: &StepView<'_, S>,
+        r0: &Arms<K, S, D>,
+        velocities: &Arms<K, S, D>,
+    ) -> Result<M::Variables, StateError> {
+        let share = S::one() - S::from_f64(C::IMPLICIT);
+        let x0 = self.start.x0;
+        let theta = x0[Self::VARIABLES - 1];
+        self.find_viscosities(theta)?;
+        let gradient = self.model.gradient(&x0);
+        let mut rates = M::Variables::filled(S::zero());
+        let mut heat = S::zero();
+        for k in 0..M::DASHPOTS {
+            let index = M::MEASURES + k;
+            let g = -gradient[index];
+            let rate = g / self.viscosities.0[k];
+            rates[index] = share * rate;
+            heat += g * rate;
+        }
+        if let Some(slot) = self.slots().thermal {
+            let temperatures = &view.state.temperatures;
+            heat += view.conduction.heat_flow(slot, theta, temperatures).heat;
+            rates[Self::TEMPERATURE] = share * heat / theta;
+        }
+        for at_point in self.at_point.as_mut() {
+            at_point.old_rates = rates;
+        }
+        if M::THERMAL && C::IN_TEMPERATURE {
+            let measures0 = measures_in::<K, S, D>(&x0);
+            let at_rest = Pose::between(self.kinematics, Placement::End, [r0, r0], measures0);
+            self.find_old_heating(&at_rest, heat / theta, velocities);
+        }
+        Ok(gradient)
+    }
+
+    /// `(1 − w) θ̇⁰` of a scheme in temperature, which takes the place of `(1 − w) ṡ⁰`.
+    fn find_old_heating(
+        &mut self,
+        pose: &Pose<K, S, D>,
+        entropy_rate: S,
+        velocities: &Arms<K, S, D>,
+    ) {
+        let share = S::one() - S::from_f64(C::IMPLICIT);
+        let last = Self::TEMPERATURE;
+        let (_, hessian) = self.model.hessian(&self.start.x0);
+        // ∂s/∂x = −∂²ψ/∂θ∂x
+        let slope = |index: usize| -hessian[last][index];
+        let mut rest = share * entropy_rate;
+        for a in 0..M::MEASURES {
+            let rate = along::<K, S, D>(&pose.direction[a], velocities);
+            rest -= slope(a) * share * rate;
+        }
+        for at_point in self.at_point.as_mut() {
+            for index in M::MEASURES..last {
+                rest -= slope(index) * at_point.old_rates[index];
+            }
+            at_point.old_heating = rest / slope(last);
+            at_point.old_rates[last] = S::zero();
+        }
+    }
+}

@@ -1,0 +1,345 @@
+//! The end of a step: impulses of the found forces, and what is booked of the internal variables.
+//!
+//! ```text
+//! γ¹ = γ⁰ + Δγ
+//! s¹ = s⁰ + Σ η Δγ²/(hθ*) + Σ u + Σ P
+//! ```
+//!
+//! with the exchange `u` and the production `P ≥ 0` of every path of heat, see
+//! [`conduction`](crate::element::conduction). Both ends of a path book the same numbers.
+
+use super::arms::{change_in, mean, measures_in, spread};
+use super::member::Member;
+use super::point::Point;
+use super::pose::Pose;
+use super::site::Contact;
+use crate::element::conduction::{Exchange, Partner};
+use crate::element::conjugates::{ElementScheme, Placement};
+use crate::element::group::element_group::ElementGroup;
+use crate::element::group::view::{Along, StepView, Trial};
+use crate::element::impulse::Impulses;
+use crate::element::kinematics::{Arms, Ends, Kinematics, Weights};
+use crate::element::state::State;
+use crate::element::tally::Tally;
+use crate::material::free_energy::{Array, FreeEnergy};
+use crate::number::scalar::Real;
+
+impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// See [`Group::add_impulse`](super::Group::add_impulse).
+    pub(super) fn add_impulse_all(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        along: Along,
+        (impulses, magnitudes): (&mut Impulses<'_, S, D>, &mut [S]),
+    ) {
+        let at = match along {
+            Along::Secant => None,
+            Along::Scheme => Some(C::PLACEMENT),
+            Along::Gradient => Some(Placement::End),
+            Along::Stage(_) => return,
+        };
+        for member in &self.members {
+            let (nodes, r0) = (&member.site.nodes, &member.r0);
+            let r1 = member.new_arms(trial);
+            let (h, force) = if let Some(at) = at {
+                let share = view.step * S::from_f64(C::IMPLICIT);
+                (share, member.force(at, [r0, &r1]))
+            } else {
+                let mut mean = change_in::<K, S, D>(nodes, trial);
+                if C::EXACT && !magnitudes.is_empty() {
+                    member.add_magnitude(view.step, [&r1, &mean], magnitudes);
+                }
+                for (mean, old) in mean.as_mut().iter_mut().zip(r0.as_ref()) {
+                    for (mean, &old) in mean.iter_mut().zip(old) {
+                        *mean = old + S::from_f64(0.5) * *mean;
+                    }
+                }
+                (view.step, member.pull([r0, &r1], &mean))
+            };
+            for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
+                for (impulse, &force) in impulses.of(node as usize).iter_mut().zip(force) {
+                    *impulse -= h * force;
+                }
+            }
+        }
+    }
+}
+
+impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// The nodal forces of the found responses along the gradient between two configurations, N.
+    pub(super) fn force(&self, at: Placement, ends: [&Arms<K, S, D>; 2]) -> K::PerNode<[S; D]> {
+        let mut sum = None;
+        for point in self.points.as_ref() {
+            sum_nodes::<K, S, D>(&mut sum, point.force(at, ends));
+        }
+        sum.unwrap_or_else(|| K::PerNode::filled([S::zero(); D]))
+    }
+
+    /// The same as `A r_m`.
+    #[inline]
+    fn pull(&self, ends: [&Arms<K, S, D>; 2], mean: &Arms<K, S, D>) -> K::PerNode<[S; D]> {
+        let mut sum: Option<Weights<K, S, D>> = None;
+        for point in self.points.as_ref() {
+            let own = point.secant(ends);
+            let Some(sum) = &mut sum else {
+                sum = Some(own);
+                continue;
+            };
+            for (sum, own) in sum.as_mut().iter_mut().zip(own.as_ref()) {
+                for (sum, &own) in sum.as_mut().iter_mut().zip(own.as_ref()) {
+                    *sum += own;
+                }
+            }
+        }
+        match sum {
+            Some(weights) => pull::<K, S, D>(&weights, mean),
+            None => K::PerNode::filled([S::zero(); D]),
+        }
+    }
+}
+
+/// Adds the nodal forces of a point to those of the points before it.
+#[inline]
+fn sum_nodes<K: Kinematics<S, D>, S: Real, const D: usize>(
+    sum: &mut Option<K::PerNode<[S; D]>>,
+    own: K::PerNode<[S; D]>,
+) {
+    let Some(sum) = sum else {
+        *sum = Some(own);
+        return;
+    };
+    for (sum, own) in sum.as_mut().iter_mut().zip(own.as_ref()) {
+        for (sum, &own) in sum.iter_mut().zip(own) {
+            *sum += own;
+        }
+    }
+}
+
+/// The nodal forces `A r`, which sum to zero exactly and do not depend on where the origin is.
+#[inline]
+pub(super) fn pull<K: Kinematics<S, D>, S: Real, const D: usize>(
+    weights: &Weights<K, S, D>,
+    r: &Arms<K, S, D>,
+) -> K::PerNode<[S; D]> {
+    spread::<K, S, D>(&pull_of_arms::<K, S, D>(weights, r))
+}
+
+/// The same per arm: those of the nodes but the first.
+#[inline]
+pub(super) fn pull_of_arms<K: Kinematics<S, D>, S: Real, const D: usize>(
+    weights: &Weights<K, S, D>,
+    r: &Arms<K, S, D>,
+) -> Arms<K, S, D> {
+    let mut force = Arms::<K, S, D>::filled([S::zero(); D]);
+    for (force, row) in force.as_mut().iter_mut().zip(weights.as_ref()) {
+        for (&weight, arm) in row.as_ref().iter().zip(r.as_ref()) {
+            for axis in 0..D {
+                force[axis] += weight * arm[axis];
+            }
+        }
+    }
+    force
+}
+
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// A of the force `A r_m` at the found response.
+    #[inline]
+    fn secant(&self, [r0, r1]: [&Arms<K, S, D>; 2]) -> Weights<K, S, D> {
+        let measures1 = measures_in::<K, S, D>(&self.x);
+        let ends = match C::PLACEMENT {
+            Placement::Middle => {
+                let middle = mean::<K, S, D>(r0, r1);
+                Ends {
+                    r0: middle,
+                    r1: middle,
+                    measures0: measures1,
+                    measures1,
+                }
+            }
+            Placement::Ends | Placement::End | Placement::Start => Ends {
+                r0: *r0,
+                r1: *r1,
+                measures0: measures_in::<K, S, D>(&self.start.x0),
+                measures1,
+            },
+        };
+        let forces = measures_in::<K, S, D>(&self.response);
+        self.kinematics.secant(&ends, &forces)
+    }
+
+    /// The nodal forces of the found response along the gradient between two configurations, N.
+    pub(super) fn force(&self, at: Placement, ends: [&Arms<K, S, D>; 2]) -> K::PerNode<[S; D]> {
+        let measures0 = measures_in::<K, S, D>(&self.start.x0);
+        let pose = Pose::between(self.kinematics, at, ends, measures0);
+        let forces = measures_in::<K, S, D>(&self.response);
+        spread::<K, S, D>(&pose.pull(self.kinematics, at, &forces))
+    }
+
+    /// Books the increments of the internal variables and of the reservoirs' entropies; returns the
+    /// entropy that dashpots and conduction gave the element, J/K.
+    #[inline]
+    pub(super) fn book(
+        &self,
+        view: &StepView<'_, S>,
+        (contact, trial): (Option<&Contact<K, S, D>>, &Trial<S, D>),
+        next: &mut State<S>,
+        tally: &mut Tally<S>,
+    ) -> S {
+        let slots = self.slots();
+        let h = view.thermal_step();
+        let share = S::from_f64(C::IMPLICIT) * h;
+        let per_theta = self.per_temperature();
+        let mut dissipated = S::zero();
+        for k in 0..M::DASHPOTS {
+            let old = &view.state.viscous;
+            next.viscous.advance(slots.viscous + k, old, self.creep[k]);
+            if view.phase.heats() {
+                let heat = share * self.power_of(k, view);
+                dissipated += heat;
+                tally.produce(heat * per_theta);
+            }
+        }
+        tally.turn_over(dissipated);
+        let Some(slot) = slots.thermal else {
+            if M::DASHPOTS > 0 {
+                next.dissipated.add(dissipated + h * self.old_dissipation());
+            }
+            return S::zero();
+        };
+        self.book_heat(view, (slot, dissipated), (contact, trial), next, tally)
+    }
+
+    /// The same of the entropy of an element whose dashpots give it so much heat, J.
+    #[inline]
+    fn book_heat(
+        &self,
+        view: &StepView<'_, S>,
+        (slot, dissipated): (usize, S),
+        (contact, trial): (Option<&Contact<K, S, D>>, &Trial<S, D>),
+        next: &mut State<S>,
+        tally: &mut Tally<S>,
+    ) -> S {
+        let h = view.thermal_step();
+        let share = S::from_f64(C::IMPLICIT) * h;
+        let mut received = dissipated * self.per_temperature();
+        if let [at_point] = self.at_point.as_ref()
+            && C::IMPLICIT < 1.0
+        {
+            received += h * at_point.old_rates[Self::TEMPERATURE];
+        }
+        let old = &view.state.entropies;
+        next.entropies.advance(slot, old, received);
+        let mut heat = dissipated;
+        if let Some(contact) = contact {
+            for partner in &contact.partners {
+                let other = partner.slot as usize;
+                let path = (trial.seen).exchange(share * partner.conductance, slot, other);
+                next.entropies.add(slot, path.entropy);
+                received += path.entropy;
+                heat += path.heat;
+                // The production is booked at one end, after the exchange, which both ends share.
+                if slot > other {
+                    let production = path.production();
+                    next.entropies.add(slot, production);
+                    received += production;
+                    tally.produce(production);
+                    tally.turn_over(path.heat);
+                }
+            }
+        }
+        if self.meets_reservoirs {
+            received += self.book_reservoirs(view, slot, heat, next, tally);
+        }
+        received
+    }
+
+    /// Books what flows from the reservoirs to an element that receives `heat` otherwise, J; returns the
+    /// entropy, J/K.
+    fn book_reservoirs(
+        &self,
+        view: &StepView<'_, S>,
+        slot: usize,
+        heat: S,
+        next: &mut State<S>,
+        tally: &mut Tally<S>,
+    ) -> S {
+        let h = view.thermal_step();
+        let share = S::from_f64(C::IMPLICIT) * h;
+        let theta = self.temperature();
+        let correction = self.reservoir_correction(view, slot, heat);
+        let mut received = S::zero();
+        for link in view.conduction.links(slot) {
+            let Partner::Reservoir(index) = link.partner else {
+                continue;
+            };
+            let theta_r = view.conduction.reservoirs[index];
+            let drop = (theta_r - theta) + correction;
+            let path = Exchange::from_reservoir(share * link.conductance, drop, theta_r);
+            next.reservoir_entropies.add(index, -path.entropy);
+            next.entropies.add(slot, path.entropy);
+            let production = path.production();
+            next.entropies.add(slot, production);
+            tally.produce(production);
+            tally.turn_over(path.heat);
+            received += path.entropy + production;
+            if C::IMPLICIT < 1.0 {
+                // The flow of the old state, which the old rates have given to the element.
+                let old = theta_r - view.state.temperatures[slot];
+                let flow = (h - share) * link.conductance * old;
+                next.reservoir_entropies.add(index, -flow / theta_r);
+            }
+        }
+        received
+    }
+
+    /// `1/θ*`, 1/K; one without temperature.
+    #[inline]
+    fn per_temperature(&self) -> S {
+        if M::THERMAL {
+            self.temperature().recip()
+        } else {
+            S::one()
+        }
+    }
+
+    /// What the differences `θ_r − θ*` lack for the heat that the entropy of the element has taken, K.
+    ///
+    /// ```text
+    /// Σ h κ (θ_r − θ* + correction) = θ* Δs − heat
+    /// ```
+    ///
+    /// Rounding of θ* is a heat of `hκ ε θ`, which exceeds that of the right-hand side where conduction
+    /// is stiff; so heat follows from the side whose terms, and roundings, are smaller.
+    fn reservoir_correction(&self, view: &StepView<'_, S>, slot: usize, heat: S) -> S {
+        if !C::EXACT || self.is_prescribed {
+            return S::zero();
+        }
+        let h = view.thermal_step();
+        let theta = self.temperature();
+        let flow = view.conduction.reservoir_flow(slot, theta);
+        let conducted = h * flow.conductance;
+        let taken = theta * self.response[Self::ENTROPY];
+        let is_stiff = (taken.abs() + heat.abs()).less(conducted * theta);
+        let correction = ((taken - heat) - h * flow.heat) / conducted;
+        S::select(is_stiff, correction, S::zero())
+    }
+}

@@ -1,0 +1,137 @@
+//! From the solution of the global system to the internal variables of the elements.
+
+use super::arms::along;
+use super::point::Point;
+use super::scatter::run;
+use super::site::{Contact, Site};
+use crate::element::conjugates::ElementScheme;
+use crate::element::group::element_group::ElementGroup;
+use crate::element::kinematics::{Arms, Kinematics};
+use crate::material::free_energy::{Array, FreeEnergy};
+use crate::number::scalar::Real;
+
+impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// See [`Group::correct`](super::Group::correct).
+    pub(super) fn correct_all(&mut self, solution: &[[S; 1]], settled: S::Mask) -> S {
+        let mut largest = S::zero();
+        if Point::<S, M, K, C, D>::UNKNOWNS == 0 {
+            return largest;
+        }
+        for member in &mut self.members {
+            let motion = member.site.motion_in(solution);
+            for point in member.points.as_mut() {
+                let found = point.found_by(settled);
+                let contact = point.contact_in(&self.contacts);
+                let update = point.correct(&motion, contact, solution);
+                point.return_to(found, settled);
+                largest = largest.maximum(update);
+            }
+        }
+        largest
+    }
+}
+
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// Finds and applies the corrections of the local unknowns that go with a motion of the arms; the
+    /// largest in their units.
+    #[inline]
+    fn correct(
+        &mut self,
+        motion: &Arms<K, S, D>,
+        contact: Option<&Contact<K, S, D>>,
+        solution: &[[S; 1]],
+    ) -> S {
+        for a in 0..M::MEASURES {
+            self.correction[a] = along::<K, S, D>(&self.sensitivity[a], motion);
+        }
+        let mut heat = S::zero();
+        if M::THERMAL
+            && let Some(contact) = contact
+        {
+            heat = self.condensed.heat_factor * contact.heat(solution);
+        }
+        if C::IN_TEMPERATURE {
+            for at_point in self.at_point.as_ref() {
+                heat += along::<K, S, D>(&at_point.by_increment, motion);
+            }
+        }
+        for u in 0..Self::UNKNOWNS {
+            let mut change = self.condensed.constant.get(u);
+            for a in 0..M::MEASURES {
+                change += self.condensed.by_measure[a].get(u) * self.correction[a];
+            }
+            if Self::depends_on_heat(contact.is_some()) {
+                change += self.condensed.by_heat.get(u) * heat;
+            }
+            self.correction[M::MEASURES + u] = -change;
+        }
+        self.remember();
+        if M::THERMAL && C::FINDS_TEMPERATURE {
+            for at_point in self.at_point.as_mut() {
+                at_point.previous_entropy_change = self.response[Self::ENTROPY];
+                let terms = at_point.entropy_by.as_ref().iter();
+                let terms = terms.zip(self.correction.as_ref());
+                at_point.entropy_correction = terms.fold(S::zero(), |sum, (&a, &b)| sum + a * b);
+            }
+        }
+        let update = self.scaled_update();
+        self.apply(S::one());
+        update
+    }
+
+    /// The largest correction of a local unknown in its unit.
+    #[inline]
+    fn scaled_update(&self) -> S {
+        let mut largest = S::zero();
+        let unit = self.viscous_unit();
+        for index in M::MEASURES..Self::TEMPERATURE {
+            let scaled = self.correction[index] / unit;
+            largest = largest.maximum(scaled.abs());
+        }
+        if M::THERMAL {
+            let scaled = self.correction[Self::TEMPERATURE] / self.x[Self::TEMPERATURE];
+            largest = largest.maximum(scaled.abs());
+        }
+        largest
+    }
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
+    /// The corrections of the arms.
+    #[inline]
+    pub(super) fn motion_in(&self, solution: &[[S; 1]]) -> Arms<K, S, D> {
+        let mut motion = Arms::<K, S, D>::filled([S::zero(); D]);
+        let (rows, solution) = (self.rows.as_ref(), solution.as_flattened());
+        let first: &[S; D] = run(solution, rows[0] as usize);
+        for (arm, &row) in motion.as_mut().iter_mut().zip(&rows[1..]) {
+            let other: &[S; D] = run(solution, row as usize);
+            for axis in 0..D {
+                arm[axis] = other[axis] - first[axis];
+            }
+        }
+        motion
+    }
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
+    /// `Σ κ (δΘ_partner − δΘ)`, W.
+    #[inline]
+    fn heat(&self, solution: &[[S; 1]]) -> S {
+        let own = solution[self.unknown as usize][0];
+        self.partners.iter().fold(S::zero(), |sum, partner| {
+            sum + partner.conductance * (solution[partner.unknown as usize][0] - own)
+        })
+    }
+}

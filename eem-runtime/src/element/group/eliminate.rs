@@ -1,0 +1,134 @@
+//! Elimination of the local unknowns of an element: Gauss–Jordan with partial pivoting.
+
+use crate::algebra::lu::Singular;
+use crate::element::kinematics::Kinematics;
+use crate::material::free_energy::{Array, FreeEnergy};
+use crate::number::scalar::{Mask, Real, is_positive};
+
+/// A number per local unknown: the viscous stretches, then the temperature.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PerUnknown<S, V> {
+    viscous: V,
+    temperature: S,
+}
+
+impl<S: Real, V: Array<S>> PerUnknown<S, V> {
+    pub(super) fn zero() -> Self {
+        Self {
+            viscous: V::filled(S::zero()),
+            temperature: S::zero(),
+        }
+    }
+
+    #[inline]
+    pub(super) fn get(&self, unknown: usize) -> S {
+        if unknown < V::LEN {
+            self.viscous[unknown]
+        } else {
+            self.temperature
+        }
+    }
+
+    #[inline]
+    pub(super) fn set(&mut self, unknown: usize, value: S) {
+        if unknown < V::LEN {
+            self.viscous[unknown] = value;
+        } else {
+            self.temperature = value;
+        }
+    }
+}
+
+/// The solved local system: `δu = −(constant + by_measure δπ + by_heat δr_s)`.
+pub(super) struct Condensed<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {
+    pub(super) constant: PerUnknown<S, M::Viscosities>,
+    pub(super) by_measure: K::PerMeasure<PerUnknown<S, M::Viscosities>>,
+    /// Only of elements whose heat depends on global unknowns otherwise than through the measures.
+    pub(super) by_heat: PerUnknown<S, M::Viscosities>,
+    /// `∂r_s/∂Q = −h w/θ*`, by which heat from other elements enters.
+    pub(super) heat_factor: S,
+}
+
+impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> Condensed<S, M, K, D> {
+    /// Before the first elimination.
+    pub(super) fn zero() -> Self {
+        Self {
+            constant: PerUnknown::zero(),
+            by_measure: K::PerMeasure::filled(PerUnknown::zero()),
+            by_heat: PerUnknown::zero(),
+            heat_factor: S::zero(),
+        }
+    }
+}
+
+/// The local equations of an element, a row per unknown, of which there are fewer than variables:
+/// the first entries and rows are used.
+pub(super) struct LocalSystem<S: Real, M: FreeEnergy<S>> {
+    /// r, then with the unknowns solved for.
+    pub(super) constant: M::Variables,
+    /// `∂r/∂x`; the columns of the measures are solved for.
+    pub(super) rows: M::Hessian,
+    /// `∂r/∂r_s`, if it is asked for.
+    pub(super) by_heat: M::Variables,
+    /// What makes an energy of a row: a length (m) for a dashpot (N), a temperature (K) for the heat
+    /// balance (J/K). Pivots are compared as energies.
+    pub(super) unit: [S; 2],
+}
+
+/// Gauss–Jordan elimination with partial pivoting.
+#[expect(clippy::inline_always, reason = "a few numbers in registers")]
+#[inline(always)]
+pub(super) fn eliminate<S: Real, M: FreeEnergy<S>, const HEAT: bool>(
+    system: &mut LocalSystem<S, M>,
+) -> Result<(), Singular> {
+    let LocalSystem {
+        constant,
+        rows,
+        by_heat,
+        unit,
+    } = system;
+    let unknowns = M::Variables::LEN - M::MEASURES;
+    let mut units = M::Variables::filled(unit[0]);
+    if M::THERMAL {
+        units[unknowns - 1] = unit[1];
+    }
+    for k in 0..unknowns {
+        let at = M::MEASURES + k;
+        for row in k + 1..unknowns {
+            let size = |row: usize| (units[row] * rows[row][at]).abs();
+            if size(k).less(size(row)).decide()? {
+                units.as_mut().swap(row, k);
+                rows.as_mut().swap(row, k);
+                constant.as_mut().swap(row, k);
+                by_heat.as_mut().swap(row, k);
+            }
+        }
+        let value = rows[k][at];
+        if !is_positive(value.abs()) {
+            return Err(Singular);
+        }
+        let inverse = value.recip();
+        // The columns of the measures and those of the unknowns that are left.
+        let columns = |column: &usize| *column < M::MEASURES || *column > at;
+        for column in (0..M::Variables::LEN).filter(columns) {
+            rows[k][column] *= inverse;
+        }
+        constant[k] *= inverse;
+        if HEAT {
+            by_heat[k] *= inverse;
+        }
+        for row in (0..unknowns).filter(|&row| row != k) {
+            let factor = rows[row][at];
+            for column in (0..M::Variables::LEN).filter(columns) {
+                let pivot = rows[k][column];
+                rows[row][column] -= factor * pivot;
+            }
+            let (own, heat) = (constant[k], by_heat[k]);
+            constant[row] -= factor * own;
+            if HEAT {
+                by_heat[row] -= factor * heat;
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,149 @@
+//! What the elements are in a state, from the definitions and not from what a step computed.
+
+use super::point::Point;
+use crate::element::conjugates::{ElementScheme, Infeasible};
+use crate::element::error::StateError;
+use crate::element::group::element_group::{ElementGroup, variables};
+use crate::element::group::view::{ElementView, GroupTotals};
+use crate::element::handle::Element;
+use crate::element::kinematics::{Arms, Kinematics};
+use crate::element::state::{Energy, State};
+use crate::material::free_energy::FreeEnergy;
+use crate::number::scalar::Real;
+
+impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// See [`Elements::initialize`](super::Elements::initialize).
+    pub(super) fn initialize_all(&mut self, state: &mut State<S>) -> Result<(), StateError> {
+        for member in &mut self.members {
+            let r = member.arms_in(state);
+            for point in member.points.as_mut() {
+                point.initialize(&r, state)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// See [`Elements::find_energies`](super::Elements::find_energies).
+    pub(super) fn find_all_energies(&self, state: &mut State<S>) {
+        for member in &self.members {
+            let r = member.arms_in(state);
+            for point in member.points.as_ref() {
+                let x = point.variables_in(&r, state);
+                let psi = point.model.free_energy(&x);
+                let energy = match point.slots().thermal {
+                    None => Energy::without_temperature(psi),
+                    Some(slot) => {
+                        let theta = state.temperatures[slot];
+                        let entropy = state.entropies.values()[slot];
+                        Energy::new(psi, [theta, entropy], &point.model.caloric(&x))
+                    }
+                };
+                state.energies[point.element.index] = energy;
+            }
+        }
+    }
+
+    /// See [`Elements::totals`](super::Elements::totals).
+    pub(super) fn sum(&self, state: &State<S>) -> GroupTotals<S> {
+        let [mut energy, mut entropy, mut entropy_of_state] = [S::zero(); 3];
+        for member in &self.members {
+            let r = member.arms_in(state);
+            for point in member.points.as_ref() {
+                let x = point.variables_in(&r, state);
+                energy += point.internal_energy(&x, state);
+                if let Some(slot) = point.slots().thermal {
+                    entropy += state.entropies.values()[slot];
+                    entropy_of_state += point.model.caloric(&x).entropy;
+                }
+            }
+        }
+        GroupTotals {
+            energy,
+            entropy,
+            entropy_of_state,
+        }
+    }
+
+    /// See [`Elements::inspect`](super::Elements::inspect).
+    pub(super) fn inspect_at(&self, place: usize, state: &State<S>) -> ElementView<S> {
+        let (member, point) = self.at(place);
+        let x = point.variables_in(&member.arms_in(state), state);
+        ElementView {
+            measure: x[0],
+            force: point.model.gradient(&x)[0],
+            internal_energy: point.internal_energy(&x, state),
+        }
+    }
+}
+
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// Finds its entropy and energy in an initial state with these arms.
+    fn initialize(&mut self, r: &Arms<K, S, D>, state: &mut State<S>) -> Result<(), StateError> {
+        let x = self.locate(r, state)?;
+        let slot = self.slots().thermal;
+        let theta = slot.map_or(S::zero(), |slot| state.temperatures[slot]);
+        self.find_viscosities(theta)?;
+        let caloric = self.model.caloric(&x);
+        let energy = self.energy_at(&x, caloric)?;
+        check_gradient::<S, M>(self.element, &self.model.gradient(&x))?;
+        state.energies[self.element.index] = energy;
+        let Some(slot) = slot else {
+            return Ok(());
+        };
+        Infeasible::unless_stable(caloric.heat_capacity, theta)
+            .map_err(|infeasible| infeasible.of(self.element))?;
+        state.entropies.set(slot, caloric.entropy);
+        Ok(())
+    }
+
+    /// The variables in a state with these arms.
+    pub(super) fn variables_in(&self, r: &Arms<K, S, D>, state: &State<S>) -> M::Variables {
+        variables::<S, M>(self.kinematics.measure(r).as_ref(), self.slots(), state)
+    }
+
+    /// `ψ + θ s`, with the entropy that is the state, J.
+    fn internal_energy(&self, x: &M::Variables, state: &State<S>) -> S {
+        let psi = self.model.free_energy(x);
+        match self.slots().thermal {
+            Some(slot) => psi + state.temperatures[slot] * state.entropies.values()[slot],
+            None => psi,
+        }
+    }
+}
+
+/// Forces and entropy of an initial state are finite; in later states they are part of a response.
+fn check_gradient<S: Real, M: FreeEnergy<S>>(
+    element: Element,
+    gradient: &M::Variables,
+) -> Result<(), StateError> {
+    match gradient
+        .as_ref()
+        .iter()
+        .position(|slope| !slope.is_finite())
+    {
+        None => Ok(()),
+        Some(index) => Err(StateError::NotFinite {
+            element,
+            quantity: if index < M::MEASURES {
+                "force"
+            } else if index < M::MEASURES + M::DASHPOTS {
+                "dashpot force"
+            } else {
+                "entropy"
+            },
+            value: gradient.as_ref()[index].to_f64(),
+        }),
+    }
+}

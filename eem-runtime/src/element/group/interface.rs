@@ -1,0 +1,114 @@
+//! What the solver sees of elements: one dynamic call per group and phase.
+
+use super::view::{Along, ElementView, GroupTotals, Old, Sites, StepView, Trial};
+use crate::algebra::system::LinearSystem;
+use crate::element::error::StateError;
+use crate::element::group::misfit::Misfit;
+use crate::element::group::view::ElementGeneric;
+use crate::element::impulse::Impulses;
+use crate::element::layout::Slots;
+use crate::element::recount::Recount;
+use crate::element::state::State;
+use crate::element::tally::Tally;
+use crate::number::digest::Digest;
+use crate::number::scalar::Real;
+
+/// Elements of one model in a state, whatever steps them.
+pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
+    /// Entropies of an initial state whose temperatures are given.
+    fn initialize(&mut self, state: &mut State<S>) -> Result<(), StateError>;
+
+    /// Energy and entropy, from their definitions.
+    fn totals(&self, state: &State<S>) -> GroupTotals<S>;
+
+    /// Writes the energies of a state whose temperatures and entropies are known.
+    fn find_energies(&self, state: &mut State<S>);
+
+    /// What the elements contribute to the GENERIC form in a state.
+    fn generic_in(&mut self, state: &State<S>) -> Vec<ElementGeneric<S>>;
+
+    /// Where the element at `place` keeps its internal variables.
+    fn slots(&self, place: usize) -> Slots;
+
+    /// The element at `place` in a state.
+    fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S>;
+
+    /// Adds the parameters of all elements to a digest.
+    fn digest(&self, digest: &mut Digest);
+
+    /// An error unless the elements can be in a state that comes from outside, and its entropies are
+    /// those of its temperatures.
+    fn audit(&self, state: &State<S>) -> Result<(), Misfit>;
+}
+
+/// Elements of one model, whatever model, kinematics and scheme are.
+pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
+    /// The elements in a state.
+    fn elements(&self) -> &dyn Elements<S, D>;
+
+    /// The same, to be changed.
+    fn elements_mut(&mut self) -> &mut dyn Elements<S, D>;
+
+    /// Learns where its elements write in the global systems; once per scene.
+    fn connect(&mut self, sites: &Sites<'_, S, D>);
+
+    /// Takes over the old state, adds what it contributes to the nodes, and starts the trial there.
+    fn begin(&mut self, view: &StepView<'_, S>, old: &mut Old<'_, S, D>) -> Result<(), StateError>;
+
+    /// Computes everything that depends on the trial state, element by element, and adds residual and
+    /// tangent, local unknowns eliminated, to a system if there is one.
+    fn evaluate(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        system: Option<&mut LinearSystem<S, 1>>,
+    ) -> Result<(), StateError>;
+
+    /// Applies the local corrections that go with the global ones, but for numbers that have settled; the
+    /// largest, in units of the measure (viscous stretches) and of the temperature.
+    fn correct(&mut self, solution: &[[S; 1]], settled: S::Mask) -> S;
+
+    /// Applies a share of the last corrections instead.
+    fn apply(&mut self, share: S);
+
+    /// The present trial is where the next correction starts; no local correction.
+    fn hold(&mut self);
+
+    /// Adds the nodal impulse `−h F` of the found response, N s, and, where it acts along the gradient of
+    /// the scheme, the magnitude of what it is computed from to that of each node.
+    fn add_impulse(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        along: Along,
+        impulses: &mut Impulses<'_, S, D>,
+        magnitudes: &mut [S],
+    );
+
+    /// Adds `(h w) A` and `−(h w) A q⁰`, where `A q_i` is the nodal force found at the stage of a set and w
+    /// its weight in the rows of the set; moved anchors are taken from the trial. Only of stages.
+    fn add_secant(
+        &mut self,
+        _set: usize,
+        _: &StepView<'_, S>,
+        _: &Trial<S, D>,
+        _: &mut LinearSystem<S, D>,
+    ) {
+    }
+
+    /// Adds the increments of the internal variables and of the reservoirs' entropies to a new state
+    /// whose positions are known, and finds its temperatures and energies.
+    fn close(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        next: &mut State<S>,
+        tally: &mut Tally<S>,
+    ) -> Result<(), StateError>;
+
+    /// The energy balances of the elements in the last step, from the old state to a closed one.
+    fn recount(&self, ends: [&State<S>; 2], recount: &mut Recount<S>);
+
+    /// What they contributed to the discrete GENERIC form of the last step, between two states.
+    fn generic_of_step(&self, ends: [&State<S>; 2]) -> Vec<ElementGeneric<S>>;
+}

@@ -1,0 +1,292 @@
+//! The internal variables of one element: their balance equations, and their elimination.
+//!
+//! ```text
+//! r_γk = η_k γ̇_k − g*_k,   Δγ_k = h (w γ̇_k + c_k)                 k = 1 … K
+//! r_s  = Δs − h (w (Σ η γ̇² + Q)/θ* + c_s),   Q = Σ κ (Θ_partner − Θ) + Σ κ (θ_r − θ*)
+//! ```
+//!
+//! where `w` is the implicit share of the scheme and `c` what the old state contributes. Nothing is
+//! divided by η, which may be as small or as large as it likes. The ordinary rules, which are there to
+//! compare with, are solved as ordinary codes do: with `γ̇_k = g*_k/η_k` and `r_γk = Δγ_k − h (w γ̇_k + c_k)`,
+//! and where they break down depends on it. The unknowns `u = (Δγ…, τ)` occur in no
+//! other element: what elements in contact see of each other is the global unknown Θ = θ*. So their
+//! corrections are eliminated here.
+
+use super::eliminate::{LocalSystem, eliminate};
+use super::point::Point;
+use super::site::Contact;
+use crate::algebra::lu::Singular;
+use crate::element::conduction::{HeatFlow, SeenTemperatures};
+use crate::element::conjugates::{ElementScheme, Form};
+use crate::element::error::StateError;
+use crate::element::group::point::temperature_in;
+use crate::element::group::view::StepView;
+use crate::element::kinematics::Kinematics;
+use crate::material::free_energy::{Array, FreeEnergy};
+use crate::number::scalar::Real;
+
+/// What the dashpots turn into heat, `Σ η γ̇²`, W, and its derivative by the variables.
+struct Dissipation<S: Real, M: FreeEnergy<S>> {
+    power: S,
+    by: M::Variables,
+}
+
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S>,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// Eliminates the internal variables of an element whose response, with its tangent, and
+    /// viscosities are known.
+    #[inline]
+    pub(super) fn condense(
+        &mut self,
+        view: &StepView<'_, S>,
+        seen: &SeenTemperatures<S>,
+        form: &Form<S, M>,
+        contact: Option<&Contact<K, S, D>>,
+    ) -> Result<(), StateError> {
+        if Self::UNKNOWNS == 0 {
+            return Ok(());
+        }
+        // First, while nothing else is at hand that would have to be put aside for the call.
+        let theta = temperature_in::<S, M>(&form.0);
+        let flow = self.heat_flow(view, contact, seen, theta);
+        let zeros = M::Variables::filled(S::zero());
+        let mut system = LocalSystem::<S, M> {
+            constant: zeros,
+            rows: M::Hessian::filled(zeros),
+            by_heat: zeros,
+            unit: self.pivot_units(theta),
+        };
+        let mut dissipation = Dissipation {
+            power: S::zero(),
+            by: zeros,
+        };
+        for k in 0..M::DASHPOTS {
+            self.dashpot_balance(view, k, form, &mut system, &mut dissipation);
+        }
+        if M::THERMAL {
+            let row = M::DASHPOTS;
+            if self.is_prescribed {
+                // r_s = τ − τ_prescribed, which is zero from the start.
+                self.condensed.heat_factor = S::zero();
+                system.rows[row][Self::TEMPERATURE] = S::one();
+            } else {
+                system.by_heat[row] = S::one();
+                self.heat_balance(view, &flow, form, &mut system, &dissipation);
+            }
+        }
+        let depends_on_heat = Self::depends_on_heat(contact.is_some());
+        let solved = if depends_on_heat {
+            eliminate::<S, M, true>(&mut system)
+        } else {
+            eliminate::<S, M, false>(&mut system)
+        };
+        // A finite local system is singular only where the response has no derivative.
+        solved.map_err(|Singular| StateError::NotFinite {
+            element: self.element,
+            quantity: "inverse of the local tangent",
+            value: f64::INFINITY,
+        })?;
+        self.keep_solved(&system, depends_on_heat);
+        Ok(())
+    }
+
+    /// Keeps a local system that has been solved.
+    #[inline]
+    fn keep_solved(&mut self, system: &LocalSystem<S, M>, depends_on_heat: bool) {
+        for u in 0..Self::UNKNOWNS {
+            self.condensed.constant.set(u, system.constant[u]);
+            for a in 0..M::MEASURES {
+                self.condensed.by_measure[a].set(u, system.rows[u][a]);
+            }
+            if depends_on_heat {
+                self.condensed.by_heat.set(u, system.by_heat[u]);
+            }
+        }
+    }
+
+    /// What makes an energy of a row of the local system.
+    #[inline]
+    fn pivot_units(&self, theta: S) -> [S; 2] {
+        if C::EXACT {
+            [self.viscous_unit(), theta]
+        } else {
+            [S::one(); 2]
+        }
+    }
+
+    /// Whether `r_s` depends on global unknowns otherwise than through the measures.
+    #[inline]
+    pub(super) fn depends_on_heat(is_coupled: bool) -> bool {
+        C::IN_TEMPERATURE || (M::THERMAL && is_coupled)
+    }
+
+    /// The heat that conduction gives it.
+    ///
+    /// Flows between elements follow from the temperatures Θ that both ends see, so that one end receives
+    /// exactly what the other gives; flows from reservoirs from its temperature θ.
+    #[expect(clippy::inline_always, reason = "mostly there is none")]
+    #[inline(always)]
+    pub(super) fn heat_flow(
+        &self,
+        view: &StepView<'_, S>,
+        contact: Option<&Contact<K, S, D>>,
+        seen: &SeenTemperatures<S>,
+        theta: S,
+    ) -> HeatFlow<S> {
+        let mut flow = HeatFlow::none();
+        let Some(slot) = self.slots().thermal else {
+            return flow;
+        };
+        if self.meets_reservoirs {
+            flow = view.conduction.reservoir_flow(slot, theta);
+        }
+        if let Some(contact) = contact {
+            for partner in &contact.partners {
+                flow.heat += partner.conductance * seen.drop(slot, partner.slot as usize);
+            }
+        }
+        flow
+    }
+
+    /// `γ̇_k` of the trial, of which the scheme takes the share w, m/s.
+    #[inline]
+    pub(super) fn creep_rate(&self, k: usize, view: &StepView<'_, S>) -> S {
+        if C::EXACT {
+            self.creep[k] * view.per_step
+        } else {
+            self.response[M::MEASURES + k] / self.viscosities.0[k]
+        }
+    }
+
+    /// `η_k γ̇_k²`, W.
+    #[inline]
+    pub(super) fn power_of(&self, k: usize, view: &StepView<'_, S>) -> S {
+        let rate = self.creep_rate(k, view);
+        self.viscosities.0[k] * (rate * rate)
+    }
+
+    /// `r_γk` and its derivatives; adds to the dissipated power and its derivatives.
+    #[inline]
+    fn dashpot_balance(
+        &self,
+        view: &StepView<'_, S>,
+        k: usize,
+        (response, tangent): &Form<S, M>,
+        system: &mut LocalSystem<S, M>,
+        dissipation: &mut Dissipation<S, M>,
+    ) {
+        let index = M::MEASURES + k;
+        if !view.phase.heats() {
+            // Δγ = 0.
+            system.rows[k][index] = S::one();
+            return;
+        }
+        if !C::EXACT {
+            self.ordinary_dashpot_balance(view, k, (response, tangent), system, dissipation);
+            return;
+        }
+        let (eta, rate) = (self.viscosities.0[k], self.creep_rate(k, view));
+        system.constant[k] = eta * rate - response[index];
+        dissipation.power += eta * (rate * rate);
+        let per_creep = eta * view.per_step;
+        for column in 0..Self::VARIABLES {
+            // The derivative of η γ̇ by way of the temperature.
+            let thinning = if M::THERMAL {
+                rate * self.viscosities.1[k] * tangent[Self::TEMPERATURE][column]
+            } else {
+                S::zero()
+            };
+            let own = if column == index {
+                per_creep
+            } else {
+                S::zero()
+            };
+            system.rows[k][column] = (own + thinning) - tangent[index][column];
+            // ∂(η γ̇²)/∂x = γ̇ (2η ∂γ̇/∂x + γ̇ ∂η/∂x)
+            let power_by = rate * ((own + own) + thinning);
+            dissipation.by[column] = if k == 0 {
+                power_by
+            } else {
+                dissipation.by[column] + power_by
+            };
+        }
+    }
+
+    /// `r_γk` of an ordinary rule and its derivatives, and what it adds to those of the dissipated power.
+    fn ordinary_dashpot_balance(
+        &self,
+        view: &StepView<'_, S>,
+        k: usize,
+        (response, tangent): (&M::Response, &M::Tangent),
+        system: &mut LocalSystem<S, M>,
+        dissipation: &mut Dissipation<S, M>,
+    ) {
+        let index = M::MEASURES + k;
+        let per_eta = self.viscosities.0[k].recip();
+        let rate = response[index] * per_eta;
+        dissipation.power += response[index] * rate;
+        let h = view.thermal_step();
+        system.constant[k] = self.creep[k] - self.increment(index, rate, h);
+        let mobility = -h * S::from_f64(C::IMPLICIT) * per_eta;
+        // ∂g/∂x − γ̇ ∂η/∂x, the derivative of γ̇ times η.
+        let thinning = rate * self.viscosities.1[k];
+        for column in 0..Self::VARIABLES {
+            let by = tangent[index][column];
+            let driving = if M::THERMAL {
+                by - thinning * tangent[Self::TEMPERATURE][column]
+            } else {
+                by
+            };
+            // ∂(g γ̇)/∂x = γ̇ (∂g/∂x + η ∂γ̇/∂x)
+            let power_by = rate * (by + driving);
+            dissipation.by[column] = if k == 0 {
+                power_by
+            } else {
+                dissipation.by[column] + power_by
+            };
+            let own = if column == index { S::one() } else { S::zero() };
+            system.rows[k][column] = own + mobility * driving;
+        }
+    }
+
+    /// `r_s` and its derivatives.
+    #[inline]
+    fn heat_balance(
+        &mut self,
+        view: &StepView<'_, S>,
+        flow: &HeatFlow<S>,
+        (response, tangent): &Form<S, M>,
+        system: &mut LocalSystem<S, M>,
+        dissipation: &Dissipation<S, M>,
+    ) {
+        let per_theta = temperature_in::<S, M>(response).recip();
+        let rate = (dissipation.power + flow.heat) * per_theta;
+        let h = view.thermal_step();
+        let row = M::DASHPOTS;
+        let received = self.increment(Self::TEMPERATURE, rate, h);
+        let residual = response[Self::ENTROPY] - received;
+        system.constant[row] = residual;
+        // ∂r_s/∂(power) without the sign, and ∂r_s/∂θ*.
+        let weight = h * S::from_f64(C::IMPLICIT) * per_theta;
+        self.condensed.heat_factor = -weight;
+        let mut by_theta = weight * (flow.conductance + rate);
+        if C::SCALES_HEAT {
+            // Newton's method on θ* r_s, which is far less curved than r_s where conduction is
+            // stiff, and the same where r_s = 0.
+            by_theta += residual * per_theta;
+        }
+        for column in 0..Self::VARIABLES {
+            let mut entry =
+                tangent[Self::ENTROPY][column] + by_theta * tangent[Self::TEMPERATURE][column];
+            if M::DASHPOTS > 0 {
+                entry -= weight * dissipation.by[column];
+            }
+            system.rows[row][column] = entry;
+        }
+    }
+}

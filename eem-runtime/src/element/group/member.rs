@@ -1,0 +1,127 @@
+//! One element of a group: its nodes, and the points at which its free energy is evaluated.
+
+use super::arms::{arms_in, change_in};
+use super::point::Point;
+use super::respond::TrialArms;
+use super::site::Site;
+use crate::element::conjugates::ElementScheme;
+use crate::element::group::view::{Placed, StepView, Trial};
+use crate::element::handle::Element;
+use crate::element::kinematics::{Arms, Kinematics, Points};
+use crate::element::state::State;
+use crate::material::free_energy::{Array, FreeEnergy};
+use crate::number::scalar::Real;
+
+/// An element.
+pub(crate) struct Member<S, M, K, C, const D: usize>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    pub(super) site: Site<K, S, D>,
+    /// The old arms.
+    pub(super) r0: Arms<K, S, D>,
+    pub(super) points: K::PerPoint<Point<S, M, K, C, D>>,
+}
+
+impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// An element whose points have consecutive handles, of which the first is given, and make what each
+    /// consists of.
+    pub(super) fn new(
+        first: Element,
+        mut make: impl FnMut(usize) -> (M, K),
+        placed: Placed<'_>,
+    ) -> Self {
+        Self {
+            site: Site::unconnected(placed.nodes.nodes_of(first)),
+            r0: Arms::<K, S, D>::filled([S::zero(); D]),
+            points: K::PerPoint::from_fn(|point| {
+                let index = first.index + point;
+                let slots = placed.layout.elements[index];
+                Point::new(Element { index, ..first }, make(point), slots)
+            }),
+        }
+    }
+
+    /// The point of an element that has one.
+    pub(super) fn only(&self) -> &Point<S, M, K, C, D> {
+        &self.points.as_ref()[0]
+    }
+
+    /// The same, to be changed.
+    pub(super) fn only_mut(&mut self) -> &mut Point<S, M, K, C, D> {
+        &mut self.points.as_mut()[0]
+    }
+
+    /// Its arms in a state.
+    #[inline]
+    pub(super) fn arms_in(&self, state: &State<S>) -> Arms<K, S, D> {
+        arms_in::<K, S, D>(&self.site.nodes, &state.positions)
+    }
+
+    /// The new arms `r¹ = r⁰ + Δr`.
+    #[inline]
+    pub(super) fn new_arms(&self, trial: &Trial<S, D>) -> Arms<K, S, D> {
+        let mut r1 = change_in::<K, S, D>(&self.site.nodes, trial);
+        for (arm, old) in r1.as_mut().iter_mut().zip(self.r0.as_ref()) {
+            for axis in 0..D {
+                arm[axis] += old[axis];
+            }
+        }
+        r1
+    }
+
+    /// Its arms at a trial.
+    #[inline]
+    pub(super) fn trial_arms(
+        &self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+    ) -> TrialArms<K, S, D> {
+        TrialArms {
+            old: self.r0,
+            new: self.new_arms(trial),
+            motion: self.motion(view, trial),
+        }
+    }
+
+    /// The motion `r¹ − r⁰ − (1 − w) h ṙ⁰` of the arms, which only a scheme in temperature asks for.
+    #[inline]
+    fn motion(&self, view: &StepView<'_, S>, trial: &Trial<S, D>) -> Arms<K, S, D> {
+        if !C::IN_TEMPERATURE {
+            return self.r0;
+        }
+        let rest = (S::one() - S::from_f64(C::IMPLICIT)) * view.step;
+        let mut motion = change_in::<K, S, D>(&self.site.nodes, trial);
+        let velocities = self.old_velocities(view);
+        for (motion, velocity) in motion.as_mut().iter_mut().zip(velocities.as_ref()) {
+            for (motion, &velocity) in motion.iter_mut().zip(velocity) {
+                *motion -= rest * velocity;
+            }
+        }
+        motion
+    }
+
+    /// The old velocities of the arms; those of anchors are means over the step, m/s.
+    pub(super) fn old_velocities(&self, view: &StepView<'_, S>) -> Arms<K, S, D> {
+        let velocity = |node: u32| view.old_velocity::<D>(node as usize);
+        let nodes = self.site.nodes.as_ref();
+        let first = velocity(nodes[0]);
+        let mut velocities = Arms::<K, S, D>::filled([S::zero(); D]);
+        for (arm, &node) in velocities.as_mut().iter_mut().zip(&nodes[1..]) {
+            *arm = velocity(node);
+            for (component, &first) in arm.iter_mut().zip(&first) {
+                *component -= first;
+            }
+        }
+        velocities
+    }
+}

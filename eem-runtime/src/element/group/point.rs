@@ -1,0 +1,295 @@
+//! One point of an element, where its free energy is evaluated: its model and its part of the trial
+//! state. A spring has one point.
+
+use super::arms::measures_in;
+use super::at_point::MemoryAtPoint;
+use super::eliminate::{Condensed, PerUnknown};
+use super::site::Contact;
+use crate::element::conjugates::{ElementScheme, Form, Placement, Start};
+use crate::element::error::StateError;
+use crate::element::handle::Element;
+use crate::element::kinematics::{Arms, Gradient, Kinematics};
+use crate::element::layout::Slots;
+use crate::material::free_energy::{Array, FreeEnergy};
+use crate::number::compact::compact;
+use crate::number::scalar::{Real, is_positive};
+
+/// A point, with everything that one step of the scheme `C` needs to remember of it.
+pub(crate) struct Point<S, M, K, C, const D: usize>
+where
+    S: Real,
+    M: FreeEnergy<S>,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// Its handle.
+    pub(super) element: Element,
+    pub(super) model: M,
+    pub(super) kinematics: K,
+    /// Its thermal slot, if it has a temperature, and the offset of its viscous stretches.
+    slot: u32,
+    viscous: u32,
+    /// Which of the contacts of the group it is, if it conducts heat to other elements; more than
+    /// there are if not.
+    pub(super) contact: u32,
+    /// Whether it exchanges heat with reservoirs.
+    pub(super) meets_reservoirs: bool,
+    /// Whether a thermostat gives its temperature.
+    pub(super) is_prescribed: bool,
+    /// The old state.
+    pub(super) start: Start<S, M, C::Old>,
+    /// What the scheme keeps as starting values.
+    pub(super) memory: C::Memory,
+    /// The trial variables `(π, γ, τ)`.
+    pub(super) x: M::Variables,
+    /// Δγ of the trial, whose digits `γ⁰ + Δγ` would lose where the dashpots are stiff, m.
+    pub(super) creep: M::Viscosities,
+    /// Δγ and τ before the last correction, and the correction of all variables.
+    pub(super) previous: PerUnknown<S, M::Viscosities>,
+    pub(super) correction: M::Variables,
+    /// The response at the trial, and the derivatives of `(f*, g*, θ*)` by `x`.
+    pub(super) response: M::Response,
+    pub(super) slopes: M::Hessian,
+    /// `η_k` and `dη_k/dθ` at θ*.
+    pub(super) viscosities: (M::Viscosities, M::Viscosities),
+    /// The derivative of the measures by the new arms.
+    pub(super) sensitivity: Gradient<K, S, D>,
+    /// Local unknowns as functions of the global ones.
+    pub(super) condensed: Condensed<S, M, K, D>,
+    /// What only a rule that looks at one point needs.
+    pub(super) at_point: C::AtPoint<MemoryAtPoint<S, M, K, D>>,
+}
+
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S>,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// Number of variables.
+    pub(super) const VARIABLES: usize = M::Variables::LEN;
+
+    /// Number of variables that are eliminated within the element: viscous stretches, temperature.
+    pub(super) const UNKNOWNS: usize = M::Variables::LEN - M::MEASURES;
+
+    /// The index of the temperature among the variables, and of θ* in the response.
+    pub(super) const TEMPERATURE: usize = M::MEASURES + M::DASHPOTS;
+
+    /// The index of Δs in the response.
+    pub(super) const ENTROPY: usize = Self::TEMPERATURE + 1;
+
+    pub(super) fn new(element: Element, (model, kinematics): (M, K), slots: Slots) -> Self {
+        let zeros = M::Variables::filled(S::zero());
+        let viscosities = M::Viscosities::filled(S::zero());
+        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
+        let old = C::old(&model, &zeros, S::zero());
+        Self {
+            element,
+            model,
+            kinematics,
+            slot: compact(slots.thermal.unwrap_or(0)),
+            viscous: compact(slots.viscous),
+            contact: u32::MAX,
+            meets_reservoirs: false,
+            is_prescribed: false,
+            start: Start { x0: zeros, old },
+            memory: C::memory(S::zero()),
+            x: zeros,
+            creep: viscosities,
+            previous: PerUnknown::zero(),
+            correction: zeros,
+            response: M::Response::filled(S::zero()),
+            slopes: M::Hessian::filled(zeros),
+            viscosities: (viscosities, viscosities),
+            sensitivity: Gradient::<K, S, D>::filled(nowhere),
+            condensed: Condensed::zero(),
+            at_point: C::AtPoint::filled(MemoryAtPoint::<S, M, K, D>::zero(nowhere)),
+        }
+    }
+
+    /// Where its internal variables are in a state.
+    #[inline]
+    pub(super) fn slots(&self) -> Slots {
+        Slots {
+            viscous: self.viscous as usize,
+            thermal: M::THERMAL.then_some(self.slot as usize),
+        }
+    }
+
+    /// The unit of its viscous stretches.
+    #[inline]
+    pub(super) fn viscous_unit(&self) -> S {
+        let measures = measures_in::<K, S, D>(&self.start.x0);
+        self.kinematics.unit(&measures)
+    }
+
+    /// Its contact, if it conducts heat to other elements.
+    #[inline]
+    pub(super) fn contact_in<'a>(
+        &self,
+        contacts: &'a [Contact<K, S, D>],
+    ) -> Option<&'a Contact<K, S, D>> {
+        if M::THERMAL {
+            contacts.get(self.contact as usize)
+        } else {
+            None
+        }
+    }
+
+    /// Keeps the response, and of its tangent what is needed once the correction is known.
+    #[inline]
+    pub(super) fn keep(&mut self, (response, tangent): &Form<S, M>) {
+        self.response = *response;
+        for row in 0..Self::VARIABLES {
+            self.slopes[row] = tangent[row];
+        }
+        if M::THERMAL && C::FINDS_TEMPERATURE {
+            for at_point in self.at_point.as_mut() {
+                at_point.entropy_by = tangent[Self::ENTROPY];
+            }
+        }
+    }
+
+    /// The increment `h (w ẋ + c)` of an internal variable with the rate `ẋ` of the response, of which
+    /// the scheme takes the share w; c is what the old state contributes.
+    #[inline]
+    pub(super) fn increment(&self, index: usize, rate: S, h: S) -> S {
+        match self.at_point.as_ref() {
+            [at_point] if C::IMPLICIT < 1.0 => {
+                h * (S::from_f64(C::IMPLICIT) * rate + at_point.old_rates[index])
+            }
+            _ => h * rate,
+        }
+    }
+
+    /// The new temperature that τ stands for, given the old one, K.
+    pub(super) fn new_temperature(&self, old: S) -> S {
+        let theta = self.x[Self::TEMPERATURE];
+        match C::PLACEMENT {
+            Placement::Ends | Placement::End => theta,
+            Placement::Middle | Placement::Start => theta + theta - old,
+        }
+    }
+
+    /// The algorithmic temperature θ*, K; zero without temperature.
+    #[inline]
+    pub(super) fn temperature(&self) -> S {
+        temperature_in::<S, M>(&self.response)
+    }
+
+    /// The power of the dashpots that the scheme takes from the old state, `Σ g⁰ (1 − w) γ̇⁰`, W.
+    pub(super) fn old_dissipation(&self) -> S {
+        if C::IMPLICIT >= 1.0 || M::DASHPOTS == 0 {
+            return S::zero();
+        }
+        let forces = self.model.gradient(&self.start.x0);
+        let dashpots = M::MEASURES..Self::TEMPERATURE;
+        let old = self.at_point.as_ref().iter();
+        old.fold(S::zero(), |sum, old| {
+            dashpots
+                .clone()
+                .fold(sum, |sum, k| sum - forces[k] * old.old_rates[k])
+        })
+    }
+
+    /// An error unless a free energy is finite.
+    pub(super) fn unless_infinite(&self, psi: S) -> Result<(), StateError> {
+        if psi.is_finite() {
+            return Ok(());
+        }
+        Err(StateError::NotFinite {
+            element: self.element,
+            quantity: "free energy",
+            value: psi.to_f64(),
+        })
+    }
+
+    /// The viscosities at a temperature, all positive.
+    #[inline]
+    pub(super) fn find_viscosities(&mut self, theta: S) -> Result<(), StateError> {
+        if M::DASHPOTS == 0 {
+            return Ok(());
+        }
+        self.viscosities = self.model.viscosity(theta);
+        let viscosities = self.viscosities.0.as_ref();
+        match viscosities.iter().position(|&eta| !is_positive(eta)) {
+            None => Ok(()),
+            Some(dashpot) => Err(StateError::Viscosity {
+                element: self.element,
+                dashpot,
+                value: viscosities[dashpot].to_f64(),
+                unit: K::VISCOSITY_UNIT,
+                temperature: M::THERMAL.then(|| theta.to_f64()),
+            }),
+        }
+    }
+
+    /// Starts the next correction from the present trial, with none.
+    #[inline]
+    pub(super) fn hold(&mut self) {
+        self.remember();
+        self.correction = M::Variables::filled(S::zero());
+        for at_point in self.at_point.as_mut() {
+            at_point.previous_entropy_change = at_point.entropy_change;
+            at_point.entropy_correction = S::zero();
+        }
+    }
+
+    /// The present trial is where the next correction starts.
+    #[inline]
+    pub(super) fn remember(&mut self) {
+        for k in 0..M::DASHPOTS {
+            self.previous.set(k, self.creep[k]);
+        }
+        if M::THERMAL {
+            self.previous.set(M::DASHPOTS, self.x[Self::TEMPERATURE]);
+        }
+    }
+
+    /// Applies the fraction `share` of the correction: viscous stretches linearly, the temperature
+    /// in its logarithm, so that it stays positive.
+    #[inline]
+    pub(super) fn apply(&mut self, share: S) {
+        for k in 0..M::DASHPOTS {
+            let index = M::MEASURES + k;
+            self.creep[k] = self.previous.get(k) + share * self.correction[index];
+            self.x[index] = self.start.x0[index] + self.creep[k];
+        }
+        if M::THERMAL {
+            let change = share * self.correction[Self::TEMPERATURE];
+            self.x[Self::TEMPERATURE] = grown(self.previous.get(M::DASHPOTS), change);
+        }
+        if C::FINDS_TEMPERATURE {
+            for at in self.at_point.as_mut() {
+                at.entropy_change = at.previous_entropy_change + share * at.entropy_correction;
+            }
+        }
+    }
+}
+
+/// A temperature after the correction δθ, `θ (θ + ½δθ)/(θ − ½δθ)`.
+///
+/// It is `θ e^(δθ/θ)` up to `(δθ/θ)³/12`, positive, and limited to what one iteration may do.
+#[inline]
+pub(super) fn grown<S: Real>(theta: S, change: S) -> S {
+    let most = S::from_f64(LARGEST_HALF_CHANGE) * theta;
+    let half = S::from_f64(0.5) * change;
+    let limited = || S::select(S::zero().less(half), most, -most);
+    let half = S::branch(most.less(half.abs()), limited, || half);
+    theta * ((theta + half) / (theta - half))
+}
+
+/// Half the largest change of ln θ in one Newton iteration: a factor of 7. It bounds the reach of
+/// a wild first iteration and is never met near the solution.
+const LARGEST_HALF_CHANGE: f64 = 0.75;
+
+/// θ* of a response, K; zero without temperature.
+#[inline]
+pub(super) fn temperature_in<S: Real, M: FreeEnergy<S>>(response: &M::Response) -> S {
+    if M::THERMAL {
+        response[M::MEASURES + M::DASHPOTS]
+    } else {
+        S::zero()
+    }
+}

@@ -1,0 +1,245 @@
+//! The response of the elements at a trial state, and what must be true of it.
+
+use super::arms::measures_in;
+use super::point::{Point, temperature_in};
+use super::pose::{Pose, seen_arms, seen_measures};
+use crate::element::conjugates::{ElementScheme, Form};
+use crate::element::error::StateError;
+use crate::element::group::view::Trial;
+use crate::element::handle::Element;
+use crate::element::kinematics::{Arms, Ends, Kinematics, Measures};
+use crate::material::free_energy::{Array, FreeEnergy};
+use crate::number::scalar::{Mask, Real, is_positive};
+
+/// Arms of an element at a trial.
+pub(super) struct TrialArms<K: Kinematics<S, D>, S: Real, const D: usize> {
+    pub(super) old: Arms<K, S, D>,
+    pub(super) new: Arms<K, S, D>,
+    /// `r¹ − r⁰ − (1 − w) h ṙ⁰`, if the scheme is one in temperature.
+    pub(super) motion: Arms<K, S, D>,
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> TrialArms<K, S, D> {
+    /// The old and the new ones.
+    #[inline]
+    pub(super) fn ends(&self) -> [&Arms<K, S, D>; 2] {
+        [&self.old, &self.new]
+    }
+}
+
+/// Arms and measures of the configuration that a scheme looks at.
+pub(super) type Seen<K, S, const D: usize> = (Arms<K, S, D>, Measures<K, S, D>);
+
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// Finds the measures of the trial state between old and new arms, its temperature if that is not an
+    /// unknown, and what the form of the scheme needs besides.
+    #[inline]
+    pub(super) fn locate_trial(
+        &mut self,
+        [r0, r1]: [&Arms<K, S, D>; 2],
+        trial: &Trial<S, D>,
+    ) -> Result<Seen<K, S, D>, StateError> {
+        let kinematics = self.kinematics;
+        let r1 = seen_arms::<K, S, D>(C::PLACEMENT, r0, *r1);
+        let measures1 = kinematics.measure(&r1);
+        let measures0 = measures_in::<K, S, D>(&self.start.x0);
+        let measures = seen_measures::<K, S, D>(C::PLACEMENT, &measures0, measures1);
+        check_measures::<K, S, D>(kinematics, self.element, &measures, &r1)?;
+        for (a, &measure) in measures.as_ref().iter().enumerate() {
+            self.x[a] = measure;
+        }
+        if M::THERMAL && C::FINDS_TEMPERATURE && !self.is_prescribed {
+            for at_point in self.at_point.as_ref() {
+                let change = at_point.entropy_change;
+                let theta = C::temperature(&self.model, &self.start, &self.x, change);
+                let theta = theta.map_err(|infeasible| infeasible.of(self.element))?;
+                self.x[Self::TEMPERATURE] = theta;
+            }
+        }
+        if !trial.is_start {
+            C::prepare(&self.model, &self.start, &self.x, &mut self.memory)
+                .map_err(|infeasible| infeasible.of(self.element))?;
+        }
+        Ok((r1, measures1))
+    }
+
+    /// The gradients at the configuration that the scheme looks at.
+    #[inline]
+    pub(super) fn pose(&self, r0: &Arms<K, S, D>, seen: &Seen<K, S, D>) -> Pose<K, S, D> {
+        let ends = Ends {
+            r0: *r0,
+            r1: seen.0,
+            measures0: measures_in::<K, S, D>(&self.start.x0),
+            measures1: seen.1,
+        };
+        Pose::new(self.kinematics, C::PLACEMENT, ends)
+    }
+
+    /// The response and its tangent at the trial that has been located.
+    #[inline]
+    pub(super) fn form(&self, trial: &Trial<S, D>) -> Form<S, M> {
+        if trial.is_start
+            && let Some(form) = C::starting_form(&self.model, &self.start, &self.x)
+        {
+            return form;
+        }
+        C::form(&self.model, &self.start, &self.x, &self.memory)
+    }
+
+    /// Finds the viscosities that go with a response, unless the trial is not stable or something
+    /// is not finite.
+    #[inline]
+    pub(super) fn accept(&mut self, form: &Form<S, M>) -> Result<(), StateError> {
+        C::check(&self.x, form).map_err(|infeasible| infeasible.of(self.element))?;
+        self.accept_response(&form.0)
+    }
+
+    /// The response at the trial that has been located, where no tangent is needed: at the end of a step.
+    #[inline]
+    pub(super) fn respond_alone(
+        &mut self,
+        step: S,
+        trial: &Trial<S, D>,
+        arms: &TrialArms<K, S, D>,
+    ) -> Result<(), StateError> {
+        let seen = self.locate_trial(arms.ends(), trial)?;
+        if trial.is_start {
+            let form = self.form(trial);
+            self.accept(&form)?;
+            self.response = form.0;
+            return Ok(());
+        }
+        if M::THERMAL && C::IN_TEMPERATURE {
+            let mut form = self.form(trial);
+            let pose = self.pose(&arms.old, &seen);
+            self.change_entropy_at_rates(step, &pose, &arms.motion, &mut form);
+            self.accept(&form)?;
+            self.response = form.0;
+            return Ok(());
+        }
+        self.response = C::response(&self.model, &self.start, &self.x, &self.memory);
+        let response = self.response;
+        self.accept_response(&response)
+    }
+
+    #[inline]
+    fn accept_response(&mut self, response: &M::Response) -> Result<(), StateError> {
+        check_response::<S, M>(self.element, response)?;
+        self.find_viscosities(temperature_in::<S, M>(response))
+    }
+
+    /// For a scheme in temperature: replaces the Δs of the response by that of rates.
+    pub(super) fn change_entropy_at_rates(
+        &mut self,
+        step: S,
+        pose: &Pose<K, S, D>,
+        motion: &Arms<K, S, D>,
+        form: &mut Form<S, M>,
+    ) {
+        let (own, by_arm) = pose.increase(self.kinematics, C::PLACEMENT, motion);
+        let increments = self.increments(&own, step);
+        let (model, start) = (&self.model, &self.start);
+        let slopes = C::change_entropy_at_rates(model, start, &self.x, &increments, form);
+        for at_point in self.at_point.as_mut() {
+            at_point.by_increment = combined::<K, S, M, D>(&slopes, by_arm.as_ref());
+        }
+    }
+
+    /// The increments of measures, viscous stretches and temperature, less what the old state
+    /// contributes.
+    fn increments(&self, measures: &Measures<K, S, D>, step: S) -> M::Variables {
+        let mut increments = M::Variables::filled(S::zero());
+        let (old, last) = (&self.start.x0, Self::VARIABLES - 1);
+        for (a, &increment) in measures.as_ref().iter().enumerate() {
+            increments[a] = increment;
+        }
+        for at_point in self.at_point.as_ref() {
+            for index in M::MEASURES..last {
+                let change = self.x[index] - old[index];
+                increments[index] = change - step * at_point.old_rates[index];
+            }
+            if M::THERMAL {
+                let change = self.new_temperature(old[last]) - old[last];
+                increments[last] = change - step * at_point.old_heating;
+            }
+        }
+        increments
+    }
+}
+
+/// `Σ_a slope_a ∂Λ_a/∂r¹`.
+fn combined<K: Kinematics<S, D>, S: Real, M: FreeEnergy<S>, const D: usize>(
+    slopes: &M::Variables,
+    by_arm: &[Arms<K, S, D>],
+) -> Arms<K, S, D> {
+    let mut sum = Arms::<K, S, D>::filled([S::zero(); D]);
+    for (&slope, row) in slopes.as_ref().iter().zip(by_arm) {
+        for (sum, entry) in sum.as_mut().iter_mut().zip(row.as_ref()) {
+            for (sum, &entry) in sum.iter_mut().zip(entry) {
+                *sum += slope * entry;
+            }
+        }
+    }
+    sum
+}
+
+/// The deformation of an element with these arms is one that it can have.
+#[inline]
+pub(super) fn check_measures<K: Kinematics<S, D>, S: Real, const D: usize>(
+    kinematics: K,
+    element: Element,
+    measures: &Measures<K, S, D>,
+    r: &Arms<K, S, D>,
+) -> Result<(), StateError> {
+    if kinematics.is_admissible(r, measures) {
+        return Ok(());
+    }
+    Err(kinematics.refusal(element, r))
+}
+
+/// The temperature of a response is one, and everything in it finite.
+#[inline]
+fn check_response<S: Real, M: FreeEnergy<S>>(
+    element: Element,
+    response: &M::Response,
+) -> Result<(), StateError> {
+    if M::THERMAL {
+        check_temperature(element, response[M::MEASURES + M::DASHPOTS])?;
+    }
+    // Zero for finite numbers, NaN for others.
+    let zero = S::zero();
+    let sum = response
+        .as_ref()
+        .iter()
+        .fold(zero, |sum, &value| sum + zero * value);
+    if sum.equal(zero).all() {
+        return Ok(());
+    }
+    Err(not_finite(element, response.as_ref()))
+}
+
+#[cold]
+fn not_finite<S: Real>(element: Element, response: &[S]) -> StateError {
+    let value = response.iter().find(|value| !value.is_finite());
+    StateError::NotFinite {
+        element,
+        quantity: "force or entropy",
+        value: value.map_or(f64::NAN, |value| value.to_f64()),
+    }
+}
+
+/// A temperature is positive and finite.
+#[inline]
+pub(super) fn check_temperature<S: Real>(element: Element, theta: S) -> Result<(), StateError> {
+    if is_positive(theta) {
+        return Ok(());
+    }
+    let value = theta.to_f64();
+    Err(StateError::Temperature { element, value })
+}

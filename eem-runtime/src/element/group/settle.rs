@@ -1,0 +1,168 @@
+//! The new state of each element: its temperature, and all that must be true of a state.
+
+use super::point::Point;
+use super::respond::{check_measures, check_temperature};
+use crate::element::conjugates::{ElementScheme, Infeasible, Placement, settled_at};
+use crate::element::error::StateError;
+use crate::element::group::element_group::{ElementGroup, variables};
+use crate::element::group::view::{StepView, Trial};
+use crate::element::kinematics::{Arms, Kinematics};
+use crate::element::state::{Energy, State};
+use crate::element::tally::Tally;
+use crate::material::free_energy::{Array, Caloric, FreeEnergy};
+use crate::number::scalar::Real;
+
+impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// See [`Group::close`](super::Group::close).
+    pub(super) fn close_all(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        next: &mut State<S>,
+        tally: &mut Tally<S>,
+    ) -> Result<(), StateError> {
+        for member in &mut self.members {
+            let r1 = member.arms_in(next);
+            for point in member.points.as_mut() {
+                let contact = point.contact_in(&self.contacts);
+                let received = point.book(view, (contact, trial), next, tally);
+                let near = point.x[M::Variables::LEN - 1];
+                if let Some(entropy) = point.settle(&r1, view, near, next)? {
+                    point.book_thermostat(view, [entropy, received], next);
+                }
+                if C::EXACT {
+                    let forces = point.amplitude([&member.r0, &r1], tally.care);
+                    tally.force(forces);
+                    tally.exchange(view.step * point.largest_pull(&r1));
+                    let magnitude = next.energies[point.element.index].magnitude + forces;
+                    point.judge(view, (contact, trial, &r1), [received, magnitude], tally);
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// The variables in a state with these arms, if the element can have its deformation.
+    #[inline]
+    pub(super) fn locate(
+        &self,
+        r: &Arms<K, S, D>,
+        state: &State<S>,
+    ) -> Result<M::Variables, StateError> {
+        let measures = self.kinematics.measure(r);
+        check_measures::<K, S, D>(self.kinematics, self.element, &measures, r)?;
+        Ok(variables::<S, M>(measures.as_ref(), self.slots(), state))
+    }
+
+    /// The new temperature, which is near a given one, from the new entropy, or the other way round
+    /// where the scheme integrates the temperature or it is prescribed.
+    ///
+    /// Returns the new entropy where a thermostat decides it.
+    #[inline]
+    pub(super) fn settle(
+        &mut self,
+        r: &Arms<K, S, D>,
+        view: &StepView<'_, S>,
+        near: S,
+        state: &mut State<S>,
+    ) -> Result<Option<S>, StateError> {
+        let mut x = self.locate(r, state)?;
+        self.check_viscous(&x)?;
+        let at = self.element.index;
+        let Some(slot) = self.slots().thermal else {
+            let psi = self.model.free_energy(&x);
+            self.unless_infinite(psi)?;
+            state.energies[at] = Energy::without_temperature(psi);
+            return Ok(None);
+        };
+        let prescribed = view.prescribed(slot, Placement::End);
+        if let (false, None) = (C::IN_TEMPERATURE, prescribed) {
+            // The trial is nearly right: one evaluation is enough, as a rule.
+            let entropy = state.entropies.values()[slot];
+            let found = settled_at(&self.model, x, entropy, near)
+                .map_err(|infeasible| infeasible.of(self.element))?;
+            check_temperature(self.element, found.temperature)?;
+            state.temperatures[slot] = found.temperature;
+            self.unless_infinite(found.free_energy)?;
+            state.energies[at] = found.energy;
+            return Ok(None);
+        }
+        let old = view.state.temperatures[slot];
+        let theta = prescribed.unwrap_or_else(|| self.new_temperature(old));
+        state.temperatures[slot] = theta;
+        x[Self::TEMPERATURE] = theta;
+        check_temperature(self.element, theta)?;
+        let caloric = self.model.caloric(&x);
+        self.check_stable(&caloric, theta)?;
+        state.entropies.set(slot, caloric.entropy);
+        state.energies[at] = self.energy_at(&x, caloric)?;
+        Ok(prescribed.map(|_| caloric.entropy))
+    }
+
+    /// The internal energy at given variables, whose entropy and heat capacity are known.
+    pub(super) fn energy_at(
+        &self,
+        x: &M::Variables,
+        caloric: Caloric<S>,
+    ) -> Result<Energy<S>, StateError> {
+        let psi = self.model.free_energy(x);
+        self.unless_infinite(psi)?;
+        if !M::THERMAL {
+            return Ok(Energy::without_temperature(psi));
+        }
+        let theta = x[Self::TEMPERATURE];
+        Ok(Energy::new(psi, [theta, caloric.entropy], &caloric))
+    }
+
+    /// The heat of the thermostat that brought the entropy to a new one, of an element that has
+    /// received so much entropy otherwise.
+    fn book_thermostat(
+        &self,
+        view: &StepView<'_, S>,
+        [entropy, received]: [S; 2],
+        state: &mut State<S>,
+    ) {
+        let Some(slot) = self.slots().thermal else {
+            return;
+        };
+        let change = entropy - view.state.entropies.values()[slot];
+        let given = change - received;
+        state.heat.add(self.temperature() * given);
+        state.thermostat_entropy.add(-given);
+    }
+
+    fn check_stable(&self, caloric: &Caloric<S>, theta: S) -> Result<(), StateError> {
+        Infeasible::unless_stable(caloric.heat_capacity, theta)
+            .map_err(|infeasible| infeasible.of(self.element))
+    }
+
+    #[inline]
+    fn check_viscous(&self, x: &M::Variables) -> Result<(), StateError> {
+        for dashpot in 0..M::DASHPOTS {
+            let stretch = x[M::MEASURES + dashpot];
+            if !stretch.is_finite() {
+                return Err(StateError::ViscousStretch {
+                    element: self.element,
+                    dashpot,
+                    value: stretch.to_f64(),
+                    unit: K::VISCOUS_UNIT,
+                });
+            }
+        }
+        Ok(())
+    }
+}

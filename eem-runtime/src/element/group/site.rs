@@ -1,0 +1,145 @@
+//! Where the elements write in the global systems, found once per scene.
+
+use crate::element::conduction::Partner;
+use crate::element::group::view::Sites;
+use crate::element::kinematics::Kinematics;
+use crate::material::free_energy::Array;
+use crate::number::compact::compact;
+use crate::number::scalar::Real;
+
+/// The places of one element in the tangent.
+///
+/// The rows of a node have entries in the same columns, so that the entries of a column in them are
+/// equally spaced.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Site<K: Kinematics<S, D>, S: Real, const D: usize> {
+    pub(super) nodes: K::PerNode<u32>,
+    /// The first row of each node.
+    pub(super) rows: K::PerNode<u32>,
+    /// The distance of the entries of one column in consecutive rows of each node.
+    pub(super) strides: K::PerNode<u32>,
+    /// The first entry of the block of two nodes, that of its first row.
+    pub(super) blocks: K::PerNode<K::PerNode<u32>>,
+    /// Whether the nodes move with the unknowns; anchors do not.
+    pub(super) is_mass: K::PerNode<bool>,
+}
+
+/// The places of an element whose algorithmic temperature Θ its neighbours see.
+#[derive(Clone, Debug)]
+pub(super) struct Contact<K: Kinematics<S, D>, S: Real, const D: usize> {
+    /// The row of Θ.
+    pub(super) unknown: u32,
+    pub(super) diagonal: u32,
+    /// The first entry of each node in the row of Θ.
+    pub(super) row: K::PerNode<u32>,
+    /// The entry of the first row of each node in the column of Θ.
+    pub(super) column: K::PerNode<u32>,
+    pub(super) partners: Vec<PartnerSite<K, S, D>>,
+}
+
+/// A path of heat to another element.
+#[derive(Clone, Debug)]
+pub(super) struct PartnerSite<K: Kinematics<S, D>, S: Real, const D: usize> {
+    /// The partner's thermal slot, and the row of its Θ.
+    pub(super) slot: u32,
+    pub(super) unknown: u32,
+    /// The entry of the partner's Θ in the row of the own one.
+    pub(super) entry: u32,
+    /// κ, W/K.
+    pub(super) conductance: S,
+    /// The entry of the first row of each node in the column of the partner's Θ.
+    pub(super) column: K::PerNode<u32>,
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
+    /// The nodes, and no places yet.
+    pub(super) fn unconnected(nodes: &[usize]) -> Self {
+        let mut own = K::PerNode::filled(0);
+        for (own, &node) in own.as_mut().iter_mut().zip(nodes) {
+            *own = compact(node);
+        }
+        Self {
+            nodes: own,
+            rows: K::PerNode::filled(0),
+            strides: K::PerNode::filled(0),
+            blocks: K::PerNode::filled(K::PerNode::filled(0)),
+            is_mass: K::PerNode::filled(false),
+        }
+    }
+
+    /// The places of an element with these nodes.
+    pub(super) fn new(nodes: K::PerNode<u32>, sites: &Sites<'_, S, D>) -> Self {
+        let unknown = |node: usize| sites.layout.nodes[nodes[node] as usize];
+        let mut site = Self {
+            nodes,
+            ..Self::unconnected(&[])
+        };
+        for i in 0..K::PerNode::<u32>::LEN {
+            site.is_mass[i] = unknown(i).is_some();
+            site.rows[i] = compact(sites.row(unknown(i)));
+            site.strides[i] = stride(unknown(i), unknown(i), sites);
+            for j in 0..K::PerNode::<u32>::LEN {
+                site.blocks[i][j] = compact(sites.place(unknown(i), unknown(j)));
+                debug_assert!(
+                    unknown(j).is_none()
+                        || stride(unknown(i), unknown(j), sites) == site.strides[i],
+                    "entries are equally spaced"
+                );
+            }
+        }
+        site
+    }
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
+    /// The places of an element with these nodes and the thermal slot, if it is coupled.
+    pub(super) fn new(
+        nodes: &K::PerNode<u32>,
+        slot: Option<usize>,
+        sites: &Sites<'_, S, D>,
+    ) -> Option<Self> {
+        let slot = slot?;
+        let unknown = sites.layout.coupled[slot]?;
+        let per_node = |place: &dyn Fn(Option<usize>) -> usize| {
+            let mut entries = K::PerNode::filled(0);
+            for (entry, &node) in entries.as_mut().iter_mut().zip(nodes.as_ref()) {
+                *entry = compact(place(sites.layout.nodes[node as usize]));
+            }
+            entries
+        };
+        let column_of = |theta: usize| per_node(&|node| sites.place(node, Some(theta)));
+        let partners = sites.conduction.links(slot).iter().filter_map(|link| {
+            let Partner::Slot(partner) = link.partner else {
+                return None;
+            };
+            let theta = sites.layout.coupled[partner]?;
+            Some(PartnerSite {
+                slot: compact(partner),
+                unknown: compact(sites.row(Some(theta))),
+                entry: compact(sites.place(Some(unknown), Some(theta))),
+                conductance: link.conductance,
+                column: column_of(theta),
+            })
+        });
+        Some(Self {
+            unknown: compact(sites.row(Some(unknown))),
+            diagonal: compact(sites.place(Some(unknown), Some(unknown))),
+            row: per_node(&|node| sites.place(Some(unknown), node)),
+            column: column_of(unknown),
+            partners: partners.collect(),
+        })
+    }
+}
+
+/// How far the entries of a column in the first two rows of a node are apart.
+fn stride<S: Real, const D: usize>(
+    first: Option<usize>,
+    column: Option<usize>,
+    sites: &Sites<'_, S, D>,
+) -> u32 {
+    let place = |axis: usize| sites.place(first.map(|first| first + axis), column);
+    if D == 1 || first.is_none() {
+        return 0;
+    }
+    compact(place(1) - place(0))
+}

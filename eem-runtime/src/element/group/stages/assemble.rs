@@ -1,0 +1,199 @@
+//! From the stages of the elements to the global system.
+
+use super::heat;
+use super::local::LocalStages;
+use super::member::StageMember;
+use crate::algebra::system::LinearSystem;
+use crate::element::error::StateError;
+use crate::element::group::arms::{add_scaled, measures_in, scale};
+use crate::element::group::stages::stage_group::StageGroup;
+use crate::element::group::view::{StepView, Trial};
+use crate::element::kinematics::{Arms, Kinematics};
+use crate::element::tableau::{MOST_SETS, Tableau};
+use crate::material::free_energy::{Array, FreeEnergy};
+use crate::number::scalar::Real;
+
+impl<S, M, K, const D: usize> StageGroup<S, M, K, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+{
+    /// Eliminates the local unknowns at a trial that has been evaluated, and adds residual and tangent.
+    pub(super) fn assemble_all(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        system: &mut LinearSystem<S, 1>,
+    ) -> Result<(), StateError> {
+        let rule = self.rule;
+        let (values, right) = system.parts();
+        let members = self.elements.members.iter().zip(&mut self.members);
+        for (member, stages) in members {
+            let point = member.only();
+            stages.condense(rule, &mut self.local, view.step, point.element)?;
+            let mut target = Target {
+                rule,
+                step: view.step,
+                local: &mut self.local,
+                values,
+                right,
+            };
+            for stage in 0..rule.stages() {
+                for measure in 0..M::MEASURES {
+                    stages.assemble_force(stage, measure, &mut target);
+                }
+                stages.assemble_turn(stage, trial, &mut target);
+            }
+            if let Some(slot) = point.slots().thermal {
+                stages.assemble_temperatures(slot, trial, &mut target);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Where an element writes.
+struct Target<'a, S: Real> {
+    rule: &'static Tableau,
+    step: S,
+    local: &'a mut LocalStages<S>,
+    values: &'a mut [S],
+    right: &'a mut [[S; 1]],
+}
+
+impl<S: Real> Target<'_, S> {
+    /// The weight `h w` of the forces of a stage in the rows of each set on which they act.
+    fn impulses(&self, stage: usize) -> impl Iterator<Item = (usize, S)> + use<S> {
+        let (step, sets) = (self.step, self.rule.positions.iter().enumerate());
+        let acting = sets.filter(move |(_, weights)| weights[stage] != 0.0);
+        acting.map(move |(set, weights)| (set, step * S::from_f64(weights[stage])))
+    }
+}
+
+impl<S, M, K, const D: usize> StageMember<S, M, K, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+{
+    /// The derivatives by the arms of each set of the quantity that has been eliminated last.
+    fn by_arms(&self, rule: &Tableau, local: &LocalStages<S>) -> [Arms<K, S, D>; MOST_SETS] {
+        let measures = local.row[1..].chunks_exact(M::MEASURES);
+        let mut by_arm = [Arms::<K, S, D>::filled([S::zero(); D]); MOST_SETS];
+        let sets = by_arm.iter_mut().take(rule.sets()).zip(measures);
+        for (set, (sum, measures)) in sets.enumerate() {
+            let rows = self.gradients[rule.stage_of(set)].as_ref().iter();
+            for (row, &by) in rows.zip(measures) {
+                add_scaled::<K, S, D>(sum, by, row);
+            }
+        }
+        by_arm
+    }
+
+    /// The impulses of the force `f ∂π/∂q` of one measure at a stage and their derivatives, with the
+    /// direction held.
+    fn assemble_force(&self, stage: usize, measure: usize, target: &mut Target<'_, S>) {
+        let (rule, point) = (target.rule, &self.points[stage]);
+        self.eliminate(rule, target.local, stage, &point.hessian[measure]);
+        let value = point.gradient[measure] + target.local.row[0];
+        let by_arms = self.by_arms(rule, target.local);
+        let along = &self.gradients[stage][measure];
+        for (set, impulse) in target.impulses(stage) {
+            let mut pull = *along;
+            scale::<K, S, D>(&mut pull, impulse * value);
+            let site = &self.site.sets[set][set];
+            site.subtract_arms(&pull, &site.rows, target.right.as_flattened_mut());
+            for (site, by_arm) in self.site.sets[set].iter().zip(&by_arms) {
+                for (i, along) in along.as_ref().iter().enumerate() {
+                    for (j, by) in by_arm.as_ref().iter().enumerate() {
+                        let block = along.map(|entry| by.map(|by| impulse * entry * by));
+                        site.add_block([i + 1, j + 1], &block, target.values);
+                    }
+                }
+            }
+            self.assemble_heat(set, impulse, along, target);
+        }
+    }
+
+    /// What heat from other elements does by way of the quantity that has been eliminated last to the
+    /// rows of the nodes, each with its direction.
+    fn assemble_heat(
+        &self,
+        set: usize,
+        impulse: S,
+        along: &Arms<K, S, D>,
+        target: &mut Target<'_, S>,
+    ) {
+        let Some(contacts) = &self.site.contacts else {
+            return;
+        };
+        let rule = target.rule;
+        let by_heat = &target.local.row[1 + rule.sets() * M::MEASURES..];
+        let site = &self.site.sets[set][set];
+        for (column, contact) in contacts[set].iter().enumerate() {
+            let by = impulse * heat::by_seen(rule, column, by_heat);
+            let times = |factor: S| {
+                let mut arms = *along;
+                scale::<K, S, D>(&mut arms, factor);
+                arms
+            };
+            let own = times(-by * contact.conductance());
+            site.add_column(&contact.column, &own, target.values);
+            for partner in &contact.partners {
+                let by_partner = times(by * partner.conductance);
+                site.add_column(&partner.column, &by_partner, target.values);
+            }
+        }
+    }
+
+    /// What the forces of a stage do when their directions turn.
+    fn assemble_turn(&self, stage: usize, trial: &Trial<S, D>, target: &mut Target<'_, S>) {
+        let Some(own) = target.rule.set_of(stage) else {
+            return;
+        };
+        for (set, impulse) in target.impulses(stage) {
+            let r = self.arms_of_set(own, trial);
+            let measures = measures_in::<K, S, D>(&self.x[stage]);
+            let forces = measures_in::<K, S, D>(&self.points[stage].gradient);
+            let blocks = self.kinematics.curvature(&r, &measures, &forces);
+            let site = &self.site.sets[set][own];
+            for (i, row) in blocks.as_ref().iter().enumerate() {
+                for (j, block) in row.as_ref().iter().enumerate() {
+                    let block = block.map(|row| row.map(|entry| impulse * entry));
+                    site.add_block([i + 1, j + 1], &block, target.values);
+                }
+            }
+        }
+    }
+
+    /// The equations `Θ − θ = 0` of an element whose temperatures neighbours see.
+    fn assemble_temperatures(&self, slot: usize, trial: &Trial<S, D>, target: &mut Target<'_, S>) {
+        let Some(contacts) = &self.site.contacts else {
+            return;
+        };
+        let rule = target.rule;
+        let mut by = M::Variables::filled(S::zero());
+        by[M::Variables::LEN - 1] = S::one();
+        for (set, balance) in rule.entropies.iter().enumerate() {
+            let stage = balance.unknown;
+            self.eliminate(rule, target.local, stage, &by);
+            let theta = self.temperature(stage) + target.local.row[0];
+            let by_arms = self.by_arms(rule, target.local);
+            let by_heat = &target.local.row[1 + rule.sets() * M::MEASURES..];
+            let own = &contacts[set][set];
+            let seen = trial.seen.values()[trial.seen_of_set(set, slot)];
+            target.right[own.unknown as usize][0] += theta - seen;
+            target.values[own.diagonal as usize] += S::one();
+            for (column, contact) in contacts[set].iter().enumerate() {
+                let site = &self.site.sets[set][column];
+                site.subtract_arms(&by_arms[column], &contact.row, target.values);
+                let by = heat::by_seen(rule, column, by_heat);
+                target.values[contact.diagonal as usize] += by * contact.conductance();
+                for partner in &contact.partners {
+                    target.values[partner.entry as usize] -= by * partner.conductance;
+                }
+            }
+        }
+    }
+}

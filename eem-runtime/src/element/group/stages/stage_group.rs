@@ -1,0 +1,153 @@
+//! The elements of one model, stepped through stages.
+
+use super::local::LocalStages;
+use super::member::StageMember;
+use super::site::StageSite;
+use crate::algebra::system::LinearSystem;
+use crate::element::conjugates::Variational;
+use crate::element::error::StateError;
+use crate::element::group::element_group::ElementGroup;
+use crate::element::group::interface::{Elements, Group};
+use crate::element::group::view::{Along, ElementGeneric, Old, Placed, Sites, StepView, Trial};
+use crate::element::handle::Element;
+use crate::element::impulse::Impulses;
+use crate::element::kinematics::Kinematics;
+use crate::element::recount::Recount;
+use crate::element::state::State;
+use crate::element::tableau::Tableau;
+use crate::element::tally::Tally;
+use crate::material::free_energy::FreeEnergy;
+use crate::number::scalar::Real;
+
+/// Elements of the model `M` with the kinematics `K`, which have one point each.
+pub(crate) struct StageGroup<S, M, K, const D: usize>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+{
+    pub(super) rule: &'static Tableau,
+    /// What they are in a state.
+    pub(super) elements: ElementGroup<S, M, K, Variational, D>,
+    pub(super) members: Vec<StageMember<S, M, K, D>>,
+    pub(super) local: LocalStages<S>,
+}
+
+impl<S, M, K, const D: usize> StageGroup<S, M, K, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+{
+    pub(crate) fn new(
+        rule: &'static Tableau,
+        parts: Vec<(Element, [(M, K); 1])>,
+        placed: Placed<'_>,
+    ) -> Self {
+        let elements = ElementGroup::new(parts, placed);
+        let members = elements.members.iter();
+        let members = members.map(|member| StageMember::new(member, rule));
+        Self {
+            rule,
+            members: members.collect(),
+            local: LocalStages::new::<M>(rule),
+            elements,
+        }
+    }
+}
+
+impl<S, M, K, const D: usize> Group<S, D> for StageGroup<S, M, K, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+{
+    fn elements(&self) -> &dyn Elements<S, D> {
+        &self.elements
+    }
+
+    fn elements_mut(&mut self) -> &mut dyn Elements<S, D> {
+        &mut self.elements
+    }
+
+    fn connect(&mut self, sites: &Sites<'_, S, D>) {
+        for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
+            stages.site = StageSite::new(&member.site.nodes, member.only().slots().thermal, sites);
+        }
+    }
+
+    fn begin(&mut self, view: &StepView<'_, S>, old: &mut Old<'_, S, D>) -> Result<(), StateError> {
+        for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
+            stages.begin(member, view, old.lengths);
+        }
+        Ok(())
+    }
+
+    fn evaluate(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        system: Option<&mut LinearSystem<S, 1>>,
+    ) -> Result<(), StateError> {
+        self.evaluate_all(view, trial)?;
+        match system {
+            None => Ok(()),
+            Some(system) => self.assemble_all(view, trial, system),
+        }
+    }
+
+    fn correct(&mut self, solution: &[[S; 1]], _: S::Mask) -> S {
+        self.correct_all(solution)
+    }
+
+    fn apply(&mut self, share: S) {
+        for stages in &mut self.members {
+            stages.apply(self.rule, share);
+        }
+    }
+
+    fn hold(&mut self) {
+        for stages in &mut self.members {
+            stages.hold();
+        }
+    }
+
+    fn add_impulse(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        along: Along,
+        impulses: &mut Impulses<'_, S, D>,
+        _: &mut [S],
+    ) {
+        if let Along::Stage(stage) = along {
+            self.add_impulse_of(stage, view, trial, impulses);
+        }
+    }
+
+    fn add_secant(
+        &mut self,
+        set: usize,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        system: &mut LinearSystem<S, D>,
+    ) {
+        self.add_secant_all(set, view, trial, system);
+    }
+
+    fn close(
+        &mut self,
+        view: &StepView<'_, S>,
+        _: &Trial<S, D>,
+        next: &mut State<S>,
+        _: &mut Tally<S>,
+    ) -> Result<(), StateError> {
+        self.close_all(view, next)
+    }
+
+    fn recount(&self, _: [&State<S>; 2], _: &mut Recount<S>) {}
+
+    fn generic_of_step(&self, _: [&State<S>; 2]) -> Vec<ElementGeneric<S>> {
+        Vec::new()
+    }
+}

@@ -1,0 +1,227 @@
+//! What a group and the solver tell each other.
+
+use crate::algebra::system::LinearSystem;
+use crate::element::conduction::{Conduction, SeenTemperatures};
+use crate::element::conjugates::Placement;
+use crate::element::handle::Element;
+use crate::element::layout::Layout;
+use crate::element::loads::StepLoads;
+use crate::element::masses::Masses;
+use crate::element::phase::Phase;
+use crate::element::state::State;
+use crate::element::tableau::MOST_STAGES;
+use crate::number::scalar::{Mask, Real};
+
+/// What all elements share during one step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StepView<'a, S> {
+    /// What changes.
+    pub(crate) phase: Phase,
+    /// h, s, and 1/h.
+    pub(crate) step: S,
+    pub(crate) per_step: S,
+    /// The old state.
+    pub(crate) state: &'a State<S>,
+    pub(crate) conduction: &'a Conduction<S>,
+    pub(crate) loads: &'a StepLoads<S>,
+    /// What acts at the times of the stages; none for a scheme that has no stages.
+    pub(crate) stages: &'a [StepLoads<S>],
+    /// m per node, kg; `None` for anchors.
+    pub(crate) masses: &'a Masses<S>,
+}
+
+impl<S: Real> StepView<'_, S> {
+    /// The old velocity of a node; that of an anchor is its mean over the step, m/s.
+    pub(super) fn old_velocity<const D: usize>(&self, node: usize) -> [S; D] {
+        match self.masses.get(node) {
+            Some(mass) => self.state.velocity(node, mass),
+            None => self.loads.motion(node).map(|motion: S| motion / self.step),
+        }
+    }
+
+    /// The time during which internal variables evolve, s.
+    pub(super) fn thermal_step(&self) -> S {
+        if self.phase.heats() {
+            self.step
+        } else {
+            S::zero()
+        }
+    }
+
+    /// The temperatures prescribed on a thermal slot at the stages, K.
+    pub(super) fn prescribed_at_stages(&self, slot: usize) -> Option<[S; MOST_STAGES]> {
+        let mut temperatures = [S::one(); MOST_STAGES];
+        for (temperature, loads) in temperatures.iter_mut().zip(self.stages) {
+            *temperature = loads.prescribed(slot)?.end;
+        }
+        Some(temperatures)
+    }
+
+    /// The temperature prescribed on a thermal slot, as a scheme with this placement sees it.
+    pub(super) fn prescribed(&self, slot: usize, at: Placement) -> Option<S> {
+        if !self.phase.heats() {
+            return None;
+        }
+        let prescribed = self.loads.prescribed(slot)?;
+        Some(match at {
+            Placement::Ends | Placement::End => prescribed.end,
+            Placement::Middle | Placement::Start => prescribed.middle,
+        })
+    }
+}
+
+/// The global part of the new state that Newton's method tries.
+#[derive(Clone, Debug)]
+pub(crate) struct Trial<S: Real, const D: usize> {
+    /// How many sets of unknowns there are, one after the other: one, or one for each stage.
+    pub(crate) sets: usize,
+    /// `q − q⁰` of all nodes, m.
+    pub(crate) displacements: Vec<[S; D]>,
+    /// What rounding has taken from them, m.
+    pub(crate) rests: Vec<[S; D]>,
+    /// θ* as elements in contact see it, Θ; an unknown where the slot is coupled.
+    pub(crate) seen: SeenTemperatures<S>,
+    /// Elements answer with the [starting form](crate::element::conjugates::ElementScheme::starting_form) of their
+    /// scheme, if it has one.
+    pub(crate) is_start: bool,
+    /// The numbers that have found their new state while others iterate on.
+    pub(crate) settled: S::Mask,
+}
+
+impl<S: Real, const D: usize> Trial<S, D> {
+    /// At rest, for so many sets of unknowns, nodes and temperatures that are seen.
+    pub(crate) fn new(sets: usize, nodes: usize, seen: usize) -> Self {
+        let points = vec![[S::zero(); D]; sets * nodes];
+        Self {
+            sets,
+            displacements: points.clone(),
+            rests: points,
+            seen: SeenTemperatures::new(sets * seen),
+            is_start: false,
+            settled: S::Mask::none(),
+        }
+    }
+
+    /// Where the first node of a set is.
+    pub(crate) fn first_of_set(&self, set: usize) -> usize {
+        set * (self.displacements.len() / self.sets)
+    }
+
+    /// The displacements of a set, m.
+    pub(crate) fn displacements_of_set(&self, set: usize) -> &[[S; D]] {
+        &self.displacements[self.first_of_set(set)..self.first_of_set(set + 1)]
+    }
+
+    /// Where the temperature that is seen of a thermal slot is in a set.
+    pub(crate) fn seen_of_set(&self, set: usize, slot: usize) -> usize {
+        set * (self.seen.values().len() / self.sets) + slot
+    }
+}
+
+/// Internal energy and entropy of a group.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GroupTotals<S> {
+    /// `Σ (ψ + θ s)` with the kept entropies, J.
+    pub(crate) energy: S,
+    /// `Σ s` as kept, J/K.
+    pub(crate) entropy: S,
+    /// `Σ s(λ, γ, θ)`, J/K.
+    pub(crate) entropy_of_state: S,
+}
+
+/// One element in a state, from the definitions.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ElementView<S> {
+    /// First measure: the stretch of a spring, m.
+    pub(crate) measure: S,
+    /// First component of ∂ψ/∂π: the force of a spring, N.
+    pub(crate) force: S,
+    /// `ψ + θ s`, J.
+    pub(crate) internal_energy: S,
+}
+
+/// Derivatives of the energy of an element, and what makes its dashpots move.
+#[derive(Clone, Debug)]
+pub(crate) struct ElementGeneric<S> {
+    /// `(coordinate, ∂e/∂q)`, N.
+    pub(crate) forces: Vec<(usize, S)>,
+    /// `(slot, g, η)`: dashpot force, N, and viscosity, N s/m.
+    pub(crate) dashpots: Vec<(usize, S, S)>,
+    /// `(slot, θ)`, K, if the element has a temperature.
+    pub(crate) temperature: Option<(usize, S)>,
+}
+
+/// What the old state gives to the nodes.
+#[derive(Debug)]
+pub(crate) struct Old<'a, S, const D: usize> {
+    /// The part of the nodal forces that it alone decides, N.
+    pub(crate) force: &'a mut [[S; D]],
+    /// The unit of length of each node: the shortest measure of its elements, m.
+    pub(crate) lengths: &'a mut [S],
+}
+
+/// Along which gradient the found forces act.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Along {
+    /// That of the scheme, as the force `A q_m`.
+    Secant,
+    /// That of the scheme.
+    Scheme,
+    /// That of the new configuration.
+    Gradient,
+    /// That of a stage, with the forces found there.
+    Stage(usize),
+}
+
+/// Where the elements of a group are.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Placed<'a> {
+    pub(crate) nodes: &'a dyn NodesOf,
+    pub(crate) layout: &'a Layout,
+}
+
+/// The nodes of an element of the scene.
+pub(crate) trait NodesOf: core::fmt::Debug {
+    fn nodes_of(&self, element: Element) -> &[usize];
+}
+
+/// What decides where an element writes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Sites<'a, S, const D: usize> {
+    pub(crate) layout: &'a Layout,
+    pub(crate) conduction: &'a Conduction<S>,
+    /// The system of an iteration.
+    pub(crate) tangent: &'a LinearSystem<S, 1>,
+    /// The system that closes a step stage by stage.
+    pub(crate) secant: Option<&'a LinearSystem<S, D>>,
+    /// The sets of unknowns to which rows and columns belong.
+    pub(crate) sets: [usize; 2],
+}
+
+impl<S: Real, const D: usize> Sites<'_, S, D> {
+    /// The same for the rows of one set and the columns of another.
+    pub(crate) fn of_sets(&self, sets: [usize; 2]) -> Self {
+        Self { sets, ..*self }
+    }
+
+    /// The row of an unknown of the layout in the tangent.
+    pub(crate) fn row(&self, unknown: Option<usize>) -> usize {
+        let first = self.sets[0] * self.layout.unknowns;
+        self.tangent.row(unknown.map(|unknown| unknown + first))
+    }
+
+    /// The place of the entry of two unknowns of the layout in the tangent.
+    pub(crate) fn place(&self, row: Option<usize>, column: Option<usize>) -> usize {
+        let [down, right] = self.sets.map(|set| set * self.layout.unknowns);
+        let (row, column) = (
+            row.map(|row| row + down),
+            column.map(|column| column + right),
+        );
+        self.tangent.place(row, column)
+    }
+
+    /// The place of the entry of two masses in the secant matrix, if there is one.
+    pub(crate) fn secant_place(&self, row: Option<usize>, column: Option<usize>) -> usize {
+        self.secant.map_or(0, |secant| secant.place(row, column))
+    }
+}

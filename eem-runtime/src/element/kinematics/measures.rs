@@ -1,0 +1,155 @@
+//! The measures of an element as functions of its arms.
+
+use crate::element::error::StateError;
+use crate::element::handle::Element;
+use crate::material::free_energy::{Array, Entry};
+use crate::number::scalar::Real;
+
+/// The arms of an element, m.
+pub type Arms<K, S, const D: usize> = <K as Kinematics<S, D>>::PerArm<[S; D]>;
+
+/// A number per measure: the measures themselves, or the forces that belong to them.
+pub type Measures<K, S, const D: usize> = <K as Kinematics<S, D>>::PerMeasure<S>;
+
+/// Derivatives of measures by arms: per measure and arm.
+pub type Gradient<K, S, const D: usize> = <K as Kinematics<S, D>>::PerMeasure<Arms<K, S, D>>;
+
+/// Second derivatives by arms: a square block per pair of arms.
+pub type Blocks<K, S, const D: usize> =
+    <K as Kinematics<S, D>>::PerArm<<K as Kinematics<S, D>>::PerArm<[[S; D]; D]>>;
+
+/// A number per pair of arms.
+pub type Weights<K, S, const D: usize> =
+    <K as Kinematics<S, D>>::PerArm<<K as Kinematics<S, D>>::PerArm<S>>;
+
+/// The arms and measures of one element at both ends of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Ends<K: Kinematics<S, D>, S: Real, const D: usize> {
+    /// Old arms `r⁰`, m.
+    pub r0: Arms<K, S, D>,
+    /// New arms `r¹`, m.
+    pub r1: Arms<K, S, D>,
+    /// Old measures `π⁰`.
+    pub measures0: Measures<K, S, D>,
+    /// New measures `π¹`.
+    pub measures1: Measures<K, S, D>,
+}
+
+/// The measures at a point of an element as functions of its arms in `D` dimensions.
+pub trait Kinematics<S: Real, const D: usize>:
+    Copy + Send + Sync + core::fmt::Debug + 'static
+{
+    /// `[T; number of nodes]`.
+    type PerNode<T: Entry>: Array<T>;
+    /// `[T; number of nodes − 1]`.
+    type PerArm<T: Entry>: Array<T>;
+    /// `[T; number of measures]`.
+    type PerMeasure<T: Entry>: Array<T>;
+
+    /// `[T; number of points]`, at which the free energy is evaluated.
+    type PerPoint<T: Send + Sync>: Points<T>;
+
+    /// Unit of a viscous stretch, whose rate times the viscosity is the force of a dashpot.
+    const VISCOUS_UNIT: &'static str;
+    /// Unit of a viscosity.
+    const VISCOSITY_UNIT: &'static str;
+
+    /// Whether an element can have these arms, whose measures are given.
+    fn is_admissible(&self, r: &Arms<Self, S, D>, measures: &Measures<Self, S, D>) -> bool;
+
+    /// Why an element cannot have these arms.
+    fn refusal(&self, element: Element, r: &Arms<Self, S, D>) -> StateError;
+
+    /// What makes an energy of the force of a dashpot: its own measure, m, for a force in N; one for
+    /// strains.
+    fn unit(&self, measures: &Measures<Self, S, D>) -> S;
+
+    /// The distance over which its gradients change by themselves, m.
+    fn length(&self, measures: &Measures<Self, S, D>) -> S;
+
+    /// What the measures are computed from, `|∂π/∂r| |r|`: times ε, what rounding of the arms does.
+    fn sizes(&self, r: &Arms<Self, S, D>, measures: &Measures<Self, S, D>) -> Measures<Self, S, D>;
+
+    /// The largest `|∂π/∂r|` of each measure.
+    fn slopes(&self, r: &Arms<Self, S, D>, measures: &Measures<Self, S, D>)
+    -> Measures<Self, S, D>;
+
+    /// Names the numbers of the reference configuration, which tell one element from another.
+    fn numbers(&self, see: &mut dyn FnMut(S));
+
+    /// The measures `π(r)`, exact to rounding where they are admissible. Elsewhere they are not
+    /// admissible either, but may be zero or infinite.
+    fn measure(&self, r: &Arms<Self, S, D>) -> Measures<Self, S, D>;
+
+    /// `∂π/∂r` at `r`, whose measures are given.
+    fn gradient(
+        &self,
+        r: &Arms<Self, S, D>,
+        measures: &Measures<Self, S, D>,
+    ) -> Gradient<Self, S, D>;
+
+    /// `Σ_a f_a ∂²π_a/∂r²`.
+    fn curvature(
+        &self,
+        r: &Arms<Self, S, D>,
+        measures: &Measures<Self, S, D>,
+        force: &Measures<Self, S, D>,
+    ) -> Blocks<Self, S, D>;
+
+    /// The mean-value gradient `D*π` between two states.
+    fn discrete_gradient(&self, ends: &Ends<Self, S, D>) -> Gradient<Self, S, D>;
+
+    /// `Σ_a f_a D*π_a` along gradients that are given. Where forces of several measures cancel, they are
+    /// summed before they act on the nodes, whose torque is then zero to the rounding of the sum.
+    #[inline]
+    fn pull(
+        &self,
+        _: &Ends<Self, S, D>,
+        gradient: &Gradient<Self, S, D>,
+        force: &Measures<Self, S, D>,
+    ) -> Arms<Self, S, D> {
+        let mut sum = gradient[0];
+        for (a, (row, &force)) in gradient.as_ref().iter().zip(force.as_ref()).enumerate() {
+            for (sum, row) in sum.as_mut().iter_mut().zip(row.as_ref()) {
+                for (sum, &entry) in sum.iter_mut().zip(row) {
+                    let term = force * entry;
+                    *sum = if a == 0 { term } else { *sum + term };
+                }
+            }
+        }
+        sum
+    }
+
+    /// The derivative of `Σ_a f_a D*π_a` by `r¹`, where that of the forces is given,
+    ///
+    /// ```text
+    /// Σ_a (f_a ∂(D*π_a)/∂r¹ + D*π_a ∂f_a/∂r¹)
+    /// ```
+    fn discrete_tangent(
+        &self,
+        ends: &Ends<Self, S, D>,
+        force: &Measures<Self, S, D>,
+        force_by_arm: &Gradient<Self, S, D>,
+    ) -> Blocks<Self, S, D>;
+
+    /// A of `Σ_a f_a D*π_a = A r_m`, with the measures held.
+    fn secant(&self, ends: &Ends<Self, S, D>, force: &Measures<Self, S, D>) -> Weights<Self, S, D>;
+}
+
+/// What an element has at each of its points. Implemented for arrays.
+pub trait Points<T>: AsRef<[T]> + AsMut<[T]> + Send + Sync {
+    /// Number of points.
+    const LEN: usize;
+
+    /// Makes them, point by point.
+    fn from_fn(make: impl FnMut(usize) -> T) -> Self;
+}
+
+impl<T: Send + Sync, const N: usize> Points<T> for [T; N] {
+    const LEN: usize = N;
+
+    #[inline]
+    fn from_fn(make: impl FnMut(usize) -> T) -> Self {
+        core::array::from_fn(make)
+    }
+}

@@ -1,0 +1,143 @@
+//! Strain in the plane: its measures and their mean-value gradients.
+//!
+//! ```text
+//! E = ½(FᵀF − 1),   j = i3/(1 + √(1 + i3)),   i3 = det C − 1 = 2 tr E + 4 det E
+//! P:ΔE = Δπ exactly:   tr E: 1     E:E: E⁰ + E¹     j: 2 cof(C_m)/(J⁰ + J¹),   C_m = 1 + E⁰ + E¹
+//! ```
+//!
+//! Out of the plane nothing stretches: `F₃₃ = 1`. There the determinant is quadratic in C and its
+//! mean-value gradient the cofactor of the mean.
+
+use crate::element::kinematics::strain::Strain;
+use crate::number::scalar::Real;
+
+/// A symmetric tensor: xx, yy, xy.
+pub(super) type Symmetric<S> = [S; 3];
+
+/// A tensor, row by row.
+pub(super) type Tensor<S> = [[S; 2]; 2];
+
+/// `½(FᵀF − 1)`.
+#[inline]
+pub(super) fn green_lagrange<S: Real>([[xx, xy], [yx, yy]]: &Tensor<S>) -> Symmetric<S> {
+    let half = S::from_f64(0.5);
+    [
+        half * ((*xx * *xx + *yx * *yx) - S::one()),
+        half * ((*xy * *xy + *yy * *yy) - S::one()),
+        half * (*xx * *xy + *yx * *yy),
+    ]
+}
+
+/// `det F`.
+#[inline]
+pub(super) fn determinant<S: Real>([[xx, xy], [yx, yy]]: &Tensor<S>) -> S {
+    *xx * *yy - *xy * *yx
+}
+
+/// A measure of a strain.
+#[inline]
+pub(super) fn measure<S: Real>(strain: Strain, [xx, yy, xy]: &Symmetric<S>) -> S {
+    match strain {
+        Strain::Trace => *xx + *yy,
+        Strain::Square => (*xx * *xx + *yy * *yy) + S::from_f64(2.0) * (*xy * *xy),
+        Strain::Dilatation => {
+            let (two, four) = (S::from_f64(2.0), S::from_f64(4.0));
+            let i3 = two * (*xx + *yy) + four * (*xx * *yy - *xy * *xy);
+            i3 / (S::one() + (S::one() + i3).sqrt())
+        }
+    }
+}
+
+/// Two strains, and the sum of their `J = 1 + j`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Between<S> {
+    /// `E⁰ + E¹`.
+    sum: Symmetric<S>,
+    /// `J⁰ + J¹`.
+    volumes: S,
+    new: Symmetric<S>,
+    new_volume: S,
+}
+
+impl<S: Real> Between<S> {
+    #[inline]
+    pub(super) fn new([old, new]: [&Symmetric<S>; 2]) -> Self {
+        let [old_volume, new_volume] =
+            [old, new].map(|strain| S::one() + measure(Strain::Dilatation, strain));
+        Self {
+            sum: [old[0] + new[0], old[1] + new[1], old[2] + new[2]],
+            volumes: old_volume + new_volume,
+            new: *new,
+            new_volume,
+        }
+    }
+
+    /// P with `P:ΔE = Δπ`.
+    #[inline]
+    pub(super) fn slope(&self, strain: Strain) -> Symmetric<S> {
+        match strain {
+            Strain::Trace => [S::one(), S::one(), S::zero()],
+            Strain::Square => self.sum,
+            Strain::Dilatation => {
+                let [xx, yy, xy] = self.sum;
+                let per_volume = S::from_f64(2.0) / self.volumes;
+                let one = S::one();
+                [(one + yy), (one + xx), -xy].map(|entry| per_volume * entry)
+            }
+        }
+    }
+
+    /// The change of a slope P with the new strain.
+    #[inline]
+    pub(super) fn change_of_slope(
+        &self,
+        strain: Strain,
+        slope: &Symmetric<S>,
+        change: &Symmetric<S>,
+    ) -> Symmetric<S> {
+        let [xx, yy, xy] = *change;
+        match strain {
+            Strain::Trace => [S::zero(); 3],
+            Strain::Square => [xx, yy, xy],
+            Strain::Dilatation => {
+                let volume = contracted(&self.new_slope_of_volume(), change);
+                let (two, per_volume) = (S::from_f64(2.0), self.volumes.recip());
+                let cofactor = [yy, xx, -xy];
+                core::array::from_fn(|k| per_volume * (two * cofactor[k] - slope[k] * volume))
+            }
+        }
+    }
+
+    /// `∂J/∂E = cof C/J` at the new strain.
+    #[inline]
+    fn new_slope_of_volume(&self) -> Symmetric<S> {
+        let [xx, yy, xy] = self.new;
+        let (one, two, per_volume) = (S::one(), S::from_f64(2.0), self.new_volume.recip());
+        [one + two * yy, one + two * xx, -(two * xy)].map(|entry| per_volume * entry)
+    }
+}
+
+/// `A:B`.
+#[inline]
+pub(super) fn contracted<S: Real>(a: &Symmetric<S>, b: &Symmetric<S>) -> S {
+    (a[0] * b[0] + a[1] * b[1]) + S::from_f64(2.0) * (a[2] * b[2])
+}
+
+/// `A v` of a symmetric tensor.
+#[inline]
+pub(super) fn applied<S: Real>([xx, yy, xy]: &Symmetric<S>, v: &[S; 2]) -> [S; 2] {
+    [*xx * v[0] + *xy * v[1], *xy * v[0] + *yy * v[1]]
+}
+
+/// `F v`.
+#[inline]
+pub(super) fn pushed<S: Real>(tensor: &Tensor<S>, v: &[S; 2]) -> [S; 2] {
+    tensor.map(|row| row[0] * v[0] + row[1] * v[1])
+}
+
+/// `sym(u ⊗ v)`.
+#[inline]
+pub(super) fn symmetrised<S: Real>(u: &[S; 2], v: &[S; 2]) -> Symmetric<S> {
+    let shear = S::from_f64(0.5) * (u[0] * v[1] + u[1] * v[0]);
+    [u[0] * v[0], u[1] * v[1], shear]
+}

@@ -1,0 +1,113 @@
+//! The masses of the nodes, of which anchors have none, and those of solids, which couple nodes.
+
+use crate::number::compact::compact;
+use crate::number::scalar::{Mask, Real};
+
+/// The mass matrix, a number for every pair of nodes, kg.
+#[derive(Clone, Debug)]
+pub(crate) struct Masses<S> {
+    /// Its diagonal. That of an anchor is stored as zero, which no other node has.
+    own: Vec<S>,
+    /// What is beside the diagonal, each pair of nodes that move once.
+    pairs: Vec<MassPair<S>>,
+}
+
+/// An entry beside the diagonal of the mass matrix.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MassPair<S> {
+    nodes: [u32; 2],
+    /// kg.
+    pub(crate) mass: S,
+}
+
+impl<S> MassPair<S> {
+    /// The two nodes.
+    pub(crate) fn nodes(&self) -> [usize; 2] {
+        self.nodes.map(|node| node as usize)
+    }
+}
+
+impl<S: Real> Masses<S> {
+    /// The masses of some nodes; `None` for anchors. Those of pairs with an anchor move nothing; several
+    /// of the same pair add up.
+    pub(crate) fn new(
+        masses: impl Iterator<Item = Option<S>>,
+        mut pairs: Vec<([usize; 2], S)>,
+    ) -> Self {
+        let mut own: Vec<_> = masses.map(|mass| mass.unwrap_or(S::zero())).collect();
+        own.shrink_to_fit();
+        let mut masses = Self {
+            own,
+            pairs: Vec::new(),
+        };
+        pairs.sort_by_key(|&(nodes, _)| nodes);
+        for (nodes, mass) in pairs {
+            if nodes.iter().any(|&node| masses.get(node).is_none()) {
+                continue;
+            }
+            match masses.pairs.last_mut() {
+                Some(last) if last.nodes() == nodes => last.mass += mass,
+                _ => masses.pairs.push(MassPair {
+                    nodes: nodes.map(compact),
+                    mass,
+                }),
+            }
+        }
+        masses
+    }
+
+    /// Number of nodes.
+    pub(crate) fn len(&self) -> usize {
+        self.own.len()
+    }
+
+    /// The mass of a node, its diagonal entry; `None` for an anchor.
+    #[inline]
+    pub(crate) fn get(&self, node: usize) -> Option<S> {
+        let mass = self.own[node];
+        (!mass.equal(S::zero()).all()).then_some(mass)
+    }
+
+    /// The masses of all nodes.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = Option<S>> + Clone + '_ {
+        (0..self.len()).map(|node| self.get(node))
+    }
+
+    /// The nodes that are anchors.
+    pub(crate) fn anchors(&self) -> impl Iterator<Item = usize> + '_ {
+        let nodes = self.iter().enumerate();
+        nodes
+            .filter(|(_, mass)| mass.is_none())
+            .map(|(node, _)| node)
+    }
+
+    /// What is beside the diagonal; empty where masses do not couple nodes.
+    pub(crate) fn pairs(&self) -> &[MassPair<S>] {
+        &self.pairs
+    }
+
+    /// The mass that gravity pulls at each node, a sum of a row, kg; zero for anchors.
+    pub(crate) fn weights(&self) -> Vec<S> {
+        let mut weights = self.own.clone();
+        for pair in &self.pairs {
+            for node in pair.nodes() {
+                weights[node] += pair.mass;
+            }
+        }
+        weights
+    }
+
+    /// `p = M v` of coordinates stored node after node; `momenta` is written.
+    pub(crate) fn find_momenta(&self, dimension: usize, velocities: &[S], momenta: &mut [S]) {
+        for (at, momentum) in momenta.iter_mut().enumerate() {
+            *momentum = self.own[at / dimension] * velocities[at];
+        }
+        for pair in &self.pairs {
+            let [i, j] = pair.nodes().map(|node| node * dimension);
+            for axis in 0..dimension {
+                momenta[i + axis] += pair.mass * velocities[j + axis];
+                momenta[j + axis] += pair.mass * velocities[i + axis];
+            }
+        }
+    }
+}

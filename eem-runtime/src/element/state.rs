@@ -1,0 +1,135 @@
+//! The state of a scene: everything a step changes, and nothing else.
+
+use crate::element::masses::Masses;
+use crate::material::free_energy::Caloric;
+use crate::number::compensated::{Compensated, Sum};
+use crate::number::scalar::Real;
+
+/// Positions, momenta, viscous stretches, entropies and what has been booked.
+///
+/// Coordinates are stored node after node; viscous stretches and thermal quantities only for the
+/// elements that have them.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
+pub(crate) struct State<S> {
+    /// t, s.
+    pub(crate) time: Sum<S>,
+    /// q, m.
+    pub(crate) positions: Compensated<S>,
+    /// p, kg m/s; zero for anchors.
+    pub(crate) momenta: Compensated<S>,
+    /// v, m/s, where masses couple nodes: then the momenta follow, `p = M v`. Empty where they do not.
+    #[cfg_attr(feature = "serde", serde(default = "Compensated::default"))]
+    pub(crate) velocities: Compensated<S>,
+    /// γ, m.
+    pub(crate) viscous: Compensated<S>,
+    /// s, J/K.
+    pub(crate) entropies: Compensated<S>,
+    /// θ with S(λ, γ, θ) = s, K.
+    pub(crate) temperatures: Vec<S>,
+    /// Per element of the scene. It follows from everything else, and so is not saved.
+    #[cfg_attr(feature = "serde", serde(skip, default = "Vec::new"))]
+    pub(crate) energies: Vec<Energy<S>>,
+    /// `σ_r` since the start, J/K.
+    pub(crate) reservoir_entropies: Compensated<S>,
+    /// Work that loads and moved anchors have done, J.
+    pub(crate) work: Sum<S>,
+    /// Heat that thermostats have given, J.
+    pub(crate) heat: Sum<S>,
+    /// Entropy that thermostats have received, J/K.
+    pub(crate) thermostat_entropy: Sum<S>,
+    /// Heat of dashpots in elements without temperature: it leaves the scene, J.
+    pub(crate) dissipated: Sum<S>,
+}
+
+/// The internal energy of an element in a state, J.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Energy<S> {
+    /// `ψ + θ s`.
+    pub(crate) value: S,
+    /// `|ψ| + θ|s| + cθ`, or an eighth of `θ Σ |terms of s|` where those cancel: times 8 ε, what rounding
+    /// may do to it and to the temperature that is found from s.
+    pub(crate) magnitude: S,
+}
+
+/// The share of the terms of an entropy that counts in the magnitude of an energy: their sum is known to
+/// 8 ε of them, and the bound of the energy is 64 ε of its magnitude.
+const SHARE_OF_TERMS: f64 = 0.125;
+
+impl<S: Real> Energy<S> {
+    /// That of an element with the free energy ψ, the temperature θ and the kept entropy s, given what the
+    /// model says at θ.
+    #[inline]
+    pub(crate) fn new(psi: S, [theta, entropy]: [S; 2], caloric: &Caloric<S>) -> Self {
+        let terms = S::from_f64(SHARE_OF_TERMS) * theta * caloric.magnitude;
+        let sizes = psi.abs() + theta * (entropy.abs() + caloric.heat_capacity);
+        Self {
+            value: psi + theta * entropy,
+            magnitude: sizes.maximum(terms),
+        }
+    }
+
+    /// That of an element without temperature.
+    #[inline]
+    pub(crate) fn without_temperature(psi: S) -> Self {
+        Self {
+            value: psi,
+            magnitude: psi.abs(),
+        }
+    }
+
+    /// None.
+    pub(crate) fn zero() -> Self {
+        Self {
+            value: S::zero(),
+            magnitude: S::zero(),
+        }
+    }
+}
+
+impl<S: Real> State<S> {
+    /// Finds the momenta where masses couple nodes, which velocities decide there.
+    pub(crate) fn follow_velocities(&mut self, dimension: usize, masses: &Masses<S>) {
+        if masses.pairs().is_empty() {
+            return;
+        }
+        let velocities = self.velocities.values();
+        let momenta = &mut self.momenta;
+        momenta.write(|momenta| masses.find_momenta(dimension, velocities, momenta));
+    }
+
+    /// The velocity of a node of this mass, m/s.
+    #[inline]
+    pub(crate) fn velocity<const D: usize>(&self, node: usize, mass: S) -> [S; D] {
+        let velocities = self.velocities.values().as_chunks::<D>().0;
+        match velocities.get(node) {
+            Some(velocity) => *velocity,
+            None => self.momenta.values().as_chunks::<D>().0[node].map(|p| p / mass),
+        }
+    }
+
+    /// Takes over what has been booked in `old`, a state of the same scene; a step adds to it.
+    pub(crate) fn copy_books(&mut self, old: &Self) {
+        self.time = old.time;
+        self.work = old.work;
+        self.heat = old.heat;
+        self.thermostat_entropy = old.thermostat_entropy;
+        self.dissipated = old.dissipated;
+        self.reservoir_entropies.copy_from(&old.reservoir_entropies);
+    }
+
+    /// Takes over `other`, a state of the same scene, without allocation; energies are found anew.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        self.copy_books(other);
+        self.positions.copy_from(&other.positions);
+        self.momenta.copy_from(&other.momenta);
+        self.velocities.copy_from(&other.velocities);
+        self.viscous.copy_from(&other.viscous);
+        self.entropies.copy_from(&other.entropies);
+        self.temperatures.copy_from_slice(&other.temperatures);
+    }
+}

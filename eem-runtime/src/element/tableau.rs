@@ -1,0 +1,156 @@
+//! Rules of several stages in a step, as numbers.
+
+/// A rule of several stages: a partitioned Runge–Kutta method for positions and momenta, with what it
+/// does to the internal variables of an element.
+///
+/// Stages are numbered in the order of time. Those before [`known`](Self::known) are at the old positions and
+/// viscous stretches; each of the others has a set of unknowns, `q_i − q⁰`, `γ_i` and a temperature.
+#[derive(Debug)]
+pub(crate) struct Tableau {
+    /// c: when the stages are, as shares of the step.
+    pub(crate) times: &'static [f64],
+    /// How many of the first stages are at the start of the step.
+    pub(crate) known: usize,
+    /// `q_i = q⁰ + c_i (h/m)(p⁰ − h Σ_j positions_ij F_j)`, a row per set: A Â divided by c.
+    pub(crate) positions: &'static [&'static [f64]],
+    /// `γ_i = γ⁰ + h Σ_j rates_ij γ̇_j`, a row per set.
+    pub(crate) rates: &'static [&'static [f64]],
+    /// b: `p¹ = p⁰ − h Σ b_i F_i`, `γ¹ = γ⁰ + h Σ b_i γ̇_i`, `s¹ = s⁰ + h Σ b_i Φ_i`.
+    pub(crate) weights: &'static [f64],
+    /// `θ_i = Σ_k temperatures_ik Θ_k` with an unknown Θ per set; a row per stage.
+    pub(crate) temperatures: &'static [&'static [f64]],
+    /// The equations for them, one per set.
+    pub(crate) entropies: &'static [EntropyBalance],
+    /// `h v_i = Σ_j motion_ij (q_j − q⁰)`, the motion at a stage from the displacements of the sets.
+    pub(crate) motion: &'static [&'static [f64]],
+    pub(crate) ending: Ending,
+}
+
+/// `Σ_i entropies_i s_i = old s⁰ + h Σ_i rates_i Φ_i`, with the entropies `s_i = s(λ_i, γ_i, θ_i)` of the stages
+/// and their rates `Φ = (Σ g²/η + Q)/θ`.
+#[derive(Debug)]
+pub(crate) struct EntropyBalance {
+    pub(crate) entropies: &'static [f64],
+    pub(crate) old: f64,
+    pub(crate) rates: &'static [f64],
+    /// The stage whose rate weighs most: Newton's method works on its θ times the equation, which is far
+    /// less curved where conduction is stiff.
+    pub(crate) stage: usize,
+    /// The stage whose temperature is Θ.
+    pub(crate) unknown: usize,
+    /// The entropy that a thermostat gives at each stage for one unit that the equation lacks.
+    pub(crate) supply: &'static [f64],
+}
+
+/// How the end of a step follows from the stages.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Ending {
+    /// Stage after stage from the forces before it, where a stage that feels its own force `A q_i` needs
+    /// one linear solve; the last stage is the end.
+    StageByStage,
+    /// From the forces: `q¹ = q⁰ + (h/m)(p⁰ − h Σ_j weights_j F_j)`.
+    Forces(&'static [f64]),
+}
+
+/// The most sets of unknowns of a rule, and the most stages.
+pub(crate) const MOST_SETS: usize = 2;
+pub(crate) const MOST_STAGES: usize = 3;
+
+/// A set of unknowns: the increments `u = q_i − q⁰` with
+/// `(inertia m/h)(u − time (h/m) p⁰) = −h Σ weights F`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct UnknownSet {
+    pub(crate) time: f64,
+    pub(crate) inertia: f64,
+}
+
+impl Tableau {
+    /// Number of stages.
+    pub(crate) const fn stages(&self) -> usize {
+        self.times.len()
+    }
+
+    /// Number of sets of unknowns.
+    pub(crate) const fn sets(&self) -> usize {
+        self.positions.len()
+    }
+
+    /// The stage of a set.
+    pub(crate) const fn stage_of(&self, set: usize) -> usize {
+        self.known + set
+    }
+
+    /// The set of a stage; none for those at the start.
+    pub(crate) const fn set_of(&self, stage: usize) -> Option<usize> {
+        stage.checked_sub(self.known)
+    }
+
+    /// The share of Θ of a set in the temperature of a stage.
+    pub(crate) fn share(&self, stage: usize, set: usize) -> f64 {
+        self.temperatures[stage][set]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::step::rule::{gauss_4, variational_4};
+
+    use super::Tableau;
+
+    const ALL: [&Tableau; 2] = [&variational_4::TABLEAU, &gauss_4::TABLEAU];
+
+    fn assert_near(a: f64, b: f64) {
+        assert!((a - b).abs() < 4.0 * f64::EPSILON, "{a} {b}");
+    }
+
+    fn dot(a: &[f64], b: impl Iterator<Item = f64>) -> f64 {
+        a.iter().zip(b).map(|(a, b)| a * b).sum()
+    }
+
+    #[test]
+    fn weights_integrate_cubics() {
+        for rule in ALL {
+            for power in 0..4 {
+                let integral = dot(rule.weights, rule.times.iter().map(|c| c.powi(power)));
+                assert_near(integral, 1.0 / f64::from(power + 1));
+            }
+        }
+    }
+
+    #[test]
+    fn stages_are_exact_for_constant_rates_and_forces() {
+        for rule in ALL {
+            for set in 0..rule.sets() {
+                let time = rule.times[rule.stage_of(set)];
+                assert_near(rule.rates[set].iter().sum(), time);
+                // ∫∫ 1 dt dt = c²/2
+                assert_near(rule.positions[set].iter().sum(), 0.5 * time);
+            }
+        }
+    }
+
+    #[test]
+    fn motion_is_that_of_quadratic_positions() {
+        for rule in ALL {
+            for (stage, row) in rule.motion.iter().enumerate() {
+                let c = |set: usize| rule.times[rule.stage_of(set)];
+                assert_near(dot(row, (0..rule.sets()).map(c)), 1.0);
+                let squares = dot(row, (0..rule.sets()).map(|set| c(set) * c(set)));
+                assert_near(squares, 2.0 * rule.times[stage]);
+            }
+        }
+    }
+
+    #[test]
+    fn equal_temperatures_and_entropies_stay() {
+        for rule in ALL {
+            for row in rule.temperatures {
+                assert_near(row.iter().sum(), 1.0);
+            }
+            for balance in rule.entropies {
+                assert_near(balance.entropies.iter().sum(), balance.old);
+                assert_near(rule.temperatures[balance.unknown].iter().sum(), 1.0);
+            }
+        }
+    }
+}

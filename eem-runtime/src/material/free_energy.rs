@@ -1,0 +1,212 @@
+//! What a free energy offers to the schemes: the trait that the derive implements.
+
+use core::fmt::Debug;
+use core::ops::{Index, IndexMut};
+
+use crate::number::scalar::Scalar;
+
+/// A fixed-size array, named by its element type only.
+///
+/// Implemented for `[T; N]`. The lengths of a model's arrays depend on its
+/// variables, so that the trait [`FreeEnergy`] leaves them to associated types.
+///
+/// ```
+/// use eem_runtime::Array;
+///
+/// let row = <[f64; 3]>::filled(2.0);
+/// assert_eq!(<[f64; 3] as Array<f64>>::LEN, 3);
+/// assert_eq!(row.as_ref().iter().sum::<f64>(), 6.0);
+/// ```
+pub trait Array<T>:
+    Entry + AsRef<[T]> + AsMut<[T]> + Index<usize, Output = T> + IndexMut<usize>
+{
+    /// The number of elements.
+    const LEN: usize;
+
+    /// The array with `value` everywhere.
+    fn filled(value: T) -> Self;
+}
+
+/// What an array can hold. Implemented for everything that qualifies.
+pub trait Entry: Copy + Debug + Send + Sync + 'static {}
+
+impl<T: Copy + Debug + Send + Sync + 'static> Entry for T {}
+
+impl<T: Entry, const N: usize> Array<T> for [T; N] {
+    const LEN: usize = N;
+
+    #[inline]
+    fn filled(value: T) -> Self {
+        [value; N]
+    }
+}
+
+/// Entropy and heat capacity of an element at one temperature.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Caloric<S> {
+    /// `S(θ)`, J/K.
+    pub entropy: S,
+    /// `C = θ ∂S/∂θ`, J/K.
+    pub heat_capacity: S,
+    /// The sum of the absolute values of the terms of `S`, J/K: times ε it is
+    /// what rounding may have done to `entropy`.
+    pub magnitude: S,
+}
+
+/// A Helmholtz free energy `ψ(x)` and all that the schemes need of it.
+///
+/// Derived, never written by hand: `#[derive(FreeEnergy)]` generates every
+/// method as straight-line code. The variables are
+///
+/// ```text
+/// x = (π₁ … π_M, γ₁ … γ_K, θ)      N = M + K + T components
+/// ```
+///
+/// measures of the deformation (`M = 1`, the stretch λ in m, for a spring),
+/// viscous stretches of the dashpots (m) and, if the model has one (`T = 1`),
+/// the temperature (K). Index 0 is the old, 1 the new state of a step. The
+/// algorithmic quantities of a step, the *response*, are
+///
+/// ```text
+/// (f*₁ … f*_M, g*₁ … g*_K, θ*, Δs)      R = M + K + 2T components
+/// f* = D_π e,   g* = −D_γ e,   θ* = D_s e,   Δs = S(x¹) − S(x⁰)
+/// ```
+///
+/// with the symmetrised partitioned discrete derivatives D of García Orden &
+/// Romero (2012), eq. (28). A model without temperature has `D ψ` instead.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no free energy in the scalar `{S}`",
+    label = "no material for `{S}`",
+    note = "write `#[derive(FreeEnergy)]` and `#[free_energy(|lambda: Stretch| …)]` on top of the struct"
+)]
+pub trait FreeEnergy<S: Scalar> {
+    /// Number of measures of the deformation, M.
+    const MEASURES: usize;
+    /// Number of dashpots, K.
+    const DASHPOTS: usize;
+    /// Whether there is a temperature, T.
+    const THERMAL: bool;
+    /// Whether it is one per reference volume, a function of strains: all that stands below in J, N and
+    /// J/K is then per m³. See [`StrainEnergy`](crate::StrainEnergy).
+    const PER_VOLUME: bool = false;
+    /// The names of the parameters that the model uses.
+    const PARAMETERS: &'static [&'static str];
+
+    /// `[S; N]`, the variables.
+    type Variables: Array<S>;
+    /// `[[S; N]; N]`.
+    type Hessian: Array<Self::Variables>;
+    /// `[S; K]`.
+    type Viscosities: Array<S>;
+    /// `[S; 2(N − 1)]`, `[S; 0]` without temperature.
+    type Corners: Array<S>;
+    /// `[S; R]`.
+    type Response: Array<S>;
+    /// `[[S; N]; R]`.
+    type Tangent: Array<Self::Variables>;
+    /// What the entropy form keeps of the old state; parameters stay in the model.
+    type EntropyFormOld: Array<S>;
+    /// What the temperature form keeps of the old state; parameters stay in the model.
+    type TemperatureFormOld: Array<S>;
+
+    /// The value of parameter `index` of [`PARAMETERS`](Self::PARAMETERS).
+    fn parameter(&self, index: usize) -> S;
+
+    /// `ψ(x)`, J.
+    fn free_energy(&self, x: &Self::Variables) -> S;
+
+    /// `Σ |terms of ψ|`, J: times ε it is what rounding may have done to
+    /// [`free_energy`](Self::free_energy).
+    ///
+    /// ```text
+    /// |ψ_computed − ψ_exact| ≤ 8 ε · energy_magnitude      |ψ| ≤ energy_magnitude
+    /// ```
+    ///
+    /// to first order in ε, for the given x and parameters. Rounding inside of functions, powers
+    /// and products counts with its effect on ψ: `ln(λ/l)` contributes `1 + |ln(λ/l)|`, because
+    /// the quotient is rounded. Where the terms of ψ cancel, the magnitude is far above |ψ|, and
+    /// differences of energies below ε times the magnitude say nothing.
+    fn energy_magnitude(&self, x: &Self::Variables) -> S;
+
+    /// `e(x) = ψ − θ ∂ψ/∂θ`, J.
+    fn internal_energy(&self, x: &Self::Variables) -> S;
+
+    /// `∂ψ/∂x = (f, −g, −s)`.
+    fn gradient(&self, x: &Self::Variables) -> Self::Variables;
+
+    /// `∂ψ/∂x` and `∂²ψ/∂x²`.
+    fn hessian(&self, x: &Self::Variables) -> (Self::Variables, Self::Hessian);
+
+    /// Entropy and heat capacity; zero without temperature.
+    fn caloric(&self, x: &Self::Variables) -> Caloric<S>;
+
+    /// [`caloric`](Self::caloric) and [`free_energy`](Self::free_energy) as functions of the
+    /// temperature, with the other variables of `x`: for inversions, which evaluate them several
+    /// times. What does not depend on the temperature is computed once. The results differ by
+    /// rounding.
+    fn caloric_at(&self, x: Self::Variables) -> impl Fn(S) -> (Caloric<S>, S) {
+        move |theta| {
+            let mut x = x;
+            if let Some(last) = x.as_mut().last_mut() {
+                *last = theta;
+            }
+            (self.caloric(&x), self.free_energy(&x))
+        }
+    }
+
+    /// `∂²s/∂x²`, what the ordinary rules in temperature variables need for their tangent; zero
+    /// without temperature.
+    fn entropy_hessian(&self, x: &Self::Variables) -> Self::Hessian;
+
+    /// `η_k(θ)` and `dη_k/dθ`, N s/m and N s/(m K).
+    fn viscosity(&self, theta: S) -> (Self::Viscosities, Self::Viscosities);
+
+    /// What [`entropy_form`](Self::entropy_form) needs of the old state.
+    fn entropy_form_old(&self, x0: &Self::Variables) -> Self::EntropyFormOld;
+
+    /// The response in entropy form and its tangent `∂(response)/∂x¹`.
+    ///
+    /// `corners` are the temperatures of the mixed states between old and new:
+    /// for `k = 1 … N − 1` the first `k` variables new, the rest old, with the
+    /// old entropy; then the first `k` old, the rest new, with the new entropy
+    /// `S(x¹)`. The tangent is total: corners move with `x¹`.
+    fn entropy_form(
+        &self,
+        old: &Self::EntropyFormOld,
+        x1: &Self::Variables,
+        corners: &Self::Corners,
+    ) -> (Self::Response, Self::Tangent);
+
+    /// The response of [`entropy_form`](Self::entropy_form) without the tangent: the same bits, for
+    /// less work.
+    fn entropy_form_response(
+        &self,
+        old: &Self::EntropyFormOld,
+        x1: &Self::Variables,
+        corners: &Self::Corners,
+    ) -> Self::Response {
+        self.entropy_form(old, x1, corners).0
+    }
+
+    /// What [`temperature_form`](Self::temperature_form) needs of the old state.
+    fn temperature_form_old(&self, x0: &Self::Variables) -> Self::TemperatureFormOld;
+
+    /// The response in temperature form and its tangent `∂(response)/∂x¹`
+    /// (Conde Martín, Betsch & García Orden 2016, eqs. 37–39):
+    /// `θ* = D_θ e / D_θ s`, `f* = D_λ e − θ* D_λ s`, `g* = −(D_γ e − θ* D_γ s)`.
+    fn temperature_form(
+        &self,
+        old: &Self::TemperatureFormOld,
+        x1: &Self::Variables,
+    ) -> (Self::Response, Self::Tangent);
+
+    /// The response of [`temperature_form`](Self::temperature_form) without the tangent: the same
+    /// bits, for less work.
+    fn temperature_form_response(
+        &self,
+        old: &Self::TemperatureFormOld,
+        x1: &Self::Variables,
+    ) -> Self::Response {
+        self.temperature_form(old, x1).0
+    }
+}

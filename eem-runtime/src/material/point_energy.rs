@@ -1,0 +1,172 @@
+//! The free energy of a point of a solid: that per volume, times the volume.
+
+use crate::material::free_energy::{Array, Caloric, FreeEnergy};
+use crate::number::scalar::Real;
+
+/// A free energy per volume at a point that stands for some volume. Energy, entropy, forces and viscosities
+/// are multiplied by it; temperatures are not.
+#[derive(Clone, Debug)]
+pub(crate) struct PointEnergy<S, M> {
+    density: M,
+    /// w, m³.
+    volume: S,
+}
+
+impl<S: Real, M: FreeEnergy<S>> PointEnergy<S, M> {
+    /// Of a material with this free energy per volume.
+    pub(crate) fn new(density: M, volume: S) -> Self {
+        Self { density, volume }
+    }
+
+    fn scaled<A: Array<S>>(&self, mut values: A) -> A {
+        for value in values.as_mut() {
+            *value *= self.volume;
+        }
+        values
+    }
+
+    fn scaled_rows(&self, mut rows: M::Hessian) -> M::Hessian {
+        for row in rows.as_mut() {
+            *row = self.scaled(*row);
+        }
+        rows
+    }
+
+    fn scaled_caloric(&self, caloric: Caloric<S>) -> Caloric<S> {
+        Caloric {
+            entropy: self.volume * caloric.entropy,
+            heat_capacity: self.volume * caloric.heat_capacity,
+            magnitude: self.volume * caloric.magnitude,
+        }
+    }
+
+    /// Whether a row of a response is a temperature.
+    const fn is_temperature(row: usize) -> bool {
+        M::THERMAL && row == M::MEASURES + M::DASHPOTS
+    }
+
+    fn scaled_response(&self, mut response: M::Response) -> M::Response {
+        for (row, value) in response.as_mut().iter_mut().enumerate() {
+            if !Self::is_temperature(row) {
+                *value *= self.volume;
+            }
+        }
+        response
+    }
+
+    fn scaled_form(
+        &self,
+        (response, mut tangent): (M::Response, M::Tangent),
+    ) -> (M::Response, M::Tangent) {
+        for (row, values) in tangent.as_mut().iter_mut().enumerate() {
+            if !Self::is_temperature(row) {
+                *values = self.scaled(*values);
+            }
+        }
+        (self.scaled_response(response), tangent)
+    }
+}
+
+impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
+    const MEASURES: usize = M::MEASURES;
+    const DASHPOTS: usize = M::DASHPOTS;
+    const THERMAL: bool = M::THERMAL;
+    const PARAMETERS: &'static [&'static str] = M::PARAMETERS;
+
+    type Variables = M::Variables;
+    type Hessian = M::Hessian;
+    type Viscosities = M::Viscosities;
+    type Corners = M::Corners;
+    type Response = M::Response;
+    type Tangent = M::Tangent;
+    type EntropyFormOld = M::EntropyFormOld;
+    type TemperatureFormOld = M::TemperatureFormOld;
+
+    fn parameter(&self, index: usize) -> S {
+        self.density.parameter(index)
+    }
+
+    fn free_energy(&self, x: &M::Variables) -> S {
+        self.volume * self.density.free_energy(x)
+    }
+
+    fn energy_magnitude(&self, x: &M::Variables) -> S {
+        self.volume * self.density.energy_magnitude(x)
+    }
+
+    fn internal_energy(&self, x: &M::Variables) -> S {
+        self.volume * self.density.internal_energy(x)
+    }
+
+    fn gradient(&self, x: &M::Variables) -> M::Variables {
+        self.scaled(self.density.gradient(x))
+    }
+
+    fn hessian(&self, x: &M::Variables) -> (M::Variables, M::Hessian) {
+        let (gradient, hessian) = self.density.hessian(x);
+        (self.scaled(gradient), self.scaled_rows(hessian))
+    }
+
+    fn caloric(&self, x: &M::Variables) -> Caloric<S> {
+        self.scaled_caloric(self.density.caloric(x))
+    }
+
+    fn caloric_at(&self, x: M::Variables) -> impl Fn(S) -> (Caloric<S>, S) {
+        let density = self.density.caloric_at(x);
+        move |theta| {
+            let (caloric, psi) = density(theta);
+            (self.scaled_caloric(caloric), self.volume * psi)
+        }
+    }
+
+    fn entropy_hessian(&self, x: &M::Variables) -> M::Hessian {
+        self.scaled_rows(self.density.entropy_hessian(x))
+    }
+
+    fn viscosity(&self, theta: S) -> (M::Viscosities, M::Viscosities) {
+        let (viscosities, slopes) = self.density.viscosity(theta);
+        (self.scaled(viscosities), self.scaled(slopes))
+    }
+
+    fn entropy_form_old(&self, x0: &M::Variables) -> M::EntropyFormOld {
+        self.density.entropy_form_old(x0)
+    }
+
+    fn entropy_form(
+        &self,
+        old: &M::EntropyFormOld,
+        x1: &M::Variables,
+        corners: &M::Corners,
+    ) -> (M::Response, M::Tangent) {
+        self.scaled_form(self.density.entropy_form(old, x1, corners))
+    }
+
+    fn entropy_form_response(
+        &self,
+        old: &M::EntropyFormOld,
+        x1: &M::Variables,
+        corners: &M::Corners,
+    ) -> M::Response {
+        self.scaled_response(self.density.entropy_form_response(old, x1, corners))
+    }
+
+    fn temperature_form_old(&self, x0: &M::Variables) -> M::TemperatureFormOld {
+        self.density.temperature_form_old(x0)
+    }
+
+    fn temperature_form(
+        &self,
+        old: &M::TemperatureFormOld,
+        x1: &M::Variables,
+    ) -> (M::Response, M::Tangent) {
+        self.scaled_form(self.density.temperature_form(old, x1))
+    }
+
+    fn temperature_form_response(
+        &self,
+        old: &M::TemperatureFormOld,
+        x1: &M::Variables,
+    ) -> M::Response {
+        self.scaled_response(self.density.temperature_form_response(old, x1))
+    }
+}

@@ -1,0 +1,7 @@
+//! Runs: simulations, their ledger, recorder and checkpoints, and ensembles of them.
+
+pub(crate) mod checkpoint;
+pub(crate) mod ensemble;
+pub(crate) mod ledger;
+pub(crate) mod recorder;
+pub(crate) mod simulation;

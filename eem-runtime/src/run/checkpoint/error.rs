@@ -1,0 +1,214 @@
+//! Why a simulation cannot go on from a checkpoint.
+
+use thiserror::Error;
+
+use crate::element::error::StateError;
+use crate::element::group::Misfit;
+use crate::element::handle::Element;
+use crate::number::readable::Readable;
+use crate::scene::error::SceneError;
+use crate::step::scheme::Scheme;
+
+/// What differs between a checkpoint and the simulation that should go on from it, or is wrong
+/// with the checkpoint itself. The simulation is as it was before.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum RestoreError {
+    /// The schemes differ.
+    #[error(
+        "the checkpoint is one of the scheme {}, the simulation has {}",
+        checkpoint.name(),
+        simulation.name()
+    )]
+    Scheme {
+        /// The scheme of the checkpoint.
+        checkpoint: Scheme,
+        /// The scheme of the simulation.
+        simulation: Scheme,
+    },
+    /// There are more or fewer of something.
+    #[error(
+        "number of {quantity}: the checkpoint has {checkpoint}, the simulation has {simulation}"
+    )]
+    Count {
+        /// Of what.
+        quantity: &'static str,
+        /// How many the checkpoint has.
+        checkpoint: usize,
+        /// How many the simulation has.
+        simulation: usize,
+    },
+    /// A node is an anchor in one and a mass in the other.
+    #[error("node {node} is {} in the checkpoint and {} in the simulation", kind(*is_anchor), kind(!*is_anchor))]
+    Node {
+        /// The node, counted in the order of creation.
+        node: usize,
+        /// Whether it is an anchor in the checkpoint.
+        is_anchor: bool,
+    },
+    /// An element has another number of dashpots.
+    #[error(
+        "element {element} has {checkpoint} dashpots in the checkpoint and {simulation} in the simulation"
+    )]
+    Dashpots {
+        /// The element, counted in the order of creation.
+        element: usize,
+        /// How many it has in the checkpoint.
+        checkpoint: usize,
+        /// How many it has in the simulation.
+        simulation: usize,
+    },
+    /// An element has a temperature in one and none in the other.
+    #[error("element {element} has a temperature in the {} only", owner(*in_checkpoint))]
+    Temperature {
+        /// The element, counted in the order of creation.
+        element: usize,
+        /// Whether it has one in the checkpoint.
+        in_checkpoint: bool,
+    },
+    /// The Newton settings of the checkpoint are none that a simulation can have.
+    #[error(transparent)]
+    Settings(#[from] SceneError),
+    /// A value in the checkpoint is none that a simulation can have.
+    #[error("the checkpoint has {value} among its values of {quantity}, they must be {required}", value = Readable(*value))]
+    Value {
+        /// Of what.
+        quantity: &'static str,
+        /// The value.
+        value: f64,
+        /// What it must be.
+        required: &'static str,
+    },
+    /// More is missing of a sum than rounding takes.
+    #[error(
+        "the checkpoint carries {carry} over to a value of {quantity} of {value}, rounding leaves at most half a unit in its last place",
+        value = Readable(*value), carry = Readable(*carry)
+    )]
+    Carry {
+        /// Of what.
+        quantity: &'static str,
+        /// The rounded sum.
+        value: f64,
+        /// What is said to be missing of it.
+        carry: f64,
+    },
+    /// The scenes have other numbers: the parameters of a material, a mass, a conductance.
+    #[error(
+        "the checkpoint is one of a scene with other {kind}: build the scene with the numbers that it had"
+    )]
+    Numbers {
+        /// Which numbers differ.
+        kind: &'static str,
+    },
+    /// An element cannot be in the state of the checkpoint.
+    #[error("in the checkpoint, {0}")]
+    State(#[from] StateError),
+    /// The entropy of an element is not that of its temperature.
+    #[error(
+        "element {element} has the entropy {entropy} J/K in the checkpoint, but {expected} J/K at its temperature of {temperature} K; rounding explains {bound:.1e} J/K",
+        entropy = Readable(*entropy), expected = Readable(*expected), temperature = Readable(*temperature)
+    )]
+    Entropy {
+        /// The element, counted in the order of creation.
+        element: usize,
+        /// Its entropy in the checkpoint, J/K.
+        entropy: f64,
+        /// The entropy `s(λ, γ, θ)` of its model in the state of the checkpoint, J/K.
+        expected: f64,
+        /// Its temperature in the checkpoint, K.
+        temperature: f64,
+        /// By how much the two may differ, J/K.
+        bound: f64,
+    },
+    /// An anchor is not where the scene has it at the time of the checkpoint.
+    #[error(
+        "coordinate {axis} of the anchor node {node} is {checkpoint} m in the checkpoint and {simulation} m in the simulation at t = {time} s",
+        checkpoint = Readable(*checkpoint), simulation = Readable(*simulation), time = Readable(*time)
+    )]
+    Anchor {
+        /// The node, counted in the order of creation.
+        node: usize,
+        /// The axis, from 0.
+        axis: usize,
+        /// The coordinate in the checkpoint, with what is carried over, m.
+        checkpoint: f64,
+        /// Where the anchor was created, or where its motion puts it, m.
+        simulation: f64,
+        /// The time of the checkpoint, s.
+        time: f64,
+    },
+    /// An anchor has a momentum.
+    #[error(
+        "component {axis} of the momentum of the anchor node {node} is {value} kg m/s in the checkpoint, it must be zero",
+        value = Readable(*value)
+    )]
+    AnchorMomentum {
+        /// The node, counted in the order of creation.
+        node: usize,
+        /// The axis, from 0.
+        axis: usize,
+        /// The component, kg m/s.
+        value: f64,
+    },
+    /// An element does not have the temperature that a thermostat gives it.
+    #[error(
+        "{element} has the temperature {checkpoint} K in the checkpoint, but {simulation} K is prescribed at t = {time} s",
+        checkpoint = Readable(*checkpoint), simulation = Readable(*simulation), time = Readable(*time)
+    )]
+    Thermostat {
+        /// The element.
+        element: Element,
+        /// Its temperature in the checkpoint, K.
+        checkpoint: f64,
+        /// The prescribed one, K.
+        simulation: f64,
+        /// The time of the checkpoint, s.
+        time: f64,
+    },
+    /// A sum over the whole scene is not finite, though each term is.
+    #[error(
+        "the {quantity} of the scene in the checkpoint is {value} {unit}, it must be finite",
+        value = Readable(*value)
+    )]
+    Total {
+        /// An entry of the ledger.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+}
+
+const fn kind(is_anchor: bool) -> &'static str {
+    if is_anchor { "an anchor" } else { "a mass" }
+}
+
+const fn owner(in_checkpoint: bool) -> &'static str {
+    if in_checkpoint {
+        "checkpoint"
+    } else {
+        "simulation"
+    }
+}
+
+impl From<Misfit> for RestoreError {
+    fn from(misfit: Misfit) -> Self {
+        match misfit {
+            Misfit::State(error) => Self::State(error),
+            Misfit::Entropy {
+                element,
+                entropy,
+                expected,
+                temperature,
+                bound,
+            } => Self::Entropy {
+                element,
+                entropy,
+                expected,
+                temperature,
+                bound,
+            },
+        }
+    }
+}

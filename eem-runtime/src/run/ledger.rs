@@ -1,0 +1,201 @@
+//! Energy, entropy and momenta of a state: what the free energies say of it, beside what the steps have booked.
+//!
+//! Kinetic, potential and internal energy and the momenta are evaluated from positions, momenta, viscous
+//! stretches, temperatures and the kept entropies of the state. The entropies of elements, reservoirs and
+//! thermostats, work, heat and lost heat are sums that the steps have kept; of the entropy there is also
+//! the value of the state, [`Ledger::element_entropy_of_state`], which no step has touched.
+
+use nalgebra::SVector;
+
+use crate::element::group::Elements;
+use crate::element::masses::Masses;
+use crate::element::state::State;
+use crate::number::compensated::Total;
+use crate::number::scalar::Real;
+
+/// The balance sheet of a scene.
+///
+/// The schemes in entropy form, and [`EemTemperature`](crate::Scheme::EemTemperature), keep the entropy s of
+/// an element as a sum of what it receives, and find the temperature from it. That S never decreases is
+/// a statement about these sums; that they are entropies is one about the state, whose own entropies are
+/// `s(λ, γ, θ)`. Both are here, and differ by rounding:
+///
+/// ```text
+/// |Σ s(λ, γ, θ) − Σ s| ≤ 4 ε Σ (|s| + Σ |∂s/∂x| |x| + c),     x = λ, γ,   c = θ ∂s/∂θ
+/// ```
+///
+/// ```text
+/// E = Σ p²/2m − Σ m g·q + Σ (ψ + θ s) + Σ θ_r σ_r + heat lost
+/// S = Σ s + Σ σ_r + entropy of the thermostats
+/// E − work − heat = const
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ledger<S: Real, const D: usize> {
+    /// `Σ p·v/2`, J, which is `Σ p²/2m` where masses do not couple nodes.
+    pub kinetic_energy: S,
+    /// `−Σ m g·q`, J.
+    pub potential_energy: S,
+    /// `Σ (ψ + θ s)` of the elements, with ψ and θ of the state and the kept entropy s, J.
+    pub internal_energy: S,
+    /// Heat that the reservoirs received since the start, `Σ θ_r σ_r`, from the kept `σ_r`, J.
+    pub reservoir_heat: S,
+    /// Heat that dashpots of elements without temperature gave away since the start, as booked by the
+    /// steps, J.
+    pub lost_heat: S,
+    /// The sum of all energies, E, J. Constant by the first law unless loads do work or
+    /// thermostats give heat.
+    pub energy: S,
+    /// Work that loads and moved anchors have done since the start, as booked by the steps, J.
+    pub work: S,
+    /// Heat that thermostats have given since the start, as booked by the steps, J.
+    pub heat: S,
+    /// `E − work − heat`, J. Constant by the first law.
+    pub balance: S,
+    /// `Σ s` of the elements as kept by the steps, J/K.
+    pub element_entropy: S,
+    /// `Σ s(λ, γ, θ)`, the entropies of the elements that the model has in the state, J/K.
+    pub element_entropy_of_state: S,
+    /// `Σ σ_r`, entropy that the reservoirs received since the start, as kept by the steps, J/K.
+    pub reservoir_entropy: S,
+    /// Entropy that thermostats have received since the start, as booked by the steps, J/K.
+    pub thermostat_entropy: S,
+    /// The sum of all kept entropies, S, J/K. Never decreasing by the second law, but for two roundings of
+    /// this sum.
+    pub entropy: S,
+    /// `Σ p`, kg m/s.
+    pub linear_momentum: SVector<S, D>,
+    /// `Σ (q − o) × p`, kg m²/s, always with three components; `o` is the anchor if the scene has
+    /// exactly one, otherwise the origin. In the plane only the third is not zero.
+    pub angular_momentum: SVector<S, 3>,
+}
+
+impl<S: Real, const D: usize> Ledger<S, D> {
+    /// The balance sheet of a state.
+    pub(crate) fn of<'a>(
+        state: &State<S>,
+        masses: &Masses<S>,
+        groups: impl Iterator<Item = &'a dyn Elements<S, D>>,
+        reservoirs: &[S],
+        gravity: &SVector<S, D>,
+    ) -> Self {
+        let (kinetic, potential) = (
+            kinetic_energy::<S, D>(state, masses),
+            potential_energy(state, masses, gravity),
+        );
+        let (mut internal, mut heat) = (Total::new(), Total::new());
+        let (mut element_entropy, mut reservoir_entropy) = (Total::new(), Total::new());
+        let mut entropy_of_state = Total::new();
+        for group in groups {
+            let totals = group.totals(state);
+            internal.add(totals.energy);
+            element_entropy.add(totals.entropy);
+            entropy_of_state.add(totals.entropy_of_state);
+        }
+        for (&entropy, &theta) in state.reservoir_entropies.values().iter().zip(reservoirs) {
+            heat.add(theta * entropy);
+            reservoir_entropy.add(entropy);
+        }
+        let [lost_heat, work, given_heat] =
+            [state.dissipated, state.work, state.heat].map(|booked| booked.value);
+        let thermostat_entropy = state.thermostat_entropy.value;
+        let energy = [
+            kinetic,
+            potential,
+            internal.value(),
+            heat.value(),
+            lost_heat,
+        ];
+        let entropy = [
+            element_entropy.value(),
+            reservoir_entropy.value(),
+            thermostat_entropy,
+        ];
+        Self {
+            kinetic_energy: kinetic,
+            potential_energy: potential,
+            internal_energy: internal.value(),
+            reservoir_heat: heat.value(),
+            lost_heat,
+            energy: Total::of(energy),
+            work,
+            heat: given_heat,
+            balance: Total::of(energy.into_iter().chain([-work, -given_heat])),
+            element_entropy: element_entropy.value(),
+            element_entropy_of_state: entropy_of_state.value(),
+            reservoir_entropy: reservoir_entropy.value(),
+            thermostat_entropy,
+            entropy: Total::of(entropy),
+            linear_momentum: linear_momentum(state),
+            angular_momentum: angular_momentum::<S, D>(state, masses),
+        }
+    }
+}
+
+/// `Σ p·v/2`, J, which is `Σ p²/2m` where masses do not couple nodes.
+fn kinetic_energy<S: Real, const D: usize>(state: &State<S>, masses: &Masses<S>) -> S {
+    let mut sum = Total::new();
+    let momenta = state.momenta.values();
+    if !masses.pairs().is_empty() {
+        let half = S::from_f64(0.5);
+        let both = momenta.iter().zip(state.velocities.values());
+        return Total::of(both.map(|(&p, &v)| half * p * v));
+    }
+    for (p, mass) in momenta.chunks_exact(D).zip(masses.iter()) {
+        let Some(mass) = mass else { continue };
+        for &component in p {
+            sum.add(component * component / (mass + mass));
+        }
+    }
+    sum.value()
+}
+
+/// `−Σ m g·q`, J.
+fn potential_energy<S: Real, const D: usize>(
+    state: &State<S>,
+    masses: &Masses<S>,
+    gravity: &SVector<S, D>,
+) -> S {
+    let mut sum = Total::new();
+    let positions = state.positions.values().chunks_exact(D);
+    for (q, mass) in positions.zip(masses.weights()) {
+        for (&coordinate, &component) in q.iter().zip(gravity.iter()) {
+            sum.add(-mass * component * coordinate);
+        }
+    }
+    sum.value()
+}
+
+fn linear_momentum<S: Real, const D: usize>(state: &State<S>) -> SVector<S, D> {
+    let momenta = state.momenta.values().chunks_exact(D);
+    SVector::from_fn(|axis, _| Total::of(momenta.clone().map(|p| p[axis])))
+}
+
+fn angular_momentum<S: Real, const D: usize>(
+    state: &State<S>,
+    masses: &Masses<S>,
+) -> SVector<S, 3> {
+    let positions = state.positions.values();
+    let mut anchors = masses.iter().enumerate().filter(|(_, mass)| mass.is_none());
+    let anchor = match (anchors.next(), anchors.next()) {
+        (Some((node, _)), None) => Some(&positions[node * D..(node + 1) * D]),
+        _ => None,
+    };
+    let mut sums = [Total::new(), Total::new(), Total::new()];
+    for (q, p) in positions
+        .chunks_exact(D)
+        .zip(state.momenta.values().chunks_exact(D))
+    {
+        let arm = |axis: usize| match (axis < D, anchor) {
+            (false, _) => S::zero(),
+            (true, None) => q[axis],
+            (true, Some(o)) => q[axis] - o[axis],
+        };
+        let momentum = |axis: usize| if axis < D { p[axis] } else { S::zero() };
+        for (axis, sum) in sums.iter_mut().enumerate() {
+            let (i, j) = ((axis + 1) % 3, (axis + 2) % 3);
+            sum.add(arm(i) * momentum(j));
+            sum.add(-arm(j) * momentum(i));
+        }
+    }
+    SVector::from_fn(|axis, _| sums[axis].value())
+}

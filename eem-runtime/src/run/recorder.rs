@@ -1,0 +1,230 @@
+//! What is kept of a run: chosen quantities, every k-th step, column by column.
+
+#[cfg(feature = "csv")]
+mod csv;
+mod quantity;
+
+use core::ops::ControlFlow;
+
+use thiserror::Error;
+
+use crate::number::scalar::Real;
+use crate::run::simulation::Simulation;
+use crate::scene::error::SceneError;
+use crate::step::newton::StepReport;
+
+pub use quantity::{CustomQuantity, Quantity};
+
+/// The name of the first column.
+const TIME: &str = "time";
+
+/// Keeps the values of quantities while a simulation runs.
+///
+/// The first column is the time, s; the first row the state when the recorder was made. Values are
+/// in double precision whatever the scalar of the scene. Memory grows with the rows;
+/// [`reserve`](Self::reserve) asks for it beforehand.
+///
+/// ```
+/// use eem_runtime::{Quantity, Recorder, Scene, Scheme, Simulation};
+///
+/// let mut scene = Scene::<2>::new();
+/// let pivot = scene.anchor([3.0, 4.0]);
+/// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.25)?;
+///
+/// let mut recorder = Recorder::new(
+///     &run,
+///     [
+///         ("q", Quantity::Position(pivot)),
+///         ("distance", Quantity::custom(move |run: &Simulation<2>| {
+///             run.position(pivot).map_or(f64::NAN, |q| q.norm())
+///         })),
+///     ],
+/// )?
+/// .every(2);
+/// run.run_until(1.0, |run, report| recorder.observe(run, report))?;
+///
+/// let names: Vec<_> = recorder.columns().iter().map(|column| column.name()).collect();
+/// assert_eq!(names, ["time", "q_x", "q_y", "distance"]);
+/// assert_eq!(recorder.column("time"), Some([0.0, 0.5, 1.0].as_slice()));
+/// assert_eq!(recorder.column("distance"), Some([5.0; 3].as_slice()));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct Recorder<const D: usize, S: Real = f64> {
+    quantities: Vec<Quantity<D, S>>,
+    columns: Vec<Column>,
+    stride: usize,
+    /// Steps, and their Newton iterations, since the last row.
+    steps: usize,
+    iterations: usize,
+    /// The row that is being put together.
+    row: Vec<f64>,
+}
+
+/// One component of a quantity in all rows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    name: String,
+    values: Vec<f64>,
+    /// Whether the values are whole numbers.
+    is_count: bool,
+}
+
+impl Column {
+    /// The name: that of the quantity, for a vector with `_x`, `_y`, `_z`.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// One value per row.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+}
+
+/// Why quantities cannot be recorded.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum RecordError {
+    /// A quantity is none of the simulation.
+    #[error("quantity `{name}`: {source}")]
+    Quantity {
+        /// The name that it was given.
+        name: String,
+        /// What is wrong with it.
+        source: SceneError,
+    },
+    /// Two columns would have the same name; the first of all is `time`.
+    #[error("there are two columns of the name `{name}`")]
+    DuplicateColumn {
+        /// The name.
+        name: String,
+    },
+}
+
+impl<const D: usize, S: Real> Recorder<D, S> {
+    /// A recorder of named quantities of `run`, which keeps the present state and then every step.
+    ///
+    /// # Errors
+    ///
+    /// [`RecordError`] if `run` has no such quantity, or two columns have the same name.
+    pub fn new<N: Into<String>>(
+        run: &Simulation<D, S>,
+        quantities: impl IntoIterator<Item = (N, Quantity<D, S>)>,
+    ) -> Result<Self, RecordError> {
+        let mut recorder = Self {
+            quantities: Vec::new(),
+            columns: Vec::new(),
+            stride: 1,
+            steps: 0,
+            iterations: 0,
+            row: Vec::new(),
+        };
+        recorder.add_column(TIME.to_owned(), false)?;
+        for (name, quantity) in quantities {
+            let name = name.into();
+            if let Err(source) = quantity.check(run) {
+                return Err(RecordError::Quantity { name, source });
+            }
+            for column in quantity.columns(&name) {
+                recorder.add_column(column, quantity.is_count())?;
+            }
+            recorder.quantities.push(quantity);
+        }
+        let first = recorder.record(run);
+        first.map_err(|source| RecordError::Quantity {
+            name: TIME.to_owned(),
+            source,
+        })?;
+        Ok(recorder)
+    }
+
+    fn add_column(&mut self, name: String, is_count: bool) -> Result<(), RecordError> {
+        if self.column(&name).is_some() {
+            return Err(RecordError::DuplicateColumn { name });
+        }
+        self.columns.push(Column {
+            name,
+            values: Vec::new(),
+            is_count,
+        });
+        Ok(())
+    }
+
+    /// The same, but keeping only every `stride`-th step; 0 is taken for 1.
+    #[must_use]
+    pub fn every(mut self, stride: usize) -> Self {
+        self.stride = stride.max(1);
+        self
+    }
+
+    /// Makes room for this many more rows.
+    pub fn reserve(&mut self, rows: usize) {
+        for column in &mut self.columns {
+            column.values.reserve(rows);
+        }
+    }
+
+    /// Sees a step, and keeps it if its turn has come: an observer for
+    /// [`run_until`](Simulation::run_until).
+    ///
+    /// Goes on unless `run` is not the simulation that the recorder was made for; nothing is kept
+    /// then, and [`record`](Self::record) says why.
+    pub fn observe(&mut self, run: &Simulation<D, S>, report: &StepReport<S>) -> ControlFlow<()> {
+        self.steps += 1;
+        self.iterations = self.iterations.saturating_add(report.iterations);
+        if self.steps < self.stride {
+            return ControlFlow::Continue(());
+        }
+        match self.record(run) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(_) => ControlFlow::Break(()),
+        }
+    }
+
+    /// Keeps the present state, whether or not its turn has come; the next turn is a full stride
+    /// later.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::ForeignHandle`] if `run` is not the simulation that the recorder was made
+    /// for. Nothing is kept then.
+    pub fn record(&mut self, run: &Simulation<D, S>) -> Result<(), SceneError> {
+        // A row has one value per quantity.
+        run.part();
+        let mut ledger = None;
+        self.row.clear();
+        self.row.push(run.time().to_f64());
+        for quantity in &self.quantities {
+            quantity.append(run, self.iterations, &mut ledger, &mut self.row)?;
+        }
+        for (column, &value) in self.columns.iter_mut().zip(&self.row) {
+            column.values.push(value);
+        }
+        (self.steps, self.iterations) = (0, 0);
+        Ok(())
+    }
+
+    /// All columns, as long as each other: time, then the quantities in their order.
+    #[must_use]
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// The values of the column of this name.
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<&[f64]> {
+        let mut columns = self.columns.iter();
+        columns
+            .find(|column| column.name == name)
+            .map(Column::values)
+    }
+
+    /// The number of rows.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.columns.first().map_or(0, |time| time.values.len())
+    }
+}

@@ -1,0 +1,164 @@
+//! What can be recorded, and in how many columns.
+
+use core::fmt;
+
+use crate::element::handle::{Element, Node, Reservoir};
+use crate::number::scalar::Real;
+use crate::run::ledger::Ledger;
+use crate::run::simulation::Simulation;
+use crate::scene::error::SceneError;
+
+/// A quantity of a simulation that a [`Recorder`](super::Recorder) keeps.
+///
+/// A vector takes a column per component. The angular momentum is a single column in the plane.
+///
+/// ```
+/// use eem_runtime::{Quantity, Recorder, Scene, Scheme, Simulation};
+///
+/// let mut scene = Scene::<3>::new();
+/// scene.anchor([0.0; 3]);
+/// let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+/// let quantities = [
+///     ("L", Quantity::AngularMomentum),
+///     ("kinetic", Quantity::Ledger(|ledger| ledger.kinetic_energy)),
+/// ];
+/// let recorder = Recorder::new(&run, quantities)?;
+/// assert_eq!(recorder.columns().len(), 5); // time, L_x, L_y, L_z, kinetic
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum Quantity<const D: usize, S: Real = f64> {
+    /// The position of a node, m.
+    Position(Node),
+    /// The momentum of a node, kg m/s.
+    Momentum(Node),
+    /// The velocity of a node, m/s.
+    Velocity(Node),
+    /// The stretch of an element, m.
+    Stretch(Element),
+    /// The force of an element, N.
+    Force(Element),
+    /// The internal energy of an element, J.
+    InternalEnergy(Element),
+    /// The temperature of an element, K.
+    Temperature(Element),
+    /// The entropy of an element, J/K.
+    Entropy(Element),
+    /// The viscous stretch of a dashpot (from 0) of an element, m.
+    ViscousStretch(Element, usize),
+    /// The entropy that a reservoir has received, J/K.
+    ReservoirEntropy(Reservoir),
+    /// The heat that a reservoir has received, J.
+    ReservoirHeat(Reservoir),
+    /// The total energy E of the ledger, J.
+    TotalEnergy,
+    /// The total entropy S of the ledger, J/K.
+    TotalEntropy,
+    /// The linear momentum of the ledger, kg m/s.
+    LinearMomentum,
+    /// The angular momentum of the ledger, kg m²/s.
+    AngularMomentum,
+    /// Any other entry of the ledger.
+    Ledger(fn(&Ledger<S, D>) -> S),
+    /// Newton iterations since the row before; 0 in the first row.
+    NewtonIterations,
+    /// A function of the simulation.
+    Custom(CustomQuantity<D, S>),
+}
+
+/// A function of the simulation as a [`Quantity`], made by [`Quantity::custom`].
+pub struct CustomQuantity<const D: usize, S: Real>(Box<Function<D, S>>);
+
+type Function<const D: usize, S> = dyn Fn(&Simulation<D, S>) -> S + Send + Sync;
+
+impl<const D: usize, S: Real> fmt::Debug for CustomQuantity<D, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a function")
+    }
+}
+
+/// Names of the axes in the columns.
+const AXES: [&str; 3] = ["x", "y", "z"];
+
+impl<const D: usize, S: Real> Quantity<D, S> {
+    /// A function of the simulation.
+    pub fn custom(function: impl Fn(&Simulation<D, S>) -> S + Send + Sync + 'static) -> Self {
+        Self::Custom(CustomQuantity(Box::new(function)))
+    }
+
+    /// Whether the values are whole numbers.
+    pub(super) const fn is_count(&self) -> bool {
+        matches!(self, Self::NewtonIterations)
+    }
+
+    /// The names of its columns.
+    pub(super) fn columns(&self, name: &str) -> Vec<String> {
+        let components = match self {
+            Self::Position(_) | Self::Momentum(_) | Self::Velocity(_) | Self::LinearMomentum => D,
+            Self::AngularMomentum if D > 2 => 3,
+            _ => return vec![name.to_owned()],
+        };
+        let axis = |index: usize| match AXES.get(index) {
+            Some(axis) => format!("{name}_{axis}"),
+            None => format!("{name}_{index}"),
+        };
+        (0..components).map(axis).collect()
+    }
+
+    /// An error unless the simulation has this quantity. Does not call functions.
+    pub(super) fn check(&self, run: &Simulation<D, S>) -> Result<(), SceneError> {
+        match self {
+            Self::Custom(_) => Ok(()),
+            built_in => built_in.append(run, 0, &mut None, &mut Vec::new()),
+        }
+    }
+
+    /// Appends its present values to a row, with the ledger kept for the other quantities.
+    pub(super) fn append(
+        &self,
+        run: &Simulation<D, S>,
+        iterations: usize,
+        ledger: &mut Option<Ledger<S, D>>,
+        row: &mut Vec<f64>,
+    ) -> Result<(), SceneError> {
+        let mut totals = || *ledger.get_or_insert_with(|| run.ledger());
+        let value = match self {
+            Self::Position(node) => return vector(row, run.position(*node)?.as_slice()),
+            Self::Momentum(node) => return vector(row, run.momentum(*node)?.as_slice()),
+            Self::Velocity(node) => return vector(row, run.velocity(*node)?.as_slice()),
+            Self::LinearMomentum => return vector(row, totals().linear_momentum.as_slice()),
+            Self::AngularMomentum if D > 2 => {
+                return vector(row, totals().angular_momentum.as_slice());
+            }
+            Self::AngularMomentum => totals().angular_momentum[2],
+            Self::Stretch(element) => run.stretch(*element)?,
+            Self::Force(element) => run.force(*element)?,
+            Self::InternalEnergy(element) => run.internal_energy(*element)?,
+            Self::Temperature(element) => run.temperature(*element)?,
+            Self::Entropy(element) => run.entropy(*element)?,
+            Self::ViscousStretch(element, dashpot) => run.viscous_stretch(*element, *dashpot)?,
+            Self::ReservoirEntropy(reservoir) => run.reservoir_entropy(*reservoir)?,
+            Self::ReservoirHeat(reservoir) => run.reservoir_heat(*reservoir)?,
+            Self::TotalEnergy => totals().energy,
+            Self::TotalEntropy => totals().entropy,
+            Self::Ledger(entry) => entry(&totals()),
+            Self::NewtonIterations => {
+                row.push(u32::try_from(iterations).map_or(f64::INFINITY, f64::from));
+                return Ok(());
+            }
+            Self::Custom(custom) => (custom.0)(run),
+        };
+        vector(row, &[value])
+    }
+}
+
+/// Appends components.
+#[expect(
+    clippy::unnecessary_wraps,
+    reason = "what `append` returns where it is the last call"
+)]
+fn vector<S: Real>(row: &mut Vec<f64>, components: &[S]) -> Result<(), SceneError> {
+    row.extend(components.iter().map(|component| component.to_f64()));
+    Ok(())
+}

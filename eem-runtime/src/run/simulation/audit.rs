@@ -1,0 +1,183 @@
+//! Whether a saved state is one that this scene can have at its time.
+
+use std::collections::BTreeMap;
+
+use super::Simulation;
+use super::totals::{Overflow, overflow};
+use crate::element::conduction::Partner;
+use crate::element::state::State;
+use crate::number::digest::Digest;
+use crate::number::scalar::{Mask, Real};
+use crate::run::checkpoint::{Numbers, RestoreError};
+use crate::run::ledger::Ledger;
+use crate::scene::loads::{MOTION_ROUNDINGS, extent};
+
+/// By how many ε of the time a function of time may have been evaluated beside the time of a state.
+///
+/// A step evaluates at `t + h` and leaves out what is carried over, one ε with its own rounding; it
+/// then adds both up, another; and a run moves the time to its end by at most two more.
+const TIME_ROUNDINGS: f64 = 4.0;
+
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// Digests of the numbers of the scene.
+    pub(super) fn numbers(&self) -> Numbers {
+        Numbers {
+            materials: Digest::of(|digest| {
+                for group in self.stepper.all() {
+                    group.digest(digest);
+                }
+            }),
+            masses: Digest::of(|digest| {
+                for mass in self.masses.iter() {
+                    digest.number(mass.unwrap_or(S::zero()));
+                }
+                for pair in self.masses.pairs() {
+                    let [first, second] = pair.nodes();
+                    digest.count(first);
+                    digest.count(second);
+                    digest.number(pair.mass);
+                }
+            }),
+            conductances: Digest::of(|digest| self.digest_conductances(digest)),
+            reservoirs: Digest::of(|digest| {
+                for &theta in &self.conduction.reservoirs {
+                    digest.number(theta);
+                }
+            }),
+            gravity: Digest::of(|digest| {
+                for &component in &self.loads.gravity {
+                    digest.number(component);
+                }
+            }),
+        }
+    }
+
+    fn digest_conductances(&self, digest: &mut Digest) {
+        for slot in 0..self.state.temperatures.len() {
+            for link in self.conduction.links(slot) {
+                let (kind, index) = match link.partner {
+                    Partner::Slot(slot) => (0, slot),
+                    Partner::Reservoir(reservoir) => (1, reservoir),
+                };
+                for count in [slot, kind, index] {
+                    digest.count(count);
+                }
+                digest.number(link.conductance);
+            }
+        }
+    }
+
+    /// An error unless a state of this outline, whose numbers are finite, is one that the scene can
+    /// have after a step of this size.
+    pub(super) fn audit(&self, state: &State<S>, step: S) -> Result<(), RestoreError> {
+        self.audit_anchors(state, step)?;
+        self.audit_thermostats(state)?;
+        for group in self.stepper.all() {
+            group.audit(state)?;
+        }
+        let reservoirs = &self.conduction.reservoirs;
+        let (groups, gravity) = (self.stepper.all(), &self.loads.gravity);
+        let ledger = Ledger::of(state, &self.masses, groups, reservoirs, gravity);
+        match overflow(&ledger) {
+            None => Ok(()),
+            Some(Overflow {
+                quantity,
+                value,
+                unit,
+            }) => Err(RestoreError::Total {
+                quantity,
+                value,
+                unit,
+            }),
+        }
+    }
+
+    /// Anchors are where they were created or where their motion puts them, and have no momentum.
+    fn audit_anchors(&self, state: &State<S>, step: S) -> Result<(), RestoreError> {
+        let scale = extent(state.positions.values().iter());
+        let (time, created) = (state.time.value, self.state.positions.values());
+        let positions: Vec<_> = state.positions.sums().collect();
+        let momenta: Vec<_> = state.momenta.sums().collect();
+        let motions = self.loads.motions.iter();
+        let motions: BTreeMap<_, _> = motions.map(|(node, by)| (node.index, by)).collect();
+        let masses = self.masses.iter().enumerate();
+        for (node, _) in masses.filter(|(_, mass)| mass.is_none()) {
+            let motion = motions.get(&node);
+            for axis in 0..D {
+                let at = node * D + axis;
+                audit_zero(node, axis, momenta[at])?;
+                let (value, carry) = positions[at];
+                let is_right = motion.map_or(
+                    value.equal(created[at]).all() && carry.equal(S::zero()).all(),
+                    |by| follows(&|time| by(time)[axis], value, (time, step), scale),
+                );
+                if !is_right {
+                    let expected = motion.map_or(created[at], |by| by(time)[axis]);
+                    return Err(RestoreError::Anchor {
+                        node,
+                        axis,
+                        checkpoint: (value + carry).to_f64(),
+                        simulation: expected.to_f64(),
+                        time: time.to_f64(),
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Thermostats have brought their elements to the prescribed temperatures.
+    fn audit_thermostats(&self, state: &State<S>) -> Result<(), RestoreError> {
+        let time = state.time.value;
+        for (element, temperature) in &self.loads.temperatures {
+            let Some(slot) = self.slots(*element).thermal else {
+                continue;
+            };
+            let own = state.temperatures[slot];
+            if !follows(temperature, own, (time, S::zero()), own) {
+                return Err(RestoreError::Thermostat {
+                    element: *element,
+                    checkpoint: own.to_f64(),
+                    simulation: temperature(time).to_f64(),
+                    time: time.to_f64(),
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// An error unless a momentum, and what is carried over to it, is zero.
+fn audit_zero<S: Real>(
+    node: usize,
+    axis: usize,
+    (value, carry): (S, S),
+) -> Result<(), RestoreError> {
+    if value.equal(S::zero()).all() && carry.equal(S::zero()).all() {
+        return Ok(());
+    }
+    let value = (value + carry).to_f64();
+    Err(RestoreError::AnchorMomentum { node, axis, value })
+}
+
+/// Whether a value of this scale is that of a function at a time, to the rounding of both.
+///
+/// The function may have been evaluated a few roundings before or behind the time. What it can do
+/// in between is not known but from its values at both ends, and these are asked for only if the
+/// time itself does not explain the value. The scale of a position includes where the function was
+/// at the beginning of the step, as the step added the difference.
+fn follows<S: Real>(function: &dyn Fn(S) -> S, value: S, (time, step): (S, S), scale: S) -> bool {
+    let now = function(time);
+    let roundings = S::from_f64(MOTION_ROUNDINGS) * S::EPSILON;
+    let bound = roundings * scale.maximum(now.abs());
+    if (value - now).abs().at_most(bound).all() {
+        return true;
+    }
+    let beside = S::from_f64(TIME_ROUNDINGS) * S::EPSILON * time;
+    let ends = [time - beside, time + beside].map(function);
+    let begin = function((time - step).maximum(S::zero()));
+    let bound = bound.maximum(roundings * begin.abs());
+    let low = ends.into_iter().fold(now, S::minimum) - bound;
+    let high = ends.into_iter().fold(now, S::maximum) + bound;
+    (low.at_most(value) & value.at_most(high)).all()
+}

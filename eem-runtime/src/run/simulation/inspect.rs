@@ -1,0 +1,199 @@
+//! What can be asked of a simulation at any time.
+
+use nalgebra::SVector;
+
+use super::Simulation;
+use crate::element::group::ElementView;
+use crate::element::handle::{Element, Node, Reservoir, SceneId};
+use crate::element::layout::Slots;
+use crate::number::scalar::Real;
+use crate::run::ledger::Ledger;
+use crate::scene::error::SceneError;
+
+/// # Looking at the state
+///
+/// Every question about a handle fails with [`SceneError::ForeignHandle`] if the handle is not of
+/// this scene.
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// The position of a node, m.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle.
+    pub fn position(&self, node: Node) -> Result<SVector<S, D>, SceneError> {
+        self.expect_own(node.scene, &node)?;
+        Ok(vector(self.state.positions.values(), node.index))
+    }
+
+    /// The momentum of a node, kg m/s; zero for an anchor.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle.
+    pub fn momentum(&self, node: Node) -> Result<SVector<S, D>, SceneError> {
+        self.expect_own(node.scene, &node)?;
+        Ok(vector(self.state.momenta.values(), node.index))
+    }
+
+    /// The velocity of a node, m/s; zero for an anchor.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle.
+    pub fn velocity(&self, node: Node) -> Result<SVector<S, D>, SceneError> {
+        self.expect_own(node.scene, &node)?;
+        Ok(match self.masses.get(node.index) {
+            Some(mass) => SVector::from(self.state.velocity::<D>(node.index, mass)),
+            None => SVector::from([S::zero(); D]),
+        })
+    }
+
+    /// The stretch of an element, m.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle.
+    pub fn stretch(&self, element: Element) -> Result<S, SceneError> {
+        self.expect_spring(element, "stretch")?;
+        Ok(self.view(element)?.measure)
+    }
+
+    /// The force of an element, `∂ψ/∂λ`, N; positive in tension.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle.
+    pub fn force(&self, element: Element) -> Result<S, SceneError> {
+        self.expect_spring(element, "force")?;
+        Ok(self.view(element)?.force)
+    }
+
+    /// The internal energy of an element, `ψ + θ s`, J; ψ if it has no temperature.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle.
+    pub fn internal_energy(&self, element: Element) -> Result<S, SceneError> {
+        Ok(self.view(element)?.internal_energy)
+    }
+
+    /// The temperature of an element, K.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle; [`SceneError::NotThermal`] if the element has none.
+    pub fn temperature(&self, element: Element) -> Result<S, SceneError> {
+        Ok(self.state.temperatures[self.thermal_slot(element)?])
+    }
+
+    /// The entropy of an element, J/K.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle; [`SceneError::NotThermal`] if the element has none.
+    pub fn entropy(&self, element: Element) -> Result<S, SceneError> {
+        Ok(self.state.entropies.values()[self.thermal_slot(element)?])
+    }
+
+    /// The viscous stretch of a dashpot (from 0) of an element, m.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle; [`SceneError::NoSuchDashpot`].
+    pub fn viscous_stretch(&self, element: Element, dashpot: usize) -> Result<S, SceneError> {
+        self.expect_own(element.scene, &element)?;
+        let [group, _] = self.place(element);
+        let dashpots = self.shapes[group].dashpots;
+        if dashpot >= dashpots {
+            return Err(SceneError::NoSuchDashpot {
+                element,
+                dashpot,
+                dashpots,
+            });
+        }
+        let first = self.slots(element).viscous;
+        Ok(self.state.viscous.values()[first + dashpot])
+    }
+
+    /// The entropy that a reservoir has received since the start, J/K.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle.
+    pub fn reservoir_entropy(&self, reservoir: Reservoir) -> Result<S, SceneError> {
+        self.expect_own(reservoir.scene, &reservoir)?;
+        Ok(self.state.reservoir_entropies.values()[reservoir.index])
+    }
+
+    /// The heat that a reservoir has received since the start, `θ_r σ_r`, J.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle.
+    pub fn reservoir_heat(&self, reservoir: Reservoir) -> Result<S, SceneError> {
+        let entropy = self.reservoir_entropy(reservoir)?;
+        Ok(self.conduction.reservoirs[reservoir.index] * entropy)
+    }
+
+    /// Energies, entropies and momenta, computed from the state by their definitions.
+    #[must_use]
+    pub fn ledger(&self) -> Ledger<S, D> {
+        Ledger::of(
+            &self.state,
+            &self.masses,
+            self.stepper.all(),
+            &self.conduction.reservoirs,
+            &self.loads.gravity,
+        )
+    }
+
+    /// An error unless an element is a spring of this scene.
+    fn expect_spring(&self, element: Element, quantity: &'static str) -> Result<(), SceneError> {
+        self.expect_own(element.scene, &element)?;
+        let [group, _] = self.place(element);
+        if self.shapes[group].is_spring {
+            return Ok(());
+        }
+        Err(SceneError::NotASpring { element, quantity })
+    }
+
+    fn view(&self, element: Element) -> Result<ElementView<S>, SceneError> {
+        self.expect_own(element.scene, &element)?;
+        let [group, place] = self.place(element);
+        Ok(self.stepper.elements(group).inspect(place, &self.state))
+    }
+
+    /// The group and the place in it of an own element.
+    fn place(&self, element: Element) -> [usize; 2] {
+        self.places[element.index].map(|number| number as usize)
+    }
+
+    /// Where an own element keeps its internal variables.
+    pub(super) fn slots(&self, element: Element) -> Slots {
+        let [group, place] = self.place(element);
+        self.stepper.elements(group).slots(place)
+    }
+
+    fn thermal_slot(&self, element: Element) -> Result<usize, SceneError> {
+        self.expect_own(element.scene, &element)?;
+        let slot = self.slots(element).thermal;
+        slot.ok_or(SceneError::NotThermal { element })
+    }
+
+    fn expect_own(
+        &self,
+        scene: SceneId,
+        handle: &dyn core::fmt::Display,
+    ) -> Result<(), SceneError> {
+        if scene == self.scene {
+            return Ok(());
+        }
+        let handle = handle.to_string();
+        Err(SceneError::ForeignHandle { handle })
+    }
+}
+
+/// The coordinates of one node.
+fn vector<S: Real, const D: usize>(coordinates: &[S], node: usize) -> SVector<S, D> {
+    SVector::from_column_slice(&coordinates[node * D..(node + 1) * D])
+}

@@ -1,0 +1,72 @@
+//! Residual and tangent of the system that Newton's method solves, at given unknowns.
+
+use super::stepper::Stepper;
+use super::{Simulation, view};
+use crate::element::group::StepView;
+use crate::element::phase::Phase;
+use crate::number::scalar::Real;
+use crate::step::error::{StepError, StepFailure};
+
+/// Residual and tangent of a step at a trial state.
+///
+/// Internal variables are eliminated: they take the values that their own equations give them at
+/// the trial state, and the tangent is the total derivative.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepTangent<S> {
+    /// `R(u)`: momentum balances in N s, then `Θ − θ*` in K for elements that conduct heat to
+    /// other elements.
+    pub residual: Vec<S>,
+    /// `∂R/∂u`, row-major, square.
+    pub tangent: Vec<S>,
+}
+
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// Residual and tangent of the next step at given unknowns.
+    ///
+    /// ```text
+    /// R = (2m/h)(q¹ − q⁰) − 2p⁰ + h F(u),      u = (q¹ − q⁰ of the masses, Θ of elements in contact)
+    /// ```
+    ///
+    /// in the order of creation, [`unknowns`](Self::unknowns) of them. For [`Scheme::Variational4`] they
+    /// are those of the middle and then those of the end, `(q_m − q⁰, Θ_0, q¹ − q⁰, Θ_1)`, and
+    ///
+    /// ```text
+    /// R_m = (2m/h)(q_m − q⁰) − p⁰ + (h/12)(2F_0 + F_m),   R_1 = (m/h)(q¹ − q⁰) − p⁰ + (h/6)(F_0 + 2F_m)
+    /// ```
+    ///
+    /// The tangent is exact to rounding: it does not come from differences.
+    ///
+    /// [`Scheme::Variational4`]: crate::Scheme::Variational4
+    ///
+    /// # Errors
+    ///
+    /// [`StepError`] if an element has no admissible state there, or the number of unknowns is
+    /// another one ([`StepFailure::Unknowns`]).
+    pub fn linearize(&mut self, unknowns: &[S]) -> Result<StepTangent<S>, StepError> {
+        // The elements look at another configuration than that of their last step.
+        self.has_stepped = false;
+        self.effort.restart();
+        if unknowns.len() != self.unknowns() {
+            return Err(self.failed(StepFailure::Unknowns {
+                given: unknowns.len(),
+                expected: self.unknowns(),
+            }));
+        }
+        if let Err(failure) = self.evaluate_loads() {
+            return Err(self.failed(failure));
+        }
+        let Stepper {
+            groups,
+            solver,
+            loads,
+            stages,
+            ..
+        } = &mut self.stepper;
+        let view = view!(self, Phase::Whole, &self.state, [loads, stages]);
+        let linearized = solver.linearize(groups, &view, unknowns, &mut self.effort);
+        match linearized {
+            Ok((residual, tangent)) => Ok(StepTangent { residual, tangent }),
+            Err(failure) => Err(self.failed(failure)),
+        }
+    }
+}

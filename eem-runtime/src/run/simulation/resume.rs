@@ -1,0 +1,78 @@
+//! Saving a state and going on from it.
+
+use super::Simulation;
+use crate::element::state::State;
+use crate::number::scalar::Real;
+use crate::run::checkpoint::{Checkpoint, Outline, RestoreError};
+
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// The present state, with all that the next steps depend on.
+    ///
+    /// ```
+    /// use eem_runtime::{Scene, Scheme, Simulation};
+    ///
+    /// let mut scene = Scene::<2>::new();
+    /// scene.anchor([0.0, 0.0]);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// run.step()?;
+    /// let saved = run.checkpoint();
+    /// run.set_step_size(0.5)?;
+    /// run.step()?;
+    /// assert_eq!((run.time(), run.step_size()), (0.6, 0.5));
+    /// run.restore(&saved)?;
+    /// assert_eq!((run.time(), run.step_size()), (0.1, 0.1));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn checkpoint(&self) -> Checkpoint<S> {
+        Checkpoint {
+            scheme: self.scheme,
+            outline: self.outline(),
+            numbers: self.numbers(),
+            step: self.step,
+            newton: self.newton_settings(),
+            state: State {
+                energies: Vec::new(),
+                ..State::clone(&self.state)
+            },
+            past: self.stepper.past(),
+        }
+    }
+
+    /// Goes back, or on, to a saved state, of this simulation or of one of the same scene in another
+    /// process: nodes, elements and reservoirs must have been created in the same order.
+    ///
+    /// # Errors
+    ///
+    /// [`RestoreError`] if the checkpoint is one of another scheme, of a scene of another shape or with
+    /// other numbers (materials, masses, conductances, reservoirs, gravity), or has a state that no
+    /// run of this scene can have: an entropy that is not that of the temperature, an anchor
+    /// elsewhere, a value that is not finite. The simulation is then as it was before.
+    ///
+    /// Motions and thermostats are evaluated at the time of the checkpoint to compare.
+    pub fn restore(&mut self, checkpoint: &Checkpoint<S>) -> Result<(), RestoreError> {
+        let past = self.stepper.past();
+        let scene = (&self.outline(), &self.numbers());
+        checkpoint
+            .check(self.scheme, scene, &self.state, &past)
+            .and_then(|()| self.audit(&checkpoint.state, checkpoint.step))
+            .inspect_err(|_| self.part())?;
+        self.set_newton_settings(checkpoint.newton)?;
+        self.has_stepped = false;
+        self.state.copy_from(&checkpoint.state);
+        self.state.follow_velocities(D, &self.masses);
+        let state = &mut self.state;
+        self.stepper.each_mut(|group| group.find_energies(state));
+        self.worst = None;
+        self.stepper.restore(&checkpoint.past);
+        self.step = checkpoint.step;
+        Ok(())
+    }
+
+    fn outline(&self) -> Outline {
+        let reservoirs = self.conduction.reservoirs.len();
+        let places = self.places.iter();
+        let shapes = places.map(|&[group, _]| self.shapes[group as usize]);
+        Outline::new(D, &self.masses, shapes, reservoirs)
+    }
+}

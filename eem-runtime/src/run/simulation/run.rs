@@ -1,0 +1,153 @@
+//! Many steps in one call, watched from outside, up to an end time that is hit exactly.
+
+use core::mem;
+use core::ops::ControlFlow;
+
+use super::Simulation;
+use crate::number::compensated::Sum;
+use crate::number::scalar::{Mask, Real};
+use crate::step::error::{StepError, StepFailure};
+use crate::step::newton::StepReport;
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum RunEnd {
+    /// At the end time.
+    Reached,
+    /// Where the observer stopped it.
+    Stopped,
+    /// At an event; only [`Simulation::run_until_event`] looks for one.
+    Event,
+}
+
+/// Roundings between the last full step and the end time: half a unit in the last place from the
+/// end time, as much from adding up steps that are themselves rounded, and as much again to be
+/// safe on both sides.
+const END_ROUNDINGS: f64 = 2.0;
+
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// Steps until the time `end`, s, and calls `observer` after every step.
+    ///
+    /// The last step is shortened so that the time is then `end` to the last bit; the step size
+    /// stays what it is. An end that lies a whole number of steps ahead, up to rounding, is reached
+    /// by full steps only. The end may be infinite for a run that the observer stops.
+    ///
+    /// The observer decides with [`ControlFlow`] whether the run goes on; a
+    /// [`Recorder`](crate::Recorder) is one. The run itself allocates nothing.
+    ///
+    /// # Errors
+    ///
+    /// The error of the step that failed, with the simulation as it was before that step;
+    /// [`StepFailure::End`] if `end` is not a number or lies before the present time.
+    ///
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// use eem_runtime::{RunEnd, Scene, Scheme, Simulation};
+    ///
+    /// let mut scene = Scene::<2>::new();
+    /// scene.anchor([0.0, 0.0]);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.3)?;
+    ///
+    /// let mut sizes = Vec::new();
+    /// let end = run.run_until(1.0, |_, report| {
+    ///     sizes.push(report.step);
+    ///     ControlFlow::Continue(())
+    /// })?;
+    /// assert_eq!((end, run.time(), run.step_size()), (RunEnd::Reached, 1.0, 0.3));
+    /// assert_eq!(sizes[..3], [0.3; 3]);
+    /// assert!((sizes[3] - 0.1_f64).abs() < 1e-15);
+    ///
+    /// let end = run.run_until(f64::INFINITY, |run, _| {
+    ///     if run.time() > 1.5 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    /// })?;
+    /// assert_eq!((end, run.time()), (RunEnd::Stopped, 1.6));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn run_until(
+        &mut self,
+        end: S,
+        mut observer: impl FnMut(&Self, &StepReport<S>) -> ControlFlow<()>,
+    ) -> Result<RunEnd, StepError> {
+        self.check_end(end)?;
+        while self.is_before(end)? {
+            let report = self.step_towards(end)?;
+            if observer(self, &report).is_break() {
+                return Ok(RunEnd::Stopped);
+            }
+        }
+        Ok(RunEnd::Reached)
+    }
+
+    /// An error unless a run can end at this time.
+    pub(super) fn check_end(&self, end: S) -> Result<(), StepError> {
+        if self.time().at_most(end).all() {
+            return Ok(());
+        }
+        let end = end.to_f64();
+        Err(self.refused(StepFailure::End { end }))
+    }
+
+    /// Whether the end of a run lies ahead.
+    pub(super) fn is_before(&self, end: S) -> Result<bool, StepError> {
+        self.decide(self.time().less(end))
+    }
+
+    /// One decision for all numbers in S.
+    fn decide(&self, mask: S::Mask) -> Result<bool, StepError> {
+        let decided = mask.decide();
+        decided.map_err(|discord| self.refused(discord.into()))
+    }
+
+    /// A run that ends before its first step.
+    pub(super) fn refused(&self, failure: StepFailure) -> StepError {
+        self.part();
+        StepError {
+            time: self.time().to_f64(),
+            step: self.step_size().to_f64(),
+            failure,
+            history: Box::default(),
+        }
+    }
+
+    /// One step of the present size, or one that ends exactly at `end`.
+    pub(super) fn step_towards(&mut self, end: S) -> Result<StepReport<S>, StepError> {
+        let left = self.time_left(end);
+        let full = self.step_size();
+        let scale = self.time().abs() + full.minimum(left);
+        let rounding = S::from_f64(END_ROUNDINGS) * S::EPSILON * scale;
+        if self.decide((full + rounding).less(left))? {
+            return self.step_by(full);
+        }
+        let is_full = self.decide((left - full).abs().at_most(rounding))?;
+        let mut report = self.step_by(if is_full { full } else { left })?;
+        self.state.time = Sum::new(end);
+        report.time = end;
+        Ok(report)
+    }
+
+    /// `end − t`, with t to twice the precision, s.
+    fn time_left(&self, end: S) -> S {
+        let Sum { value, carry } = self.state.time;
+        (end - value) - carry
+    }
+
+    /// One step of another size, which later steps do not have.
+    pub(super) fn step_by(&mut self, size: S) -> Result<StepReport<S>, StepError> {
+        let usual = mem::replace(&mut self.step, size);
+        let other = OtherSize { run: self, usual };
+        other.run.step()
+    }
+}
+
+/// A simulation that makes one step of another size. It gets its own size back even where a load
+/// panics.
+struct OtherSize<'a, const D: usize, S: Real> {
+    run: &'a mut Simulation<D, S>,
+    usual: S,
+}
+
+impl<const D: usize, S: Real> Drop for OtherSize<'_, D, S> {
+    fn drop(&mut self) {
+        self.run.step = self.usual;
+    }
+}

@@ -1,0 +1,55 @@
+//! How large a step is, and how hard it tries.
+
+use super::Simulation;
+use super::check::check_step;
+use crate::number::scalar::{Mask, Real, is_positive};
+use crate::scene::error::SceneError;
+use crate::step::newton::NewtonSettings;
+
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// The size of the next steps, s.
+    #[must_use]
+    pub const fn step_size(&self) -> S {
+        self.step
+    }
+
+    /// Changes the size of the next steps, s. All laws hold step by step, so that it may change
+    /// at any time.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::Step`] if it is not positive and finite; the old size then stays.
+    pub fn set_step_size(&mut self, step: S) -> Result<(), SceneError> {
+        check_step(step).inspect_err(|_| self.part())?;
+        self.step = step;
+        Ok(())
+    }
+
+    /// How hard a step tries.
+    #[must_use]
+    pub const fn newton_settings(&self) -> NewtonSettings<S> {
+        self.effort.settings
+    }
+
+    /// Changes how hard a step tries.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::NewtonSettings`] unless there is at least one iteration and the tolerance lies
+    /// between 0 and 1; the old settings then stay.
+    pub fn set_newton_settings(&mut self, settings: NewtonSettings<S>) -> Result<(), SceneError> {
+        let NewtonSettings {
+            max_iterations,
+            tolerance,
+        } = settings;
+        if max_iterations == 0 || !is_positive(tolerance) || S::one().at_most(tolerance).any() {
+            self.part();
+            return Err(SceneError::NewtonSettings {
+                max_iterations,
+                tolerance: tolerance.to_f64(),
+            });
+        }
+        self.effort.settings = settings;
+        Ok(())
+    }
+}

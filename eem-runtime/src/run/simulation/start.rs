@@ -1,0 +1,56 @@
+//! The state in which a scene begins.
+
+use nalgebra::SVector;
+
+use crate::element::layout::Layout;
+use crate::element::state::{Energy, State};
+use crate::number::compensated::{Compensated, Sum};
+use crate::number::scalar::Real;
+use crate::scene::Scene;
+
+/// The state that the scene describes; its entropies are still to be found.
+pub(super) fn initial_state<const D: usize, S: Real>(
+    scene: &Scene<D, S>,
+    layout: &Layout,
+) -> State<S> {
+    let coordinates = scene.nodes.len() * D;
+    let mut positions = Vec::with_capacity(coordinates);
+    let mut momenta = Vec::with_capacity(coordinates);
+    let mut velocities = Vec::new();
+    let still = SVector::from([S::zero(); D]);
+    let is_coupled = !scene.pairs.is_empty();
+    for node in &scene.nodes {
+        let mass = node.mass.unwrap_or(S::zero());
+        positions.extend(node.position.iter());
+        momenta.extend(node.start_momentum(mass).iter());
+        if is_coupled {
+            let moving = node.mass.map_or(still, |_| node.velocity);
+            velocities.extend(moving.iter());
+        }
+    }
+    let mut viscous = vec![S::zero(); layout.viscous];
+    let mut temperatures = vec![S::zero(); layout.thermal];
+    for (entry, slots) in scene.elements.iter().zip(&layout.elements) {
+        for &(dashpot, stretch) in &entry.viscous_stretches {
+            viscous[slots.viscous + dashpot] = stretch;
+        }
+        if let (Some(slot), Some(temperature)) = (slots.thermal, entry.temperature) {
+            temperatures[slot] = temperature;
+        }
+    }
+    State {
+        time: Sum::new(S::zero()),
+        positions: Compensated::new(positions),
+        momenta: Compensated::new(momenta),
+        velocities: Compensated::new(velocities),
+        viscous: Compensated::new(viscous),
+        entropies: Compensated::new(vec![S::zero(); temperatures.len()]),
+        temperatures,
+        energies: vec![Energy::zero(); scene.elements.len()],
+        reservoir_entropies: Compensated::new(vec![S::zero(); scene.reservoirs.len()]),
+        work: Sum::new(S::zero()),
+        heat: Sum::new(S::zero()),
+        thermostat_entropy: Sum::new(S::zero()),
+        dissipated: Sum::new(S::zero()),
+    }
+}

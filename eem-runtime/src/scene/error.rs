@@ -1,0 +1,296 @@
+//! What can be wrong with a scene.
+
+use thiserror::Error;
+
+use crate::element::error::StateError;
+use crate::element::handle::{Element, HeatPartner, Node, Reservoir};
+use crate::number::readable::Readable;
+
+/// Why a scene cannot be simulated.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// A handle comes from another scene.
+    #[error("{handle} belongs to another scene")]
+    ForeignHandle {
+        /// The handle as text.
+        handle: String,
+    },
+    /// A solid is stepped by a scheme that is not for solids.
+    #[error(
+        "{scheme} is not for solids: their masses couple nodes, and only schemes that take the end of a step from its increments allow that; use eem-entropy or eem-temperature"
+    )]
+    NotForSolids {
+        /// The name of the scheme.
+        scheme: &'static str,
+    },
+    /// A quadrilateral is inside out at a point of its reference configuration, or has no area there.
+    #[error(
+        "the solid at {element} is inside out: det dX/dxi is {value} m^2, it must be positive and finite; give its corners against the clock",
+        value = Readable(*value)
+    )]
+    InsideOut {
+        /// The point.
+        element: Element,
+        /// `det ∂X/∂ξ`, m².
+        value: f64,
+    },
+    /// A density or a thickness is not positive and finite.
+    #[error("the {quantity} of the solid at {element} is {value} {unit}, it must be positive and finite", value = Readable(*value))]
+    Section {
+        /// Its first point.
+        element: Element,
+        /// Which one.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+    /// Something is asked of a node of a solid that only a point mass has.
+    #[error(
+        "{node} belongs to a solid, whose mass couples nodes, and cannot have {quantity}; {instead}"
+    )]
+    NodeOfSolid {
+        /// The node.
+        node: Node,
+        /// What was asked for.
+        quantity: &'static str,
+        /// What to do.
+        instead: &'static str,
+    },
+    /// A point of a solid has no stretch and no force.
+    #[error("{element} is a point of a solid, which has no {quantity}")]
+    NotASpring {
+        /// The point.
+        element: Element,
+        /// What was asked for.
+        quantity: &'static str,
+    },
+    /// A coordinate is not finite.
+    #[error("coordinate {axis} of the position of {node} is {value} m, it must be finite", value = Readable(*value))]
+    Position {
+        /// The node.
+        node: Node,
+        /// The axis, from 0.
+        axis: usize,
+        /// The coordinate, m.
+        value: f64,
+    },
+    /// An anchor was given what only a mass can have, or the other way round.
+    #[error("{node} cannot be given {quantity}: it is {kind}")]
+    WrongKind {
+        /// The node.
+        node: Node,
+        /// What it was given.
+        quantity: &'static str,
+        /// What it is.
+        kind: &'static str,
+    },
+    /// The acceleration of gravity is not finite.
+    #[error("component {axis} of gravity is {value} m/s², it must be finite", value = Readable(*value))]
+    Gravity {
+        /// The axis, from 0.
+        axis: usize,
+        /// The component, m/s².
+        value: f64,
+    },
+    /// A velocity is not finite.
+    #[error("component {axis} of the velocity of {node} is {value} m/s, it must be finite", value = Readable(*value))]
+    Velocity {
+        /// The node.
+        node: Node,
+        /// The axis, from 0.
+        axis: usize,
+        /// The component, m/s.
+        value: f64,
+    },
+    /// A mass is not positive and finite.
+    #[error("the mass of {node} is {value} kg, it must be positive and finite", value = Readable(*value))]
+    Mass {
+        /// The node.
+        node: Node,
+        /// The mass, kg.
+        value: f64,
+    },
+    /// A parameter of a model is not finite.
+    #[error("parameter `{parameter}` of {element} is {value}, it must be finite", value = Readable(*value))]
+    Parameter {
+        /// The element.
+        element: Element,
+        /// The name of the field.
+        parameter: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// The temperature of a reservoir is not positive and finite.
+    #[error("the temperature of {reservoir} is {value} K, it must be positive and finite", value = Readable(*value))]
+    ReservoirTemperature {
+        /// The reservoir.
+        reservoir: Reservoir,
+        /// The temperature, K.
+        value: f64,
+    },
+    /// A conductance is negative or not finite.
+    #[error(
+        "the conductance between {element} and {partner} is {value} W/K, it must be finite and not negative", value = Readable(*value))]
+    Conductance {
+        /// The element.
+        element: Element,
+        /// What it exchanges heat with.
+        partner: HeatPartner,
+        /// The conductance, W/K.
+        value: f64,
+    },
+    /// An element conducts heat to itself.
+    #[error("{element} conducts heat to itself")]
+    SelfConduction {
+        /// The element.
+        element: Element,
+    },
+    /// Something thermal was asked of an element whose model has no temperature.
+    #[error("{element} has no temperature: its free energy has no `Temperature` argument")]
+    NotThermal {
+        /// The element.
+        element: Element,
+    },
+    /// An element was never given a temperature.
+    #[error("{element} was never given a temperature, call `set_temperature`")]
+    MissingTemperature {
+        /// The element.
+        element: Element,
+    },
+    /// A viscous stretch was given for a dashpot that the model does not have.
+    #[error("{element} has {dashpots} dashpots, there is no dashpot {dashpot}")]
+    NoSuchDashpot {
+        /// The element.
+        element: Element,
+        /// The dashpot asked for, from 0.
+        dashpot: usize,
+        /// How many there are.
+        dashpots: usize,
+    },
+    /// The time step is not positive and finite.
+    #[error("the time step is {value} s, it must be positive and finite", value = Readable(*value))]
+    Step {
+        /// The step, s.
+        value: f64,
+    },
+    /// Settings with which no step can succeed, or every step would.
+    #[error(
+        "{max_iterations} iterations to a tolerance of {tolerance}: at least one iteration and a tolerance between 0 and 1 are needed", tolerance = Readable(*tolerance))]
+    NewtonSettings {
+        /// The number of iterations.
+        max_iterations: usize,
+        /// The tolerance.
+        tolerance: f64,
+    },
+    /// The momentum of a mass is not finite.
+    #[error("component {axis} of the momentum of {node} is {value} kg m/s, it must be finite", value = Readable(*value))]
+    Momentum {
+        /// The node.
+        node: Node,
+        /// The axis, from 0.
+        axis: usize,
+        /// The component, kg m/s.
+        value: f64,
+    },
+    /// The kinetic energy of a mass is not finite.
+    #[error(
+        "the kinetic energy p²/2m of {node} is {value} J, it must be finite: its momentum is {momentum} kg m/s, its mass {mass} kg",
+        value = Readable(*value), momentum = Readable(*momentum), mass = Readable(*mass)
+    )]
+    KineticEnergy {
+        /// The node.
+        node: Node,
+        /// The kinetic energy, J.
+        value: f64,
+        /// The magnitude of the momentum, kg m/s.
+        momentum: f64,
+        /// The mass, kg.
+        mass: f64,
+    },
+    /// The weight of a mass is not finite.
+    #[error(
+        "component {axis} of the weight m g of {node} is {value} N, it must be finite",
+        value = Readable(*value)
+    )]
+    Weight {
+        /// The node.
+        node: Node,
+        /// The axis, from 0.
+        axis: usize,
+        /// The component, N.
+        value: f64,
+    },
+    /// An initial flow of heat or of its entropy is not finite, or that of all paths to an element
+    /// together.
+    #[error(
+        "the {quantity} from {partner} to {element} at t = 0 s is {value} {unit}, it must be finite, and so must the sum of all flows to an element",
+        value = Readable(*value)
+    )]
+    HeatFlow {
+        /// The element.
+        element: Element,
+        /// What it exchanges heat with.
+        partner: HeatPartner,
+        /// Heat flow `Q = κ (θ_partner − θ)`, or flow of entropy `Q/θ` at the colder end.
+        quantity: &'static str,
+        /// The flow along this path, W or W/K.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+    /// A sum over the whole scene in its initial state is not finite, though each term is.
+    #[error(
+        "the {quantity} of the scene at t = 0 s is {value} {unit}, it must be finite: the terms of its sum are too large",
+        value = Readable(*value)
+    )]
+    Total {
+        /// An entry of the ledger.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+    /// The motion of an anchor does not begin where the anchor was created.
+    #[error(
+        "coordinate {axis} of the motion of {node} is {prescribed} m at t = 0 s, but the anchor was created at {created} m: create it where its motion begins",
+        created = Readable(*created), prescribed = Readable(*prescribed)
+    )]
+    AnchorJump {
+        /// The anchor.
+        node: Node,
+        /// The axis, from 0.
+        axis: usize,
+        /// The coordinate given to [`Scene::anchor`](crate::Scene::anchor), m.
+        created: f64,
+        /// The coordinate that the motion has at t = 0, m.
+        prescribed: f64,
+    },
+    /// A prescribed temperature does not begin at the initial one.
+    #[error(
+        "the temperature prescribed on {element} is {prescribed} K at t = 0 s, but its initial temperature is {initial} K: set the temperature with which the thermostat begins",
+        initial = Readable(*initial), prescribed = Readable(*prescribed)
+    )]
+    TemperatureJump {
+        /// The element.
+        element: Element,
+        /// The temperature given to [`Scene::set_temperature`](crate::Scene::set_temperature), K.
+        initial: f64,
+        /// The temperature that is prescribed at t = 0, K.
+        prescribed: f64,
+    },
+    /// The same thing is prescribed twice.
+    #[error("{quantity} of {handle} is prescribed twice")]
+    PrescribedTwice {
+        /// The handle as text.
+        handle: String,
+        /// What is prescribed.
+        quantity: &'static str,
+    },
+    /// The initial state of an element is outside the domain of its model.
+    #[error("at t = 0 s: {0}")]
+    State(#[from] StateError),
+}

@@ -1,0 +1,81 @@
+//! What acts on a scene from outside: forces, moved anchors, prescribed temperatures.
+
+use nalgebra::SVector;
+
+use crate::element::handle::{Element, Node};
+use crate::number::scalar::{Mask, Real};
+
+/// By how many ε of its size a prescribed function may differ from a state that follows it: a
+/// formula `c + a f(t)` rounds function, product and sum, each by ε at most of a size that is also
+/// that of the result or of the scene; a fourth ε is for the state, whose value is itself rounded.
+///
+/// In a step, `q⁰ + (x(t) − q⁰)` differs from `x(t)` by less: half an ε for each of the two sums, of
+/// at most twice the size, and half an ε for what was carried over.
+pub(crate) const MOTION_ROUNDINGS: f64 = 4.0;
+
+/// The largest magnitude of some coordinates, m.
+///
+/// Motions are judged in this unit and not in that of their own coordinates: elements see
+/// differences of positions, which have the rounding of the largest ones.
+pub(crate) fn extent<'a, S: Real>(coordinates: impl Iterator<Item = &'a S>) -> S {
+    coordinates.fold(S::zero(), |most, coordinate| most.maximum(coordinate.abs()))
+}
+
+/// A vector (force in N, position in m) as a function of time in s.
+pub(crate) type OfTime<S, const D: usize> = Box<dyn Fn(S) -> SVector<S, D> + Send + Sync>;
+
+/// A temperature in K as a function of time in s.
+pub(crate) type TemperatureOfTime<S> = Box<dyn Fn(S) -> S + Send + Sync>;
+
+/// Everything that acts on a scene, as the user gave it.
+pub(crate) struct Loads<S: Real, const D: usize> {
+    /// Acceleration of free fall, m/s².
+    pub(crate) gravity: SVector<S, D>,
+    pub(crate) forces: Vec<(Node, OfTime<S, D>)>,
+    pub(crate) motions: Vec<(Node, OfTime<S, D>)>,
+    pub(crate) temperatures: Vec<(Element, TemperatureOfTime<S>)>,
+}
+
+impl<S: Real, const D: usize> Loads<S, D> {
+    /// Nothing acts.
+    pub(crate) fn none() -> Self {
+        Self {
+            gravity: SVector::from_element(S::zero()),
+            forces: Vec::new(),
+            motions: Vec::new(),
+            temperatures: Vec::new(),
+        }
+    }
+
+    pub(crate) fn are_none(&self) -> bool {
+        let has_force = self.have_weight() || !self.forces.is_empty();
+        !has_force && self.motions.is_empty() && self.temperatures.is_empty()
+    }
+
+    pub(crate) fn have_weight(&self) -> bool {
+        self.has_weight().any()
+    }
+
+    fn has_weight(&self) -> S::Mask {
+        let none = S::Mask::none();
+        let components = self.gravity.iter();
+        components.fold(none, |any, &component| any | !component.equal(S::zero()))
+    }
+
+    /// Whether several numbers in one S have weight all of them, or none of them.
+    pub(crate) fn suit_lanes(&self) -> bool {
+        let has_weight = self.has_weight();
+        has_weight.decide().is_ok()
+    }
+}
+
+impl<S: Real, const D: usize> core::fmt::Debug for Loads<S, D> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Loads")
+            .field("gravity", &self.gravity)
+            .field("forces", &self.forces.len())
+            .field("motions", &self.motions.len())
+            .field("temperatures", &self.temperatures.len())
+            .finish()
+    }
+}

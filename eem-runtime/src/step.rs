@@ -1,0 +1,10 @@
+//! Steps: the schemes as data, Newton's method, the end of a step and its certificate.
+
+pub(crate) mod certificate;
+pub(crate) mod error;
+pub(crate) mod loads;
+pub(crate) mod newton;
+pub(crate) mod pattern;
+pub(crate) mod rule;
+pub(crate) mod scheme;
+pub(crate) mod solver;

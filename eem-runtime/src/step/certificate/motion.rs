@@ -1,0 +1,153 @@
+//! What the nodes contribute to the certificate of a step: kinetic energy, work and momenta.
+
+use crate::number::compensated::Total;
+use crate::number::scalar::Real;
+
+/// What the motion of the nodes contributes to a certificate.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Motion<S, const D: usize> {
+    /// What momenta are kept, and about which point, m.
+    pub(crate) kept: Kept<S, D>,
+    /// `Σ v̄·Δp − work`, J.
+    pub(super) energy: Total<S>,
+    pub(super) amplitude: S,
+    /// `Σ (Δp − hF)` of the loads F, and `Σ |p|`, kg m/s.
+    pub(super) linear: [S; D],
+    pub(super) momenta: S,
+    /// `Σ (q_m − o) × (Δp − hF) + Δq × p_m`, and `Σ |q_m − o||p|`, kg m²/s.
+    pub(super) angular: [S; 3],
+    pub(super) moments: S,
+    /// The largest `|q_m − o|`, m.
+    pub(super) farthest: S,
+}
+
+/// Which momenta a scene keeps but for its loads.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Kept<S, const D: usize> {
+    /// With two anchors or more, or moved ones: none.
+    None,
+    /// With one anchor at this place: the angular momentum about it.
+    Angular([S; D]),
+    /// Without anchors: both, about the origin.
+    Both,
+}
+
+/// What a node did in a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NodeStep<'a, S, const D: usize> {
+    pub(crate) speeds: Speeds<S, D>,
+    /// q⁰, m.
+    pub(crate) position: &'a [S; D],
+    /// p⁰, kg m/s.
+    pub(crate) momentum: &'a [S; D],
+    /// Δq, m.
+    pub(crate) displacement: &'a [S; D],
+    /// Δp, kg m/s.
+    pub(crate) impulse: &'a [S; D],
+}
+
+/// What says how fast a node moves.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Speeds<S, const D: usize> {
+    /// `1/m`, 1/kg: `v = p/m`.
+    OfMass(S),
+    /// v⁰ and Δv, m/s, where masses couple nodes.
+    Given { old: [S; D], change: [S; D] },
+}
+
+impl<S: Real, const D: usize> NodeStep<'_, S, D> {
+    /// `v̄·Δp` and `½(|v⁰·p⁰| + |v¹·p¹|)`, J.
+    #[inline]
+    fn energies(&self) -> [S; 2] {
+        let half = S::from_f64(0.5);
+        let (mut gain, mut size) = (S::zero(), S::zero());
+        match &self.speeds {
+            Speeds::OfMass(per_mass) => {
+                for (&p, &change) in self.momentum.iter().zip(self.impulse) {
+                    let end = p + change;
+                    gain += (p + half * change) * change;
+                    size += p * p + end * end;
+                }
+                [gain * *per_mass, half * size * *per_mass]
+            }
+            Speeds::Given { old, change } => {
+                for axis in 0..D {
+                    let (v, p) = (old[axis], self.momentum[axis]);
+                    gain += (v + half * change[axis]) * self.impulse[axis];
+                    let end = (v + change[axis]) * (p + self.impulse[axis]);
+                    size += (v * p).abs() + end.abs();
+                }
+                [gain, half * size]
+            }
+        }
+    }
+}
+
+impl<S: Real, const D: usize> Motion<S, D> {
+    /// Of nothing.
+    pub(crate) fn new(kept: Kept<S, D>) -> Self {
+        let zero = S::zero();
+        Self {
+            kept,
+            energy: Total::new(),
+            amplitude: zero,
+            linear: [zero; D],
+            momenta: zero,
+            angular: [zero; 3],
+            moments: zero,
+            farthest: zero,
+        }
+    }
+
+    /// A node that moves, with the force of its loads if there are any, N.
+    #[inline]
+    pub(crate) fn see(&mut self, node: &NodeStep<'_, S, D>, force: Option<&[S; D]>, step: S) {
+        let [gain, size] = node.energies();
+        self.energy.add(gain);
+        self.amplitude += size;
+        if D > 0 && !matches!(self.kept, Kept::None) {
+            let load = force.map(|force| force.map(|force| step * force));
+            self.see_momenta(node, &load.unwrap_or([S::zero(); D]));
+        }
+        if let Some(force) = force {
+            for (&force, &displacement) in force.iter().zip(node.displacement) {
+                self.work(force * displacement);
+            }
+        }
+    }
+
+    /// Work that a load or a support has done, J.
+    #[inline]
+    pub(crate) fn work(&mut self, work: S) {
+        self.energy.add(-work);
+        self.amplitude += work.abs();
+    }
+
+    fn see_momenta(&mut self, node: &NodeStep<'_, S, D>, load: &[S; D]) {
+        let half = S::from_f64(0.5);
+        let origin = match self.kept {
+            Kept::Angular(origin) => origin,
+            Kept::None | Kept::Both => [S::zero(); D],
+        };
+        let (mut arm, mut mean, mut net) = ([S::zero(); D], [S::zero(); D], [S::zero(); D]);
+        let (mut length, mut size) = (S::zero(), S::zero());
+        for axis in 0..D {
+            let (p, change) = (node.momentum[axis], node.impulse[axis]);
+            arm[axis] = (node.position[axis] - origin[axis]) + half * node.displacement[axis];
+            mean[axis] = p + half * change;
+            net[axis] = change - load[axis];
+            self.linear[axis] += net[axis];
+            length += arm[axis].abs() + node.displacement[axis].abs();
+            size += p.abs() + (p + change).abs() + load[axis].abs();
+        }
+        self.farthest = self.farthest.maximum(length);
+        self.momenta += size;
+        self.moments += length * size;
+        for (angular, [i, j]) in self.angular.iter_mut().zip([[0, 1], [0, 2], [1, 2]]) {
+            if j < D {
+                let turned = |a: &[S; D], b: &[S; D]| a[i] * b[j] - a[j] * b[i];
+                *angular += turned(&arm, &net) + turned(node.displacement, &mean);
+            }
+        }
+    }
+}

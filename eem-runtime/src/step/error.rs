@@ -1,0 +1,201 @@
+//! What can be wrong with a scene, with a state, and with a step.
+//!
+//! Every error names the thing, the value and, once time runs, the time. Values are given in `f64`
+//! whatever the scalar of the scene.
+
+use thiserror::Error;
+
+use crate::element::error::StateError;
+use crate::element::handle::{Element, Node};
+use crate::number::readable::Readable;
+use crate::number::scalar::Discord;
+
+/// A law that an exact scheme keeps in every step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Law {
+    /// `ΔE = work + heat`, J.
+    Energy,
+    /// The balance of linear momentum of the scene, kg m/s.
+    LinearMomentum,
+    /// The balance of angular momentum of the scene, kg m²/s.
+    AngularMomentum,
+    /// Every dashpot and every path of heat produces entropy, J/K.
+    Production,
+    /// The entropy that is kept is that of the temperature, `s = s(λ, γ, θ)`, J/K.
+    KeptEntropy,
+}
+
+impl Law {
+    /// The unit of its defect.
+    #[must_use]
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::Energy => "J",
+            Self::LinearMomentum => "kg m/s",
+            Self::AngularMomentum => "kg m²/s",
+            Self::Production | Self::KeptEntropy => "J/K",
+        }
+    }
+}
+
+impl core::fmt::Display for Law {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Self::Energy => "the energy",
+            Self::LinearMomentum => "the linear momentum",
+            Self::AngularMomentum => "the angular momentum",
+            Self::Production => "the production of entropy",
+            Self::KeptEntropy => "the entropy",
+        })
+    }
+}
+
+/// Why a step found no new state.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum StepFailure {
+    /// The motion of a mass is not finite.
+    #[error("coordinate {axis} of the new {quantity} of node {node} is {value}, it must be finite", value = Readable(*value))]
+    Unbounded {
+        /// The index of the node.
+        node: usize,
+        /// The axis, from 0.
+        axis: usize,
+        /// Position or momentum.
+        quantity: &'static str,
+        /// The value, m or kg m/s.
+        value: f64,
+    },
+    /// Newton's method used up its iterations.
+    #[error("Newton's method did not converge, its last scaled update was {update:.1e}")]
+    NotConverged {
+        /// The largest scaled update of the last iteration.
+        update: f64,
+    },
+    /// The step that was found breaks a law of its scheme by more than rounding can.
+    #[error(
+        "{law} at t = {time} s is off by {defect:.3e} {unit}, where rounding explains {bound:.1e} {unit}{}; a smaller step may do",
+        element.map_or_else(String::new, |element| format!(" (most of it in {element})")),
+        unit = law.unit(), time = Readable(*time))]
+    LawNotKept {
+        /// The law.
+        law: Law,
+        /// By how much it is broken, in the unit of the law.
+        defect: f64,
+        /// What rounding explains, in the same unit.
+        bound: f64,
+        /// The element that contributes most, if the law holds element by element.
+        element: Option<Element>,
+        /// The time at the end of the step, s.
+        time: f64,
+    },
+    /// The energy of the new state is infinite or not a number, in a scheme that promises no law.
+    #[error("the energy at t = {} s is off by {value} J", Readable(*time))]
+    Energy {
+        /// What the balance of energy is off by, J.
+        value: f64,
+        /// The time at the end of the step, s.
+        time: f64,
+    },
+    /// The tangent is singular.
+    #[error("the tangent matrix is singular")]
+    SingularTangent,
+    /// A load is not finite.
+    #[error(
+        "component {axis} of the load on {node} is {value} N at t = {time} s, it must be finite", value = Readable(*value), time = Readable(*time))]
+    Load {
+        /// The node.
+        node: Node,
+        /// The axis, from 0.
+        axis: usize,
+        /// The component, N.
+        value: f64,
+        /// The time, s.
+        time: f64,
+    },
+    /// The prescribed position of an anchor is not finite.
+    #[error(
+        "coordinate {axis} of the motion of {node} is {value} m at t = {time} s, it must be finite", value = Readable(*value), time = Readable(*time))]
+    Motion {
+        /// The node.
+        node: Node,
+        /// The axis, from 0.
+        axis: usize,
+        /// The coordinate, m.
+        value: f64,
+        /// The time, s.
+        time: f64,
+    },
+    /// A prescribed temperature is not positive and finite.
+    #[error(
+        "the temperature prescribed on {element} is {value} K at t = {time} s, it must be positive and finite", value = Readable(*value), time = Readable(*time))]
+    PrescribedTemperature {
+        /// The element.
+        element: Element,
+        /// The temperature, K.
+        value: f64,
+        /// The time, s.
+        time: f64,
+    },
+    /// The time at the end of the step cannot be represented.
+    #[error("the time at the end of the step is {value} s, it must be finite", value = Readable(*value))]
+    Time {
+        /// The time, s.
+        value: f64,
+    },
+    /// A run cannot end then.
+    #[error("the end time is {end} s, it must be a number and not lie before the present time", end = Readable(*end))]
+    End {
+        /// The end time, s.
+        end: f64,
+    },
+    /// An event cannot be located so sharply.
+    #[error("the tolerance of the event is {value} s, it must not be negative", value = Readable(*value))]
+    EventTolerance {
+        /// The tolerance, s.
+        value: f64,
+    },
+    /// The function whose change of sign is an event has no sign.
+    #[error("the function of the event is not a number")]
+    EventFunction,
+    /// A trial state has the wrong number of unknowns.
+    #[error("{given} unknowns were given, the scene has {expected}")]
+    Unknowns {
+        /// How many were given.
+        given: usize,
+        /// How many there are.
+        expected: usize,
+    },
+    /// Members that are stepped together would go on differently, or one of them has failed before; the
+    /// ensemble runs them one by one.
+    #[error(transparent)]
+    Discord(#[from] Discord),
+    /// An element has no admissible state where Newton's method leads.
+    #[error(transparent)]
+    State(#[from] StateError),
+}
+
+/// A step that failed. The simulation is as it was before.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("step from t = {time} s by {step} s failed after {} iterations: {failure}", history.len(), time = Readable(*time), step = Readable(*step))]
+pub struct StepError {
+    /// The time at which the step began, s.
+    pub time: f64,
+    /// The time step, s.
+    pub step: f64,
+    /// Why it failed.
+    #[source]
+    pub failure: StepFailure,
+    /// What each iteration did.
+    pub history: Box<[NewtonIteration]>,
+}
+
+/// One iteration of Newton's method.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NewtonIteration {
+    /// The largest residual of the momentum balances before the update, N s.
+    pub residual: f64,
+    /// The largest update, in units of the longest stretch and of the temperatures.
+    pub update: f64,
+}

@@ -1,0 +1,178 @@
+//! The loads of a step, from what the user gave.
+//!
+//! The forces of a step are constant over it, so that their work `F·Δq` is exact; a moved anchor
+//! does the work of the force it needs; a thermostat gives the heat that its element needs. A scheme with
+//! stages evaluates them at the time of each, as steps of no length.
+
+use std::collections::BTreeSet;
+
+use crate::element::layout::Layout;
+use crate::element::loads::{Prescribed, StepLoads, point};
+use crate::element::masses::Masses;
+use crate::number::scalar::{Real, is_positive};
+use crate::scene::loads::Loads;
+use crate::step::error::StepFailure;
+use crate::step::scheme::Scheme;
+
+impl<S: Real> StepLoads<S> {
+    /// Memory for a scene.
+    pub(crate) fn new<const D: usize>(
+        coordinates: usize,
+        layout: &Layout,
+        loads: &Loads<S, D>,
+    ) -> Self {
+        let zeros = |needed: bool| vec![S::zero(); if needed { coordinates } else { 0 }];
+        let slots = if loads.temperatures.is_empty() {
+            0
+        } else {
+            layout.thermal
+        };
+        let temperatures = loads.temperatures.iter();
+        let thermal = temperatures.map(|(element, _)| layout.elements[element.index].thermal);
+        let moved = loads.motions.iter().map(|(node, _)| node.index);
+        let moved: BTreeSet<_> = moved.collect();
+        Self {
+            moved: moved.into_iter().collect(),
+            force: zeros(!loads.forces.is_empty()),
+            total_force: zeros(!loads.forces.is_empty() || loads.have_weight()),
+            motion: zeros(!loads.motions.is_empty()),
+            prescribed: vec![None; slots],
+            slots: thermal.collect(),
+        }
+    }
+
+    /// Evaluates the loads of the step from `time` by `step` at the positions `q0`.
+    ///
+    /// A force of time is taken in the middle of the step; the trapezoidal rule takes the mean of both ends.
+    /// A step of no length evaluates everything at one time.
+    pub(crate) fn evaluate<const D: usize>(
+        &mut self,
+        loads: &Loads<S, D>,
+        masses: &Masses<S>,
+        scheme: Scheme,
+        [time, step]: [S; 2],
+        q0: &[S],
+    ) -> Result<(), StepFailure> {
+        let half = S::from_f64(0.5);
+        let (middle, end) = (time + half * step, time + step);
+        self.evaluate_forces(loads, scheme, [time, middle, end])?;
+        self.add_weights(loads, masses);
+        self.evaluate_motions(loads, end, q0)?;
+        self.evaluate_temperatures(loads, [middle, end])
+    }
+
+    /// Evaluates what is prescribed in the step from `time` by `step`, motions and temperatures; forces are
+    /// those of its stages.
+    pub(crate) fn evaluate_supports<const D: usize>(
+        &mut self,
+        loads: &Loads<S, D>,
+        [time, step]: [S; 2],
+        q0: &[S],
+    ) -> Result<(), StepFailure> {
+        let (middle, end) = (time + S::from_f64(0.5) * step, time + step);
+        self.evaluate_motions(loads, end, q0)?;
+        self.evaluate_temperatures(loads, [middle, end])
+    }
+
+    fn evaluate_forces<const D: usize>(
+        &mut self,
+        loads: &Loads<S, D>,
+        scheme: Scheme,
+        [start, middle, end]: [S; 3],
+    ) -> Result<(), StepFailure> {
+        let half = S::from_f64(0.5);
+        self.force.fill(S::zero());
+        for (node, force) in &loads.forces {
+            let value = if scheme.has_old_forces() {
+                let [start, end] = [start, end].map(|time| force(time).map(|f| half * f));
+                start + end
+            } else {
+                force(middle)
+            };
+            for axis in 0..D {
+                // The sum of all loads on the node, which may overflow where none of them does.
+                let sum = &mut self.force[node.index * D + axis];
+                *sum += value[axis];
+                if !sum.is_finite() {
+                    return Err(StepFailure::Load {
+                        node: *node,
+                        axis,
+                        value: sum.to_f64(),
+                        time: middle.to_f64(),
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn evaluate_motions<const D: usize>(
+        &mut self,
+        loads: &Loads<S, D>,
+        end: S,
+        q0: &[S],
+    ) -> Result<(), StepFailure> {
+        for (node, motion) in &loads.motions {
+            let position = motion(end);
+            for axis in 0..D {
+                let at = node.index * D + axis;
+                self.motion[at] = position[axis] - q0[at];
+                if !self.motion[at].is_finite() {
+                    return Err(StepFailure::Motion {
+                        node: *node,
+                        axis,
+                        value: position[axis].to_f64(),
+                        time: end.to_f64(),
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn evaluate_temperatures<const D: usize>(
+        &mut self,
+        loads: &Loads<S, D>,
+        [middle, end]: [S; 2],
+    ) -> Result<(), StepFailure> {
+        for ((element, temperature), slot) in loads.temperatures.iter().zip(&self.slots) {
+            let at = |time: S| match temperature(time) {
+                value if is_positive(value) => Ok(value),
+                value => Err(StepFailure::PrescribedTemperature {
+                    element: *element,
+                    value: value.to_f64(),
+                    time: time.to_f64(),
+                }),
+            };
+            if let Some(slot) = *slot {
+                self.prescribed[slot] = Some(Prescribed {
+                    middle: at(middle)?,
+                    end: at(end)?,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn add_weights<const D: usize>(&mut self, loads: &Loads<S, D>, masses: &Masses<S>) {
+        let total = self.total_force.as_chunks_mut::<D>().0;
+        for (node, (total, mass)) in total.iter_mut().zip(masses.iter()).enumerate() {
+            *total = point(&self.force, node);
+            weigh(total, mass.unwrap_or(S::zero()), loads);
+        }
+        for pair in masses.pairs() {
+            for node in pair.nodes() {
+                if let Some(total) = total.get_mut(node) {
+                    weigh(total, pair.mass, loads);
+                }
+            }
+        }
+    }
+}
+
+/// Adds the weight of a mass.
+fn weigh<S: Real, const D: usize>(total: &mut [S; D], mass: S, loads: &Loads<S, D>) {
+    for (total, &acceleration) in total.iter_mut().zip(loads.gravity.iter()) {
+        *total += mass * acceleration;
+    }
+}

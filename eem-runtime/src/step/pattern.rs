@@ -1,0 +1,80 @@
+//! Which entries of the matrices of a step can differ from zero, found once per scene.
+//!
+//! ```text
+//! tangent   displacements of the masses and temperatures Θ that neighbours see; each iteration
+//! secant    one unknown per mass, the same for every axis of space; once per step, D right sides
+//! ```
+//!
+//! Where elements share nothing but nodes, both are the graph of the masses, and the entries of two
+//! masses are a block with one row per axis of space.
+
+use crate::algebra::pattern::Pattern;
+use crate::element::conduction::{Conduction, Partner};
+use crate::element::layout::Layout;
+use crate::number::scalar::Real;
+use crate::scene::entry::ElementEntry;
+
+/// The pattern of the tangent.
+///
+/// The forces of an element depend on its nodes, on its own Θ and on that of its partners, and
+/// so does its own Θ. If there are no Θ, the coordinates of a node are the rows of a block.
+pub(crate) fn of_tangent<S: Real>(
+    elements: &[ElementEntry<S>],
+    layout: &Layout,
+    conduction: &Conduction<S>,
+    dimension: usize,
+) -> Pattern {
+    if layout.coupled.iter().all(Option::is_none)
+        && let Ok(blocks) = of_secant(elements, layout, dimension).in_blocks(dimension)
+    {
+        return blocks;
+    }
+    Pattern::new(layout.unknowns, |pair| {
+        for (entry, slots) in elements.iter().zip(&layout.elements) {
+            let slot = slots.thermal;
+            let own = || {
+                let nodes = entry.nodes.iter().filter_map(|&node| layout.nodes[node]);
+                let positions = nodes.flat_map(|first| first..first + dimension);
+                positions.chain(slot.and_then(|slot| layout.coupled[slot]))
+            };
+            let links = slot.map_or(&[][..], |slot| conduction.links(slot));
+            pair_all(own, pair);
+            for row in own() {
+                for link in links {
+                    if let Partner::Slot(partner) = link.partner
+                        && let Some(column) = layout.coupled[partner]
+                    {
+                        pair(row, column);
+                    }
+                }
+            }
+        }
+    })
+}
+
+/// The pattern of the secant matrix.
+pub(crate) fn of_secant<S>(
+    elements: &[ElementEntry<S>],
+    layout: &Layout,
+    dimension: usize,
+) -> Pattern {
+    let masses = layout.nodes.iter().flatten().count();
+    Pattern::new(masses, |pair| {
+        for entry in elements {
+            let masses = || {
+                let nodes = entry.nodes.iter().filter_map(|&node| layout.nodes[node]);
+                nodes.map(|first| first / dimension)
+            };
+            pair_all(masses, pair);
+        }
+    })
+}
+
+/// Names every pair of some unknowns.
+fn pair_all<I: Iterator<Item = usize>>(own: impl Fn() -> I, pair: &mut dyn FnMut(usize, usize)) {
+    for row in own() {
+        own()
+            .filter(|&column| column < row)
+            .for_each(|column| pair(row, column));
+    }
+}

@@ -1,0 +1,283 @@
+//! The time integration schemes, a row of data each.
+
+use core::fmt;
+use core::str::FromStr;
+
+use crate::element::conjugates::Conjugates;
+use crate::element::tableau::{Tableau, UnknownSet};
+use crate::step::rule::{gauss_4, variational_4};
+
+/// The time integration schemes.
+///
+/// | scheme | first law | second law | momenta | order |
+/// |---|---|---|---|---|
+/// | `EemEntropy` | exact | exact | exact | 2 |
+/// | `EemTemperature` | exact | exact | exact | 2 |
+/// | `Variational` | bounded | in practice | exact | 2 |
+/// | `Variational4` | bounded | exact | exact | 4 |
+/// | `Staggered` | exact | exact | exact | 1 |
+/// | `Midpoint` | no | no | exact | 2 |
+/// | `MidpointTemperature` | no | no | exact | 2 |
+/// | `Trapezoidal`, `TrapezoidalTemperature` | no | no | no | 2 |
+/// | `Gauss4` | no | no | nearly | 4 |
+///
+/// "Exact" is to rounding, at every step and for any step size: a step that does not prove it is an error,
+/// see [`StepReport::defect`](crate::StepReport::defect). `Variational4` is stable where vibrations
+/// are resolved, `ωh < √8`; it solves for twice as many unknowns.
+///
+/// ```
+/// use eem_runtime::Scheme;
+///
+/// assert_eq!(Scheme::EemEntropy.name(), "eem-entropy");
+/// assert!(Scheme::ALL.iter().all(|scheme| scheme.to_string().parse() == Ok(*scheme)));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Scheme {
+    /// Energy–entropy–momentum scheme in entropy form (García Orden & Romero 2012, eqs. 25–28).
+    EemEntropy,
+    /// Energy–entropy–momentum scheme in temperature form (Conde Martín, Betsch & García Orden
+    /// 2016, eqs. 37–39).
+    EemTemperature,
+    /// Variational integrator with thermacies (Kern, Romero, Conde Martín & García Orden 2021,
+    /// §III.A).
+    Variational,
+    /// Variational integrator of fourth order, by Simpson's rule (as above, eqs. 21–24).
+    Variational4,
+    /// Fractional step, mechanics and then heat (Romero 2010, part II).
+    Staggered,
+    /// Implicit midpoint rule on positions, momenta, viscous stretches and entropies.
+    Midpoint,
+    /// Implicit midpoint rule on positions, momenta, viscous stretches and temperatures.
+    MidpointTemperature,
+    /// Trapezoidal rule on positions, momenta, viscous stretches and entropies.
+    Trapezoidal,
+    /// Trapezoidal rule on positions, momenta, viscous stretches and temperatures.
+    TrapezoidalTemperature,
+    /// Gauss collocation of two stages on positions, momenta, viscous stretches and entropies.
+    Gauss4,
+}
+
+impl Scheme {
+    /// All schemes.
+    pub const ALL: [Self; 10] = [
+        Self::EemEntropy,
+        Self::EemTemperature,
+        Self::Variational,
+        Self::Variational4,
+        Self::Staggered,
+        Self::Midpoint,
+        Self::MidpointTemperature,
+        Self::Trapezoidal,
+        Self::TrapezoidalTemperature,
+        Self::Gauss4,
+    ];
+
+    /// The name used on command lines and in files.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        self.rule().name
+    }
+
+    /// The scheme of this name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|scheme| scheme.name() == name)
+    }
+}
+
+impl fmt::Display for Scheme {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// There is no scheme of this name; the message lists those there are.
+///
+/// ```
+/// use eem_runtime::Scheme;
+///
+/// assert_eq!("eem-entropy".parse(), Ok(Scheme::EemEntropy));
+/// let error = "euler".parse::<Scheme>().unwrap_err();
+/// assert!(error.to_string().starts_with("no scheme is named `euler`; there are eem-entropy, "));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no scheme is named `{name}`; there are {}", names())]
+pub struct UnknownScheme {
+    /// What was asked for.
+    pub name: String,
+}
+
+fn names() -> String {
+    Scheme::ALL.map(Scheme::name).join(", ")
+}
+
+impl FromStr for Scheme {
+    type Err = UnknownScheme;
+
+    fn from_str(name: &str) -> Result<Self, UnknownScheme> {
+        Self::from_name(name).ok_or_else(|| UnknownScheme {
+            name: name.to_owned(),
+        })
+    }
+}
+
+/// How the end of a step follows from what Newton's method has found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Closing {
+    /// From the increments: `Δp = (2m/h) Δq − 2p⁰`.
+    Increments,
+    /// The force at the start gives the displacements, the force at the end the momenta.
+    Start,
+    /// As the [`Tableau`] says.
+    Stages,
+}
+
+/// What a scheme is.
+struct Rule {
+    name: &'static str,
+    conjugates: Conjugates,
+    closing: Closing,
+    /// See [`Scheme::is_exact`].
+    is_exact: bool,
+    /// See [`Scheme::foretells_its_start`].
+    is_ordinary: bool,
+}
+
+impl Rule {
+    const fn exact(name: &'static str, conjugates: Conjugates) -> Self {
+        Self {
+            name,
+            conjugates,
+            closing: Closing::Increments,
+            is_exact: true,
+            is_ordinary: false,
+        }
+    }
+
+    const fn ordinary(name: &'static str, conjugates: Conjugates) -> Self {
+        Self {
+            name,
+            conjugates,
+            closing: Closing::Increments,
+            is_exact: false,
+            is_ordinary: true,
+        }
+    }
+
+    const fn variational(name: &'static str, conjugates: Conjugates) -> Self {
+        Self {
+            name,
+            conjugates,
+            closing: Closing::Start,
+            is_exact: false,
+            is_ordinary: false,
+        }
+    }
+
+    const fn closed_by_stages(self) -> Self {
+        Self {
+            closing: Closing::Stages,
+            ..self
+        }
+    }
+}
+
+impl Scheme {
+    const fn rule(self) -> Rule {
+        use Conjugates::{End, EndTemperature, EntropyForm, MeanMeasures, Stages, TemperatureForm};
+        match self {
+            Self::EemEntropy => Rule::exact("eem-entropy", EntropyForm),
+            Self::EemTemperature => Rule::exact("eem-temperature", TemperatureForm),
+            Self::Staggered => Rule::exact("staggered", EntropyForm),
+            Self::Variational => Rule::variational("variational", MeanMeasures),
+            Self::Variational4 => {
+                Rule::variational("variational-4", Stages(&variational_4::TABLEAU))
+                    .closed_by_stages()
+            }
+            Self::Midpoint => Rule::ordinary("midpoint", Conjugates::Midpoint),
+            Self::MidpointTemperature => {
+                Rule::ordinary("midpoint-temperature", Conjugates::MidpointTemperature)
+            }
+            Self::Trapezoidal => Rule::ordinary("trapezoidal", End),
+            Self::TrapezoidalTemperature => {
+                Rule::ordinary("trapezoidal-temperature", EndTemperature)
+            }
+            Self::Gauss4 => Rule::ordinary("gauss-4", Stages(&gauss_4::TABLEAU)).closed_by_stages(),
+        }
+    }
+
+    /// Where the algorithmic quantities of its elements come from.
+    pub(crate) const fn conjugates(self) -> Conjugates {
+        self.rule().conjugates
+    }
+
+    /// How the end of a step follows from what Newton's method has found.
+    pub(crate) const fn closing(self) -> Closing {
+        self.rule().closing
+    }
+
+    /// Whether every step has to keep energy, entropy and momenta.
+    pub(crate) const fn is_exact(self) -> bool {
+        self.rule().is_exact
+    }
+
+    /// Whether Newton's method starts from a motion under foretold forces, which saves most of an
+    /// iteration. The ordinary rules start at the old state, as ordinary codes do: beyond
+    /// their stable steps it depends on the start which state is found, if any, and so they
+    /// break down where the literature says.
+    pub(crate) const fn foretells_its_start(self) -> bool {
+        !self.rule().is_ordinary
+    }
+
+    /// Whether a solution that is not found at once is followed from a small step on. Not for the
+    /// ordinary rules, for the same reason.
+    pub(crate) const fn follows_its_solution(self) -> bool {
+        !self.rule().is_ordinary
+    }
+
+    /// Whether nodes feel forces that the old state alone decides; see
+    /// [`IMPLICIT`](crate::element::conjugates::ElementScheme::IMPLICIT).
+    pub(crate) const fn has_old_forces(self) -> bool {
+        matches!(
+            self.conjugates(),
+            Conjugates::End | Conjugates::EndTemperature
+        )
+    }
+
+    /// Whether its elements have a
+    /// [starting form](crate::element::conjugates::ElementScheme::starting_form).
+    pub(crate) const fn has_starting_form(self) -> bool {
+        matches!(self.conjugates(), Conjugates::EntropyForm)
+    }
+
+    /// Whether mechanics and heat are stepped one after the other.
+    pub(crate) const fn is_split(self) -> bool {
+        matches!(self, Self::Staggered)
+    }
+
+    /// The numbers of a scheme that goes through stages.
+    pub(crate) const fn tableau(self) -> Option<&'static Tableau> {
+        match self.conjugates() {
+            Conjugates::Stages(rule) => Some(rule),
+            _ => None,
+        }
+    }
+
+    /// The sets of unknowns.
+    pub(crate) fn sets(self) -> Vec<UnknownSet> {
+        let Some(rule) = self.tableau() else {
+            // `(2m/h)(q¹ − q⁰) − 2p⁰ + h F`: twice that of one stage at the end.
+            return vec![UnknownSet {
+                time: 1.0,
+                inertia: 2.0,
+            }];
+        };
+        let sets = (0..rule.sets()).map(|set| {
+            let time = rule.times[rule.stage_of(set)];
+            let inertia = time.recip();
+            UnknownSet { time, inertia }
+        });
+        sets.collect()
+    }
+}

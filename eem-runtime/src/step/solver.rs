@@ -1,0 +1,165 @@
+//! One step of a whole scene: Newton's method until the step that is closed from its trial proves its laws.
+
+mod balance;
+mod begin;
+mod closing;
+mod conclusion;
+mod converge;
+mod coupling;
+mod effort;
+mod iteration;
+mod linearize;
+mod past;
+mod places;
+mod progress;
+mod stages;
+mod starts;
+
+use crate::algebra::system::LinearSystem;
+use crate::element::conduction::Conduction;
+use crate::element::error::StateError;
+use crate::element::group::{Sites, Trial};
+use crate::element::handle::Element;
+use crate::element::layout::Layout;
+use crate::element::loads::StepLoads;
+use crate::element::masses::Masses;
+use crate::element::tableau::{Ending, UnknownSet};
+use crate::number::scalar::Real;
+use crate::scene::entry::ElementEntry;
+use crate::step::pattern;
+use crate::step::scheme::Scheme;
+use balance::Balance;
+use coupling::Coupling;
+
+pub(crate) use effort::Effort;
+use past::Past;
+pub(crate) use past::SavedPast;
+use places::{Seen, moving, seen};
+use stages::Stages;
+
+/// Working memory of a step; nothing in it outlives the step but the forces of the last ones.
+#[derive(Debug)]
+pub(crate) struct Solver<S: Real, const D: usize> {
+    scheme: Scheme,
+    /// The sets of unknowns.
+    sets: Vec<UnknownSet>,
+    /// The nodes that move, in the order of their unknowns, set after set.
+    nodes: Vec<Balance<S, D>>,
+    /// The masses that couple them.
+    coupling: Coupling<S, D>,
+    /// The temperatures that neighbours see, set after set.
+    seen: Vec<Seen>,
+    /// The system of an iteration.
+    tangent: LinearSystem<S, 1>,
+    trial: Trial<S, D>,
+    /// What only a scheme with stages needs.
+    stages: Option<Stages<S, D>>,
+    /// The part of the nodal forces that the old state and the loads decide, N; empty where nothing has
+    /// a part in it.
+    old_force: Vec<[S; D]>,
+    past: Past<S, D>,
+    /// The reciprocal of the unit of length of each node that moves: its shortest element in the old
+    /// state; 1 m without.
+    per_length: Vec<S>,
+    /// An attempt may be given up early.
+    has_other_starts: bool,
+    /// The nodes that are anchors.
+    anchors: Vec<usize>,
+    /// The magnitude of what the forces on each node are computed from, N s; empty unless it has been
+    /// asked for.
+    magnitudes: Vec<S>,
+    /// The largest residual of the momentum balances where the step was closed, N s.
+    final_residual: S,
+    /// What kept the last update from being applied in full.
+    obstacle: Option<StateError>,
+    /// The element whose own energy balance was off by most when it was last asked.
+    worst: Option<Element>,
+}
+
+impl<S: Real, const D: usize> Solver<S, D> {
+    pub(crate) fn new(
+        scheme: Scheme,
+        masses: &Masses<S>,
+        elements: &[ElementEntry<S>],
+        layout: &Layout,
+        conduction: &Conduction<S>,
+        loads: &StepLoads<S>,
+    ) -> Self {
+        // Those of stages are taken where the stages are.
+        let has_loads = loads.has_total_force() && scheme.tableau().is_none();
+        let has_old_force = scheme.has_old_forces() || has_loads;
+        let sets = scheme.sets();
+        let mut pattern = pattern::of_tangent(elements, layout, conduction, D);
+        if sets.len() > 1 {
+            pattern = pattern.repeated(sets.len());
+        }
+        let tangent = LinearSystem::new(&pattern, D);
+        let stages = scheme.tableau().map(|rule| {
+            let secant = matches!(rule.ending, Ending::StageByStage)
+                .then(|| LinearSystem::new(&pattern::of_secant(elements, layout, D), 1));
+            Stages::new(rule, secant, masses.len())
+        });
+        let sites = Sites {
+            layout,
+            conduction,
+            tangent: &tangent,
+            secant: stages.as_ref().and_then(|stages| stages.secant.as_ref()),
+            sets: [0; 2],
+        };
+        let (mut nodes, mut all_seen) = (Vec::new(), Vec::new());
+        for set in 0..sets.len() {
+            let sites = sites.of_sets([set, set]);
+            nodes.extend(moving(masses, &sites).into_iter().map(Balance::new));
+            all_seen.extend(seen(&sites));
+        }
+        let coupling = Coupling::new(masses, &sites);
+        // Without conduction between elements no temperature is seen.
+        let slots = if all_seen.is_empty() {
+            0
+        } else {
+            layout.thermal
+        };
+        Self {
+            scheme,
+            past: Past::none(masses.len()),
+            nodes,
+            coupling,
+            seen: all_seen,
+            tangent,
+            trial: Trial::new(sets.len(), masses.len(), slots),
+            sets,
+            stages,
+            old_force: vec![[S::zero(); D]; if has_old_force { masses.len() } else { 0 }],
+            per_length: vec![S::one(); masses.len()],
+            has_other_starts: false,
+            anchors: masses.anchors().collect(),
+            magnitudes: Vec::with_capacity(if scheme.is_exact() { masses.len() } else { 0 }),
+            final_residual: S::zero(),
+            obstacle: None,
+            worst: None,
+        }
+    }
+
+    /// Number of sets of unknowns.
+    pub(crate) const fn sets(&self) -> usize {
+        self.sets.len()
+    }
+
+    /// Where elements write.
+    pub(crate) fn sites<'a>(
+        &'a self,
+        layout: &'a Layout,
+        conduction: &'a Conduction<S>,
+    ) -> Sites<'a, S, D> {
+        Sites {
+            layout,
+            conduction,
+            tangent: &self.tangent,
+            secant: self
+                .stages
+                .as_ref()
+                .and_then(|stages| stages.secant.as_ref()),
+            sets: [0; 2],
+        }
+    }
+}

@@ -1,0 +1,246 @@
+//! Where Newton's method starts.
+//!
+//! ```text
+//! q¹ = q⁰ + (h/m)(p⁰ + ½h F)      F: the mean force of the step, foretold from those of the last ones
+//! ```
+
+use core::array;
+use core::ops::Range;
+
+use super::Solver;
+use super::balance::Balance;
+use super::places::Seen;
+use crate::element::group::{Group, Old, StepView, points};
+use crate::element::loads::StepLoads;
+use crate::element::tableau::MOST_SETS;
+use crate::number::scalar::{Mask, Real};
+use crate::step::error::StepFailure;
+use crate::step::scheme::Scheme;
+use crate::step::solver::past::SavedPast;
+
+/// Where a trial starts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Start {
+    /// Where the scheme starts: at a foretold motion, or at the old state.
+    Foretold,
+    /// At the old state.
+    Rest,
+}
+
+impl<S: Real, const D: usize> Solver<S, D> {
+    /// Starts at the old state, or at a foretold motion away from it if the scheme wants one.
+    pub(super) fn begin(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        start: Start,
+    ) -> Result<(), StepFailure> {
+        for (node, force) in self.old_force.iter_mut().enumerate() {
+            *force = view.loads.total_force(node).map(|load: S| -load);
+        }
+        self.per_length.fill(S::MAX);
+        let mut old = Old {
+            force: &mut self.old_force,
+            lengths: &mut self.per_length,
+        };
+        for group in groups.iter_mut() {
+            group.begin(view, &mut old)?;
+        }
+        self.place_moved_anchors(view);
+        self.start(view, start);
+        Ok(())
+    }
+
+    /// Inertia and impulses that do not change during the step.
+    pub(super) fn weigh(&mut self, view: &StepView<'_, S>) {
+        let moving = self.moving();
+        for (set, nodes) in self.nodes.chunks_mut(moving).enumerate() {
+            let time = S::from_f64(self.sets[set].time);
+            for node in nodes {
+                let at = node.place.node();
+                let force = force_of_set(self.scheme, set, at, (&self.old_force, view.stages));
+                node.weigh(view, time, force);
+            }
+        }
+    }
+
+    /// How many nodes move.
+    #[inline]
+    pub(super) fn moving(&self) -> usize {
+        // No chunk is empty.
+        (self.nodes.len() / self.sets.len()).max(1)
+    }
+
+    /// Where the nodes of a set of unknowns are among all.
+    pub(super) fn range_of_set(&self, set: usize) -> Range<usize> {
+        let count = self.nodes.len() / self.sets.len();
+        set * count..(set + 1) * count
+    }
+
+    /// The nodes of a set of unknowns.
+    pub(super) fn nodes_of_set(&self, set: usize) -> &[Balance<S, D>] {
+        &self.nodes[self.range_of_set(set)]
+    }
+
+    /// How many rows each set of unknowns has.
+    #[inline]
+    pub(super) fn rows_per_set(&self) -> usize {
+        self.tangent.unknowns() / self.sets.len()
+    }
+
+    /// The inertia of 1 kg in the rows of each set: 2/h with one set, 1/s.
+    #[inline]
+    pub(super) fn inertias(&self, view: &StepView<'_, S>) -> [S; MOST_SETS] {
+        let mut inertias = [S::zero(); MOST_SETS];
+        for (inertia, set) in inertias.iter_mut().zip(&self.sets) {
+            *inertia = S::from_f64(set.inertia) * view.per_step;
+        }
+        inertias
+    }
+
+    /// Anchors that are moved are where the step will have moved them.
+    fn place_moved_anchors(&mut self, view: &StepView<'_, S>) {
+        for set in 0..self.sets.len() {
+            let loads = match self.scheme.tableau() {
+                Some(rule) => &view.stages[rule.stage_of(set)],
+                None => view.loads,
+            };
+            let first = self.trial.first_of_set(set);
+            for &node in &view.loads.moved {
+                self.trial.displacements[first + node] = if view.phase.moves() {
+                    loads.motion(node)
+                } else {
+                    [S::zero(); D]
+                };
+            }
+        }
+    }
+
+    /// Moving nodes are where they are foretold, seen temperatures where they were.
+    fn start(&mut self, view: &StepView<'_, S>, start: Start) {
+        self.trial.settled = S::Mask::none();
+        let is_coupled = !self.coupling.is_none();
+        let momenta = points::<S, D>(view.state.momenta.values());
+        let (moving, per_set) = (self.moving(), self.rows_per_set());
+        let inertia = self.inertias(view);
+        let (values, right, solution) = self.tangent.renew();
+        for &Seen {
+            slot,
+            in_trial,
+            row,
+        } in &self.seen
+        {
+            self.trial.seen.set(in_trial, view.state.temperatures[slot]);
+            (right[row], solution[row]) = ([S::zero()], [S::zero()]);
+        }
+        let is_foretold =
+            start == Start::Foretold && view.phase.moves() && self.scheme.foretells_its_start();
+        let half_step = S::from_f64(0.5) * view.step;
+        let forecast = self.past.forecast();
+        for (set, nodes) in self.nodes.chunks_mut(moving).enumerate() {
+            let first = set * per_set;
+            let time = S::from_f64(self.sets[set].time);
+            let rows = right[first..].as_flattened_mut().as_chunks_mut::<D>().0;
+            // The way from the old state is the first correction.
+            let changes = solution[first..].as_flattened_mut();
+            let changes = changes.as_chunks_mut::<D>().0;
+            for ((node, rows), change) in nodes.iter_mut().zip(rows).zip(changes) {
+                let (at, trial) = (node.place.node(), node.place.in_trial());
+                let force = force_of_set(self.scheme, set, at, (&self.old_force, view.stages));
+                node.weigh(view, time, force);
+                if set == 0 {
+                    let per_length = &mut self.per_length[at];
+                    *per_length = inverse_length(*per_length);
+                }
+                let mut displacement = [S::zero(); D];
+                if is_foretold && is_coupled {
+                    displacement = node.flight;
+                } else if is_foretold {
+                    let momentum = &momenta[at];
+                    let (force, mobility) =
+                        (forecast.of(at), time * view.step * node.place.per_mass);
+                    displacement = array::from_fn(|axis| {
+                        mobility * (momentum[axis] + half_step * force[axis])
+                    });
+                }
+                (self.trial.displacements[trial], *change) = (displacement, displacement);
+                let rest = [S::zero(); D];
+                self.trial.rests[trial] = rest;
+                node.balance([&displacement, &rest], inertia[set], values, rows);
+            }
+        }
+        self.couple(view);
+    }
+
+    /// Adds the inertia of masses that couple nodes to the system of an iteration.
+    #[inline]
+    pub(super) fn couple(&mut self, view: &StepView<'_, S>) {
+        if self.coupling.is_none() {
+            return;
+        }
+        let [inertia, ..] = self.inertias(view);
+        let (values, right) = self.tangent.parts();
+        let nodes = (&self.nodes[..], &self.trial);
+        self.coupling.balance(nodes, inertia, values, right);
+    }
+
+    /// Takes back what the last step left for the next ones.
+    pub(crate) fn undo(&mut self) {
+        if self.scheme.foretells_its_start() {
+            self.past.forget();
+        }
+    }
+
+    /// What the start of the next step depends on besides the state.
+    pub(crate) fn past(&self) -> SavedPast<S> {
+        match self.stages {
+            None => self.past.save(),
+            Some(_) => SavedPast::none(),
+        }
+    }
+
+    /// Goes on from a saved past.
+    pub(crate) fn restore(&mut self, past: &SavedPast<S>) {
+        if self.stages.is_none() {
+            self.past.restore(past);
+        }
+    }
+}
+
+/// The reciprocal of a unit of length; that of a node without elements, for which it is the largest
+/// number there is, is 1 m.
+#[inline]
+pub(super) fn inverse_length<S: Real>(length: S) -> S {
+    if length.equal(S::MAX).all() {
+        S::one()
+    } else {
+        length.recip()
+    }
+}
+
+/// The same in the rows of a set of unknowns.
+#[inline]
+fn force_of_set<S: Real, const D: usize>(
+    scheme: Scheme,
+    set: usize,
+    node: usize,
+    (old, stages): (&[[S; D]], &[StepLoads<S>]),
+) -> [S; D] {
+    let Some(rule) = scheme.tableau() else {
+        return old_force(old, node);
+    };
+    let mut force = [S::zero(); D];
+    for (&weight, loads) in rule.positions[set].iter().zip(stages) {
+        let load = loads.total_force::<D>(node);
+        for (force, load) in force.iter_mut().zip(load) {
+            *force -= S::from_f64(weight) * load;
+        }
+    }
+    force
+}
+
+/// The part of the force on a node that old state and loads decide.
+#[inline]
+pub(super) fn old_force<S: Real, const D: usize>(forces: &[[S; D]], node: usize) -> [S; D] {
+    forces.get(node).copied().unwrap_or([S::zero(); D])
+}

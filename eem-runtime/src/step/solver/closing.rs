@@ -1,0 +1,358 @@
+//! The end of a step: the new state from the increments that were found, and its certificate.
+
+mod stages;
+
+use core::array;
+
+use super::Solver;
+use super::begin::old_force;
+use crate::element::group::{Along, Group, StepView, points};
+use crate::element::recount::Recount;
+use crate::element::state::State;
+use crate::element::tally::{Care, Tally};
+use crate::number::scalar::{Mask, Real};
+use crate::step::certificate::{Certificate, Kept, Motion, NodeStep, Reach, Speeds};
+use crate::step::error::StepFailure;
+use crate::step::newton::Largest;
+use crate::step::scheme::Closing;
+
+impl<S: Real, const D: usize> Solver<S, D> {
+    /// Writes the new state to `next`, from the increments at which the elements have been evaluated, and
+    /// says what it proves. It may be done again at another trial.
+    pub(super) fn close(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        next: &mut State<S>,
+    ) -> Result<Certificate<S>, StepFailure> {
+        let certificate = self.close_with(Care::Quick, groups, view, next)?;
+        let is_enough = certificate.is_enough();
+        if !self.scheme.is_exact() || is_enough.all() {
+            return Ok(certificate);
+        }
+        let thorough = self.close_thoroughly(groups, view, next)?;
+        Ok(certificate.or(is_enough, &thorough))
+    }
+
+    /// The same with all that rounding explains, and with energies by differences where those by values
+    /// are not sharp enough.
+    #[cold]
+    fn close_thoroughly(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        next: &mut State<S>,
+    ) -> Result<Certificate<S>, StepFailure> {
+        let certificate = self.close_with(Care::Thorough, groups, view, next)?;
+        if certificate.has_enough_energy().all() {
+            return Ok(certificate);
+        }
+        let mut recount = Recount::new();
+        for group in groups.iter() {
+            group.recount([view.state, next], &mut recount);
+        }
+        self.worst = recount.worst();
+        Ok(certificate.recounted(&recount))
+    }
+
+    fn close_with(
+        &mut self,
+        care: Care,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        next: &mut State<S>,
+    ) -> Result<Certificate<S>, StepFailure> {
+        next.copy_books(view.state);
+        if view.phase.heats() {
+            next.time.add(view.step);
+        }
+        let mut tally = Tally::new(care);
+        let mut motion = Motion::new(self.kept(view));
+        if self.stages.is_none() {
+            self.final_residual = S::zero();
+        }
+        if self.scheme.closing() == Closing::Stages {
+            self.move_through_stages(groups, view, next, &mut motion)?;
+        } else if view.phase.moves() {
+            self.find_motion(groups, view, care);
+            self.move_masses(view, next, &mut motion, &mut tally)?;
+            self.move_anchors(view, next, &mut motion);
+        } else {
+            next.positions.copy_from(&view.state.positions);
+            next.momenta.copy_from(&view.state.momenta);
+            next.velocities.copy_from(&view.state.velocities);
+        }
+        for group in groups.iter_mut() {
+            group.close(view, &self.trial, next, &mut tally)?;
+        }
+        let internal = energy_change(&view.conduction.reservoirs, [view.state, next]);
+        let reach = || self.reach(view.step);
+        Ok(Certificate::new(&motion, &tally, internal, reach))
+    }
+
+    /// With the shortest element of each node.
+    fn reach(&self, step: S) -> Reach<S> {
+        let mut reach = Reach::none();
+        for place in self.nodes.iter().map(|node| &node.place) {
+            reach.add(place.mass, step * self.per_length[place.node()]);
+        }
+        reach
+    }
+
+    /// Which momenta the scene keeps.
+    fn kept(&self, view: &StepView<'_, S>) -> Kept<S, D> {
+        if !view.loads.moved.is_empty() || !self.scheme.is_exact() {
+            return Kept::None;
+        }
+        match *self.anchors {
+            [] => Kept::Both,
+            [anchor] => Kept::Angular(points(view.state.positions.values())[anchor]),
+            _ => Kept::None,
+        }
+    }
+
+    /// Impulses, and displacements where they follow from them.
+    fn find_motion(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        care: Care,
+    ) {
+        self.magnitudes.clear();
+        if care == Care::Thorough {
+            self.magnitudes.resize(self.per_length.len(), S::zero());
+        }
+        match self.scheme.closing() {
+            Closing::Increments if self.scheme.has_old_forces() => {
+                self.find_impulse(groups, view, Along::Scheme);
+            }
+            Closing::Increments => self.find_impulse(groups, view, Along::Secant),
+            Closing::Start => {
+                self.find_impulse(groups, view, Along::Scheme);
+                self.move_from_start(groups, view);
+            }
+            Closing::Stages => {}
+        }
+    }
+
+    /// New positions and momenta, all finite. The impulses of the elements are replaced by those of the
+    /// increments, judged beside them, and remembered as forces.
+    fn move_masses(
+        &mut self,
+        view: &StepView<'_, S>,
+        next: &mut State<S>,
+        motion: &mut Motion<S, D>,
+        tally: &mut Tally<S>,
+    ) -> Result<(), StepFailure> {
+        if view.loads.has_force() {
+            self.book_work(view, next);
+        }
+        let per_step = view.per_step;
+        let [twice_per_step, ..] = self.inertias(view);
+        let has_load = view.loads.has_total_force();
+        let is_exact = self.scheme.is_exact();
+        let takes_increments = self.scheme.closing() == Closing::Increments;
+        let velocities = points::<S, D>(view.state.velocities.values());
+        let mut largest = Largest::none();
+        let mut remembering = self.past.remember();
+        if !self.coupling.is_none() {
+            let nodes = (&self.nodes[..], &self.trial);
+            self.coupling.find_impulses(nodes, twice_per_step);
+        }
+        for (moving, node) in self.nodes.iter().enumerate() {
+            let at = node.place.node();
+            let (displacement, rest) = (&self.trial.displacements[at], &self.trial.rests[at]);
+            if takes_increments {
+                let coupled = self.coupling.impulse(moving);
+                let impulse = match coupled {
+                    None => node.impulse([displacement, rest], twice_per_step),
+                    Some([impulse, _]) => *impulse,
+                };
+                let found = remembering.impulse_mut(at);
+                for axis in 0..D {
+                    let residual = impulse[axis] - found[axis];
+                    largest.see(residual);
+                    if is_exact {
+                        let inertia = node.place.mass * twice_per_step;
+                        let moved = match coupled {
+                            None => inertia * displacement[axis].abs(),
+                            Some([_, terms]) => terms[axis],
+                        };
+                        let terms = impulse[axis].abs() + moved;
+                        let magnitude = self.magnitudes.get(at).copied();
+                        tally.balance(residual, terms + magnitude.unwrap_or(S::zero()));
+                    }
+                }
+                *found = impulse;
+            }
+            let impulse = remembering.impulse(at);
+            let moved = NodeStep {
+                speeds: match velocities.get(at) {
+                    None => Speeds::OfMass(node.place.per_mass),
+                    Some(velocity) => {
+                        let change = node.change(&self.trial);
+                        Speeds::Given {
+                            old: *velocity,
+                            change: change.map(|change| twice_per_step * change),
+                        }
+                    }
+                },
+                position: &points(view.state.positions.values())[at],
+                momentum: &points(view.state.momenta.values())[at],
+                displacement,
+                impulse,
+            };
+            motion.see(
+                &moved,
+                has_load.then(|| view.loads.total_force(at)).as_ref(),
+                view.step,
+            );
+            if let Speeds::Given { change, .. } = &moved.speeds {
+                let none = [S::zero(); D];
+                let old = &view.state.velocities;
+                next.velocities.advance_point(at, old, [change, &none]);
+            }
+            move_node(at, [displacement, rest, impulse], view.state, next)?;
+            remembering.take(at, per_step, node.place.per_mass);
+        }
+        remembering.finish();
+        self.final_residual = largest.found();
+        next.follow_velocities(D, view.masses);
+        Ok(())
+    }
+
+    fn book_work(&self, view: &StepView<'_, S>, next: &mut State<S>) {
+        for node in &self.nodes {
+            let at = node.place.node();
+            let force = view.loads.force::<D>(at);
+            for (&force, &displacement) in force.iter().zip(&self.trial.displacements[at]) {
+                if !force.equal(S::zero()).all() {
+                    next.work.add(force * displacement);
+                }
+            }
+        }
+    }
+
+    /// New positions of the anchors that are moved, and the work that this takes.
+    fn move_anchors(
+        &mut self,
+        view: &StepView<'_, S>,
+        next: &mut State<S>,
+        motion: &mut Motion<S, D>,
+    ) {
+        let old = &view.state.positions;
+        let mut impulses = self.past.impulses();
+        for &node in &view.loads.moved {
+            for axis in 0..D {
+                let at = node * D + axis;
+                let displacement = self.trial.displacements[node][axis];
+                next.positions.advance(at, old, displacement);
+                // The support bears the impulse of the springs.
+                let support = -impulses.of(node)[axis] / view.step;
+                next.work.add(support * displacement);
+                motion.work(support * displacement);
+            }
+        }
+    }
+
+    /// `−h F` of the found forces.
+    fn find_impulse(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        along: Along,
+    ) {
+        let mut impulses = self.past.impulses();
+        for (node, impulse) in impulses.iter_mut().enumerate() {
+            *impulse = old_force(&self.old_force, node).map(|force| -view.step * force);
+        }
+        for group in groups.iter_mut() {
+            let magnitudes = &mut self.magnitudes;
+            group.add_impulse(view, &self.trial, along, &mut impulses, magnitudes);
+        }
+    }
+
+    /// `Δq = (h/m)(p⁰ − ½h F⁰)`, `Δp = −½h (F⁰ + F¹)`, where F¹ acts along the gradient at q¹.
+    fn move_from_start(&mut self, groups: &mut [Box<dyn Group<S, D>>], view: &StepView<'_, S>) {
+        let half = S::from_f64(0.5);
+        let p0 = points::<S, D>(view.state.momenta.values());
+        let mut impulses = self.past.impulses();
+        for node in &self.nodes {
+            let at = node.place.node();
+            self.trial.rests[at] = [S::zero(); D];
+            let mobility = view.step * node.place.per_mass;
+            let impulse = impulses.of(at);
+            let displacement =
+                array::from_fn(|axis| mobility * (p0[at][axis] + half * impulse[axis]));
+            self.trial.displacements[at] = displacement;
+        }
+        for group in groups.iter_mut() {
+            group.add_impulse(view, &self.trial, Along::Gradient, &mut impulses, &mut []);
+        }
+        for (node, impulse) in impulses.iter_mut().enumerate() {
+            let force = old_force(&self.old_force, node);
+            *impulse = array::from_fn(|axis| half * (impulse[axis] - view.step * force[axis]));
+        }
+    }
+}
+
+/// `Σ Δe + Σ θ_r Δσ_r + heat lost − heat`, and the magnitude of its terms, J.
+pub(super) fn energy_change<S: Real>(reservoirs: &[S], [old, next]: [&State<S>; 2]) -> [S; 2] {
+    let (mut change, mut magnitude) = (S::zero(), S::zero());
+    for (old, new) in old.energies.iter().zip(&next.energies) {
+        change += new.value - old.value;
+        magnitude += old.magnitude + new.magnitude;
+    }
+    for (index, &theta) in reservoirs.iter().enumerate() {
+        let sums = &next.reservoir_entropies;
+        change += theta * sums.change(index, &old.reservoir_entropies);
+    }
+    let heat = next.heat.change(old.heat);
+    change += next.dissipated.change(old.dissipated) - heat;
+    [change, magnitude + heat.abs()]
+}
+
+/// The new position and the new momentum of a node, all finite, from its displacement and impulse.
+#[inline]
+pub(super) fn move_node<S: Real, const D: usize>(
+    node: usize,
+    [displacement, rest, impulse]: [&[S; D]; 3],
+    old: &State<S>,
+    next: &mut State<S>,
+) -> Result<(), StepFailure> {
+    let by_position = next
+        .positions
+        .advance_point(node, &old.positions, [displacement, rest]);
+    let none = [S::zero(); D];
+    let by_momentum = next
+        .momenta
+        .advance_point(node, &old.momenta, [impulse, &none]);
+    // What rounding takes from a sum is a number only if the sum is one.
+    if (by_position + by_momentum).is_finite() {
+        return Ok(());
+    }
+    find_unbounded::<S, D>(node, next)
+}
+
+/// The error with the first coordinate of a node that is no finite number.
+#[cold]
+fn find_unbounded<S: Real, const D: usize>(
+    node: usize,
+    state: &State<S>,
+) -> Result<(), StepFailure> {
+    for axis in 0..D {
+        let at = node * D + axis;
+        let values = [state.positions.values()[at], state.momenta.values()[at]];
+        for (quantity, value) in ["position", "momentum"].into_iter().zip(values) {
+            if !value.is_finite() {
+                return Err(StepFailure::Unbounded {
+                    node,
+                    axis,
+                    quantity,
+                    value: value.to_f64(),
+                });
+            }
+        }
+    }
+    Ok(())
+}

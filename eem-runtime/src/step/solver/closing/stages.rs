@@ -1,0 +1,208 @@
+//! The end of a step through stages: positions and momenta from the forces that were found there.
+
+use core::array;
+
+use crate::element::group::{Along, Group, StepView, points};
+use crate::element::impulse::Impulses;
+use crate::element::state::State;
+use crate::element::tableau::Ending;
+use crate::number::scalar::Real;
+use crate::step::certificate::{Motion, NodeStep, Speeds};
+use crate::step::error::StepFailure;
+use crate::step::solver::Solver;
+use crate::step::solver::closing::move_node;
+use crate::step::solver::stages::Stages;
+
+impl<S: Real, const D: usize> Solver<S, D> {
+    /// New positions and momenta, all finite, and the work of loads and supports.
+    pub(super) fn move_through_stages(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        next: &mut State<S>,
+        motion: &mut Motion<S, D>,
+    ) -> Result<(), StepFailure> {
+        let Some(mut stages) = self.stages.take() else {
+            return Ok(());
+        };
+        let found = self.find_stages(&mut stages, groups, view);
+        let moved = found.and_then(|()| self.move_to_end(&stages, view, next, motion));
+        self.stages = Some(stages);
+        moved
+    }
+
+    /// The impulses of all stages, and the displacements at the end of the step.
+    fn find_stages(
+        &mut self,
+        stages: &mut Stages<S, D>,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+    ) -> Result<(), StepFailure> {
+        let rule = stages.rule;
+        for stage in 0..rule.stages() {
+            if matches!(rule.ending, Ending::StageByStage)
+                && let Some(set) = rule.set_of(stage)
+            {
+                if rule.positions[set][stage] == 0.0 {
+                    self.move_to_stage(stages, view, set);
+                } else {
+                    self.solve_for_stage(stages, groups, view, set)?;
+                }
+            }
+            let mut impulses = Impulses::new(&mut stages.impulses, stage);
+            for (node, impulse) in impulses.iter_mut().enumerate() {
+                let load = view.stages[stage].total_force::<D>(node);
+                *impulse = load.map(|load| view.step * load);
+            }
+            for group in groups.iter_mut() {
+                let along = Along::Stage(stage);
+                group.add_impulse(view, &self.trial, along, &mut impulses, &mut []);
+            }
+        }
+        let momenta = points::<S, D>(view.state.momenta.values());
+        for mass in self.nodes_of_set(0).iter().map(|node| &node.place) {
+            let node = mass.node();
+            stages.ends[node] = match rule.ending {
+                Ending::StageByStage => self.trial.displacements_of_set(rule.sets() - 1)[node],
+                Ending::Forces(weights) => {
+                    let (impulse, mobility) =
+                        (stages.combined(node, weights), view.step * mass.per_mass);
+                    array::from_fn(|axis| mobility * (momenta[node][axis] + impulse[axis]))
+                }
+            };
+        }
+        Ok(())
+    }
+
+    /// `q_i − q⁰ = c (h/m)(p⁰ + Σ_j w_j h G_j)` with the total forces G of the stages before.
+    fn move_to_stage(&mut self, stages: &Stages<S, D>, view: &StepView<'_, S>, set: usize) {
+        let weights = stages.rule.positions[set];
+        let time = S::from_f64(self.sets[set].time);
+        let momenta = points::<S, D>(view.state.momenta.values());
+        for at in self.range_of_set(set) {
+            let mass = self.nodes[at].place;
+            let (momentum, impulse) =
+                (&momenta[mass.node()], stages.combined(mass.node(), weights));
+            let mobility = time * view.step * mass.per_mass;
+            let displacement = array::from_fn(|axis| mobility * (momentum[axis] + impulse[axis]));
+            self.place(mass.in_trial(), displacement);
+        }
+    }
+
+    /// `(m/(ch) + h w A)(q_i − q⁰) = p⁰ + Σ_{j<i} w_j h G_j + h w (load − A q⁰)`, where `A q_i` is the force found
+    /// at the stage.
+    fn solve_for_stage(
+        &mut self,
+        stages: &mut Stages<S, D>,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        set: usize,
+    ) -> Result<(), StepFailure> {
+        let Some(mut secant) = stages.secant.take() else {
+            return Ok(());
+        };
+        secant.clear();
+        for group in groups.iter_mut() {
+            group.add_secant(set, view, &self.trial, &mut secant);
+        }
+        let rule = stages.rule;
+        let own = rule.stage_of(set);
+        let (before, weight) = (
+            &rule.positions[set][..own],
+            view.step * S::from_f64(rule.positions[set][own]),
+        );
+        let momenta = points::<S, D>(view.state.momenta.values());
+        let inertia = self.inertias(view)[set];
+        let nodes = self.nodes_of_set(set);
+        let (values, right) = secant.parts();
+        for (mass, right) in nodes.iter().map(|node| &node.place).zip(right) {
+            values[mass.secant_diagonal()] += inertia * mass.mass;
+            let node = mass.node();
+            let impulse = stages.combined(node, before);
+            let load = view.stages[own].total_force::<D>(node);
+            for (axis, right) in right.iter_mut().enumerate() {
+                *right += momenta[node][axis] + impulse[axis] + weight * load[axis];
+            }
+        }
+        let solved = secant.solve();
+        if solved.is_ok() {
+            for (at, &displacement) in self.range_of_set(set).zip(secant.solution()) {
+                self.place(self.nodes[at].place.in_trial(), displacement);
+            }
+        }
+        stages.secant = Some(secant);
+        solved.map_err(|_| StepFailure::SingularTangent)
+    }
+
+    /// Puts a node of a set somewhere else.
+    fn place(&mut self, in_trial: usize, displacement: [S; D]) {
+        self.trial.displacements[in_trial] = displacement;
+        self.trial.rests[in_trial] = [S::zero(); D];
+    }
+
+    fn move_to_end(
+        &self,
+        stages: &Stages<S, D>,
+        view: &StepView<'_, S>,
+        next: &mut State<S>,
+        motion: &mut Motion<S, D>,
+    ) -> Result<(), StepFailure> {
+        let none = [S::zero(); D];
+        for mass in self.nodes_of_set(0).iter().map(|node| &node.place) {
+            let node = mass.node();
+            let displacement = &stages.ends[node];
+            let impulse = stages.combined(node, stages.rule.weights);
+            move_node(node, [displacement, &none, &impulse], view.state, next)?;
+            for axis in 0..D {
+                let load = |stage: usize| view.stages[stage].force::<D>(node)[axis];
+                next.work.add(self.work(stages, node, axis, load));
+            }
+            let moved = NodeStep {
+                speeds: Speeds::OfMass(mass.per_mass),
+                position: &points(view.state.positions.values())[node],
+                momentum: &points(view.state.momenta.values())[node],
+                displacement,
+                impulse: &impulse,
+            };
+            let (total, load) = (
+                view.stages[0].total_force::<D>(node),
+                view.stages[0].force::<D>(node),
+            );
+            let weight = array::from_fn(|axis| total[axis] - load[axis]);
+            motion.see(&moved, Some(&weight), view.step);
+        }
+        for &node in &view.loads.moved {
+            let displacement = view.loads.motion::<D>(node);
+            for (axis, displacement) in displacement.into_iter().enumerate() {
+                let old = &view.state.positions;
+                next.positions.advance(node * D + axis, old, displacement);
+                // The support bears the forces of the springs.
+                let support = |stage: usize| -stages.impulses[node][stage][axis] * view.per_step;
+                next.work.add(self.work(stages, node, axis, support));
+            }
+        }
+        motion.work(next.work.change(view.state.work));
+        Ok(())
+    }
+
+    /// `h Σ b_i f_i v_i` of a coordinate, with the velocities that the rule gives to the stages, J.
+    fn work(
+        &self,
+        stages: &Stages<S, D>,
+        node: usize,
+        axis: usize,
+        force: impl Fn(usize) -> S,
+    ) -> S {
+        let rule = stages.rule;
+        let mut work = S::zero();
+        for (stage, (&weight, shares)) in rule.weights.iter().zip(rule.motion).enumerate() {
+            let mut motion = S::zero();
+            for (set, &share) in shares.iter().enumerate() {
+                let displacement = self.trial.displacements_of_set(set)[node][axis];
+                motion += S::from_f64(share) * displacement;
+            }
+            work += S::from_f64(weight) * force(stage) * motion;
+        }
+        work
+    }
+}

@@ -1,0 +1,192 @@
+//! Newton's method from a trial state until a step that is closed there proves its laws.
+
+use super::Solver;
+use super::effort::Effort;
+use super::progress::{Conclusion, Progress, Target};
+use crate::element::error::StateError;
+use crate::element::group::{Group, StepView};
+use crate::number::scalar::{Mask, Real, natural_power};
+use crate::step::certificate::Certificate;
+use crate::step::error::StepFailure;
+use crate::step::newton::{NewtonSettings, is_last};
+
+/// How often an update is halved to bring all elements back to admissible states.
+const HALVINGS: u32 = 30;
+
+impl<S: Real, const D: usize> Solver<S, D> {
+    /// Newton's method from the trial state. Where S is several numbers, those that are done keep
+    /// what they have found until the last one is.
+    ///
+    /// A step is taken at a trial where the elements have been evaluated, when the last update is small
+    /// and what is closed from there proves its laws. Otherwise the iteration goes on until rounding
+    /// stops it.
+    pub(super) fn converge(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        effort: &mut Effort<S>,
+        target: &mut Target<'_, S>,
+    ) -> Result<Option<Certificate<S>>, StepFailure> {
+        let NewtonSettings {
+            max_iterations,
+            tolerance,
+        } = effort.settings;
+        let tolerance = self.coupling.tolerance(target.tolerance(tolerance));
+        let mut before = None;
+        let mut purpose = Purpose::Iterate;
+        let mut progress = Progress::new();
+        // Those that are done, and those for which the next look is the last.
+        let (mut settled, mut last) = (S::Mask::none(), S::Mask::none());
+        for left in (0..=max_iterations).rev() {
+            let is_full = self.advance(groups, view, purpose)?;
+            if is_full && purpose == Purpose::Close {
+                match self.conclude(groups, view, target, &mut progress) {
+                    Conclusion::Found(certificate) => {
+                        effort.conclude(self.final_residual);
+                        return Ok(certificate);
+                    }
+                    Conclusion::Refused(failure) => return Err(failure),
+                    Conclusion::Open(is_enough) => {
+                        settled = self.settle(is_enough);
+                        last = S::Mask::none();
+                        before = effort.history.last().map(|last| last.update);
+                        self.linearize_again(groups, view)?;
+                    }
+                }
+            }
+            settled = self.settle(settled | last);
+            if left == 0 {
+                break;
+            }
+            let update = self.iterate(groups, view, effort, settled)?;
+            if !update.is_finite() {
+                break;
+            }
+            let previous = before.replace(update).filter(|_| is_full);
+            purpose = Purpose::Iterate;
+            let ends = is_last(update, previous, tolerance) & !settled;
+            let is_stuck = self.scheme.is_exact() && progress.is_stuck(update, previous, settled);
+            if S::LANES > 1 && is_stuck {
+                // Alone, some of them might go on from here otherwise than others.
+                break;
+            }
+            if self.has_other_starts && progress.is_hopeless() {
+                break;
+            }
+            last = ends;
+            if is_stuck || (ends.any() && (settled | last).all()) {
+                purpose = Purpose::Close;
+            }
+        }
+        Err(self.not_converged(before))
+    }
+
+    /// Why there is no solution: what kept the last update from being applied, or its size.
+    #[cold]
+    fn not_converged(&mut self, update: Option<S>) -> StepFailure {
+        match self.obstacle.take() {
+            Some(obstacle) => obstacle.into(),
+            None => StepFailure::NotConverged {
+                update: update.map_or(f64::NAN, Real::to_f64),
+            },
+        }
+    }
+
+    /// Solves the system of an iteration and applies its solution; the largest scaled update.
+    #[inline]
+    fn iterate(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        effort: &mut Effort<S>,
+        settled: S::Mask,
+    ) -> Result<S, StepFailure> {
+        self.final_residual = self.residual();
+        let solved = self.tangent.solve();
+        solved.map_err(|_| StepFailure::SingularTangent)?;
+        let update = self.correct(groups, view);
+        effort.note(self.final_residual, update, settled);
+        Ok(update)
+    }
+
+    /// Marks in the trial which of several numbers are done while others are not.
+    #[inline]
+    fn settle(&mut self, settled: S::Mask) -> S::Mask {
+        if S::LANES == 1 {
+            return S::Mask::none();
+        }
+        self.trial.settled = settled;
+        settled
+    }
+
+    /// Evaluates at the trial state, to which the correction has been applied, or as much of it as
+    /// leaves every element in an admissible state. Returns whether that is all of it.
+    #[inline]
+    pub(super) fn advance(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        purpose: Purpose,
+    ) -> Result<bool, StepFailure> {
+        if self.obstacle.is_some() {
+            self.obstacle = None;
+        }
+        let (mut share, mut goes_on) = (S::one(), purpose == Purpose::Iterate);
+        while let Err(error) = self.evaluate(groups, view, goes_on) {
+            share = self.retreat(groups, view, share, error)?;
+            goes_on = true;
+        }
+        Ok(share.equal(S::one()).all())
+    }
+
+    /// Half the share of the correction that failed, applied. Several numbers in one do not go back, as
+    /// some of them need not have failed.
+    #[cold]
+    #[inline(never)]
+    fn retreat(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        share: S,
+        error: StateError,
+    ) -> Result<S, StepFailure> {
+        let half = S::from_f64(0.5);
+        if S::LANES > 1 || share.at_most(natural_power(half, HALVINGS)).all() {
+            return Err(error.into());
+        }
+        self.obstacle = Some(error);
+        let share = half * share;
+        // As much as is left.
+        self.take_back(view, share);
+        for group in groups {
+            group.apply(share);
+        }
+        Ok(share)
+    }
+
+    /// The responses at the trial state, and what they add to the system of the next iteration if there is
+    /// to be one.
+    #[inline]
+    pub(super) fn evaluate(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        goes_on: bool,
+    ) -> Result<(), StateError> {
+        let trial = &self.trial;
+        for group in groups {
+            let system = goes_on.then_some(&mut self.tangent);
+            group.evaluate(view, trial, system)?;
+        }
+        Ok(())
+    }
+}
+
+/// What an evaluation is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Purpose {
+    /// Another iteration.
+    Iterate,
+    /// Closing the step.
+    Close,
+}

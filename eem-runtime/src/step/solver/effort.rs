@@ -1,0 +1,94 @@
+//! How hard a step tries, and what it did.
+
+use crate::number::scalar::{Mask, Real, unless};
+use crate::step::error::NewtonIteration;
+use crate::step::newton::NewtonSettings;
+
+/// Parts of a step through which a solution is followed when it is not found at once.
+pub(super) const CONTINUATION_STEPS: u8 = 8;
+
+/// Iterations for which memory is kept; settings that ask for more allocate when they get there.
+const LONGEST_HISTORY: usize = 4096;
+
+/// How hard a step tries, and what it did.
+#[derive(Debug)]
+pub(crate) struct Effort<S> {
+    pub(crate) settings: NewtonSettings<S>,
+    /// What each iteration of the last step did.
+    pub(crate) history: Vec<Iteration<S>>,
+    /// The largest residual and the largest last update of the phases of the last step.
+    pub(crate) end: Iteration<S>,
+}
+
+/// One iteration of Newton's method.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Iteration<S> {
+    /// The largest momentum residual before the update, N s.
+    pub(crate) residual: S,
+    /// The largest scaled update.
+    pub(crate) update: S,
+}
+
+impl<S: Real> Iteration<S> {
+    /// None.
+    fn none() -> Self {
+        Self {
+            residual: S::zero(),
+            update: S::zero(),
+        }
+    }
+
+    /// The same in double precision.
+    pub(crate) fn to_f64(self) -> NewtonIteration {
+        NewtonIteration {
+            residual: self.residual.to_f64(),
+            update: self.update.to_f64(),
+        }
+    }
+}
+
+impl<S: Real> Effort<S> {
+    /// The usual settings, before the first step.
+    pub(crate) fn new() -> Self {
+        Self {
+            settings: NewtonSettings::default(),
+            history: Vec::new(),
+            end: Iteration::none(),
+        }
+    }
+
+    /// Another iteration; those that had settled before did their last one then.
+    #[inline]
+    pub(crate) fn note(&mut self, residual: S, update: S, settled: S::Mask) {
+        if S::LANES > 1
+            && settled.any()
+            && let Some(last) = self.history.last()
+        {
+            let residual = unless(settled, last.residual, residual);
+            let update = unless(settled, last.update, update);
+            self.history.push(Iteration { residual, update });
+        } else {
+            self.history.push(Iteration { residual, update });
+        }
+    }
+
+    /// Another phase of the step is done, with this residual after the last update.
+    #[inline]
+    pub(crate) fn conclude(&mut self, residual: S) {
+        let update = self.history.last().map_or(S::zero(), |last| last.update);
+        self.end = Iteration {
+            residual: self.end.residual.maximum(residual),
+            update: self.end.update.maximum(update),
+        };
+    }
+
+    /// Forgets the last step.
+    pub(crate) fn restart(&mut self) {
+        // Two parts of a staggered step, each from two starts and through all parts at worst.
+        let parts = 2 * usize::from(CONTINUATION_STEPS + 2);
+        let most = self.settings.max_iterations.saturating_mul(parts);
+        self.end = Iteration::none();
+        self.history.clear();
+        self.history.reserve(most.min(LONGEST_HISTORY));
+    }
+}

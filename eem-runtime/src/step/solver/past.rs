@@ -1,0 +1,260 @@
+//! The forces of the last steps. They decide where Newton's method starts, and nothing else.
+
+use core::array;
+
+use crate::element::impulse::{Impulses, PLACES};
+use crate::number::scalar::Real;
+
+/// What is left of the error of a forecast one step later. Any memory of some steps will do.
+const MEMORY: f64 = 0.875;
+
+/// The forces of the last two steps, and how well they would have been foretold.
+#[derive(Debug)]
+pub(super) struct Past<S, const D: usize> {
+    /// `Δp/h` of the last step and of the one before, N, zero before the first; and the impulse of the
+    /// step that is being closed, N s. Per node; of anchors only the impulse means something.
+    forces: Vec<[[S; D]; PLACES]>,
+    /// Which row of [`TURNS`] says where each of them is.
+    turn: usize,
+    /// By how much each forecast has been wrong, `Σ |ΔF/m|²`, the last steps counting most.
+    errors: [S; 3],
+    /// The same before the last step.
+    errors_before: [S; 3],
+    /// The same after the step that is being closed.
+    errors_after: [S; 3],
+}
+
+/// Where the forces of the last step, of the one before and of the next one are in each turn.
+const TURNS: [[usize; PLACES]; PLACES] = [[0, 2, 1], [1, 0, 2], [2, 1, 0]];
+
+/// How the forces of the next step are foretold.
+#[derive(Debug)]
+pub(super) struct Forecast<'a, S, const D: usize> {
+    forces: &'a [[[S; D]; PLACES]],
+    turn: [usize; PLACES],
+    weights: [S; 2],
+}
+
+impl<S: Real, const D: usize> Forecast<'_, S, D> {
+    /// That on a node.
+    #[inline]
+    pub(super) fn of(&self, node: usize) -> [S; D] {
+        let [last, before, _] = self.turn.map(|step| &self.forces[node][step]);
+        let [by_last, by_before] = self.weights;
+        array::from_fn(|axis| by_last * last[axis] + by_before * before[axis])
+    }
+}
+
+/// Takes the forces of a step, node by node, in the place of its impulses.
+#[derive(Debug)]
+pub(super) struct Remembering<'a, S, const D: usize> {
+    forces: &'a mut [[[S; D]; PLACES]],
+    turn: [usize; PLACES],
+    errors: [S; 3],
+    found: &'a mut [S; 3],
+}
+
+/// The past as it is saved: forces per coordinate, of which those of anchors mean nothing.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
+pub(crate) struct SavedPast<S> {
+    pub(crate) forces: [Vec<S>; 2],
+    pub(crate) errors: [S; 3],
+}
+
+impl<S: Real> SavedPast<S> {
+    /// That of a scheme which has none.
+    pub(crate) fn none() -> Self {
+        Self {
+            forces: [Vec::new(), Vec::new()],
+            errors: [S::zero(); 3],
+        }
+    }
+}
+
+/// How the force of a step is foretold: weights of those of the last step and of the one before.
+///
+/// Not at all, which is free flight; as that of the last step; on the line through both.
+const FORECASTS: [[f64; 2]; 3] = [[0.0, 0.0], [1.0, 0.0], [2.0, -1.0]];
+
+impl<S: Real, const D: usize> Past<S, D> {
+    /// Nothing has happened yet.
+    pub(super) fn none(nodes: usize) -> Self {
+        Self {
+            forces: vec![[[S::zero(); D]; PLACES]; nodes],
+            turn: 0,
+            errors: [S::zero(); 3],
+            errors_before: [S::zero(); 3],
+            errors_after: [S::zero(); 3],
+        }
+    }
+
+    /// The forecast that has been best.
+    #[inline]
+    pub(super) fn forecast(&self) -> Forecast<'_, S, D> {
+        let [nothing, constant, linear] = self.errors;
+        let is_linear = linear.less(constant) & linear.less(nothing);
+        let is_constant = constant.less(nothing);
+        let weights = array::from_fn(|k| {
+            let [nothing, constant, linear] = FORECASTS.map(|weights| S::from_f64(weights[k]));
+            let other = S::select(is_constant, constant, nothing);
+            S::select(is_linear, linear, other)
+        });
+        Forecast {
+            forces: &self.forces,
+            turn: TURNS[self.turn],
+            weights,
+        }
+    }
+
+    /// The impulses of the step that is being closed.
+    #[inline]
+    pub(super) fn impulses(&mut self) -> Impulses<'_, S, D> {
+        let [_, _, next] = TURNS[self.turn];
+        Impulses::new(&mut self.forces, next)
+    }
+
+    /// Begins to take the forces of another step; until it is [kept](Self::keep), the last one stays the
+    /// last.
+    #[inline]
+    pub(super) fn remember(&mut self) -> Remembering<'_, S, D> {
+        Remembering {
+            forces: &mut self.forces,
+            turn: TURNS[self.turn],
+            errors: self.errors.map(|error| S::from_f64(MEMORY) * error),
+            found: &mut self.errors_after,
+        }
+    }
+
+    /// The step whose forces have been taken has succeeded: it is the last one.
+    #[inline]
+    pub(super) fn keep(&mut self) {
+        self.turn = if self.turn + 1 == PLACES {
+            0
+        } else {
+            self.turn + 1
+        };
+        self.errors_before = self.errors;
+        self.errors = self.errors_after;
+    }
+
+    /// Takes back the last [`keep`](Self::keep).
+    pub(super) fn forget(&mut self) {
+        self.turn = (self.turn + PLACES - 1) % PLACES;
+        self.errors = self.errors_before;
+    }
+
+    /// What a run goes on from.
+    pub(super) fn save(&self) -> SavedPast<S> {
+        let [last, before, _] = TURNS[self.turn];
+        let of = |step: usize| self.forces.iter().flat_map(|forces| forces[step]).collect();
+        SavedPast {
+            forces: [of(last), of(before)],
+            errors: self.errors,
+        }
+    }
+
+    /// Goes on from a saved past, of as many nodes.
+    pub(super) fn restore(&mut self, saved: &SavedPast<S>) {
+        let [last, before, _] = TURNS[self.turn];
+        for (step, saved) in [last, before].into_iter().zip(&saved.forces) {
+            for (own, saved) in self.forces.iter_mut().zip(saved.as_chunks().0) {
+                own[step] = *saved;
+            }
+        }
+        self.errors = saved.errors;
+    }
+}
+
+impl<S: Real, const D: usize> Remembering<'_, S, D> {
+    /// The impulse of a node, N s.
+    #[inline]
+    pub(super) fn impulse(&self, node: usize) -> &[S; D] {
+        let [_, _, next] = self.turn;
+        &self.forces[node][next]
+    }
+
+    /// The same, to be written.
+    #[inline]
+    pub(super) fn impulse_mut(&mut self, node: usize) -> &mut [S; D] {
+        let [_, _, next] = self.turn;
+        &mut self.forces[node][next]
+    }
+
+    /// The impulse of a node becomes a force: by 1/h, with the reciprocal of its mass.
+    #[inline]
+    pub(super) fn take(&mut self, node: usize, per_step: S, per_mass: S) {
+        let [last, before, next] = self.turn;
+        let forces = &mut self.forces[node];
+        let (last, before) = (forces[last], forces[before]);
+        for (axis, component) in forces[next].iter_mut().enumerate() {
+            let force = *component * per_step;
+            let change = force - last[axis];
+            let misses = [force, change, change - (last[axis] - before[axis])];
+            for (error, miss) in self.errors.iter_mut().zip(misses) {
+                *error += (miss * per_mass) * (miss * per_mass);
+            }
+            *component = force;
+        }
+    }
+
+    /// There are no more nodes.
+    #[inline]
+    pub(super) fn finish(self) {
+        *self.found = self.errors;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn go_on(past: &mut Past<f64, 1>, force: f64) {
+        *past.impulses().of(0) = [0.5 * force];
+        let mut remembering = past.remember();
+        remembering.take(0, 2.0, 0.5);
+        remembering.finish();
+        past.keep();
+    }
+
+    fn after(forces: [f64; 3]) -> Past<f64, 1> {
+        let mut past = Past::none(1);
+        for force in forces {
+            go_on(&mut past, force);
+        }
+        past
+    }
+
+    #[test]
+    fn the_best_forecast_is_the_one_that_was() {
+        let foretold = |forces: [f64; 3]| after(forces).forecast().of(0).map(f64::to_bits);
+        assert_eq!(foretold([4.0, -4.0, 4.0]), [0.0_f64.to_bits()]);
+        assert_eq!(foretold([4.0, 4.0, 4.0]), [4.0_f64.to_bits()]);
+        assert_eq!(foretold([1.0, 2.0, 3.0]), [4.0_f64.to_bits()]);
+    }
+
+    #[test]
+    fn what_was_forgotten_leaves_no_trace() {
+        let mut past = after([1.0, 2.0, 4.0]);
+        let before = past.save();
+        go_on(&mut past, 9.0);
+        assert_ne!(past.save(), before);
+        past.forget();
+        assert_eq!(past.save(), before);
+    }
+
+    #[test]
+    fn a_step_that_is_not_kept_leaves_no_trace() {
+        let mut past = after([1.0, 2.0, 4.0]);
+        let before = past.save();
+        *past.impulses().of(0) = [9.0];
+        let mut remembering = past.remember();
+        remembering.take(0, 1.0, 0.5);
+        remembering.finish();
+        assert_eq!(past.save(), before);
+    }
+}

@@ -1,0 +1,44 @@
+//! What only a scheme with stages needs to remember.
+
+use crate::algebra::system::LinearSystem;
+use crate::element::tableau::{MOST_STAGES, Tableau};
+use crate::number::scalar::Real;
+
+/// What only a scheme with stages needs.
+#[derive(Debug)]
+pub(super) struct Stages<S, const D: usize> {
+    pub(super) rule: &'static Tableau,
+    /// The system of a stage that feels its own force.
+    pub(super) secant: Option<LinearSystem<S, D>>,
+    /// Impulses `h` times loads less forces of the elements, per node and stage, N s.
+    pub(super) impulses: Vec<[[S; D]; MOST_STAGES]>,
+    /// Displacements of all nodes at the end of the step, m.
+    pub(super) ends: Vec<[S; D]>,
+}
+
+impl<S: Real, const D: usize> Stages<S, D> {
+    /// Memory for a scene with so many nodes.
+    pub(super) fn new(
+        rule: &'static Tableau,
+        secant: Option<LinearSystem<S, D>>,
+        nodes: usize,
+    ) -> Self {
+        Self {
+            rule,
+            secant,
+            impulses: vec![[[S::zero(); D]; MOST_STAGES]; nodes],
+            ends: vec![[S::zero(); D]; nodes],
+        }
+    }
+
+    /// `Σ_i weight_i impulse_i` on a node, N s.
+    pub(super) fn combined(&self, node: usize, weights: &[f64]) -> [S; D] {
+        let mut sum = [S::zero(); D];
+        for (&weight, impulse) in weights.iter().zip(&self.impulses[node]) {
+            for (sum, &impulse) in sum.iter_mut().zip(impulse) {
+                *sum += S::from_f64(weight) * impulse;
+            }
+        }
+        sum
+    }
+}

@@ -1,0 +1,142 @@
+//! From where Newton's method is tried, one start after the other.
+
+use super::Solver;
+use super::begin::Start;
+use crate::element::group::{Group, StepView};
+use crate::element::state::State;
+use crate::number::scalar::Real;
+use crate::step::certificate::Certificate;
+use crate::step::error::StepFailure;
+use crate::step::solver::effort::{CONTINUATION_STEPS, Effort};
+use crate::step::solver::progress::Target;
+
+impl<S: Real, const D: usize> Solver<S, D> {
+    /// The state after the step, or after the part of it that the view names, and what it proves.
+    ///
+    /// If none is found from the start of the scheme, an exact scheme tries others; several numbers in one
+    /// do not, as some of them need not have failed.
+    pub(crate) fn solve(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        effort: &mut Effort<S>,
+        next: &mut State<S>,
+    ) -> Result<Certificate<S>, StepFailure> {
+        let mut closing = Target::State(next);
+        self.has_other_starts = S::LANES == 1 && self.scheme.is_exact();
+        let found = self.start_and_converge(groups, view, effort, (Start::Foretold, &mut closing));
+        let failure = match found {
+            Err(failure) if S::LANES == 1 && self.scheme.follows_its_solution() => failure,
+            done => return self.kept_by(view, done?),
+        };
+        let found = self.try_other_starts(groups, view, effort, &mut closing);
+        self.kept_by(view, found.map_err(|_| failure)?)
+    }
+
+    /// The step has succeeded: its forces are those of the last one.
+    fn kept_by(
+        &mut self,
+        view: &StepView<'_, S>,
+        certificate: Option<Certificate<S>>,
+    ) -> Result<Certificate<S>, StepFailure> {
+        if view.phase.heats() && self.scheme.foretells_its_start() {
+            self.past.keep();
+        }
+        certificate.ok_or(StepFailure::NotConverged { update: f64::NAN })
+    }
+
+    /// Exact schemes start from rest, and from the solution for another form if they have one; then the
+    /// solution is followed from a small step to the full one. At last an exact scheme takes all its
+    /// iterations from its own start.
+    #[cold]
+    fn try_other_starts(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        effort: &mut Effort<S>,
+        closing: &mut Target<'_, S>,
+    ) -> Result<Option<Certificate<S>>, StepFailure> {
+        if self.scheme.is_exact() {
+            let found = self.start_and_converge(groups, view, effort, (Start::Rest, closing));
+            if found.is_ok() {
+                return found;
+            }
+        }
+        if self.scheme.has_starting_form() {
+            let found = self.start_by_another_form(groups, view, effort, closing);
+            if found.is_ok() {
+                return found;
+            }
+        }
+        let found = self.follow(groups, view, effort, closing);
+        if found.is_ok() || !self.scheme.is_exact() {
+            return found;
+        }
+        self.has_other_starts = false;
+        self.start_and_converge(groups, view, effort, (Start::Foretold, closing))
+    }
+
+    /// From the solution for the starting form of the scheme.
+    fn start_by_another_form(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        effort: &mut Effort<S>,
+        closing: &mut Target<'_, S>,
+    ) -> Result<Option<Certificate<S>>, StepFailure> {
+        let start = (Start::Foretold, &mut Target::SharpTrial);
+        self.trial.is_start = true;
+        let started = self.start_and_converge(groups, view, effort, start);
+        self.trial.is_start = false;
+        started?;
+        for group in groups.iter_mut() {
+            group.hold();
+        }
+        self.converge(groups, view, effort, closing)
+    }
+
+    fn start_and_converge(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        effort: &mut Effort<S>,
+        (start, target): (Start, &mut Target<'_, S>),
+    ) -> Result<Option<Certificate<S>>, StepFailure> {
+        self.begin(groups, view, start)?;
+        self.converge(groups, view, effort, target)
+    }
+
+    /// The solution for growing parts of the step, each starting from the one before.
+    #[cold]
+    fn follow(
+        &mut self,
+        groups: &mut [Box<dyn Group<S, D>>],
+        view: &StepView<'_, S>,
+        effort: &mut Effort<S>,
+        closing: &mut Target<'_, S>,
+    ) -> Result<Option<Certificate<S>>, StepFailure> {
+        let number = |part: u8| S::from_f64(f64::from(part));
+        let mut found = None;
+        for part in 1..=CONTINUATION_STEPS {
+            let step = view.step * number(part) / number(CONTINUATION_STEPS);
+            let shorter = StepView {
+                step,
+                per_step: step.recip(),
+                ..*view
+            };
+            let target = if part == CONTINUATION_STEPS {
+                &mut *closing
+            } else {
+                &mut Target::Trial
+            };
+            found = if part == 1 {
+                let start = (Start::Foretold, target);
+                self.start_and_converge(groups, &shorter, effort, start)?
+            } else {
+                self.extrapolate(groups, &shorter, number(part) / number(part - 1));
+                self.converge(groups, &shorter, effort, target)?
+            };
+        }
+        Ok(found)
+    }
+}
