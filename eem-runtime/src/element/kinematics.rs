@@ -23,6 +23,7 @@
 //! Everything is an array over arms or measures whose length the kinematics knows, so that loops
 //! over an element have no bounds but those of its arrays.
 
+pub(crate) mod bilinear;
 mod measures;
 mod plane;
 mod quad4;

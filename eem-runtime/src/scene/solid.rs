@@ -2,7 +2,7 @@
 
 use super::Scene;
 use crate::element::handle::{Element, Node};
-use crate::element::kinematics::{Quad4, Strain, StrainEnergy};
+use crate::element::kinematics::{Quad4, Strain, StrainEnergy, bilinear};
 use crate::material::free_energy::FreeEnergy;
 use crate::number::scalar::{Real, is_positive};
 use crate::scene::blueprint::{Blueprint, QuadSet};
@@ -134,7 +134,7 @@ impl<S: Real> Scene<2, S> {
 
     /// Adds the consistent mass of a quadrilateral.
     fn add_masses(&mut self, nodes: [Node; 4], corners: &[[S; 2]; 4], section: Section<S>) {
-        let masses = Quad4::<S, 1>::masses(corners, section.density * section.thickness);
+        let masses = bilinear::masses(corners, section.density * section.thickness);
         for (a, row) in masses.iter().enumerate() {
             if let Some(mass) = &mut self.nodes[nodes[a].index].mass {
                 *mass += row[a];

@@ -106,6 +106,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             secant: stages.as_ref().and_then(|stages| stages.secant.as_ref()),
             sets: [0; 2],
         };
+        let nodes_with = |needed: bool| if needed { masses.len() } else { 0 };
         let (mut nodes, mut all_seen) = (Vec::new(), Vec::new());
         for set in 0..sets.len() {
             let sites = sites.of_sets([set, set]);
@@ -114,11 +115,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         let coupling = Coupling::new(masses, &sites);
         // Without conduction between elements no temperature is seen.
-        let slots = if all_seen.is_empty() {
-            0
-        } else {
-            layout.thermal
-        };
+        let slots = layout.thermal * usize::from(!all_seen.is_empty());
         Self {
             scheme,
             past: Past::none(masses.len()),
@@ -129,11 +126,11 @@ impl<S: Real, const D: usize> Solver<S, D> {
             trial: Trial::new(sets.len(), masses.len(), slots),
             sets,
             stages,
-            old_force: vec![[S::zero(); D]; if has_old_force { masses.len() } else { 0 }],
+            old_force: vec![[S::zero(); D]; nodes_with(has_old_force)],
             per_length: vec![S::one(); masses.len()],
             has_other_starts: false,
             anchors: masses.anchors().collect(),
-            magnitudes: Vec::with_capacity(if scheme.is_exact() { masses.len() } else { 0 }),
+            magnitudes: Vec::with_capacity(nodes_with(scheme.is_exact())),
             final_residual: S::zero(),
             obstacle: None,
             worst: None,

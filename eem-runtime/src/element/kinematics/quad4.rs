@@ -4,6 +4,7 @@ use core::array;
 
 use crate::element::error::StateError;
 use crate::element::handle::Element;
+use crate::element::kinematics::bilinear::{gauss, jacobian, shapes};
 use crate::element::kinematics::measures::{Ends, Kinematics};
 use crate::element::kinematics::plane::{
     Between, Symmetric, Tensor, applied, contracted, determinant, green_lagrange, measure, pushed,
@@ -45,44 +46,6 @@ pub struct Quad4<S, const N: usize> {
     volume: S,
     /// The reciprocal of the largest `|B_i|`, m.
     length: S,
-}
-
-/// The corners of the parent square, in the order of the nodes.
-const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-
-/// `N_a` and `∂N_a/∂ξ` at a point of the parent square.
-fn shapes<S: Real>([x, y]: [S; 2]) -> [(S, [S; 2]); 4] {
-    let quarter = S::from_f64(0.25);
-    CORNERS.map(|corner| {
-        let [a, b] = corner.map(S::from_f64);
-        let (along, across) = (S::one() + a * x, S::one() + b * y);
-        let slope = [quarter * a * across, quarter * b * along];
-        (quarter * along * across, slope)
-    })
-}
-
-/// `∂X/∂ξ`, m, of the arms of the reference configuration.
-fn jacobian<S: Real>(reference: &[[S; 2]; 4], shapes: &[(S, [S; 2]); 4]) -> Tensor<S> {
-    let mut jacobian = [[S::zero(); 2]; 2];
-    for (corner, (_, slope)) in reference.iter().zip(shapes).skip(1) {
-        for (axis, row) in jacobian.iter_mut().enumerate() {
-            for (entry, &slope) in row.iter_mut().zip(slope) {
-                *entry += (corner[axis] - reference[0][axis]) * slope;
-            }
-        }
-    }
-    jacobian
-}
-
-/// The points and weights of a Gauss rule with `N` points per axis, the first coordinate fastest.
-fn gauss<S: Real, const N: usize>(
-    abscissas: [S; N],
-    weights: [S; N],
-) -> impl Iterator<Item = ([S; 2], S)> {
-    (0..N * N).map(move |point| {
-        let (i, j) = (point % N, point / N);
-        ([abscissas[i], abscissas[j]], weights[i] * weights[j])
-    })
 }
 
 impl<S: Real, const N: usize> Quad4<S, N> {
@@ -134,24 +97,6 @@ impl<S: Real, const N: usize> Quad4<S, N> {
     #[must_use]
     pub fn volume(&self) -> S {
         self.volume
-    }
-
-    /// The consistent mass `∫ ρ N_a N_b dV` of each pair of nodes, kg, exact for any corners.
-    pub fn masses(reference: &[[S; 2]; 4], surface_density: S) -> [[S; 4]; 4] {
-        let root = S::from_f64(0.6).sqrt();
-        let [edge, middle] = [5.0, 8.0].map(|nine| S::from_f64(nine) / S::from_f64(9.0));
-        let mut masses = [[S::zero(); 4]; 4];
-        for (place, weight) in gauss([-root, S::zero(), root], [edge, middle, edge]) {
-            let shapes = shapes(place);
-            let area = determinant(&jacobian(reference, &shapes));
-            let mass = surface_density * weight * area;
-            for (row, (by, _)) in masses.iter_mut().zip(&shapes) {
-                for (entry, (other, _)) in row.iter_mut().zip(&shapes) {
-                    *entry += mass * *by * *other;
-                }
-            }
-        }
-        masses
     }
 
     /// F.

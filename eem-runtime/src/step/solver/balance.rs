@@ -5,6 +5,7 @@ use core::array;
 use super::places::MovingNode;
 use crate::element::group::{StepView, Trial, points};
 use crate::number::scalar::Real;
+use crate::step::certificate::Speeds;
 
 /// What Newton's method knows of a node that moves, during one step.
 #[derive(Clone, Copy, Debug)]
@@ -59,6 +60,23 @@ impl<S: Real, const D: usize> Balance<S, D> {
         let at = self.place.in_trial();
         let (displacement, rest) = (&trial.displacements[at], &trial.rests[at]);
         array::from_fn(|axis| (displacement[axis] - self.flight[axis]) + rest[axis])
+    }
+
+    /// How fast it moves in a step.
+    #[inline]
+    pub(super) fn speeds(
+        &self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        twice_per_step: S,
+    ) -> Speeds<S, D> {
+        match points::<S, D>(view.state.velocities.values()).get(self.place.node()) {
+            None => Speeds::OfMass(self.place.per_mass),
+            Some(&old) => Speeds::Given {
+                old,
+                change: self.change(trial).map(|change| twice_per_step * change),
+            },
+        }
     }
 
     /// `Δp = (2m/h)(Δq − (h/m) p⁰)`, N s, of a displacement; `inertia_per_mass` is 2/h, or 1/(ch) for a stage.

@@ -1,5 +1,6 @@
 //! The end of a step: the new state from the increments that were found, and its certificate.
 
+mod masses;
 mod stages;
 
 use core::array;
@@ -11,9 +12,8 @@ use crate::element::recount::Recount;
 use crate::element::state::State;
 use crate::element::tally::{Care, Tally};
 use crate::number::scalar::{Mask, Real};
-use crate::step::certificate::{Certificate, Kept, Motion, NodeStep, Reach, Speeds};
+use crate::step::certificate::{Certificate, Kept, Motion, Reach};
 use crate::step::error::StepFailure;
-use crate::step::newton::Largest;
 use crate::step::scheme::Closing;
 
 impl<S: Real, const D: usize> Solver<S, D> {
@@ -135,104 +135,6 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
-    /// New positions and momenta, all finite. The impulses of the elements are replaced by those of the
-    /// increments, judged beside them, and remembered as forces.
-    fn move_masses(
-        &mut self,
-        view: &StepView<'_, S>,
-        next: &mut State<S>,
-        motion: &mut Motion<S, D>,
-        tally: &mut Tally<S>,
-    ) -> Result<(), StepFailure> {
-        if view.loads.has_force() {
-            self.book_work(view, next);
-        }
-        let per_step = view.per_step;
-        let [twice_per_step, ..] = self.inertias(view);
-        let has_load = view.loads.has_total_force();
-        let is_exact = self.scheme.is_exact();
-        let takes_increments = self.scheme.closing() == Closing::Increments;
-        let velocities = points::<S, D>(view.state.velocities.values());
-        let mut largest = Largest::none();
-        let mut remembering = self.past.remember();
-        if !self.coupling.is_none() {
-            let nodes = (&self.nodes[..], &self.trial);
-            self.coupling.find_impulses(nodes, twice_per_step);
-        }
-        for (moving, node) in self.nodes.iter().enumerate() {
-            let at = node.place.node();
-            let (displacement, rest) = (&self.trial.displacements[at], &self.trial.rests[at]);
-            if takes_increments {
-                let coupled = self.coupling.impulse(moving);
-                let impulse = match coupled {
-                    None => node.impulse([displacement, rest], twice_per_step),
-                    Some([impulse, _]) => *impulse,
-                };
-                let found = remembering.impulse_mut(at);
-                for axis in 0..D {
-                    let residual = impulse[axis] - found[axis];
-                    largest.see(residual);
-                    if is_exact {
-                        let inertia = node.place.mass * twice_per_step;
-                        let moved = match coupled {
-                            None => inertia * displacement[axis].abs(),
-                            Some([_, terms]) => terms[axis],
-                        };
-                        let terms = impulse[axis].abs() + moved;
-                        let magnitude = self.magnitudes.get(at).copied();
-                        tally.balance(residual, terms + magnitude.unwrap_or(S::zero()));
-                    }
-                }
-                *found = impulse;
-            }
-            let impulse = remembering.impulse(at);
-            let moved = NodeStep {
-                speeds: match velocities.get(at) {
-                    None => Speeds::OfMass(node.place.per_mass),
-                    Some(velocity) => {
-                        let change = node.change(&self.trial);
-                        Speeds::Given {
-                            old: *velocity,
-                            change: change.map(|change| twice_per_step * change),
-                        }
-                    }
-                },
-                position: &points(view.state.positions.values())[at],
-                momentum: &points(view.state.momenta.values())[at],
-                displacement,
-                impulse,
-            };
-            motion.see(
-                &moved,
-                has_load.then(|| view.loads.total_force(at)).as_ref(),
-                view.step,
-            );
-            if let Speeds::Given { change, .. } = &moved.speeds {
-                let none = [S::zero(); D];
-                let old = &view.state.velocities;
-                next.velocities.advance_point(at, old, [change, &none]);
-            }
-            move_node(at, [displacement, rest, impulse], view.state, next)?;
-            remembering.take(at, per_step, node.place.per_mass);
-        }
-        remembering.finish();
-        self.final_residual = largest.found();
-        next.follow_velocities(D, view.masses);
-        Ok(())
-    }
-
-    fn book_work(&self, view: &StepView<'_, S>, next: &mut State<S>) {
-        for node in &self.nodes {
-            let at = node.place.node();
-            let force = view.loads.force::<D>(at);
-            for (&force, &displacement) in force.iter().zip(&self.trial.displacements[at]) {
-                if !force.equal(S::zero()).all() {
-                    next.work.add(force * displacement);
-                }
-            }
-        }
-    }
-
     /// New positions of the anchors that are moved, and the work that this takes.
     fn move_anchors(
         &mut self,
@@ -310,49 +212,4 @@ pub(super) fn energy_change<S: Real>(reservoirs: &[S], [old, next]: [&State<S>; 
     let heat = next.heat.change(old.heat);
     change += next.dissipated.change(old.dissipated) - heat;
     [change, magnitude + heat.abs()]
-}
-
-/// The new position and the new momentum of a node, all finite, from its displacement and impulse.
-#[inline]
-pub(super) fn move_node<S: Real, const D: usize>(
-    node: usize,
-    [displacement, rest, impulse]: [&[S; D]; 3],
-    old: &State<S>,
-    next: &mut State<S>,
-) -> Result<(), StepFailure> {
-    let by_position = next
-        .positions
-        .advance_point(node, &old.positions, [displacement, rest]);
-    let none = [S::zero(); D];
-    let by_momentum = next
-        .momenta
-        .advance_point(node, &old.momenta, [impulse, &none]);
-    // What rounding takes from a sum is a number only if the sum is one.
-    if (by_position + by_momentum).is_finite() {
-        return Ok(());
-    }
-    find_unbounded::<S, D>(node, next)
-}
-
-/// The error with the first coordinate of a node that is no finite number.
-#[cold]
-fn find_unbounded<S: Real, const D: usize>(
-    node: usize,
-    state: &State<S>,
-) -> Result<(), StepFailure> {
-    for axis in 0..D {
-        let at = node * D + axis;
-        let values = [state.positions.values()[at], state.momenta.values()[at]];
-        for (quantity, value) in ["position", "momentum"].into_iter().zip(values) {
-            if !value.is_finite() {
-                return Err(StepFailure::Unbounded {
-                    node,
-                    axis,
-                    quantity,
-                    value: value.to_f64(),
-                });
-            }
-        }
-    }
-    Ok(())
 }

@@ -99,7 +99,7 @@ impl<S: Real, const D: usize> Coupling<S, D> {
         }
     }
 
-    /// Finds `Δp` of all nodes at a trial.
+    /// Finds `Δp` of all nodes at a trial, if masses couple them.
     pub(super) fn find_impulses(
         &mut self,
         (nodes, trial): (&[Balance<S, D>], &Trial<S, D>),
@@ -125,9 +125,22 @@ impl<S: Real, const D: usize> Coupling<S, D> {
         }
     }
 
-    /// What has been found for a node among those that move; nothing where masses do not couple.
+    /// `Δp` of a node among those that move, at the trial for which it has been found where masses couple,
+    /// and the magnitude of its terms, N s.
     #[inline]
-    pub(super) fn impulse(&self, moving: usize) -> Option<&[[S; D]; 2]> {
-        self.impulses.get(moving)
+    pub(super) fn impulse(
+        &self,
+        (moving, node): (usize, &Balance<S, D>),
+        trial: &Trial<S, D>,
+        inertia_per_mass: S,
+    ) -> [[S; D]; 2] {
+        if let Some(found) = self.impulses.get(moving) {
+            return *found;
+        }
+        let at = node.place.in_trial();
+        let displacement = &trial.displacements[at];
+        let inertia = node.place.mass * inertia_per_mass;
+        let impulse = node.impulse([displacement, &trial.rests[at]], inertia_per_mass);
+        [impulse, displacement.map(|moved| inertia * moved.abs())]
     }
 }

@@ -10,7 +10,7 @@ use crate::number::scalar::Real;
 use crate::step::certificate::{Motion, NodeStep, Speeds};
 use crate::step::error::StepFailure;
 use crate::step::solver::Solver;
-use crate::step::solver::closing::move_node;
+use crate::step::solver::closing::masses::move_node;
 use crate::step::solver::stages::Stages;
 
 impl<S: Real, const D: usize> Solver<S, D> {
