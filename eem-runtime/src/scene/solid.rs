@@ -75,6 +75,7 @@ impl<S: Real> Scene<2, S> {
     /// assert!((after.balance - before.balance).abs() < 1e-13 * before.energy);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
+    #[expect(clippy::needless_pass_by_value, reason = "as for a spring")]
     pub fn quadrilateral<M, const N: usize>(
         &mut self,
         model: M,

@@ -98,7 +98,7 @@ where
             add_scaled::<K, S, D>(&mut sum, by, &self.sensitivity[a]);
         }
         if C::IN_TEMPERATURE {
-            for at_point in self.at_point.as_ref() {
+            for at_point in self.single.as_ref() {
                 let by = -factor * row.by_heat;
                 add_scaled::<K, S, D>(&mut sum, by, &at_point.by_increment);
             }

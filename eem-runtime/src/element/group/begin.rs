@@ -115,7 +115,7 @@ where
             self.is_prescribed = prescribed.is_some();
             self.x[Self::TEMPERATURE] = prescribed.unwrap_or(theta);
         }
-        for at_point in self.at_point.as_mut() {
+        for at_point in self.single.as_mut() {
             at_point.entropy_change = S::zero();
         }
         self.hold();
@@ -147,7 +147,7 @@ where
             heat += view.conduction.heat_flow(slot, theta, temperatures).heat;
             rates[Self::TEMPERATURE] = share * heat / theta;
         }
-        for at_point in self.at_point.as_mut() {
+        for at_point in self.single.as_mut() {
             at_point.old_rates = rates;
         }
         if M::THERMAL && C::IN_TEMPERATURE {
@@ -175,7 +175,7 @@ where
             let rate = along::<K, S, D>(&pose.direction[a], velocities);
             rest -= slope(a) * share * rate;
         }
-        for at_point in self.at_point.as_mut() {
+        for at_point in self.single.as_mut() {
             for index in M::MEASURES..last {
                 rest -= slope(index) * at_point.old_rates[index];
             }

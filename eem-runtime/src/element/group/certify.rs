@@ -222,7 +222,8 @@ where
     pub(super) fn judge(
         &self,
         view: &StepView<'_, S>,
-        (contact, trial, r1): (Option<&Contact<K, S, D>>, &Trial<S, D>, &Arms<K, S, D>),
+        (contact, trial): (Option<&Contact<K, S, D>>, &Trial<S, D>),
+        r1: &Arms<K, S, D>,
         [received, magnitude]: [S; 2],
         tally: &mut Tally<S>,
     ) {

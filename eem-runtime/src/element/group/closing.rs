@@ -241,7 +241,7 @@ where
         let h = view.thermal_step();
         let share = S::from_f64(C::IMPLICIT) * h;
         let mut received = dissipated * self.per_temperature();
-        if let [at_point] = self.at_point.as_ref()
+        if let [at_point] = self.single.as_ref()
             && C::IMPLICIT < 1.0
         {
             received += h * at_point.old_rates[Self::TEMPERATURE];

@@ -63,7 +63,7 @@ where
             heat = self.condensed.heat_factor * contact.heat(solution);
         }
         if C::IN_TEMPERATURE {
-            for at_point in self.at_point.as_ref() {
+            for at_point in self.single.as_ref() {
                 heat += along::<K, S, D>(&at_point.by_increment, motion);
             }
         }
@@ -79,7 +79,7 @@ where
         }
         self.remember();
         if M::THERMAL && C::FINDS_TEMPERATURE {
-            for at_point in self.at_point.as_mut() {
+            for at_point in self.single.as_mut() {
                 at_point.previous_entropy_change = self.response[Self::ENTROPY];
                 let terms = at_point.entropy_by.as_ref().iter();
                 let terms = terms.zip(self.correction.as_ref());

@@ -73,11 +73,10 @@ where
         members.flat_map(|member| member.points.as_mut())
     }
 
-    /// The point at a place, with its element.
-    pub(super) fn at(&self, place: usize) -> (&Member<S, M, K, C, D>, &Point<S, M, K, C, D>) {
+    /// The element of the point at a place, and which of its points it is.
+    pub(super) fn at(&self, place: usize) -> (&Member<S, M, K, C, D>, usize) {
         let points = K::PerPoint::<Point<S, M, K, C, D>>::LEN;
-        let member = &self.members[place / points];
-        (member, &member.points.as_ref()[place % points])
+        (&self.members[place / points], place % points)
     }
 }
 
@@ -105,7 +104,8 @@ where
     }
 
     fn slots(&self, place: usize) -> Slots {
-        self.at(place).1.slots()
+        let (member, point) = self.at(place);
+        member.points.as_ref()[point].slots()
     }
 
     fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {

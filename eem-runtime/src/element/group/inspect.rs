@@ -73,6 +73,7 @@ where
     /// See [`Elements::inspect`](super::Elements::inspect).
     pub(super) fn inspect_at(&self, place: usize, state: &State<S>) -> ElementView<S> {
         let (member, point) = self.at(place);
+        let point = &member.points.as_ref()[point];
         let x = point.variables_in(&member.arms_in(state), state);
         ElementView {
             measure: x[0],

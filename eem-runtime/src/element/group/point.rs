@@ -57,7 +57,7 @@ where
     /// Local unknowns as functions of the global ones.
     pub(super) condensed: Condensed<S, M, K, D>,
     /// What only a rule that looks at one point needs.
-    pub(super) at_point: C::AtPoint<MemoryAtPoint<S, M, K, D>>,
+    pub(super) single: C::AtPoint<MemoryAtPoint<S, M, K, D>>,
 }
 
 impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
@@ -104,7 +104,7 @@ where
             viscosities: (viscosities, viscosities),
             sensitivity: Gradient::<K, S, D>::filled(nowhere),
             condensed: Condensed::zero(),
-            at_point: C::AtPoint::filled(MemoryAtPoint::<S, M, K, D>::zero(nowhere)),
+            single: C::AtPoint::filled(MemoryAtPoint::<S, M, K, D>::zero(nowhere)),
         }
     }
 
@@ -145,7 +145,7 @@ where
             self.slopes[row] = tangent[row];
         }
         if M::THERMAL && C::FINDS_TEMPERATURE {
-            for at_point in self.at_point.as_mut() {
+            for at_point in self.single.as_mut() {
                 at_point.entropy_by = tangent[Self::ENTROPY];
             }
         }
@@ -155,7 +155,7 @@ where
     /// the scheme takes the share w; c is what the old state contributes.
     #[inline]
     pub(super) fn increment(&self, index: usize, rate: S, h: S) -> S {
-        match self.at_point.as_ref() {
+        match self.single.as_ref() {
             [at_point] if C::IMPLICIT < 1.0 => {
                 h * (S::from_f64(C::IMPLICIT) * rate + at_point.old_rates[index])
             }
@@ -185,7 +185,7 @@ where
         }
         let forces = self.model.gradient(&self.start.x0);
         let dashpots = M::MEASURES..Self::TEMPERATURE;
-        let old = self.at_point.as_ref().iter();
+        let old = self.single.as_ref().iter();
         old.fold(S::zero(), |sum, old| {
             dashpots
                 .clone()
@@ -230,7 +230,7 @@ where
     pub(super) fn hold(&mut self) {
         self.remember();
         self.correction = M::Variables::filled(S::zero());
-        for at_point in self.at_point.as_mut() {
+        for at_point in self.single.as_mut() {
             at_point.previous_entropy_change = at_point.entropy_change;
             at_point.entropy_correction = S::zero();
         }
@@ -261,7 +261,7 @@ where
             self.x[Self::TEMPERATURE] = grown(self.previous.get(M::DASHPOTS), change);
         }
         if C::FINDS_TEMPERATURE {
-            for at in self.at_point.as_mut() {
+            for at in self.single.as_mut() {
                 at.entropy_change = at.previous_entropy_change + share * at.entropy_correction;
             }
         }

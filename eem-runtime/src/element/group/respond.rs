@@ -55,7 +55,7 @@ where
             self.x[a] = measure;
         }
         if M::THERMAL && C::FINDS_TEMPERATURE && !self.is_prescribed {
-            for at_point in self.at_point.as_ref() {
+            for at_point in self.single.as_ref() {
                 let change = at_point.entropy_change;
                 let theta = C::temperature(&self.model, &self.start, &self.x, change);
                 let theta = theta.map_err(|infeasible| infeasible.of(self.element))?;
@@ -146,7 +146,7 @@ where
         let increments = self.increments(&own, step);
         let (model, start) = (&self.model, &self.start);
         let slopes = C::change_entropy_at_rates(model, start, &self.x, &increments, form);
-        for at_point in self.at_point.as_mut() {
+        for at_point in self.single.as_mut() {
             at_point.by_increment = combined::<K, S, M, D>(&slopes, by_arm.as_ref());
         }
     }
@@ -159,7 +159,7 @@ where
         for (a, &increment) in measures.as_ref().iter().enumerate() {
             increments[a] = increment;
         }
-        for at_point in self.at_point.as_ref() {
+        for at_point in self.single.as_ref() {
             for index in M::MEASURES..last {
                 let change = self.x[index] - old[index];
                 increments[index] = change - step * at_point.old_rates[index];

@@ -41,7 +41,7 @@ where
                     tally.force(forces);
                     tally.exchange(view.step * point.largest_pull(&r1));
                     let magnitude = next.energies[point.element.index].magnitude + forces;
-                    point.judge(view, (contact, trial, &r1), [received, magnitude], tally);
+                    point.judge(view, (contact, trial), &r1, [received, magnitude], tally);
                 }
             }
         }

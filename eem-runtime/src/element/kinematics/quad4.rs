@@ -49,8 +49,11 @@ pub struct Quad4<S, const N: usize> {
 }
 
 impl<S: Real, const N: usize> Quad4<S, N> {
-    /// The points of a quadrilateral with these corners (m), against the clock, and thickness (m);
-    /// the index of the first one at which it is inside out, if there is one, with `det ∂X/∂ξ`.
+    /// The points of a quadrilateral with these corners (m), against the clock, and thickness (m).
+    ///
+    /// # Errors
+    ///
+    /// The index of the first point at which it is inside out, with `det ∂X/∂ξ` there, m².
     pub fn points(
         reference: &[[S; 2]; 4],
         thickness: S,
