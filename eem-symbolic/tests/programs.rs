@@ -146,7 +146,7 @@ fn a_restricted_program_has_the_same_bits() {
         let theta = law.state.iter().rev().take(1).cycle();
         let state = law.state.iter().copied().chain(moved);
         let inputs = law.parameters.iter().copied().chain(state);
-        let inputs: Vec<f64> = inputs.chain(theta.take(6).copied()).collect();
+        let inputs: Vec<f64> = inputs.chain(theta.take(8).copied()).collect();
         let bits = |program: &Program| {
             let values = program.interpret(&F64, &inputs).into_iter();
             values.take(responses).map(f64::to_bits).collect::<Vec<_>>()

@@ -5,3 +5,4 @@ pub(crate) mod corners;
 pub(crate) mod laws;
 pub(crate) mod precise;
 pub(crate) mod random;
+pub(crate) mod solids;
