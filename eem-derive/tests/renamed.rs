@@ -34,7 +34,7 @@ fn a_renamed_crate_is_found() {
     let spring = Spring { stiffness: 2.0 };
     assert!((spring.free_energy(&[3.0_f64, 1.0]) - 18.0).abs() < 1e-14);
     let solid = Solid { bulk: 2.0 };
-    assert_eq!(solid.free_energy(&[0.0_f64]), 0.0);
+    assert!(solid.free_energy(&[0.0_f64]).abs() <= 0.0);
     assert_eq!(Solid::STRAINS, [Strain::Dilatation]);
     let separate = Separate { stiffness: 2.0 };
     assert!((separate.free_energy(&[3.0_f64]) - 18.0).abs() < 1e-14);
