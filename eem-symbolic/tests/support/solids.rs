@@ -3,6 +3,7 @@
 use eem_symbolic::{ExprId, Function, LowerBound, Model, Number, Rational, Symbol};
 
 use super::laws::{Law, Writer};
+use super::random::{Random, expression};
 
 /// All of them.
 pub(crate) fn all() -> Vec<Law> {
@@ -143,6 +144,40 @@ fn viscoelastic() -> Law {
         w,
         vec![b1, b2],
         dashpots,
+        Some(theta),
+        psi,
+        state,
+    )
+}
+
+/// A random free energy of all strains that nothing is separable in, and c (θ − θ ln(θ/θr)) with a
+/// heat capacity c that no other term comes near to.
+pub(crate) fn random(seed: u64) -> Law {
+    let mut w = Writer::new();
+    let mut random = Random::new(seed);
+    let [(b1, e1), (b2, e2), (bj, j)] = ["e1", "e2", "j"].map(|name| strain(&mut w, name));
+    let (theta, t) = w.variable("theta");
+    let [c, reference] = [("c", 1e5), ("theta_r", 300.0)].map(|(n, v)| w.parameter(n, v));
+    let one = w.graph.integer(1);
+    let volume = w.graph.add(one, j);
+    let ratio = w.graph.div(t, reference);
+    let product = w.graph.mul(e2, ratio);
+    let first = w.graph.sum(&[one, e1, product]);
+    let second = w.graph.product(&[volume, ratio, first]);
+    let mut psi = w.caloric(c, t, reference);
+    for x in [first, second] {
+        let term = expression(&mut w.graph, &mut random, x, 2);
+        let other = w.graph.mul(x, volume);
+        let other = expression(&mut w.graph, &mut random, other, 1);
+        let term = w.graph.product(&[term, other, first]);
+        psi = w.graph.add(psi, term);
+    }
+    let state = vec![0.12, 0.05, 0.1, 310.0];
+    law(
+        "random solid",
+        w,
+        vec![b1, b2, bj],
+        vec![],
         Some(theta),
         psi,
         state,
