@@ -7,7 +7,6 @@ use eem_symbolic::{
     Arithmetic, Bounded, F64, Function, Number, Operation, ProgramKernel, RunningError,
 };
 use support::corners::Evaluated;
-use support::laws;
 use support::precise::{error, to_f64};
 use support::solids;
 
@@ -34,7 +33,10 @@ fn moved(state: &[f64], increment: f64) -> Vec<f64> {
 }
 
 fn laws() -> Vec<Evaluated> {
-    laws::all().into_iter().map(Evaluated::new).collect()
+    support::all_laws()
+        .into_iter()
+        .map(Evaluated::new)
+        .collect()
 }
 
 /// With random solids of three measures.

@@ -90,7 +90,7 @@ fn magnitudes_have_a_difference_at_both_sides_of_zero() {
 fn programs_are_within_their_bound() {
     let precise = Precise::new();
     let mut random = Random::new(7);
-    for law in laws::all() {
+    for law in support::all_laws() {
         let programs = law.model.programs();
         let mut all = vec![
             &programs.free_energy,

@@ -110,7 +110,10 @@ pub(crate) fn closure_output() -> Message {
 
 pub(crate) fn argument_without_role(argument: &str) -> Message {
     let help = match Role::usual(argument) {
-        Some(role @ Role::Strain(_)) => format!("write `{argument}: {}`", role.name()),
+        Some(role @ Role::Strain(_)) => format!(
+            "say what it stands for, in a solid `{argument}: {}`",
+            role.name()
+        ),
         _ => format!(
             "say what it stands for: `{argument}: Stretch`, `{argument}: Viscous` or `{argument}: Temperature`"
         ),

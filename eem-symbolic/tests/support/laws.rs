@@ -2,8 +2,6 @@
 
 use eem_symbolic::{ExprId, Function, Graph, Model, Number, Symbol, diff};
 
-use super::solids;
-
 /// A model, its parameters and a state to start from.
 pub(crate) struct Law {
     pub(crate) name: &'static str,
@@ -14,14 +12,13 @@ pub(crate) struct Law {
 
 /// All of them.
 pub(crate) fn all() -> Vec<Law> {
-    let springs = vec![
+    vec![
         pendulum(),
         logarithmic_stiffness(),
         two_dashpots(),
         einstein(),
         elastic(),
-    ];
-    springs.into_iter().chain(solids::all()).collect()
+    ]
 }
 
 /// Collects symbols while a formula is written down.
