@@ -5,7 +5,6 @@ mod support;
 
 use eem_symbolic::{Graph, Kernel, format};
 use reader::read;
-use support::laws;
 use support::random::{self, Random};
 
 /// The formula is printed as `expected`.

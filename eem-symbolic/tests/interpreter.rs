@@ -3,7 +3,6 @@
 mod support;
 
 use eem_symbolic::{Arithmetic, Bounded, F64, Function, ProgramKernel, RunningError};
-use support::laws;
 use support::precise::{Precise, error, to_f64};
 use support::random::Random;
 

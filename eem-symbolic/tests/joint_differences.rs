@@ -7,7 +7,6 @@ use eem_symbolic::{
     DifferencePart, F64, Function, Graph, Input, Instruction, Operation, Program, ProgramKernel,
     Stage, Value, VerifyError,
 };
-use support::laws;
 
 const LN: ProgramKernel = ProgramKernel::Function(Function::Ln);
 

@@ -15,7 +15,7 @@ specimen! {
 specimen! {
     /// Mooney–Rivlin, compressible: `tr C − 3 = 2 e1`, `tr cof C − 3 = 4 e1 + 2 (e1² − e2)`.
     CompressibleMooneyRivlin {
-        a: 249.375, b: 249.375, c1: 4211.5, d1: 1496.25, c2: 5209.0, d2: 665.0, beta: 0.0002233,
+        a: 249.375, b: 249.375, c1: 4211.5, d1: 1496.25, c2: 5209.0, d2: 665.0, beta: 2.233e-4,
         capacity: 100.0, theta_ref: 293.15,
     }
     (
