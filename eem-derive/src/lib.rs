@@ -1,7 +1,7 @@
 //! `#[derive(FreeEnergy)]`: from a written free energy to straight-line Rust.
 //!
 //! The input is a struct whose fields are the parameters of a material and whose attribute is its
-//! free energy; the output is one `impl FreeEnergy`. There is no mathematics in this crate. It
+//! free energy; the output is one `impl FreeEnergy`, for solids with one `impl StrainEnergy`. There is no mathematics in this crate. It
 //! reads tokens, checks them, hands a model to [`eem_symbolic`] and prints the programs that come
 //! back. The phases:
 //!
@@ -79,9 +79,29 @@ use syn::{DeriveInput, parse_macro_input};
 ///
 /// | role | how many | meaning |
 /// |---|---|---|
-/// | `Stretch` | one | length of the spring, m |
-/// | `Viscous` | any number | stretch of one dashpot, m; each needs a law in `#[viscosity]` |
+/// | `Stretch` | one, in a spring | length of the spring, m |
+/// | `StrainTrace`, `StrainSquare`, `Dilatation` | each at most one, in a solid | `tr E`, `E:E`, `J − 1` |
+/// | `Viscous` | any number | stretch of one dashpot, m, in a solid a strain; each needs a law in `#[viscosity]` |
 /// | `Temperature` | none or one | absolute temperature, K |
+///
+/// # Solids
+///
+/// With strains instead of a stretch the free energy is that of a solid, per reference volume:
+///
+/// ```ignore
+/// #[derive(FreeEnergy)]
+/// #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * la * e1.powi(2) + mu * e2)]
+/// pub struct Elastic {
+///     pub la: f64,
+///     pub mu: f64,
+/// }
+/// ```
+///
+/// `E = ½(FᵀF − 1)` is the Green–Lagrange strain and `J = det F`. All strains are zero at rest, so that
+/// small ones keep their digits: write `ln_1p(j)` for ln J, `2 * e1` for `tr C − 3`, and
+/// `4 * e1 + 2 * (e1.powi(2) - e2)` for `tr cof C − 3`. The strains that are named are those that exist.
+/// Their order is the order of the discrete derivatives, and part of the model. Such a model
+/// implements `StrainEnergy`, too.
 ///
 /// # Expressions
 ///
@@ -97,7 +117,7 @@ use syn::{DeriveInput, parse_macro_input};
 ///
 /// # Viscosity
 ///
-/// `#[viscosity(gamma = law)]`, one law per dashpot in N s/m, separated by commas or in several
+/// `#[viscosity(gamma = law)]`, one law per dashpot in N s/m, in a solid in Pa s, separated by commas or in several
 /// attributes. A law may use the temperature and the fields.
 ///
 /// # Units
@@ -106,7 +126,8 @@ use syn::{DeriveInput, parse_macro_input};
 /// with a unit is not looked at; otherwise all fields that they use need one, and the compiler
 /// checks every operation and says which unit a field without one needs. Lengths and viscous
 /// stretches are in m, the temperature is in K, the free energy has to come out in J and a
-/// viscosity in N s/m.
+/// viscosity in N s/m. In a solid strains and viscous variables are pure numbers, the free energy is in
+/// J/m^3, which is Pa, and a viscosity in Pa s.
 ///
 /// | in a formula | is right if |
 /// |---|---|
@@ -144,11 +165,13 @@ use syn::{DeriveInput, parse_macro_input};
 ///   of a function: `ln(-1)`, `sqrt(-lambda)`;
 /// * powers with an exponent that is no integer, of a base that can be negative in some state:
 ///   `(lambda - length).powf(2.5)`. Parameters count as positive here;
+/// * in a solid, what has no value or no derivative at rest: `1 / j`, `ln(j)`, `sqrt(e2)`;
 /// * a free energy that does not depend on one of its arguments, or is linear in the temperature:
 ///   its heat capacity `c = -θ ∂²ψ/∂θ²` is zero, and no temperature belongs to an entropy;
 /// * a heat capacity or a viscosity that is nowhere positive.
 ///
-/// These follow from the formulas alone, given that lengths and temperatures are positive. What
+/// These follow from the formulas alone, given that lengths and temperatures are positive and that
+/// `tr E > −3/2`, `E:E ≥ 0` and `J − 1 > −1`. What
 /// depends on the values of the parameters shows only at run time.
 ///
 /// # Another path to the crate

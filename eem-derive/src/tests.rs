@@ -130,6 +130,44 @@ fn numbers_are_exact_until_they_are_printed() {
 }
 
 #[test]
+fn only_solids_are_per_volume() {
+    let solid = pretty(expand(quote! {
+        #[free_energy(|theta: Temperature, j: Dilatation, e1: StrainTrace| {
+            k * (j.powi(2) + e1) - c * theta * ln(theta)
+        })]
+        struct Solid<T: Copy> { k: T, c: f64 }
+    }));
+    for part in [
+        "const MEASURES: __eem::core::primitive::usize = 2;",
+        "const PER_VOLUME: __eem::core::primitive::bool = true;",
+        "impl<T: Copy> __eem::StrainEnergy<2> for Solid<T> {",
+        "[__eem::Strain::Dilatation, __eem::Strain::Trace]",
+    ] {
+        let squeezed: String = solid.split_whitespace().collect::<Vec<_>>().join(" ");
+        let squeezed = squeezed.replace("[ ", "[").replace(", ]", "]");
+        assert!(squeezed.contains(part), "{part} is not in {solid}");
+    }
+    let spring = pretty(expand(pendulum()));
+    assert!(!spring.contains("PER_VOLUME") && !spring.contains("Strain"));
+}
+
+#[test]
+fn a_wrong_solid_keeps_its_shape() {
+    let solid = pretty(expand(quote! {
+        #[free_energy(|j: Dilatation, e1: StrainTrace, g: Viscous| kk * j * e1 * g)]
+        struct Solid { k: f64 }
+    }));
+    for part in [
+        "const MEASURES: __eem::core::primitive::usize = 2;",
+        "const PER_VOLUME: __eem::core::primitive::bool = true;",
+        "type Variables = [__S; 3];",
+        "impl __eem::StrainEnergy<2> for Solid {",
+    ] {
+        assert!(solid.contains(part), "{part} is not in {solid}");
+    }
+}
+
+#[test]
 fn items_without_syntax_errors_only_are_seen() {
     // The fields may be anything, also types this crate cannot know.
     let input: DeriveInput = parse_quote! {

@@ -35,9 +35,12 @@ pub(crate) fn check(cx: &Ctxt, checked: &Checked<'_>) -> Units {
     }
     let mut rules = Rules::new(cx, checked, &units);
     let &Quantities {
-        energy, viscosity, ..
+        what,
+        energy,
+        viscosity,
+        ..
     } = rules.quantities;
-    rules.body("the free energy", energy, &unit(energy), &checked.energy);
+    rules.body(what, energy, &unit(energy), &checked.energy);
     for law in checked.viscosities.iter().flatten() {
         rules.body("a viscosity", viscosity, &unit(viscosity), law);
     }

@@ -2,7 +2,7 @@
 
 #![allow(missing_docs)]
 
-use energies::FreeEnergy;
+use energies::{FreeEnergy, Strain, StrainEnergy as _};
 
 #[derive(FreeEnergy)]
 #[free_energy(crate = ::energies, |lambda: Stretch, theta: Temperature| {
@@ -23,10 +23,19 @@ struct Separate {
     stiffness: f64,
 }
 
+#[derive(FreeEnergy)]
+#[free_energy(crate = ::energies, |j: Dilatation| 0.5 * bulk * ln_1p(j).powi(2))]
+struct Solid {
+    bulk: f64,
+}
+
 #[test]
 fn a_renamed_crate_is_found() {
     let spring = Spring { stiffness: 2.0 };
     assert!((spring.free_energy(&[3.0_f64, 1.0]) - 18.0).abs() < 1e-14);
+    let solid = Solid { bulk: 2.0 };
+    assert!(solid.free_energy(&[0.0_f64]).abs() <= 0.0);
+    assert_eq!(Solid::STRAINS, [Strain::Dilatation]);
     let separate = Separate { stiffness: 2.0 };
     assert!((separate.free_energy(&[3.0_f64]) - 18.0).abs() < 1e-14);
 }

@@ -7,8 +7,8 @@ use eem_symbolic::{
     Arithmetic, Bounded, F64, Function, Number, Operation, ProgramKernel, RunningError,
 };
 use support::corners::Evaluated;
-use support::laws;
 use support::precise::{error, to_f64};
+use support::solids;
 
 /// Increments of every variable relative to its size; the last one is negative for a change.
 const INCREMENTS: [f64; 6] = [0.0, 1e-14, 1e-9, 1e-5, 1e-2, -0.1];
@@ -18,6 +18,9 @@ const PRECISE: f64 = 1e-60;
 
 /// A central difference in high precision: offset 1e-30, squared.
 const DIFFERENCE: f64 = 1e-50;
+
+/// How many random laws.
+const RANDOM: u64 = 3;
 
 /// x¹ for a relative increment, each variable by another amount.
 fn moved(state: &[f64], increment: f64) -> Vec<f64> {
@@ -30,7 +33,16 @@ fn moved(state: &[f64], increment: f64) -> Vec<f64> {
 }
 
 fn laws() -> Vec<Evaluated> {
-    laws::all().into_iter().map(Evaluated::new).collect()
+    support::all_laws()
+        .into_iter()
+        .map(Evaluated::new)
+        .collect()
+}
+
+/// With random solids of three measures.
+fn laws_and_random() -> Vec<Evaluated> {
+    let random = (0..RANDOM).map(solids::random).map(Evaluated::new);
+    laws().into_iter().chain(random).collect()
 }
 
 /// Relative to the largest magnitude of the two.
@@ -46,7 +58,7 @@ fn relative(law: &Evaluated, a: &BigFloat, b: &BigFloat) -> f64 {
 
 #[test]
 fn responses_are_partitioned_quotients() {
-    for law in laws() {
+    for law in laws_and_random() {
         for increment in [1e-9, 1e-2, -0.1] {
             let x0 = law.precise.all(&law.law.state);
             let x1 = law.precise.all(&moved(&law.law.state, increment));
@@ -74,7 +86,7 @@ fn responses_are_partitioned_quotients() {
 
 #[test]
 fn energy_is_the_sum_of_forces_times_increments() {
-    for law in laws() {
+    for law in laws_and_random() {
         let p = &law.precise;
         let x0 = p.all(&law.law.state);
         let x1 = p.all(&moved(&law.law.state, 0.1));
@@ -106,7 +118,7 @@ fn energy_is_the_sum_of_forces_times_increments() {
 /// Tangent entry (i, j) against the central difference of response i in `x_j¹`.
 #[test]
 fn tangents_are_total_derivatives() {
-    for law in laws() {
+    for law in laws_and_random() {
         for increment in [0.0, 1e-5, 0.1] {
             let x0 = law.precise.all(&law.law.state);
             let x1 = law.precise.all(&moved(&law.law.state, increment));

@@ -5,7 +5,6 @@ mod support;
 
 use eem_symbolic::{Graph, Kernel, format};
 use reader::read;
-use support::laws;
 use support::random::{self, Random};
 
 /// The formula is printed as `expected`.
@@ -117,7 +116,7 @@ fn text_is_read_back_as_the_same_text() {
 
 #[test]
 fn laws_are_read_back() {
-    for mut law in laws::all() {
+    for mut law in support::all_laws() {
         let text = format(&law.model.graph, law.model.psi);
         assert_eq!(read(&mut law.model.graph, &text), law.model.psi, "{text}");
     }

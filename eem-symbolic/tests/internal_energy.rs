@@ -88,7 +88,7 @@ fn the_energy_of_the_pendulum_has_no_logarithm_of_the_temperature() {
 #[test]
 fn every_law_agrees_with_the_definition() {
     let precise = Precise::new();
-    for mut law in laws::all() {
+    for mut law in support::all_laws() {
         let Some(theta) = law.model.temperature else {
             continue;
         };

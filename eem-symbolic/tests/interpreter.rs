@@ -3,7 +3,6 @@
 mod support;
 
 use eem_symbolic::{Arithmetic, Bounded, F64, Function, ProgramKernel, RunningError};
-use support::laws;
 use support::precise::{Precise, error, to_f64};
 use support::random::Random;
 
@@ -90,7 +89,7 @@ fn magnitudes_have_a_difference_at_both_sides_of_zero() {
 fn programs_are_within_their_bound() {
     let precise = Precise::new();
     let mut random = Random::new(7);
-    for law in laws::all() {
+    for law in support::all_laws() {
         let programs = law.model.programs();
         let mut all = vec![
             &programs.free_energy,

@@ -7,7 +7,6 @@ use eem_symbolic::{
     DifferencePart, F64, Function, Graph, Input, Instruction, Operation, Program, ProgramKernel,
     Stage, Value, VerifyError,
 };
-use support::laws;
 
 const LN: ProgramKernel = ProgramKernel::Function(Function::Ln);
 
@@ -97,7 +96,7 @@ fn functions_without_such_a_call_are_refused() {
 #[test]
 fn no_two_calls_could_be_one() {
     let mut joint = 0;
-    for law in laws::all() {
+    for law in support::all_laws() {
         let programs = law.model.programs();
         let forms = [Some(programs.entropy_form), programs.temperature_form];
         for program in forms.into_iter().flatten() {
@@ -126,7 +125,7 @@ fn no_two_calls_could_be_one() {
 
 #[test]
 fn a_restricted_program_says_where_its_values_come_from() {
-    for law in laws::all() {
+    for law in support::all_laws() {
         let program = law.model.programs().entropy_form;
         let responses = law.state.len() + usize::from(law.model.temperature.is_some());
         let restriction = program.restricted_to(responses);

@@ -216,7 +216,7 @@ fn of_law(law: &Law) -> [f64; 2] {
 /// Σ |terms| of ordinary springs, within a factor of ten: logarithms of quotients are what is more.
 #[test]
 fn ordinary_laws_have_ordinary_magnitudes() {
-    for law in laws::all() {
+    for law in support::all_laws() {
         let [psi, magnitude] = of_law(&law);
         println!("{}: ψ {psi:.3e}, magnitude {magnitude:.3e}", law.name);
         assert!(magnitude >= psi.abs() * (1.0 - OWN), "{}", law.name);

@@ -37,7 +37,7 @@ fn each(programs: &Programs) -> Vec<(&'static str, &Program)> {
 
 #[test]
 fn programs_of_laws_are_valid() {
-    for law in laws::all() {
+    for law in support::all_laws() {
         for (name, program) in each(&law.model.programs()) {
             assert_eq!(program.verify(), Ok(()), "{} of {}", name, law.name);
         }
@@ -46,7 +46,7 @@ fn programs_of_laws_are_valid() {
 
 #[test]
 fn shapes_are_those_of_the_law() {
-    for law in laws::all() {
+    for law in support::all_laws() {
         let model = &law.model;
         let programs = model.programs();
         let (n, thermal) = (law.state.len(), usize::from(model.temperature.is_some()));
@@ -74,7 +74,7 @@ fn shapes_are_those_of_the_law() {
 
 #[test]
 fn old_stage_depends_on_parameters_and_old_state_alone() {
-    for law in laws::all() {
+    for law in support::all_laws() {
         let (parameters, n) = (law.parameters.len(), law.state.len());
         let program = law.model.programs().entropy_form;
         for (index, input) in program.inputs.iter().enumerate() {
@@ -131,7 +131,7 @@ fn operation_counts_stay_small() {
 
 #[test]
 fn a_restricted_program_has_the_same_bits() {
-    for law in laws::all() {
+    for law in support::all_laws() {
         let program = law.model.programs().entropy_form;
         let responses = law.state.len() + usize::from(law.model.temperature.is_some());
         let restricted = program.restricted_to(responses).program;
@@ -146,7 +146,7 @@ fn a_restricted_program_has_the_same_bits() {
         let theta = law.state.iter().rev().take(1).cycle();
         let state = law.state.iter().copied().chain(moved);
         let inputs = law.parameters.iter().copied().chain(state);
-        let inputs: Vec<f64> = inputs.chain(theta.take(6).copied()).collect();
+        let inputs: Vec<f64> = inputs.chain(theta.take(8).copied()).collect();
         let bits = |program: &Program| {
             let values = program.interpret(&F64, &inputs).into_iter();
             values.take(responses).map(f64::to_bits).collect::<Vec<_>>()

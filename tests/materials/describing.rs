@@ -33,6 +33,26 @@ struct Plain {
     stiffness: f64,
 }
 
+/// A solid with a dashpot.
+#[derive(FreeEnergy)]
+#[free_energy(|e1: StrainTrace, g: Viscous, e2: StrainSquare, theta: Temperature| {
+    0.5 * branch * (e1 - g).powi(2) + mu * e2 - capacity * theta * ln(theta / theta_ref)
+})]
+#[viscosity(g = eta)]
+#[allow(dead_code, reason = "only the type is described")]
+struct Solid {
+    #[unit("J/m^3")]
+    branch: f64,
+    #[unit("Pa")]
+    mu: f64,
+    #[unit("J/(K m^3)")]
+    capacity: f64,
+    #[unit("K")]
+    theta_ref: f64,
+    #[unit("Pa s")]
+    eta: f64,
+}
+
 const SPRING: eem::Description = Spring::<f64, 3>::DESCRIPTION;
 
 #[test]
@@ -66,6 +86,42 @@ fn formulas_follow_from_the_free_energy() {
     let secant = "s[lambda⁰, lambda¹] = force/theta_ref";
     assert_eq!(SPRING.equation("s[lambda]"), Some(secant));
     assert_eq!(SPRING.equation("g"), None);
+}
+
+#[test]
+fn a_solid_is_described_per_volume() {
+    let solid = Solid::DESCRIPTION;
+    let arguments = [
+        Argument::new("e1", "StrainTrace", "1"),
+        Argument::new("e2", "StrainSquare", "1"),
+        Argument::new("g", "Viscous", "1"),
+        Argument::new("theta", "Temperature", "K"),
+    ];
+    assert_eq!(solid.arguments, arguments);
+    let units = solid.formulas.iter().chain(solid.divided_differences);
+    let units: Vec<_> = units
+        .map(|formula| (formula.symbol, formula.unit))
+        .collect();
+    let expected = [
+        ("ψ", "J/m^3"),
+        ("s", "J/(K m^3)"),
+        ("e", "J/m^3"),
+        ("f_1", "Pa"),
+        ("f_2", "Pa"),
+        ("g", "Pa"),
+        ("c", "J/(K m^3)"),
+        ("η", "Pa s"),
+        ("ψ[e1]", "Pa"),
+        ("ψ[e2]", "Pa"),
+        ("ψ[g]", "Pa"),
+        ("s[e1]", "Pa/K"),
+        ("s[theta]", "J/(K^2 m^3)"),
+        ("e[theta]", "J/(K m^3)"),
+    ];
+    for formula in expected {
+        assert!(units.contains(&formula), "{formula:?} is not in {units:?}");
+    }
+    assert_eq!(solid.equation("f_2"), Some("f_2 = ∂ψ/∂e2 = mu"));
 }
 
 #[test]

@@ -240,6 +240,65 @@ fn boxes_that_do_not_fit_are_refused() {
     assert!(said(&endless).starts_with("the temperature from 200 to inf"));
 }
 
+/// The shear modulus falls faster than linearly, which costs heat capacity.
+#[derive(FreeEnergy)]
+#[free_energy(|e1: StrainTrace, e2: StrainSquare, g: Viscous, theta: Temperature| {
+    let heating = theta - 300;
+    0.5 * la * (e1 - g).powi(2) + (mu + 0.5 * curvature * heating.powi(2)) * e2
+        + capacity * (heating - theta * ln(theta / 300))
+})]
+#[viscosity(g = eta)]
+struct Solid {
+    la: f64,
+    mu: f64,
+    curvature: f64,
+    capacity: f64,
+    eta: f64,
+}
+
+#[test]
+fn solids_are_checked_per_volume() {
+    let solid = Solid {
+        la: 2000.0,
+        mu: 1000.0,
+        curvature: 2.0,
+        capacity: 100.0,
+        eta: 5.0,
+    };
+    let domain = |largest| {
+        Domain::of_strains([[-0.1, 0.2], [0.0, largest]])
+            .with_viscous([-0.1, 0.1])
+            .with_temperature([250.0, 400.0])
+    };
+    // C = c − curvature θ e2
+    let report = check_domain(&solid, &domain(0.1), 50).expect("a sound material");
+    let least = report.heat_capacity.as_ref().expect("a temperature");
+    assert!((least.value - 20.0).abs() < 1e-12);
+    let said = report.to_string();
+    assert!(
+        said.contains("J/(K m³) or more, least at strain 0 "),
+        "{said}"
+    );
+    assert!(said.contains("5.000000 Pa s or more"), "{said}");
+    let error = check_domain(&solid, &domain(0.2), 50).expect_err("no heat capacity");
+    let said = error.to_string();
+    assert!(said.contains(", strain 1 0.2, viscous strain "), "{said}");
+    assert!(said.contains(" J/(K m³) at strain 0 "), "{said}");
+}
+
+#[test]
+fn a_solid_is_no_spring() {
+    let spring = LogarithmicStiffness::SOFT;
+    let strains = Domain::of_strains([[0.0, 0.1]]).with_temperature([200.0, 300.0]);
+    let error = check_domain(&spring, &strains, 10).expect_err("a solid");
+    assert_eq!(
+        error.to_string(),
+        "the model has 1 of role `Stretch`, the domain 0"
+    );
+    let bond = Domain::<f64>::of_strains([[0.2, 0.1]]);
+    assert_eq!(bond.ranges().count(), 1);
+}
+
 #[test]
 fn the_same_check_gives_the_same_report() {
     let spring = LogarithmicStiffness::SOFT;

@@ -8,7 +8,7 @@ use std::fmt::Debug;
 use std::marker::PhantomData;
 use std::ops::Mul;
 
-use eem::FreeEnergy;
+use eem::{FreeEnergy, Strain, StrainEnergy};
 
 /// All parameters of the scalar type: the model works in that scalar.
 #[derive(FreeEnergy)]
@@ -121,6 +121,36 @@ struct Raw {
 })]
 #[viscosity(a = 1, b = 2 * theta)]
 struct Order {}
+
+/// A solid of any scalar; its measures are in the order of the arguments.
+#[derive(FreeEnergy)]
+#[free_energy(|g: Viscous, j: Dilatation, theta: Temperature, e2: StrainSquare, e1: StrainTrace| {
+    2 * mu * e2 + 3 * e1 + 5 * j + 7 * g - 11 * theta.powi(2)
+})]
+#[viscosity(g = 1)]
+struct Solid<'a, T: Copy, const N: usize>
+where
+    T: Debug,
+{
+    mu: T,
+    #[allow(dead_code)]
+    data: &'a [T; N],
+}
+
+#[test]
+fn strains_are_measures_in_the_order_of_the_arguments() {
+    let solid = Solid {
+        mu: 0.5,
+        data: &[1.0],
+    };
+    assert_eq!(<Solid<'_, f64, 1> as FreeEnergy<f64>>::MEASURES, 3);
+    let strains = <Solid<'_, f64, 1> as StrainEnergy<3>>::STRAINS;
+    assert_eq!(strains, [Strain::Dilatation, Strain::Square, Strain::Trace]);
+    assert_eq!(
+        solid.gradient(&[1.0, 1.0, 1.0, 1.0, 1.0]),
+        [5.0, 1.0, 3.0, 7.0, -22.0]
+    );
+}
 
 fn energy<M, const N: usize>(model: &M, x: [f64; N]) -> f64
 where

@@ -17,6 +17,8 @@ mod shadows {
     pub(crate) struct From;
     pub(crate) struct Option;
     pub(crate) struct Self_;
+    pub(crate) struct Strain;
+    pub(crate) trait StrainEnergy {}
     pub(crate) struct bool;
     pub(crate) struct f64;
     pub(crate) struct str;
@@ -34,8 +36,8 @@ mod facade {
 mod no_prelude {
     #[allow(unused_imports)]
     use crate::hygiene::shadows::{
-        Array, Caloric, From, Option, Scalar, bool, core, diff, eem, f64, kernel, ln, std, str,
-        usize,
+        Array, Caloric, From, Option, Scalar, Strain, StrainEnergy, bool, core, diff, eem, f64,
+        kernel, ln, std, str, usize,
     };
 
     #[derive(::eem::FreeEnergy)]
@@ -50,6 +52,20 @@ mod no_prelude {
         pub(crate) k: ::core::primitive::f64,
         pub(crate) c: ::core::primitive::f32,
         pub(crate) eta: ::core::primitive::f64,
+    }
+}
+
+mod solid_without_prelude {
+    #[allow(unused_imports)]
+    use crate::hygiene::shadows::{
+        Array, Caloric, Scalar, Strain, StrainEnergy, bool, core, eem, f64, usize,
+    };
+
+    #[derive(::eem::FreeEnergy)]
+    #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * la * e1.powi(2) + mu * e2)]
+    pub(crate) struct Solid {
+        pub(crate) la: ::core::primitive::f64,
+        pub(crate) mu: ::core::primitive::f64,
     }
 }
 
@@ -124,6 +140,15 @@ fn models_work_without_the_prelude() {
     assert_eq!(psi, 750.0);
     let (eta, _): ([f64; 1], _) = ::eem::FreeEnergy::viscosity(&spring, 300.0);
     assert_eq!(eta, [7.0 * f64::exp(1.0)]);
+}
+
+#[test]
+fn solids_work_without_the_prelude() {
+    let solid = solid_without_prelude::Solid { la: 4.0, mu: 2.0 };
+    let psi: f64 = ::eem::FreeEnergy::free_energy(&solid, &[0.5, 0.25]);
+    assert_eq!(psi, 1.0);
+    let strains = <solid_without_prelude::Solid as ::eem::StrainEnergy<2>>::STRAINS;
+    assert_eq!(strains, [::eem::Strain::Trace, ::eem::Strain::Square]);
 }
 
 #[test]

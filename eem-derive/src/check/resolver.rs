@@ -5,7 +5,7 @@ use proc_macro2::Ident;
 use super::callee::is_function;
 use super::parameters::Used;
 use super::scope::{Meaning, Scope};
-use crate::ast;
+use crate::ast::{self, Role};
 use crate::checked::{Body, Expr, ExprKind, Variable};
 use crate::ctxt::Ctxt;
 use crate::message::{expression as message, field};
@@ -78,6 +78,21 @@ impl<'r, 'a> Resolver<'r, 'a> {
         self.cx.error(ident, &message);
     }
 
+    /// What the literature means by a name, if the model can have one more of that.
+    fn missing_role(&self, name: &str) -> Option<Role> {
+        let role = Role::usual(name)?;
+        let has = |taken: fn(Role, Role) -> bool| {
+            let mut variables = self.variables.iter();
+            variables.any(|variable| taken(variable.role, role))
+        };
+        let taken = role != Role::Viscous && has(|one, other| one == other);
+        let other_kind = has(|one, other| {
+            let is_strain = |role: Role| role.strain().is_some();
+            one.is_measure() && other.is_measure() && is_strain(one) != is_strain(other)
+        });
+        (!taken && !other_kind).then_some(role)
+    }
+
     /// Reports a name that stands for nothing.
     pub(super) fn unknown(&self, ident: &Ident) {
         let name = ast::name(ident);
@@ -86,7 +101,7 @@ impl<'r, 'a> Resolver<'r, 'a> {
         let message = match (nearest, constant) {
             _ if is_function(ident) => message::name_is_a_function(&name),
             (None, Some(value)) => message::syntax::constant(&name, value),
-            _ => message::unknown_name(ident, nearest),
+            _ => message::unknown_name(ident, nearest, self.missing_role(&name)),
         };
         self.cx.error(ident, &message);
     }

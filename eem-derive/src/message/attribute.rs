@@ -110,7 +110,10 @@ pub(crate) fn closure_output() -> Message {
 
 pub(crate) fn argument_without_role(argument: &str) -> Message {
     let help = match Role::usual(argument) {
-        Some(role @ Role::Strain(_)) => format!("write `{argument}: {}`", role.name()),
+        Some(role @ Role::Strain(_)) => format!(
+            "say what it stands for, in a solid `{argument}: {}`",
+            role.name()
+        ),
         _ => format!(
             "say what it stands for: `{argument}: Stretch`, `{argument}: Viscous` or `{argument}: Temperature`"
         ),
@@ -139,8 +142,8 @@ pub(crate) fn unknown_role(role: &str, meant: &[&str]) -> Message {
 
 pub(crate) fn no_measure() -> Message {
     Message::new(
-        "the free energy has no argument of role `Stretch`, and none of a strain",
-        "add one: `lambda: Stretch` is the length of a spring; `e1: StrainTrace`, `e2: StrainSquare` and `j: Dilatation` are strains of a solid",
+        "the free energy has neither a `Stretch` nor a strain",
+        "add an argument: `lambda: Stretch` is the length of a spring; `e1: StrainTrace`, `e2: StrainSquare` and `j: Dilatation` are strains of a solid",
     )
 }
 
@@ -158,7 +161,7 @@ pub(crate) fn second_role(role: Role, argument: &Ident, first: &Ident) -> Messag
     let (argument, first) = (ast::name(argument), ast::name(first));
     let help = match role {
         Role::Stretch => "a spring has one length; an internal variable is `Viscous`",
-        Role::Strain(_) => "a strain has one name",
+        Role::Strain(_) => "every strain is one argument; remove one of the two",
         Role::Temperature => "an element has one temperature",
         Role::Viscous => unreachable!("there may be many dashpots"),
     };

@@ -8,9 +8,10 @@ use crate::ast::{self, Role};
 pub(crate) mod rest;
 pub(crate) mod syntax;
 
-pub(crate) fn unknown_name(name: &Ident, nearest: Option<&str>) -> Message {
+/// `role` is what the literature means by the name.
+pub(crate) fn unknown_name(name: &Ident, nearest: Option<&str>, role: Option<Role>) -> Message {
     let name = ast::name(name);
-    let help = match (nearest, Role::usual(&name)) {
+    let help = match (nearest, role) {
         (Some(nearest), _) => format!("did you mean `{nearest}`?"),
         (None, Some(role)) => format!(
             "declare it as an argument, `{name}: {}`, or as a field, `{name}: f64`",

@@ -27,13 +27,12 @@ impl Lowering<'_> {
     }
 
     /// `√x`, x ≥ 0.
-    pub(super) fn check_root(&mut self, expr: &Expr<'_>, value: ExprId) -> Option<()> {
+    pub(super) fn check_root(&self, expr: &Expr<'_>, value: ExprId) -> Option<()> {
         let sign = self.sign(value);
         let outside = !sign.zero && !sign.positive;
         self.unless(outside, expr, &|| {
             message::outside_domain("sqrt", "negative", "x >= 0")
-        })?;
-        self.check_slope_at_rest("sqrt", expr, value)
+        })
     }
 
     /// `x^y`, x > 0, unless y is an integer. What changes its sign with the state is refused: the

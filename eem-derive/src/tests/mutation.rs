@@ -7,7 +7,7 @@ use proc_macro2::{Group, TokenStream, TokenTree};
 use syn::DeriveInput;
 
 /// Models with something of everything; short, because every mutation may be expanded.
-const MODELS: [&str; 4] = [
+const MODELS: [&str; 5] = [
     "#[free_energy(|lambda: Stretch, gamma: Viscous, theta: Temperature| {
         let strain = ln(lambda / length);
         k * strain.powi(2) + (lambda + gamma.powi(2)).powf(1.5) - c * theta * ln(theta / 300)
@@ -25,10 +25,16 @@ const MODELS: [&str; 4] = [
     struct Branches { c: f64 }",
     "#[free_energy(|x: Stretch, t: Temperature| x.powi(2) - t * t.ln() + asinh(x).cbrt())]
     struct Unit;",
+    "#[free_energy(|e1: StrainTrace, e2: StrainSquare, j: Dilatation, g: Viscous, t: Temperature| {
+        let l = ln_1p(j);
+        a * (e1 - g).powi(2) + b * e2 / (1 + j) - t * l + sqrt(1 + e2) * (1 + j).powf(-1.5) - t * ln(t)
+    })]
+    #[viscosity(g = a / t)]
+    struct Solid { #[unit(\"Pa\")] a: f64, b: f64 }",
 ];
 
 /// Tokens that mistakes are made of.
-const FOREIGN: &str = "a x lambda theta zeta Stretch Viscous 0 1 -1 2.5 1e999 \"s\" 'c' true + - * / ^ % & ! ? \
+const FOREIGN: &str = "a x lambda theta zeta Stretch Viscous e1 j Dilatation StrainTrace 0 1 -1 2.5 1e999 \"s\" 'c' true + - * / ^ % & ! ? \
     = == < .. ; , : :: . | || => ln exp powi diff abs sqrt if else match for return let mut fn const \
     unsafe async self as _ ( ) { } [ ] crate unused #[viscosity] 2u8 r#type struct";
 

@@ -7,6 +7,8 @@ use crate::unit::Unit;
 /// The units of a spring or of a solid, as messages and descriptions write them.
 #[derive(Debug)]
 pub(crate) struct Quantities {
+    /// What messages call ψ.
+    pub(crate) what: &'static str,
     /// ψ and e.
     pub(crate) energy: &'static str,
     /// Their derivatives by measures and viscous variables.
@@ -25,6 +27,7 @@ pub(crate) struct Quantities {
 
 /// A free energy of lengths.
 const SPRING: Quantities = Quantities {
+    what: "the free energy",
     energy: "J",
     force: "N",
     entropy: "J/K",
@@ -36,6 +39,7 @@ const SPRING: Quantities = Quantities {
 
 /// A free energy of strains, per volume.
 const SOLID: Quantities = Quantities {
+    what: "the free energy per volume",
     energy: "J/m^3",
     force: "Pa",
     entropy: "J/(K m^3)",

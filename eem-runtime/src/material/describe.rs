@@ -34,14 +34,14 @@ pub trait Describe {
 pub struct Description {
     /// The name of the type.
     pub name: &'static str,
-    /// The variables in the order of the state: lengths, viscous stretches, temperature.
+    /// The variables in the order of the state: length or strains, viscous variables, temperature.
     pub arguments: &'static [Argument],
     /// The fields that the formulas use.
     pub parameters: &'static [Parameter],
-    /// ψ, s, e, f, g, c and η, as far as the model has them.
+    /// ψ, s, e, f, g, c and η, as far as the model has them; per volume in a solid.
     pub formulas: &'static [Formula],
-    /// The divided differences that discrete derivatives are made of: of ψ and s along lengths and
-    /// viscous stretches, of e and s along the temperature, `F[x⁰, x¹] = (F(x¹) − F(x⁰))/(x¹ − x⁰)`.
+    /// The divided differences that discrete derivatives are made of: of ψ and s along measures and
+    /// viscous variables, of e and s along the temperature, `F[x⁰, x¹] = (F(x¹) − F(x⁰))/(x¹ − x⁰)`.
     pub divided_differences: &'static [Formula],
     /// The generated functions and what they cost.
     pub costs: &'static [Cost],
@@ -52,7 +52,7 @@ pub struct Description {
 pub struct Argument {
     /// Its name in the formulas.
     pub name: &'static str,
-    /// `Stretch`, `Viscous` or `Temperature`.
+    /// `Stretch`, `StrainTrace`, `StrainSquare`, `Dilatation`, `Viscous` or `Temperature`.
     pub role: &'static str,
     /// Its unit.
     pub unit: &'static str,

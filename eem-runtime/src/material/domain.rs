@@ -18,6 +18,7 @@ pub use error::DomainError;
 pub use point::{DomainReport, Least};
 use point::{Shape, Space};
 pub use state::DomainPoint;
+use state::Kind;
 
 /// A box of states: an interval for each variable of a model.
 ///
@@ -29,10 +30,15 @@ pub use state::DomainPoint;
 ///     .with_viscous([-0.5, 0.5])
 ///     .with_temperature([250.0, 400.0]);
 /// assert_eq!(domain.ranges().count(), 3);
+///
+/// // A solid with e1, e2 and j, in the order of the arguments.
+/// let domain = Domain::of_strains([[-0.1, 0.2], [0.0, 0.05], [-0.1, 0.2]]);
+/// assert_eq!(domain.ranges().count(), 3);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Domain<S = f64> {
-    stretch: [S; 2],
+    kind: Kind,
+    measures: Vec<[S; 2]>,
     viscous: Vec<[S; 2]>,
     temperature: Option<[S; 2]>,
 }
@@ -41,14 +47,28 @@ impl<S: Real> Domain<S> {
     /// All stretches between two lengths, m.
     #[must_use]
     pub fn of_stretch(range: [S; 2]) -> Self {
+        Self::of(Kind::Spring, vec![range])
+    }
+
+    /// All strains of a solid between two each, in the order of the arguments of its free energy.
+    ///
+    /// The strains of a body are not independent, and a box has states that no body can be in; what
+    /// is said about them may be left alone.
+    #[must_use]
+    pub fn of_strains(ranges: impl IntoIterator<Item = [S; 2]>) -> Self {
+        Self::of(Kind::Solid, ranges.into_iter().collect())
+    }
+
+    fn of(kind: Kind, measures: Vec<[S; 2]>) -> Self {
         Self {
-            stretch: range,
+            kind,
+            measures,
             viscous: Vec::new(),
             temperature: None,
         }
     }
 
-    /// With the viscous stretches of the next dashpot, m.
+    /// With the viscous stretches of the next dashpot, m; viscous strains in a solid.
     #[must_use]
     pub fn with_viscous(mut self, range: [S; 2]) -> Self {
         self.viscous.push(range);
@@ -62,17 +82,16 @@ impl<S: Real> Domain<S> {
         self
     }
 
-    /// The intervals in the order of the variables: stretch, viscous stretches, temperature.
+    /// The intervals in the order of the variables: stretch or strains, viscous variables, temperature.
     pub fn ranges(&self) -> impl Iterator<Item = [S; 2]> + '_ {
-        let mechanical = [self.stretch]
-            .into_iter()
-            .chain(self.viscous.iter().copied());
-        mechanical.chain(self.temperature)
+        let mechanical = self.measures.iter().chain(&self.viscous);
+        mechanical.copied().chain(self.temperature)
     }
 
     fn shape(&self) -> Shape {
         Shape {
-            measures: 1,
+            kind: self.kind,
+            measures: self.measures.len(),
             dashpots: self.viscous.len(),
             thermal: self.temperature.is_some(),
         }
@@ -89,7 +108,7 @@ impl<S: Real> Domain<S> {
 ///
 /// must hold; what a model without temperature or without dashpots does not have is not asked for.
 /// Looked at are the corners of the box, `samples` points of a sequence that fills it evenly
-/// (positive variables in their logarithm), and what a search downhill from the smallest heat
+/// (lengths and temperatures in their logarithm), and what a search downhill from the smallest heat
 /// capacities and viscosities meets. The result is the same in every run.
 ///
 /// A report is evidence, not a proof: a dip between the points that no slope leads to stays unseen.
@@ -144,6 +163,7 @@ pub fn check_domain<S: Real, M: FreeEnergy<S>>(
     samples: usize,
 ) -> Result<DomainReport, DomainError> {
     let shape = Shape {
+        kind: Kind::of(M::PER_VOLUME),
         measures: M::MEASURES,
         dashpots: M::DASHPOTS,
         thermal: M::THERMAL,

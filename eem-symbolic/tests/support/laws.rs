@@ -22,14 +22,14 @@ pub(crate) fn all() -> Vec<Law> {
 }
 
 /// Collects symbols while a formula is written down.
-struct Writer {
-    graph: Graph,
-    parameters: Vec<Symbol>,
-    values: Vec<f64>,
+pub(crate) struct Writer {
+    pub(crate) graph: Graph,
+    pub(crate) parameters: Vec<Symbol>,
+    pub(crate) values: Vec<f64>,
 }
 
 impl Writer {
-    fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             graph: Graph::new(),
             parameters: Vec::new(),
@@ -37,12 +37,12 @@ impl Writer {
         }
     }
 
-    fn variable(&mut self, name: &str) -> (Symbol, ExprId) {
+    pub(crate) fn variable(&mut self, name: &str) -> (Symbol, ExprId) {
         let symbol = self.graph.symbol(name);
         (symbol, self.graph.variable(symbol))
     }
 
-    fn parameter(&mut self, name: &str, value: f64) -> ExprId {
+    pub(crate) fn parameter(&mut self, name: &str, value: f64) -> ExprId {
         let symbol = self.graph.symbol(name);
         self.parameters.push(symbol);
         self.values.push(value);
@@ -56,7 +56,7 @@ impl Writer {
     }
 
     /// c (θ − θr − θ ln(θ/θr)).
-    fn caloric(&mut self, c: ExprId, theta: ExprId, reference: ExprId) -> ExprId {
+    pub(crate) fn caloric(&mut self, c: ExprId, theta: ExprId, reference: ExprId) -> ExprId {
         let logarithm = self.log_ratio(theta, reference);
         let product = self.graph.mul(theta, logarithm);
         let excess = self.graph.sub(theta, reference);
@@ -65,13 +65,18 @@ impl Writer {
     }
 
     /// a − b (θ − θr).
-    fn softening(&mut self, [a, b]: [ExprId; 2], excess: ExprId) -> ExprId {
+    pub(crate) fn softening(&mut self, [a, b]: [ExprId; 2], excess: ExprId) -> ExprId {
         let loss = self.graph.mul(b, excess);
         self.graph.sub(a, loss)
     }
 
     /// C/2 L² − β (θ − θr) L.
-    fn strain_energy(&mut self, [c, beta]: [ExprId; 2], strain: ExprId, excess: ExprId) -> ExprId {
+    pub(crate) fn strain_energy(
+        &mut self,
+        [c, beta]: [ExprId; 2],
+        strain: ExprId,
+        excess: ExprId,
+    ) -> ExprId {
         let square = self.graph.powi(strain, 2);
         let half = self.graph.number(Number::HALF);
         let elastic = self.graph.product(&[half, c, square]);
@@ -80,7 +85,12 @@ impl Writer {
     }
 
     /// η0 exp(a (1/θ − 1/θr)).
-    fn viscosity(&mut self, [eta, a]: [ExprId; 2], theta: ExprId, reference: ExprId) -> ExprId {
+    pub(crate) fn viscosity(
+        &mut self,
+        [eta, a]: [ExprId; 2],
+        theta: ExprId,
+        reference: ExprId,
+    ) -> ExprId {
         let inverse = [theta, reference].map(|x| self.graph.recip(x));
         let difference = self.graph.sub(inverse[0], inverse[1]);
         let exponent = self.graph.mul(a, difference);

@@ -5,3 +5,9 @@ pub(crate) mod corners;
 pub(crate) mod laws;
 pub(crate) mod precise;
 pub(crate) mod random;
+pub(crate) mod solids;
+
+/// All springs and solids.
+pub(crate) fn all_laws() -> Vec<laws::Law> {
+    laws::all().into_iter().chain(solids::all()).collect()
+}

@@ -165,7 +165,8 @@ impl Law<'_> {
 
     /// `g* = −D_γ e`.
     fn signed(&self, response: &mut [Precise]) {
-        for g in &mut response[1..=self.specimen.dashpots()] {
+        let [first, count] = [self.specimen.measures(), self.specimen.dashpots()];
+        for g in &mut response[first..first + count] {
             *g = g.neg();
         }
     }

@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use eem_symbolic::{ExprId, Function, Graph, Model, Node, Number, Symbol};
+use eem_symbolic::{ExprId, Function, Graph, LowerBound, Model, Node, Number, Rational, Symbol};
 
 use crate::zoo::number::{Num, Value};
 
@@ -75,11 +75,21 @@ pub(crate) struct Written {
     pub(crate) viscosities: Vec<Num<ExprId>>,
 }
 
-/// The model that `write(variables, parameters)` writes down; the first variable is the stretch,
-/// the last one the temperature if there is one.
+/// From where on the strain of this role is.
+fn bound(symbol: Symbol, role: &str) -> Option<LowerBound> {
+    Some(match role {
+        "StrainTrace" => LowerBound::above(symbol, Rational::new(-3, 2)?),
+        "StrainSquare" => LowerBound::from(symbol, Rational::ZERO),
+        "Dilatation" => LowerBound::above(symbol, Rational::MINUS_ONE),
+        _ => return None,
+    })
+}
+
+/// The model that `write(variables, parameters)` writes down; the variables are in the order of
+/// the state.
 pub(crate) fn model(
     variables: &[&str],
-    thermal: bool,
+    roles: &[&str],
     parameters: &[&str],
     write: impl FnOnce(&[Num<ExprId>], &[Num<ExprId>]) -> Written,
 ) -> Model {
@@ -94,12 +104,20 @@ pub(crate) fn model(
     let p: Vec<_> = parameters.iter().map(variable).collect();
     let Written { psi, viscosities } = write(&x, &p);
     let x: Vec<Symbol> = x.iter().map(|x| symbol(x.0)).collect();
-    let mechanical = x.len() - usize::from(thermal);
+    let of_role = |wanted: &str| {
+        let pairs = x.iter().zip(roles).filter(|(_, role)| **role == wanted);
+        pairs.map(|(&symbol, _)| symbol).collect::<Vec<_>>()
+    };
+    let pairs = x.iter().zip(roles);
+    let strains = pairs.filter_map(|(&symbol, role)| bound(symbol, role));
+    let strains: Vec<_> = strains.collect();
+    let mut measures = of_role("Stretch");
+    measures.extend(strains.iter().map(|strain| strain.symbol));
     Model {
-        measures: x[..1].to_vec(),
-        strains: vec![],
-        dashpots: x[1..mechanical].to_vec(),
-        temperature: x.get(mechanical).copied(),
+        measures,
+        strains,
+        dashpots: of_role("Viscous"),
+        temperature: of_role("Temperature").pop(),
         parameters: p.iter().map(|p| symbol(p.0)).collect(),
         graph: with(|graph| graph.clone()),
         psi: psi.0,

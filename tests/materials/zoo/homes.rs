@@ -11,9 +11,14 @@ const SAMPLES: usize = 500;
 /// The home of a specimen as a domain.
 fn home(specimen: &dyn Specimen) -> Domain {
     let home = specimen.home();
-    let mechanical = 1 + specimen.dashpots();
-    let mut domain = Domain::of_stretch(home[0]);
-    for &range in &home[1..mechanical] {
+    let measures = specimen.measures();
+    let mechanical = measures + specimen.dashpots();
+    let mut domain = if specimen.is_solid() {
+        Domain::of_strains(home[..measures].iter().copied())
+    } else {
+        Domain::of_stretch(home[0])
+    };
+    for &range in &home[measures..mechanical] {
         domain = domain.with_viscous(range);
     }
     for &range in &home[mechanical..] {

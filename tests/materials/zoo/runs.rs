@@ -158,7 +158,8 @@ fn violation(specimen: &dyn Specimen, scheme: Scheme, air: Option<f64>) -> Optio
 #[test]
 fn every_specimen_keeps_energy_and_produces_entropy() {
     let mut wrong = Vec::new();
-    for specimen in families::all() {
+    let springs = families::all().into_iter();
+    for specimen in springs.filter(|specimen| !specimen.is_solid()) {
         for scheme in [Scheme::EemEntropy, Scheme::EemTemperature] {
             for air in AIR {
                 wrong.extend(violation(&*specimen, scheme, air));

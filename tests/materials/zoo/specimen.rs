@@ -12,8 +12,9 @@ use crate::zoo::precise::Precise;
 /// What [`specimen!`] writes for a model.
 pub(crate) trait Formula: FreeEnergy<f64> + Clone + Send + Sync + 'static {
     const NAME: &'static str;
-    /// Stretch, viscous stretches, temperature.
+    /// Stretch or strains, viscous variables, temperature.
     const VARIABLES: &'static [&'static str];
+    const ROLES: &'static [&'static str];
     const FIELDS: &'static [&'static str];
     /// A state in the middle of what the model is for.
     const STATE: &'static [f64];
@@ -30,7 +31,20 @@ pub(crate) trait Formula: FreeEnergy<f64> + Clone + Send + Sync + 'static {
     fn psi_of_numbers<V: Value>(x: &[Num<V>], fields: &[Num<V>]) -> Num<V>;
     /// `η_k`.
     fn viscosities<V: Value>(x: &[Num<V>], fields: &[Num<V>]) -> Vec<Num<V>>;
+    /// The element of a spring.
+    fn into_spring(self, scene: &mut Scene<2>, ends: [Node; 2]) -> Element;
 }
+
+/// A spring in a scene; a solid is none.
+macro_rules! element {
+    (Stretch $($rest:ident)*; $model:expr, $scene:expr, $ends:expr) => {
+        $scene.spring($model, $ends)
+    };
+    ($($roles:ident)*; $model:expr, $scene:expr, $ends:expr) => {
+        unreachable!("a solid between {:?} of {:?}", $ends, $scene)
+    };
+}
+pub(crate) use element;
 
 /// Writes a free energy once and has it read twice: by the derive as tokens, by Rust as a function
 /// of any number. A formula with `diff` has a second one, behind `or`, without.
@@ -54,6 +68,7 @@ macro_rules! specimen {
         impl $crate::zoo::specimen::Formula for $name {
             const NAME: &'static str = stringify!($name);
             const VARIABLES: &'static [&'static str] = &[$(stringify!($argument)),*];
+            const ROLES: &'static [&'static str] = &[$(stringify!($role)),*];
             const FIELDS: &'static [&'static str] = &[$(stringify!($field)),*];
             const STATE: &'static [f64] = &[$($at),*];
             const HOME: &'static [[f64; 2]] = &[$([$low, $high]),*];
@@ -94,6 +109,14 @@ macro_rules! specimen {
                 let &[$($field),*] = fields else { panic!("one number per field") };
                 vec![$($viscosity),*]
             }
+
+            fn into_spring(
+                self,
+                scene: &mut eem::prelude::Scene<2>,
+                ends: [eem::prelude::Node; 2],
+            ) -> eem::prelude::Element {
+                $crate::zoo::specimen::element!($($role)*; self, scene, ends)
+            }
         }
     };
 }
@@ -103,7 +126,10 @@ pub(crate) use specimen;
 pub(crate) trait Specimen {
     fn name(&self) -> &'static str;
     fn thermal(&self) -> bool;
+    fn measures(&self) -> usize;
     fn dashpots(&self) -> usize;
+    /// It is a function of strains.
+    fn is_solid(&self) -> bool;
     fn state(&self) -> &'static [f64];
     fn home(&self) -> &'static [[f64; 2]];
     /// The numbers that programs take before the state.
@@ -153,8 +179,16 @@ impl<F: Formula> Specimen for F {
         F::THERMAL
     }
 
+    fn measures(&self) -> usize {
+        F::MEASURES
+    }
+
     fn dashpots(&self) -> usize {
         F::DASHPOTS
+    }
+
+    fn is_solid(&self) -> bool {
+        F::PER_VOLUME
     }
 
     fn state(&self) -> &'static [f64] {
@@ -176,7 +210,7 @@ impl<F: Formula> Specimen for F {
             psi: F::psi(x, fields),
             viscosities: F::viscosities(x, fields),
         };
-        let mut model = expression::model(F::VARIABLES, F::THERMAL, F::FIELDS, write);
+        let mut model = expression::model(F::VARIABLES, F::ROLES, F::FIELDS, write);
         // The programs take the parameters in the order in which the macro counts them.
         let place = |name: &&str| F::FIELDS.iter().position(|field| field == name);
         let places = F::PARAMETERS
@@ -244,7 +278,7 @@ impl<F: Formula> Specimen for F {
     }
 
     fn spring(&self, scene: &mut Scene<2>, ends: [Node; 2]) -> Element {
-        scene.spring(self.clone(), ends)
+        self.clone().into_spring(scene, ends)
     }
 
     fn check_domain(&self, domain: &Domain, samples: usize) -> Result<DomainReport, DomainError> {

@@ -17,4 +17,16 @@ struct Undeclared {
     stiffness: f64,
 }
 
+#[derive(FreeEnergy)]
+#[free_energy(|x: Stretch| stiffness * x * (lambda + j))]
+struct Spring {
+    stiffness: f64,
+}
+
+#[derive(FreeEnergy)]
+#[free_energy(|first: StrainTrace| 0.5 * lambda * first.powi(2) + mu * e2 + e1)]
+struct Solid {
+    mu: f64,
+}
+
 fn main() {}

@@ -12,7 +12,7 @@ pub enum DomainError {
     /// The box has not the variables of the model.
     #[error("the model has {expected} of role `{role}`, the domain {given}")]
     Variables {
-        /// `Stretch`, `Viscous` or `Temperature`.
+        /// `Stretch`, `Viscous` or `Temperature`; `Strain…` stands for all roles of strains.
         role: &'static str,
         /// How many the model has.
         expected: usize,
@@ -42,20 +42,20 @@ pub enum DomainError {
         point: DomainPoint,
     },
     /// The heat capacity is not positive and finite: entropy does not determine the temperature.
-    #[error("the heat capacity is {value} J/K at {point}, it must be positive and finite", value = Readable(*value))]
+    #[error("the heat capacity is {value} {unit} at {point}, it must be positive and finite", value = Readable(*value), unit = point.kind.heat_capacity())]
     HeatCapacity {
-        /// The heat capacity `θ ∂s/∂θ`, J/K.
+        /// The heat capacity `θ ∂s/∂θ`, J/K; J/(K m³) in a solid.
         value: f64,
         /// The state.
         point: DomainPoint,
     },
     /// A viscosity is not positive and finite.
     #[error(
-        "the viscosity of dashpot {dashpot} is {value} N s/m at {point}, it must be positive and finite", value = Readable(*value))]
+        "the viscosity of dashpot {dashpot} is {value} {unit} at {point}, it must be positive and finite", value = Readable(*value), unit = point.kind.viscosity())]
     Viscosity {
         /// The dashpot, from 0.
         dashpot: usize,
-        /// The viscosity, N s/m.
+        /// The viscosity, N s/m; Pa s in a solid.
         value: f64,
         /// The state.
         point: DomainPoint,

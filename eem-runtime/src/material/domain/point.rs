@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::error::DomainError;
-use super::state::DomainPoint;
+use super::state::{DomainPoint, Kind};
 use crate::number::readable::Readable;
 
 /// The smallest value that was found, and where.
@@ -20,9 +20,9 @@ pub struct Least {
 pub struct DomainReport {
     /// How many states were looked at.
     pub evaluations: usize,
-    /// The smallest heat capacity, J/K, if the model has a temperature.
+    /// The smallest heat capacity, J/K or J/(K m³), if the model has a temperature.
     pub heat_capacity: Option<Least>,
-    /// The smallest viscosity of each dashpot, N s/m.
+    /// The smallest viscosity of each dashpot, N s/m or Pa s.
     pub viscosities: Vec<Least>,
 }
 
@@ -32,15 +32,17 @@ impl fmt::Display for DomainReport {
         if let Some(Least { value, point }) = &self.heat_capacity {
             write!(
                 f,
-                "; heat capacity {:.6} J/K or more, least at {point}",
-                Readable(*value)
+                "; heat capacity {:.6} {} or more, least at {point}",
+                Readable(*value),
+                point.kind.heat_capacity()
             )?;
         }
         for (dashpot, Least { value, point }) in self.viscosities.iter().enumerate() {
             write!(
                 f,
-                "; viscosity of dashpot {dashpot} {:.6} N s/m or more, least at {point}",
-                Readable(*value)
+                "; viscosity of dashpot {dashpot} {:.6} {} or more, least at {point}",
+                Readable(*value),
+                point.kind.viscosity()
             )?;
         }
         Ok(())
@@ -50,6 +52,7 @@ impl fmt::Display for DomainReport {
 /// How many variables of each role there are.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shape {
+    pub(super) kind: Kind,
     pub(super) measures: usize,
     pub(super) dashpots: usize,
     pub(super) thermal: bool,
@@ -59,9 +62,15 @@ impl Shape {
     /// Whether a domain of shape `given` fits.
     pub(super) fn expect(self, given: Self) -> Result<(), DomainError> {
         let counts = |shape: Self| {
-            let roles = ["Stretch", "Viscous", "Temperature"];
-            let counts = [shape.measures, shape.dashpots, usize::from(shape.thermal)];
-            roles.into_iter().zip(counts)
+            let roles = ["Stretch", "Strain…", "Viscous", "Temperature"];
+            let [stretches, strains] = match shape.kind {
+                Kind::Spring => [shape.measures, 0],
+                Kind::Solid => [0, shape.measures],
+            };
+            let thermal = usize::from(shape.thermal);
+            roles
+                .into_iter()
+                .zip([stretches, strains, shape.dashpots, thermal])
         };
         for ((role, expected), (_, given)) in counts(self).zip(counts(given)) {
             if expected != given {
@@ -116,22 +125,28 @@ impl Space {
         self.shape.thermal
     }
 
-    /// Whether variable `index` is a length or a temperature, and not a viscous stretch.
+    /// Whether variable `index` is a length or a temperature, and neither viscous nor a strain.
     fn is_positive(&self, index: usize) -> bool {
         let Shape {
-            measures, dashpots, ..
+            kind,
+            measures,
+            dashpots,
+            ..
         } = self.shape;
-        !(measures..measures + dashpots).contains(&index)
+        index >= measures + dashpots || (index < measures && kind == Kind::Spring)
     }
 
     fn variable(&self, index: usize) -> String {
         let Shape {
-            measures, dashpots, ..
+            kind,
+            measures,
+            dashpots,
+            ..
         } = self.shape;
         match index.checked_sub(measures) {
-            None => "stretch".to_owned(),
+            None => kind.measure(index),
             Some(dashpot) if dashpot < dashpots => {
-                format!("viscous stretch of dashpot {dashpot}")
+                format!("{} of dashpot {dashpot}", kind.viscous())
             }
             Some(_) => "temperature".to_owned(),
         }
@@ -162,6 +177,7 @@ impl Space {
             measures: measures.to_vec(),
             viscous: viscous.to_vec(),
             temperature: rest.first().copied(),
+            kind: self.shape.kind,
         }
     }
 }

@@ -7,6 +7,7 @@ mod heat;
 mod memory;
 mod published;
 mod rubber;
+mod solids;
 pub(crate) mod springs;
 
 use crate::zoo::specimen::{Formula, Specimen};
@@ -75,5 +76,11 @@ pub(crate) fn all() -> Vec<Box<dyn Specimen>> {
         dashpots::Logarithmic,
         dashpots::ViscousRubber,
         dashpots::AirSpring,
+        solids::SaintVenantKirchhoff,
+        solids::CompressibleMooneyRivlin,
+        solids::Compressible,
+        solids::ThermoelasticSolid,
+        solids::Coupled,
+        solids::Viscoelastic,
     ]
 }
