@@ -2,7 +2,7 @@
 
 use eem::prelude::*;
 
-use crate::support::solids::{SECTION, Softening};
+use crate::support::solids::{SECTION, ThermoelasticSolid};
 
 const STATES: [(Scheme, &str); 2] = [
     (
@@ -55,7 +55,7 @@ fn plate((scheme, states): (Scheme, &'static str)) -> Plate {
             .map(|at| at.parse().unwrap())
             .collect();
         let corners = [0, 1, 2, 3].map(|corner| nodes[corners[corner]]);
-        points.extend(scene.quadrilateral(Softening::RUBBER, corners, SECTION));
+        points.extend(scene.quadrilateral(ThermoelasticSolid::RUBBER, corners, SECTION));
     }
     for (&point, theta) in points.iter().zip(values(states, 0, "theta")) {
         scene.set_temperature(point, theta[0]);

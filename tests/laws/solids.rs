@@ -5,7 +5,7 @@ use eem::Section;
 use eem::kinematics::{Ends, Kinematics, Quad4, Strain};
 use eem::prelude::*;
 
-use crate::support::solids::{SECTION, SaintVenant, Softening, Viscous};
+use crate::support::solids::{SECTION, SaintVenant, ThermoelasticSolid, Viscous};
 
 const STRAINS: [Strain; 3] = [Strain::Trace, Strain::Square, Strain::Dilatation];
 
@@ -117,7 +117,7 @@ fn solids_keep_the_laws() {
         shear: 1000.0,
     };
     keeps_the_laws("elastic", &elastic, false);
-    keeps_the_laws("softening", &Softening::RUBBER, true);
+    keeps_the_laws("softening", &ThermoelasticSolid::RUBBER, true);
     keeps_the_laws("viscous", &Viscous::RUBBER, true);
 }
 
@@ -207,7 +207,7 @@ fn the_patch_test_is_passed() {
             .collect();
         for first in [0, 1, 3, 4] {
             let corners = [first, first + 1, first + 4, first + 3].map(|at| nodes[at]);
-            for point in scene.quadrilateral(Softening::RUBBER, corners, SECTION) {
+            for point in scene.quadrilateral(ThermoelasticSolid::RUBBER, corners, SECTION) {
                 scene.set_temperature(point, 320.0);
             }
         }

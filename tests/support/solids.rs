@@ -22,7 +22,7 @@ pub(crate) struct SaintVenant {
         - expansion * heating * growth
         + capacity * (heating - theta * ln(theta / theta_ref))
 })]
-pub(crate) struct Softening {
+pub(crate) struct ThermoelasticSolid {
     #[unit("Pa")]
     pub(crate) shear: f64,
     #[unit("Pa/K")]
@@ -37,7 +37,7 @@ pub(crate) struct Softening {
     pub(crate) theta_ref: f64,
 }
 
-impl Softening {
+impl ThermoelasticSolid {
     pub(crate) const RUBBER: Self = Self {
         shear: 1000.0,
         softening: 2.0,
