@@ -103,7 +103,7 @@ impl Lowering<'_> {
                 let value = self.expr(inner)?;
                 self.check_root(inner, value)?;
                 self.check_square(inner, value)?;
-                self.check_slope_at_rest("sqrt", inner, value)?;
+                self.check_power_at_rest("sqrt", 0.5, inner, value)?;
                 self.graph.sqrt(value)
             }
             ExprKind::Recip(inner) => {

@@ -228,8 +228,8 @@ pub(crate) fn negative_base() -> Message {
     )
 }
 
-/// The exponent is given if it is a constant.
-pub(crate) fn base_can_be_negative(argument: &str, exponent: Option<f64>) -> Message {
+/// The exponent is given if it is a constant; `smooth` means that a power of the square is.
+pub(crate) fn base_can_be_negative(argument: &str, exponent: Option<f64>, smooth: bool) -> Message {
     // An exponent of many digits, such as 5/3, is shown as `y`.
     let short = exponent.filter(|y| (1000.0 * y).fract() == 0.0);
     let (y, half) = short.map_or_else(
@@ -240,6 +240,9 @@ pub(crate) fn base_can_be_negative(argument: &str, exponent: Option<f64>) -> Mes
     let help = match exponent {
         // |x|^y has a kink or a pole at zero.
         Some(y) if y <= 1.0 => format!("write {narrow}"),
+        _ if !smooth => format!(
+            "write `(x.powi(2) + c.powi(2)).powf({half})` with a small parameter `c` for the power of `|x|`, or `x.powi(n)` for an integer power"
+        ),
         _ => format!(
             "write `x.powi(2).powf({half})` for the power of `|x|`, `x.powi(n)` for an integer power, or {narrow}"
         ),

@@ -56,13 +56,14 @@ impl Lowering<'_> {
         let Some(name) = self.argument_in(base) else {
             return Some(());
         };
+        let smooth = self.is_smooth_at_rest(base, exponent);
         self.unless(!integer && negative, expr, &|| {
-            message::base_can_be_negative(&name, exponent)
+            message::base_can_be_negative(&name, exponent, smooth)
         })?;
-        if integer || exponent.is_some_and(|y| y > 1.0) {
-            return Some(());
+        match exponent {
+            Some(y) if !integer => self.check_power_at_rest("powf", y, expr, base),
+            _ => Some(()),
         }
-        self.check_slope_at_rest("powf", expr, base)
     }
 
     /// The functions that are not defined everywhere.
@@ -87,7 +88,7 @@ impl Lowering<'_> {
                 "not between -1 and 1",
                 "-1 < x < 1",
             ),
-            Function::Cbrt => return self.check_slope_at_rest("cbrt", expr, value),
+            Function::Cbrt => return self.check_power_at_rest("cbrt", 1.0 / 3.0, expr, value),
             Function::Exp
             | Function::ExpM1
             | Function::Sin

@@ -7,7 +7,17 @@ use crate::ast::{self, Strain};
 use crate::checked::Expr;
 use crate::message::expression::rest as message;
 
+/// From here on a power of something that is zero has two derivatives.
+const SMOOTH: f64 = 2.0;
+
 impl Lowering<'_> {
+    /// Whether `(x²)^(y/2)` has two derivatives at rest, for the base x.
+    pub(super) fn is_smooth_at_rest(&mut self, base: ExprId, exponent: Option<f64>) -> bool {
+        let half = exponent.map_or(SMOOTH, |y| 0.5 * y);
+        let at_rest = self.at_rest(base);
+        half >= SMOOTH || at_rest.is_none_or(|(_, _, at_rest)| at_rest != 0.0)
+    }
+
     /// `1/j`
     pub(super) fn check_divisor_at_rest(&mut self, expr: &Expr<'_>, value: ExprId) -> Option<()> {
         let Some((name, strain, at_rest)) = self.at_rest(value) else {
@@ -17,17 +27,19 @@ impl Lowering<'_> {
         self.unless(zero, expr, &|| message::divisor(&name, strain))
     }
 
-    /// `√e2`, whose slope is infinite.
-    pub(super) fn check_slope_at_rest(
+    /// `√e2`, whose slope is infinite, and other powers below 2, whose curvature is.
+    pub(super) fn check_power_at_rest(
         &mut self,
         function: &str,
+        exponent: f64,
         expr: &Expr<'_>,
-        value: ExprId,
+        base: ExprId,
     ) -> Option<()> {
-        let Some((_, _, at_rest)) = self.at_rest(value) else {
+        let Some((_, _, at_rest)) = self.at_rest(base) else {
             return Some(());
         };
-        self.unless(at_rest == 0.0, expr, &|| message::slope(function))?;
+        let singular = at_rest == 0.0 && exponent < SMOOTH;
+        self.unless(singular, expr, &|| message::power(function, exponent))?;
         let negative = at_rest < 0.0 && function != Function::Cbrt.name();
         self.unless(negative, expr, &|| message::negative(function))
     }

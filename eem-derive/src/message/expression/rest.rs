@@ -19,9 +19,10 @@ pub(crate) fn value(function: &str, domain: &str, name: &str, strain: Strain) ->
     )
 }
 
-pub(crate) fn slope(function: &str) -> Message {
+pub(crate) fn power(function: &str, exponent: f64) -> Message {
+    let which = if exponent < 1.0 { "" } else { "second " };
     Message::new(
-        format!("this `{function}` has no derivative {AT_REST}: its argument is zero"),
+        format!("this `{function}` has no {which}derivative {AT_REST}: its argument is zero"),
         "add a small constant to the argument",
     )
 }
