@@ -157,7 +157,7 @@ fn ordinary_rules_and_the_staggered_scheme_step_solids() {
 
 const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 
-/// 1 GPa.
+/// Stiff: 1e9 Pa.
 fn stiff() -> SaintVenant {
     SaintVenant {
         lame: 5e8,
