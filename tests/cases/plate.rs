@@ -61,12 +61,11 @@ fn plate((scheme, states): (Scheme, &'static str)) -> Plate {
         scene.set_temperature(point, theta[0]);
     }
     for line in LINKS.lines().skip(1) {
-        let link: Vec<f64> = line
-            .split(',')
-            .map(|field| field.parse().unwrap())
-            .collect();
-        let [first, second] = [link[0], link[1]].map(|at| points[at as usize]);
-        scene.conduct(first, second, link[2]);
+        let [first, second, conductance] = line.split(',').collect::<Vec<_>>()[..] else {
+            panic!("three fields: {line}");
+        };
+        let [first, second] = [first, second].map(|at| points[at.parse::<usize>().unwrap()]);
+        scene.conduct(first, second, conductance.parse().unwrap());
     }
     let air = scene.reservoir(300.0);
     scene.conduct(points[0], air, 50.0);
