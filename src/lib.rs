@@ -17,8 +17,8 @@ pub mod prelude {
 
     pub use crate::{
         Checkpoint, Describe, Element, Ensemble, FreeEnergy, Law, Ledger, NewtonSettings, Node,
-        Quantity, Recorder, Reservoir, RunEnd, Scene, SceneError, Scheme, Simulation, StepError,
-        StepFailure, StepReport,
+        Quantity, Recorder, Reservoir, RunEnd, Scene, SceneError, Scheme, Section, Simulation,
+        StepError, StepFailure, StepReport,
     };
 }
 

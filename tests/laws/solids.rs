@@ -1,7 +1,6 @@
 //! Solids keep energy, momenta and the growth of entropy, store nothing when they turn, and pass the patch
 //! test.
 
-use eem::Section;
 use eem::kinematics::{Ends, Kinematics, Quad4, Strain};
 use eem::prelude::*;
 

@@ -1,6 +1,5 @@
 //! Solids in the plane.
 
-use eem::Section;
 use eem::prelude::*;
 
 /// Saint-Venant and Kirchhoff: ½ λ e1² + μ e2 per volume.

@@ -48,7 +48,6 @@ impl<S: Real> Scene<2, S> {
     ///
     /// ```
     /// use eem::prelude::*;
-    /// use eem::Section;
     ///
     /// /// Saint-Venant and Kirchhoff.
     /// #[derive(Clone, FreeEnergy)]
