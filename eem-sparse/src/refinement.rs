@@ -240,11 +240,14 @@ mod tests {
         assert!(is_solved([1.0; 2], x, [1.0, 2e-30]));
         assert!(is_solved([1.0, 1e15], x, [1.0, 2e-15]));
         assert!(!is_solved([1.0, 1e16], x, [1.0, 2e-14]));
+        assert!(!is_solved([1.0, SIMILAR], x, [1.0, 2e-30 * SIMILAR]));
         assert!(!is_solved([1.0, 1e-16], x, [1.0, 2e-46]));
         assert!(!is_solved([1.0; 2], [1.0, 1e-10], [1.0, 2e-10]));
         // ε · 256 ε is 1.3e-29.
         assert!(is_solved([1.0; 2], [1.0, 1e-35], [1.0, 1.2e-29]));
         assert!(!is_solved([1.0; 2], [1.0, 1e-35], [1.0, 1.4e-29]));
+        assert!(is_solved([1.0; 2], [1e3, 1e-35], [1e3, 1.2e-26]));
+        assert!(!is_solved([1.0; 2], [1e3, 1e-35], [1e3, 1.4e-26]));
     }
 
     #[test]
@@ -299,6 +302,14 @@ mod tests {
             assert_eq!(worst.row, 7);
             assert!((worst.bound - 256.0 * EPSILON).abs() <= 0.0);
         });
+        // Backward errors 0.5 and 0.4, bounds 401 ε and 256 ε.
+        let b = |node| match node {
+            0 => [3.0, 1.0],
+            3 => [1.0, 7.0 / 3.0],
+            _ => [1.0; 2],
+        };
+        let worst = ask_star(200, &b, |equations| equations.worst(&[[1.0; 2]; 200]));
+        assert_eq!(worst.row, 7);
     }
 
     #[test]
