@@ -293,6 +293,20 @@ mod tests {
         assert_eq!([extent.width, extent.height], [6, 6]);
     }
 
+    #[test]
+    fn the_stack_is_as_high_as_what_waits_at_the_same_time() {
+        let fronts = Fronts {
+            order: (0..6).collect(),
+            places: (0..6).collect(),
+            begins: vec![0, 1, 2, 3, 4, 6],
+            starts: vec![0, 1, 3, 4, 6, 6],
+            rows: vec![2, 2, 3, 3, 4, 5],
+        };
+        // The third takes up 1 and 2 · 2 numbers while it finds another, the fourth 1 while it finds 2 · 2.
+        let extent = fronts.extent(0..5, 1);
+        assert_eq!([extent.left, extent.waiting], [1 + 4 + 1, 2]);
+    }
+
     // Minimum degree takes more on a lattice.
     #[test]
     fn the_order_with_fewer_multiplications_is_taken() {
