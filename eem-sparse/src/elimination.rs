@@ -222,3 +222,56 @@ fn subtract(column: &mut [f64], lower: &[f64]) {
         *entry -= l * first;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    type Solve = fn(MatRef<'_, f64>, MatMut<'_, f64>, Par);
+
+    /// Columns of numbers of different size and sign, and those below the diagonal small.
+    fn columns(rows: usize, columns: usize) -> Vec<f64> {
+        let entry = |at: usize| {
+            let (row, column) = (at % rows, at / rows);
+            let digit = u8::try_from((7 * row + 13 * column + row * column) % 23).unwrap();
+            let size = if row < column { 0.1 } else { 1e-3 };
+            size * (f64::from(digit) - 10.9)
+        };
+        (0..rows * columns).map(entry).collect()
+    }
+
+    fn bits(entries: &[f64]) -> Vec<u64> {
+        entries.iter().map(|entry| entry.to_bits()).collect()
+    }
+
+    // With the feature `parallel` each task has 64 or 128 columns, the last one less.
+    #[test]
+    fn divided_work_has_the_bits_of_the_whole() {
+        let (tall, width, right) = (310, 250, 300);
+        assert_eq!(half(right, tall * width), threads::DIVIDE.then_some(192));
+        let (lower, upper) = (columns(tall, width), columns(width, right));
+        let lower = MatRef::from_column_major_slice(&lower, tall, width);
+        let factor = MatRef::from_column_major_slice(&upper, width, right);
+        let [mut whole, mut divided] = [(); 2].map(|()| columns(tall, right));
+        let schur = MatMut::from_column_major_slice_mut(&mut whole, tall, right);
+        matmul(schur, Accum::Add, lower, factor, -1.0, Par::Seq);
+        let schur = MatMut::from_column_major_slice_mut(&mut divided, tall, right);
+        subtract_product(schur, lower, factor);
+        assert!(bits(&whole) == bits(&divided));
+
+        let triangle = lower.split_at_row(width).0;
+        let solves: [Solve; 2] = [
+            solve_unit_lower_triangular_in_place,
+            solve_lower_triangular_in_place,
+        ];
+        for solve in solves {
+            let [mut whole, mut divided] = [(); 2].map(|()| upper.clone());
+            let all = MatMut::from_column_major_slice_mut(&mut whole, width, right);
+            solve(triangle, all, Par::Seq);
+            let all = MatMut::from_column_major_slice_mut(&mut divided, width, right);
+            solve_columns(solve, triangle, all);
+            assert!(whole.iter().all(|entry| entry.is_finite()));
+            assert!(bits(&whole) == bits(&divided));
+        }
+    }
+}

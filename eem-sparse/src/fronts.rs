@@ -268,8 +268,63 @@ fn postorder(parents: &[Option<usize>]) -> Vec<usize> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Fronts, postorder};
+    use super::{Fronts, SymmetricOrdering, postorder};
     use crate::pattern::Pattern;
+
+    /// Two nodes above three that are alone afterwards.
+    fn two_above_three() -> Fronts {
+        Fronts {
+            order: vec![4, 3, 2, 1, 0],
+            places: vec![4, 3, 2, 1, 0],
+            begins: vec![0, 2, 5],
+            starts: vec![0, 3, 3],
+            rows: vec![2, 3, 4],
+        }
+    }
+
+    #[test]
+    fn multiplications_and_memory_are_those_of_the_formulas() {
+        let fronts = two_above_three();
+        assert_eq!(fronts.multiplications(), 2 * (1 + 6 + 9) + 3 * 3);
+        assert_eq!([fronts.parent(0), fronts.parent(1)], [Some(1), None]);
+        let extent = fronts.extent(0..2, 2);
+        assert_eq!([extent.lower, extent.upper], [4 * 10 + 6 * 6, 4 * 6]);
+        assert_eq!([extent.left, extent.waiting], [6 * 6, 1]);
+        assert_eq!([extent.width, extent.height], [6, 6]);
+    }
+
+    #[test]
+    fn the_stack_is_as_high_as_what_waits_at_the_same_time() {
+        let fronts = Fronts {
+            order: (0..6).collect(),
+            places: (0..6).collect(),
+            begins: vec![0, 1, 2, 3, 4, 6],
+            starts: vec![0, 1, 3, 4, 6, 6],
+            rows: vec![2, 2, 3, 3, 4, 5],
+        };
+        // The third takes up 1 and 2 · 2 numbers while it finds another, the fourth 1 while it finds 2 · 2.
+        let extent = fronts.extent(0..5, 1);
+        assert_eq!([extent.left, extent.waiting], [1 + 4 + 1, 2]);
+    }
+
+    // Minimum degree takes more on a lattice.
+    #[test]
+    fn the_order_with_fewer_multiplications_is_taken() {
+        let side = 60;
+        let lattice = Pattern::new(side * side, |pair| {
+            for at in 0..side * side {
+                if at % side > 0 {
+                    pair(at - 1, at);
+                }
+                if at >= side {
+                    pair(at - side, at);
+                }
+            }
+        });
+        let by_degree = Fronts::ordered(&lattice, SymmetricOrdering::Amd).unwrap();
+        let taken = Fronts::new(&lattice).unwrap();
+        assert!(taken.multiplications() < by_degree.multiplications());
+    }
 
     #[test]
     fn children_come_first_and_the_last_of_them_right_before() {

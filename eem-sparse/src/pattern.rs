@@ -52,8 +52,8 @@ impl Pattern {
     ///
     /// # Panics
     ///
-    /// If a pair has an index that is not below `unknowns`, or if the second call names other pairs
-    /// than the first.
+    /// If a pair has an index that is not below `unknowns`, or if the second call names more or fewer pairs
+    /// with a row than the first.
     #[must_use]
     pub fn new(unknowns: usize, visit: impl Fn(&mut dyn FnMut(usize, usize))) -> Self {
         let mut ends = vec![0; unknowns + 1];
@@ -78,6 +78,8 @@ impl Pattern {
             write(a, b);
             write(b, a);
         });
+        let are_full = next[..unknowns] == ends[1..];
+        assert!(are_full, "both calls of `visit` name the same pairs");
         Self::sorted(&ends, columns)
     }
 
@@ -251,6 +253,8 @@ impl Pattern {
 
 #[cfg(test)]
 mod tests {
+    use core::cell::Cell;
+
     use super::Pattern;
 
     #[test]
@@ -264,6 +268,17 @@ mod tests {
         assert_eq!(pattern.row(0), [0, 1, 2]);
         assert_eq!(pattern.row(1), [0, 1]);
         assert_eq!(pattern.row(2), [0, 2]);
+    }
+
+    // Without the check, the second row would be coupled with the first, but not the first with it.
+    #[test]
+    #[should_panic(expected = "the same pairs")]
+    fn a_second_call_with_other_pairs_is_refused() {
+        let calls = Cell::new(0);
+        let _ = Pattern::new(3, |pair| {
+            calls.set(calls.get() + 1);
+            pair(1, [2, 0][calls.get() - 1]);
+        });
     }
 
     #[test]
@@ -284,5 +299,49 @@ mod tests {
         assert_eq!(pattern.unknowns(), 4);
         assert_eq!(pattern.row(1), [1, 3]);
         assert_eq!(pattern.row(2), [0, 2]);
+    }
+
+    #[test]
+    fn positions_are_counted_block_by_block_and_row_by_row() {
+        for length in 1..=3 {
+            let pattern = Pattern::new(4, |pair| {
+                pair(0, 2);
+                pair(1, 2);
+                pair(3, 0);
+            });
+            let pattern = pattern.in_blocks(length).unwrap();
+            let mut count = 0;
+            for (node, row) in [&[0, 2, 3][..], &[1, 2], &[0, 1, 2], &[0, 3]]
+                .iter()
+                .enumerate()
+            {
+                for other in *row {
+                    for at in 0..length * length {
+                        let [down, right] = [at / length, at % length];
+                        let position =
+                            pattern.position(node * length + down, other * length + right);
+                        assert_eq!(position, Some(count));
+                        count += 1;
+                    }
+                }
+            }
+            assert_eq!(pattern.entries(), count);
+            let outside = pattern.unknowns();
+            assert_eq!(pattern.position(outside, 0), None);
+            assert_eq!(pattern.position(0, outside), None);
+        }
+    }
+
+    #[test]
+    fn sets_share_every_entry_with_each_other_and_no_more() {
+        let pattern = Pattern::new(3, |pair| pair(0, 2)).in_blocks(2).unwrap();
+        let repeated = pattern.repeated(3);
+        assert_eq!(repeated.unknowns(), 18);
+        for row in 0..18 {
+            for column in 0..18 {
+                let expected = pattern.position(row % 6, column % 6).is_some();
+                assert_eq!(repeated.position(row, column).is_some(), expected);
+            }
+        }
     }
 }

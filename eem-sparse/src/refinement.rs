@@ -240,11 +240,14 @@ mod tests {
         assert!(is_solved([1.0; 2], x, [1.0, 2e-30]));
         assert!(is_solved([1.0, 1e15], x, [1.0, 2e-15]));
         assert!(!is_solved([1.0, 1e16], x, [1.0, 2e-14]));
+        assert!(!is_solved([1.0, SIMILAR], x, [1.0, 2e-30 * SIMILAR]));
         assert!(!is_solved([1.0, 1e-16], x, [1.0, 2e-46]));
         assert!(!is_solved([1.0; 2], [1.0, 1e-10], [1.0, 2e-10]));
         // ε · 256 ε is 1.3e-29.
         assert!(is_solved([1.0; 2], [1.0, 1e-35], [1.0, 1.2e-29]));
         assert!(!is_solved([1.0; 2], [1.0, 1e-35], [1.0, 1.4e-29]));
+        assert!(is_solved([1.0; 2], [1e3, 1e-35], [1e3, 1.2e-26]));
+        assert!(!is_solved([1.0; 2], [1e3, 1e-35], [1e3, 1.4e-26]));
     }
 
     #[test]
@@ -266,6 +269,62 @@ mod tests {
             equations.worst(&[[f64::NAN], [1.0]])
         });
         assert_eq!((worst.row, worst.backward_error), (0, f64::INFINITY));
+    }
+
+    /// Calls `ask` with the equations `x[i] = b[i]` of a star of nodes with two rows each; all blocks with
+    /// the first node are there, and zero.
+    fn ask_star<R>(
+        nodes: usize,
+        b: &dyn Fn(usize) -> [f64; 2],
+        ask: impl FnOnce(&Equations<'_, f64, &dyn Fn(usize) -> [f64; 2], 2>) -> R,
+    ) -> R {
+        let star = Pattern::new(nodes, |pair| (1..nodes).for_each(|node| pair(0, node)));
+        let pattern = star.in_blocks(2).unwrap();
+        let mut values = vec![0.0; pattern.entries()];
+        for row in 0..pattern.unknowns() {
+            values[pattern.position(row, row).unwrap()] = 1.0;
+        }
+        let matrix = Matrix {
+            fronts: &Fronts::new(&pattern).unwrap(),
+            pattern: &pattern,
+            values: &values,
+        };
+        ask(&Equations { matrix, b })
+    }
+
+    #[test]
+    fn the_bound_of_a_block_counts_entries_and_the_worst_row_is_one_of_its_rows() {
+        let b = |node| [0.0, f64::from(u8::from(node == 3))];
+        ask_star(200, &b, |equations| {
+            assert!((equations.bound(0) - 401.0 * EPSILON).abs() <= 0.0);
+            assert!((equations.bound(3) - 256.0 * EPSILON).abs() <= 0.0);
+            let worst = equations.worst(&[[0.0; 2]; 200]);
+            assert_eq!(worst.row, 7);
+            assert!((worst.bound - 256.0 * EPSILON).abs() <= 0.0);
+        });
+        // Backward errors 0.5 and 0.4, bounds 401 ε and 256 ε.
+        let b = |node| match node {
+            0 => [3.0, 1.0],
+            3 => [1.0, 7.0 / 3.0],
+            _ => [1.0; 2],
+        };
+        let worst = ask_star(200, &b, |equations| equations.worst(&[[1.0; 2]; 200]));
+        assert_eq!(worst.row, 7);
+    }
+
+    #[test]
+    fn tiny_unknowns_of_a_block_count_as_a_rounding_of_the_largest() {
+        for node in 0..5 {
+            for (right, expected) in [(1.2e-29, true), (1.4e-29, false)] {
+                let b = |at: usize| [1.0, if at == node { right } else { 1.0 }];
+                let is_solved = ask_star(5, &b, |equations| {
+                    let mut x = [[1.0; 2]; 5];
+                    x[equations.matrix.fronts.places[node] as usize][1] = 1e-35;
+                    equations.are_solved(&x, &mut Vec::new())
+                });
+                assert_eq!(is_solved, expected);
+            }
+        }
     }
 
     // Each correction leaves this share of the error.
