@@ -95,11 +95,14 @@ impl StudyReference {
         StateQuantity::ALL.map(|quantity| self.doubt(quantity))
     }
 
-    /// The difference of a state from the first of the two.
+    /// The difference of a state from the first of the two; not a number if they failed.
     pub(super) fn differences(&self, state: &EndState) -> PerQuantity {
         match &self.states {
             Some([first, _]) => state.differences(first),
-            None => [None; 4],
+            None => {
+                let unknown = |quantity| (!state.values(quantity).is_empty()).then_some(f64::NAN);
+                StateQuantity::ALL.map(unknown)
+            }
         }
     }
 

@@ -14,7 +14,7 @@ pub enum Statement {
     /// No error. The references differ by `doubt`, more than a hundredth of the difference between the run and
     /// one of them: the motion is chaotic, or rounding is all there is.
     Refused {
-        /// The difference between the run and the first reference.
+        /// The difference between the run and the first reference; not a number without references.
         difference: f64,
         /// The difference between the references; infinite without references.
         doubt: f64,
