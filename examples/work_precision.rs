@@ -40,7 +40,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, ValueEnum};
 use eem::prelude::*;
-use eem::{Advice, Setting, Study, StudyReport};
+use eem::{Advice, Setting, StateQuantity, Study, StudyReport, StudyRow};
 
 #[path = "shock_absorber/car.rs"]
 mod car;
@@ -195,10 +195,10 @@ fn write(directory: &Path, case: &str, report: &StudyReport) -> Result<(), Box<d
     Ok(())
 }
 
-/// What rounding may do to the energy of a run in so many steps, relative to itself: what closing leaves of a
-/// step's defect, below 64 ε of the terms of the balance, adds up like a random walk.
-fn energy_bound(steps: u32) -> f64 {
-    64.0 * f64::EPSILON * f64::from(steps).sqrt()
+/// What rounding may do to the energy of a run, relative to itself: what it may do in one step, which the step
+/// proves, adds up like a random walk.
+fn energy_bound(row: &StudyRow) -> f64 {
+    row.step_bound * f64::from(row.steps).sqrt()
 }
 
 /// The claims about the laws, and about what is recommended.
@@ -212,13 +212,13 @@ fn check(report: &StudyReport) -> Result<Claims, Box<dyn Error>> {
     for row in &report.rows {
         if exact.contains(&row.setting.scheme) && row.failure.is_none() {
             let what = format!("{}: the relative energy defect", row.setting);
-            claims.at_most(&what, Some(row.energy_defect), energy_bound(row.steps));
+            claims.at_most(&what, Some(row.energy_defect), energy_bound(row));
         }
     }
     for &accuracy in &report.accuracies {
         if let Advice::Take { fastest, lawful } = report.recommend(accuracy)?.advice {
             for row in [Some(fastest), lawful].into_iter().flatten() {
-                let errors = eem::StateQuantity::ALL.map(|quantity| row.error(quantity));
+                let errors = StateQuantity::ALL.map(|quantity| row.error(quantity));
                 let worst = errors.into_iter().flatten().fold(0.0, f64::max);
                 let what = format!("{}: the largest error", row.setting);
                 claims.at_most(&what, Some(worst), accuracy);

@@ -51,7 +51,7 @@ fn is_lost(row: &StudyRow) -> bool {
     row.failure.is_some() || error.is_some_and(|error| error.is_nan() || error > LOST)
 }
 
-/// The front if it is wanted, a curve for every scheme, and open circles above them for what failed.
+/// The front if it is wanted, a curve for every scheme, and what failed.
 fn curves(
     report: &StudyReport,
     x: impl Fn(&StudyRow) -> Option<f64> + Copy,
@@ -61,30 +61,41 @@ fn curves(
     let mut curves = Vec::new();
     if with_front {
         let front = report.front().into_iter().filter_map(point).collect();
-        curves.push(curve("no other is better".to_owned(), front, BAND));
+        curves.push(curve("Pareto front".to_owned(), front, BAND));
     }
     let mut lines: Vec<String> = report.rows.iter().map(|row| row.setting.line()).collect();
     lines.dedup();
-    let of = |line: &str| {
-        let rows = report.rows.iter();
-        let rows = rows.filter(|row| row.setting.line() == line);
-        rows.collect::<Vec<_>>()
-    };
     for line in &lines {
-        let points = of(line).into_iter().filter_map(point).collect();
+        let rows = report.rows.iter().filter(|row| row.setting.line() == *line);
+        let points = rows.filter_map(point).collect();
         curves.push(curve(line.clone(), points, comparison::look(line)));
     }
+    curves.extend(failures(report, &lines, x));
+    curves
+}
+
+/// Open circles above all curves, at the x of what failed, and what the legend says of them.
+fn failures(
+    report: &StudyReport,
+    lines: &[String],
+    x: impl Fn(&StudyRow) -> Option<f64> + Copy,
+) -> Vec<Curve> {
     let largest = report.rows.iter().filter_map(error).fold(0.0, f64::max);
     let mut height = ROW * largest.max(1.0);
-    let mut label = format!("failed, or off by {LOST} times its size");
-    for line in &lines {
-        let lost = of(line).into_iter().filter(|row| is_lost(row));
+    let mut curves = Vec::new();
+    for line in lines {
+        let rows = report.rows.iter().filter(|row| row.setting.line() == *line);
+        let lost = rows.filter(|row| is_lost(row));
         let points: Vec<_> = lost.filter_map(|row| Some((x(row)?, height))).collect();
         if !points.is_empty() {
             let look = OPEN + comparison::look(line);
-            curves.push(curve(std::mem::take(&mut label), points, look));
+            curves.push(curve(String::new(), points, look));
             height *= ROW;
         }
+    }
+    if !curves.is_empty() {
+        let label = format!("failed, or off by > {LOST}");
+        curves.push(curve(label, Vec::new(), OPEN));
     }
     curves
 }

@@ -18,6 +18,8 @@ pub(super) struct Measured {
     pub(super) end: Result<EndState, StepError>,
     /// max |B − B₀|/|E₀| over the run with `B = E − work − heat`.
     pub(super) energy_defect: f64,
+    /// The largest bound of a step's defect over |E₀|.
+    pub(super) step_bound: f64,
     /// The smallest ΔS of a step, J/K.
     pub(super) least_entropy_change: f64,
     pub(super) steps: u32,
@@ -55,7 +57,7 @@ pub(super) fn measure<const D: usize, S: Real>(
     for _ in 0..grid.steps {
         match run.step() {
             Ok(report) => {
-                laws.watch(&run);
+                laws.watch(&run, report.bound.to_f64());
                 steps += 1;
                 iterations += report.iterations;
             }
@@ -68,6 +70,7 @@ pub(super) fn measure<const D: usize, S: Real>(
     Ok(Measured {
         end: end.map(|()| EndState::of(&run)),
         energy_defect: laws.energy_defect,
+        step_bound: laws.step_bound,
         least_entropy_change: laws.least_entropy_change,
         steps,
         iterations,
@@ -131,6 +134,7 @@ struct Laws {
     /// The total entropy after the last step, J/K.
     entropy: f64,
     energy_defect: f64,
+    step_bound: f64,
     least_entropy_change: f64,
 }
 
@@ -141,16 +145,18 @@ impl Laws {
             first: [ledger.balance.to_f64(), ledger.energy.to_f64().abs()],
             entropy: ledger.entropy.to_f64(),
             energy_defect: 0.0,
+            step_bound: 0.0,
             least_entropy_change: f64::INFINITY,
         }
     }
 
-    /// Looks at the state after a step.
-    fn watch<const D: usize, S: Real>(&mut self, run: &Simulation<D, S>) {
+    /// Looks at the state after a step whose defect has this bound, J.
+    fn watch<const D: usize, S: Real>(&mut self, run: &Simulation<D, S>, bound: f64) {
         let ledger = run.ledger();
         let [balance, energy] = self.first;
         let defect = share((ledger.balance.to_f64() - balance).abs(), energy);
         self.energy_defect = larger(self.energy_defect, defect);
+        self.step_bound = larger(self.step_bound, share(bound, energy));
         let entropy = ledger.entropy.to_f64();
         self.least_entropy_change = -larger(-self.least_entropy_change, self.entropy - entropy);
         self.entropy = entropy;

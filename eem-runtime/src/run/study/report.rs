@@ -19,6 +19,9 @@ pub struct StudyRow {
     /// The largest `|B − B₀|/|E₀|` of the run with the balance `B = E − work − heat`, which is E where nothing
     /// does work or gives heat.
     pub energy_defect: f64,
+    /// What rounding may do to that in one step: the largest [`StepReport::bound`](crate::StepReport::bound)
+    /// over `|E₀|`.
+    pub step_bound: f64,
     /// The smallest ΔS of a step, J/K; the second law demands that it is not negative but for rounding.
     /// Infinite without steps.
     pub least_entropy_change: f64,
@@ -52,6 +55,7 @@ impl StudyRow {
             setting,
             failure,
             energy_defect: measured.energy_defect,
+            step_bound: measured.step_bound,
             least_entropy_change: measured.least_entropy_change,
             steps: measured.steps,
             rejected: 0,

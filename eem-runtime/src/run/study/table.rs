@@ -16,7 +16,7 @@ const HEADS: [&str; 15] = [
     "of p",
     "of θ",
     "of γ",
-    "|ΔE|/|E|",
+    "energy defect",
     "least ΔS (J/K)",
     "steps",
     "rejected",
