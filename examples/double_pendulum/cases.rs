@@ -164,12 +164,18 @@ pub(crate) const LOG: Case = Case {
 };
 
 impl Case {
-    /// The pendulum at t = 0, and what to record of it.
+    /// The pendulum ready to run, and what to record of it.
     pub(crate) fn pendulum(
         &self,
         scheme: Scheme,
         step: f64,
     ) -> Result<(Simulation<3>, Watched), SceneError> {
+        let (scene, watched) = self.scene();
+        Ok((Simulation::new(scene, scheme, step)?, watched))
+    }
+
+    /// The pendulum at t = 0, and what to record of it.
+    pub(crate) fn scene(&self) -> (Scene<3>, Watched) {
         let mut scene = Scene::<3>::new();
         let anchor = scene.anchor([0.0; 3]);
         let masses = [0, 1].map(|i| {
@@ -189,7 +195,7 @@ impl Case {
             elements: springs.to_vec(),
             has_reservoirs: false,
         };
-        Ok((Simulation::new(scene, scheme, step)?, watched))
+        (scene, watched)
     }
 
     /// The same motion in steps so small that the scheme no longer matters while positions are

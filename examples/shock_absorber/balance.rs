@@ -2,11 +2,11 @@
 
 use comfy_table::{Table, presets};
 
+use super::car::{DAMPER, TRACK, TYRE};
 use super::support::claims::Claims;
 use super::support::record::{Outcome, Record};
 use super::support::statistics::Statistics;
 use super::support::terminal;
-use super::{DAMPER, TRACK, TYRE};
 
 /// What rounding may do to E − work − heat, relative to the largest term in it, c θ. The state is
 /// kept to twice the working precision and energy is closed in every step, so that the defect does

@@ -3,10 +3,10 @@
 use std::error::Error;
 use std::path::Path;
 
+use super::car::{CELSIUS, CLEARANCE, RADIUS, TRACK};
 use super::ride::Lap;
 use super::support::figures::{Axes, Curve, Figure};
 use super::support::record::Record;
-use super::{CELSIUS, CLEARANCE, RADIUS, TRACK};
 
 /// The part of a lap that is shown from close by, m.
 const STRETCH: [f64; 2] = [20.0, 80.0];

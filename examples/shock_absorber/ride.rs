@@ -2,9 +2,9 @@
 
 use comfy_table::{Table, presets};
 
+use super::car::{CELSIUS, Damper};
 use super::support::record::Record;
 use super::support::terminal;
-use super::{CELSIUS, Damper};
 
 /// Recorded times that exceed the end of a lap by less than this (s) belong to it.
 const TIME_TOLERANCE: f64 = 1e-6;

@@ -1,5 +1,7 @@
 //! A rough road as a sum of waves: the same road in every run, and the same again in every lap.
 
+#![allow(dead_code, reason = "examples that share this file use a part of it")]
+
 use std::f64::consts::{PI, TAU};
 
 /// Spatial frequency to which the roughness of a road class refers, cycles/m (ISO 8608).

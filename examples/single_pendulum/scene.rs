@@ -2,6 +2,8 @@
 //!
 //! Equations, symbols and sources are in the example `single_pendulum`.
 
+#![allow(dead_code, reason = "examples that share this file use a part of it")]
+
 use eem::prelude::*;
 
 use super::support::simulate::Watched;
@@ -66,12 +68,18 @@ pub(crate) const SPRING: CreepingSpring = CreepingSpring {
 /// Heat conductance to the surroundings, W/K.
 pub(crate) const CONDUCTANCE: f64 = 10.0;
 
-/// The pendulum at t = 0, and what to record of it; `conductance` in W/K.
+/// The pendulum ready to run, and what to record of it; `conductance` in W/K.
 pub(crate) fn pendulum(
     scheme: Scheme,
     step: f64,
     conductance: f64,
 ) -> Result<(Simulation<2>, Watched), SceneError> {
+    let (scene, watched) = scene(conductance);
+    Ok((Simulation::new(scene, scheme, step)?, watched))
+}
+
+/// The pendulum at t = 0, and what to record of it; `conductance` in W/K.
+pub(crate) fn scene(conductance: f64) -> (Scene<2>, Watched) {
     let mut scene = Scene::<2>::new();
     let pivot = scene.anchor([0.0, 0.0]);
     let bob = scene.mass(1.0, [3.0, 0.0], [0.0, 1.0]);
@@ -84,5 +92,5 @@ pub(crate) fn pendulum(
         elements: vec![spring],
         has_reservoirs: true,
     };
-    Ok((Simulation::new(scene, scheme, step)?, watched))
+    (scene, watched)
 }

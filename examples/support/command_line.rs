@@ -41,6 +41,11 @@ impl CommandLine {
         Scheme::ALL.into_iter().filter(is_chosen).collect()
     }
 
+    /// The end time asked for, or the source's, s.
+    pub(crate) fn end(&self, default_end: f64) -> f64 {
+        self.end.unwrap_or(default_end)
+    }
+
     /// The time grid asked for, with the source's step and end time (s) where nothing was said;
     /// exits with an error message when it has more steps than can be recorded.
     pub(crate) fn time_grid(&self, default_step: f64, default_end: f64) -> TimeGrid {

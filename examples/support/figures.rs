@@ -14,6 +14,8 @@ mod ticks;
 use std::error::Error;
 use std::path::Path;
 
+pub(crate) use look::{BAND, OPEN};
+
 /// One picture.
 #[derive(Clone, Debug)]
 pub(crate) struct Figure {
@@ -45,7 +47,7 @@ pub(crate) enum Axes {
 /// One curve of a picture.
 #[derive(Clone, Debug)]
 pub(crate) struct Curve {
-    /// What the legend says.
+    /// What the legend says; a curve without a label is not in it.
     pub(crate) label: String,
     /// The points in the order in which they are joined.
     pub(crate) points: Vec<(f64, f64)>,

@@ -42,6 +42,15 @@ impl Progress {
             bar.set_position(done as u64);
         }
     }
+
+    /// Reports that `done` of `steps` steps are made, where more may have to be made than was said.
+    pub(crate) fn advance_of(&mut self, done: u64, steps: u64) {
+        self.steps = steps;
+        if let Some(bar) = &self.bar {
+            bar.set_length(steps);
+        }
+        self.advance(usize::try_from(done).unwrap_or(usize::MAX));
+    }
 }
 
 impl Drop for Progress {

@@ -11,5 +11,6 @@ mod ensemble;
 mod lanes;
 mod recording;
 mod resuming;
+mod study;
 #[cfg(feature = "parallel")]
 mod threads;

@@ -5,6 +5,7 @@
 pub(crate) mod dashpots;
 pub(crate) mod solids;
 
+use eem::Real;
 use eem::prelude::*;
 
 /// Thermo-visco-elastic element of García Orden & Romero (2012), §4.1.
@@ -118,13 +119,7 @@ pub(crate) struct Pendulum {
 
 /// The single pendulum of García Orden & Romero (2012), §4.1.
 pub(crate) fn single_pendulum(scheme: Scheme, step: f64) -> Pendulum {
-    let mut scene = Scene::<2>::new();
-    let pivot = scene.anchor([0.0, 0.0]);
-    let bob = scene.mass(1.0, [3.0, 0.0], [0.0, 1.0]);
-    let spring = scene.spring(ThermoViscoElastic::PENDULUM, [pivot, bob]);
-    scene.set_temperature(spring, 380.0);
-    let air = scene.reservoir(300.0);
-    scene.conduct(spring, air, 10.0);
+    let (scene, bob, spring, air) = single_pendulum_scene();
     let run = Simulation::new(scene, scheme, step).unwrap();
     Pendulum {
         run,
@@ -132,6 +127,19 @@ pub(crate) fn single_pendulum(scheme: Scheme, step: f64) -> Pendulum {
         spring,
         air,
     }
+}
+
+/// Its scene, in numbers of any type, with bob, spring and air.
+pub(crate) fn single_pendulum_scene<S: Real>() -> (Scene<2, S>, Node, Element, Reservoir) {
+    let number = S::from_f64;
+    let mut scene = Scene::default();
+    let pivot = scene.anchor([number(0.0); 2]);
+    let bob = scene.mass(number(1.0), [3.0, 0.0].map(number), [0.0, 1.0].map(number));
+    let spring = scene.spring(ThermoViscoElastic::PENDULUM, [pivot, bob]);
+    scene.set_temperature(spring, number(380.0));
+    let air = scene.reservoir(number(300.0));
+    scene.conduct(spring, air, number(10.0));
+    (scene, bob, spring, air)
 }
 
 impl Pendulum {
@@ -215,6 +223,17 @@ impl DoublePendulum {
 
     /// Ready to run, with its masses and springs.
     pub(crate) fn simulation(&self, scheme: Scheme, step: f64) -> DoubleRun {
+        let (scene, masses, springs) = self.scene();
+        let run = Simulation::new(scene, scheme, step).unwrap();
+        DoubleRun {
+            run,
+            masses,
+            springs,
+        }
+    }
+
+    /// Its scene, with its masses and springs.
+    pub(crate) fn scene(&self) -> (Scene<3>, [Node; 2], [Element; 2]) {
         let mut scene = Scene::<3>::new();
         let pivot = scene.anchor([0.0; 3]);
         let masses = [0, 1].map(|i| {
@@ -236,12 +255,7 @@ impl DoublePendulum {
             spring
         });
         scene.conduct(springs[0], springs[1], self.conductance);
-        let run = Simulation::new(scene, scheme, step).unwrap();
-        DoubleRun {
-            run,
-            masses,
-            springs,
-        }
+        (scene, masses, springs)
     }
 }
 

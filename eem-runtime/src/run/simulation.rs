@@ -12,6 +12,7 @@ mod settings;
 mod start;
 mod stepper;
 mod totals;
+pub(crate) mod values;
 
 use core::fmt;
 use core::sync::atomic::{AtomicBool, Ordering};

@@ -74,6 +74,8 @@ pub(crate) struct Solver<S: Real, const D: usize> {
     obstacle: Option<StateError>,
     /// The element whose own energy balance was off by most when it was last asked.
     worst: Option<Element>,
+    /// How often all elements have been evaluated at a trial state.
+    evaluations: u64,
 }
 
 impl<S: Real, const D: usize> Solver<S, D> {
@@ -134,12 +136,18 @@ impl<S: Real, const D: usize> Solver<S, D> {
             final_residual: S::zero(),
             obstacle: None,
             worst: None,
+            evaluations: 0,
         }
     }
 
     /// Number of sets of unknowns.
     pub(crate) const fn sets(&self) -> usize {
         self.sets.len()
+    }
+
+    /// How often all elements have been evaluated at a trial state, at all its stages.
+    pub(crate) const fn evaluations(&self) -> u64 {
+        self.evaluations
     }
 
     /// Where elements write.

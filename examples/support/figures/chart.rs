@@ -141,6 +141,7 @@ fn draw_curve(
             Dash::Dashed { length, gap } => chart
                 .plotting_area()
                 .draw(&DashedPathElement::new(part, length, gap, style))?,
+            Dash::None => {}
         }
     }
     let every = curve.points.len().div_ceil(MOST_MARKERS).max(1);
@@ -153,10 +154,11 @@ fn draw_curve(
 
 /// Draws the legend below the title and returns its height in pixels.
 fn draw_legend(canvas: &Canvas<'_>, curves: &[Curve], width: i32) -> Result<i32, Box<dyn Error>> {
-    let labels: Vec<&str> = curves.iter().map(|curve| curve.label.as_str()).collect();
+    let named = || curves.iter().filter(|curve| !curve.label.is_empty());
+    let labels: Vec<&str> = named().map(|curve| curve.label.as_str()).collect();
     let places = legend::places(&labels, width);
     let text = font(f64::from(legend::FONT)).pos(Pos::new(HPos::Left, VPos::Center));
-    for (curve, &(x, y)) in curves.iter().zip(&places) {
+    for (curve, &(x, y)) in named().zip(&places) {
         let look = look_among(curves, curve);
         let style = look.colour.stroke_width(look.width);
         let middle = TITLE_HEIGHT + y + legend::ROW / 2;
@@ -167,6 +169,7 @@ fn draw_legend(canvas: &Canvas<'_>, curves: &[Curve], width: i32) -> Result<i32,
             Dash::Dashed { length, gap } => {
                 canvas.draw(&DashedPathElement::new(sample, length, gap, style))?;
             }
+            Dash::None => {}
         }
         draw_marker(canvas, (x + legend::SAMPLE / 2, middle), look)?;
         canvas.draw_text(&curve.label, &text, (end + legend::GAP, middle))?;

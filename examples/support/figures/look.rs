@@ -16,7 +16,12 @@ pub(super) struct Look {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Dash {
     Solid,
-    Dashed { length: u32, gap: u32 },
+    Dashed {
+        length: u32,
+        gap: u32,
+    },
+    /// Markers only.
+    None,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +32,7 @@ pub(super) enum Marker {
     Triangle,
     Diamond,
     Square,
+    Circle,
 }
 
 /// A line of a marker, relative to the marked point, in pixels.
@@ -41,6 +47,21 @@ impl Marker {
             Self::Cross => &[&[(-7, -7), (7, 7)], &[(-7, 7), (7, -7)]],
             Self::Triangle => &[&[(-8, 6), (8, 6), (0, -9), (-8, 6)]],
             Self::Diamond => &[&[(-9, 0), (0, 9), (9, 0), (0, -9), (-9, 0)]],
+            Self::Circle => &[&[
+                (10, 0),
+                (9, 5),
+                (5, 9),
+                (0, 10),
+                (-5, 9),
+                (-9, 5),
+                (-10, 0),
+                (-9, -5),
+                (-5, -9),
+                (0, -10),
+                (5, -9),
+                (9, -5),
+                (10, 0),
+            ]],
             Self::Square => &[&[(-7, -7), (7, -7), (7, 7), (-7, 7), (-7, -7)]],
         }
     }
@@ -79,9 +100,32 @@ const fn look((red, green, blue): (u8, u8, u8), dash: Dash, marker: Marker) -> L
     }
 }
 
+/// The look of a wide light band behind the curves.
+pub(crate) const BAND: usize = usize::MAX;
+
+const LIGHT_BAND: Look = Look {
+    colour: RGBColor(215, 215, 215),
+    width: 22,
+    dash: Dash::Solid,
+    marker: Marker::None,
+};
+
+/// Added to the index of a look: open circles of its colour, without a line.
+pub(crate) const OPEN: usize = 1000;
+
 impl Look {
     /// The look of that index; indices beyond the last start again after the reference.
     pub(super) fn of(index: usize) -> Self {
+        if index == BAND {
+            return LIGHT_BAND;
+        }
+        if index >= OPEN {
+            return Self {
+                dash: Dash::None,
+                marker: Marker::Circle,
+                ..Self::of(index - OPEN)
+            };
+        }
         if index < LOOKS.len() {
             return LOOKS[index];
         }

@@ -173,6 +173,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         view: &StepView<'_, S>,
         goes_on: bool,
     ) -> Result<(), StateError> {
+        self.evaluations += 1;
         let trial = &self.trial;
         for group in groups {
             let system = goes_on.then_some(&mut self.tangent);

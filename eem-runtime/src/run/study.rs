@@ -1,0 +1,335 @@
+//! Work and precision: what each setting costs and how accurate it is, for a scene of the user's own.
+
+pub(crate) mod advice;
+pub(crate) mod error;
+mod grid;
+mod measure;
+pub(crate) mod quantity;
+pub(crate) mod reference;
+pub(crate) mod report;
+pub(crate) mod setting;
+pub(crate) mod statement;
+mod table;
+
+use core::fmt;
+
+use crate::run::simulation::Simulation;
+use crate::scene::Scene;
+use crate::scene::error::SceneError;
+use advice::check_accuracy;
+use error::StudyError;
+use grid::Grid;
+use measure::{Build, Measured, measure};
+use quantity::{EndState, StateQuantity};
+use reference::{Search, StudyReference};
+use report::{StudyReport, StudyRow};
+use setting::{Precision, Setting};
+
+/// How often each setting is timed unless [`Study::repeats`] says otherwise.
+const REPEATS: usize = 3;
+
+/// How many times smaller than the smallest step of all settings those of the references are at most.
+const REFINEMENT: u32 = 32;
+
+/// What is recommended for: errors that show in a picture, those of a good simulation, those of a reference.
+const ACCURACIES: [f64; 3] = [1e-2, 1e-4, 1e-6];
+
+/// Runs one scene with many settings, compares their states at the end time with two independent references,
+/// and says which setting to take.
+///
+/// Five lines for a scene of your own:
+///
+/// ```
+/// use eem::prelude::*;
+/// use eem::{Setting, StateQuantity, Study};
+///
+/// #[derive(FreeEnergy)]
+/// #[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - length).powi(2))]
+/// struct Spring {
+///     stiffness: f64,
+///     length: f64,
+/// }
+///
+/// fn scene() -> Scene<2> {
+///     let mut scene = Scene::new();
+///     let ends = [scene.anchor([0.0, 0.0]), scene.mass(1.0, [1.1, 0.0], [0.0, 1.0])];
+///     scene.spring(Spring { stiffness: 20.0, length: 1.0 }, ends);
+///     scene
+/// }
+///
+/// let report = Study::new(scene, 2.0)
+///     .settings(Setting::halved(Scheme::EemEntropy, 0.1, 3))
+///     .settings(Setting::halved(Scheme::Variational4, 0.1, 3))
+///     .run()?;
+/// println!("{report}");
+///
+/// let order = |scheme| report.order(scheme, StateQuantity::Positions);
+/// assert!(order(Scheme::EemEntropy).is_some_and(|order| (order - 2.0).abs() < 0.1));
+/// assert!(order(Scheme::Variational4).is_some_and(|order| (order - 4.0).abs() < 0.1));
+/// assert!(report.rows[0].energy_defect < 1e-14 && report.rows[4].energy_defect > 1e-9);
+/// # Ok::<(), eem::StudyError>(())
+/// ```
+///
+/// Errors are relative, one for each kind of quantity, with those of the first reference below:
+///
+/// ```text
+/// max |Δq|/|q|₂,   max |Δp|/|p|₂,   max |Δθ|/θ,   max |Δγ|/|γ|₂
+/// ```
+///
+/// An error is stated only if the references differ by at most a hundredth of it, see
+/// [`Statement`](crate::Statement). All of the report but its wall times has the same bits in every run.
+pub struct Study<'a, const D: usize> {
+    build: Box<Build<'a, D, f64>>,
+    single: Option<Box<Build<'a, D, f32>>>,
+    settings: Vec<Setting>,
+    end: f64,
+    repeats: usize,
+    refinement: u32,
+    accuracies: Vec<f64>,
+    reference: Option<[EndState; 2]>,
+    watch: Option<Box<Watch<'a>>>,
+}
+
+type Watch<'a> = dyn FnMut(u64, u64) + 'a;
+
+impl<const D: usize> fmt::Debug for Study<'_, D> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Study")
+            .field("settings", &self.settings)
+            .field("end", &self.end)
+            .field("repeats", &self.repeats)
+            .field("refinement", &self.refinement)
+            .field("accuracies", &self.accuracies)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'a, const D: usize> Study<'a, D> {
+    /// A study of the scene that `build` makes, from its start to the time `end`, s. It is built anew for every
+    /// run, and has to be the same each time.
+    pub fn new(build: impl Fn() -> Scene<D> + 'a, end: f64) -> Self {
+        Self {
+            build: Box::new(build),
+            single: None,
+            settings: Vec::new(),
+            end,
+            repeats: REPEATS,
+            refinement: REFINEMENT,
+            accuracies: ACCURACIES.to_vec(),
+            reference: None,
+            watch: None,
+        }
+    }
+
+    /// The same scene with `f32`, for settings in single precision. A function that is generic in the scalar
+    /// makes both.
+    #[must_use]
+    pub fn single(mut self, build: impl Fn() -> Scene<D, f32> + 'a) -> Self {
+        self.single = Some(Box::new(build));
+        self
+    }
+
+    /// One more run.
+    #[must_use]
+    pub fn setting(self, setting: Setting) -> Self {
+        self.settings([setting])
+    }
+
+    /// More runs.
+    #[must_use]
+    pub fn settings(mut self, settings: impl IntoIterator<Item = Setting>) -> Self {
+        self.settings.extend(settings);
+        self
+    }
+
+    /// How often each setting is run for the clock, besides the run that is compared; 0 is taken for 1.
+    /// Default 3.
+    #[must_use]
+    pub const fn repeats(mut self, repeats: usize) -> Self {
+        self.repeats = repeats;
+        self
+    }
+
+    /// How many times smaller than the smallest step of all settings those of the references may become.
+    /// Default 32. The first are 4 times smaller with schemes of fourth order, and 16 times with those of
+    /// second order, which scenes with solids need; each next pair halves the step.
+    #[must_use]
+    pub const fn refinement(mut self, factor: u32) -> Self {
+        self.refinement = factor;
+        self
+    }
+
+    /// The accuracies to recommend settings for, as relative errors. Default 10⁻², 10⁻⁴ and 10⁻⁶.
+    #[must_use]
+    pub fn accuracies(mut self, accuracies: impl IntoIterator<Item = f64>) -> Self {
+        self.accuracies = accuracies.into_iter().collect();
+        self
+    }
+
+    /// Two states at the end time to measure errors against, instead of computing them. They should come from
+    /// methods that have nothing in common: their difference is all that is known of their errors.
+    #[must_use]
+    pub fn reference(mut self, states: [EndState; 2]) -> Self {
+        self.reference = Some(states);
+        self
+    }
+
+    /// Calls `watch` after every run with the number of steps made and of those planned. More are planned when
+    /// the references have to be refined.
+    #[must_use]
+    pub fn watch(mut self, watch: impl FnMut(u64, u64) + 'a) -> Self {
+        self.watch = Some(Box::new(watch));
+        self
+    }
+
+    /// Runs everything, one after the other.
+    ///
+    /// A step that fails is an outcome, not an error: its setting has no error at the end time.
+    ///
+    /// # Errors
+    ///
+    /// [`StudyError`] if there are no settings, a step or the end time is not positive and finite, no whole
+    /// number of steps hits the end, or the scene is refused; nothing is run then, unless it is a scheme that
+    /// refuses it.
+    pub fn run(mut self) -> Result<StudyReport, StudyError> {
+        let grids = self.check()?;
+        let mut progress = Progress::new(self.watch.take());
+        let runs = 1 + u64::try_from(self.repeats.max(1)).unwrap_or(u64::MAX);
+        for grid in &grids {
+            progress.plan(runs * u64::from(grid.steps));
+        }
+        let mut measured = Vec::with_capacity(grids.len());
+        for (&setting, &grid) in self.settings.iter().zip(&grids) {
+            measured.push(self.measure(setting, grid)?);
+            progress.advance(runs * u64::from(grid.steps));
+        }
+        let reference = self.find_reference(&grids, &measured, &mut progress)?;
+        let rows = self.settings.iter().zip(measured);
+        let rows = rows.map(|(&setting, measured)| StudyRow::new(setting, measured, &reference));
+        Ok(StudyReport {
+            end: self.end,
+            rows: rows.collect(),
+            reference,
+            accuracies: self.accuracies,
+        })
+    }
+
+    /// The grids of all settings, if nothing is wrong with the study.
+    fn check(&self) -> Result<Vec<Grid>, StudyError> {
+        let end = self.end;
+        if !(end > 0.0 && end.is_finite()) {
+            return Err(StudyError::End { end });
+        }
+        let Some(&first) = self.settings.first() else {
+            return Err(StudyError::NoSettings);
+        };
+        for &accuracy in &self.accuracies {
+            check_accuracy(accuracy)?;
+        }
+        for &setting in &self.settings {
+            if setting.precision == Precision::Single && self.single.is_none() {
+                return Err(StudyError::NoSingleScene { setting });
+            }
+        }
+        let grids = self.settings.iter().map(|setting| Grid::of(setting, end));
+        let grids = grids.collect::<Result<Vec<_>, _>>()?;
+        if let Some(states) = &self.reference {
+            self.check_reference(states, first, grids[0])?;
+        }
+        Ok(grids)
+    }
+
+    /// The references that were given are states of this scene.
+    fn check_reference(
+        &self,
+        states: &[EndState; 2],
+        setting: Setting,
+        grid: Grid,
+    ) -> Result<(), StudyError> {
+        let start = Simulation::new((self.build)(), setting.scheme, grid.step);
+        let start = start.map_err(|source| StudyError::Scene { setting, source })?;
+        let start = EndState::of(&start);
+        for (index, state) in states.iter().enumerate() {
+            for quantity in StateQuantity::ALL {
+                let [got, expected] = [state, &start].map(|state| state.values(quantity).len());
+                if got != expected {
+                    return Err(StudyError::Reference {
+                        index,
+                        quantity,
+                        got,
+                        expected,
+                    });
+                }
+            }
+            if let Some(quantity) = state.flaw() {
+                return Err(StudyError::ReferenceNotFinite { index, quantity });
+            }
+        }
+        Ok(())
+    }
+
+    fn measure(&self, setting: Setting, grid: Grid) -> Result<Measured, StudyError> {
+        let (scheme, repeats) = (setting.scheme, self.repeats);
+        let measured = match (setting.precision, &self.single) {
+            (Precision::Double, _) => measure(&*self.build, scheme, grid, repeats),
+            (Precision::Single, Some(build)) => measure(&**build, scheme, grid, repeats),
+            (Precision::Single, None) => return Err(StudyError::NoSingleScene { setting }),
+        };
+        measured.map_err(|source| StudyError::Scene { setting, source })
+    }
+
+    /// The references that were given, or those that are found.
+    fn find_reference(
+        &self,
+        grids: &[Grid],
+        measured: &[Measured],
+        progress: &mut Progress<'_>,
+    ) -> Result<StudyReference, StudyError> {
+        if let Some(states) = &self.reference {
+            return Ok(StudyReference::given(states.clone()));
+        }
+        let ends = measured.iter().filter_map(|run| run.end.clone().ok());
+        let ends: Vec<EndState> = ends.collect();
+        let search = Search {
+            end_time: self.end,
+            finest: grids.iter().map(|grid| grid.steps).max().unwrap_or(1),
+            refinement: self.refinement,
+            ends: &ends,
+        };
+        let found = search.run(&*self.build, |planned, made| {
+            progress.plan(planned);
+            progress.advance(made);
+        });
+        let setting = self.settings[0];
+        found.map_err(|source: SceneError| StudyError::Scene { setting, source })
+    }
+}
+
+/// How many steps are made, and who wants to know.
+struct Progress<'a> {
+    watch: Option<Box<Watch<'a>>>,
+    done: u64,
+    planned: u64,
+}
+
+impl<'a> Progress<'a> {
+    fn new(watch: Option<Box<Watch<'a>>>) -> Self {
+        let (done, planned) = (0, 0);
+        Self {
+            watch,
+            done,
+            planned,
+        }
+    }
+
+    fn plan(&mut self, steps: u64) {
+        self.planned = self.planned.saturating_add(steps);
+    }
+
+    fn advance(&mut self, steps: u64) {
+        self.done = self.done.saturating_add(steps);
+        if let Some(watch) = self.watch.as_mut().filter(|_| steps > 0) {
+            watch(self.done, self.planned);
+        }
+    }
+}

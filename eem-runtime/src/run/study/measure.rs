@@ -1,0 +1,164 @@
+//! One setting: its state at the end, what it did to the laws, and the time that it takes.
+
+use std::time::Instant;
+
+use super::grid::Grid;
+use super::quantity::{EndState, larger, share};
+use crate::number::scalar::Real;
+use crate::run::simulation::Simulation;
+use crate::scene::Scene;
+use crate::scene::error::SceneError;
+use crate::step::error::StepError;
+use crate::step::scheme::Scheme;
+
+/// What a run was like.
+#[derive(Clone, Debug)]
+pub(super) struct Measured {
+    /// The state at the end time, or why the run did not get there.
+    pub(super) end: Result<EndState, StepError>,
+    /// max |B − B₀|/|E₀| over the run with `B = E − work − heat`.
+    pub(super) energy_defect: f64,
+    /// The largest bound of a step's defect over |E₀|.
+    pub(super) step_bound: f64,
+    /// The smallest ΔS of a step, J/K.
+    pub(super) least_entropy_change: f64,
+    pub(super) steps: u32,
+    pub(super) iterations: usize,
+    pub(super) evaluations: u64,
+    pub(super) times: Times,
+}
+
+/// Wall times of the repeats, s.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Times {
+    /// The least time that building the scene and the simulation took.
+    pub(super) setup: f64,
+    /// The least time of all steps.
+    pub(super) least: f64,
+    /// The median of it.
+    pub(super) median: f64,
+}
+
+/// A scene that is built anew for every run.
+pub(super) type Build<'a, const D: usize, S> = dyn Fn() -> Scene<D, S> + 'a;
+
+/// Runs a setting on a grid once with an eye on its laws, and `repeats` times for the clock.
+pub(super) fn measure<const D: usize, S: Real>(
+    build: &Build<'_, D, S>,
+    scheme: Scheme,
+    grid: Grid,
+    repeats: usize,
+) -> Result<Measured, SceneError> {
+    let step = S::from_f64(grid.step);
+    let mut run = Simulation::new(build(), scheme, step)?;
+    let mut laws = Laws::new(&run);
+    let (mut steps, mut iterations) = (0, 0);
+    let mut end = Ok(());
+    for _ in 0..grid.steps {
+        match run.step() {
+            Ok(report) => {
+                laws.watch(&run, report.bound.to_f64());
+                steps += 1;
+                iterations += report.iterations;
+            }
+            Err(error) => {
+                end = Err(error);
+                break;
+            }
+        }
+    }
+    Ok(Measured {
+        end: end.map(|()| EndState::of(&run)),
+        energy_defect: laws.energy_defect,
+        step_bound: laws.step_bound,
+        least_entropy_change: laws.least_entropy_change,
+        steps,
+        iterations,
+        evaluations: run.evaluations(),
+        times: time(build, scheme, grid, repeats)?,
+    })
+}
+
+/// The end of a run that is not watched.
+pub(super) fn end_state<const D: usize, S: Real>(
+    build: &Build<'_, D, S>,
+    scheme: Scheme,
+    grid: Grid,
+) -> Result<Result<EndState, StepError>, SceneError> {
+    let mut run = Simulation::new(build(), scheme, S::from_f64(grid.step))?;
+    let end = advance(&mut run, grid.steps);
+    Ok(end.map(|()| EndState::of(&run)))
+}
+
+/// So many steps, or as many as succeed.
+fn advance<const D: usize, S: Real>(
+    run: &mut Simulation<D, S>,
+    steps: u32,
+) -> Result<(), StepError> {
+    for _ in 0..steps {
+        run.step()?;
+    }
+    Ok(())
+}
+
+/// The time of the steps alone, up to the first that fails.
+fn time<const D: usize, S: Real>(
+    build: &Build<'_, D, S>,
+    scheme: Scheme,
+    grid: Grid,
+    repeats: usize,
+) -> Result<Times, SceneError> {
+    let (mut setups, mut times) = (Vec::new(), Vec::new());
+    for _ in 0..repeats.max(1) {
+        let start = Instant::now();
+        let mut run = Simulation::new(build(), scheme, S::from_f64(grid.step))?;
+        setups.push(start.elapsed().as_secs_f64());
+        let start = Instant::now();
+        // A failure is that of the watched run.
+        let _same_end = advance(&mut run, grid.steps);
+        times.push(start.elapsed().as_secs_f64());
+    }
+    times.sort_by(f64::total_cmp);
+    let last = times.len() - 1;
+    Ok(Times {
+        setup: setups.into_iter().fold(f64::INFINITY, f64::min),
+        least: times[0],
+        median: f64::midpoint(times[last / 2], times[times.len() / 2]),
+    })
+}
+
+/// What a run has done to the laws so far.
+struct Laws {
+    /// `B₀` and `|E₀|`, J.
+    first: [f64; 2],
+    /// The total entropy after the last step, J/K.
+    entropy: f64,
+    energy_defect: f64,
+    step_bound: f64,
+    least_entropy_change: f64,
+}
+
+impl Laws {
+    fn new<const D: usize, S: Real>(run: &Simulation<D, S>) -> Self {
+        let ledger = run.ledger();
+        Self {
+            first: [ledger.balance.to_f64(), ledger.energy.to_f64().abs()],
+            entropy: ledger.entropy.to_f64(),
+            energy_defect: 0.0,
+            step_bound: 0.0,
+            least_entropy_change: f64::INFINITY,
+        }
+    }
+
+    /// Looks at the state after a step whose defect has this bound, J.
+    fn watch<const D: usize, S: Real>(&mut self, run: &Simulation<D, S>, bound: f64) {
+        let ledger = run.ledger();
+        let [balance, energy] = self.first;
+        let defect = share((ledger.balance.to_f64() - balance).abs(), energy);
+        self.energy_defect = larger(self.energy_defect, defect);
+        self.step_bound = larger(self.step_bound, share(bound, energy));
+        let entropy = ledger.entropy.to_f64();
+        self.least_entropy_change = -larger(-self.least_entropy_change, self.entropy - entropy);
+        self.entropy = entropy;
+    }
+}

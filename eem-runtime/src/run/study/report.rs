@@ -1,0 +1,162 @@
+//! What a study has found: a row per setting, and the reference that its errors are measured against.
+
+use super::measure::Measured;
+use super::quantity::{PerQuantity, StateQuantity};
+use super::reference::StudyReference;
+use super::setting::{Precision, Setting};
+use super::statement::{Statement, largest};
+use crate::step::error::StepError;
+use crate::step::scheme::Scheme;
+
+/// What one setting does and costs.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct StudyRow {
+    /// The setting.
+    pub setting: Setting,
+    /// Why the run did not reach the end time; laws, steps and times are then those of the steps before.
+    pub failure: Option<StepError>,
+    /// The largest `|B − B₀|/|E₀|` of the run with the balance `B = E − work − heat`, which is E where nothing
+    /// does work or gives heat.
+    pub energy_defect: f64,
+    /// What rounding may do to that in one step: the largest [`StepReport::bound`](crate::StepReport::bound)
+    /// over `|E₀|`.
+    pub step_bound: f64,
+    /// The smallest ΔS of a step, J/K; the second law demands that it is not negative but for rounding.
+    /// Infinite without steps.
+    pub least_entropy_change: f64,
+    /// Steps that were taken.
+    pub steps: u32,
+    /// Steps that were tried and not taken, other than a last one that ends the run. None where all steps
+    /// have one size.
+    pub rejected: u32,
+    /// Newton iterations.
+    pub iterations: usize,
+    /// Evaluations of the forces of all elements, once for each stage of a scheme with several.
+    pub evaluations: u64,
+    /// Wall time of the steps alone, the minimum of all repeats, s.
+    pub seconds: f64,
+    /// The median of the repeats, s.
+    pub median_seconds: f64,
+    /// Wall time of building the scene and the simulation, the minimum of all repeats, s.
+    pub setup_seconds: f64,
+    pub(super) differences: PerQuantity,
+    pub(super) doubts: PerQuantity,
+}
+
+impl StudyRow {
+    /// Compares what was measured with the references.
+    pub(super) fn new(setting: Setting, measured: Measured, reference: &StudyReference) -> Self {
+        let (differences, failure) = match measured.end {
+            Ok(state) => (reference.differences(&state), None),
+            Err(error) => ([None; 4], Some(error)),
+        };
+        Self {
+            setting,
+            failure,
+            energy_defect: measured.energy_defect,
+            step_bound: measured.step_bound,
+            least_entropy_change: measured.least_entropy_change,
+            steps: measured.steps,
+            rejected: 0,
+            iterations: measured.iterations,
+            evaluations: measured.evaluations,
+            seconds: measured.times.least,
+            median_seconds: measured.times.median,
+            setup_seconds: measured.times.setup,
+            differences,
+            doubts: reference.doubts(),
+        }
+    }
+
+    /// What is said about the error of one kind of quantity at the end time, see
+    /// [`EndState::difference`](crate::EndState::difference).
+    #[must_use]
+    pub fn statement(&self, quantity: StateQuantity) -> Statement {
+        let index = quantity.index();
+        match (self.differences[index], self.doubts[index]) {
+            (Some(difference), Some(doubt)) => Statement::of(difference, doubt),
+            _ => Statement::Absent,
+        }
+    }
+
+    /// The error of one kind of quantity at the end time, if it is stated.
+    #[must_use]
+    pub fn error(&self, quantity: StateQuantity) -> Option<f64> {
+        self.statement(quantity).stated()
+    }
+
+    /// What is said about the largest error of all kinds. It can be stated although a much smaller one is
+    /// refused.
+    #[must_use]
+    pub fn largest_error(&self) -> Statement {
+        match (largest(&self.differences), largest(&self.doubts)) {
+            (Some(difference), Some(doubt)) => Statement::of(difference, doubt),
+            _ => Statement::Absent,
+        }
+    }
+}
+
+/// What [`Study::run`](crate::Study::run) returns.
+///
+/// `Display` prints a table, the reference and a recommendation for each accuracy.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct StudyReport {
+    /// The time at which errors are compared, s.
+    pub end: f64,
+    /// A row per setting, in their order.
+    pub rows: Vec<StudyRow>,
+    /// What errors are measured against.
+    pub reference: StudyReference,
+    /// The accuracies that `Display` recommends settings for.
+    pub accuracies: Vec<f64>,
+}
+
+impl StudyReport {
+    /// The rows that no other row beats in both time and largest error: the Pareto front, from the fastest to
+    /// the most accurate.
+    #[must_use]
+    pub fn front(&self) -> Vec<&StudyRow> {
+        let stated = |row| Some((row, StudyRow::largest_error(row).stated()?));
+        let mut rows: Vec<(&StudyRow, f64)> = self.rows.iter().filter_map(stated).collect();
+        rows.sort_by(|(a, own), (b, other)| {
+            let by_time = a.seconds.total_cmp(&b.seconds);
+            by_time.then(own.total_cmp(other))
+        });
+        let mut least = f64::INFINITY;
+        rows.retain(|&(_, error)| {
+            let is_better = error < least;
+            least = least.min(error);
+            is_better
+        });
+        rows.into_iter().map(|(row, _)| row).collect()
+    }
+
+    /// The order that a scheme shows in double precision with one kind of quantity: the slope between the two
+    /// smallest steps whose errors are stated.
+    ///
+    /// ```text
+    /// ln(error₁/error₂) / ln(h₁/h₂)
+    /// ```
+    ///
+    /// `None` unless there are two such steps.
+    #[must_use]
+    pub fn order(&self, scheme: Scheme, quantity: StateQuantity) -> Option<f64> {
+        let point = |row: &StudyRow| {
+            let Setting {
+                scheme: own,
+                precision,
+                ..
+            } = row.setting;
+            let is_of_line = own == scheme && precision == Precision::Double;
+            let error = row.error(quantity).filter(|_| is_of_line)?;
+            Some((row.setting.step()?, error))
+        };
+        let mut points: Vec<_> = self.rows.iter().filter_map(point).collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        points.dedup_by(|a, b| a.0.total_cmp(&b.0).is_eq());
+        let [(small, fine), (large, coarse)] = *points.first_chunk()?;
+        Some((coarse / fine).ln() / (large / small).ln())
+    }
+}

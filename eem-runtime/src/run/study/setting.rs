@@ -1,0 +1,123 @@
+//! What a study runs: a scheme, how large its steps are, and in which precision, as data.
+
+use core::fmt;
+use core::iter;
+
+use crate::number::readable::Readable;
+use crate::step::scheme::Scheme;
+
+/// How large the steps of a run are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum StepChoice {
+    /// All of this size, s.
+    Fixed(f64),
+}
+
+/// The scalar of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Precision {
+    /// `f64`.
+    #[default]
+    Double,
+    /// `f32`.
+    Single,
+}
+
+/// One run of a [`Study`](crate::Study).
+///
+/// ```
+/// use eem_runtime::{Precision, Scheme, Setting};
+///
+/// let setting = Setting::fixed(Scheme::EemEntropy, 0.1);
+/// assert_eq!(setting.step(), Some(0.1));
+/// assert_eq!(setting.to_string(), "eem-entropy with h = 0.1 s");
+/// assert_eq!(setting.in_single_precision().precision, Precision::Single);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Setting {
+    /// The scheme.
+    pub scheme: Scheme,
+    /// How large its steps are.
+    pub steps: StepChoice,
+    /// The scalar.
+    pub precision: Precision,
+}
+
+impl Setting {
+    /// A scheme with steps of the size `step`, s, in double precision.
+    #[must_use]
+    pub const fn fixed(scheme: Scheme, step: f64) -> Self {
+        Self {
+            scheme,
+            steps: StepChoice::Fixed(step),
+            precision: Precision::Double,
+        }
+    }
+
+    /// The steps `h, h/2, …, h/2ⁿ` of a scheme: `halvings` is n, `largest` is h, s.
+    ///
+    /// ```
+    /// use eem_runtime::{Scheme, Setting};
+    ///
+    /// let steps = Setting::halved(Scheme::Gauss4, 0.2, 2).filter_map(|setting| setting.step());
+    /// assert_eq!(steps.collect::<Vec<_>>(), [0.2, 0.1, 0.05]);
+    /// ```
+    pub fn halved(scheme: Scheme, largest: f64, halvings: u32) -> impl Iterator<Item = Self> {
+        let steps = iter::successors(Some(largest), |step| Some(0.5 * step));
+        let steps = (0..=halvings).zip(steps);
+        steps.map(move |(_, step)| Self::fixed(scheme, step))
+    }
+
+    /// The same in `f32`; the study then needs [`Study::single`](crate::Study::single).
+    #[must_use]
+    pub const fn in_single_precision(self) -> Self {
+        Self {
+            precision: Precision::Single,
+            ..self
+        }
+    }
+
+    /// The size of all steps, s; `None` where the run chooses them.
+    #[must_use]
+    pub const fn step(&self) -> Option<f64> {
+        match self.steps {
+            StepChoice::Fixed(step) => Some(step),
+        }
+    }
+
+    /// The tolerance of the run's own choice of steps; `None` where all have one size.
+    #[must_use]
+    pub const fn tolerance(&self) -> Option<f64> {
+        match self.steps {
+            StepChoice::Fixed(_) => None,
+        }
+    }
+
+    /// The line of a picture that the setting belongs to: the name of the scheme, with `-f32` in single
+    /// precision.
+    ///
+    /// ```
+    /// use eem_runtime::{Scheme, Setting};
+    ///
+    /// let setting = Setting::fixed(Scheme::Midpoint, 0.1).in_single_precision();
+    /// assert_eq!(setting.line(), "midpoint-f32");
+    /// ```
+    #[must_use]
+    pub fn line(&self) -> String {
+        let suffix = match self.precision {
+            Precision::Double => "",
+            Precision::Single => "-f32",
+        };
+        format!("{}{suffix}", self.scheme)
+    }
+}
+
+impl fmt::Display for Setting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.steps {
+            StepChoice::Fixed(step) => write!(f, "{} with h = {} s", self.line(), Readable(step)),
+        }
+    }
+}
