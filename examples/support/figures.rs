@@ -14,6 +14,7 @@ mod ticks;
 use std::error::Error;
 use std::path::Path;
 
+#[allow(unused_imports, reason = "only one example has bands and open markers")]
 pub(crate) use look::{BAND, OPEN};
 
 /// One picture.
