@@ -7,14 +7,12 @@ mod axis;
 mod chart;
 mod clip;
 mod legend;
-mod look;
+pub(crate) mod look;
 mod range;
 mod ticks;
 
 use std::error::Error;
 use std::path::Path;
-
-pub(crate) use look::{BAND, OPEN};
 
 /// One picture.
 #[derive(Clone, Debug)]

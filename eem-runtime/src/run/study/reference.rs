@@ -97,13 +97,11 @@ impl StudyReference {
 
     /// The difference of a state from the first of the two; not a number if they failed.
     pub(super) fn differences(&self, state: &EndState) -> PerQuantity {
-        match &self.states {
-            Some([first, _]) => state.differences(first),
-            None => {
-                let unknown = |quantity| (!state.values(quantity).is_empty()).then_some(f64::NAN);
-                StateQuantity::ALL.map(unknown)
-            }
+        if let Some([first, _]) = &self.states {
+            return state.differences(first);
         }
+        let unknown = |quantity| (!state.values(quantity).is_empty()).then_some(f64::NAN);
+        StateQuantity::ALL.map(unknown)
     }
 
     /// The kinds in which two references are too far from each other for one of the errors of these states.

@@ -100,6 +100,33 @@ impl StudyRow {
 /// What [`Study::run`](crate::Study::run) returns.
 ///
 /// `Display` prints a table, the reference and a recommendation for each accuracy.
+///
+/// ```
+/// # use eem::prelude::*;
+/// # use eem::{Advice, Setting, Study, StudyReport};
+/// # #[derive(FreeEnergy)]
+/// # #[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - length).powi(2))]
+/// # struct Spring { stiffness: f64, length: f64 }
+/// # fn scene() -> Scene<1> {
+/// #     let mut scene = Scene::new();
+/// #     let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.5], [0.0])];
+/// #     scene.spring(Spring { stiffness: 4.0, length: 1.0 }, ends);
+/// #     scene
+/// # }
+/// // A mass that swings with ω = 2/s; the scheme has an error of (ωh)²ωt/12 in ωt.
+/// let report = Study::new(scene, 1.0)
+///     .settings(Setting::halved(Scheme::EemEntropy, 0.1, 2))
+///     .run()?;
+/// let [q, dq_dphase] = [1.0 + 0.5 * 2.0_f64.cos(), 0.5 * 2.0_f64.sin()];
+/// let expected = dq_dphase * 0.2_f64.powi(2) * 2.0 / 12.0 / q;
+/// let error = report.rows[0].error(eem::StateQuantity::Positions).unwrap();
+/// assert!((error / expected - 1.0).abs() < 0.02);
+///
+/// let Advice::Take { fastest, .. } = report.recommend(1e-3)?.advice else { unreachable!() };
+/// assert_eq!(fastest.setting.step(), Some(0.025));
+/// assert_eq!(report.csv_rows().count(), 3);
+/// # Ok::<(), eem::StudyError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct StudyReport {
