@@ -1,6 +1,6 @@
 //! What a study has found: a row per setting, and the reference that its errors are measured against.
 
-use super::measure::Measured;
+use super::measure::{Measured, Times};
 use super::quantity::{PerQuantity, StateQuantity};
 use super::reference::StudyReference;
 use super::setting::{Precision, Setting};
@@ -46,7 +46,12 @@ pub struct StudyRow {
 
 impl StudyRow {
     /// Compares what was measured with the references.
-    pub(super) fn new(setting: Setting, measured: Measured, reference: &StudyReference) -> Self {
+    pub(super) fn new(
+        setting: Setting,
+        measured: Measured,
+        times: Times,
+        reference: &StudyReference,
+    ) -> Self {
         let (differences, failure) = match measured.end {
             Ok(state) => (reference.differences(&state), None),
             Err(error) => ([None; 4], Some(error)),
@@ -61,9 +66,9 @@ impl StudyRow {
             rejected: 0,
             iterations: measured.iterations,
             evaluations: measured.evaluations,
-            seconds: measured.times.least,
-            median_seconds: measured.times.median,
-            setup_seconds: measured.times.setup,
+            seconds: times.least,
+            median_seconds: times.median,
+            setup_seconds: times.setup,
             differences,
             doubts: reference.doubts(),
         }
