@@ -127,7 +127,7 @@ impl StudyRow {
 /// let error = report.rows[0].error(eem::StateQuantity::Positions).unwrap();
 /// assert!((error / expected - 1.0).abs() < 0.02);
 ///
-/// let Advice::Take { fastest, .. } = report.recommend(1e-3)?.advice else { unreachable!() };
+/// let Advice::Take { fastest, .. } = report.recommend(5e-4)?.advice else { unreachable!() };
 /// assert_eq!(fastest.setting.step(), Some(0.025));
 /// assert_eq!(report.csv_rows().count(), 3);
 /// # Ok::<(), eem::StudyError>(())
