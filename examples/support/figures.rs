@@ -7,15 +7,12 @@ mod axis;
 mod chart;
 mod clip;
 mod legend;
-mod look;
+pub(crate) mod look;
 mod range;
 mod ticks;
 
 use std::error::Error;
 use std::path::Path;
-
-#[allow(unused_imports, reason = "only one example has bands and open markers")]
-pub(crate) use look::{BAND, OPEN};
 
 /// One picture.
 #[derive(Clone, Debug)]

@@ -6,7 +6,8 @@ use std::path::Path;
 use eem::{StudyReport, StudyRow};
 
 use super::support::comparison;
-use super::support::figures::{Axes, BAND, Curve, Figure, OPEN};
+use super::support::figures::look::{BAND, OPEN};
+use super::support::figures::{Axes, Curve, Figure};
 
 /// Errors above it are drawn as failures: what is off by its own size ten times is no solution.
 const LOST: f64 = 10.0;

@@ -4,6 +4,7 @@ pub(crate) mod advice;
 pub(crate) mod error;
 mod grid;
 mod measure;
+mod progress;
 pub(crate) mod quantity;
 pub(crate) mod reference;
 pub(crate) mod report;
@@ -19,7 +20,8 @@ use crate::scene::error::SceneError;
 use advice::check_accuracy;
 use error::StudyError;
 use grid::Grid;
-use measure::{Build, Measured, measure};
+use measure::{Build, Measured, Times, measure, time};
+use progress::{Progress, Watch};
 use quantity::{EndState, StateQuantity};
 use reference::{Search, StudyReference};
 use report::{StudyReport, StudyRow};
@@ -89,8 +91,6 @@ pub struct Study<'a, const D: usize> {
     reference: Option<[EndState; 2]>,
     watch: Option<Box<Watch<'a>>>,
 }
-
-type Watch<'a> = dyn FnMut(u64, u64) + 'a;
 
 impl<const D: usize> fmt::Debug for Study<'_, D> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -201,11 +201,14 @@ impl<'a, const D: usize> Study<'a, D> {
         let mut measured = Vec::with_capacity(grids.len());
         for (&setting, &grid) in self.settings.iter().zip(&grids) {
             measured.push(self.measure(setting, grid)?);
-            progress.advance(runs * u64::from(grid.steps));
+            progress.advance(u64::from(grid.steps));
         }
+        let times = self.time(&grids, &mut progress)?;
         let reference = self.find_reference(&grids, &measured, &mut progress)?;
-        let rows = self.settings.iter().zip(measured);
-        let rows = rows.map(|(&setting, measured)| StudyRow::new(setting, measured, &reference));
+        let rows = self.settings.iter().zip(measured).zip(times);
+        let rows = rows.map(|((&setting, measured), times)| {
+            StudyRow::new(setting, measured, times, &reference)
+        });
         Ok(StudyReport {
             end: self.end,
             rows: rows.collect(),
@@ -269,13 +272,30 @@ impl<'a, const D: usize> Study<'a, D> {
     }
 
     fn measure(&self, setting: Setting, grid: Grid) -> Result<Measured, StudyError> {
-        let (scheme, repeats) = (setting.scheme, self.repeats);
         let measured = match (setting.precision, &self.single) {
-            (Precision::Double, _) => measure(&*self.build, scheme, grid, repeats),
-            (Precision::Single, Some(build)) => measure(&**build, scheme, grid, repeats),
+            (Precision::Double, _) => measure(&*self.build, setting.scheme, grid),
+            (Precision::Single, Some(build)) => measure(&**build, setting.scheme, grid),
             (Precision::Single, None) => return Err(StudyError::NoSingleScene { setting }),
         };
         measured.map_err(|source| StudyError::Scene { setting, source })
+    }
+
+    /// The times of all settings. Each repeat goes through all of them: when the machine is busy for a while,
+    /// it does not slow all repeats of one setting.
+    fn time(&self, grids: &[Grid], progress: &mut Progress<'_>) -> Result<Vec<Times>, StudyError> {
+        let mut repeats = vec![Vec::new(); grids.len()];
+        for _ in 0..self.repeats.max(1) {
+            for ((&setting, &grid), times) in self.settings.iter().zip(grids).zip(&mut repeats) {
+                let taken = match (setting.precision, &self.single) {
+                    (Precision::Double, _) => time(&*self.build, setting.scheme, grid),
+                    (Precision::Single, Some(build)) => time(&**build, setting.scheme, grid),
+                    (Precision::Single, None) => return Err(StudyError::NoSingleScene { setting }),
+                };
+                times.push(taken.map_err(|source| StudyError::Scene { setting, source })?);
+                progress.advance(u64::from(grid.steps));
+            }
+        }
+        Ok(repeats.iter().map(|times| Times::of(times)).collect())
     }
 
     /// The references that were given, or those that are found.
@@ -302,34 +322,5 @@ impl<'a, const D: usize> Study<'a, D> {
         });
         let setting = self.settings[0];
         found.map_err(|source: SceneError| StudyError::Scene { setting, source })
-    }
-}
-
-/// How many steps are made, and who wants to know.
-struct Progress<'a> {
-    watch: Option<Box<Watch<'a>>>,
-    done: u64,
-    planned: u64,
-}
-
-impl<'a> Progress<'a> {
-    fn new(watch: Option<Box<Watch<'a>>>) -> Self {
-        let (done, planned) = (0, 0);
-        Self {
-            watch,
-            done,
-            planned,
-        }
-    }
-
-    fn plan(&mut self, steps: u64) {
-        self.planned = self.planned.saturating_add(steps);
-    }
-
-    fn advance(&mut self, steps: u64) {
-        self.done = self.done.saturating_add(steps);
-        if let Some(watch) = self.watch.as_mut().filter(|_| steps > 0) {
-            watch(self.done, self.planned);
-        }
     }
 }

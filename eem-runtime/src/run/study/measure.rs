@@ -25,7 +25,6 @@ pub(super) struct Measured {
     pub(super) steps: u32,
     pub(super) iterations: usize,
     pub(super) evaluations: u64,
-    pub(super) times: Times,
 }
 
 /// Wall times of the repeats, s.
@@ -42,12 +41,11 @@ pub(super) struct Times {
 /// A scene that is built anew for every run.
 pub(super) type Build<'a, const D: usize, S> = dyn Fn() -> Scene<D, S> + 'a;
 
-/// Runs a setting on a grid once with an eye on its laws, and `repeats` times for the clock.
+/// Runs a setting on a grid once with an eye on its laws.
 pub(super) fn measure<const D: usize, S: Real>(
     build: &Build<'_, D, S>,
     scheme: Scheme,
     grid: Grid,
-    repeats: usize,
 ) -> Result<Measured, SceneError> {
     let step = S::from_f64(grid.step);
     let mut run = Simulation::new(build(), scheme, step)?;
@@ -75,7 +73,6 @@ pub(super) fn measure<const D: usize, S: Real>(
         steps,
         iterations,
         evaluations: run.evaluations(),
-        times: time(build, scheme, grid, repeats)?,
     })
 }
 
@@ -101,30 +98,39 @@ fn advance<const D: usize, S: Real>(
     Ok(())
 }
 
-/// The time of the steps alone, up to the first that fails.
-fn time<const D: usize, S: Real>(
+/// The time of building the scene and the simulation, and that of the steps alone, up to the first that
+/// fails, s.
+pub(super) fn time<const D: usize, S: Real>(
     build: &Build<'_, D, S>,
     scheme: Scheme,
     grid: Grid,
-    repeats: usize,
-) -> Result<Times, SceneError> {
-    let (mut setups, mut times) = (Vec::new(), Vec::new());
-    for _ in 0..repeats.max(1) {
-        let start = Instant::now();
-        let mut run = Simulation::new(build(), scheme, S::from_f64(grid.step))?;
-        setups.push(start.elapsed().as_secs_f64());
-        let start = Instant::now();
-        // A failure is that of the watched run.
-        let _same_end = advance(&mut run, grid.steps);
-        times.push(start.elapsed().as_secs_f64());
+) -> Result<[f64; 2], SceneError> {
+    let start = Instant::now();
+    let mut run = Simulation::new(build(), scheme, S::from_f64(grid.step))?;
+    let setup = start.elapsed().as_secs_f64();
+    let start = Instant::now();
+    // A failure is that of the watched run.
+    let _same_end = advance(&mut run, grid.steps);
+    Ok([setup, start.elapsed().as_secs_f64()])
+}
+
+impl Times {
+    /// Of the repeats of a setting.
+    pub(super) fn of(repeats: &[[f64; 2]]) -> Self {
+        let sorted = |index: usize| {
+            let mut times: Vec<f64> = repeats.iter().map(|times| times[index]).collect();
+            times.sort_by(f64::total_cmp);
+            times
+        };
+        let least = |times: &[f64]| times.first().copied().unwrap_or(f64::NAN);
+        let (setups, times) = (sorted(0), sorted(1));
+        let middle = |rank: usize| times.get(rank / 2).copied().unwrap_or(f64::NAN);
+        Self {
+            setup: least(&setups),
+            least: least(&times),
+            median: f64::midpoint(middle(times.len().saturating_sub(1)), middle(times.len())),
+        }
     }
-    times.sort_by(f64::total_cmp);
-    let last = times.len() - 1;
-    Ok(Times {
-        setup: setups.into_iter().fold(f64::INFINITY, f64::min),
-        least: times[0],
-        median: f64::midpoint(times[last / 2], times[times.len() / 2]),
-    })
 }
 
 /// What a run has done to the laws so far.

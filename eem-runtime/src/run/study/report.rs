@@ -1,6 +1,6 @@
 //! What a study has found: a row per setting, and the reference that its errors are measured against.
 
-use super::measure::Measured;
+use super::measure::{Measured, Times};
 use super::quantity::{PerQuantity, StateQuantity};
 use super::reference::StudyReference;
 use super::setting::{Precision, Setting};
@@ -46,7 +46,12 @@ pub struct StudyRow {
 
 impl StudyRow {
     /// Compares what was measured with the references.
-    pub(super) fn new(setting: Setting, measured: Measured, reference: &StudyReference) -> Self {
+    pub(super) fn new(
+        setting: Setting,
+        measured: Measured,
+        times: Times,
+        reference: &StudyReference,
+    ) -> Self {
         let (differences, failure) = match measured.end {
             Ok(state) => (reference.differences(&state), None),
             Err(error) => ([None; 4], Some(error)),
@@ -61,9 +66,9 @@ impl StudyRow {
             rejected: 0,
             iterations: measured.iterations,
             evaluations: measured.evaluations,
-            seconds: measured.times.least,
-            median_seconds: measured.times.median,
-            setup_seconds: measured.times.setup,
+            seconds: times.least,
+            median_seconds: times.median,
+            setup_seconds: times.setup,
             differences,
             doubts: reference.doubts(),
         }
@@ -100,6 +105,33 @@ impl StudyRow {
 /// What [`Study::run`](crate::Study::run) returns.
 ///
 /// `Display` prints a table, the reference and a recommendation for each accuracy.
+///
+/// ```
+/// # use eem::prelude::*;
+/// # use eem::{Advice, Setting, Study, StudyReport};
+/// # #[derive(FreeEnergy)]
+/// # #[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - length).powi(2))]
+/// # struct Spring { stiffness: f64, length: f64 }
+/// # fn scene() -> Scene<1> {
+/// #     let mut scene = Scene::new();
+/// #     let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.5], [0.0])];
+/// #     scene.spring(Spring { stiffness: 4.0, length: 1.0 }, ends);
+/// #     scene
+/// # }
+/// // A mass that swings with ω = 2/s; the scheme has an error of (ωh)²ωt/12 in ωt.
+/// let report = Study::new(scene, 1.0)
+///     .settings(Setting::halved(Scheme::EemEntropy, 0.1, 2))
+///     .run()?;
+/// let [q, dq_dphase] = [1.0 + 0.5 * 2.0_f64.cos(), 0.5 * 2.0_f64.sin()];
+/// let expected = dq_dphase * 0.2_f64.powi(2) * 2.0 / 12.0 / q;
+/// let error = report.rows[0].error(eem::StateQuantity::Positions).unwrap();
+/// assert!((error / expected - 1.0).abs() < 0.02);
+///
+/// let Advice::Take { fastest, .. } = report.recommend(5e-4)?.advice else { unreachable!() };
+/// assert_eq!(fastest.setting.step(), Some(0.025));
+/// assert_eq!(report.csv_rows().count(), 3);
+/// # Ok::<(), eem::StudyError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct StudyReport {
