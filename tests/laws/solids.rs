@@ -226,6 +226,23 @@ fn the_patch_test_is_passed() {
     }
 }
 
+/// J is known to ε where little is left of a volume, and beside a large shear.
+#[test]
+fn crushed_and_sheared_bodies_have_their_volume() {
+    let [point, ..] = Quad4::points(&SQUARE, 1.0, STRAINS).unwrap();
+    let volume = |f: [[f64; 2]; 2]| {
+        let arms = [[1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let arms = arms.map(|[x, y]: [f64; 2]| f.map(|row| row[0] * x + row[1] * y));
+        1.0 + point.measure(&arms)[2]
+    };
+    for size in [1e-1, 1e-2, 1e-3, 1e-5] {
+        let error = volume([[size, 0.0], [0.0, size]]) - size * size;
+        assert!(error.abs() <= 4.0 * f64::EPSILON, "{size}: {error:e}");
+    }
+    let error = volume([[1.0, 1e9], [0.0, 1.0]]) - 1.0;
+    assert!(error.abs() <= 1e9 * 4.0 * f64::EPSILON, "{error:e}");
+}
+
 /// Old and new arms of a deformed quadrilateral at one of its points.
 fn ends(numbers: &mut Numbers, step: f64) -> (Quad4<f64, 3>, Ends<Quad4<f64, 3>, f64, 2>) {
     let reference = SQUARE.map(|[x, y]| [x + 0.1 * numbers.next(), y + 0.1 * numbers.next()]);
@@ -385,6 +402,17 @@ fn what_is_wrong_with_a_solid_is_said() {
     );
     assert!(
         message.starts_with("node 1 belongs to a solid"),
+        "{message}"
+    );
+    let message = {
+        let mut scene = Scene::<2>::new();
+        let nodes = SQUARE.map(|corner| scene.mass(-1.0, corner, [0.0; 2]));
+        scene.quadrilateral(stiff(), nodes, SECTION);
+        let error = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap_err();
+        error.to_string()
+    };
+    assert!(
+        message.starts_with("the mass of node 0 is -1 kg"),
         "{message}"
     );
     let message = build(

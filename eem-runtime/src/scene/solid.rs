@@ -4,7 +4,7 @@ use super::Scene;
 use crate::element::handle::{Element, Node};
 use crate::element::kinematics::{Quad4, Strain, StrainEnergy, bilinear};
 use crate::material::free_energy::FreeEnergy;
-use crate::number::scalar::{Real, is_positive};
+use crate::number::scalar::{Mask, Real, is_positive};
 use crate::scene::blueprint::{Blueprint, QuadSet};
 use crate::scene::error::SceneError;
 
@@ -137,6 +137,11 @@ impl<S: Real> Scene<2, S> {
         let masses = bilinear::masses(corners, section.density * section.thickness);
         for (a, row) in masses.iter().enumerate() {
             if let Some(mass) = &mut self.nodes[nodes[a].index].mass {
+                // That of the node itself, if it is not zero, as that of the solids is positive.
+                if mass.less(S::zero()).any() {
+                    let (node, value) = (nodes[a], mass.to_f64());
+                    self.misuse.push(SceneError::Mass { node, value });
+                }
                 *mass += row[a];
             }
             for (b, &mass) in row.iter().enumerate().take(a) {

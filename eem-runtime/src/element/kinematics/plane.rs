@@ -19,7 +19,7 @@ pub(super) type Tensor<S> = [[S; 2]; 2];
 
 /// `½(FᵀF − 1)`.
 #[inline]
-pub(super) fn green_lagrange<S: Real>([[xx, xy], [yx, yy]]: &Tensor<S>) -> Symmetric<S> {
+fn green_lagrange<S: Real>([[xx, xy], [yx, yy]]: &Tensor<S>) -> Symmetric<S> {
     let half = S::from_f64(0.5);
     [
         half * ((*xx * *xx + *yx * *yx) - S::one()),
@@ -34,16 +34,41 @@ pub(super) fn determinant<S: Real>([[xx, xy], [yx, yy]]: &Tensor<S>) -> S {
     *xx * *yy - *xy * *yx
 }
 
-/// A measure of a strain.
-#[inline]
-pub(super) fn measure<S: Real>(strain: Strain, [xx, yy, xy]: &Symmetric<S>) -> S {
-    match strain {
-        Strain::Trace => *xx + *yy,
-        Strain::Square => (*xx * *xx + *yy * *yy) + S::from_f64(2.0) * (*xy * *xy),
-        Strain::Dilatation => {
-            let (two, four) = (S::from_f64(2.0), S::from_f64(4.0));
-            let i3 = two * (*xx + *yy) + four * (*xx * *yy - *xy * *xy);
-            i3 / (S::one() + (S::one() + i3).sqrt())
+/// A deformation gradient with its strain.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Deformed<S> {
+    pub(super) tensor: Tensor<S>,
+    pub(super) strain: Symmetric<S>,
+}
+
+/// The square of a strain beyond which j is that of F. Below, j and the other measures have the rounding
+/// of the same E, so that differences like `e1 − ln(1 + j)` keep their digits; above, squares of E would
+/// take digits of a small J, or of one beside a large shear. At the limit both are right to ε.
+const LARGE_SQUARE: f64 = 0.25;
+
+impl<S: Real> Deformed<S> {
+    #[inline]
+    pub(super) fn new(tensor: Tensor<S>) -> Self {
+        let strain = green_lagrange(&tensor);
+        Self { tensor, strain }
+    }
+
+    /// A measure of its strain.
+    #[inline]
+    pub(super) fn measure(&self, of: Strain) -> S {
+        let [xx, yy, xy] = self.strain;
+        let two = S::from_f64(2.0);
+        let square = (xx * xx + yy * yy) + two * (xy * xy);
+        match of {
+            Strain::Trace => xx + yy,
+            Strain::Square => square,
+            Strain::Dilatation => {
+                let i3 = two * (xx + yy) + S::from_f64(4.0) * (xx * yy - xy * xy);
+                let of_strain = i3 / (S::one() + (S::one() + i3).sqrt());
+                let of_tensor = determinant(&self.tensor) - S::one();
+                let is_small = square.less(S::from_f64(LARGE_SQUARE));
+                S::select(is_small, of_strain, of_tensor)
+            }
         }
     }
 }
@@ -61,9 +86,9 @@ pub(super) struct Between<S> {
 
 impl<S: Real> Between<S> {
     #[inline]
-    pub(super) fn new([old, new]: [&Symmetric<S>; 2]) -> Self {
-        let [old_volume, new_volume] =
-            [old, new].map(|strain| S::one() + measure(Strain::Dilatation, strain));
+    pub(super) fn new(ends: [&Deformed<S>; 2]) -> Self {
+        let [old_volume, new_volume] = ends.map(|end| S::one() + end.measure(Strain::Dilatation));
+        let [old, new] = ends.map(|end| &end.strain);
         Self {
             sum: [old[0] + new[0], old[1] + new[1], old[2] + new[2]],
             volumes: old_volume + new_volume,

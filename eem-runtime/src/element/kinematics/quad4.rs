@@ -7,8 +7,7 @@ use crate::element::handle::Element;
 use crate::element::kinematics::bilinear::{gauss, jacobian, shapes};
 use crate::element::kinematics::measures::{Ends, Kinematics};
 use crate::element::kinematics::plane::{
-    Between, Symmetric, Tensor, applied, contracted, determinant, green_lagrange, measure, pushed,
-    symmetrised,
+    Between, Deformed, Symmetric, Tensor, applied, contracted, determinant, pushed, symmetrised,
 };
 use crate::element::kinematics::strain::Strain;
 use crate::material::free_energy::Entry;
@@ -177,11 +176,20 @@ impl<S: Real, const N: usize> Quad4<S, N> {
     #[inline]
     fn between(&self, ends: &Ends<Self, S, 2>) -> ([Tensor<S>; 2], Between<S>) {
         let [old, new] = [&ends.r0, &ends.r1].map(|r| self.deformation(r));
-        let strains = [green_lagrange(&old), green_lagrange(&new)];
         let half = S::from_f64(0.5);
         let mean = array::from_fn(|i| array::from_fn(|j| half * (old[i][j] + new[i][j])));
-        ([mean, new], Between::new([&strains[0], &strains[1]]))
+        (
+            [mean, new],
+            Between::new([&Deformed::new(old), &Deformed::new(new)]),
+        )
     }
+}
+
+/// Between a deformation and itself.
+#[inline]
+fn at_rest<S: Real>(tensor: Tensor<S>) -> Between<S> {
+    let deformed = Deformed::new(tensor);
+    Between::new([&deformed, &deformed])
 }
 
 /// `sum += factor tensor`.
@@ -228,8 +236,7 @@ impl<S: Real, const N: usize> Kinematics<S, 2> for Quad4<S, N> {
     // E has the rounding of ½(FᵀF − 1), and π that of P:E.
     fn sizes(&self, r: &[[S; 2]; 3], _: &[S; N]) -> [S; N] {
         let tensor = self.deformation(r);
-        let strain = green_lagrange(&tensor);
-        let between = Between::new([&strain, &strain]);
+        let between = at_rest(tensor);
         let squares = tensor.iter().flatten();
         let square = squares.fold(S::one(), |sum, &entry| sum + entry * entry);
         let size = S::from_f64(0.5) * square;
@@ -257,23 +264,21 @@ impl<S: Real, const N: usize> Kinematics<S, 2> for Quad4<S, N> {
 
     #[inline]
     fn measure(&self, r: &[[S; 2]; 3]) -> [S; N] {
-        let strain = green_lagrange(&self.deformation(r));
-        self.strains.map(|of| measure(of, &strain))
+        let deformed = Deformed::new(self.deformation(r));
+        self.strains.map(|of| deformed.measure(of))
     }
 
     #[inline]
     fn gradient(&self, r: &[[S; 2]; 3], _: &[S; N]) -> [[[S; 2]; 3]; N] {
         let tensor = self.deformation(r);
-        let strain = green_lagrange(&tensor);
-        self.along(&tensor, &Between::new([&strain, &strain]))
+        self.along(&tensor, &at_rest(tensor))
     }
 
     // The change of P with both ends is twice that with the new one.
     fn curvature(&self, r: &[[S; 2]; 3], _: &[S; N], force: &[S; N]) -> [[[[S; 2]; 2]; 3]; 3] {
         let two = S::from_f64(2.0);
         let tensor = self.deformation(r);
-        let strain = green_lagrange(&tensor);
-        let between = Between::new([&strain, &strain]);
+        let between = at_rest(tensor);
         let doubled = tensor.map(|row| row.map(|entry| two * entry));
         self.turned([&doubled, &tensor], &between, force, S::one())
     }

@@ -71,6 +71,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// have after a step of this size.
     pub(super) fn audit(&self, state: &State<S>, step: S) -> Result<(), RestoreError> {
         self.audit_anchors(state, step)?;
+        self.audit_velocities(state)?;
         self.audit_thermostats(state)?;
         for group in self.stepper.all() {
             group.audit(state)?;
@@ -88,6 +89,27 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 quantity,
                 value,
                 unit,
+            }),
+        }
+    }
+
+    /// Where masses couple nodes, momenta are those of the velocities, and anchors have none of either.
+    fn audit_velocities(&self, state: &State<S>) -> Result<(), RestoreError> {
+        let velocities: Vec<_> = state.velocities.sums().collect();
+        for node in self.masses.anchors().filter(|_| !velocities.is_empty()) {
+            for axis in 0..D {
+                audit_zero(node, axis, velocities[node * D + axis])?;
+            }
+        }
+        let mut expected = state.clone();
+        expected.follow_velocities(D, &self.masses);
+        let mut pairs = expected.momenta.values().iter().zip(state.momenta.values());
+        match pairs.find(|(expected, value)| !expected.equal(**value).all()) {
+            None => Ok(()),
+            Some((_, value)) => Err(RestoreError::Value {
+                quantity: "momenta",
+                value: value.to_f64(),
+                required: "those of the velocities, p = M v",
             }),
         }
     }

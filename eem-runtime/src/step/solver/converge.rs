@@ -65,7 +65,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let previous = before.replace(update).filter(|_| is_full);
             purpose = Purpose::Iterate;
             let ends = is_last(update, previous, tolerance) & !settled;
-            let is_stuck = self.scheme.is_exact() && progress.is_stuck(update, previous, settled);
+            let is_stuck = self.scheme.is_exact()
+                && progress.is_stuck(update, previous, settled)
+                && self.coupling.may_be_rounding(update);
             if S::LANES > 1 && is_stuck {
                 // Alone, some of them might go on from here otherwise than others.
                 break;

@@ -10,7 +10,7 @@ use super::balance::Balance;
 use crate::element::group::{Sites, Trial};
 use crate::element::masses::Masses;
 use crate::number::compact::compact;
-use crate::number::scalar::Real;
+use crate::number::scalar::{Mask, Real};
 
 /// The coupled masses of a scene, and where they write.
 #[derive(Debug)]
@@ -73,6 +73,12 @@ impl<S: Real, const D: usize> Coupling<S, D> {
         }
         let root = S::EPSILON.sqrt();
         usual.minimum(root * root.sqrt())
+    }
+
+    /// Whether rounding may be what keeps an update from falling: with coupled masses only a small one, as
+    /// the impulses of a stiff body, by which momenta are judged, would hide what a larger one leaves.
+    pub(super) fn may_be_rounding(&self, update: S) -> bool {
+        self.is_none() || update.at_most(S::EPSILON.sqrt()).all()
     }
 
     /// Adds inertia to residual and tangent at a trial, as a [`Balance`] does on the diagonal.
