@@ -65,9 +65,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let previous = before.replace(update).filter(|_| is_full);
             purpose = Purpose::Iterate;
             let ends = is_last(update, previous, tolerance) & !settled;
-            let is_stuck = self.scheme.is_exact()
-                && progress.is_stuck(update, previous, settled)
-                && self.coupling.may_be_rounding(update);
+            let is_stuck = self.is_stuck(&mut progress, update, previous, settled);
             if S::LANES > 1 && is_stuck {
                 // Alone, some of them might go on from here otherwise than others.
                 break;
@@ -81,6 +79,19 @@ impl<S: Real, const D: usize> Solver<S, D> {
             }
         }
         Err(self.not_converged(before))
+    }
+
+    /// Whether rounding may be what keeps the last update from being smaller than the one before.
+    fn is_stuck(
+        &self,
+        progress: &mut Progress<S>,
+        update: S,
+        before: Option<S>,
+        settled: S::Mask,
+    ) -> bool {
+        self.scheme.is_exact()
+            && progress.is_stuck(update, before, settled)
+            && self.coupling.may_be_rounding(update)
     }
 
     /// Why there is no solution: what kept the last update from being applied, or its size.
