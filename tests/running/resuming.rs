@@ -165,6 +165,7 @@ fn a_scene_of_another_shape_is_refused_with_what_differs() {
 #[cfg(feature = "serde")]
 mod files {
     use super::*;
+    use crate::support::solids::{SECTION, ThermoelasticSolid};
 
     fn through_text<const D: usize>(run: &Simulation<D>) -> Checkpoint {
         let text = serde_json::to_string(&run.checkpoint()).unwrap();
@@ -182,6 +183,41 @@ mod files {
             resumed.restore(&read).unwrap();
             assert_eq!(trace(&mut run, 50), trace(&mut resumed, 50));
         }
+    }
+
+    /// A square of a solid that turns.
+    fn solid() -> Simulation<2> {
+        let mut scene = Scene::<2>::new();
+        let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let nodes = corners.map(|[x, y]| scene.node([x, y], [0.5 - y, x]));
+        for point in scene.quadrilateral(ThermoelasticSolid::RUBBER, nodes, SECTION) {
+            scene.set_temperature(point, 310.0);
+        }
+        Simulation::new(scene, Scheme::EemEntropy, 0.05).unwrap()
+    }
+
+    #[test]
+    fn solids_are_resumed_and_their_momenta_are_those_of_the_velocities() {
+        let mut run = solid();
+        trace(&mut run, 5);
+        let read = through_text(&run);
+        let mut resumed = solid();
+        resumed.restore(&read).unwrap();
+        assert_eq!(trace(&mut run, 20), trace(&mut resumed, 20));
+
+        let mut run = solid();
+        let text = serde_json::to_string(&run.checkpoint()).unwrap();
+        let at = text.find("\"velocities\":[[").unwrap();
+        let text = text[..at].to_owned() + &text[at..].replacen("0.5", "1e160", 1);
+        let before = bits(&run);
+        let error = run
+            .restore(&serde_json::from_str(&text).unwrap())
+            .unwrap_err();
+        assert!(
+            error.to_string().contains("those of the velocities"),
+            "{error}"
+        );
+        assert_eq!(before, bits(&run));
     }
 
     /// The error of restoring a pendulum from a text in which `from` has been replaced by `to`.
