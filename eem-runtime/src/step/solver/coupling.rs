@@ -75,10 +75,11 @@ impl<S: Real, const D: usize> Coupling<S, D> {
         usual.minimum(root * root.sqrt())
     }
 
-    /// Whether rounding may be what keeps an update from falling: with coupled masses only a small one, as
+    /// Whether rounding may be what keeps an update from falling: with coupled masses only a small one, at most ε^⅝, as
     /// the impulses of a stiff body, by which momenta are judged, would hide what a larger one leaves.
     pub(super) fn may_be_rounding(&self, update: S) -> bool {
-        self.is_none() || update.at_most(S::EPSILON.sqrt()).all()
+        let root = S::EPSILON.sqrt();
+        self.is_none() || update.at_most(root * root.sqrt().sqrt()).all()
     }
 
     /// Adds inertia to residual and tangent at a trial, as a [`Balance`] does on the diagonal.
