@@ -17,7 +17,7 @@ use crate::element::kinematics::Stretch;
 use crate::element::layout::Layout;
 use crate::material::free_energy::FreeEnergy;
 use crate::number::scalar::Real;
-use crate::scene::blueprint::{Blueprint, ModelSet};
+use crate::scene::blueprint::{Blueprint, ElementSet};
 use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
 use entry::{ElementEntry, NodeEntry};
@@ -133,10 +133,9 @@ impl<const D: usize, S: Real> Scene<D, S> {
         for node in nodes {
             self.expect_own(node.scene, &node);
         }
-        let new = || ModelSet::<M, _>::new(Stretch::<D>);
-        let (group, set) = self.set_of(new);
+        let (group, set) = self.set_of(ElementSet::<M, Stretch<D>, 1>::new);
         let place = Blueprint::<S, D>::len(set);
-        set.push(model, element);
+        set.push(element, [(model, Stretch)]);
         self.push_element(&nodes, [group, place]);
         element
     }

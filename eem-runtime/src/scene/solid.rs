@@ -4,8 +4,9 @@ use super::Scene;
 use crate::element::handle::{Element, Node};
 use crate::element::kinematics::{Quad4, Strain, StrainEnergy, bilinear};
 use crate::material::free_energy::FreeEnergy;
+use crate::material::point_energy::PointEnergy;
 use crate::number::scalar::{Mask, Real, is_positive};
-use crate::scene::blueprint::{Blueprint, QuadSet};
+use crate::scene::blueprint::{Blueprint, ElementSet};
 use crate::scene::error::SceneError;
 
 /// What a solid in the plane is besides its material and its corners.
@@ -92,9 +93,11 @@ impl<S: Real> Scene<2, S> {
         });
         let place = match self.expect_quad::<N>(nodes, (M::STRAINS, section), points) {
             Ok(quad) => {
-                let (group, set) = self.set_of(QuadSet::<S, M, N>::new);
-                let place = set.len();
-                set.push(&model, quad, points[0]);
+                let new = ElementSet::<PointEnergy<S, M>, Quad4<S, N>, 4>::new;
+                let (group, set) = self.set_of(new);
+                let place = Blueprint::<S, 2>::len(set);
+                let energy = |volume| PointEnergy::new(model.clone(), volume);
+                set.push(points[0], quad.map(|point| (energy(point.volume()), point)));
                 [group, place]
             }
             // Handles have to mean something until the scene is checked.

@@ -42,11 +42,11 @@ where
     C: ElementScheme<S, M>,
 {
     /// Of the first handles of the elements, and what their points consist of.
-    pub(crate) fn new<P>(parts: Vec<(Element, P)>, placed: Placed<'_>) -> Self
-    where
-        P: IntoIterator<Item = (M, K)>,
-    {
-        let members = parts.into_iter().map(|(first, parts)| {
+    pub(crate) fn new<const P: usize>(
+        elements: Vec<(Element, [(M, K); P])>,
+        placed: Placed<'_>,
+    ) -> Self {
+        let members = elements.into_iter().map(|(first, parts)| {
             let mut parts = parts.into_iter();
             let next = |_| {
                 parts

@@ -49,6 +49,8 @@ pub trait Kinematics<S: Real, const D: usize>:
     /// `[T; number of points]`, at which the free energy is evaluated.
     type PerPoint<T: Send + Sync>: Points<T>;
 
+    /// Whether its measure is a length, to which a force belongs.
+    const IS_SPRING: bool;
     /// Unit of a viscous stretch, whose rate times the viscosity is the force of a dashpot.
     const VISCOUS_UNIT: &'static str;
     /// Unit of a viscosity.

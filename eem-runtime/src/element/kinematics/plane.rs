@@ -85,14 +85,17 @@ pub(super) struct Between<S> {
 }
 
 impl<S: Real> Between<S> {
+    /// Two deformations.
     #[inline]
-    pub(super) fn new(ends: [&Deformed<S>; 2]) -> Self {
-        let [old_volume, new_volume] = ends.map(|end| S::one() + end.measure(Strain::Dilatation));
-        let [old, new] = ends.map(|end| &end.strain);
+    pub(super) fn new(ends: [&Tensor<S>; 2]) -> Self {
+        let [old, new] = ends.map(|tensor| Deformed::new(*tensor));
+        let [old_volume, new_volume] =
+            [old, new].map(|end| S::one() + end.measure(Strain::Dilatation));
+        let (old, new) = (old.strain, new.strain);
         Self {
             sum: [old[0] + new[0], old[1] + new[1], old[2] + new[2]],
             volumes: old_volume + new_volume,
-            new: *new,
+            new,
             new_volume,
         }
     }

@@ -178,18 +178,8 @@ impl<S: Real, const N: usize> Quad4<S, N> {
         let [old, new] = [&ends.r0, &ends.r1].map(|r| self.deformation(r));
         let half = S::from_f64(0.5);
         let mean = array::from_fn(|i| array::from_fn(|j| half * (old[i][j] + new[i][j])));
-        (
-            [mean, new],
-            Between::new([&Deformed::new(old), &Deformed::new(new)]),
-        )
+        ([mean, new], Between::new([&old, &new]))
     }
-}
-
-/// Between a deformation and itself.
-#[inline]
-fn at_rest<S: Real>(tensor: Tensor<S>) -> Between<S> {
-    let deformed = Deformed::new(tensor);
-    Between::new([&deformed, &deformed])
 }
 
 /// `sum += factor tensor`.
@@ -206,6 +196,7 @@ impl<S: Real, const N: usize> Kinematics<S, 2> for Quad4<S, N> {
     type PerMeasure<T: Entry> = [T; N];
     type PerPoint<T: Send + Sync> = [T; 4];
 
+    const IS_SPRING: bool = false;
     const VISCOUS_UNIT: &'static str = "";
     const VISCOSITY_UNIT: &'static str = "J s";
 
@@ -236,7 +227,7 @@ impl<S: Real, const N: usize> Kinematics<S, 2> for Quad4<S, N> {
     // E has the rounding of ½(FᵀF − 1), and π that of P:E.
     fn sizes(&self, r: &[[S; 2]; 3], _: &[S; N]) -> [S; N] {
         let tensor = self.deformation(r);
-        let between = at_rest(tensor);
+        let between = Between::new([&tensor, &tensor]);
         let squares = tensor.iter().flatten();
         let square = squares.fold(S::one(), |sum, &entry| sum + entry * entry);
         let size = S::from_f64(0.5) * square;
@@ -271,14 +262,14 @@ impl<S: Real, const N: usize> Kinematics<S, 2> for Quad4<S, N> {
     #[inline]
     fn gradient(&self, r: &[[S; 2]; 3], _: &[S; N]) -> [[[S; 2]; 3]; N] {
         let tensor = self.deformation(r);
-        self.along(&tensor, &at_rest(tensor))
+        self.along(&tensor, &Between::new([&tensor, &tensor]))
     }
 
     // The change of P with both ends is twice that with the new one.
     fn curvature(&self, r: &[[S; 2]; 3], _: &[S; N], force: &[S; N]) -> [[[[S; 2]; 2]; 3]; 3] {
         let two = S::from_f64(2.0);
         let tensor = self.deformation(r);
-        let between = at_rest(tensor);
+        let between = Between::new([&tensor, &tensor]);
         let doubled = tensor.map(|row| row.map(|entry| two * entry));
         self.turned([&doubled, &tensor], &between, force, S::one())
     }

@@ -57,6 +57,7 @@ impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
 
     type PerPoint<T: Send + Sync> = [T; 1];
 
+    const IS_SPRING: bool = true;
     const VISCOUS_UNIT: &'static str = "m";
     const VISCOSITY_UNIT: &'static str = "N s/m";
 

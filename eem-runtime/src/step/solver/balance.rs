@@ -29,7 +29,7 @@ impl<S: Real, const D: usize> Balance<S, D> {
 
     /// `c h v⁰`, m.
     #[inline]
-    pub(super) fn flight_in(&self, view: &StepView<'_, S>, time: S) -> [S; D] {
+    fn flight_in(&self, view: &StepView<'_, S>, time: S) -> [S; D] {
         let at = self.place.node();
         let velocities = points::<S, D>(view.state.velocities.values());
         if let Some(velocity) = velocities.get(at) {
@@ -58,7 +58,11 @@ impl<S: Real, const D: usize> Balance<S, D> {
     /// `Δq − h v⁰` at a trial, m.
     pub(super) fn change(&self, trial: &Trial<S, D>) -> [S; D] {
         let at = self.place.in_trial();
-        let (displacement, rest) = (&trial.displacements[at], &trial.rests[at]);
+        self.beyond_flight([&trial.displacements[at], &trial.rests[at]])
+    }
+
+    #[inline]
+    fn beyond_flight(&self, [displacement, rest]: [&[S; D]; 2]) -> [S; D] {
         array::from_fn(|axis| (displacement[axis] - self.flight[axis]) + rest[axis])
     }
 
@@ -83,13 +87,10 @@ impl<S: Real, const D: usize> Balance<S, D> {
     ///
     /// It has the digits of Δp also where that is small beside p, and those of Δq where `Δp ≈ −2p⁰`.
     #[inline]
-    pub(super) fn impulse(
-        &self,
-        [displacement, rest]: [&[S; D]; 2],
-        inertia_per_mass: S,
-    ) -> [S; D] {
+    pub(super) fn impulse(&self, displacement: [&[S; D]; 2], inertia_per_mass: S) -> [S; D] {
         let inertia = self.place.mass * inertia_per_mass;
-        array::from_fn(|axis| inertia * ((displacement[axis] - self.flight[axis]) + rest[axis]))
+        self.beyond_flight(displacement)
+            .map(|change| inertia * change)
     }
 
     /// Starts residual and tangent of its momentum balance at a displacement, with `p¹` eliminated,

@@ -39,12 +39,12 @@ where
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
 {
-    pub(crate) fn new(
+    pub(crate) fn new<const P: usize>(
         rule: &'static Tableau,
-        parts: Vec<(Element, [(M, K); 1])>,
+        elements: Vec<(Element, [(M, K); P])>,
         placed: Placed<'_>,
     ) -> Self {
-        let elements = ElementGroup::new(parts, placed);
+        let elements = ElementGroup::new(elements, placed);
         let members = elements.members.iter();
         let members = members.map(|member| StageMember::new(member, rule));
         Self {
