@@ -383,9 +383,13 @@ fn what_is_wrong_with_a_solid_is_said() {
     let clockwise = [SQUARE[0], SQUARE[3], SQUARE[2], SQUARE[1]];
     let message = build(&nothing, SECTION, clockwise);
     assert!(
-        message.starts_with("the solid at element 0 is inside out: det dX/dxi is -0.25"),
+        message.starts_with("det dX/dxi of the solid at element 0 is -0.25"),
         "{message}"
     );
+    let mut nowhere = SQUARE;
+    nowhere[2][1] = f64::NAN;
+    let message = build(&nothing, SECTION, nowhere);
+    assert!(message.contains("node 2 is NaN"), "{message}");
     let section = Section {
         density: 0.0,
         ..SECTION
@@ -420,7 +424,10 @@ fn what_is_wrong_with_a_solid_is_said() {
         SECTION,
         SQUARE,
     );
-    assert!(message.contains("is inside out: det F is -"), "{message}");
+    assert!(
+        message.contains("det F of the solid at element 0 is -"),
+        "{message}"
+    );
     let message = build(
         &|scene, _| {
             scene.node([0.0; 2], [0.0; 2]);

@@ -56,7 +56,7 @@ impl Lowering<'_> {
         let Some(name) = self.argument_in(base) else {
             return Some(());
         };
-        let smooth = self.is_smooth_at_rest(base, exponent);
+        let smooth = self.is_smooth_power(base, exponent);
         self.unless(!integer && negative, expr, &|| {
             message::base_can_be_negative(&name, exponent, smooth)
         })?;

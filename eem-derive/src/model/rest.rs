@@ -11,11 +11,11 @@ use crate::message::expression::rest as message;
 const SMOOTH: f64 = 2.0;
 
 impl Lowering<'_> {
-    /// Whether `(x²)^(y/2)` has two derivatives at rest, for the base x.
-    pub(super) fn is_smooth_at_rest(&mut self, base: ExprId, exponent: Option<f64>) -> bool {
-        let half = exponent.map_or(SMOOTH, |y| 0.5 * y);
+    /// Whether `(x²)^(y/2)` is known to have two derivatives wherever x may be, for the base x.
+    pub(super) fn is_smooth_power(&mut self, base: ExprId, exponent: Option<f64>) -> bool {
         let at_rest = self.at_rest(base);
-        half >= SMOOTH || at_rest.is_none_or(|(_, _, at_rest)| at_rest != 0.0)
+        exponent.is_some_and(|y| 0.5 * y >= SMOOTH)
+            || at_rest.is_some_and(|(_, _, at_rest)| at_rest != 0.0)
     }
 
     /// `1/j`

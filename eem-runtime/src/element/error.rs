@@ -28,7 +28,7 @@ pub enum StateError {
     },
     /// A solid is inside out at a point, or its deformation is not finite.
     #[error(
-        "the solid at {element} is inside out: det F is {value}, it must be positive and finite; a smaller step or a finer mesh may help",
+        "det F of the solid at {element} is {value}, it must be positive and finite, and so must the squares of its strains: a smaller step or a finer mesh may help",
         value = Readable(*value)
     )]
     InsideOut {

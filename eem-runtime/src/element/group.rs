@@ -45,5 +45,5 @@ pub(crate) use interface::{Elements, Group};
 pub(crate) use misfit::Misfit;
 pub(crate) use stages::StageGroup;
 pub(crate) use view::{
-    Along, ElementGeneric, ElementView, NodesOf, Old, Placed, Sites, StepView, Trial,
+    Along, ElementGeneric, ElementTotals, ElementView, NodesOf, Old, Placed, Sites, StepView, Trial,
 };

@@ -198,6 +198,19 @@ impl<S: Scalar> Total<S> {
         self.rest += rest;
     }
 
+    /// Adds a sum and what is still missing of it.
+    #[inline]
+    pub(crate) fn add_sum(&mut self, sum: Sum<S>) {
+        self.add(sum.value);
+        self.add(sum.carry);
+    }
+
+    /// Adds another sum.
+    pub(crate) fn add_total(&mut self, other: Self) {
+        self.add(other.value);
+        self.add(other.rest);
+    }
+
     /// The sum, rounded once.
     pub(crate) fn value(self) -> S {
         self.value + self.rest

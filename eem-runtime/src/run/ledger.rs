@@ -7,7 +7,7 @@
 
 use nalgebra::SVector;
 
-use crate::element::group::Elements;
+use crate::element::group::{ElementTotals, Elements};
 use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::number::compensated::Total;
@@ -59,8 +59,9 @@ pub struct Ledger<S: Real, const D: usize> {
     pub reservoir_entropy: S,
     /// Entropy that thermostats have received since the start, as booked by the steps, J/K.
     pub thermostat_entropy: S,
-    /// The sum of all kept entropies, S, J/K. Never decreasing by the second law, but for two roundings of
-    /// this sum.
+    /// The sum of all kept entropies, S, J/K, with what rounding has taken from each of them. Never decreasing
+    /// by the second law, but for two roundings of this sum and, where thermostats give heat, one of what
+    /// they give.
     pub entropy: S,
     /// `Σ p`, kg m/s.
     pub linear_momentum: SVector<S, D>,
@@ -82,49 +83,45 @@ impl<S: Real, const D: usize> Ledger<S, D> {
             kinetic_energy::<S, D>(state, masses),
             potential_energy(state, masses, gravity),
         );
-        let (mut internal, mut heat) = (Total::new(), Total::new());
-        let (mut element_entropy, mut reservoir_entropy) = (Total::new(), Total::new());
-        let mut entropy_of_state = Total::new();
+        let mut totals = ElementTotals::new();
         for group in groups {
-            let totals = group.totals(state);
-            internal.add(totals.energy);
-            element_entropy.add(totals.entropy);
-            entropy_of_state.add(totals.entropy_of_state);
+            group.add_totals(state, &mut totals);
         }
-        for (&entropy, &theta) in state.reservoir_entropies.values().iter().zip(reservoirs) {
-            heat.add(theta * entropy);
-            reservoir_entropy.add(entropy);
+        let (mut heat, mut reservoir_entropy) = (Total::new(), Total::new());
+        for (index, &theta) in reservoirs.iter().enumerate() {
+            let received = state.reservoir_entropies.sum(index);
+            heat.add(theta * received.value);
+            reservoir_entropy.add_sum(received);
         }
         let [lost_heat, work, given_heat] =
             [state.dissipated, state.work, state.heat].map(|booked| booked.value);
-        let thermostat_entropy = state.thermostat_entropy.value;
+        let internal_energy = totals.energy.value();
+        let reservoir_heat = heat.value();
         let energy = [
             kinetic,
             potential,
-            internal.value(),
-            heat.value(),
+            internal_energy,
+            reservoir_heat,
             lost_heat,
         ];
-        let entropy = [
-            element_entropy.value(),
-            reservoir_entropy.value(),
-            thermostat_entropy,
-        ];
+        let mut entropy = totals.entropy;
+        entropy.add_total(reservoir_entropy);
+        entropy.add_sum(state.thermostat_entropy);
         Self {
             kinetic_energy: kinetic,
             potential_energy: potential,
-            internal_energy: internal.value(),
-            reservoir_heat: heat.value(),
+            internal_energy,
+            reservoir_heat,
             lost_heat,
             energy: Total::of(energy),
             work,
             heat: given_heat,
             balance: Total::of(energy.into_iter().chain([-work, -given_heat])),
-            element_entropy: element_entropy.value(),
-            element_entropy_of_state: entropy_of_state.value(),
+            element_entropy: totals.entropy.value(),
+            element_entropy_of_state: totals.entropy_of_state.value(),
             reservoir_entropy: reservoir_entropy.value(),
-            thermostat_entropy,
-            entropy: Total::of(entropy),
+            thermostat_entropy: state.thermostat_entropy.value,
+            entropy: entropy.value(),
             linear_momentum: linear_momentum(state),
             angular_momentum: angular_momentum::<S, D>(state, masses),
         }

@@ -145,13 +145,9 @@ fn check_node<S: Real, const D: usize>(
     node: Node,
     entry: &NodeEntry<S, D>,
 ) -> Result<(), SceneError> {
+    check_position(node, entry)?;
     for axis in 0..D {
-        let position = entry.position[axis];
         let velocity = entry.velocity[axis];
-        if !position.is_finite() {
-            let value = position.to_f64();
-            return Err(SceneError::Position { node, axis, value });
-        }
         if entry.momentum.is_none() && !velocity.is_finite() {
             let value = velocity.to_f64();
             return Err(SceneError::Velocity { node, axis, value });
@@ -164,6 +160,21 @@ fn check_node<S: Real, const D: usize>(
         }),
         _ => Ok(()),
     }
+}
+
+/// An error unless a node is somewhere.
+pub(super) fn check_position<S: Real, const D: usize>(
+    node: Node,
+    entry: &NodeEntry<S, D>,
+) -> Result<(), SceneError> {
+    for axis in 0..D {
+        let position = entry.position[axis];
+        if !position.is_finite() {
+            let value = position.to_f64();
+            return Err(SceneError::Position { node, axis, value });
+        }
+    }
+    Ok(())
 }
 
 fn check_reservoir<S: Real>(reservoir: Reservoir, temperature: S) -> Result<(), SceneError> {

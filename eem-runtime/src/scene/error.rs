@@ -26,7 +26,7 @@ pub enum SceneError {
     },
     /// A quadrilateral is inside out at a point of its reference configuration, or has no area there.
     #[error(
-        "the solid at {element} is inside out: det dX/dxi is {value} m^2, it must be positive and finite; give its corners against the clock",
+        "det dX/dxi of the solid at {element} is {value} m^2, it must be positive and finite: give its corners against the clock",
         value = Readable(*value)
     )]
     InsideOut {

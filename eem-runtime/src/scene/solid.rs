@@ -7,6 +7,7 @@ use crate::material::free_energy::FreeEnergy;
 use crate::material::point_energy::PointEnergy;
 use crate::number::scalar::{Mask, Real, is_positive};
 use crate::scene::blueprint::{Blueprint, ElementSet};
+use crate::scene::check::check_position;
 use crate::scene::error::SceneError;
 
 /// What a solid in the plane is besides its material and its corners.
@@ -123,6 +124,7 @@ impl<S: Real> Scene<2, S> {
             if !self.expect_own(node.scene, node) {
                 return Err(None);
             }
+            check_position(*node, &self.nodes[node.index])?;
         }
         section.check(points[0])?;
         let corners = nodes.map(|node| self.nodes[node.index].position.into());

@@ -169,7 +169,8 @@ where
     /// Σ_ij |T_ij| |x_j| |Δx_i|,     Δx = (Δλ, Δγ, Δs)
     /// ```
     ///
-    /// The part with ε is what rounding of a state at the bottom of a well does.
+    /// The part with ε is what rounding of a state at the bottom of a well does. The measures of a solid are
+    /// ratios, whose sizes have nothing to do with the motion: its forces always need the care.
     #[inline]
     pub(super) fn amplitude(&self, [r0, r1]: [&Arms<K, S, D>; 2], care: Care) -> S {
         let (sizes0, sizes1) = (self.sizes(r0, &self.start.x0), self.sizes(r1, &self.x));
@@ -180,10 +181,10 @@ where
             sum += self.response[row].abs() * (sizes0[row].abs() + size);
             sum += self.slopes[row][row].abs() * rounding;
         }
-        match care {
-            Care::Quick => sum,
-            Care::Thorough => sum + self.work_of_arguments(&sizes1),
+        if K::IS_SPRING && matches!(care, Care::Quick) {
+            return sum;
         }
+        sum + self.work_of_arguments(&sizes1)
     }
 
     #[cold]

@@ -4,7 +4,7 @@ use super::interface::{Elements, Group};
 use super::member::Member;
 use super::point::Point;
 use super::site::{Contact, Site};
-use super::view::{Along, ElementView, GroupTotals, Old, Placed, Sites, StepView, Trial};
+use super::view::{Along, ElementTotals, ElementView, Old, Placed, Sites, StepView, Trial};
 use crate::algebra::system::LinearSystem;
 use crate::element::conjugates::ElementScheme;
 use crate::element::error::StateError;
@@ -91,8 +91,8 @@ where
         self.initialize_all(state)
     }
 
-    fn totals(&self, state: &State<S>) -> GroupTotals<S> {
-        self.sum(state)
+    fn add_totals(&self, state: &State<S>, totals: &mut ElementTotals<S>) {
+        self.add_all_totals(state, totals);
     }
 
     fn find_energies(&self, state: &mut State<S>) {

@@ -4,7 +4,7 @@ use super::point::Point;
 use crate::element::conjugates::{ElementScheme, Infeasible};
 use crate::element::error::StateError;
 use crate::element::group::element_group::{ElementGroup, variables};
-use crate::element::group::view::{ElementView, GroupTotals};
+use crate::element::group::view::{ElementTotals, ElementView};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::state::{Energy, State};
@@ -49,24 +49,19 @@ where
         }
     }
 
-    /// See [`Elements::totals`](super::Elements::totals).
-    pub(super) fn sum(&self, state: &State<S>) -> GroupTotals<S> {
-        let [mut energy, mut entropy, mut entropy_of_state] = [S::zero(); 3];
+    /// See [`Elements::add_totals`](super::Elements::add_totals).
+    pub(super) fn add_all_totals(&self, state: &State<S>, totals: &mut ElementTotals<S>) {
         for member in &self.members {
             let r = member.arms_in(state);
             for point in member.points.as_ref() {
                 let x = point.variables_in(&r, state);
-                energy += point.internal_energy(&x, state);
+                totals.energy.add(point.internal_energy(&x, state));
                 if let Some(slot) = point.slots().thermal {
-                    entropy += state.entropies.values()[slot];
-                    entropy_of_state += point.model.caloric(&x).entropy;
+                    totals.entropy.add_sum(state.entropies.sum(slot));
+                    let caloric = point.model.caloric(&x);
+                    totals.entropy_of_state.add(caloric.entropy);
                 }
             }
-        }
-        GroupTotals {
-            energy,
-            entropy,
-            entropy_of_state,
         }
     }
 

@@ -1,6 +1,6 @@
 //! What the solver sees of elements: one dynamic call per group and phase.
 
-use super::view::{Along, ElementView, GroupTotals, Old, Sites, StepView, Trial};
+use super::view::{Along, ElementTotals, ElementView, Old, Sites, StepView, Trial};
 use crate::algebra::system::LinearSystem;
 use crate::element::error::StateError;
 use crate::element::group::misfit::Misfit;
@@ -18,8 +18,8 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
     /// Entropies of an initial state whose temperatures are given.
     fn initialize(&mut self, state: &mut State<S>) -> Result<(), StateError>;
 
-    /// Energy and entropy, from their definitions.
-    fn totals(&self, state: &State<S>) -> GroupTotals<S>;
+    /// Adds energy and entropy, from their definitions.
+    fn add_totals(&self, state: &State<S>, totals: &mut ElementTotals<S>);
 
     /// Writes the energies of a state whose temperatures and entropies are known.
     fn find_energies(&self, state: &mut State<S>);

@@ -10,6 +10,7 @@ use crate::element::masses::Masses;
 use crate::element::phase::Phase;
 use crate::element::state::State;
 use crate::element::tableau::MOST_STAGES;
+use crate::number::compensated::Total;
 use crate::number::scalar::{Mask, Real};
 
 /// What all elements share during one step.
@@ -118,15 +119,27 @@ impl<S: Real, const D: usize> Trial<S, D> {
     }
 }
 
-/// Internal energy and entropy of a group.
+/// Sums over elements, to twice the precision.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct GroupTotals<S> {
+pub(crate) struct ElementTotals<S> {
     /// `Σ (ψ + θ s)` with the kept entropies, J.
-    pub(crate) energy: S,
-    /// `Σ s` as kept, J/K.
-    pub(crate) entropy: S,
+    pub(crate) energy: Total<S>,
+    /// `Σ s` as kept, with what rounding has taken from each, J/K.
+    pub(crate) entropy: Total<S>,
     /// `Σ s(λ, γ, θ)`, J/K.
-    pub(crate) entropy_of_state: S,
+    pub(crate) entropy_of_state: Total<S>,
+}
+
+impl<S: Real> ElementTotals<S> {
+    /// Of no elements.
+    pub(crate) fn new() -> Self {
+        let [energy, entropy, entropy_of_state] = [Total::new(); 3];
+        Self {
+            energy,
+            entropy,
+            entropy_of_state,
+        }
+    }
 }
 
 /// One element in a state, from the definitions.
