@@ -1,6 +1,7 @@
 //! Steps: the schemes as data, Newton's method, the end of a step and its certificate.
 
 pub(crate) mod certificate;
+pub(crate) mod control;
 pub(crate) mod error;
 pub(crate) mod loads;
 pub(crate) mod newton;

@@ -122,6 +122,12 @@ impl<S: Real> State<S> {
         self.reservoir_entropies.copy_from(&old.reservoir_entropies);
     }
 
+    /// Takes over `other`, a state of the same scene, with its energies, without allocation.
+    pub(crate) fn copy_all_from(&mut self, other: &Self) {
+        self.copy_from(other);
+        self.energies.copy_from_slice(&other.energies);
+    }
+
     /// Takes over `other`, a state of the same scene, without allocation; energies are found anew.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         self.copy_books(other);

@@ -1,5 +1,6 @@
 //! A saved state: everything that the next steps depend on, bit for bit.
 
+mod control;
 pub(crate) mod error;
 mod expect;
 mod numbers;
@@ -14,6 +15,7 @@ use crate::step::newton::NewtonSettings;
 use crate::step::scheme::Scheme;
 use crate::step::solver::SavedPast;
 
+pub(crate) use control::SavedControl;
 pub use error::RestoreError;
 use expect::{expect_all, expect_count};
 pub(crate) use numbers::Numbers;
@@ -69,6 +71,9 @@ pub struct Checkpoint<S = f64> {
     pub(crate) numbers: Numbers,
     pub(crate) step: S,
     pub(crate) newton: NewtonSettings<S>,
+    /// None while all steps have one size.
+    #[cfg_attr(feature = "serde", serde(default = "Option::default"))]
+    pub(crate) control: Option<SavedControl<S>>,
     pub(crate) state: State<S>,
     pub(crate) past: SavedPast<S>,
 }
@@ -123,7 +128,9 @@ impl<S: Real> Checkpoint<S> {
         expect_count("temperatures", own.len(), other.len())?;
         let positive = "positive and finite";
         expect_all(positive, "temperatures", own.iter().copied(), is_positive)?;
-        expect_all(positive, "step size", [self.step].into_iter(), is_positive)?;
+        let steps = self.control.map(|control| control.smallest);
+        let steps = [self.step].into_iter().chain(steps);
+        expect_all(positive, "step size", steps, is_positive)?;
         self.check_past(past)
     }
 

@@ -60,8 +60,7 @@ pub struct Ledger<S: Real, const D: usize> {
     /// Entropy that thermostats have received since the start, as booked by the steps, J/K.
     pub thermostat_entropy: S,
     /// The sum of all kept entropies, S, J/K, with what rounding has taken from each of them. Never decreasing
-    /// by the second law, but for two roundings of this sum and, where thermostats give heat, one of what
-    /// they give.
+    /// by the second law, but for two roundings of this sum and of what was exchanged in the step.
     pub entropy: S,
     /// `Σ p`, kg m/s.
     pub linear_momentum: SVector<S, D>,

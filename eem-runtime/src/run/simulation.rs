@@ -2,6 +2,8 @@
 
 mod audit;
 mod check;
+mod control;
+mod control_memory;
 mod event;
 pub(crate) mod generic;
 mod inspect;
@@ -36,6 +38,7 @@ use crate::step::newton::StepReport;
 use crate::step::scheme::{Closing, Scheme};
 use crate::step::solver::Effort;
 use check::{check_end, check_step};
+use control_memory::Control;
 use start::initial_state;
 use stepper::{Parts, Stepper};
 use totals::check_totals;
@@ -74,6 +77,8 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     loads: Loads<S, D>,
     stepper: Stepper<S, D>,
     effort: Effort<S>,
+    /// None while all steps have the size that they are given.
+    control: Option<Box<Control<S>>>,
     state: Box<State<S>>,
     /// Where the next state is written.
     next: Box<State<S>>,
@@ -151,6 +156,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             loads: scene.loads,
             stepper,
             effort: Effort::new(),
+            control: None,
             next: state.clone(),
             state,
             has_stepped: false,
@@ -161,13 +167,21 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(run)
     }
 
-    /// One step of the present size.
+    /// One step of the present size, or of the one that [step control](Self::control_steps) finds.
     ///
     /// # Errors
     ///
     /// [`StepError`] if the scheme has no new state, or Newton's method does not find it. The
     /// simulation is then as it was before.
     pub fn step(&mut self) -> Result<StepReport<S>, StepError> {
+        if self.control.is_some() {
+            return self.controlled_step(S::MAX);
+        }
+        self.single_step()
+    }
+
+    /// One step of the present size.
+    fn single_step(&mut self) -> Result<StepReport<S>, StepError> {
         self.has_stepped = false;
         self.effort.restart();
         let certificate = match self.find_next() {
@@ -186,6 +200,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             bound: certificate.bound,
             production: certificate.production,
             least_production: certificate.least_production,
+            error: S::zero(),
         };
         self.note_worst(&report);
         Ok(report)

@@ -1,6 +1,7 @@
 //! Work and precision: what each setting costs and how accurate it is, for a scene of the user's own.
 
 pub(crate) mod advice;
+mod course;
 pub(crate) mod error;
 mod grid;
 mod measure;
@@ -14,13 +15,12 @@ mod table;
 
 use core::fmt;
 
-use crate::run::simulation::Simulation;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use advice::check_accuracy;
+use course::{Build, Course};
 use error::StudyError;
-use grid::Grid;
-use measure::{Build, Measured, Times, measure, time};
+use measure::{Measured, Times, measure, time};
 use progress::{Progress, Watch};
 use quantity::{EndState, StateQuantity};
 use reference::{Search, StudyReference};
@@ -192,19 +192,19 @@ impl<'a, const D: usize> Study<'a, D> {
     /// number of steps hits the end, or the scene is refused; nothing is run then, unless it is a scheme that
     /// refuses it.
     pub fn run(mut self) -> Result<StudyReport, StudyError> {
-        let grids = self.check()?;
+        let courses = self.check()?;
         let mut progress = Progress::new(self.watch.take());
         let runs = 1 + u64::try_from(self.repeats.max(1)).unwrap_or(u64::MAX);
-        for grid in &grids {
-            progress.plan(runs * u64::from(grid.steps));
+        for course in &courses {
+            progress.plan(runs * u64::from(course.planned()));
         }
-        let mut measured = Vec::with_capacity(grids.len());
-        for (&setting, &grid) in self.settings.iter().zip(&grids) {
-            measured.push(self.measure(setting, grid)?);
-            progress.advance(u64::from(grid.steps));
+        let mut measured = Vec::with_capacity(courses.len());
+        for (&setting, course) in self.settings.iter().zip(&courses) {
+            measured.push(self.measure(setting, course)?);
+            progress.advance(u64::from(course.planned()));
         }
-        let times = self.time(&grids, &mut progress)?;
-        let reference = self.find_reference(&grids, &measured, &mut progress)?;
+        let times = self.time(&courses, &mut progress)?;
+        let reference = self.find_reference(&measured, &mut progress)?;
         let rows = self.settings.iter().zip(measured).zip(times);
         let rows = rows.map(|((&setting, measured), times)| {
             StudyRow::new(setting, measured, times, &reference)
@@ -217,8 +217,8 @@ impl<'a, const D: usize> Study<'a, D> {
         })
     }
 
-    /// The grids of all settings, if nothing is wrong with the study.
-    fn check(&self) -> Result<Vec<Grid>, StudyError> {
+    /// The courses of all settings, if nothing is wrong with the study.
+    fn check(&self) -> Result<Vec<Course>, StudyError> {
         let end = self.end;
         if !(end > 0.0 && end.is_finite()) {
             return Err(StudyError::End { end });
@@ -234,12 +234,12 @@ impl<'a, const D: usize> Study<'a, D> {
                 return Err(StudyError::NoSingleScene { setting });
             }
         }
-        let grids = self.settings.iter().map(|setting| Grid::of(setting, end));
-        let grids = grids.collect::<Result<Vec<_>, _>>()?;
+        let courses = self.settings.iter().map(|setting| Course::of(setting, end));
+        let courses = courses.collect::<Result<Vec<_>, _>>()?;
         if let Some(states) = &self.reference {
-            self.check_reference(states, first, grids[0])?;
+            self.check_reference(states, first, &courses[0])?;
         }
-        Ok(grids)
+        Ok(courses)
     }
 
     /// The references that were given are states of this scene.
@@ -247,9 +247,9 @@ impl<'a, const D: usize> Study<'a, D> {
         &self,
         states: &[EndState; 2],
         setting: Setting,
-        grid: Grid,
+        course: &Course,
     ) -> Result<(), StudyError> {
-        let start = Simulation::new((self.build)(), setting.scheme, grid.step);
+        let start = course.start(&*self.build);
         let start = start.map_err(|source| StudyError::Scene { setting, source })?;
         let start = EndState::of(&start);
         for (index, state) in states.iter().enumerate() {
@@ -271,10 +271,10 @@ impl<'a, const D: usize> Study<'a, D> {
         Ok(())
     }
 
-    fn measure(&self, setting: Setting, grid: Grid) -> Result<Measured, StudyError> {
+    fn measure(&self, setting: Setting, course: &Course) -> Result<Measured, StudyError> {
         let measured = match (setting.precision, &self.single) {
-            (Precision::Double, _) => measure(&*self.build, setting.scheme, grid),
-            (Precision::Single, Some(build)) => measure(&**build, setting.scheme, grid),
+            (Precision::Double, _) => measure(&*self.build, course),
+            (Precision::Single, Some(build)) => measure(&**build, course),
             (Precision::Single, None) => return Err(StudyError::NoSingleScene { setting }),
         };
         measured.map_err(|source| StudyError::Scene { setting, source })
@@ -282,17 +282,21 @@ impl<'a, const D: usize> Study<'a, D> {
 
     /// The times of all settings. Each repeat goes through all of them: when the machine is busy for a while,
     /// it does not slow all repeats of one setting.
-    fn time(&self, grids: &[Grid], progress: &mut Progress<'_>) -> Result<Vec<Times>, StudyError> {
-        let mut repeats = vec![Vec::new(); grids.len()];
+    fn time(
+        &self,
+        courses: &[Course],
+        progress: &mut Progress<'_>,
+    ) -> Result<Vec<Times>, StudyError> {
+        let mut repeats = vec![Vec::new(); courses.len()];
         for _ in 0..self.repeats.max(1) {
-            for ((&setting, &grid), times) in self.settings.iter().zip(grids).zip(&mut repeats) {
+            for ((&setting, course), times) in self.settings.iter().zip(courses).zip(&mut repeats) {
                 let taken = match (setting.precision, &self.single) {
-                    (Precision::Double, _) => time(&*self.build, setting.scheme, grid),
-                    (Precision::Single, Some(build)) => time(&**build, setting.scheme, grid),
+                    (Precision::Double, _) => time(&*self.build, course),
+                    (Precision::Single, Some(build)) => time(&**build, course),
                     (Precision::Single, None) => return Err(StudyError::NoSingleScene { setting }),
                 };
                 times.push(taken.map_err(|source| StudyError::Scene { setting, source })?);
-                progress.advance(u64::from(grid.steps));
+                progress.advance(u64::from(course.planned()));
             }
         }
         Ok(repeats.iter().map(|times| Times::of(times)).collect())
@@ -301,7 +305,6 @@ impl<'a, const D: usize> Study<'a, D> {
     /// The references that were given, or those that are found.
     fn find_reference(
         &self,
-        grids: &[Grid],
         measured: &[Measured],
         progress: &mut Progress<'_>,
     ) -> Result<StudyReference, StudyError> {
@@ -312,7 +315,12 @@ impl<'a, const D: usize> Study<'a, D> {
         let ends: Vec<EndState> = ends.collect();
         let search = Search {
             end_time: self.end,
-            finest: grids.iter().map(|grid| grid.steps).max().unwrap_or(1),
+            finest: measured
+                .iter()
+                .map(|run| run.steps)
+                .max()
+                .unwrap_or(1)
+                .max(1),
             refinement: self.refinement,
             ends: &ends,
         };

@@ -176,6 +176,32 @@ pub enum SceneError {
         /// The step, s.
         value: f64,
     },
+    /// A relative tolerance that is none, or that rounding does not let the scheme reach.
+    #[error("the relative tolerance is {relative}, it must be less than 1 and, for this scheme, at least {floor:.0e}", relative = Readable(*relative))]
+    Tolerance {
+        /// The tolerance.
+        relative: f64,
+        /// The smallest one that the scheme can be asked for.
+        floor: f64,
+    },
+    /// An absolute tolerance is negative or not finite.
+    #[error("the absolute tolerance of {quantity} is {value} {unit}, it must be finite and not negative", value = Readable(*value))]
+    AbsoluteTolerance {
+        /// Of what.
+        quantity: &'static str,
+        /// The tolerance.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+    /// The steps of the scheme must all have one size.
+    #[error(
+        "the steps of {scheme} must have one size: its energy stays near its value only then; eem-entropy and eem-temperature keep it with any"
+    )]
+    FixedSteps {
+        /// The scheme.
+        scheme: &'static str,
+    },
     /// Settings with which no step can succeed, or every step would.
     #[error(
         "{max_iterations} iterations to a tolerance of {tolerance}: at least one iteration and a tolerance between 0 and 1 are needed", tolerance = Readable(*tolerance))]

@@ -144,6 +144,14 @@ pub enum StepFailure {
         /// The time, s.
         value: f64,
     },
+    /// Step control would need smaller steps than it may take.
+    #[error("steps of less than {smallest} s would be needed: {limit}", smallest = Readable(*smallest))]
+    TooSmall {
+        /// The smallest step that is allowed, s.
+        smallest: f64,
+        /// Why the last one was rejected.
+        limit: StepLimit,
+    },
     /// A run cannot end then.
     #[error("the end time is {end} s, it must be a number and not lie before the present time", end = Readable(*end))]
     End {
@@ -174,6 +182,21 @@ pub enum StepFailure {
     /// An element has no admissible state where Newton's method leads.
     #[error(transparent)]
     State(#[from] StateError),
+}
+
+/// Why step control has rejected a step.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum StepLimit {
+    /// The step was not accurate.
+    #[error("the error of the last one was {error:.1e} of the tolerance")]
+    Error {
+        /// In units of the tolerance.
+        error: f64,
+    },
+    /// There was no new state, or it did not prove its laws.
+    #[error("{0}")]
+    Failure(Box<StepFailure>),
 }
 
 /// A step that failed. The simulation is as it was before.

@@ -67,6 +67,27 @@ pub struct StepReport<S> {
     /// The smallest production of a single dashpot or path of heat, J/K; never negative in an exact
     /// scheme. Zero without any.
     pub least_production: S,
+    /// The estimated error of the step in units of its tolerance, below 1.2; zero where [step
+    /// control](crate::Simulation::control_steps) is off.
+    pub error: S,
+}
+
+impl<S: Real> StepReport<S> {
+    /// Of two steps in a row as if they were one.
+    pub(crate) fn and(self, later: Self) -> Self {
+        Self {
+            time: later.time,
+            step: self.step + later.step,
+            iterations: self.iterations + later.iterations,
+            update: self.update.maximum(later.update),
+            residual: self.residual.maximum(later.residual),
+            defect: self.defect + later.defect,
+            bound: self.bound + later.bound,
+            production: self.production + later.production,
+            least_production: self.least_production.minimum(later.least_production),
+            error: self.error.maximum(later.error),
+        }
+    }
 }
 
 /// An update below `tolerance` is the last one if it is also this much smaller than the one before:

@@ -5,6 +5,7 @@ use core::str::FromStr;
 
 use crate::element::conjugates::Conjugates;
 use crate::element::tableau::{Tableau, UnknownSet};
+use crate::step::control::Accuracy;
 use crate::step::rule::{gauss_4, variational_4};
 
 /// The time integration schemes.
@@ -142,6 +143,16 @@ struct Rule {
     is_exact: bool,
     /// See [`Scheme::foretells_its_start`].
     is_ordinary: bool,
+    /// How errors go with the step; none where steps of other sizes would spoil what the scheme keeps.
+    accuracy: Option<Accuracy>,
+}
+
+/// That of an implicit scheme.
+const fn of_order(order: u8) -> Accuracy {
+    Accuracy {
+        order,
+        is_proportional: true,
+    }
 }
 
 impl Rule {
@@ -152,6 +163,7 @@ impl Rule {
             closing: Closing::Increments,
             is_exact: true,
             is_ordinary: false,
+            accuracy: Some(of_order(2)),
         }
     }
 
@@ -162,6 +174,7 @@ impl Rule {
             closing: Closing::Increments,
             is_exact: false,
             is_ordinary: true,
+            accuracy: Some(of_order(2)),
         }
     }
 
@@ -172,6 +185,14 @@ impl Rule {
             closing: Closing::Start,
             is_exact: false,
             is_ordinary: false,
+            accuracy: None,
+        }
+    }
+
+    const fn of_order(self, order: u8) -> Self {
+        Self {
+            accuracy: Some(of_order(order)),
+            ..self
         }
     }
 
@@ -189,7 +210,7 @@ impl Scheme {
         match self {
             Self::EemEntropy => Rule::exact("eem-entropy", EntropyForm),
             Self::EemTemperature => Rule::exact("eem-temperature", TemperatureForm),
-            Self::Staggered => Rule::exact("staggered", EntropyForm),
+            Self::Staggered => Rule::exact("staggered", EntropyForm).of_order(1),
             Self::Variational => Rule::variational("variational", MeanMeasures),
             Self::Variational4 => {
                 Rule::variational("variational-4", Stages(&variational_4::TABLEAU))
@@ -203,7 +224,9 @@ impl Scheme {
             Self::TrapezoidalTemperature => {
                 Rule::ordinary("trapezoidal-temperature", EndTemperature)
             }
-            Self::Gauss4 => Rule::ordinary("gauss-4", Stages(&gauss_4::TABLEAU)).closed_by_stages(),
+            Self::Gauss4 => Rule::ordinary("gauss-4", Stages(&gauss_4::TABLEAU))
+                .of_order(4)
+                .closed_by_stages(),
         }
     }
 
@@ -215,6 +238,12 @@ impl Scheme {
     /// How the end of a step follows from what Newton's method has found.
     pub(crate) const fn closing(self) -> Closing {
         self.rule().closing
+    }
+
+    /// How the error of a step goes with its size; none of a variational scheme, whose energy stays near its
+    /// value only while all steps have one size.
+    pub(crate) const fn accuracy(self) -> Option<Accuracy> {
+        self.rule().accuracy
     }
 
     /// Whether every step has to keep energy, entropy and momenta.

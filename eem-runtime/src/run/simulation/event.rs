@@ -4,7 +4,6 @@
 //! size. So an event within a step is located by repeating the step with other sizes; nothing is
 //! interpolated, and the state at the event obeys the laws like any other.
 
-use core::mem;
 use core::ops::ControlFlow;
 
 use super::Simulation;
@@ -94,17 +93,18 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     fn locate(
         &mut self,
         mut bracket: Bracket<S>,
-        mut report: StepReport<S>,
+        whole: StepReport<S>,
         [end, tolerance]: [S; 2],
         function: &mut impl FnMut(&Self) -> S,
     ) -> Result<StepReport<S>, StepError> {
-        let scale = report.time.abs() + report.step;
+        let scale = whole.time.abs() + whole.step;
         let sharpest = S::from_f64(SHARPEST) * S::EPSILON * scale;
         let resolution = tolerance.maximum(sharpest);
+        let mut report = whole;
         let (mut is_behind, mut is_shorter) = (true, false);
         while let Some(size) = bracket.candidate(resolution) {
             self.undo();
-            report = self.step_by(size)?;
+            report = self.step_again(size)?;
             let value = self.value(function)?;
             is_behind = bracket.narrow(size, value);
             is_shorter |= is_behind;
@@ -114,10 +114,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         self.undo();
         if is_shorter {
-            self.step_by(bracket.high)
-        } else {
-            self.step_towards(end)
+            return self.step_again(bracket.high);
         }
+        let mut report = self.step_again(whole.step)?;
+        if whole.time.equal(end).all() {
+            self.arrive_at(end, &mut report);
+        }
+        Ok(report)
     }
 
     /// The function at the present state; if it is not a number, the last step is undone.
@@ -128,13 +131,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             return Err(self.failed(StepFailure::EventFunction));
         }
         Ok(value)
-    }
-
-    /// Takes back the step that has just been made.
-    fn undo(&mut self) {
-        mem::swap(&mut self.state, &mut self.next);
-        self.has_stepped = false;
-        self.stepper.undo();
     }
 }
 

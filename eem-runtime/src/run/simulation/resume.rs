@@ -31,6 +31,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             numbers: self.numbers(),
             step: self.step,
             newton: self.newton_settings(),
+            control: self.control.as_ref().map(|control| control.memory),
             state: State {
                 energies: Vec::new(),
                 ..State::clone(&self.state)
@@ -57,6 +58,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             .check(self.scheme, scene, &self.state, &past)
             .and_then(|()| self.audit(&checkpoint.state, checkpoint.step))
             .inspect_err(|_| self.part())?;
+        self.check_control(checkpoint.control)?;
         self.set_newton_settings(checkpoint.newton)?;
         self.has_stepped = false;
         self.state.copy_from(&checkpoint.state);
@@ -66,6 +68,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.worst = None;
         self.stepper.restore(&checkpoint.past);
         self.step = checkpoint.step;
+        self.go_on_with(checkpoint.control);
         Ok(())
     }
 

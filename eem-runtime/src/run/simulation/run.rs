@@ -111,18 +111,34 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// One step of the present size, or one that ends exactly at `end`.
     pub(super) fn step_towards(&mut self, end: S) -> Result<StepReport<S>, StepError> {
-        let left = self.time_left(end);
+        if self.control.is_some() {
+            return self.controlled_step(end);
+        }
         let full = self.step_size();
+        let size = self.size_towards(end, full)?;
+        let mut report = self.step_by(size.unwrap_or(full))?;
+        if size.is_some() {
+            self.arrive_at(end, &mut report);
+        }
+        Ok(report)
+    }
+
+    /// The size of a step that ends at `end`, if one of this size would end there or beyond it.
+    pub(super) fn size_towards(&self, end: S, full: S) -> Result<Option<S>, StepError> {
+        let left = self.time_left(end);
         let scale = self.time().abs() + full.minimum(left);
         let rounding = S::from_f64(END_ROUNDINGS) * S::EPSILON * scale;
         if self.decide((full + rounding).less(left))? {
-            return self.step_by(full);
+            return Ok(None);
         }
         let is_full = self.decide((left - full).abs().at_most(rounding))?;
-        let mut report = self.step_by(if is_full { full } else { left })?;
+        Ok(Some(if is_full { full } else { left }))
+    }
+
+    /// The step that has been made ends at this time to the last bit.
+    pub(super) fn arrive_at(&mut self, end: S, report: &mut StepReport<S>) {
         self.state.time = Sum::new(end);
         report.time = end;
-        Ok(report)
     }
 
     /// `end − t`, with t to twice the precision, s.
@@ -135,7 +151,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub(super) fn step_by(&mut self, size: S) -> Result<StepReport<S>, StepError> {
         let usual = mem::replace(&mut self.step, size);
         let other = OtherSize { run: self, usual };
-        other.run.step()
+        other.run.single_step()
     }
 }
 

@@ -98,6 +98,11 @@ impl<S: Real, const D: usize> Stepper<S, D> {
         self.solver.past()
     }
 
+    /// The same where it was saved before.
+    pub(super) fn save_past_to(&self, past: &mut SavedPast<S>) {
+        self.solver.save_past_to(past);
+    }
+
     /// Goes on from a saved past.
     pub(super) fn restore(&mut self, past: &SavedPast<S>) {
         self.solver.restore(past);

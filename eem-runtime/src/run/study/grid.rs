@@ -1,7 +1,6 @@
 //! Equal steps from the start of a scene to a common end time.
 
 use super::error::StudyError;
-use super::setting::{Setting, StepChoice};
 
 /// The most steps of a run.
 pub(super) const MOST_STEPS: u32 = u32::MAX;
@@ -19,9 +18,8 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// The steps of a setting up to the time `end`, s.
-    pub(super) fn of(setting: &Setting, end: f64) -> Result<Self, StudyError> {
-        let StepChoice::Fixed(step) = setting.steps;
+    /// Steps of this size up to the time `end`, s.
+    pub(super) fn of(step: f64, end: f64) -> Result<Self, StudyError> {
         if !(step > 0.0 && step.is_finite()) {
             return Err(StudyError::Step { step });
         }

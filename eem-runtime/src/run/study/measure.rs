@@ -2,14 +2,12 @@
 
 use std::time::Instant;
 
-use super::grid::Grid;
+use super::course::{Build, Course};
 use super::quantity::{EndState, larger, share};
 use crate::number::scalar::Real;
 use crate::run::simulation::Simulation;
-use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::step::error::StepError;
-use crate::step::scheme::Scheme;
 
 /// What a run was like.
 #[derive(Clone, Debug)]
@@ -23,6 +21,7 @@ pub(super) struct Measured {
     /// The smallest ΔS of a step, J/K.
     pub(super) least_entropy_change: f64,
     pub(super) steps: u32,
+    pub(super) rejected: u32,
     pub(super) iterations: usize,
     pub(super) evaluations: u64,
 }
@@ -38,39 +37,28 @@ pub(super) struct Times {
     pub(super) median: f64,
 }
 
-/// A scene that is built anew for every run.
-pub(super) type Build<'a, const D: usize, S> = dyn Fn() -> Scene<D, S> + 'a;
-
-/// Runs a setting on a grid once with an eye on its laws.
+/// Runs a setting once with an eye on its laws.
 pub(super) fn measure<const D: usize, S: Real>(
     build: &Build<'_, D, S>,
-    scheme: Scheme,
-    grid: Grid,
+    course: &Course,
 ) -> Result<Measured, SceneError> {
-    let step = S::from_f64(grid.step);
-    let mut run = Simulation::new(build(), scheme, step)?;
+    let mut run = course.start(build)?;
     let mut laws = Laws::new(&run);
     let (mut steps, mut iterations) = (0, 0);
-    let mut end = Ok(());
-    for _ in 0..grid.steps {
-        match run.step() {
-            Ok(report) => {
-                laws.watch(&run, report.bound.to_f64());
-                steps += 1;
-                iterations += report.iterations;
-            }
-            Err(error) => {
-                end = Err(error);
-                break;
-            }
-        }
-    }
+    let end = course.go(&mut run, |run, report| {
+        laws.watch(run, report.bound.to_f64());
+        steps += 1;
+        iterations += report.iterations;
+    });
+    let statistics = run.step_statistics();
+    let rejected = statistics.map_or(0, |statistics| statistics.rejected());
     Ok(Measured {
         end: end.map(|()| EndState::of(&run)),
         energy_defect: laws.energy_defect,
         step_bound: laws.step_bound,
         least_entropy_change: laws.least_entropy_change,
         steps,
+        rejected: u32::try_from(rejected).unwrap_or(u32::MAX),
         iterations,
         evaluations: run.evaluations(),
     })
@@ -79,38 +67,25 @@ pub(super) fn measure<const D: usize, S: Real>(
 /// The end of a run that is not watched.
 pub(super) fn end_state<const D: usize, S: Real>(
     build: &Build<'_, D, S>,
-    scheme: Scheme,
-    grid: Grid,
+    course: &Course,
 ) -> Result<Result<EndState, StepError>, SceneError> {
-    let mut run = Simulation::new(build(), scheme, S::from_f64(grid.step))?;
-    let end = advance(&mut run, grid.steps);
+    let mut run = course.start(build)?;
+    let end = course.go(&mut run, |_, _| ());
     Ok(end.map(|()| EndState::of(&run)))
-}
-
-/// So many steps, or as many as succeed.
-fn advance<const D: usize, S: Real>(
-    run: &mut Simulation<D, S>,
-    steps: u32,
-) -> Result<(), StepError> {
-    for _ in 0..steps {
-        run.step()?;
-    }
-    Ok(())
 }
 
 /// The time of building the scene and the simulation, and that of the steps alone, up to the first that
 /// fails, s.
 pub(super) fn time<const D: usize, S: Real>(
     build: &Build<'_, D, S>,
-    scheme: Scheme,
-    grid: Grid,
+    course: &Course,
 ) -> Result<[f64; 2], SceneError> {
     let start = Instant::now();
-    let mut run = Simulation::new(build(), scheme, S::from_f64(grid.step))?;
+    let mut run = course.start(build)?;
     let setup = start.elapsed().as_secs_f64();
     let start = Instant::now();
     // A failure is that of the watched run.
-    let _same_end = advance(&mut run, grid.steps);
+    let _same_end = course.go(&mut run, |_, _| ());
     Ok([setup, start.elapsed().as_secs_f64()])
 }
 

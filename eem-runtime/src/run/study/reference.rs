@@ -8,8 +8,9 @@
 //! then it is halved until the difference is at most a hundredth of each error that it has to judge, until
 //! halving no longer helps, or up to a limit.
 
+use super::course::{Build, Course};
 use super::grid::Grid;
-use super::measure::{Build, end_state};
+use super::measure::end_state;
 use super::quantity::{EndState, PerQuantity, StateQuantity};
 use super::statement::DOUBT;
 use crate::scene::error::SceneError;
@@ -150,7 +151,7 @@ impl Search<'_> {
             };
             let planned = 2 * u64::from(grid.steps);
             note(planned, 0);
-            let next = match solve(build, pair, grid) {
+            let next = match solve(build, (pair, self.end_time), grid) {
                 Err(SceneError::NotForSolids { .. }) if pair.first == FOURTH_ORDER.first => {
                     pair = SECOND_ORDER;
                     factor = pair.first;
@@ -214,14 +215,13 @@ impl Search<'_> {
 /// A pair of runs.
 fn solve<const D: usize>(
     build: &Build<'_, D, f64>,
-    pair: Pair,
+    (pair, end_time): (Pair, f64),
     grid: Grid,
 ) -> Result<StudyReference, SceneError> {
-    let [first, second] = pair.schemes;
-    let states = (
-        end_state(build, first, grid)?,
-        end_state(build, second, grid)?,
-    );
+    let [first, second] = pair
+        .schemes
+        .map(|scheme| Course::on_grid(scheme, grid, end_time));
+    let states = (end_state(build, &first)?, end_state(build, &second)?);
     let (states, end) = match states {
         (Ok(first), Ok(second)) => (Some([first, second]), ReferenceEnd::Limit),
         (Err(error), _) | (_, Err(error)) => (None, ReferenceEnd::Failed(error)),

@@ -27,8 +27,7 @@ pub struct StudyRow {
     pub least_entropy_change: f64,
     /// Steps that were taken.
     pub steps: u32,
-    /// Steps that were tried and not taken, other than a last one that ends the run. None where all steps
-    /// have one size.
+    /// Steps that were tried and not taken, for whatever reason. None where all steps have one size.
     pub rejected: u32,
     /// Newton iterations.
     pub iterations: usize,
@@ -63,7 +62,7 @@ impl StudyRow {
             step_bound: measured.step_bound,
             least_entropy_change: measured.least_entropy_change,
             steps: measured.steps,
-            rejected: 0,
+            rejected: measured.rejected,
             iterations: measured.iterations,
             evaluations: measured.evaluations,
             seconds: times.least,

@@ -12,6 +12,8 @@ use crate::step::scheme::Scheme;
 pub enum StepChoice {
     /// All of this size, s.
     Fixed(f64),
+    /// Those that this relative tolerance needs, see [`Tolerance`](crate::Tolerance).
+    Tolerance(f64),
 }
 
 /// The scalar of a run.
@@ -70,6 +72,38 @@ impl Setting {
         steps.map(move |(_, step)| Self::fixed(scheme, step))
     }
 
+    /// A scheme with the steps that a relative tolerance needs, in double precision.
+    ///
+    /// ```
+    /// use eem_runtime::{Scheme, Setting};
+    ///
+    /// let setting = Setting::controlled(Scheme::EemTemperature, 1e-4);
+    /// assert_eq!((setting.step(), setting.tolerance()), (None, Some(1e-4)));
+    /// assert_eq!(setting.to_string(), "eem-temperature at a tolerance of 0.0001");
+    /// ```
+    #[must_use]
+    pub const fn controlled(scheme: Scheme, tolerance: f64) -> Self {
+        Self {
+            scheme,
+            steps: StepChoice::Tolerance(tolerance),
+            precision: Precision::Double,
+        }
+    }
+
+    /// The tolerances `r, r/10, …, r/10ⁿ` of a scheme: `decades` is n, `largest` is r.
+    ///
+    /// ```
+    /// use eem_runtime::{Scheme, Setting};
+    ///
+    /// let settings = Setting::by_decades(Scheme::EemEntropy, 1e-2, 1);
+    /// let tolerances: Vec<_> = settings.filter_map(|setting| setting.tolerance()).collect();
+    /// assert_eq!(tolerances, [1e-2, 1e-3]);
+    /// ```
+    pub fn by_decades(scheme: Scheme, largest: f64, decades: u32) -> impl Iterator<Item = Self> {
+        let divisors = (0..=decades).map(|decade| 10.0_f64.powi(decade.cast_signed()));
+        divisors.map(move |divisor| Self::controlled(scheme, largest / divisor))
+    }
+
     /// The same in `f32`; the study then needs [`Study::single`](crate::Study::single).
     #[must_use]
     pub const fn in_single_precision(self) -> Self {
@@ -84,6 +118,7 @@ impl Setting {
     pub const fn step(&self) -> Option<f64> {
         match self.steps {
             StepChoice::Fixed(step) => Some(step),
+            StepChoice::Tolerance(_) => None,
         }
     }
 
@@ -92,32 +127,57 @@ impl Setting {
     pub const fn tolerance(&self) -> Option<f64> {
         match self.steps {
             StepChoice::Fixed(_) => None,
+            StepChoice::Tolerance(tolerance) => Some(tolerance),
         }
     }
 
-    /// The line of a picture that the setting belongs to: the name of the scheme, with `-f32` in single
-    /// precision.
+    /// The name of the scheme, with `-f32` in single precision.
     ///
     /// ```
     /// use eem_runtime::{Scheme, Setting};
     ///
     /// let setting = Setting::fixed(Scheme::Midpoint, 0.1).in_single_precision();
-    /// assert_eq!(setting.line(), "midpoint-f32");
+    /// assert_eq!(setting.name(), "midpoint-f32");
     /// ```
     #[must_use]
-    pub fn line(&self) -> String {
+    pub fn name(&self) -> String {
         let suffix = match self.precision {
             Precision::Double => "",
             Precision::Single => "-f32",
         };
         format!("{}{suffix}", self.scheme)
     }
+
+    /// The line of a picture that the setting belongs to: its name, and whether its steps are controlled.
+    ///
+    /// ```
+    /// use eem_runtime::{Scheme, Setting};
+    ///
+    /// assert_eq!(Setting::fixed(Scheme::EemEntropy, 0.1).line(), "eem-entropy");
+    /// assert_eq!(Setting::controlled(Scheme::EemEntropy, 0.1).line(), "eem-entropy, controlled");
+    /// ```
+    #[must_use]
+    pub fn line(&self) -> String {
+        let suffix = match self.steps {
+            StepChoice::Fixed(_) => "",
+            StepChoice::Tolerance(_) => ", controlled",
+        };
+        format!("{}{suffix}", self.name())
+    }
 }
 
 impl fmt::Display for Setting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.steps {
-            StepChoice::Fixed(step) => write!(f, "{} with h = {} s", self.line(), Readable(step)),
+            StepChoice::Fixed(step) => write!(f, "{} with h = {} s", self.name(), Readable(step)),
+            StepChoice::Tolerance(tolerance) => {
+                write!(
+                    f,
+                    "{} at a tolerance of {}",
+                    self.name(),
+                    Readable(tolerance)
+                )
+            }
         }
     }
 }

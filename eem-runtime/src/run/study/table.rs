@@ -5,6 +5,7 @@ use core::fmt::{self, Write};
 use super::quantity::StateQuantity;
 use super::reference::{ReferenceEnd, StudyReference};
 use super::report::{StudyReport, StudyRow};
+use super::setting::StepChoice;
 use super::statement::Statement;
 use crate::number::readable::Readable;
 
@@ -56,7 +57,7 @@ impl StudyReport {
             };
             let error = |quantity| number(row.error(quantity));
             [
-                row.setting.line(),
+                row.setting.name(),
                 number(row.setting.tolerance()),
                 number(row.setting.step()),
                 error(StateQuantity::Positions),
@@ -101,10 +102,10 @@ impl fmt::Display for StudyReport {
 /// The cells of a setting; a star marks what no other setting beats.
 fn cells(row: &StudyRow, is_best: bool) -> [String; 15] {
     let star = if is_best { " *" } else { "" };
-    let step = row
-        .setting
-        .step()
-        .map_or_else(String::new, |step| Readable(step).to_string());
+    let step = match row.setting.steps {
+        StepChoice::Fixed(step) => Readable(step).to_string(),
+        StepChoice::Tolerance(tolerance) => format!("tol. {}", Readable(tolerance)),
+    };
     let error = |quantity| match (&row.failure, row.statement(quantity)) {
         (Some(_), _) => "failed".to_owned(),
         (None, Statement::Stated(error)) => format!("{error:.1e}"),
@@ -114,7 +115,7 @@ fn cells(row: &StudyRow, is_best: bool) -> [String; 15] {
     let milliseconds = |seconds: f64| format!("{:.3}", 1e3 * seconds);
     let [q, p, theta, gamma] = StateQuantity::ALL.map(error);
     [
-        format!("{}{star}", row.setting.line()),
+        format!("{}{star}", row.setting.name()),
         step,
         q,
         p,

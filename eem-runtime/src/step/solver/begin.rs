@@ -199,6 +199,13 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
     }
 
+    /// The same where it was saved before.
+    pub(crate) fn save_past_to(&self, past: &mut SavedPast<S>) {
+        if self.stages.is_none() {
+            self.past.save_to(past);
+        }
+    }
+
     /// Goes on from a saved past.
     pub(crate) fn restore(&mut self, past: &SavedPast<S>) {
         if self.stages.is_none() {

@@ -158,6 +158,17 @@ impl<S: Real, const D: usize> Past<S, D> {
         }
     }
 
+    /// Saves it again where a past of as many nodes was saved, without allocation.
+    pub(super) fn save_to(&self, saved: &mut SavedPast<S>) {
+        let [last, before, _] = TURNS[self.turn];
+        for (step, saved) in [last, before].into_iter().zip(&mut saved.forces) {
+            for (own, saved) in self.forces.iter().zip(saved.as_chunks_mut().0) {
+                *saved = own[step];
+            }
+        }
+        saved.errors = self.errors;
+    }
+
     /// Goes on from a saved past, of as many nodes.
     pub(super) fn restore(&mut self, saved: &SavedPast<S>) {
         let [last, before, _] = TURNS[self.turn];
@@ -245,6 +256,9 @@ mod tests {
         assert_ne!(past.save(), before);
         past.forget();
         assert_eq!(past.save(), before);
+        let mut again = after([0.0; 3]).save();
+        past.save_to(&mut again);
+        assert_eq!(again, before);
     }
 
     #[test]

@@ -1,0 +1,296 @@
+//! Steps whose size follows from an accuracy.
+//!
+//! A step of the size H is made twice: at once, and in two halves. The halves are what is kept; their
+//! difference from the whole says how accurate they are,
+//!
+//! ```text
+//! error = |y_H − y_{H/2, H/2}|/(2ᵖ − 1)
+//! ```
+//!
+//! Every part is a step of the scheme like any other, and proves its laws. The estimate asks nothing of the
+//! scheme but its order p, so that it stays right where the motion is stiff or conduction is fast.
+
+use core::mem;
+
+use super::Simulation;
+use super::control_memory::{Control, SMALLEST};
+use crate::element::state::State;
+use crate::number::scalar::{Discord, Mask, Real, is_positive};
+use crate::run::checkpoint::SavedControl;
+use crate::scene::error::SceneError;
+use crate::step::control::{
+    AFTER_FAILURE, Controller, Scales, StepStatistics, Tolerance, Verdict, norm,
+};
+use crate::step::error::{StepError, StepFailure, StepLimit};
+use crate::step::newton::StepReport;
+
+/// # Step control
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// From now on the steps have the size that an accuracy needs; the present size is the first one tried.
+    ///
+    /// Steps that are not accurate, that fail, or that do not prove their laws are made again with a
+    /// smaller size. [`step`](Self::step), [`run_until`](Self::run_until), events, recorders and
+    /// checkpoints work as with steps of one size; a report is that of both halves of a step.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::Tolerance`] or [`SceneError::AbsoluteTolerance`] if a tolerance is none, or less than the
+    /// scheme can reach; [`SceneError::FixedSteps`] for the variational schemes.
+    ///
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// use eem::prelude::*;
+    /// use eem::Tolerance;
+    ///
+    /// /// A linear spring.
+    /// #[derive(Clone, FreeEnergy)]
+    /// #[free_energy(|lambda: Stretch| 0.5 * k * (lambda - length).powi(2))]
+    /// struct Spring {
+    ///     k: f64,
+    ///     length: f64,
+    /// }
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let wall = scene.anchor([0.0]);
+    /// let mass = scene.mass(1.0, [1.1], [0.0]);
+    /// scene.spring(Spring { k: 1.0, length: 1.0 }, [wall, mass]);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// run.control_steps(Tolerance::new(1e-6))?;
+    /// run.run_until(5.0, |_, _| ControlFlow::Continue(()))?;
+    ///
+    /// let exact = 1.0 + 0.1 * 5.0_f64.cos();
+    /// assert!((run.position(mass)?[0] - exact).abs() < 5e-6);
+    /// assert!(run.step_statistics().is_some_and(|steps| steps.accepted > 100));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn control_steps(&mut self, tolerance: Tolerance<S>) -> Result<(), SceneError> {
+        let memory = SavedControl {
+            tolerance,
+            controller: Controller::new(),
+            statistics: StepStatistics::default(),
+            largest_momentum: S::zero(),
+            smallest: S::from_f64(SMALLEST) * S::EPSILON * self.step,
+        };
+        self.check_control(Some(memory))?;
+        self.go_on_with(Some(memory));
+        Ok(())
+    }
+
+    /// An error unless steps can be controlled like this.
+    pub(super) fn check_control(&self, memory: Option<SavedControl<S>>) -> Result<(), SceneError> {
+        let Some(memory) = memory else {
+            return Ok(());
+        };
+        let scheme = self.scheme.name();
+        let fixed = SceneError::FixedSteps { scheme };
+        let checked = match self.scheme.accuracy() {
+            None => Err(fixed),
+            Some(accuracy) => memory.tolerance.check(accuracy),
+        };
+        checked.inspect_err(|_| self.part())
+    }
+
+    /// Controls steps like this, or makes all of one size.
+    pub(super) fn go_on_with(&mut self, memory: Option<SavedControl<S>>) {
+        let control = memory.zip(self.scheme.accuracy());
+        self.control = control.map(|(memory, accuracy)| {
+            Box::new(Control {
+                memory,
+                accuracy,
+                before: State::clone(&self.state),
+                past: self.stepper.past(),
+                whole: State::clone(&self.state),
+                are_strains: self.viscous_strains(),
+            })
+        });
+    }
+
+    /// From now on all steps have the [present size](Self::step_size).
+    pub fn fix_steps(&mut self) {
+        self.control = None;
+    }
+
+    /// The accuracy that is asked of steps; none while all have one size.
+    #[must_use]
+    pub fn tolerance(&self) -> Option<Tolerance<S>> {
+        self.control
+            .as_ref()
+            .map(|control| control.memory.tolerance)
+    }
+
+    /// What step control has done so far; none while all steps have one size.
+    #[must_use]
+    pub fn step_statistics(&self) -> Option<StepStatistics> {
+        self.control
+            .as_ref()
+            .map(|control| control.memory.statistics)
+    }
+
+    /// The smallest step that step control may take, s. Default 16 ε times the size at which control began;
+    /// never less than 16 ε times the time.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::Step`] if it is not positive and finite; the old one then stays.
+    pub fn set_smallest_step(&mut self, smallest: S) -> Result<(), SceneError> {
+        if !is_positive(smallest) {
+            self.part();
+            let value = smallest.to_f64();
+            return Err(SceneError::Step { value });
+        }
+        if let Some(control) = &mut self.control {
+            control.memory.smallest = smallest;
+        }
+        Ok(())
+    }
+
+    /// A step that is accurate, not beyond `end`.
+    pub(super) fn controlled_step(&mut self, end: S) -> Result<StepReport<S>, StepError> {
+        if S::LANES > 1 {
+            // Each of the numbers needs steps of its own.
+            return Err(self.refused(Discord.into()));
+        }
+        let Some(mut control) = self.control.take() else {
+            return self.single_step();
+        };
+        let found = self.find_accurate_step(&mut control, end);
+        self.control = Some(control);
+        found
+    }
+
+    fn find_accurate_step(
+        &mut self,
+        control: &mut Control<S>,
+        end: S,
+    ) -> Result<StepReport<S>, StepError> {
+        loop {
+            let full = self.step;
+            let arriving = self.size_towards(end, full)?;
+            let size = arriving.unwrap_or(full);
+            let (next, limit) = match self.attempt(control, size) {
+                Ok(mut report) => {
+                    let mut controller = control.memory.controller;
+                    match controller.judge(size, report.error, control.accuracy) {
+                        Verdict::Accepted(next) => {
+                            // A step that the end has shortened says nothing about the next ones.
+                            if !size.less(full).all() {
+                                self.step = next;
+                                control.memory.controller = controller;
+                            }
+                            if arriving.is_some() {
+                                self.arrive_at(end, &mut report);
+                            }
+                            self.accept(control);
+                            return Ok(report);
+                        }
+                        Verdict::Rejected(next) => {
+                            self.take_back(control);
+                            control.memory.statistics.rejected_by_error += 1;
+                            let error = report.error.to_f64();
+                            (next, StepLimit::Error { error })
+                        }
+                    }
+                }
+                Err(error) => {
+                    let statistics = &mut control.memory.statistics;
+                    if !statistics.note_failure(&error.failure) {
+                        return Err(error);
+                    }
+                    let next = S::from_f64(AFTER_FAILURE) * size;
+                    (next, StepLimit::Failure(Box::new(error.failure)))
+                }
+            };
+            let smallest = control.smallest(self.time());
+            if next.less(smallest).all() {
+                let smallest = smallest.to_f64();
+                return Err(self.failed(StepFailure::TooSmall { smallest, limit }));
+            }
+            self.step = next;
+        }
+    }
+
+    /// A step of this size in two halves, and its error; the state is what it was if a part fails.
+    fn attempt(&mut self, control: &mut Control<S>, size: S) -> Result<StepReport<S>, StepError> {
+        control.before.copy_all_from(&self.state);
+        self.stepper.save_past_to(&mut control.past);
+        let whole = self.step_by(size)?;
+        control.whole.copy_from(&self.state);
+        self.take_back(control);
+        let mut report = self.step_in_halves(control, size)?;
+        report.iterations += whole.iterations;
+        let ends = [&control.before, &*self.state];
+        let memory = &control.memory;
+        let largest = memory.largest_momentum;
+        let scales = Scales::new(&memory.tolerance, control.accuracy, ends, largest);
+        let share = S::from_f64(f64::from(control.accuracy.order).exp2() - 1.0).recip();
+        report.error = share * scales.error([&control.whole, &self.state], &control.are_strains);
+        Ok(report)
+    }
+
+    fn step_in_halves(
+        &mut self,
+        control: &Control<S>,
+        size: S,
+    ) -> Result<StepReport<S>, StepError> {
+        let half = S::from_f64(0.5) * size;
+        let first = self.step_by(half)?;
+        match self.step_by(half) {
+            Ok(second) => Ok(first.and(second)),
+            Err(error) => {
+                self.take_back(control);
+                Err(error)
+            }
+        }
+    }
+
+    /// Goes back to where the last step began.
+    fn take_back(&mut self, control: &Control<S>) {
+        self.has_stepped = false;
+        self.state.copy_all_from(&control.before);
+        self.stepper.restore(&control.past);
+    }
+
+    fn accept(&self, control: &mut Control<S>) {
+        let memory = &mut control.memory;
+        memory.statistics.accepted += 1;
+        let momentum = norm(self.state.momenta.values());
+        memory.largest_momentum = memory.largest_momentum.maximum(momentum);
+    }
+
+    /// Which viscous variables are strains of solids.
+    fn viscous_strains(&self) -> Vec<bool> {
+        let mut are_strains = vec![false; self.layout.viscous];
+        for &[group, place] in &self.places {
+            let shape = self.shapes[group as usize];
+            let first = self
+                .stepper
+                .elements(group as usize)
+                .slots(place as usize)
+                .viscous;
+            are_strains[first..first + shape.dashpots].fill(!shape.is_spring);
+        }
+        are_strains
+    }
+
+    /// Takes back the step that has just been made.
+    pub(super) fn undo(&mut self) {
+        if let Some(control) = self.control.take() {
+            self.take_back(&control);
+            self.control = Some(control);
+            return;
+        }
+        mem::swap(&mut self.state, &mut self.next);
+        self.has_stepped = false;
+        self.stepper.undo();
+    }
+
+    /// Another step from where the last one began, of this size.
+    pub(super) fn step_again(&mut self, size: S) -> Result<StepReport<S>, StepError> {
+        let Some(control) = self.control.take() else {
+            return self.step_by(size);
+        };
+        let report = self.step_in_halves(&control, size);
+        self.control = Some(control);
+        report
+    }
+}

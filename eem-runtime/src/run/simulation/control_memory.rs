@@ -1,0 +1,31 @@
+//! What step control keeps of the steps so far.
+
+use crate::element::state::State;
+use crate::number::scalar::Real;
+use crate::run::checkpoint::SavedControl;
+use crate::step::control::Accuracy;
+use crate::step::solver::SavedPast;
+
+/// The smallest step that is tried, in units in the last place of the time, and of the first size.
+pub(super) const SMALLEST: f64 = 16.0;
+
+/// What step control remembers, and room for what it compares.
+pub(super) struct Control<S> {
+    pub(super) memory: SavedControl<S>,
+    pub(super) accuracy: Accuracy,
+    /// Where the last step began.
+    pub(super) before: State<S>,
+    pub(super) past: SavedPast<S>,
+    /// Where it led at once.
+    pub(super) whole: State<S>,
+    /// Which viscous variables are strains of solids.
+    pub(super) are_strains: Vec<bool>,
+}
+
+impl<S: Real> Control<S> {
+    /// The smallest step at a time, s.
+    pub(super) fn smallest(&self, time: S) -> S {
+        let by_time = S::from_f64(SMALLEST) * S::EPSILON * time.abs();
+        self.memory.smallest.maximum(by_time)
+    }
+}

@@ -1,0 +1,256 @@
+//! Tolerances, and errors in units of them.
+
+use crate::element::state::State;
+use crate::number::scalar::{Mask, Real, is_positive};
+use crate::scene::error::SceneError;
+
+/// The accuracy that a run asks of its steps.
+///
+/// Positions are compared with `|q|₂`, momenta with the largest `|p|₂` of the run so far, and each temperature
+/// with itself:
+///
+/// ```text
+/// error = max(|δq|/(r |q|₂ + a_q), |δγ|/(r |q|₂ + a_q), |δp|/(r max |p|₂ + a_p), |δθ|/(r θ + a_θ))
+/// ```
+///
+/// Viscous strains of solids have no length; they are compared with `r + a_q`.
+///
+/// The relative tolerance r stands for the accuracy of the state after the time in which the motion changes
+/// by as much as it is large, and errors go with its first power: a scheme of order p takes a step whose error
+/// is `r^(1 + 1/p)`, of which `r^(−1/p)` make up that time (Söderlind & Wang 2006, *Adaptive time-stepping and
+/// computational stability*, §4, call this tolerance proportionality). The explicit scheme, whose estimate is
+/// that of a formula of lower order, takes r as it is. Errors grow with time as the motion lets them; a
+/// [`Study`](crate::Study) measures them.
+///
+/// Absolute tolerances are zero unless given, and matter only where something passes through zero that is
+/// small beside all else.
+///
+/// ```
+/// use eem_runtime::Tolerance;
+///
+/// let tolerance = Tolerance::new(1e-6).with_temperature(1e-3);
+/// assert_eq!((tolerance.relative, tolerance.temperature, tolerance.position), (1e-6, 1e-3, 0.0));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
+#[non_exhaustive]
+pub struct Tolerance<S = f64> {
+    /// r.
+    pub relative: S,
+    /// `a_q`, m: of positions and viscous stretches.
+    pub position: S,
+    /// `a_p`, kg m/s.
+    pub momentum: S,
+    /// `a_θ`, K.
+    pub temperature: S,
+}
+
+impl<S: Real> Tolerance<S> {
+    /// A relative tolerance.
+    #[must_use]
+    pub fn new(relative: S) -> Self {
+        Self {
+            relative,
+            position: S::zero(),
+            momentum: S::zero(),
+            temperature: S::zero(),
+        }
+    }
+
+    /// With an absolute tolerance of positions and viscous stretches, m.
+    #[must_use]
+    pub fn with_position(self, position: S) -> Self {
+        Self { position, ..self }
+    }
+
+    /// With an absolute tolerance of momenta, kg m/s.
+    #[must_use]
+    pub fn with_momentum(self, momentum: S) -> Self {
+        Self { momentum, ..self }
+    }
+
+    /// With an absolute tolerance of temperatures, K.
+    #[must_use]
+    pub fn with_temperature(self, temperature: S) -> Self {
+        Self {
+            temperature,
+            ..self
+        }
+    }
+
+    /// An error unless it can be asked of a scheme, whose errors go like this.
+    pub(crate) fn check(&self, accuracy: Accuracy) -> Result<(), SceneError> {
+        let floor = accuracy.floor::<S>();
+        let relative = self.relative.to_f64();
+        if !(relative >= floor && relative < 1.0) {
+            return Err(SceneError::Tolerance { relative, floor });
+        }
+        let absolute = [
+            ("positions", self.position, "m"),
+            ("momenta", self.momentum, "kg m/s"),
+            ("temperatures", self.temperature, "K"),
+        ];
+        for (quantity, value, unit) in absolute {
+            if !(is_positive(value) || value.equal(S::zero()).all()) {
+                let value = value.to_f64();
+                return Err(SceneError::AbsoluteTolerance {
+                    quantity,
+                    value,
+                    unit,
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// How the error of a scheme goes with its step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Accuracy {
+    /// p: the error of a step is estimated as of order p + 1.
+    pub(crate) order: u8,
+    /// Whether tolerances are those of the state and not of a step.
+    pub(crate) is_proportional: bool,
+}
+
+/// Roundings in a difference of two states that can be told from an error.
+const ROUNDINGS: f64 = 16.0;
+
+impl Accuracy {
+    /// p.
+    fn order(self) -> f64 {
+        f64::from(self.order)
+    }
+
+    /// The relative tolerance of a step.
+    fn of_step<S: Real>(self, relative: S) -> S {
+        if self.is_proportional {
+            relative.powf(S::from_f64(1.0 + 1.0 / self.order()))
+        } else {
+            relative
+        }
+    }
+
+    /// The smallest relative tolerance whose errors can be told from rounding.
+    fn floor<S: Real>(self) -> f64 {
+        let rounding = ROUNDINGS * S::EPSILON.to_f64();
+        if self.is_proportional {
+            rounding.powf(self.order() / (self.order() + 1.0))
+        } else {
+            rounding
+        }
+    }
+}
+
+/// What errors of a step are compared with.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scales<S> {
+    /// Of a coordinate, m, of a momentum, kg m/s, and of a viscous strain.
+    position: S,
+    momentum: S,
+    strain: S,
+    /// The relative and the absolute one of temperatures.
+    temperature: [S; 2],
+}
+
+impl<S: Real> Scales<S> {
+    /// Of a step between two states, where the momenta have been this large before, kg m/s.
+    pub(crate) fn new(
+        tolerance: &Tolerance<S>,
+        accuracy: Accuracy,
+        [old, new]: [&State<S>; 2],
+        largest_momentum: S,
+    ) -> Self {
+        let relative = accuracy.of_step(tolerance.relative);
+        let share = relative / tolerance.relative;
+        let of = |size: S, absolute: S| relative * size + share * absolute;
+        let size = |of: &dyn Fn(&State<S>) -> S| of(old).maximum(of(new));
+        let positions = size(&|state| norm(state.positions.values()));
+        let momenta = size(&|state| norm(state.momenta.values())).maximum(largest_momentum);
+        Self {
+            position: of(positions, tolerance.position),
+            momentum: of(momenta, tolerance.momentum),
+            strain: of(S::one(), tolerance.position),
+            temperature: [relative, share * tolerance.temperature],
+        }
+    }
+
+    /// The largest error in units of the tolerance, of differences between two states.
+    pub(crate) fn error(&self, [a, b]: [&State<S>; 2], are_strains: &[bool]) -> S {
+        let mut largest = S::zero();
+        let mut see = |values: [&[S]; 2], scale: &dyn Fn(usize, S) -> S| {
+            for (index, (&a, &b)) in values[0].iter().zip(values[1]).enumerate() {
+                let difference = (a - b).abs();
+                let error = difference / scale(index, b);
+                // Nothing is no error, whatever it is compared with.
+                let is_none = difference.equal(S::zero());
+                largest = largest.maximum(S::select(is_none, S::zero(), error));
+            }
+        };
+        see([a.positions.values(), b.positions.values()], &|_, _| {
+            self.position
+        });
+        see([a.momenta.values(), b.momenta.values()], &|_, _| {
+            self.momentum
+        });
+        see([a.viscous.values(), b.viscous.values()], &|index, _| {
+            if are_strains[index] {
+                self.strain
+            } else {
+                self.position
+            }
+        });
+        let [relative, absolute] = self.temperature;
+        see([&a.temperatures, &b.temperatures], &|_, theta| {
+            relative * theta + absolute
+        });
+        largest
+    }
+}
+
+/// `|x|₂`
+pub(crate) fn norm<S: Real>(values: &[S]) -> S {
+    let squares = values.iter().fold(S::zero(), |sum, &x| sum + x * x);
+    squares.sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tolerances_of_steps_make_errors_of_the_state_proportional() {
+        let accuracy = |order| Accuracy {
+            order,
+            is_proportional: true,
+        };
+        let step: f64 = accuracy(2).of_step(1e-6);
+        assert!((step / 1e-9 - 1.0).abs() < 1e-12);
+        assert!(accuracy(4).floor::<f64>() < accuracy(2).floor::<f64>());
+    }
+
+    #[test]
+    fn what_cannot_be_reached_is_refused_with_the_floor() {
+        let accuracy = Accuracy {
+            order: 2,
+            is_proportional: true,
+        };
+        for relative in [0.0, -1.0, f64::NAN, 1.0, 1e-12] {
+            let refused = Tolerance::new(relative).check(accuracy);
+            assert!(
+                matches!(refused, Err(SceneError::Tolerance { .. })),
+                "{relative}"
+            );
+        }
+        let absolute = Tolerance::new(1e-3).with_momentum(-1.0).check(accuracy);
+        assert!(matches!(
+            absolute,
+            Err(SceneError::AbsoluteTolerance { .. })
+        ));
+        assert_eq!(Tolerance::new(1e-8).check(accuracy), Ok(()));
+    }
+}

@@ -1,0 +1,214 @@
+//! Step control: errors follow tolerances, laws hold, and everything that runs with equal steps runs with these.
+
+use std::ops::ControlFlow;
+
+use eem::prelude::*;
+use eem::{EndState, RunEnd, SceneError, StateQuantity, StepFailure, Tolerance};
+
+use crate::support::{single_pendulum, single_pendulum_scene};
+
+fn controlled(scheme: Scheme, tolerance: f64) -> Simulation<2> {
+    let mut run = single_pendulum(scheme, 0.05).run;
+    run.control_steps(Tolerance::new(tolerance)).unwrap();
+    run
+}
+
+fn to(run: &mut Simulation<2>, end: f64) {
+    let reached = run.run_until(end, |_, _| ControlFlow::Continue(()));
+    assert_eq!(reached, Ok(RunEnd::Reached));
+}
+
+/// The pendulum after 2 s by Gauss collocation in steps of 1 ms.
+fn exact() -> EndState {
+    let mut run = single_pendulum(Scheme::Gauss4, 1e-3).run;
+    to(&mut run, 2.0);
+    EndState::of(&run)
+}
+
+fn largest_difference(run: &Simulation<2>, exact: &EndState) -> f64 {
+    let own = EndState::of(run);
+    let kinds = [
+        StateQuantity::Positions,
+        StateQuantity::Momenta,
+        StateQuantity::Temperatures,
+    ];
+    let differences = kinds.map(|kind| own.difference(exact, kind).unwrap());
+    differences.into_iter().fold(0.0, f64::max)
+}
+
+#[test]
+fn errors_are_proportional_to_tolerances() {
+    let exact = exact();
+    for (scheme, tolerances) in [
+        (Scheme::EemEntropy, [1e-3, 1e-5]),
+        (Scheme::EemTemperature, [1e-3, 1e-5]),
+        (Scheme::Gauss4, [1e-5, 1e-8]),
+    ] {
+        let errors = tolerances.map(|tolerance| {
+            let mut run = controlled(scheme, tolerance);
+            to(&mut run, 2.0);
+            let error = largest_difference(&run, &exact);
+            assert!(error < tolerance, "{scheme}: {error:e} at {tolerance:e}");
+            error
+        });
+        let decades = (tolerances[0] / tolerances[1]).log10();
+        let slope = (errors[0] / errors[1]).log10() / decades;
+        assert!((slope - 1.0).abs() < 0.2, "{scheme}: slope {slope}");
+    }
+}
+
+/// Of each step, with what many small ones from the same state say.
+#[test]
+fn estimates_are_the_errors_of_the_steps() {
+    let cases = [
+        (Scheme::EemEntropy, 2.0_f64, 1e-3),
+        (Scheme::Gauss4, 4.0, 1e-6),
+    ];
+    for (scheme, order, tolerance) in cases {
+        let mut run = controlled(scheme, tolerance);
+        let mut before = run.checkpoint();
+        let mut largest_momentum = 0.0_f64;
+        let mut ratios = Vec::new();
+        run.run_until(1.0, |run, report| {
+            let mut fine = single_pendulum(scheme, 1.0).run;
+            fine.restore(&before).unwrap();
+            fine.fix_steps();
+            fine.set_step_size(report.step / 32.0).unwrap();
+            to(&mut fine, report.time);
+            let [own, fine] = [run, &fine].map(EndState::of);
+            let norm = |quantity| {
+                let squares = fine.values(quantity).iter().map(|x| x * x);
+                squares.sum::<f64>().sqrt()
+            };
+            largest_momentum = largest_momentum.max(norm(StateQuantity::Momenta));
+            let length = norm(StateQuantity::Positions);
+            let mut error = own.difference(&fine, StateQuantity::Temperatures).unwrap();
+            for (quantity, scale) in [
+                (StateQuantity::Positions, length),
+                (StateQuantity::ViscousStretches, length),
+                (StateQuantity::Momenta, largest_momentum),
+            ] {
+                let pairs = own.values(quantity).iter().zip(fine.values(quantity));
+                error = pairs.fold(error, |error, (a, b)| error.max((a - b).abs() / scale));
+            }
+            ratios.push(report.error * tolerance.powf(1.0 + 1.0 / order) / error);
+            before = run.checkpoint();
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+        ratios.sort_by(f64::total_cmp);
+        let median = ratios[ratios.len() / 2];
+        assert!((median - 1.0).abs() < 0.1, "{scheme}: {median}");
+    }
+}
+
+#[test]
+fn laws_hold_whatever_the_steps() {
+    for scheme in [Scheme::EemEntropy, Scheme::EemTemperature] {
+        let mut run = controlled(scheme, 1e-2);
+        let first = run.ledger();
+        let mut entropy = first.entropy;
+        run.run_until(10.0, |run, _| {
+            let ledger = run.ledger();
+            assert!((ledger.balance - first.balance).abs() <= 4e-15 * first.energy);
+            assert!(ledger.entropy >= entropy);
+            entropy = ledger.entropy;
+            ControlFlow::Continue(())
+        })
+        .unwrap();
+        let steps = run.step_statistics().unwrap();
+        assert!(steps.accepted > 50 && steps.rejected() > 0, "{steps:?}");
+        assert_eq!(run.time().to_bits(), 10.0_f64.to_bits());
+    }
+}
+
+#[test]
+fn a_resumed_run_has_the_bits_of_one_that_was_never_interrupted() {
+    let mut run = controlled(Scheme::EemTemperature, 1e-3);
+    for _ in 0..10 {
+        run.step().unwrap();
+    }
+    let saved = run.checkpoint();
+    let text = serde_json::to_string(&saved).unwrap();
+    let mut resumed = single_pendulum(Scheme::EemTemperature, 1.0).run;
+    resumed
+        .restore(&serde_json::from_str(&text).unwrap())
+        .unwrap();
+    for run in [&mut run, &mut resumed] {
+        to(run, 2.0);
+    }
+    assert_eq!(run.checkpoint(), resumed.checkpoint());
+    assert_eq!(run.step_statistics(), resumed.step_statistics());
+}
+
+#[test]
+fn events_are_found_within_controlled_steps() {
+    let mut pendulum = single_pendulum(Scheme::EemEntropy, 0.05);
+    pendulum.run.control_steps(Tolerance::new(1e-4)).unwrap();
+    let bob = pendulum.bob;
+    let first = pendulum.run.ledger();
+    let height = |run: &Simulation<2>| run.position(bob).unwrap()[1] - 1.0;
+    let end = pendulum
+        .run
+        .run_until_event(10.0, 1e-12, height, |_, _| ControlFlow::Continue(()));
+    assert_eq!(end, Ok(RunEnd::Event));
+    assert!((0.0..1e-11).contains(&height(&pendulum.run)));
+    let last = pendulum.run.ledger();
+    assert!((last.balance - first.balance).abs() <= 4e-15 * first.energy);
+}
+
+#[test]
+fn what_cannot_be_asked_is_refused() {
+    let mut run = single_pendulum(Scheme::EemEntropy, 0.05).run;
+    for relative in [0.0, -1e-3, f64::NAN, 1e-14, 1.0] {
+        let error = run.control_steps(Tolerance::new(relative)).unwrap_err();
+        assert!(matches!(error, SceneError::Tolerance { .. }), "{error}");
+    }
+    let message = run
+        .control_steps(Tolerance::new(1e-14))
+        .unwrap_err()
+        .to_string();
+    assert!(message.ends_with("at least 2e-10"), "{message}");
+    assert!(run.tolerance().is_none());
+    let mut variational = single_pendulum(Scheme::Variational4, 0.05).run;
+    let error = variational.control_steps(Tolerance::new(1e-3)).unwrap_err();
+    assert_eq!(
+        error,
+        SceneError::FixedSteps {
+            scheme: "variational-4"
+        }
+    );
+}
+
+#[test]
+fn steps_that_would_be_too_small_say_what_limits_them() {
+    let mut run = controlled(Scheme::EemEntropy, 1e-8);
+    run.set_smallest_step(1e-3).unwrap();
+    let before = run.checkpoint();
+    let error = run.step().unwrap_err();
+    assert!(matches!(error.failure, StepFailure::TooSmall { .. }));
+    let message = error.to_string();
+    assert!(
+        message.contains("steps of less than 0.001 s would be needed: the error"),
+        "{message}"
+    );
+    assert_eq!(EndState::of(&run), {
+        let mut again = single_pendulum(Scheme::EemEntropy, 1.0).run;
+        again.restore(&before).unwrap();
+        EndState::of(&again)
+    });
+}
+
+/// Steps that fail are tried again, smaller: at 10 s Newton's method finds nothing.
+#[test]
+fn failed_steps_are_made_again() {
+    let (scene, ..) = single_pendulum_scene();
+    let mut run = Simulation::new(scene, Scheme::Midpoint, 10.0).unwrap();
+    run.control_steps(Tolerance::new(1e-2)).unwrap();
+    to(&mut run, 1.0);
+    let steps = run.step_statistics().unwrap();
+    assert!(
+        steps.rejected_by_newton + steps.rejected_by_domain > 0,
+        "{steps:?}"
+    );
+}
