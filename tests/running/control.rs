@@ -141,6 +141,24 @@ fn a_resumed_run_has_the_bits_of_one_that_was_never_interrupted() {
     assert_eq!(run.step_statistics(), resumed.step_statistics());
 }
 
+/// Output at other times shortens steps, and leaves the size of those that follow.
+#[test]
+fn requested_times_are_hit_and_cost_one_step_each() {
+    let mut plain = controlled(Scheme::EemTemperature, 1e-4);
+    to(&mut plain, 1.0);
+    let steps = plain.step_statistics().unwrap().accepted;
+    let mut watched = controlled(Scheme::EemTemperature, 1e-4);
+    let times = [0.1, 0.25, 0.3, 1.0];
+    let mut seen = Vec::new();
+    let end = watched.run_at(times, |run| {
+        seen.push(run.time());
+        ControlFlow::Continue(())
+    });
+    assert_eq!((end, seen), (Ok(RunEnd::Reached), times.to_vec()));
+    let more = watched.step_statistics().unwrap().accepted - steps;
+    assert!(more <= 3, "{more}");
+}
+
 #[test]
 fn events_are_found_within_controlled_steps() {
     let mut pendulum = single_pendulum(Scheme::EemEntropy, 0.05);

@@ -78,6 +78,46 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(RunEnd::Reached)
     }
 
+    /// Steps until each of these times in turn, s, and calls `observer` there: output at times that the steps know
+    /// nothing of.
+    ///
+    /// Each time is hit to the last bit by a shorter step, after which the steps have the size that they had
+    /// before. The states that the observer sees are therefore states of the scheme, which obey the laws; those
+    /// of an interpolation between steps do not.
+    ///
+    /// # Errors
+    ///
+    /// As [`run_until`](Self::run_until), of which each time is an end.
+    ///
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// use eem_runtime::{RunEnd, Scene, Scheme, Simulation};
+    ///
+    /// let mut scene = Scene::<2>::new();
+    /// scene.anchor([0.0, 0.0]);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.4)?;
+    /// let mut times = Vec::new();
+    /// let end = run.run_at([0.5, 1.0, 1.1], |run| {
+    ///     times.push(run.time());
+    ///     ControlFlow::Continue(())
+    /// })?;
+    /// assert_eq!((end, times), (RunEnd::Reached, vec![0.5, 1.0, 1.1]));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn run_at(
+        &mut self,
+        times: impl IntoIterator<Item = S>,
+        mut observer: impl FnMut(&Self) -> ControlFlow<()>,
+    ) -> Result<RunEnd, StepError> {
+        for time in times {
+            self.run_until(time, |_, _| ControlFlow::Continue(()))?;
+            if observer(self).is_break() {
+                return Ok(RunEnd::Stopped);
+            }
+        }
+        Ok(RunEnd::Reached)
+    }
+
     /// An error unless a run can end at this time.
     pub(super) fn check_end(&self, end: S) -> Result<(), StepError> {
         if self.time().at_most(end).all() {
