@@ -46,6 +46,8 @@
 mod compact;
 mod error;
 mod precision;
+
+mod columns;
 mod threads;
 
 mod pattern;

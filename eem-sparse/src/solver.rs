@@ -2,6 +2,7 @@
 
 use core::array;
 
+use crate::columns::{all_finite, store};
 use crate::error::{Error, Operand};
 use crate::factors::Factors;
 use crate::fronts::Fronts;
@@ -140,9 +141,8 @@ impl Solver {
         &'a mut self,
         values: &'a [P::Number],
     ) -> Result<Factored<'a, P>, Error> {
-        let expected = self.pattern.entries();
-        if values.len() != expected {
-            let found = values.len();
+        let (expected, found) = (self.pattern.entries(), values.len());
+        if found != expected {
             return Err(Error::Count { expected, found });
         }
         match self.pattern.block_length() {
@@ -154,6 +154,60 @@ impl Solver {
             solver: self,
             values,
         })
+    }
+
+    /// Overwrites `W` right-hand sides with what the last factors make of them, unchecked.
+    ///
+    /// ```
+    /// use eem_sparse::{Pattern, Solver};
+    ///
+    /// // A step of an iteration for another matrix near the last one.
+    /// let mut solver = Solver::new(&Pattern::new(1, |_| {}))?;
+    /// solver.factor::<f64>(&[4.0])?;
+    /// let mut x = [[2.0]];
+    /// solver.solve_again::<f64, 1>(&mut x)?;
+    /// assert_eq!(x, [[0.5]]);
+    /// # Ok::<(), eem_sparse::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Count`] unless `right` has a row for each unknown; [`Error::NotFinite`] as [`Factored::solve`].
+    pub fn solve_again<P: Precision, const W: usize>(
+        &mut self,
+        right: &mut [[P::Number; W]],
+    ) -> Result<(), Error> {
+        self.expect_rows(right.len())?;
+        match self.pattern.block_length() {
+            1 => self.solve_blocks_again::<P, W, 1>(right),
+            2 => self.solve_blocks_again::<P, W, 2>(right),
+            _ => self.solve_blocks_again::<P, W, 3>(right),
+        }
+    }
+
+    /// An error unless there are so many rows.
+    fn expect_rows(&self, found: usize) -> Result<(), Error> {
+        let expected = self.pattern.unknowns();
+        if found == expected {
+            return Ok(());
+        }
+        Err(Error::Count { expected, found })
+    }
+
+    fn solve_blocks_again<P: Precision, const W: usize, const L: usize>(
+        &mut self,
+        right: &mut [[P::Number; W]],
+    ) -> Result<(), Error> {
+        let order = &self.fronts.order;
+        let x = self.solution.as_chunks_mut::<L>().0;
+        for column in 0..W {
+            for (x, &node) in x.iter_mut().zip(order) {
+                *x = array::from_fn(|at| P::widen(right[node as usize * L + at][column]));
+            }
+            self.factors.solve(&self.fronts, x);
+            store::<P, W, L>(x, order, (right, column))?;
+        }
+        Ok(())
     }
 
     fn factor_blocks<P: Precision, const L: usize>(&mut self, values: &[P::Number]) {
@@ -210,10 +264,7 @@ impl<P: Precision> Factored<'_, P> {
     ///
     /// After an error, columns before the one that failed are solved, and all others are unchanged.
     pub fn solve<const W: usize>(&mut self, right: &mut [[P::Number; W]]) -> Result<Report, Error> {
-        let (expected, found) = (self.solver.pattern.unknowns(), right.len());
-        if found != expected {
-            return Err(Error::Count { expected, found });
-        }
+        self.solver.expect_rows(right.len())?;
         match self.solver.pattern.block_length() {
             1 => self.solve_blocks::<W, 1>(right),
             2 => self.solve_blocks::<W, 2>(right),
@@ -300,39 +351,4 @@ fn solve_by_pivoting<P: Precision, B: Fn(usize) -> [f64; L], const L: usize>(
             bound,
         }
     })
-}
-
-/// An error that names the first number that is not finite.
-fn all_finite(what: Operand, mut numbers: impl Iterator<Item = f64>) -> Result<(), Error> {
-    match numbers.position(|number| !number.is_finite()) {
-        Some(position) => Err(Error::NotFinite { what, position }),
-        None => Ok(()),
-    }
-}
-
-/// Writes a solution in the order of elimination to a column in that of the unknowns.
-fn store<P: Precision, const W: usize, const L: usize>(
-    x: &[[f64; L]],
-    order: &[u32],
-    (right, column): (&mut [[P::Number; W]], usize),
-) -> Result<(), Error> {
-    let stored = |x: f64| P::widen(P::narrow(x));
-    if !x.as_flattened().iter().all(|&x| stored(x).is_finite()) {
-        let mut natural = order.iter().zip(x);
-        let found = natural.find_map(|(&node, x)| {
-            let at = x.iter().position(|&x| !stored(x).is_finite())?;
-            Some(node as usize * L + at)
-        });
-        return Err(Error::NotFinite {
-            what: Operand::Solution,
-            position: found.unwrap_or(0),
-        });
-    }
-    for (x, &node) in x.iter().zip(order) {
-        let rows = &mut right[node as usize * L..][..L];
-        for (row, &x) in rows.iter_mut().zip(x) {
-            row[column] = P::narrow(x);
-        }
-    }
-    Ok(())
 }

@@ -36,6 +36,11 @@ const MOST_DENSE: usize = 24;
 #[cfg(feature = "sparse")]
 const SPARSITY: usize = 4;
 
+/// Entries of the factors per entry of the matrix from which on factors are kept; a chain has 1, a square
+/// lattice of 10 by 10 nodes 3.
+#[cfg(feature = "sparse")]
+const WORTHWHILE_FILL: usize = 3;
+
 /// `A X = B` with `W` right-hand sides, in memory that is reused.
 #[derive(Debug)]
 pub(crate) struct LinearSystem<S, const W: usize> {
@@ -293,6 +298,35 @@ impl<S: Real, const W: usize> LinearSystem<S, W> {
             })
         })
         .collect()
+    }
+
+    /// Whether finding factors takes so much longer than solving with them that they are worth keeping.
+    pub(crate) fn keeps_factors(&self) -> bool {
+        match &self.storage {
+            #[cfg(feature = "sparse")]
+            Storage::Sparse(sparse) => {
+                sparse.factor_entries() >= WORTHWHILE_FILL * sparse.pattern().entries()
+            }
+            _ => false,
+        }
+    }
+
+    /// Like [`solve`](Self::solve), but with the factors of the last matrix instead of those of A. False if
+    /// there are none that say anything, and nothing has changed.
+    pub(crate) fn solve_with_last_factors(&mut self) -> bool {
+        match &mut self.storage {
+            #[cfg(feature = "sparse")]
+            Storage::Sparse(sparse) => {
+                let right = &mut self.right[..self.unknowns];
+                if sparse.solve_again::<Stored<S>, W>(right).is_err() {
+                    return false;
+                }
+                mem::swap(&mut self.right, &mut self.solution);
+                self.clear_matrix();
+                true
+            }
+            _ => false,
+        }
     }
 
     /// Finds X, but for the rows of anchors; A is then zero, and B is lost.

@@ -8,6 +8,7 @@ mod converge;
 mod coupling;
 mod effort;
 mod iteration;
+mod kept_factors;
 mod linearize;
 mod past;
 mod places;
@@ -32,6 +33,7 @@ use balance::Balance;
 use coupling::Coupling;
 
 pub(crate) use effort::Effort;
+use kept_factors::KeptFactors;
 use past::Past;
 pub(crate) use past::SavedPast;
 use places::{Seen, moving, seen};
@@ -51,6 +53,7 @@ pub(crate) struct Solver<S: Real, const D: usize> {
     seen: Vec<Seen>,
     /// The system of an iteration.
     tangent: LinearSystem<S, 1>,
+    factors: KeptFactors,
     trial: Trial<S, D>,
     /// What only a scheme with stages needs.
     stages: Option<Stages<S, D>>,
@@ -78,6 +81,11 @@ pub(crate) struct Solver<S: Real, const D: usize> {
     evaluations: u64,
 }
 
+/// Whether nodes feel forces that the trial does not change; those at stages are taken where the stages are.
+fn has_old_forces<S: Real>(scheme: Scheme, loads: &StepLoads<S>) -> bool {
+    scheme.has_old_forces() || (loads.has_total_force() && scheme.tableau().is_none())
+}
+
 impl<S: Real, const D: usize> Solver<S, D> {
     pub(crate) fn new(
         scheme: Scheme,
@@ -87,9 +95,6 @@ impl<S: Real, const D: usize> Solver<S, D> {
         conduction: &Conduction<S>,
         loads: &StepLoads<S>,
     ) -> Self {
-        // Those of stages are taken where the stages are.
-        let has_loads = loads.has_total_force() && scheme.tableau().is_none();
-        let has_old_force = scheme.has_old_forces() || has_loads;
         let sets = scheme.sets();
         let mut pattern = pattern::of_tangent(elements, layout, conduction, D);
         if sets.len() > 1 {
@@ -124,11 +129,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
             nodes,
             coupling,
             seen: all_seen,
+            factors: KeptFactors::new(&tangent),
             tangent,
             trial: Trial::new(sets.len(), masses.len(), slots),
             sets,
             stages,
-            old_force: vec![[S::zero(); D]; nodes_with(has_old_force)],
+            old_force: vec![[S::zero(); D]; nodes_with(has_old_forces(scheme, loads))],
             per_length: vec![S::one(); masses.len()],
             has_other_starts: false,
             anchors: masses.anchors().collect(),

@@ -71,6 +71,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
     ) -> Result<(), StepFailure> {
+        self.factors.renew();
         self.balance(view);
         self.evaluate(groups, view, true)?;
         Ok(())

@@ -8,7 +8,7 @@ use crate::element::group::{Group, StepView};
 use crate::number::scalar::{Mask, Real, natural_power};
 use crate::step::certificate::Certificate;
 use crate::step::error::StepFailure;
-use crate::step::newton::{NewtonSettings, is_last};
+use crate::step::newton::is_last;
 
 /// How often an update is halved to bring all elements back to admissible states.
 const HALVINGS: u32 = 30;
@@ -27,14 +27,13 @@ impl<S: Real, const D: usize> Solver<S, D> {
         effort: &mut Effort<S>,
         target: &mut Target<'_, S>,
     ) -> Result<Option<Certificate<S>>, StepFailure> {
-        let NewtonSettings {
-            max_iterations,
-            tolerance,
-        } = effort.settings;
-        let tolerance = self.coupling.tolerance(target.tolerance(tolerance));
+        let max_iterations = effort.settings.max_iterations;
+        let tolerance = target.tolerance(effort.settings.tolerance);
+        let tolerance = self.coupling.tolerance(tolerance);
         let mut before = None;
         let mut purpose = Purpose::Iterate;
         let mut progress = Progress::new();
+        self.factors.renew();
         // Those that are done, and those for which the next look is the last.
         let (mut settled, mut last) = (S::Mask::none(), S::Mask::none());
         for left in (0..=max_iterations).rev() {
@@ -64,7 +63,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
             }
             let previous = before.replace(update).filter(|_| is_full);
             purpose = Purpose::Iterate;
-            let ends = is_last(update, previous, tolerance) & !settled;
+            let ends = is_last(update, previous, self.factors.tolerance(tolerance)) & !settled;
+            self.factors.judge(update, previous);
             let is_stuck = self.is_stuck(&mut progress, update, previous, settled);
             if S::LANES > 1 && is_stuck {
                 // Alone, some of them might go on from here otherwise than others.
@@ -115,7 +115,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         settled: S::Mask,
     ) -> Result<S, StepFailure> {
         self.final_residual = self.residual();
-        let solved = self.tangent.solve();
+        let solved = self.factors.solve(&mut self.tangent);
         solved.map_err(|_| StepFailure::SingularTangent)?;
         let update = self.correct(groups, view);
         effort.note(self.final_residual, update, settled);

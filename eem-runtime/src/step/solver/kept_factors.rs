@@ -1,0 +1,69 @@
+//! Modified Newton: the factors of one tangent serve several iterations where finding them is most of the work.
+
+use crate::algebra::lu::Singular;
+use crate::algebra::system::LinearSystem;
+use crate::number::scalar::{Mask, Real};
+use crate::step::newton::CONTRACTION;
+
+/// Whether the factors of an earlier tangent of the same step still do.
+///
+/// They do while updates shrink to a tenth, as the last one has to anyway. Up to a tenth of an update is left after
+/// it then, and not its square, so that the last one has to be smaller.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct KeptFactors {
+    /// Whether it is worth while in this scene.
+    is_worthwhile: bool,
+    /// Those there are do for the next iteration.
+    are_near: bool,
+    /// They have done for the last one.
+    have_served: bool,
+}
+
+impl KeptFactors {
+    /// Of a scene with this tangent.
+    pub(super) fn new<S: Real>(tangent: &LinearSystem<S, 1>) -> Self {
+        Self {
+            is_worthwhile: tangent.keeps_factors(),
+            are_near: false,
+            have_served: false,
+        }
+    }
+
+    /// Solves the system of an iteration.
+    #[inline]
+    pub(super) fn solve<S: Real>(
+        &mut self,
+        tangent: &mut LinearSystem<S, 1>,
+    ) -> Result<(), Singular> {
+        self.have_served = self.are_near && tangent.solve_with_last_factors();
+        if !self.have_served {
+            tangent.solve()?;
+        }
+        self.are_near = self.is_worthwhile;
+        Ok(())
+    }
+
+    /// The next iteration needs factors of its own.
+    pub(super) const fn renew(&mut self) {
+        self.are_near = false;
+    }
+
+    /// What the last update must not exceed, where `tolerance` does for one by factors of its own: ε^¾, of which
+    /// a tenth is left.
+    pub(super) fn tolerance<S: Real>(self, tolerance: S) -> S {
+        if self.have_served {
+            tolerance.minimum(S::EPSILON.powf(S::from_f64(0.75)))
+        } else {
+            tolerance
+        }
+    }
+
+    /// Judges the factors by an update and the one before.
+    #[inline]
+    pub(super) fn judge<S: Real>(&mut self, update: S, before: Option<S>) {
+        let shrinks = |before: S| update.at_most(S::from_f64(CONTRACTION) * before).all();
+        if self.are_near && !before.is_none_or(shrinks) {
+            self.renew();
+        }
+    }
+}

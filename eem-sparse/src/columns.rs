@@ -1,0 +1,42 @@
+//! Columns of numbers that come from outside or go there: all of them have to be finite.
+
+use crate::error::{Error, Operand};
+use crate::precision::Precision;
+
+/// An error that names the first number that is not finite.
+pub(crate) fn all_finite(
+    what: Operand,
+    mut numbers: impl Iterator<Item = f64>,
+) -> Result<(), Error> {
+    match numbers.position(|number| !number.is_finite()) {
+        Some(position) => Err(Error::NotFinite { what, position }),
+        None => Ok(()),
+    }
+}
+
+/// Writes a solution in the order of elimination to a column in that of the unknowns.
+pub(crate) fn store<P: Precision, const W: usize, const L: usize>(
+    x: &[[f64; L]],
+    order: &[u32],
+    (right, column): (&mut [[P::Number; W]], usize),
+) -> Result<(), Error> {
+    let stored = |x: f64| P::widen(P::narrow(x));
+    if !x.as_flattened().iter().all(|&x| stored(x).is_finite()) {
+        let mut natural = order.iter().zip(x);
+        let found = natural.find_map(|(&node, x)| {
+            let at = x.iter().position(|&x| !stored(x).is_finite())?;
+            Some(node as usize * L + at)
+        });
+        return Err(Error::NotFinite {
+            what: Operand::Solution,
+            position: found.unwrap_or(0),
+        });
+    }
+    for (x, &node) in x.iter().zip(order) {
+        let rows = &mut right[node as usize * L..][..L];
+        for (row, &x) in rows.iter_mut().zip(x) {
+            row[column] = P::narrow(x);
+        }
+    }
+    Ok(())
+}
