@@ -65,6 +65,7 @@ mod factors;
 mod pivoting;
 mod refinement;
 
+mod fallback;
 mod solver;
 
 pub use error::{Error, Operand};
