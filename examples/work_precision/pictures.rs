@@ -1,9 +1,9 @@
-//! Error over wall time, with the settings that no other beats, and error over the step.
+//! Error over wall time, with the settings that no other beats, over the step, and over the tolerance.
 
 use std::error::Error;
 use std::path::Path;
 
-use eem::{StudyReport, StudyRow};
+use eem::{Scheme, StudyReport, StudyRow};
 
 use super::support::comparison;
 use super::support::figures::look::{BAND, OPEN};
@@ -16,18 +16,22 @@ const LOST: f64 = 10.0;
 /// other.
 const ROW: f64 = 1.8;
 
-/// Draws both pictures.
+/// Draws the pictures: error over wall time, over the step, over the tolerance.
 pub(crate) fn write(
     directory: &Path,
     case: &str,
     report: &StudyReport,
 ) -> Result<(), Box<dyn Error>> {
     let end = report.end;
+    // Of a scheme that chooses its steps, these; of all others those of one size.
+    let controlled = report.rows.iter().filter(|row| is_controlled(row));
+    let controlled: Vec<Scheme> = controlled.map(|row| row.setting.scheme).collect();
+    let is_shown = |row: &StudyRow| is_controlled(row) || !controlled.contains(&row.setting.scheme);
     let by_time = Figure {
         title: format!("{case}: largest error at {end} s and wall time"),
         x_label: "wall time of the steps (s)".to_owned(),
         y_label: "largest relative error".to_owned(),
-        curves: curves(report, |row| Some(row.seconds), true),
+        curves: curves(report, |row| is_shown(row).then_some(row.seconds), true),
         axes: Axes::DoublyLogarithmic,
     };
     by_time.write_svg(&directory.join("work_precision.svg"))?;
@@ -35,9 +39,23 @@ pub(crate) fn write(
         title: format!("{case}: largest error at {end} s and step"),
         x_label: "step h (s)".to_owned(),
         curves: curves(report, |row| row.setting.step(), false),
+        ..by_time.clone()
+    };
+    by_step.write_svg(&directory.join("step_error.svg"))?;
+    if controlled.is_empty() {
+        return Ok(());
+    }
+    let by_tolerance = Figure {
+        title: format!("{case}: largest error at {end} s and tolerance"),
+        x_label: "relative tolerance".to_owned(),
+        curves: curves(report, |row| row.setting.tolerance(), false),
         ..by_time
     };
-    by_step.write_svg(&directory.join("step_error.svg"))
+    by_tolerance.write_svg(&directory.join("tolerance_error.svg"))
+}
+
+fn is_controlled(row: &StudyRow) -> bool {
+    row.setting.tolerance().is_some()
 }
 
 /// The largest error of a row, if it is stated and the run went somewhere near the solution.
@@ -68,8 +86,10 @@ fn curves(
     lines.dedup();
     for line in &lines {
         let rows = report.rows.iter().filter(|row| row.setting.line() == *line);
-        let points = rows.filter_map(point).collect();
-        curves.push(curve(line.clone(), points, comparison::look(line)));
+        let points: Vec<_> = rows.filter_map(point).collect();
+        if !points.is_empty() {
+            curves.push(curve(line.clone(), points, look(line)));
+        }
     }
     curves.extend(failures(report, &lines, x));
     curves
@@ -89,8 +109,7 @@ fn failures(
         let lost = rows.filter(|row| is_lost(row));
         let points: Vec<_> = lost.filter_map(|row| Some((x(row)?, height))).collect();
         if !points.is_empty() {
-            let look = OPEN + comparison::look(line);
-            curves.push(curve(String::new(), points, look));
+            curves.push(curve(String::new(), points, OPEN + look(line)));
             height *= ROW;
         }
     }
@@ -99,6 +118,12 @@ fn failures(
         curves.push(curve(label, Vec::new(), OPEN));
     }
     curves
+}
+
+/// That of the scheme, whether it chooses its steps or not.
+fn look(line: &str) -> usize {
+    let name = line.split_once(',').map_or(line, |(name, _)| name);
+    comparison::look(name)
 }
 
 fn curve(label: String, points: Vec<(f64, f64)>, look: usize) -> Curve {

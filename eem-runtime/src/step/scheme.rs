@@ -143,16 +143,9 @@ struct Rule {
     is_exact: bool,
     /// See [`Scheme::foretells_its_start`].
     is_ordinary: bool,
-    /// How errors go with the step; none where steps of other sizes would spoil what the scheme keeps.
-    accuracy: Option<Accuracy>,
-}
-
-/// That of an implicit scheme.
-const fn of_order(order: u8) -> Accuracy {
-    Accuracy {
-        order,
-        is_proportional: true,
-    }
+    order: u8,
+    /// Whether what it keeps does not depend on the sizes of steps.
+    may_change_steps: bool,
 }
 
 impl Rule {
@@ -163,7 +156,8 @@ impl Rule {
             closing: Closing::Increments,
             is_exact: true,
             is_ordinary: false,
-            accuracy: Some(of_order(2)),
+            order: 2,
+            may_change_steps: true,
         }
     }
 
@@ -174,7 +168,8 @@ impl Rule {
             closing: Closing::Increments,
             is_exact: false,
             is_ordinary: true,
-            accuracy: Some(of_order(2)),
+            order: 2,
+            may_change_steps: true,
         }
     }
 
@@ -185,15 +180,13 @@ impl Rule {
             closing: Closing::Start,
             is_exact: false,
             is_ordinary: false,
-            accuracy: None,
+            order: 2,
+            may_change_steps: false,
         }
     }
 
     const fn of_order(self, order: u8) -> Self {
-        Self {
-            accuracy: Some(of_order(order)),
-            ..self
-        }
+        Self { order, ..self }
     }
 
     const fn closed_by_stages(self) -> Self {
@@ -214,6 +207,7 @@ impl Scheme {
             Self::Variational => Rule::variational("variational", MeanMeasures),
             Self::Variational4 => {
                 Rule::variational("variational-4", Stages(&variational_4::TABLEAU))
+                    .of_order(4)
                     .closed_by_stages()
             }
             Self::Midpoint => Rule::ordinary("midpoint", Conjugates::Midpoint),
@@ -240,10 +234,41 @@ impl Scheme {
         self.rule().closing
     }
 
-    /// How the error of a step goes with its size; none of a variational scheme, whose energy stays near its
-    /// value only while all steps have one size.
-    pub(crate) const fn accuracy(self) -> Option<Accuracy> {
-        self.rule().accuracy
+    /// The order p: errors of a given time go with `hᵖ`.
+    ///
+    /// ```
+    /// use eem_runtime::Scheme;
+    ///
+    /// assert_eq!(Scheme::EemEntropy.order(), 2);
+    /// assert_eq!(Scheme::Gauss4.order(), 4);
+    /// ```
+    #[must_use]
+    pub const fn order(self) -> u8 {
+        self.rule().order
+    }
+
+    /// Whether its steps may change their size, as [step control](crate::Simulation::control_steps) makes them.
+    ///
+    /// The energy of a variational scheme stays near its value only while all steps have one size: with others
+    /// it drifts.
+    ///
+    /// ```
+    /// use eem_runtime::Scheme;
+    ///
+    /// assert!(Scheme::EemEntropy.may_change_steps());
+    /// assert!(!Scheme::Variational4.may_change_steps());
+    /// ```
+    #[must_use]
+    pub const fn may_change_steps(self) -> bool {
+        self.rule().may_change_steps
+    }
+
+    /// How the error of a step goes with its size.
+    pub(crate) const fn accuracy(self) -> Accuracy {
+        Accuracy {
+            order: self.order(),
+            is_proportional: true,
+        }
     }
 
     /// Whether every step has to keep energy, entropy and momenta.

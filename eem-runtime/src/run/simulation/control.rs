@@ -81,22 +81,21 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let Some(memory) = memory else {
             return Ok(());
         };
-        let scheme = self.scheme.name();
-        let fixed = SceneError::FixedSteps { scheme };
-        let checked = match self.scheme.accuracy() {
-            None => Err(fixed),
-            Some(accuracy) => memory.tolerance.check(accuracy),
+        let checked = if self.scheme.may_change_steps() {
+            memory.tolerance.check(self.scheme.accuracy())
+        } else {
+            let scheme = self.scheme.name();
+            Err(SceneError::FixedSteps { scheme })
         };
         checked.inspect_err(|_| self.part())
     }
 
     /// Controls steps like this, or makes all of one size.
     pub(super) fn go_on_with(&mut self, memory: Option<SavedControl<S>>) {
-        let control = memory.zip(self.scheme.accuracy());
-        self.control = control.map(|(memory, accuracy)| {
+        self.control = memory.map(|memory| {
             Box::new(Control {
                 memory,
-                accuracy,
+                accuracy: self.scheme.accuracy(),
                 before: State::clone(&self.state),
                 past: self.stepper.past(),
                 whole: State::clone(&self.state),
