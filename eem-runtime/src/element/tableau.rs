@@ -24,6 +24,40 @@ pub(crate) struct Tableau {
     /// `h v_i = Σ_j motion_ij (q_j − q⁰)`, the motion at a stage from the displacements of the sets.
     pub(crate) motion: &'static [&'static [f64]],
     pub(crate) ending: Ending,
+    /// How the conjugates of the stages follow from the path of an element through the step; without, they
+    /// are values at the stages.
+    pub(crate) path: Option<Path>,
+}
+
+/// The path of an element through a step, and the projection of what belongs to its points.
+///
+/// Squared length, viscous stretches and entropy are polynomials of the degree of the number of stages,
+/// given by their increments `h ẏ_j` at the stages. With `ê = e(C, γ, s)` the conjugates of a stage are
+///
+/// ```text
+/// a_i = Σ_r projection_ir ∇ê(y(τ_r)),   y(τ_r) = y⁰ + Σ_j integrals_rj h ẏ_j
+/// ```
+///
+/// the polynomials nearest to `∇ê` along the path, in the mean of squares.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Path {
+    /// `∫_0^τ ℓ_j` for each point of the quadrature.
+    pub(crate) integrals: &'static [&'static [f64]],
+    /// `w_r ℓ_i(τ_r)/b_i`, a row per stage.
+    pub(crate) projection: &'static [&'static [f64]],
+    pub(crate) supports: Supports,
+}
+
+/// When motions and temperatures that are prescribed are looked at: at as many times as there are stages,
+/// of which the last is the end of the step. With the old state they are the nodes of Lobatto's rule, so
+/// that what the polynomial misses is orthogonal to all that would cost order.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Supports {
+    pub(crate) times: &'static [f64],
+    /// The prescribed displacement of an anchor at a stage from those at the times, a row per stage.
+    pub(crate) to_stages: &'static [&'static [f64]],
+    /// `∫_0^τ ℓ_j` for each time.
+    pub(crate) integrals: &'static [&'static [f64]],
 }
 
 /// `Σ_i entropies_i s_i = old s⁰ + h Σ_i rates_i Φ_i`, with the entropies `s_i = s(λ_i, γ_i, θ_i)` of the stages
@@ -50,11 +84,15 @@ pub(crate) enum Ending {
     StageByStage,
     /// From the forces: `q¹ = q⁰ + (h/m)(p⁰ − h Σ_j weights_j F_j)`.
     Forces(&'static [f64]),
+    /// From the displacements of the stages: `q¹ = q⁰ + (h/m) p⁰ + Σ_j weights_j (u_j − c_j (h/m) p⁰)`, where
+    /// the polynomial through them ends. No rounding of stiff forces reaches the positions.
+    Increments(&'static [f64]),
 }
 
-/// The most sets of unknowns of a rule, and the most stages.
-pub(crate) const MOST_SETS: usize = 2;
+/// The most sets of unknowns of a rule, the most stages, and the most points of a path.
+pub(crate) const MOST_SETS: usize = 3;
 pub(crate) const MOST_STAGES: usize = 3;
+pub(crate) const MOST_POINTS: usize = 5;
 
 /// A set of unknowns: the increments `u = q_i − q⁰` with
 /// `(inertia m/h)(u − time (h/m) p⁰) = −h Σ weights F`.
@@ -93,11 +131,16 @@ impl Tableau {
 
 #[cfg(test)]
 mod tests {
-    use crate::step::rule::{gauss_4, variational_4};
+    use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
 
-    use super::Tableau;
+    use super::{Ending, Tableau};
 
-    const ALL: [&Tableau; 2] = [&variational_4::TABLEAU, &gauss_4::TABLEAU];
+    const ALL: [&Tableau; 4] = [
+        &variational_4::TABLEAU,
+        &gauss_4::TABLEAU,
+        &eem_entropy_4::TABLEAU,
+        &eem_entropy_6::TABLEAU,
+    ];
 
     fn assert_near(a: f64, b: f64) {
         assert!((a - b).abs() < 4.0 * f64::EPSILON, "{a} {b}");
@@ -150,6 +193,44 @@ mod tests {
             for balance in rule.entropies {
                 assert_near(balance.entropies.iter().sum(), balance.old);
                 assert_near(rule.temperatures[balance.unknown].iter().sum(), 1.0);
+            }
+        }
+    }
+
+    /// `c_j^power/power`, what `∫_0^τ t^(power − 1) dt` integrates, at the stages.
+    fn monomials(rule: &Tableau, power: i32) -> impl Iterator<Item = f64> {
+        let rates = rule.times.iter().map(move |c| c.powi(power - 1));
+        rates.map(move |rate| f64::from(power) * rate)
+    }
+
+    #[test]
+    fn paths_are_exact_for_polynomials_and_their_ends_lie_on_them() {
+        for rule in ALL {
+            let Some(path) = rule.path else { continue };
+            let supports = path.supports;
+            for power in 1..=i32::try_from(rule.stages()).unwrap() {
+                for (time, row) in supports.times.iter().zip(supports.integrals) {
+                    assert_near(dot(row, monomials(rule, power)), time.powi(power));
+                }
+                for (c, row) in rule.times.iter().zip(supports.to_stages) {
+                    let known = supports.times.iter().map(|time| time.powi(power));
+                    assert_near(dot(row, known), c.powi(power));
+                }
+                let Ending::Increments(weights) = rule.ending else {
+                    panic!("the positions follow the path");
+                };
+                let stages = rule.times.iter().map(|c| c.powi(power));
+                assert_near(dot(weights, stages), 1.0);
+                // The projection gives back a polynomial of the rates, and is exact on the next ones in
+                // the mean: ∫ ℓ_i τ^n is that of the rule for n up to the number of stages.
+                let at_points = |row: &[f64]| dot(row, monomials(rule, power)).powi(1);
+                for (row, c) in path.projection.iter().zip(rule.times) {
+                    let values = path.integrals.iter().map(|row| at_points(row));
+                    let projected = dot(row, values);
+                    if power < i32::try_from(rule.stages()).unwrap() {
+                        assert_near(projected, c.powi(power));
+                    }
+                }
             }
         }
     }
