@@ -84,9 +84,17 @@ pub(crate) enum Ending {
     StageByStage,
     /// From the forces: `q¹ = q⁰ + (h/m)(p⁰ − h Σ_j weights_j F_j)`.
     Forces(&'static [f64]),
-    /// From the displacements of the stages: `q¹ = q⁰ + (h/m) p⁰ + Σ_j weights_j (u_j − c_j (h/m) p⁰)`, where
-    /// the polynomial through them ends. No rounding of stiff forces reaches the positions.
-    Increments(&'static [f64]),
+    /// From the displacements of the stages less those of free flight, `w_j = u_j − c_j (h/m) p⁰`, where the
+    /// polynomials through them end:
+    ///
+    /// ```text
+    /// q¹ = q⁰ + (h/m) p⁰ + Σ_j displacements_j w_j      displacements = bᵀA⁻¹
+    /// p¹ = p⁰ + (m/h) Σ_j impulses_j w_j                impulses = bᵀA⁻²
+    /// ```
+    Increments {
+        displacements: &'static [f64],
+        impulses: &'static [f64],
+    },
 }
 
 /// The most sets of unknowns of a rule, the most stages, and the most points of a path.
@@ -216,11 +224,19 @@ mod tests {
                     let known = supports.times.iter().map(|time| time.powi(power));
                     assert_near(dot(row, known), c.powi(power));
                 }
-                let Ending::Increments(weights) = rule.ending else {
-                    panic!("the positions follow the path");
+                let Ending::Increments {
+                    displacements,
+                    impulses,
+                } = rule.ending
+                else {
+                    panic!("the end is that of the paths");
                 };
-                let stages = rule.times.iter().map(|c| c.powi(power));
-                assert_near(dot(weights, stages), 1.0);
+                let stages = || rule.times.iter().map(|c| c.powi(power));
+                assert_near(dot(displacements, stages()), 1.0);
+                // From rest, w = ∫ p/m: p = τ^n gives w = τ^(n + 1)/(n + 1).
+                if power > 1 {
+                    assert_near(dot(impulses, stages()) / f64::from(power), 1.0);
+                }
                 // The projection gives back a polynomial of the rates, and is exact on the next ones in
                 // the mean: ∫ ℓ_i τ^n is that of the rule for n up to the number of stages.
                 let at_points = |row: &[f64]| dot(row, monomials(rule, power)).powi(1);

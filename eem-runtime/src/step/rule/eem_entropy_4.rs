@@ -12,7 +12,10 @@ const ROOT: f64 = 1.732_050_807_568_877_3;
 
 /// See the module.
 pub(crate) static TABLEAU: Tableau = Tableau {
-    ending: Ending::Increments(&[-ROOT, ROOT]),
+    ending: Ending::Increments {
+        displacements: &[-ROOT, ROOT],
+        impulses: &[-6.0 - 6.0 * ROOT, 6.0 * ROOT - 6.0],
+    },
     path: Some(Path {
         integrals: &[
             &[0.142_953_373_068_073_02, -0.030_251_707_688_814_71],

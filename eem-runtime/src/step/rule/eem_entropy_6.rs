@@ -89,7 +89,11 @@ pub(crate) static TABLEAU: Tableau = Tableau {
     temperatures: &[&OWN[0], &OWN[1], &OWN[2]],
     entropies: &[balance(0), balance(1), balance(2)],
     motion: &[&MOTION[0], &MOTION[1], &MOTION[2]],
-    ending: Ending::Increments(&[5.0 / 3.0, -4.0 / 3.0, 5.0 / 3.0]),
+    ending: Ending::Increments {
+        displacements: &[5.0 / 3.0, -4.0 / 3.0, 5.0 / 3.0],
+        // 20 ± 10 √15/3 at the ends.
+        impulses: &[32.909_944_487_358_06, -16.0, 7.090_055_512_641_944],
+    },
     path: Some(Path {
         integrals: &[
             &[

@@ -1,12 +1,12 @@
-//! The end of a step along the paths of its stages: positions from the displacements that were found, momenta
-//! from the forces.
+//! The end of a step along the paths of its stages, from the displacements that were found.
 //!
 //! ```text
-//! q¹ = q⁰ + (h/m) p⁰ + Σ_j weights_j (u_j − c_j (h/m) p⁰),   p¹ = p⁰ + h Σ b_i G_i
+//! w_j = u_j − c_j (h/m) p⁰,   q¹ = q⁰ + (h/m) p⁰ + Σ_j displacements_j w_j,   p¹ = p⁰ + (m/h) Σ_j impulses_j w_j
 //! ```
 //!
-//! What Newton's method leaves of the balances of the stages is judged, and then enters energy and angular
-//! momentum only as far as the stages lie from the end of the step.
+//! Forces do not enter: their rounding, which acts along the arms, has no torque on a path of which positions
+//! and momenta are those of its stages, and stiff forces do not amplify it. What Newton's method leaves of
+//! the balances of the stages is judged.
 
 use core::array;
 
@@ -56,7 +56,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     pub(super) fn move_along_path(
         &self,
         stages: &Stages<S, D>,
-        weights: &[f64],
+        [displacements, impulses]: [&[f64]; 2],
         view: &StepView<'_, S>,
         next: &mut State<S>,
         motion: &mut Motion<S, D>,
@@ -68,14 +68,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let flight = momentum.map(|momentum| mobility * momentum);
             // What rounding took from the momentum moves the node, too.
             let mut rest = carry.map(|carry| mobility * carry);
-            for (set, &weight) in weights.iter().enumerate() {
+            let mut gained = [S::zero(); D];
+            for (set, (&weight, &gain)) in displacements.iter().zip(impulses).enumerate() {
                 let change = self.nodes_of_set(set)[index].change(&self.trial);
-                for (rest, change) in rest.iter_mut().zip(change) {
-                    *rest += S::from_f64(weight) * change;
+                for axis in 0..D {
+                    rest[axis] += S::from_f64(weight) * change[axis];
+                    gained[axis] += S::from_f64(gain) * change[axis];
                 }
             }
+            let impulse = gained.map(|gained| place.mass * view.per_step * gained);
             let displacement = array::from_fn(|axis| flight[axis] + rest[axis]);
-            let impulse = stages.combined(node, stages.rule.weights);
             move_node(node, [&flight, &rest, &impulse], view.state, next)?;
             let moved = NodeStep {
                 speeds: Speeds::OfMass(place.per_mass),

@@ -28,8 +28,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
         };
         let found = self.find_stages(&mut stages, groups, view);
         let moved = found.and_then(|()| match stages.rule.ending {
-            Ending::Increments(weights) => {
+            Ending::Increments {
+                displacements,
+                impulses,
+            } => {
                 self.judge_stages(&stages, view, tally);
+                let weights = [displacements, impulses];
                 self.move_along_path(&stages, weights, view, next, motion)
             }
             Ending::StageByStage | Ending::Forces(_) => {
@@ -83,7 +87,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                     array::from_fn(|axis| mobility * (momenta[node][axis] + impulse[axis]))
                 }
                 // Their ends are where the paths end.
-                Ending::Increments(_) => break,
+                Ending::Increments { .. } => break,
             };
         }
         Ok(())
