@@ -44,7 +44,8 @@ where
         let is_noise = !is_moving | defect.abs().at_most(noise);
         let per_norm = S::select(is_noise, zero, norm.recip());
         let slopes = self.slopes_of_factor(rule, slopes, factor, per_norm);
-        self.apply_factor(rule, factor, &slopes);
+        let known_to = S::select(is_moving, terms / norm, zero);
+        self.apply_factor(rule, [factor, known_to], &slopes);
     }
 
     /// `∂μ/∂R_j`.
@@ -77,13 +78,19 @@ where
         by
     }
 
-    /// `a_i + μ W R_i`, with derivatives.
-    fn apply_factor(&mut self, rule: &Tableau, factor: S, slopes: &[M::Variables; MOST_STAGES]) {
+    /// `a_i + μ W R_i` with derivatives, given μ and, in units of ε, to what it is known.
+    fn apply_factor(
+        &mut self,
+        rule: &Tableau,
+        [factor, known_to]: [S; 2],
+        slopes: &[M::Variables; MOST_STAGES],
+    ) {
         let own = &mut self.own;
         for i in 0..rule.stages() {
             for index in 0..M::Variables::LEN {
                 let along = own.metric[index] * own.rates[i][index];
                 own.conjugates[i][index] += factor * along;
+                own.resolution[i][index] += known_to * along.abs();
                 own.by_rates[i][i][index][index] += factor * own.metric[index];
                 for (by, slopes) in own.by_rates[i].iter_mut().zip(slopes).take(rule.stages()) {
                     let row = by[index].as_mut().iter_mut();
