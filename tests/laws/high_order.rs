@@ -117,7 +117,11 @@ fn double_pendulums_show_the_orders_too() {
     for (case, steps) in cases {
         for ((scheme, step), order) in SCHEMES.into_iter().zip(steps).zip([4.0, 6.0]) {
             let errors = [1.0, 0.5, 0.25].map(|part| double_error(&case, scheme, part * step));
-            println!("{} {scheme}: {errors:?}, slope {}", case.name, slope(&errors));
+            println!(
+                "{} {scheme}: {errors:?}, slope {}",
+                case.name,
+                slope(&errors)
+            );
             assert!((slope(&errors) - order).abs() <= 0.3);
         }
     }

@@ -110,7 +110,11 @@ where
             Conjugates::End => boxed::<S, M, K, Trapezoidal, P, D>,
             Conjugates::EndTemperature => boxed::<S, M, K, TrapezoidalTemperature, P, D>,
             Conjugates::Stages(rule) if rule.path.is_some() => {
-                return staged::<S, M, K, Projections<S, M, K, D>, P, D>(rule, self.elements, placed);
+                return staged::<S, M, K, Projections<S, M, K, D>, P, D>(
+                    rule,
+                    self.elements,
+                    placed,
+                );
             }
             Conjugates::Stages(rule) => {
                 return staged::<S, M, K, Values<S, M, K, D>, P, D>(rule, self.elements, placed);

@@ -5,17 +5,19 @@
 //! projections of its derivatives along the path through the step.
 //!
 //! ```text
-//! begin     take over the old state, once                                   (member)
-//! evaluate  conjugates of the stages                                        (values, projection, heat)
-//!           local unknowns eliminated                                       (local, values, projection)
-//!           contributions to the global residual and tangent                (assemble)
-//! correct   local unknowns from the global solution                         (correct)
-//! close     increments of the internal variables, and the new state         (closing, values, projection)
+//! begin     take over the old state, once                             (begin)
+//! evaluate  conjugates of the stages                                  (values, projection, heat)
+//!           local unknowns eliminated                                 (eliminate, values, projection)
+//!           contributions to the global residual and tangent          (assemble)
+//! correct   local unknowns from the global solution                   (correct)
+//! close     increments of the internal variables, and the new state   (closing, values, projection)
 //! ```
 
 mod assemble;
+mod begin;
 mod closing;
 mod correct;
+mod eliminate;
 mod heat;
 mod local;
 mod member;

@@ -22,10 +22,7 @@ pub(crate) static TABLEAU: Tableau = Tableau {
             &[0.466_506_350_946_109_66, 0.033_493_649_053_890_34],
             &[0.530_251_707_688_814_7, 0.357_046_626_931_927],
         ],
-        projection: &[
-            &[OWN, 4.0 / 9.0, OTHER],
-            &[OTHER, 4.0 / 9.0, OWN],
-        ],
+        projection: &[&[OWN, 4.0 / 9.0, OTHER], &[OTHER, 4.0 / 9.0, OWN]],
         supports: Supports {
             times: &[0.5, 1.0],
             to_stages: &[

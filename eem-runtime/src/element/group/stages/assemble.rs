@@ -159,15 +159,15 @@ where
             return;
         };
         let rule = target.rule;
-        for set in 0..rule.sets() {
+        for (set, contacts) in contacts.iter().enumerate().take(rule.sets()) {
             let theta = C::temperature(self, rule, target.local, set) + target.local.row[0];
             let by_arms = C::by_arms(self, rule, target.local);
             let by_heat = &target.local.row[1 + rule.sets() * M::MEASURES..];
-            let own = &contacts[set][set];
+            let own = &contacts[set];
             let seen = trial.seen.values()[trial.seen_of_set(set, slot)];
             target.right[own.unknown as usize][0] += theta - seen;
             target.values[own.diagonal as usize] += S::one();
-            for (column, contact) in contacts[set].iter().enumerate().take(rule.sets()) {
+            for (column, contact) in contacts.iter().enumerate().take(rule.sets()) {
                 let site = &self.site.sets[set][column];
                 site.subtract_arms(&by_arms[column], &contact.row, target.values);
                 let by = heat::by_seen(rule, column, by_heat);

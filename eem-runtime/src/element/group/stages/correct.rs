@@ -53,7 +53,14 @@ where
     /// The change of Q at a stage that a solution means, W.
     fn heat_change(&self, rule: &Tableau, stage: usize, solution: &[[S; 1]]) -> S {
         let mut change = S::zero();
-        for (set, contacts) in self.site.contacts.iter().flatten().enumerate().take(rule.sets()) {
+        for (set, contacts) in self
+            .site
+            .contacts
+            .iter()
+            .flatten()
+            .enumerate()
+            .take(rule.sets())
+        {
             let share = S::from_f64(rule.share(stage, set));
             let contact = &contacts[set];
             let near = solution[contact.unknown as usize][0];

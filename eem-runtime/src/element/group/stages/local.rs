@@ -1,13 +1,9 @@
-//! The internal variables of one element over one step: the elimination of their equations.
+//! The working memory in which the internal variables of one element are eliminated.
 //!
 //! The local unknowns u of all sets depend on the rest of the scene through the inputs y, measures (or their
 //! rates) and heat from other elements, so that `δu = −(constant + Σ_j by_j δy_j)`.
 
-use super::member::{StageMember, StatePoint, inputs, unknowns};
-use super::source::Source;
-use crate::algebra::lu;
-use crate::element::error::StateError;
-use crate::element::group::view::StepView;
+use super::member::{StageMember, inputs, unknowns};
 use crate::element::kinematics::Kinematics;
 use crate::element::tableau::Tableau;
 use crate::material::free_energy::FreeEnergy;
@@ -18,7 +14,7 @@ use crate::number::scalar::Real;
 pub(crate) struct LocalStages<S> {
     /// `∂r/∂u`, row-major.
     pub(super) matrix: Vec<S>,
-    pivots: Vec<usize>,
+    pub(super) pivots: Vec<usize>,
     /// The derivative of one quantity by the local unknowns.
     pub(super) by_unknown: Vec<S>,
     /// One quantity as `constant + Σ_j by_j δy_j` relative to its present value, the constant first.
@@ -69,37 +65,7 @@ where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
-    C: Source<S, M, K, D>,
 {
-    /// Eliminates the internal variables of an element whose stages have been evaluated.
-    pub(super) fn condense(
-        &mut self,
-        own: &StatePoint<S, M, K, D>,
-        rule: &Tableau,
-        local: &mut LocalStages<S>,
-        view: &StepView<'_, S>,
-    ) -> Result<(), StateError> {
-        let unknowns = local.unknowns();
-        if unknowns == 0 {
-            return Ok(());
-        }
-        local.matrix.fill(S::zero());
-        self.solved.fill(S::zero());
-        C::write_equations(self, own, rule, local, view);
-        if lu::factor(&mut local.matrix, &mut local.pivots).is_err() {
-            // A finite local system is singular only where the model has no derivative.
-            return Err(StateError::NotFinite {
-                element: own.element,
-                quantity: "inverse of the local tangent",
-                value: f64::INFINITY,
-            });
-        }
-        for column in self.solved.chunks_exact_mut(unknowns) {
-            lu::solve::<S, 1>(&local.matrix, &local.pivots, column.as_chunks_mut().0);
-        }
-        Ok(())
-    }
-
     /// Eliminates the local unknowns from a quantity whose derivatives by them and by the inputs are given.
     pub(super) fn substitute(&self, local: &mut LocalStages<S>) {
         if local.by_unknown.is_empty() {

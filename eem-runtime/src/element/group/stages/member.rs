@@ -1,16 +1,14 @@
 //! One element at the stages of a step.
 
 use super::site::StageSite;
-use super::source::Source;
 use crate::element::conjugates::Variational;
-use crate::element::group::arms::{add_scaled, arms_in, change_in_set};
-use crate::element::group::begin::shorten;
+use crate::element::group::arms::{add_scaled, change_in_set};
 use crate::element::group::member::Member;
 use crate::element::group::point::Point;
-use crate::element::group::view::{StepView, Trial};
+use crate::element::group::view::Trial;
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::tableau::{MOST_STAGES, Tableau};
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::FreeEnergy;
 use crate::number::scalar::Real;
 
 /// The same element in a state, apart from any step.
@@ -48,47 +46,7 @@ where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
-    C: Source<S, M, K, D>,
 {
-    pub(super) fn new(member: &StateMember<S, M, K, D>, rule: &Tableau) -> Self {
-        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
-        let length = (1 + inputs::<S, M>(rule)) * unknowns::<S, M>(rule);
-        Self {
-            kinematics: member.only().kinematics,
-            site: StageSite::unconnected(member.site),
-            entropy: S::zero(),
-            prescribed: None,
-            r0: nowhere,
-            length: S::one(),
-            old_viscous: M::Viscosities::filled(S::zero()),
-            solved: vec![S::zero(); length],
-            own: C::new(),
-        }
-    }
-
-    /// Takes arms, γ and s from the old state, where the trial starts.
-    pub(super) fn begin(
-        &mut self,
-        member: &StateMember<S, M, K, D>,
-        view: &StepView<'_, S>,
-        lengths: &mut [S],
-    ) {
-        let (nodes, slots) = (&member.site.nodes, member.only().slots());
-        self.r0 = arms_in::<K, S, D>(nodes, &view.state.positions);
-        let measures = self.kinematics.measure(&self.r0);
-        self.length = self.kinematics.length(&measures);
-        shorten::<K, S, D>(nodes, self.length, lengths);
-        for k in 0..M::DASHPOTS {
-            self.old_viscous[k] = view.state.viscous.values()[slots.viscous + k];
-        }
-        if let Some(slot) = slots.thermal {
-            self.entropy = view.state.entropies.values()[slot];
-            self.prescribed = view.prescribed_at_stages(slot);
-        }
-        C::begin(self, member.only(), view);
-        C::hold(self);
-    }
-
     /// The arms at the stage of a set of unknowns, m.
     pub(super) fn arms_of_set(&self, set: usize, trial: &Trial<S, D>) -> Arms<K, S, D> {
         let mut r = change_in_set::<K, S, D>(&self.site.common().nodes, trial, set);

@@ -16,6 +16,7 @@
 //!
 //! The local unknowns are the increments of γ and s at all stages, the inputs those of C and heat.
 
+mod begin;
 mod certify;
 mod closing;
 mod exact;
@@ -28,9 +29,8 @@ use super::member::{StageMember, StatePoint};
 use super::site::PerPair;
 use super::source::Source;
 use crate::element::error::StateError;
-use crate::element::group::arms::{add_scaled, along, dot, scale};
+use crate::element::group::arms::{add_scaled, along, scale};
 use crate::element::group::closing::pull;
-use crate::element::group::element_group::variables;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Blocks, Kinematics, Weights};
 use crate::element::recount::Recount;
@@ -39,7 +39,6 @@ use crate::element::tableau::{MOST_POINTS, MOST_SETS, MOST_STAGES, Tableau};
 use crate::element::tally::Tally;
 use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
-use path::derivatives;
 
 /// The path of a spring through a step, and what is projected from it.
 pub(crate) struct Projections<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {
@@ -67,11 +66,11 @@ pub(crate) struct Projections<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, co
     by_rates: PerPair<M::Hessian>,
     /// `Σ_r |projection_ir| Σ_y |∂²ê/∂x∂y| |y|`: times ε, to what the conjugates are known.
     resolution: [M::Variables; MOST_STAGES],
-    /// `η_k` and `dη_k/dθ` at Θ_i.
+    /// `η_k` and `dη_k/dθ` at `Θ_i`.
     viscosities: [(M::Viscosities, M::Viscosities); MOST_STAGES],
     /// Heat from other elements at the stages, W.
     received: [S; MOST_STAGES],
-    /// `∂C/∂d = 2 d_i` and h ḋ_i, m.
+    /// `∂C/∂d = 2 d_i` and `h ḋ_i`, m.
     directions: [Arms<K, S, D>; MOST_STAGES],
     motions: [Arms<K, S, D>; MOST_STAGES],
 }
@@ -116,30 +115,7 @@ where
         point: &StatePoint<S, M, K, D>,
         view: &StepView<'_, S>,
     ) {
-        let measures = member.kinematics.measure(&member.r0);
-        let x0 = variables::<S, M>(measures.as_ref(), point.slots(), view.state);
-        let (gradient, hessian) = point.model.hessian(&x0);
-        let (own, last) = (&mut member.own, M::Variables::LEN - 1);
-        own.old_form = point.model.temperature_form_old(&x0);
-        own.old_stretch = x0[0];
-        own.old = x0;
-        own.old[0] = dot(&member.r0.as_ref()[0], &member.r0.as_ref()[0]);
-        own.units = M::Variables::filled(member.length);
-        own.units[0] = own.old[0];
-        let (slopes, curvatures) = derivatives::<S, M>(&x0, &gradient, &hessian);
-        for index in 0..=last {
-            // The energy is nowhere flat in this metric unless its derivative vanishes, too.
-            let slope = slopes[index].abs() / own.units[index];
-            own.metric[index] = curvatures[index][index].abs() + slope;
-        }
-        if M::THERMAL {
-            let theta = x0[last];
-            own.old[last] = member.entropy;
-            own.units[last] = -theta * hessian[last][last];
-            own.metric[last] = curvatures[last][last];
-            own.temperatures = [theta; MOST_POINTS + 1];
-        }
-        own.rates = [M::Variables::filled(S::zero()); MOST_STAGES];
+        member.begin_path(point, view);
     }
 
     fn evaluate(
@@ -182,11 +158,7 @@ where
         member.own.conjugates[stage][measure]
     }
 
-    fn direction(
-        member: &ProjectedMember<S, M, K, D>,
-        stage: usize,
-        _: usize,
-    ) -> &Arms<K, S, D> {
+    fn direction(member: &ProjectedMember<S, M, K, D>, stage: usize, _: usize) -> &Arms<K, S, D> {
         &member.own.directions[stage]
     }
 

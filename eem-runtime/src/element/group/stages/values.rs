@@ -38,8 +38,7 @@ pub(crate) struct Values<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D
 }
 
 /// An element with such conjugates.
-pub(super) type ValuesMember<S, M, K, const D: usize> =
-    StageMember<S, M, K, Values<S, M, K, D>, D>;
+pub(super) type ValuesMember<S, M, K, const D: usize> = StageMember<S, M, K, Values<S, M, K, D>, D>;
 
 impl<S, M, K, const D: usize> Source<S, M, K, D> for Values<S, M, K, D>
 where
@@ -178,11 +177,7 @@ where
         member.own.correction = [M::Variables::filled(S::zero()); MOST_STAGES];
     }
 
-    fn correct(
-        member: &mut ValuesMember<S, M, K, D>,
-        rule: &Tableau,
-        local: &LocalStages<S>,
-    ) -> S {
+    fn correct(member: &mut ValuesMember<S, M, K, D>, rule: &Tableau, local: &LocalStages<S>) -> S {
         let last = M::Variables::LEN - 1;
         let mut largest = S::zero();
         for u in 0..local.unknowns() {

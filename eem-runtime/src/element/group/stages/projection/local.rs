@@ -55,7 +55,11 @@ where
     /// Where the derivatives of a conjugate by the increments go.
     fn sort(&self, rule: &Tableau, [stage, index]: [usize; 2], mut add: impl FnMut(Column, S)) {
         let first = rule.sets() * M::DASHPOTS;
-        for (set, by) in self.own.by_rates[stage].iter().enumerate().take(rule.sets()) {
+        for (set, by) in self.own.by_rates[stage]
+            .iter()
+            .enumerate()
+            .take(rule.sets())
+        {
             let row = &by[index];
             add(Column::Input(set * M::MEASURES), row[0]);
             for k in 0..M::DASHPOTS {
@@ -64,7 +68,10 @@ where
             }
             if M::THERMAL {
                 let last = M::Variables::LEN - 1;
-                add(Column::Unknown(first + set), row[last] * self.own.units[last]);
+                add(
+                    Column::Unknown(first + set),
+                    row[last] * self.own.units[last],
+                );
             }
         }
     }
@@ -107,7 +114,13 @@ where
         self.add(rule, local, equation, [stage, index], unit);
         if M::THERMAL {
             let factor = unit * slope * rate;
-            self.add(rule, local, equation, [stage, M::Variables::LEN - 1], factor);
+            self.add(
+                rule,
+                local,
+                equation,
+                [stage, M::Variables::LEN - 1],
+                factor,
+            );
         }
     }
 
@@ -134,8 +147,7 @@ where
             rest -= drag * creep;
             by_theta -= slopes[k] * view.per_step * creep * creep;
             let unknown = stage * M::DASHPOTS + k;
-            local.matrix[equation * unknowns + unknown] -=
-                (drag + drag) * self.own.units[index];
+            local.matrix[equation * unknowns + unknown] -= (drag + drag) * self.own.units[index];
         }
         self.solved[equation] = rest;
         local.matrix[equation * (unknowns + 1)] += theta * self.own.units[last];

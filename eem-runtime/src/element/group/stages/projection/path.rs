@@ -72,7 +72,10 @@ where
                     .map_err(|infeasible| infeasible.of(point.element))?;
             }
             let sum = gradient.as_ref().iter();
-            unless_infinite(point.element, sum.fold(S::zero(), |sum, &value| sum + value))?;
+            unless_infinite(
+                point.element,
+                sum.fold(S::zero(), |sum, &value| sum + value),
+            )?;
             let (slopes, curvatures) = derivatives::<S, M>(&x, &gradient, &hessian);
             self.take((&path, r), &y, &slopes, &curvatures);
         }

@@ -53,7 +53,13 @@ where
     }
 
     /// The increments of the internal variables and of the reservoirs' entropies.
-    pub(super) fn book(&mut self, rule: &Tableau, slots: Slots, view: &StepView<'_, S>, next: &mut State<S>) {
+    pub(super) fn book(
+        &mut self,
+        rule: &Tableau,
+        slots: Slots,
+        view: &StepView<'_, S>,
+        next: &mut State<S>,
+    ) {
         let (points, old) = (&self.own.points, view.state);
         let step = |of: &dyn Fn(usize) -> S| {
             let terms = rule.weights.iter().enumerate();
@@ -87,7 +93,13 @@ where
     /// The heat of the thermostat of an element whose new entropy is given: the entropies that it gives at
     /// the stages are what the equations of the rule lack with the prescribed temperatures; what is left of
     /// the total it gives at the last stage.
-    pub(super) fn book_thermostat(&self, rule: &Tableau, h: S, new_entropy: S, next: &mut State<S>) {
+    pub(super) fn book_thermostat(
+        &self,
+        rule: &Tableau,
+        h: S,
+        new_entropy: S,
+        next: &mut State<S>,
+    ) {
         let last = M::Variables::LEN - 1;
         let total = new_entropy - self.entropy - self.own.entropy_received;
         let mut rest = total;
