@@ -58,8 +58,9 @@ pub(crate) struct Projections<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, co
     correction: [M::Variables; MOST_STAGES],
     /// The temperatures of the points of the path, and that of its end, K.
     temperatures: [S; MOST_POINTS + 1],
-    /// y¹.
+    /// y¹, and `∇ê` at both ends.
     end: M::Variables,
+    end_slopes: [M::Variables; 2],
     /// a.
     conjugates: [M::Variables; MOST_STAGES],
     /// `∂a_i/∂R_j`.
@@ -100,6 +101,7 @@ where
             correction: [zeros; MOST_STAGES],
             temperatures: [S::zero(); MOST_POINTS + 1],
             end: zeros,
+            end_slopes: [zeros; 2],
             conjugates: [zeros; MOST_STAGES],
             by_rates: [[M::Hessian::filled(zeros); MOST_SETS]; MOST_SETS],
             resolution: [zeros; MOST_STAGES],

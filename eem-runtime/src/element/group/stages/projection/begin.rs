@@ -30,6 +30,7 @@ where
         own.units = M::Variables::filled(self.length);
         own.units[0] = own.old[0];
         let (slopes, curvatures) = derivatives::<S, M>(&x0, &gradient, &hessian);
+        own.end_slopes[0] = slopes;
         for index in 0..=last {
             // The energy is nowhere flat in this metric unless its derivative vanishes, too.
             let slope = slopes[index].abs() / own.units[index];

@@ -76,7 +76,7 @@ where
     /// What its forces contribute to A and, with care, to A⁺, J:
     ///
     /// ```text
-    /// Σ b |a|(|y⁰| + |y¹|) + ε Σ |W| y¹²,     Σ b |∂²ê/∂x∂y| |y| |R_x|
+    /// |∇ê⁰||y⁰| + |∇ê¹||y¹| + Σ b |a||R| + ε Σ |W| y¹²,     Σ b |∂²ê/∂x∂y| |y| |R_x|
     /// ```
     fn amplitude(&self, rule: &Tableau, care: Care) -> S {
         let own = &self.own;
@@ -84,9 +84,13 @@ where
         for index in 0..M::MEASURES + M::DASHPOTS {
             let end = own.end[index];
             sum += S::EPSILON * own.metric[index] * end * end;
-            let sizes = own.old[index].abs() + end.abs();
-            for (a, &weight) in own.conjugates.iter().zip(rule.weights) {
-                sum += S::from_f64(weight) * a[index].abs() * sizes;
+            // λ ∂e/∂λ = 2 C ∂ê/∂C
+            let [old_slopes, new_slopes] = &own.end_slopes;
+            let ends = (old_slopes[index] * own.old[index]).abs() + (new_slopes[index] * end).abs();
+            sum += ends + ends;
+            for (stage, &weight) in rule.weights.iter().enumerate() {
+                let work = own.conjugates[stage][index] * own.rates[stage][index];
+                sum += S::from_f64(weight) * work.abs();
             }
         }
         if care == Care::Quick {

@@ -174,6 +174,7 @@ where
             values.as_ref().iter().fold(sum, |sum, &value| sum + value)
         });
         unless_infinite(point.element, sum)?;
+        self.own.end_slopes[1] = slopes;
         Ok([slopes, mean])
     }
 
