@@ -171,7 +171,7 @@ fn the_single_pendulum_keeps_all_laws() {
 fn double_pendulums_keep_all_laws() {
     for case in DoublePendulum::ALL {
         for scheme in SCHEMES {
-            for fraction in [1.0, 0.5, 0.25] {
+            for fraction in [1.0, 0.5] {
                 let mut run = case.simulation(scheme, fraction * case.step).run;
                 println!("{}", case.name);
                 let laws = watch(&mut run, case.duration.min(25.0));
@@ -372,5 +372,33 @@ fn the_tangent_is_that_of_the_residual() {
         }
         println!("{scheme}: tangent off by {worst:e}");
         assert!(worst <= 1e-8);
+    }
+}
+
+#[test]
+fn probe_mean_temperature() {
+    for scheme in [Scheme::EemEntropy, Scheme::EemEntropy4, Scheme::EemEntropy6] {
+        for (theta, conductance, step) in [
+            (1e4, 1e3, 0.1),
+            (1e4, 10.0, 0.1),
+            (1e4, 100.0, 0.1),
+            (1e5, 20.0, 0.1),
+            (1e5, 1e2, 0.1),
+            (1e5, 1e6, 0.1),
+            (1e6, 30.0, 0.1),
+        ] {
+            let mut scene = Scene::<2>::new();
+            let pivot = scene.anchor([0.0, 0.0]);
+            let bob = scene.mass(1.0, [1.0, 0.0], [0.0, 0.0]);
+            let spring = scene.spring(OneDashpot { coupling: 0.0, a: 0.0, ..OneDashpot::DATA }, [pivot, bob]);
+            scene.set_temperature(spring, theta);
+            let air = scene.reservoir(1.0);
+            scene.conduct(spring, air, conductance);
+            let mut run = Simulation::new(scene, scheme, step).unwrap();
+            match run.step() {
+                Ok(_) => println!("{scheme} {theta} {conductance} ok {:?}", run.temperature(spring)),
+                Err(error) => println!("{scheme} {theta} {conductance} {error}"),
+            }
+        }
     }
 }
