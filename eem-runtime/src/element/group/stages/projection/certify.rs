@@ -52,7 +52,8 @@ where
             if self.prescribed.is_none() {
                 let taken = weight * theta * self.own.rates[stage][last];
                 let lacking = taken - theta * booked.received[stage];
-                tally.balance(lacking, taken.abs() + energy + forces);
+                let terms = theta * booked.terms[stage];
+                tally.balance(lacking, taken.abs() + terms + energy + forces);
             }
             if self.site.contacts.is_some()
                 && let Some(slot) = point.slots().thermal

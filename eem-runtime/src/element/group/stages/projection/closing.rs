@@ -24,8 +24,18 @@ use crate::number::scalar::{Mask, Real};
 pub(super) struct Booked<S> {
     /// Entropy, stage by stage, J/K.
     pub(super) received: [S; MOST_STAGES],
+    /// The magnitude of its terms, which cancel where a reservoir is far colder than the element, J/K.
+    pub(super) terms: [S; MOST_STAGES],
     /// Heat of its dashpots, and with it that of paths to other elements, J.
     pub(super) heat: [S; MOST_STAGES],
+}
+
+impl<S: Real> Booked<S> {
+    /// Entropy that an element receives at a stage, J/K.
+    fn receive(&mut self, stage: usize, entropy: S) {
+        self.received[stage] += entropy;
+        self.terms[stage] += entropy.abs();
+    }
 }
 
 impl<S, M, K, const D: usize> ProjectedMember<S, M, K, D>
@@ -74,8 +84,11 @@ where
         tally: &mut Tally<S>,
     ) -> Booked<S> {
         let zeros = [S::zero(); MOST_STAGES];
-        let (received, heat) = (zeros, zeros);
-        let mut booked = Booked { received, heat };
+        let mut booked = Booked {
+            received: zeros,
+            terms: zeros,
+            heat: zeros,
+        };
         let slots = point.slots();
         let creep = self.increments(rule.weights);
         for k in 0..M::DASHPOTS {
@@ -88,7 +101,7 @@ where
                 let heat = S::from_f64(weight) * (drag * rate);
                 let entropy = heat / self.temperature_or_one(stage);
                 booked.heat[stage] += heat;
-                booked.received[stage] += entropy;
+                booked.receive(stage, entropy);
                 tally.produce(entropy);
                 tally.turn_over(heat);
             }
@@ -113,13 +126,13 @@ where
             let [own, far] = [slot, other].map(|slot| trial.seen_of_set(stage, slot));
             let path = trial.seen.exchange(share * partner.conductance, own, far);
             next.entropies.add(slot, path.entropy);
-            booked.received[stage] += path.entropy;
+            booked.receive(stage, path.entropy);
             booked.heat[stage] += path.heat;
             // The production is booked at one end, after the exchange, which both ends share.
             if slot > other {
                 let production = path.production();
                 next.entropies.add(slot, production);
-                booked.received[stage] += production;
+                booked.receive(stage, production);
                 tally.produce(production);
                 tally.turn_over(path.heat);
             }
@@ -151,7 +164,8 @@ where
             next.entropies.add(slot, production);
             tally.produce(production);
             tally.turn_over(path.heat);
-            booked.received[stage] += path.entropy + production;
+            booked.receive(stage, path.entropy);
+            booked.receive(stage, production);
         }
     }
 
