@@ -137,7 +137,8 @@ fn pendulum(scheme: Scheme, step: f64) -> Result<(Simulation<3>, Watched), Scene
 fn order(scheme: Scheme) -> f64 {
     match scheme {
         Scheme::Staggered => 1.0,
-        Scheme::Variational4 | Scheme::Gauss4 => 4.0,
+        Scheme::Variational4 | Scheme::Gauss4 | Scheme::EemEntropy4 => 4.0,
+        Scheme::EemEntropy6 => 6.0,
         _ => 2.0,
     }
 }

@@ -60,7 +60,8 @@ fn every_scheme_has_its_order() {
     for scheme in Scheme::ALL {
         let order = match scheme {
             Scheme::Staggered => 1.0,
-            Scheme::Variational4 | Scheme::Gauss4 => 4.0,
+            Scheme::Variational4 | Scheme::Gauss4 | Scheme::EemEntropy4 => 4.0,
+            Scheme::EemEntropy6 => 6.0,
             _ => 2.0,
         };
         let slope = slope(scheme, [0.02, 0.01, 0.005], 5.0);

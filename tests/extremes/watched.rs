@@ -39,10 +39,12 @@ pub(crate) fn is_exact(scheme: Scheme) -> bool {
 }
 
 /// The schemes that are held to the laws.
-pub(crate) const EXACT: [Scheme; 3] = [
+pub(crate) const EXACT: [Scheme; 5] = [
     Scheme::EemEntropy,
     Scheme::EemTemperature,
     Scheme::Staggered,
+    Scheme::EemEntropy4,
+    Scheme::EemEntropy6,
 ];
 
 /// The two energy–entropy–momentum forms.

@@ -8,6 +8,7 @@ mod support;
 mod double_pendulums;
 mod free_bodies;
 mod generic;
+mod high_order;
 mod invariants_under_loads;
 mod loads;
 mod several_dashpots;

@@ -22,7 +22,7 @@ pub(crate) use eem_temperature::EemTemperature;
 pub(crate) use element::{ElementScheme, Form, Infeasible, Placement, Start};
 pub(crate) use midpoint::Midpoint;
 pub(crate) use midpoint_temperature::MidpointTemperature;
-pub(crate) use temperature::settled_at;
+pub(crate) use temperature::{settled_at, temperature_at};
 pub(crate) use trapezoidal::Trapezoidal;
 pub(crate) use trapezoidal_temperature::TrapezoidalTemperature;
 pub(crate) use variational::Variational;

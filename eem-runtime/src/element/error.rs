@@ -60,6 +60,23 @@ pub enum StateError {
         /// The temperature, K.
         value: f64,
     },
+    /// The mean temperature that a stage of a step sees is not positive and finite: the temperature of the
+    /// element changes too much in the step.
+    #[error("the mean temperature of {element} at a stage of the step is {value} K, it must be positive and finite; a smaller step may do", value = Readable(*value))]
+    MeanTemperature {
+        /// The element.
+        element: Element,
+        /// The temperature, K.
+        value: f64,
+    },
+    /// The squared stretch is not positive and finite along the path of an element through a step.
+    #[error("the squared stretch of {element} within the step is {value} m^2, it must be positive and finite; a smaller step may do", value = Readable(*value))]
+    Path {
+        /// The element.
+        element: Element,
+        /// The squared stretch, m².
+        value: f64,
+    },
     /// A heat capacity is not positive and finite.
     #[error(
         "the heat capacity of {element} is {value} J/K at {temperature} K, it must be positive and finite", value = Readable(*value), temperature = Readable(*temperature))]

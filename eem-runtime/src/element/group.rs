@@ -43,7 +43,7 @@ pub(crate) use arms::points;
 pub(crate) use element_group::ElementGroup;
 pub(crate) use interface::{Elements, Group};
 pub(crate) use misfit::Misfit;
-pub(crate) use stages::StageGroup;
+pub(crate) use stages::{Projections, Source, StageGroup, Values};
 pub(crate) use view::{
     Along, ElementGeneric, ElementTotals, ElementView, NodesOf, Old, Placed, Sites, StepView, Trial,
 };

@@ -24,6 +24,40 @@ pub(crate) struct Tableau {
     /// `h v_i = Σ_j motion_ij (q_j − q⁰)`, the motion at a stage from the displacements of the sets.
     pub(crate) motion: &'static [&'static [f64]],
     pub(crate) ending: Ending,
+    /// How the conjugates of the stages follow from the path of an element through the step; without, they
+    /// are values at the stages.
+    pub(crate) path: Option<Path>,
+}
+
+/// The path of an element through a step, and the projection of what belongs to its points.
+///
+/// Squared length, viscous stretches and entropy are polynomials of the degree of the number of stages,
+/// given by their increments `h ẏ_j` at the stages. With `ê = e(C, γ, s)` the conjugates of a stage are
+///
+/// ```text
+/// a_i = Σ_r projection_ir ∇ê(y(τ_r)),   y(τ_r) = y⁰ + Σ_j integrals_rj h ẏ_j
+/// ```
+///
+/// the polynomials nearest to `∇ê` along the path, in the mean of squares.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Path {
+    /// `∫_0^τ ℓ_j` for each point of the quadrature.
+    pub(crate) integrals: &'static [&'static [f64]],
+    /// `w_r ℓ_i(τ_r)/b_i`, a row per stage.
+    pub(crate) projection: &'static [&'static [f64]],
+    pub(crate) supports: Supports,
+}
+
+/// When motions and temperatures that are prescribed are looked at: at as many times as there are stages,
+/// of which the last is the end of the step. With the old state they are the nodes of Lobatto's rule, so
+/// that what the polynomial misses is orthogonal to all that would cost order.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Supports {
+    pub(crate) times: &'static [f64],
+    /// The prescribed displacement of an anchor at a stage from those at the times, a row per stage.
+    pub(crate) to_stages: &'static [&'static [f64]],
+    /// `∫_0^τ ℓ_j` for each time.
+    pub(crate) integrals: &'static [&'static [f64]],
 }
 
 /// `Σ_i entropies_i s_i = old s⁰ + h Σ_i rates_i Φ_i`, with the entropies `s_i = s(λ_i, γ_i, θ_i)` of the stages
@@ -50,11 +84,23 @@ pub(crate) enum Ending {
     StageByStage,
     /// From the forces: `q¹ = q⁰ + (h/m)(p⁰ − h Σ_j weights_j F_j)`.
     Forces(&'static [f64]),
+    /// From the displacements of the stages less those of free flight, `w_j = u_j − c_j (h/m) p⁰`, where the
+    /// polynomials through them end:
+    ///
+    /// ```text
+    /// q¹ = q⁰ + (h/m) p⁰ + Σ_j displacements_j w_j      displacements = bᵀA⁻¹
+    /// p¹ = p⁰ + (m/h) Σ_j impulses_j w_j                impulses = bᵀA⁻²
+    /// ```
+    Increments {
+        displacements: &'static [f64],
+        impulses: &'static [f64],
+    },
 }
 
-/// The most sets of unknowns of a rule, and the most stages.
-pub(crate) const MOST_SETS: usize = 2;
+/// The most sets of unknowns of a rule, the most stages, and the most points of a path.
+pub(crate) const MOST_SETS: usize = 3;
 pub(crate) const MOST_STAGES: usize = 3;
+pub(crate) const MOST_POINTS: usize = 5;
 
 /// A set of unknowns: the increments `u = q_i − q⁰` with
 /// `(inertia m/h)(u − time (h/m) p⁰) = −h Σ weights F`.
@@ -93,14 +139,22 @@ impl Tableau {
 
 #[cfg(test)]
 mod tests {
-    use crate::step::rule::{gauss_4, variational_4};
+    use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
 
-    use super::Tableau;
+    use super::{Ending, Tableau};
 
-    const ALL: [&Tableau; 2] = [&variational_4::TABLEAU, &gauss_4::TABLEAU];
+    const ALL: [&Tableau; 4] = [
+        &variational_4::TABLEAU,
+        &gauss_4::TABLEAU,
+        &eem_entropy_4::TABLEAU,
+        &eem_entropy_6::TABLEAU,
+    ];
+
+    /// Roundings of sums with terms up to 16.
+    const ROUNDINGS: f64 = 64.0;
 
     fn assert_near(a: f64, b: f64) {
-        assert!((a - b).abs() < 4.0 * f64::EPSILON, "{a} {b}");
+        assert!((a - b).abs() < ROUNDINGS * f64::EPSILON, "{a} {b}");
     }
 
     fn dot(a: &[f64], b: impl Iterator<Item = f64>) -> f64 {
@@ -150,6 +204,50 @@ mod tests {
             for balance in rule.entropies {
                 assert_near(balance.entropies.iter().sum(), balance.old);
                 assert_near(rule.temperatures[balance.unknown].iter().sum(), 1.0);
+            }
+        }
+    }
+
+    /// `c_j^power/power`, what `∫_0^τ t^(power − 1) dt` integrates, at the stages.
+    fn monomials(rule: &Tableau, power: i32) -> impl Iterator<Item = f64> {
+        let rates = rule.times.iter().map(move |c| c.powi(power - 1));
+        rates.map(move |rate| f64::from(power) * rate)
+    }
+
+    #[test]
+    fn paths_are_exact_for_polynomials_and_their_ends_lie_on_them() {
+        for rule in ALL {
+            let Some(path) = rule.path else { continue };
+            let supports = path.supports;
+            for power in 1..=i32::try_from(rule.stages()).unwrap() {
+                for (time, row) in supports.times.iter().zip(supports.integrals) {
+                    assert_near(dot(row, monomials(rule, power)), time.powi(power));
+                }
+                for (c, row) in rule.times.iter().zip(supports.to_stages) {
+                    let known = supports.times.iter().map(|time| time.powi(power));
+                    assert_near(dot(row, known), c.powi(power));
+                }
+                let Ending::Increments {
+                    displacements,
+                    impulses,
+                } = rule.ending
+                else {
+                    panic!("the end is that of the paths");
+                };
+                let stages = || rule.times.iter().map(|c| c.powi(power));
+                assert_near(dot(displacements, stages()), 1.0);
+                // From rest, w = ∫ p/m: p = τ^n gives w = τ^(n + 1)/(n + 1).
+                if power > 1 {
+                    assert_near(dot(impulses, stages()) / f64::from(power), 1.0);
+                }
+                // The projection gives back polynomials of the degree of the rates.
+                if power < i32::try_from(rule.stages()).unwrap() {
+                    for (row, c) in path.projection.iter().zip(rule.times) {
+                        let points = path.integrals.iter();
+                        let values = points.map(|row| dot(row, monomials(rule, power)));
+                        assert_near(dot(row, values), c.powi(power));
+                    }
+                }
             }
         }
     }

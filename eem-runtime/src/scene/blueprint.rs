@@ -7,10 +7,11 @@ use crate::element::conjugates::{
     Conjugates, EemEntropy, EemTemperature, ElementScheme, Midpoint, MidpointTemperature,
     Trapezoidal, TrapezoidalTemperature, Variational,
 };
-use crate::element::group::{ElementGroup, Group, Placed, StageGroup};
+use crate::element::group::{ElementGroup, Group, Placed, Projections, Source, StageGroup, Values};
 use crate::element::handle::Element;
 use crate::element::kinematics::Kinematics;
 use crate::element::layout::Shape;
+use crate::element::tableau::Tableau;
 use crate::material::free_energy::FreeEnergy;
 use crate::number::scalar::Real;
 use crate::scene::error::SceneError;
@@ -108,8 +109,15 @@ where
             Conjugates::MidpointTemperature => boxed::<S, M, K, MidpointTemperature, P, D>,
             Conjugates::End => boxed::<S, M, K, Trapezoidal, P, D>,
             Conjugates::EndTemperature => boxed::<S, M, K, TrapezoidalTemperature, P, D>,
+            Conjugates::Stages(rule) if rule.path.is_some() => {
+                return staged::<S, M, K, Projections<S, M, K, D>, P, D>(
+                    rule,
+                    self.elements,
+                    placed,
+                );
+            }
             Conjugates::Stages(rule) => {
-                return Box::new(StageGroup::<S, M, K, D>::new(rule, self.elements, placed));
+                return staged::<S, M, K, Values<S, M, K, D>, P, D>(rule, self.elements, placed);
             }
         };
         group(self.elements, placed)
@@ -128,4 +136,19 @@ where
     C: ElementScheme<S, M>,
 {
     Box::new(ElementGroup::<S, M, K, C, D>::new(elements, placed))
+}
+
+/// The group of a scheme that goes through stages, with conjugates of `C`.
+fn staged<S, M, K, C, const P: usize, const D: usize>(
+    rule: &'static Tableau,
+    elements: Vec<(Element, [(M, K); P])>,
+    placed: Placed<'_>,
+) -> Box<dyn Group<S, D>>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: Source<S, M, K, D>,
+{
+    Box::new(StageGroup::<S, M, K, C, D>::new(rule, elements, placed))
 }

@@ -1,4 +1,6 @@
 //! The numbers of schemes that go through stages.
 
+pub(crate) mod eem_entropy_4;
+pub(crate) mod eem_entropy_6;
 pub(crate) mod gauss_4;
 pub(crate) mod variational_4;

@@ -1,6 +1,6 @@
 //! What the elements contribute to the certificate of a step.
 
-use super::arms::{along, measures_in};
+use super::arms::{along, arms_in, measures_in};
 use super::member::Member;
 use super::point::Point;
 use super::site::Contact;
@@ -24,24 +24,23 @@ where
     /// See [`Group::recount`](super::Group::recount).
     pub(super) fn recount_all(&self, ends: [&State<S>; 2], recount: &mut Recount<S>) {
         for member in &self.members {
-            let [r0, r1] = ends.map(|state| member.arms_in(state));
-            let change = member.change_between(ends);
             for point in member.points.as_ref() {
-                let at = point.element.index;
-                let by_values = ends[1].energies[at].value - ends[0].energies[at].value;
-                let x = [
-                    point.variables_in(&r0, ends[0]),
-                    point.variables_in(&r1, ends[1]),
-                ];
-                let increments = point.increments_between([&r0, &r1], &change, &x, ends);
-                let by_differences = point.energy_change(&x, &increments);
-                let found = Point::<S, M, K, C, D>::change_of(&point.response, &increments);
-                let magnitude = x.map(|x| point.model.energy_magnitude(&x));
-                let by_values = [by_values, magnitude[0] + magnitude[1]];
-                recount.element(point.element, by_values, by_differences, found);
+                let own = point.balance_between(&member.site.nodes, ends);
+                let found = Point::<S, M, K, C, D>::change_of(&point.response, &own.increments);
+                recount.element(point.element, own.by_values, own.by_differences, found);
             }
         }
     }
+}
+
+/// The change of the energy of a point between two states.
+pub(super) struct EnergyChange<S: Real, M: FreeEnergy<S>> {
+    /// By its values, with the magnitude of their terms, J.
+    pub(super) by_values: [S; 2],
+    /// By discrete derivatives, J.
+    pub(super) by_differences: S,
+    /// `(Δλ, Δγ, Δs)`.
+    increments: M::Variables,
 }
 
 impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
@@ -77,22 +76,25 @@ where
             }
         }
     }
+}
 
-    /// The change of its arms between two states, from what they are stored as.
-    fn change_between(&self, [old, new]: [&State<S>; 2]) -> Arms<K, S, D> {
-        let mut change = Arms::<K, S, D>::filled([S::zero(); D]);
-        let nodes = self.site.nodes.as_ref();
-        for (arm, &node) in change.as_mut().iter_mut().zip(&nodes[1..]) {
-            for (axis, component) in arm.iter_mut().enumerate() {
-                let moved = |node: u32| {
-                    new.positions
-                        .change(node as usize * D + axis, &old.positions)
-                };
-                *component = moved(node) - moved(nodes[0]);
-            }
+/// The change of the arms of an element between two states, from what they are stored as.
+fn change_between<K: Kinematics<S, D>, S: Real, const D: usize>(
+    nodes: &K::PerNode<u32>,
+    [old, new]: [&State<S>; 2],
+) -> Arms<K, S, D> {
+    let mut change = Arms::<K, S, D>::filled([S::zero(); D]);
+    let nodes = nodes.as_ref();
+    for (arm, &node) in change.as_mut().iter_mut().zip(&nodes[1..]) {
+        for (axis, component) in arm.iter_mut().enumerate() {
+            let moved = |node: u32| {
+                new.positions
+                    .change(node as usize * D + axis, &old.positions)
+            };
+            *component = moved(node) - moved(nodes[0]);
         }
-        change
     }
+    change
 }
 
 /// What the variables of a point are computed from, and what the certificate asks of it.
@@ -249,6 +251,29 @@ where
         {
             let terms = self.known_to(Self::TEMPERATURE, r1, tally.care);
             tally.balance(trial.seen.values()[slot] - theta, terms);
+        }
+    }
+
+    /// The change of its energy between two states, given its nodes.
+    pub(super) fn balance_between(
+        &self,
+        nodes: &K::PerNode<u32>,
+        ends: [&State<S>; 2],
+    ) -> EnergyChange<S, M> {
+        let [r0, r1] = ends.map(|state| arms_in::<K, S, D>(nodes, &state.positions));
+        let change = change_between::<K, S, D>(nodes, ends);
+        let at = self.element.index;
+        let by_values = ends[1].energies[at].value - ends[0].energies[at].value;
+        let x = [
+            self.variables_in(&r0, ends[0]),
+            self.variables_in(&r1, ends[1]),
+        ];
+        let increments = self.increments_between([&r0, &r1], &change, &x, ends);
+        let magnitude = x.map(|x| self.model.energy_magnitude(&x));
+        EnergyChange {
+            by_values: [by_values, magnitude[0] + magnitude[1]],
+            by_differences: self.energy_change(&x, &increments),
+            increments,
         }
     }
 

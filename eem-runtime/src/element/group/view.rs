@@ -49,7 +49,7 @@ impl<S: Real> StepView<'_, S> {
         }
     }
 
-    /// The temperatures prescribed on a thermal slot at the stages, K.
+    /// The temperatures prescribed on a thermal slot at the stages, or at the supports of a path, K.
     pub(super) fn prescribed_at_stages(&self, slot: usize) -> Option<[S; MOST_STAGES]> {
         let mut temperatures = [S::one(); MOST_STAGES];
         for (temperature, loads) in temperatures.iter_mut().zip(self.stages) {

@@ -90,6 +90,12 @@ impl<S: Real, const D: usize> Stepper<S, D> {
             let at = [time + S::from_f64(share) * step, S::zero()];
             stage.evaluate(loads, masses, scheme, at, q0)?;
         }
+        // The path of an element looks at what is prescribed at times of its own.
+        let supports = rule.path.iter().flat_map(|path| path.supports.times);
+        for (stage, &share) in self.stages.iter_mut().zip(supports) {
+            let at = [time + S::from_f64(share) * step, S::zero()];
+            stage.evaluate_supports(loads, at, q0)?;
+        }
         Ok(())
     }
 

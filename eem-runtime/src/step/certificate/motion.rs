@@ -123,6 +123,30 @@ impl<S: Real, const D: usize> Motion<S, D> {
         self.amplitude += work.abs();
     }
 
+    /// The impulse of a load, N s, on a node that has moved so far from its old position.
+    pub(crate) fn push(&mut self, [position, displacement]: [&[S; D]; 2], impulse: &[S; D]) {
+        let origin = match self.kept {
+            Kept::None => return,
+            Kept::Angular(origin) => origin,
+            Kept::Both => [S::zero(); D],
+        };
+        let mut arm = [S::zero(); D];
+        let (mut length, mut size) = (S::zero(), S::zero());
+        for axis in 0..D {
+            arm[axis] = (position[axis] - origin[axis]) + displacement[axis];
+            self.linear[axis] -= impulse[axis];
+            length += arm[axis].abs();
+            size += impulse[axis].abs();
+        }
+        self.momenta += size;
+        self.moments += length * size;
+        for (angular, [i, j]) in self.angular.iter_mut().zip([[0, 1], [0, 2], [1, 2]]) {
+            if j < D {
+                *angular -= arm[i] * impulse[j] - arm[j] * impulse[i];
+            }
+        }
+    }
+
     fn see_momenta(&mut self, node: &NodeStep<'_, S, D>, load: &[S; D]) {
         let half = S::from_f64(0.5);
         let origin = match self.kept {

@@ -34,7 +34,10 @@ const SUPPLY: [[f64; 2]; 2] = [[1.5, -1.5 - 6.0 * ROOT], [6.0 * ROOT - 1.5, 1.5]
 const OWN: [[f64; 2]; 2] = [[1.0, 0.0], [0.0, 1.0]];
 
 /// See the module.
-pub(crate) static TABLEAU: Tableau = Tableau {
+pub(crate) static TABLEAU: Tableau = RULE;
+
+/// The same, of which another rule is made.
+pub(super) const RULE: Tableau = Tableau {
     times: &[FIRST, SECOND],
     known: 0,
     positions: &[&POSITIONS[0], &POSITIONS[1]],
@@ -45,6 +48,7 @@ pub(crate) static TABLEAU: Tableau = Tableau {
     motion: &[&MOTION[0], &MOTION[1]],
     // bᵀA: b_j (1 − c_j).
     ending: Ending::Forces(&[0.5 * SECOND, 0.5 * FIRST]),
+    path: None,
 };
 
 const fn balance(stage: usize) -> EntropyBalance {

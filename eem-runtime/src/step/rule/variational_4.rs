@@ -77,6 +77,7 @@ pub(crate) static TABLEAU: Tableau = Tableau {
     ],
     motion: &[&[4.0, -1.0], &[0.0, 1.0], &[-4.0, 3.0]],
     ending: Ending::StageByStage,
+    path: None,
 };
 
 #[cfg(test)]

@@ -101,14 +101,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// Anchors that are moved are where the step will have moved them.
     fn place_moved_anchors(&mut self, view: &StepView<'_, S>) {
         for set in 0..self.sets.len() {
-            let loads = match self.scheme.tableau() {
-                Some(rule) => &view.stages[rule.stage_of(set)],
-                None => view.loads,
-            };
             let first = self.trial.first_of_set(set);
             for &node in &view.loads.moved {
                 self.trial.displacements[first + node] = if view.phase.moves() {
-                    loads.motion(node)
+                    motion_in_set(self.scheme, set, node, view)
                 } else {
                     [S::zero(); D]
                 };
@@ -223,6 +219,28 @@ pub(super) fn inverse_length<S: Real>(length: S) -> S {
     } else {
         length.recip()
     }
+}
+
+/// The motion of an anchor up to the stage of a set.
+fn motion_in_set<S: Real, const D: usize>(
+    scheme: Scheme,
+    set: usize,
+    node: usize,
+    view: &StepView<'_, S>,
+) -> [S; D] {
+    let Some(rule) = scheme.tableau() else {
+        return view.loads.motion(node);
+    };
+    let Some(path) = rule.path else {
+        return view.stages[rule.stage_of(set)].motion(node);
+    };
+    let mut motion = [S::zero(); D];
+    for (&share, support) in path.supports.to_stages[set].iter().zip(view.stages) {
+        for (sum, moved) in motion.iter_mut().zip(support.motion::<D>(node)) {
+            *sum += S::from_f64(share) * moved;
+        }
+    }
+    motion
 }
 
 /// The same in the rows of a set of unknowns.

@@ -1,6 +1,7 @@
 //! The end of a step: the new state from the increments that were found, and its certificate.
 
 mod masses;
+mod path;
 mod stages;
 
 use core::array;
@@ -72,7 +73,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
             self.final_residual = S::zero();
         }
         if self.scheme.closing() == Closing::Stages {
-            self.move_through_stages(groups, view, next, &mut motion)?;
+            self.forget_magnitudes(care);
+            self.move_through_stages(groups, view, next, (&mut motion, &mut tally))?;
         } else if view.phase.moves() {
             self.find_motion(groups, view, care);
             self.move_masses(view, next, &mut motion, &mut tally)?;
@@ -118,10 +120,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         view: &StepView<'_, S>,
         care: Care,
     ) {
-        self.magnitudes.clear();
-        if care == Care::Thorough {
-            self.magnitudes.resize(self.per_length.len(), S::zero());
-        }
+        self.forget_magnitudes(care);
         match self.scheme.closing() {
             Closing::Increments if self.scheme.has_old_forces() => {
                 self.find_impulse(groups, view, Along::Scheme);
@@ -132,6 +131,14 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 self.move_from_start(groups, view);
             }
             Closing::Stages => {}
+        }
+    }
+
+    /// The magnitudes of the forces are asked for anew, or not at all.
+    fn forget_magnitudes(&mut self, care: Care) {
+        self.magnitudes.clear();
+        if care == Care::Thorough {
+            self.magnitudes.resize(self.per_length.len(), S::zero());
         }
     }
 

@@ -3,21 +3,23 @@
 use super::heat;
 use super::local::LocalStages;
 use super::member::StageMember;
+use super::source::Source;
 use crate::algebra::system::LinearSystem;
 use crate::element::error::StateError;
-use crate::element::group::arms::{add_scaled, measures_in, scale};
+use crate::element::group::arms::scale;
 use crate::element::group::stages::stage_group::StageGroup;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Kinematics};
-use crate::element::tableau::{MOST_SETS, Tableau};
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::element::tableau::Tableau;
+use crate::material::free_energy::FreeEnergy;
 use crate::number::scalar::Real;
 
-impl<S, M, K, const D: usize> StageGroup<S, M, K, D>
+impl<S, M, K, C, const D: usize> StageGroup<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
+    C: Source<S, M, K, D>,
 {
     /// Eliminates the local unknowns at a trial that has been evaluated, and adds residual and tangent.
     pub(super) fn assemble_all(
@@ -31,7 +33,7 @@ where
         let members = self.elements.members.iter().zip(&mut self.members);
         for (member, stages) in members {
             let point = member.only();
-            stages.condense(rule, &mut self.local, view.step, point.element)?;
+            stages.condense(point, rule, &mut self.local, view)?;
             let mut target = Target {
                 rule,
                 step: view.step,
@@ -71,40 +73,27 @@ impl<S: Real> Target<'_, S> {
     }
 }
 
-impl<S, M, K, const D: usize> StageMember<S, M, K, D>
+impl<S, M, K, C, const D: usize> StageMember<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
+    C: Source<S, M, K, D>,
 {
-    /// The derivatives by the arms of each set of the quantity that has been eliminated last.
-    fn by_arms(&self, rule: &Tableau, local: &LocalStages<S>) -> [Arms<K, S, D>; MOST_SETS] {
-        let measures = local.row[1..].chunks_exact(M::MEASURES);
-        let mut by_arm = [Arms::<K, S, D>::filled([S::zero(); D]); MOST_SETS];
-        let sets = by_arm.iter_mut().take(rule.sets()).zip(measures);
-        for (set, (sum, measures)) in sets.enumerate() {
-            let rows = self.gradients[rule.stage_of(set)].as_ref().iter();
-            for (row, &by) in rows.zip(measures) {
-                add_scaled::<K, S, D>(sum, by, row);
-            }
-        }
-        by_arm
-    }
-
     /// The impulses of the force `f ∂π/∂q` of one measure at a stage and their derivatives, with the
     /// direction held.
     fn assemble_force(&self, stage: usize, measure: usize, target: &mut Target<'_, S>) {
-        let (rule, point) = (target.rule, &self.points[stage]);
-        self.eliminate(rule, target.local, stage, &point.hessian[measure]);
-        let value = point.gradient[measure] + target.local.row[0];
-        let by_arms = self.by_arms(rule, target.local);
-        let along = &self.gradients[stage][measure];
+        let rule = target.rule;
+        let force = C::force(self, rule, target.local, stage, measure);
+        let value = force + target.local.row[0];
+        let by_arms = C::by_arms(self, rule, target.local);
+        let along = C::direction(self, stage, measure);
         for (set, impulse) in target.impulses(stage) {
             let mut pull = *along;
             scale::<K, S, D>(&mut pull, impulse * value);
             let site = &self.site.sets[set][set];
             site.subtract_arms(&pull, &site.rows, target.right.as_flattened_mut());
-            for (site, by_arm) in self.site.sets[set].iter().zip(&by_arms) {
+            for (site, by_arm) in self.site.sets[set].iter().zip(&by_arms).take(rule.sets()) {
                 for (i, along) in along.as_ref().iter().enumerate() {
                     for (j, by) in by_arm.as_ref().iter().enumerate() {
                         let block = along.map(|entry| by.map(|by| impulse * entry * by));
@@ -131,7 +120,7 @@ where
         let rule = target.rule;
         let by_heat = &target.local.row[1 + rule.sets() * M::MEASURES..];
         let site = &self.site.sets[set][set];
-        for (column, contact) in contacts[set].iter().enumerate() {
+        for (column, contact) in contacts[set].iter().enumerate().take(rule.sets()) {
             let by = impulse * heat::by_seen(rule, column, by_heat);
             let times = |factor: S| {
                 let mut arms = *along;
@@ -153,10 +142,7 @@ where
             return;
         };
         for (set, impulse) in target.impulses(stage) {
-            let r = self.arms_of_set(own, trial);
-            let measures = measures_in::<K, S, D>(&self.x[stage]);
-            let forces = measures_in::<K, S, D>(&self.points[stage].gradient);
-            let blocks = self.kinematics.curvature(&r, &measures, &forces);
+            let blocks = C::turn(self, target.rule, own, trial);
             let site = &self.site.sets[set][own];
             for (i, row) in blocks.as_ref().iter().enumerate() {
                 for (j, block) in row.as_ref().iter().enumerate() {
@@ -173,19 +159,15 @@ where
             return;
         };
         let rule = target.rule;
-        let mut by = M::Variables::filled(S::zero());
-        by[M::Variables::LEN - 1] = S::one();
-        for (set, balance) in rule.entropies.iter().enumerate() {
-            let stage = balance.unknown;
-            self.eliminate(rule, target.local, stage, &by);
-            let theta = self.temperature(stage) + target.local.row[0];
-            let by_arms = self.by_arms(rule, target.local);
+        for (set, contacts) in contacts.iter().enumerate().take(rule.sets()) {
+            let theta = C::temperature(self, rule, target.local, set) + target.local.row[0];
+            let by_arms = C::by_arms(self, rule, target.local);
             let by_heat = &target.local.row[1 + rule.sets() * M::MEASURES..];
-            let own = &contacts[set][set];
+            let own = &contacts[set];
             let seen = trial.seen.values()[trial.seen_of_set(set, slot)];
             target.right[own.unknown as usize][0] += theta - seen;
             target.values[own.diagonal as usize] += S::one();
-            for (column, contact) in contacts[set].iter().enumerate() {
+            for (column, contact) in contacts.iter().enumerate().take(rule.sets()) {
                 let site = &self.site.sets[set][column];
                 site.subtract_arms(&by_arms[column], &contact.row, target.values);
                 let by = heat::by_seen(rule, column, by_heat);

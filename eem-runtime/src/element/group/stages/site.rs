@@ -9,7 +9,7 @@ use super::secant::SecantSite;
 use crate::element::group::site::{Contact, Site};
 use crate::element::group::view::Sites;
 use crate::element::kinematics::Kinematics;
-use crate::element::tableau::MOST_SETS;
+use crate::element::tableau::{MOST_SETS, Tableau};
 use crate::number::scalar::Real;
 
 /// Something for every two sets of unknowns: that of the rows, and that of the columns.
@@ -34,23 +34,29 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> StageSite<K, S, D> {
         }
     }
 
-    /// The places of an element with these nodes and the thermal slot.
+    /// The places of an element with these nodes and the thermal slot in the sets of a rule.
     pub(super) fn new(
+        rule: &Tableau,
         nodes: &K::PerNode<u32>,
         slot: Option<usize>,
         sites: &Sites<'_, S, D>,
     ) -> Self {
-        let contact = |row: usize, column: usize| {
-            let sites = sites.of_sets([row, column]);
-            Contact::new(nodes, slot, &sites)
-        };
-        let row = |row: usize| Some([contact(row, 0)?, contact(row, 1)?]);
+        // Sets that the rule does not have are never looked at: theirs are those of its last one.
+        let known = |set: usize| set.min(rule.sets() - 1);
+        let of_sets = |[row, column]: [usize; 2]| sites.of_sets([known(row), known(column)]);
+        let contact = |sets| Contact::new(nodes, slot, &of_sets(sets));
+        let contacts: PerPair<_> = pairs(contact);
+        let is_coupled = contacts.iter().flatten().all(Option::is_some);
         Self {
-            sets: array::from_fn(|row| {
-                array::from_fn(|column| Site::new(*nodes, &sites.of_sets([row, column])))
-            }),
+            sets: pairs(|sets| Site::new(*nodes, &of_sets(sets))),
             secant: SecantSite::new(nodes, sites),
-            contacts: row(0).zip(row(1)).map(|(first, second)| [first, second]),
+            contacts: is_coupled.then(|| {
+                contacts.map(|row| {
+                    row.map(|contact| {
+                        contact.unwrap_or_else(|| unreachable!("all of them are there"))
+                    })
+                })
+            }),
         }
     }
 
@@ -58,4 +64,9 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> StageSite<K, S, D> {
     pub(super) fn common(&self) -> &Site<K, S, D> {
         &self.sets[0][0]
     }
+}
+
+/// Made for every two sets.
+fn pairs<T>(make: impl Fn([usize; 2]) -> T) -> PerPair<T> {
+    array::from_fn(|row| array::from_fn(|column| make([row, column])))
 }

@@ -3,6 +3,7 @@
 use super::local::LocalStages;
 use super::member::StageMember;
 use super::site::StageSite;
+use super::source::Source;
 use crate::algebra::system::LinearSystem;
 use crate::element::conjugates::Variational;
 use crate::element::error::StateError;
@@ -20,24 +21,26 @@ use crate::material::free_energy::FreeEnergy;
 use crate::number::scalar::Real;
 
 /// Elements of the model `M` with the kinematics `K`, which have one point each.
-pub(crate) struct StageGroup<S, M, K, const D: usize>
+pub(crate) struct StageGroup<S, M, K, C, const D: usize>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
+    C: Source<S, M, K, D>,
 {
     pub(super) rule: &'static Tableau,
     /// What they are in a state.
     pub(super) elements: ElementGroup<S, M, K, Variational, D>,
-    pub(super) members: Vec<StageMember<S, M, K, D>>,
+    pub(super) members: Vec<StageMember<S, M, K, C, D>>,
     pub(super) local: LocalStages<S>,
 }
 
-impl<S, M, K, const D: usize> StageGroup<S, M, K, D>
+impl<S, M, K, C, const D: usize> StageGroup<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
+    C: Source<S, M, K, D>,
 {
     pub(crate) fn new<const P: usize>(
         rule: &'static Tableau,
@@ -56,11 +59,12 @@ where
     }
 }
 
-impl<S, M, K, const D: usize> Group<S, D> for StageGroup<S, M, K, D>
+impl<S, M, K, C, const D: usize> Group<S, D> for StageGroup<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
+    C: Source<S, M, K, D>,
 {
     fn elements(&self) -> &dyn Elements<S, D> {
         &self.elements
@@ -72,7 +76,8 @@ where
 
     fn connect(&mut self, sites: &Sites<'_, S, D>) {
         for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
-            stages.site = StageSite::new(&member.site.nodes, member.only().slots().thermal, sites);
+            let slot = member.only().slots().thermal;
+            stages.site = StageSite::new(self.rule, &member.site.nodes, slot, sites);
         }
     }
 
@@ -89,7 +94,10 @@ where
         trial: &Trial<S, D>,
         system: Option<&mut LinearSystem<S, 1>>,
     ) -> Result<(), StateError> {
-        self.evaluate_all(view, trial)?;
+        let members = self.elements.members.iter_mut().zip(&mut self.members);
+        for (member, stages) in members {
+            C::evaluate(stages, member.only_mut(), self.rule, view, trial)?;
+        }
         match system {
             None => Ok(()),
             Some(system) => self.assemble_all(view, trial, system),
@@ -102,13 +110,13 @@ where
 
     fn apply(&mut self, share: S) {
         for stages in &mut self.members {
-            stages.apply(self.rule, share);
+            C::apply(stages, self.rule, share);
         }
     }
 
     fn hold(&mut self) {
         for stages in &mut self.members {
-            stages.hold();
+            C::hold(stages);
         }
     }
 
@@ -118,10 +126,10 @@ where
         trial: &Trial<S, D>,
         along: Along,
         impulses: &mut Impulses<'_, S, D>,
-        _: &mut [S],
+        magnitudes: &mut [S],
     ) {
         if let Along::Stage(stage) = along {
-            self.add_impulse_of(stage, view, trial, impulses);
+            self.add_impulse_of(stage, view, trial, impulses, magnitudes);
         }
     }
 
@@ -138,14 +146,18 @@ where
     fn close(
         &mut self,
         view: &StepView<'_, S>,
-        _: &Trial<S, D>,
+        trial: &Trial<S, D>,
         next: &mut State<S>,
-        _: &mut Tally<S>,
+        tally: &mut Tally<S>,
     ) -> Result<(), StateError> {
-        self.close_all(view, next)
+        self.close_all(view, trial, next, tally)
     }
 
-    fn recount(&self, _: [&State<S>; 2], _: &mut Recount<S>) {}
+    fn recount(&self, ends: [&State<S>; 2], recount: &mut Recount<S>) {
+        for (member, stages) in self.elements.members.iter().zip(&self.members) {
+            C::recount(stages, member.only(), self.rule, ends, recount);
+        }
+    }
 
     fn generic_of_step(&self, _: [&State<S>; 2]) -> Vec<ElementGeneric<S>> {
         Vec::new()

@@ -6,6 +6,7 @@ use crate::element::group::{Along, Group, StepView, points};
 use crate::element::impulse::Impulses;
 use crate::element::state::State;
 use crate::element::tableau::Ending;
+use crate::element::tally::Tally;
 use crate::number::scalar::Real;
 use crate::step::certificate::{Motion, NodeStep, Speeds};
 use crate::step::error::StepFailure;
@@ -20,15 +21,30 @@ impl<S: Real, const D: usize> Solver<S, D> {
         groups: &mut [Box<dyn Group<S, D>>],
         view: &StepView<'_, S>,
         next: &mut State<S>,
-        motion: &mut Motion<S, D>,
+        (motion, tally): (&mut Motion<S, D>, &mut Tally<S>),
     ) -> Result<(), StepFailure> {
         let Some(mut stages) = self.stages.take() else {
             return Ok(());
         };
         let found = self.find_stages(&mut stages, groups, view);
-        let moved = found.and_then(|()| self.move_to_end(&stages, view, next, motion));
+        let moved = found.and_then(|()| match stages.rule.ending {
+            Ending::Increments {
+                displacements,
+                impulses,
+            } => {
+                self.judge_stages(&stages, view, tally);
+                let weights = [displacements, impulses];
+                self.move_along_path(&stages, weights, view, next, motion)
+            }
+            Ending::StageByStage | Ending::Forces(_) => {
+                self.move_to_end(&stages, view, next, motion)
+            }
+        });
         self.stages = Some(stages);
-        moved
+        moved?;
+        self.move_supports(view, next);
+        motion.work(next.work.change(view.state.work));
+        Ok(())
     }
 
     /// The impulses of all stages, and the displacements at the end of the step.
@@ -56,7 +72,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
             }
             for group in groups.iter_mut() {
                 let along = Along::Stage(stage);
-                group.add_impulse(view, &self.trial, along, &mut impulses, &mut []);
+                let magnitudes = &mut self.magnitudes;
+                group.add_impulse(view, &self.trial, along, &mut impulses, magnitudes);
             }
         }
         let momenta = points::<S, D>(view.state.momenta.values());
@@ -69,6 +86,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
                         (stages.combined(node, weights), view.step * mass.per_mass);
                     array::from_fn(|axis| mobility * (momenta[node][axis] + impulse[axis]))
                 }
+                // Their ends are where the paths end.
+                Ending::Increments { .. } => break,
             };
         }
         Ok(())
@@ -171,6 +190,14 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let weight = array::from_fn(|axis| total[axis] - load[axis]);
             motion.see(&moved, Some(&weight), view.step);
         }
+        Ok(())
+    }
+
+    /// Moved anchors are where the step has moved them, and their supports have done work.
+    fn move_supports(&self, view: &StepView<'_, S>, next: &mut State<S>) {
+        let Some(stages) = &self.stages else {
+            return;
+        };
         for &node in &view.loads.moved {
             let displacement = view.loads.motion::<D>(node);
             for (axis, displacement) in displacement.into_iter().enumerate() {
@@ -181,12 +208,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 next.work.add(self.work(stages, node, axis, support));
             }
         }
-        motion.work(next.work.change(view.state.work));
-        Ok(())
     }
 
     /// `h Σ b_i f_i v_i` of a coordinate, with the velocities that the rule gives to the stages, J.
-    fn work(
+    pub(super) fn work(
         &self,
         stages: &Stages<S, D>,
         node: usize,

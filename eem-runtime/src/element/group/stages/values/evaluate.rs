@@ -1,56 +1,47 @@
 //! The model at the stages of a trial.
 
-use super::heat;
-use super::member::{StageMember, StatePoint};
+use super::ValuesMember;
 use crate::element::conjugates::Infeasible;
 use crate::element::error::StateError;
 use crate::element::group::respond::{check_measures, check_temperature};
-use crate::element::group::stages::stage_group::StageGroup;
+use crate::element::group::stages::heat;
+use crate::element::group::stages::member::StatePoint;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics};
+use crate::element::tableau::Tableau;
 use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
 
-impl<S, M, K, const D: usize> StageGroup<S, M, K, D>
+impl<S, M, K, const D: usize> ValuesMember<S, M, K, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
 {
     /// Evaluates the model at all stages of the trial.
-    pub(super) fn evaluate_all(
+    pub(super) fn evaluate_stages(
         &mut self,
+        own: &mut StatePoint<S, M, K, D>,
+        rule: &Tableau,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
     ) -> Result<(), StateError> {
-        let rule = self.rule;
-        let members = self.elements.members.iter_mut().zip(&mut self.members);
-        for (member, stages) in members {
-            let point = member.only_mut();
-            for stage in 0..rule.stages() {
-                // The measures of a known stage are those of the old state.
-                if let Some(set) = rule.set_of(stage) {
-                    let r = stages.arms_of_set(set, trial);
-                    stages.move_to(point.element, stage, &r)?;
-                }
-                let heat = match point.slots().thermal {
-                    Some(slot) => heat::received(rule, stage, slot, view, trial),
-                    None => S::zero(),
-                };
-                stages.evaluate(point, view, stage, heat)?;
+        for stage in 0..rule.stages() {
+            // The measures of a known stage are those of the old state.
+            if let Some(set) = rule.set_of(stage) {
+                let r = self.arms_of_set(set, trial);
+                self.move_to(own.element, stage, &r)?;
             }
+            let heat = match own.slots().thermal {
+                Some(slot) => heat::received(rule, stage, slot, view, trial),
+                None => S::zero(),
+            };
+            self.evaluate_stage(own, view, stage, heat)?;
         }
         Ok(())
     }
-}
 
-impl<S, M, K, const D: usize> StageMember<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-{
     /// Measures and their gradients at a stage, whose arms are given.
     fn move_to(
         &mut self,
@@ -60,22 +51,22 @@ where
     ) -> Result<(), StateError> {
         let measures = self.kinematics.measure(r);
         check_measures::<K, S, D>(self.kinematics, element, &measures, r)?;
-        self.gradients[stage] = self.kinematics.gradient(r, &measures);
+        self.own.gradients[stage] = self.kinematics.gradient(r, &measures);
         for (a, &measure) in measures.as_ref().iter().enumerate() {
-            self.x[stage][a] = measure;
+            self.own.x[stage][a] = measure;
         }
         Ok(())
     }
 
     /// The model at a stage whose variables are known, with the heat from other elements, W.
-    fn evaluate(
+    fn evaluate_stage(
         &mut self,
         own: &mut StatePoint<S, M, K, D>,
         view: &StepView<'_, S>,
         stage: usize,
         heat: S,
     ) -> Result<(), StateError> {
-        let (x, point) = (&self.x[stage], &mut self.points[stage]);
+        let (x, point) = (&self.own.x[stage], &mut self.own.points[stage]);
         let theta = x[M::Variables::LEN - 1];
         if M::THERMAL {
             check_temperature(own.element, theta)?;

@@ -1,0 +1,49 @@
+//! The internal variables of one element over one step: the elimination of their equations.
+
+use super::local::LocalStages;
+use super::member::{StageMember, StatePoint};
+use super::source::Source;
+use crate::algebra::lu;
+use crate::element::error::StateError;
+use crate::element::group::view::StepView;
+use crate::element::kinematics::Kinematics;
+use crate::element::tableau::Tableau;
+use crate::material::free_energy::FreeEnergy;
+use crate::number::scalar::Real;
+
+impl<S, M, K, C, const D: usize> StageMember<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: Source<S, M, K, D>,
+{
+    /// Eliminates the internal variables of an element whose stages have been evaluated.
+    pub(super) fn condense(
+        &mut self,
+        own: &StatePoint<S, M, K, D>,
+        rule: &Tableau,
+        local: &mut LocalStages<S>,
+        view: &StepView<'_, S>,
+    ) -> Result<(), StateError> {
+        let unknowns = local.unknowns();
+        if unknowns == 0 {
+            return Ok(());
+        }
+        local.matrix.fill(S::zero());
+        self.solved.fill(S::zero());
+        C::write_equations(self, own, rule, local, view);
+        if lu::factor(&mut local.matrix, &mut local.pivots).is_err() {
+            // A finite local system is singular only where the model has no derivative.
+            return Err(StateError::NotFinite {
+                element: own.element,
+                quantity: "inverse of the local tangent",
+                value: f64::INFINITY,
+            });
+        }
+        for column in self.solved.chunks_exact_mut(unknowns) {
+            lu::solve::<S, 1>(&local.matrix, &local.pivots, column.as_chunks_mut().0);
+        }
+        Ok(())
+    }
+}

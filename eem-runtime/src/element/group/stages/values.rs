@@ -1,0 +1,265 @@
+//! Conjugates that are values of the free energy at the stages.
+
+mod at_stage;
+mod closing;
+mod evaluate;
+mod local;
+
+use super::local::LocalStages;
+use super::member::{StageMember, StatePoint};
+use super::source::Source;
+use crate::element::error::StateError;
+use crate::element::group::arms::{add_scaled, along, measures_in};
+use crate::element::group::element_group::variables;
+use crate::element::group::point::grown;
+use crate::element::group::view::{StepView, Trial};
+use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics, Weights};
+use crate::element::state::State;
+use crate::element::tableau::{MOST_SETS, MOST_STAGES, Tableau};
+use crate::element::tally::Tally;
+use crate::material::free_energy::{Array, FreeEnergy};
+use crate::number::scalar::Real;
+use at_stage::AtStage;
+
+/// The variables at the stages, and what the model says there.
+pub(crate) struct Values<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {
+    /// The trial variables `(π, γ, θ)` at the stages.
+    x: [M::Variables; MOST_STAGES],
+    /// The same before the last correction, and the correction; temperatures only at the stages whose
+    /// temperatures are unknowns.
+    previous: [M::Variables; MOST_STAGES],
+    correction: [M::Variables; MOST_STAGES],
+    /// What the model says there.
+    points: [AtStage<S, M>; MOST_STAGES],
+    /// `∂π/∂r` there.
+    gradients: [Gradient<K, S, D>; MOST_STAGES],
+    /// The entropy that dashpots and conduction gave it in the step, J/K.
+    entropy_received: S,
+}
+
+/// An element with such conjugates.
+pub(super) type ValuesMember<S, M, K, const D: usize> = StageMember<S, M, K, Values<S, M, K, D>, D>;
+
+impl<S, M, K, const D: usize> Source<S, M, K, D> for Values<S, M, K, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+{
+    fn new() -> Self {
+        let zeros = [M::Variables::filled(S::zero()); MOST_STAGES];
+        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
+        Self {
+            x: zeros,
+            previous: zeros,
+            correction: zeros,
+            points: [(); MOST_STAGES].map(|()| AtStage::zero()),
+            gradients: [Gradient::<K, S, D>::filled(nowhere); MOST_STAGES],
+            entropy_received: S::zero(),
+        }
+    }
+
+    fn begin(
+        member: &mut ValuesMember<S, M, K, D>,
+        own: &StatePoint<S, M, K, D>,
+        view: &StepView<'_, S>,
+    ) {
+        let measures = member.kinematics.measure(&member.r0);
+        let gradient = member.kinematics.gradient(&member.r0, &measures);
+        let x = variables::<S, M>(measures.as_ref(), own.slots(), view.state);
+        member.own.gradients = [gradient; MOST_STAGES];
+        member.own.x = [x; MOST_STAGES];
+        let prescribed = member.prescribed.into_iter().flatten();
+        for (x, theta) in member.own.x.iter_mut().zip(prescribed) {
+            x[M::Variables::LEN - 1] = theta;
+        }
+    }
+
+    fn evaluate(
+        member: &mut ValuesMember<S, M, K, D>,
+        own: &mut StatePoint<S, M, K, D>,
+        rule: &Tableau,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+    ) -> Result<(), StateError> {
+        member.evaluate_stages(own, rule, view, trial)
+    }
+
+    fn write_equations(
+        member: &mut ValuesMember<S, M, K, D>,
+        _: &StatePoint<S, M, K, D>,
+        rule: &Tableau,
+        local: &mut LocalStages<S>,
+        view: &StepView<'_, S>,
+    ) {
+        member.write_stages(rule, local, view.step);
+    }
+
+    fn force(
+        member: &ValuesMember<S, M, K, D>,
+        rule: &Tableau,
+        local: &mut LocalStages<S>,
+        stage: usize,
+        measure: usize,
+    ) -> S {
+        let point = &member.own.points[stage];
+        member.eliminate(rule, local, stage, &point.hessian[measure]);
+        point.gradient[measure]
+    }
+
+    fn direction(
+        member: &ValuesMember<S, M, K, D>,
+        stage: usize,
+        measure: usize,
+    ) -> &Arms<K, S, D> {
+        &member.own.gradients[stage].as_ref()[measure]
+    }
+
+    fn turn(
+        member: &ValuesMember<S, M, K, D>,
+        rule: &Tableau,
+        set: usize,
+        trial: &Trial<S, D>,
+    ) -> Blocks<K, S, D> {
+        let stage = rule.stage_of(set);
+        let r = member.arms_of_set(set, trial);
+        let measures = measures_in::<K, S, D>(&member.own.x[stage]);
+        let forces = measures_in::<K, S, D>(&member.own.points[stage].gradient);
+        member.kinematics.curvature(&r, &measures, &forces)
+    }
+
+    fn temperature(
+        member: &ValuesMember<S, M, K, D>,
+        rule: &Tableau,
+        local: &mut LocalStages<S>,
+        set: usize,
+    ) -> S {
+        let mut by = M::Variables::filled(S::zero());
+        by[M::Variables::LEN - 1] = S::one();
+        let stage = rule.entropies[set].unknown;
+        member.eliminate(rule, local, stage, &by);
+        member.temperature(stage)
+    }
+
+    fn by_arms(
+        member: &ValuesMember<S, M, K, D>,
+        rule: &Tableau,
+        local: &LocalStages<S>,
+    ) -> [Arms<K, S, D>; MOST_SETS] {
+        let measures = local.row[1..].chunks_exact(M::MEASURES);
+        let mut by_arm = [Arms::<K, S, D>::filled([S::zero(); D]); MOST_SETS];
+        let sets = by_arm.iter_mut().take(rule.sets()).zip(measures);
+        for (set, (sum, measures)) in sets.enumerate() {
+            let rows = member.own.gradients[rule.stage_of(set)].as_ref().iter();
+            for (row, &by) in rows.zip(measures) {
+                add_scaled::<K, S, D>(sum, by, row);
+            }
+        }
+        by_arm
+    }
+
+    fn inputs(
+        member: &ValuesMember<S, M, K, D>,
+        rule: &Tableau,
+        motions: &[Arms<K, S, D>; MOST_SETS],
+        inputs: &mut [S],
+    ) {
+        for (set, measures) in inputs.chunks_exact_mut(M::MEASURES).enumerate() {
+            let rows = member.own.gradients[rule.stage_of(set)].as_ref().iter();
+            for (input, row) in measures.iter_mut().zip(rows) {
+                *input = along::<K, S, D>(row, &motions[set]);
+            }
+        }
+    }
+
+    fn hold(member: &mut ValuesMember<S, M, K, D>) {
+        member.own.previous = member.own.x;
+        member.own.correction = [M::Variables::filled(S::zero()); MOST_STAGES];
+    }
+
+    fn correct(member: &mut ValuesMember<S, M, K, D>, rule: &Tableau, local: &LocalStages<S>) -> S {
+        let last = M::Variables::LEN - 1;
+        let mut largest = S::zero();
+        for u in 0..local.unknowns() {
+            let change = local.change(&member.solved, u);
+            let creeping = rule.sets() * M::DASHPOTS;
+            let (stage, index, scale) = if u < creeping {
+                let stage = rule.stage_of(u / M::DASHPOTS);
+                (stage, M::MEASURES + u % M::DASHPOTS, member.length)
+            } else {
+                let stage = rule.entropies[u - creeping].unknown;
+                (stage, last, member.temperature(stage))
+            };
+            member.own.correction[stage][index] = change;
+            largest = largest.maximum((change / scale).abs());
+        }
+        largest
+    }
+
+    /// Viscous stretches linearly, temperatures in their logarithms, so that they stay positive.
+    fn apply(member: &mut ValuesMember<S, M, K, D>, rule: &Tableau, share: S) {
+        let (last, is_given) = (M::Variables::LEN - 1, member.prescribed.is_some());
+        let own = &mut member.own;
+        for stage in rule.known..rule.stages() {
+            for index in M::MEASURES..M::MEASURES + M::DASHPOTS {
+                let change = share * own.correction[stage][index];
+                own.x[stage][index] = own.previous[stage][index] + change;
+            }
+        }
+        if !M::THERMAL || is_given {
+            return;
+        }
+        for stage in rule.entropies.iter().map(|balance| balance.unknown) {
+            let change = share * own.correction[stage][last];
+            own.x[stage][last] = grown(own.previous[stage][last], change);
+        }
+        for (stage, shares) in rule.temperatures.iter().enumerate() {
+            let terms = shares.iter().zip(rule.entropies);
+            let mean = terms.fold(S::zero(), |sum, (&share, balance)| {
+                sum + S::from_f64(share) * own.x[balance.unknown][last]
+            });
+            own.x[stage][last] = mean;
+        }
+    }
+
+    fn pull(
+        member: &ValuesMember<S, M, K, D>,
+        rule: &Tableau,
+        stage: usize,
+        trial: &Trial<S, D>,
+    ) -> K::PerNode<[S; D]> {
+        member.pull(rule, stage, trial)
+    }
+
+    fn secant(member: &ValuesMember<S, M, K, D>, stage: usize) -> Weights<K, S, D> {
+        member.secant(stage)
+    }
+
+    fn close(
+        member: &mut ValuesMember<S, M, K, D>,
+        own: &mut StatePoint<S, M, K, D>,
+        rule: &Tableau,
+        (view, _, r1): (&StepView<'_, S>, &Trial<S, D>, &Arms<K, S, D>),
+        next: &mut State<S>,
+        _: &mut Tally<S>,
+    ) -> Result<(), StateError> {
+        member.book(rule, own.slots(), view, next);
+        let near = member.temperature(rule.stages() - 1);
+        if let Some(entropy) = own.settle(r1, view, near, next)? {
+            member.book_thermostat(rule, view.step, entropy, next);
+        }
+        Ok(())
+    }
+}
+
+impl<S, M, K, const D: usize> ValuesMember<S, M, K, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+{
+    /// The temperature of a stage, K; only for elements that have one.
+    fn temperature(&self, stage: usize) -> S {
+        self.own.x[stage][M::Variables::LEN - 1]
+    }
+}
