@@ -93,9 +93,6 @@ enum CaseName {
     Shock,
 }
 
-/// The schemes that are also run with tolerances.
-const CONTROLLED: [Scheme; 2] = [Scheme::EemEntropy, Scheme::EemTemperature];
-
 /// The relative tolerance that the runs with tolerances begin with.
 const LARGEST_TOLERANCE: f64 = 1e-2;
 
@@ -165,7 +162,7 @@ fn run(options: &Options) -> Result<Claims, Box<dyn Error>> {
 /// Equal steps of many sizes; and for the schemes that keep the laws, steps that an accuracy chooses.
 fn settings(scheme: Scheme, largest: f64, halvings: u32) -> Vec<Setting> {
     let mut settings: Vec<_> = Setting::halved(scheme, largest, halvings).collect();
-    if CONTROLLED.contains(&scheme) {
+    if scheme.is_exact() && scheme.order() > 1 {
         // A scheme of order 2 needs ten thousands of steps for what lies beyond.
         let decades = if scheme.order() > 2 { 6 } else { 2 };
         settings.extend(Setting::by_decades(scheme, LARGEST_TOLERANCE, decades));
@@ -222,13 +219,8 @@ fn energy_bound(row: &StudyRow) -> f64 {
 /// The claims about the laws, and about what is recommended.
 fn check(report: &StudyReport) -> Result<Claims, Box<dyn Error>> {
     let mut claims = Claims::default();
-    let exact = [
-        Scheme::EemEntropy,
-        Scheme::EemTemperature,
-        Scheme::Staggered,
-    ];
     for row in &report.rows {
-        if exact.contains(&row.setting.scheme) && row.failure.is_none() {
+        if row.setting.scheme.is_exact() && row.failure.is_none() {
             let what = format!("{}: the relative energy defect", row.setting);
             claims.at_most(&what, Some(row.energy_defect), energy_bound(row));
         }

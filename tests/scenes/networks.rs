@@ -219,3 +219,25 @@ fn stiff_conduction_converges_and_keeps_the_laws() {
         assert!(laws.entropy_ulps >= ENTROPY_TOLERANCE);
     }
 }
+
+/// What flows to a reservoir ten thousand times colder leaves the element with the little that exchange and production
+/// do not cancel.
+#[test]
+fn a_hot_spring_cools_beside_a_very_cold_reservoir() {
+    for scheme in [Scheme::EemEntropy, Scheme::EemTemperature] {
+        let mut scene = Scene::<2>::new();
+        let ends = [
+            scene.anchor([0.0, 0.0]),
+            scene.mass(1.0, [2.0, 0.0], [0.0, 0.1]),
+        ];
+        let spring = scene.spring(LogarithmicStiffness::FIRST, ends);
+        scene.set_temperature(spring, 1e4);
+        let cold = scene.reservoir(1.0);
+        scene.conduct(spring, cold, 1e4);
+        let mut run = Simulation::new(scene, scheme, 0.1).unwrap();
+        for _ in 0..10 {
+            run.step().unwrap();
+        }
+        assert!(run.temperature(spring).unwrap() < 5e3);
+    }
+}

@@ -289,8 +289,15 @@ impl Scheme {
         }
     }
 
-    /// Whether every step has to keep energy, entropy and momenta.
-    pub(crate) const fn is_exact(self) -> bool {
+    /// Whether every step keeps energy, entropy and momenta, or is an error.
+    ///
+    /// ```
+    /// use eem_runtime::Scheme;
+    ///
+    /// assert!(Scheme::EemEntropy.is_exact() && !Scheme::Midpoint.is_exact());
+    /// ```
+    #[must_use]
+    pub const fn is_exact(self) -> bool {
         self.rule().is_exact
     }
 

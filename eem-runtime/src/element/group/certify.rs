@@ -10,7 +10,7 @@ use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Ends, Kinematics};
 use crate::element::recount::Recount;
 use crate::element::state::State;
-use crate::element::tally::{Care, Tally};
+use crate::element::tally::{Care, Received, Tally};
 use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
 
@@ -227,7 +227,7 @@ where
         view: &StepView<'_, S>,
         (contact, trial): (Option<&Contact<K, S, D>>, &Trial<S, D>),
         r1: &Arms<K, S, D>,
-        [received, magnitude]: [S; 2],
+        (received, magnitude): (Received<S>, S),
         tally: &mut Tally<S>,
     ) {
         for k in 0..M::DASHPOTS {
@@ -244,7 +244,8 @@ where
         let theta = self.temperature();
         let taken = theta * self.response[Self::ENTROPY];
         if !self.is_prescribed {
-            tally.balance(taken - theta * received, magnitude);
+            let terms = magnitude + theta * received.terms;
+            tally.balance(taken - theta * received.entropy, terms);
         }
         if contact.is_some()
             && let Some(slot) = self.slots().thermal

@@ -20,7 +20,7 @@ use crate::element::group::view::{Along, StepView, Trial};
 use crate::element::impulse::Impulses;
 use crate::element::kinematics::{Arms, Ends, Kinematics, Weights};
 use crate::element::state::State;
-use crate::element::tally::Tally;
+use crate::element::tally::{Received, Tally};
 use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
 
@@ -203,7 +203,7 @@ where
         (contact, trial): (Option<&Contact<K, S, D>>, &Trial<S, D>),
         next: &mut State<S>,
         tally: &mut Tally<S>,
-    ) -> S {
+    ) -> Received<S> {
         let slots = self.slots();
         let h = view.thermal_step();
         let share = S::from_f64(C::IMPLICIT) * h;
@@ -223,7 +223,7 @@ where
             if M::DASHPOTS > 0 {
                 next.dissipated.add(dissipated + h * self.old_dissipation());
             }
-            return S::zero();
+            return Received::new(S::zero());
         };
         self.book_heat(view, (slot, dissipated), (contact, trial), next, tally)
     }
@@ -237,56 +237,53 @@ where
         (contact, trial): (Option<&Contact<K, S, D>>, &Trial<S, D>),
         next: &mut State<S>,
         tally: &mut Tally<S>,
-    ) -> S {
+    ) -> Received<S> {
         let h = view.thermal_step();
         let share = S::from_f64(C::IMPLICIT) * h;
-        let mut received = dissipated * self.per_temperature();
+        let mut received = Received::new(dissipated * self.per_temperature());
         if let [at_point] = self.single.as_ref()
             && C::IMPLICIT < 1.0
         {
-            received += h * at_point.old_rates[Self::TEMPERATURE];
+            received.add(h * at_point.old_rates[Self::TEMPERATURE]);
         }
         let old = &view.state.entropies;
-        next.entropies.advance(slot, old, received);
+        next.entropies.advance(slot, old, received.entropy);
         let mut heat = dissipated;
         if let Some(contact) = contact {
             for partner in &contact.partners {
                 let other = partner.slot as usize;
                 let path = (trial.seen).exchange(share * partner.conductance, slot, other);
                 next.entropies.add(slot, path.entropy);
-                received += path.entropy;
+                received.add(path.entropy);
                 heat += path.heat;
                 // The production is booked at one end, after the exchange, which both ends share.
                 if slot > other {
                     let production = path.production();
                     next.entropies.add(slot, production);
-                    received += production;
+                    received.add(production);
                     tally.produce(production);
                     tally.turn_over(path.heat);
                 }
             }
         }
         if self.meets_reservoirs {
-            received += self.book_reservoirs(view, slot, heat, next, tally);
+            self.book_reservoirs(view, (slot, heat), (next, &mut received), tally);
         }
         received
     }
 
-    /// Books what flows from the reservoirs to an element that receives `heat` otherwise, J; returns the
-    /// entropy, J/K.
+    /// Books what flows from the reservoirs to an element that receives `heat` otherwise, J.
     fn book_reservoirs(
         &self,
         view: &StepView<'_, S>,
-        slot: usize,
-        heat: S,
-        next: &mut State<S>,
+        (slot, heat): (usize, S),
+        (next, received): (&mut State<S>, &mut Received<S>),
         tally: &mut Tally<S>,
-    ) -> S {
+    ) {
         let h = view.thermal_step();
         let share = S::from_f64(C::IMPLICIT) * h;
         let theta = self.temperature();
         let correction = self.reservoir_correction(view, slot, heat);
-        let mut received = S::zero();
         for link in view.conduction.links(slot) {
             let Partner::Reservoir(index) = link.partner else {
                 continue;
@@ -300,7 +297,8 @@ where
             next.entropies.add(slot, production);
             tally.produce(production);
             tally.turn_over(path.heat);
-            received += path.entropy + production;
+            received.add(path.entropy);
+            received.add(production);
             if C::IMPLICIT < 1.0 {
                 // The flow of the old state, which the old rates have given to the element.
                 let old = theta_r - view.state.temperatures[slot];
@@ -308,7 +306,6 @@ where
                 next.reservoir_entropies.add(index, -flow / theta_r);
             }
         }
-        received
     }
 
     /// `1/θ*`, 1/K; one without temperature.

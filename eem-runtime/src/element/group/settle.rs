@@ -34,14 +34,14 @@ where
                 let received = point.book(view, (contact, trial), next, tally);
                 let near = point.x[M::Variables::LEN - 1];
                 if let Some(entropy) = point.settle(&r1, view, near, next)? {
-                    point.book_thermostat(view, [entropy, received], next);
+                    point.book_thermostat(view, [entropy, received.entropy], next);
                 }
                 if C::EXACT {
                     let forces = point.amplitude([&member.r0, &r1], tally.care);
                     tally.force(forces);
                     tally.exchange(view.step * point.largest_pull(&r1));
                     let magnitude = next.energies[point.element.index].magnitude + forces;
-                    point.judge(view, (contact, trial), &r1, [received, magnitude], tally);
+                    point.judge(view, (contact, trial), &r1, (received, magnitude), tally);
                 }
             }
         }
