@@ -17,9 +17,8 @@ pub(crate) mod values;
 use core::fmt;
 use core::sync::atomic::{AtomicBool, Ordering};
 
-use crate::algebra::system::MOST_FIXED;
 use crate::element::conduction::Conduction;
-use crate::element::group::{Placed, StepView};
+use crate::element::group::StepView;
 use crate::element::handle::SceneId;
 use crate::element::layout::{Layout, Shape};
 use crate::element::masses::Masses;
@@ -30,14 +29,15 @@ use crate::number::scalar::{Discord, Mask, Real};
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
-use crate::step::certificate::Certificate;
 use crate::step::error::{StepError, StepFailure};
+use crate::step::explicit::ExplicitView;
 use crate::step::newton::StepReport;
-use crate::step::scheme::{Closing, Scheme};
+use crate::step::outcome::{Corrections, Outcome};
+use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
-use check::{check_end, check_step};
+use check::{check_end, check_solids, check_step};
 use start::initial_state;
-use stepper::{Parts, Stepper};
+use stepper::{Newton, Parts, Stepper};
 use totals::check_totals;
 
 /// What the elements share during the next step; borrows only the fields that it names.
@@ -81,6 +81,7 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     has_stepped: bool,
     /// The report with the largest `|defect|/bound` so far.
     worst: Option<StepReport<S>>,
+    corrections: Corrections<S>,
     /// Something failed while S was several numbers: alone, some of them might not have failed, so that
     /// nothing that follows counts. Never set where S is a single number.
     has_parted: AtomicBool,
@@ -105,9 +106,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub fn new(scene: Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, SceneError> {
         scene.check()?;
         let has_solids = scene.groups.iter().any(|group| !group.shape().is_spring);
-        if has_solids && scheme.closing() != Closing::Increments {
-            let scheme = scheme.name();
-            return Err(SceneError::NotForSolids { scheme });
+        if has_solids {
+            check_solids(scheme)?;
         }
         check_step(step)?;
         let mut layout = scene.layout();
@@ -123,12 +123,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         state.follow_velocities(D, &masses);
         // Large, and all that it said is in the masses and in the state.
         drop(scene.nodes);
-        let placed = Placed {
-            nodes: &scene.elements,
-            layout: &layout,
-        };
-        let groups = scene.groups.into_iter();
-        let groups = groups.map(|blueprint| blueprint.build(scheme.conjugates(), placed));
         let parts = Parts {
             scheme,
             masses: &masses,
@@ -137,7 +131,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             conduction: &conduction,
             loads: &scene.loads,
         };
-        let stepper = Stepper::new(groups.collect(), parts, &mut state)?;
+        let stepper = Stepper::new(scene.groups, parts, &mut state)?;
         layout.forget_places();
         let run = Self {
             scene: scene.id,
@@ -155,6 +149,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             state,
             has_stepped: false,
             worst: None,
+            corrections: Corrections::none(),
             has_parted: AtomicBool::new(false),
         };
         check_totals(&run.ledger())?;
@@ -170,8 +165,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub fn step(&mut self) -> Result<StepReport<S>, StepError> {
         self.has_stepped = false;
         self.effort.restart();
-        let certificate = match self.find_next() {
-            Ok(certificate) => certificate,
+        let outcome = match self.find_next() {
+            Ok(outcome) => outcome,
             Err(failure) => return Err(self.failed(failure)),
         };
         core::mem::swap(&mut self.state, &mut self.next);
@@ -182,17 +177,19 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             iterations: self.effort.history.len(),
             update: self.effort.end.update,
             residual: self.effort.end.residual,
-            defect: certificate.defect,
-            bound: certificate.bound,
-            production: certificate.production,
-            least_production: certificate.least_production,
+            defect: outcome.defect,
+            bound: outcome.bound,
+            production: outcome.production,
+            least_production: outcome.least_production,
+            correction: outcome.correction.abs(),
         };
+        self.corrections.note(outcome.correction);
         self.note_worst(&report);
         Ok(report)
     }
 
     /// Writes the next state.
-    fn find_next(&mut self) -> Result<Certificate<S>, StepFailure> {
+    fn find_next(&mut self) -> Result<Outcome<S>, StepFailure> {
         if self.has_parted() {
             // An experiment that ignores failed steps and waits for something would loop forever.
             return Err(Discord.into());
@@ -200,21 +197,34 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         check_end(self.time() + self.step)?;
         self.evaluate_loads()?;
         let (effort, next) = (&mut self.effort, &mut *self.next);
-        let Stepper {
+        let newton = match &mut self.stepper {
+            Stepper::Newton(newton) => newton,
+            Stepper::Explicit(explicit) => {
+                let view = ExplicitView {
+                    step: self.step,
+                    state: &self.state,
+                    conduction: &self.conduction,
+                    loads: &self.loads,
+                    masses: &self.masses,
+                };
+                return explicit.step(&view, next);
+            }
+        };
+        let Newton {
             groups,
             solver,
             loads,
             stages,
             between,
-        } = &mut self.stepper;
+        } = &mut **newton;
         let Some(between) = between else {
             let view = view!(self, Phase::Whole, &self.state, [loads, stages]);
-            return solver.solve(groups, &view, effort, next);
+            return Ok(solver.solve(groups, &view, effort, next)?.into());
         };
         let view = view!(self, Phase::Mechanics, &self.state, [loads, stages]);
         let motion = solver.solve(groups, &view, effort, between)?;
         let view = view!(self, Phase::Heat, between, [loads, stages]);
-        Ok(motion.and(solver.solve(groups, &view, effort, next)?))
+        Ok(motion.and(solver.solve(groups, &view, effort, next)?).into())
     }
 
     /// Keeps a report if it comes closer to its bound than all before.
@@ -234,7 +244,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             return Ok(());
         }
         let span = [self.time(), self.step];
-        self.stepper.evaluate_loads(
+        let Stepper::Newton(newton) = &mut self.stepper else {
+            return Ok(());
+        };
+        newton.evaluate_loads(
             &self.loads,
             &self.masses,
             self.scheme,
@@ -279,6 +292,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.worst.as_ref()
     }
 
+    /// By how much the energy of all steps so far was corrected; zero for a scheme that is not explicit.
+    /// [`restore`](Self::restore) forgets it.
+    #[must_use]
+    pub const fn corrections(&self) -> &Corrections<S> {
+        &self.corrections
+    }
+
     /// The time, s.
     #[must_use]
     pub fn time(&self) -> S {
@@ -291,17 +311,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.scheme
     }
 
-    /// Number of unknowns of the global system of one Newton iteration.
+    /// Number of unknowns of the global system of one Newton iteration; none for an explicit scheme.
     #[must_use]
-    pub const fn unknowns(&self) -> usize {
-        self.stepper.solver.sets() * self.layout.unknowns
+    pub fn unknowns(&self) -> usize {
+        self.stepper.sets() * self.layout.unknowns
     }
 
     /// Whether several numbers in one S can go through a step together: in the dense elimination of a
     /// few unknowns, whose pivots are on the diagonal, in a scheme with one set of forces, and with weight
     /// for all of them or for none.
     pub(crate) fn suits_lanes(&self) -> bool {
-        let is_small = self.stepper.stages.is_empty() && self.unknowns() <= MOST_FIXED;
-        is_small && self.loads.suit_lanes()
+        self.stepper.suits_lanes(self.unknowns()) && self.loads.suit_lanes()
     }
 }

@@ -67,6 +67,9 @@ pub struct StepReport<S> {
     /// The smallest production of a single dashpot or path of heat, J/K; never negative in an exact
     /// scheme. Zero without any.
     pub least_production: S,
+    /// By how much an explicit step missed the energy before it was closed, relative to the magnitude of the
+    /// terms of the energy; zero for other schemes. See [`Simulation::corrections`](crate::Simulation::corrections).
+    pub correction: S,
 }
 
 /// An update below `tolerance` is the last one if it is also this much smaller than the one before:

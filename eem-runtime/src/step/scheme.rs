@@ -13,6 +13,7 @@ use crate::step::rule::{gauss_4, variational_4};
 /// |---|---|---|---|---|
 /// | `EemEntropy` | exact | exact | exact | 2 |
 /// | `EemTemperature` | exact | exact | exact | 2 |
+/// | `EemExplicit` | exact | exact | exact | 8 |
 /// | `Variational` | bounded | in practice | exact | 2 |
 /// | `Variational4` | bounded | exact | exact | 4 |
 /// | `Staggered` | exact | exact | exact | 1 |
@@ -39,6 +40,9 @@ pub enum Scheme {
     /// Energy–entropy–momentum scheme in temperature form (Conde Martín, Betsch & García Orden
     /// 2016, eqs. 37–39).
     EemTemperature,
+    /// Explicit Runge–Kutta stages of order 8 (DOP853), entropies by quadrature, and energy and momenta put
+    /// back at the end of every step. For accuracy, where vibrations are resolved: `ωh < 5.96`.
+    EemExplicit,
     /// Variational integrator with thermacies (Kern, Romero, Conde Martín & García Orden 2021,
     /// §III.A).
     Variational,
@@ -60,9 +64,10 @@ pub enum Scheme {
 
 impl Scheme {
     /// All schemes.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::EemEntropy,
         Self::EemTemperature,
+        Self::EemExplicit,
         Self::Variational,
         Self::Variational4,
         Self::Staggered,
@@ -131,6 +136,8 @@ pub(crate) enum Closing {
     Start,
     /// As the [`Tableau`] says.
     Stages,
+    /// No Newton iteration: the [explicit scheme](crate::step::explicit) closes its steps itself.
+    Explicit,
 }
 
 /// What a scheme is.
@@ -175,6 +182,13 @@ impl Rule {
         }
     }
 
+    const fn closed_explicitly(self) -> Self {
+        Self {
+            closing: Closing::Explicit,
+            ..self
+        }
+    }
+
     const fn closed_by_stages(self) -> Self {
         Self {
             closing: Closing::Stages,
@@ -189,6 +203,8 @@ impl Scheme {
         match self {
             Self::EemEntropy => Rule::exact("eem-entropy", EntropyForm),
             Self::EemTemperature => Rule::exact("eem-temperature", TemperatureForm),
+            // Its elements have no algorithmic quantities of their own.
+            Self::EemExplicit => Rule::exact("eem-explicit", MeanMeasures).closed_explicitly(),
             Self::Staggered => Rule::exact("staggered", EntropyForm),
             Self::Variational => Rule::variational("variational", MeanMeasures),
             Self::Variational4 => {

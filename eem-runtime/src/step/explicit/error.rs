@@ -1,0 +1,117 @@
+//! The estimate of the error of a step (Hairer, Nørsett & Wanner, section II.10).
+
+use super::tableau::{ERROR_3, ERROR_5};
+use super::Explicit;
+use crate::number::scalar::{Mask, Real};
+
+/// How accurate a step has to be.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Accuracy<S> {
+    /// As its size makes it.
+    Fixed,
+    /// Its error is at most this part of positions, momenta and temperatures.
+    Within {
+        /// The part.
+        relative: S,
+    },
+}
+
+/// The largest correction of a fixed step that counts as truncation.
+const LARGEST_FIXED_CORRECTION: f64 = 1e-3;
+
+/// Up to this difference from a rigid rotation a fixed step may be replaced by one.
+const LARGEST_FIXED_TURN: f64 = 1e-7;
+
+/// The part of the tolerance that a rigid rotation may differ by.
+const TURN_SHARE: f64 = 0.1;
+
+impl<S: Real> Accuracy<S> {
+    /// The largest correction before closing, relative to the terms of the energy.
+    pub(super) fn largest_correction(self) -> S {
+        match self {
+            Self::Fixed => S::from_f64(LARGEST_FIXED_CORRECTION),
+            Self::Within { relative } => relative,
+        }
+    }
+
+    /// By how much a rigid rotation may differ from what the stages say, relatively.
+    pub(super) fn largest_turn(self) -> S {
+        match self {
+            Self::Fixed => S::from_f64(LARGEST_FIXED_TURN),
+            Self::Within { relative } => S::from_f64(TURN_SHARE) * relative,
+        }
+    }
+}
+
+/// How large positions and momenta are.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scales<S> {
+    /// |q|₂ of all masses, m.
+    pub(super) position: S,
+    /// |p|₂, the largest so far, kg m/s.
+    pub(super) momentum: S,
+}
+
+impl<S: Real, const D: usize> Explicit<S, D> {
+    /// The scales of the step, at its end before it is closed.
+    pub(super) fn scales(&self) -> Scales<S> {
+        let size = self.components.masses * D;
+        let norm = |part: &[S]| {
+            let most = part.iter().fold(S::zero(), |most, x| most.maximum(x.abs()));
+            if most.equal(S::zero()).all() {
+                return most;
+            }
+            let scaled = part.iter().map(|&x| x / most);
+            let sum = scaled.fold(S::zero(), |sum, x| sum + x * x);
+            most * sum.sqrt()
+        };
+        let momenta = self.offsets.momenta..self.offsets.momenta + size;
+        Scales {
+            position: norm(&self.y0[..size]).maximum(norm(&self.y[..size])),
+            momentum: norm(&self.y[momenta]).maximum(self.books.largest_momentum),
+        }
+    }
+
+    /// The error of the step in units of the tolerance,
+    ///
+    /// ```text
+    /// e₅²/√(e₅² + 0.01 e₃²),     e = |h Σ E k / scale|₂
+    /// ```
+    ///
+    /// with the scale `relative` times |q| for positions and viscous stretches, the largest |p| so far for
+    /// momenta, and θ.
+    pub(super) fn estimate(&self, h: S, relative: S, scales: Scales<S>) -> S {
+        let k = self.weighted_rates();
+        let [fifth, third] = [&ERROR_5, &ERROR_3].map(|row| row.map(|e| h * S::from_f64(e)));
+        let mut sums = [S::zero(); 2];
+        let mut see = |index: usize, scale: S| {
+            let (mut five, mut three) = (S::zero(), S::zero());
+            for term in 0..k.len() {
+                five += fifth[term] * k[term][index];
+                three += third[term] * k[term][index];
+            }
+            // Where the scale is zero nothing moves.
+            let has_scale = S::zero().less(scale).all();
+            let per_scale = if has_scale { scale.recip() } else { S::zero() };
+            for (sum, error) in sums.iter_mut().zip([five, three]) {
+                *sum += (error * per_scale) * (error * per_scale);
+            }
+        };
+        let offsets = self.offsets;
+        let size = self.components.masses * D;
+        for index in (0..size).chain(offsets.viscous..offsets.temperatures) {
+            see(index, scales.position);
+        }
+        for index in offsets.momenta..offsets.momenta + size {
+            see(index, scales.momentum);
+        }
+        for index in offsets.temperatures..offsets.reservoirs {
+            see(index, self.y0[index]);
+        }
+        let [five, three] = sums;
+        if five.at_most(S::zero()).all() {
+            return S::zero();
+        }
+        five / (five + S::from_f64(0.01) * three).sqrt() / relative
+    }
+}
