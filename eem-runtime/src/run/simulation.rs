@@ -224,7 +224,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let view = view!(self, Phase::Mechanics, &self.state, [loads, stages]);
         let motion = solver.solve(groups, &view, effort, between)?;
         let view = view!(self, Phase::Heat, between, [loads, stages]);
-        Ok(motion.and(solver.solve(groups, &view, effort, next)?).into())
+        Ok(motion
+            .and(solver.solve(groups, &view, effort, next)?)
+            .into())
     }
 
     /// Keeps a report if it comes closer to its bound than all before.

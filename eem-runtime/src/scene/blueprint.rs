@@ -7,9 +7,7 @@ use crate::element::conjugates::{
     Conjugates, EemEntropy, EemTemperature, ElementScheme, Midpoint, MidpointTemperature,
     Trapezoidal, TrapezoidalTemperature, Variational,
 };
-use crate::element::group::{
-    ElementGroup, ExplicitGroup, FreeGroup, Group, Placed, StageGroup,
-};
+use crate::element::group::{ElementGroup, ExplicitGroup, FreeGroup, Group, Placed, StageGroup};
 use crate::element::handle::Element;
 use crate::element::kinematics::Kinematics;
 use crate::element::layout::Shape;

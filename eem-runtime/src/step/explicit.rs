@@ -114,12 +114,8 @@ pub(crate) struct Site<'a, S: Real, const D: usize> {
 
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// For these groups, which know their entropies already.
-    pub(crate) fn new(
-        mut groups: Vec<Box<dyn ExplicitGroup<S, D>>>,
-        site: Site<'_, S, D>,
-    ) -> Self {
-        let components =
-            Components::new(site.masses, site.elements, site.layout, site.conduction);
+    pub(crate) fn new(mut groups: Vec<Box<dyn ExplicitGroup<S, D>>>, site: Site<'_, S, D>) -> Self {
+        let components = Components::new(site.masses, site.elements, site.layout, site.conduction);
         let places = components.places();
         for group in &mut groups {
             group.join(&components.of_element, &places);
@@ -135,11 +131,17 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let loads = StepLoads::new(site.masses.len() * D, site.layout, site.loads);
         let has_loads = loads.has_total_force() || prescribed.moves();
         let counts = [held.len(), if has_loads { components.all.len() } else { 0 }];
-        let masses: Vec<S> = components.nodes.iter().map(|&node| {
-            site.masses.get(node as usize).unwrap_or(S::zero())
-        }).collect();
+        let masses: Vec<S> = components
+            .nodes
+            .iter()
+            .map(|&node| site.masses.get(node as usize).unwrap_or(S::zero()))
+            .collect();
         let per_mass = masses.iter().map(|&mass| {
-            if mass.equal(S::zero()).all() { S::zero() } else { mass.recip() }
+            if mass.equal(S::zero()).all() {
+                S::zero()
+            } else {
+                mass.recip()
+            }
         });
         let anchors = components.nodes.len() - components.masses;
         let sample = Sample::new(offsets, anchors, [held.len(), loads.total_force.len()]);

@@ -40,6 +40,21 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         if S::LANES > 1 {
             return Err(Discord.into());
         }
+        let was_ready = self.is_ready;
+        let attempt = self.attempt_ready(view, accuracy, next);
+        if attempt.is_err() {
+            // As it was before, also if nothing was known of the state.
+            self.is_ready = was_ready;
+        }
+        attempt
+    }
+
+    fn attempt_ready(
+        &mut self,
+        view: &ExplicitView<'_, S, D>,
+        accuracy: Accuracy<S>,
+        next: &mut State<S>,
+    ) -> Result<Attempt<S>, StepFailure> {
         let h = view.step;
         let time = view.state.time.value;
         self.prescribed.evaluate(view.loads, [time, h])?;
@@ -121,7 +136,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// The largest first defect of all components, which has to be small.
     fn correction(&self, accuracy: Accuracy<S>, time: S) -> Result<S, StepFailure> {
-        let all = self.scratch.progress.iter().map(|progress| progress.correction);
+        let all = self
+            .scratch
+            .progress
+            .iter()
+            .map(|progress| progress.correction);
         let largest = all.fold(S::zero(), |largest, correction| {
             let is_larger = largest.abs().less(correction.abs()).all();
             if is_larger { correction } else { largest }
@@ -174,7 +193,12 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// What is left of all defects, formed with energies of the state, has to be rounding.
-    fn prove(&mut self, scales: Scales<S>, correction: S, time: S) -> Result<Outcome<S>, StepFailure> {
+    fn prove(
+        &mut self,
+        scales: Scales<S>,
+        correction: S,
+        time: S,
+    ) -> Result<Outcome<S>, StepFailure> {
         let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
         let (mut residue, mut bound) = (S::zero(), S::zero());
         for index in 0..self.components.all.len() {

@@ -74,7 +74,12 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     fn book_loads(&mut self, next: &mut State<S>) {
-        for (target, sums) in self.new_books.targets.iter_mut().zip(&self.quadrature.loads) {
+        for (target, sums) in self
+            .new_books
+            .targets
+            .iter_mut()
+            .zip(&self.quadrature.loads)
+        {
             target.energy.add(sums.work);
             next.work.add(sums.work);
             for (linear, &impulse) in target.linear.iter_mut().zip(&sums.impulse) {
@@ -95,7 +100,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             let ends = path.ends.map(|end| end as usize);
             let capacities = ends.map(|end| {
                 let takes = end < slots && !is_held(end);
-                if takes { self.scratch.capacities[end] } else { S::zero() }
+                if takes {
+                    self.scratch.capacities[end]
+                } else {
+                    S::zero()
+                }
             });
             let all = capacities[0] + capacities[1];
             if all.at_most(S::zero()).all() {

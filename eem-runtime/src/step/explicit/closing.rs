@@ -89,13 +89,18 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// Temperatures and energies of the elements of open components.
     fn find_energies(&mut self, next: &mut State<S>) -> Result<(), StateError> {
         let open = self.scratch.open.iter();
-        for (energy, _) in self.scratch.energies.iter_mut().zip(open).filter(|(_, open)| **open) {
+        for (energy, _) in self
+            .scratch
+            .energies
+            .iter_mut()
+            .zip(open)
+            .filter(|(_, open)| **open)
+        {
             *energy = ComponentEnergy::none();
         }
         let offsets = self.offsets;
         let (nodes, internal) = self.y.split_at_mut(offsets.viscous);
-        let (viscous, temperatures) =
-            internal.split_at_mut(offsets.temperatures - offsets.viscous);
+        let (viscous, temperatures) = internal.split_at_mut(offsets.temperatures - offsets.viscous);
         let mut view = ClosingView {
             open: &self.scratch.open,
             positions: &nodes[..offsets.momenta],

@@ -226,7 +226,11 @@ impl<S: Real> Components<S> {
         let mut places = BTreeMap::new();
         for (element, entry) in elements.iter().enumerate() {
             let component = self.of_element[element];
-            for &node in entry.nodes.iter().filter(|&&node| masses.get(node).is_none()) {
+            for &node in entry
+                .nodes
+                .iter()
+                .filter(|&&node| masses.get(node).is_none())
+            {
                 let key = (component, node);
                 if places.contains_key(&key) {
                     continue;
@@ -330,8 +334,8 @@ fn dashpots(layout: &Layout, components: &[u32]) -> Vec<u32> {
 /// Elements whose dashpots lose their heat.
 fn losing(layout: &Layout, components: &[u32]) -> Vec<(u32, Range<usize>)> {
     let elements = layout.elements.iter().zip(ranges(layout)).zip(components);
-    let losing = elements
-        .filter(|((slots, dashpots), _)| slots.thermal.is_none() && !dashpots.is_empty());
+    let losing =
+        elements.filter(|((slots, dashpots), _)| slots.thermal.is_none() && !dashpots.is_empty());
     losing
         .map(|((_, dashpots), &component)| (component, dashpots))
         .collect()

@@ -1,7 +1,7 @@
 //! The estimate of the error of a step (Hairer, Nørsett & Wanner, section II.10).
 
-use super::tableau::{ERROR_3, ERROR_5};
 use super::Explicit;
+use super::tableau::{ERROR_3, ERROR_5};
 use crate::number::scalar::{Mask, Real};
 
 /// How accurate a step has to be.

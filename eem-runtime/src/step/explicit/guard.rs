@@ -57,7 +57,10 @@ impl<S: Real> PathSums<S> {
 #[inline]
 pub(super) fn guarded<S: Real>(production: S) -> (S, bool) {
     let is_negative = production.less(S::zero()).all();
-    (if is_negative { S::zero() } else { production }, is_negative)
+    (
+        if is_negative { S::zero() } else { production },
+        is_negative,
+    )
 }
 
 #[cfg(test)]
@@ -81,7 +84,10 @@ mod tests {
         let sums = path([[300.0, 310.0]; 8]);
         let ([flow, production], has_acted) = sums.guarded();
         assert!(!has_acted);
-        assert_eq!([flow, production].map(f64::to_bits), [sums.flow, sums.production].map(f64::to_bits));
+        assert_eq!(
+            [flow, production].map(f64::to_bits),
+            [sums.flow, sums.production].map(f64::to_bits)
+        );
         assert!((flow - 10.0 / 300.0).abs() < 1e-16);
     }
 
@@ -98,7 +104,10 @@ mod tests {
         // Between the two flows, in proportion to the productions.
         let share = sums.production / (sums.production - sums.production_positive);
         let mixed = (1.0 - share) * sums.flow + share * sums.flow_positive;
-        assert!((flow - mixed).abs() <= 1e-15 * sums.flow.abs(), "{flow} {mixed}");
+        assert!(
+            (flow - mixed).abs() <= 1e-15 * sums.flow.abs(),
+            "{flow} {mixed}"
+        );
         assert!(sums.flow < flow && flow < sums.flow_positive);
         // Only one stage has a flow, so that none is left where the production vanishes.
         assert!(flow.abs() < 1e-15);

@@ -204,8 +204,7 @@ impl<S: Real, const D: usize> Moved<S, D> {
                 let sum = |row: &[S; POINTS]| {
                     (1..POINTS).fold(S::zero(), |sum, m| sum + row[m] * from_start(m))
                 };
-                self.positions[stage][axis] =
-                    start[axis] + sum(&interpolation.values[stage]);
+                self.positions[stage][axis] = start[axis] + sum(&interpolation.values[stage]);
                 self.velocities[stage][axis] = sum(&interpolation.slopes[stage]) / step;
             }
         }

@@ -89,7 +89,11 @@ impl<S: Real, const D: usize> Sample<S, D> {
         let zero = [S::zero(); D];
         let of = |loads: &[S]| points::<S, D>(loads).get(node).copied().unwrap_or(zero);
         let (force, load) = (of(&self.forces), of(&self.loads));
-        let turning = if support == Support::Free { force } else { load };
+        let turning = if support == Support::Free {
+            force
+        } else {
+            load
+        };
         [force, load, turning]
     }
 }

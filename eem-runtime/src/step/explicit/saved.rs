@@ -32,15 +32,35 @@ pub(crate) struct SavedExplicit<S> {
 
 impl<S: Real> SavedExplicit<S> {
     /// All sums with their names.
-    pub(crate) fn sums(
-        &self,
-    ) -> [(&'static str, impl Iterator<Item = (S, S)> + Clone + '_); 1] {
+    pub(crate) fn sums(&self) -> [(&'static str, impl Iterator<Item = (S, S)> + Clone + '_); 1] {
         let of = |target: &Target<S>| {
             let single = [target.energy, target.lost];
-            let all = single.into_iter().chain(target.linear).chain(target.angular);
+            let all = single
+                .into_iter()
+                .chain(target.linear)
+                .chain(target.angular);
             all.map(|sum| (sum.value, sum.carry))
         };
         [("targets", self.targets.iter().flat_map(of))]
+    }
+
+    /// Forgets what belongs to no state.
+    fn clear(&mut self) {
+        self.targets.fill(Target::none());
+        self.shares.write(|shares| shares.fill(S::zero()));
+        (self.largest_momentum, self.residue) = (S::zero(), S::zero());
+        let lists = [
+            &mut self.held_energies,
+            &mut self.rates,
+            &mut self.powers,
+            &mut self.supply,
+            &mut self.reactions,
+            &mut self.loads,
+            &mut self.forces,
+        ];
+        for list in lists {
+            list.fill(S::zero());
+        }
     }
 
     /// All lists with their names.
@@ -61,7 +81,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// What the next step depends on besides the state.
     pub(crate) fn save(&self) -> SavedExplicit<S> {
         let (books, start) = (&self.books, &self.start);
-        SavedExplicit {
+        let mut saved = SavedExplicit {
             is_new: !self.is_ready,
             is_mechanical_first: self.is_mechanical_first,
             targets: books.targets.clone(),
@@ -75,7 +95,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             reactions: start.reactions.as_flattened().to_vec(),
             loads: start.loads.clone(),
             forces: start.forces.clone(),
+        };
+        if saved.is_new {
+            saved.clear();
         }
+        saved
     }
 
     /// Goes on from what was saved of the same scene.

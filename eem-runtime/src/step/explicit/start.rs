@@ -28,8 +28,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             *position = old[node as usize];
             *momentum = old_momenta[node as usize];
         }
-        let (viscous, temperatures) =
-            internal.split_at_mut(offsets.temperatures - offsets.viscous);
+        let (viscous, temperatures) = internal.split_at_mut(offsets.temperatures - offsets.viscous);
         let (temperatures, reservoirs) =
             temperatures.split_at_mut(offsets.reservoirs - offsets.temperatures);
         viscous.copy_from_slice(state.viscous.values());
@@ -60,7 +59,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             energy.value = Total::new();
         }
         for (element, &component) in self.components.of_element.iter().enumerate() {
-            energies[component as usize].value.add(state.energies[element].value);
+            energies[component as usize]
+                .value
+                .add(state.energies[element].value);
         }
         self.scratch.energies = energies;
         for slot in 0..self.held.len() {

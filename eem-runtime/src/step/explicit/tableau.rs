@@ -29,28 +29,16 @@ pub(super) const TIMES: [f64; STAGES] = [
 ];
 
 /// a of stage 1, for the stages 0.
-pub(super) const ROW_1: [f64; 1] = [
-    0.05260015195876773,
-];
+pub(super) const ROW_1: [f64; 1] = [0.05260015195876773];
 
 /// a of stage 2, for the stages 0, 1.
-pub(super) const ROW_2: [f64; 2] = [
-    0.0197250569845379,
-    0.0591751709536137,
-];
+pub(super) const ROW_2: [f64; 2] = [0.0197250569845379, 0.0591751709536137];
 
 /// a of stage 3, for the stages 0, 2.
-pub(super) const ROW_3: [f64; 2] = [
-    0.02958758547680685,
-    0.08876275643042054,
-];
+pub(super) const ROW_3: [f64; 2] = [0.02958758547680685, 0.08876275643042054];
 
 /// a of stage 4, for the stages 0, 2, 3.
-pub(super) const ROW_4: [f64; 3] = [
-    0.2413651341592667,
-    -0.8845494793282861,
-    0.924834003261792,
-];
+pub(super) const ROW_4: [f64; 3] = [0.2413651341592667, -0.8845494793282861, 0.924834003261792];
 
 /// a of stage 5, for the stages 0, 3, 4.
 pub(super) const ROW_5: [f64; 3] = [

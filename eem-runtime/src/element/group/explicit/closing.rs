@@ -257,12 +257,7 @@ where
     ) -> Result<(S, S, (Rates<M::Variables>, T)), StateError> {
         let caloric_at = self.model.caloric_at(*x);
         let enough = S::from_f64(0.5) * S::EPSILON.sqrt();
-        let found = temperature_near(
-            |theta| (caloric_at(theta).0, []),
-            entropy,
-            guess,
-            enough,
-        );
+        let found = temperature_near(|theta| (caloric_at(theta).0, []), entropy, guess, enough);
         let (theta, []) = found.map_err(|source| {
             let entropy = entropy.to_f64();
             Infeasible::Entropy { entropy, source }.of(self.element)

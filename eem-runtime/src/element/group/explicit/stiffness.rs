@@ -17,11 +17,7 @@ where
 {
     /// See [`ExplicitGroup::stiffness`](super::ExplicitGroup::stiffness).
     #[cold]
-    pub(super) fn stiffness_of_all(
-        &self,
-        state: &State<S>,
-        see: &mut dyn FnMut(NodeStiffness<S>),
-    ) {
+    pub(super) fn stiffness_of_all(&self, state: &State<S>, see: &mut dyn FnMut(NodeStiffness<S>)) {
         for member in &self.elements.members {
             let nodes = member.site.nodes.as_ref();
             let r = member.arms_in(state);

@@ -77,7 +77,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             if progress.scale.equal(S::zero()).all() {
                 progress.scale = magnitude;
                 let has_terms = S::zero().less(magnitude).all();
-                progress.correction = if has_terms { defect / magnitude } else { S::zero() };
+                progress.correction = if has_terms {
+                    defect / magnitude
+                } else {
+                    S::zero()
+                };
             }
             let enough = S::from_f64(0.5 * ENOUGH) * S::EPSILON * progress.scale;
             if progress.is_rigid || defect.abs().at_most(enough).all() {

@@ -156,11 +156,21 @@ mod tests {
 
     #[test]
     fn a_quarter_turn() {
-        let turned = rotated(&[1.0, 0.0, 2.0], &[0.0, 0.0, 1.0], core::f64::consts::FRAC_PI_2);
+        let turned = rotated(
+            &[1.0, 0.0, 2.0],
+            &[0.0, 0.0, 1.0],
+            core::f64::consts::FRAC_PI_2,
+        );
         let expected = [0.0, 1.0, 2.0];
-        assert!(length(&difference(&turned, &expected)) < 1e-15, "{turned:?}");
+        assert!(
+            length(&difference(&turned, &expected)) < 1e-15,
+            "{turned:?}"
+        );
         let flat = rotated(&[1.0, 2.0], &[0.0, 0.0, -1.0], core::f64::consts::PI);
-        assert!(length(&difference(&flat, &[-1.0, -2.0])) < 1e-15, "{flat:?}");
+        assert!(
+            length(&difference(&flat, &[-1.0, -2.0])) < 1e-15,
+            "{flat:?}"
+        );
     }
 
     #[test]

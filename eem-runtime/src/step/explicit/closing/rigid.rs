@@ -113,13 +113,23 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let mut largest = S::zero();
         let mut see = |difference: S, scale: S| {
             let is_none = difference.equal(S::zero()).all();
-            let part = if is_none { difference } else { difference.abs() / scale };
+            let part = if is_none {
+                difference
+            } else {
+                difference.abs() / scale
+            };
             largest = largest.maximum(part);
         };
         for place in self.components.all[index].masses.clone() {
             let [position, momentum] = self.turned(place, rigid, h);
-            see(length(&difference(&position, &positions[place])), scales.position);
-            see(length(&difference(&momentum, &momenta[place])), scales.momentum);
+            see(
+                length(&difference(&position, &positions[place])),
+                scales.position,
+            );
+            see(
+                length(&difference(&momentum, &momenta[place])),
+                scales.momentum,
+            );
         }
         for (dashpot, &owner) in self.components.of_dashpot.iter().enumerate() {
             let at = offsets.viscous + dashpot;

@@ -129,7 +129,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     fn exchange(&self, component: &Component<S>, h: S) -> S {
         let mut sum = S::zero();
         for path in &self.components.paths[component.paths.clone()] {
-            let [a, b] = path.ends.map(|end| self.y[self.offsets.temperatures + end as usize]);
+            let [a, b] = path
+                .ends
+                .map(|end| self.y[self.offsets.temperatures + end as usize]);
             if !self.meets_thermostat(path.ends) {
                 let drop = a - b;
                 let heat = (h + h) * path.conductance * drop;
@@ -203,7 +205,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for place in masses {
             let change = points::<S, D>(&self.scratch.forces)[place];
             let positions = &mut self.y[..offsets.momenta];
-            add(&mut positions.as_chunks_mut::<D>().0[place], -S::one(), &change);
+            add(
+                &mut positions.as_chunks_mut::<D>().0[place],
+                -S::one(),
+                &change,
+            );
         }
         for (dashpot, &owner) in self.components.of_dashpot.iter().enumerate() {
             if owner as usize == index {
@@ -244,10 +250,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             self.heat(index, (defect / produced).maximum(-S::one()), next);
             return true;
         }
-        let slots = self.slots_of(index).map(|at| self.components.slots[at] as usize);
-        let takes = |slot: &usize| {
-            self.produces[*slot] && !self.held.get(*slot).copied().unwrap_or(false)
-        };
+        let slots = self
+            .slots_of(index)
+            .map(|at| self.components.slots[at] as usize);
+        let takes =
+            |slot: &usize| self.produces[*slot] && !self.held.get(*slot).copied().unwrap_or(false);
         let temperatures = &self.y[self.offsets.temperatures..];
         let all = slots.filter(takes).fold(S::zero(), |all, slot| {
             all + self.scratch.capacities[slot] * temperatures[slot]
