@@ -11,6 +11,7 @@
 //! finish     the rates with which the next step begins                   (attempt)
 //! ```
 
+mod accuracy;
 mod attempt;
 mod booking;
 mod closing;
@@ -18,6 +19,7 @@ mod components;
 mod error;
 mod guard;
 mod memory;
+mod past;
 mod prescribed;
 mod quadrature;
 mod saved;
@@ -43,9 +45,11 @@ use memory::{Books, Offsets, Quadrature, Sample};
 use prescribed::Prescribed;
 use scratch::Scratch;
 
-pub(crate) use error::Accuracy;
+#[allow(unused_imports, reason = "what a controller of the step size needs")]
+pub(crate) use accuracy::Accuracy;
+#[allow(unused_imports, reason = "what a controller of the step size needs")]
 pub(crate) use memory::Attempt;
-pub(crate) use saved::SavedExplicit;
+pub(crate) use past::SavedExplicit;
 
 /// Rates of stages that are kept at the same time, besides those of the start: those of stage 10 and 11 take
 /// the places of stages that are not needed any more.
@@ -83,7 +87,7 @@ pub(crate) struct Explicit<S: Real, const D: usize> {
     new_books: Books<S>,
     scratch: Scratch<S>,
     /// Energy defects are closed by motion before heat.
-    is_mechanical_first: bool,
+    is_motion_first: bool,
     /// Rates and targets are those of the present state.
     is_ready: bool,
     /// How often all elements have been evaluated.
@@ -131,17 +135,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let loads = StepLoads::new(site.masses.len() * D, site.layout, site.loads);
         let has_loads = loads.has_total_force() || prescribed.moves();
         let counts = [held.len(), if has_loads { components.all.len() } else { 0 }];
-        let masses: Vec<S> = components
-            .nodes
-            .iter()
-            .map(|&node| site.masses.get(node as usize).unwrap_or(S::zero()))
-            .collect();
+        let masses = components.masses_of(site.masses);
         let per_mass = masses.iter().map(|&mass| {
-            if mass.equal(S::zero()).all() {
-                S::zero()
-            } else {
-                mass.recip()
-            }
+            let is_anchor = mass.equal(S::zero()).all();
+            if is_anchor { mass } else { mass.recip() }
         });
         let anchors = components.nodes.len() - components.masses;
         let sample = Sample::new(offsets, anchors, [held.len(), loads.total_force.len()]);
@@ -171,7 +168,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             prescribed,
             loads,
             gravity: site.loads.have_weight().then(|| site.loads.gravity.into()),
-            is_mechanical_first: false,
+            is_motion_first: false,
             is_ready: false,
             evaluations: 0,
         }
@@ -200,13 +197,13 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Whether energy defects are closed by motion before heat.
-    pub(crate) const fn is_mechanical_first(&self) -> bool {
-        self.is_mechanical_first
+    pub(crate) const fn is_motion_first(&self) -> bool {
+        self.is_motion_first
     }
 
     /// Chooses what gives a step its energy first.
-    pub(crate) const fn set_mechanical_first(&mut self, is_mechanical_first: bool) {
-        self.is_mechanical_first = is_mechanical_first;
+    pub(crate) const fn set_motion_first(&mut self, is_motion_first: bool) {
+        self.is_motion_first = is_motion_first;
     }
 }
 

@@ -8,6 +8,7 @@
 //! stiffness  how fast elements are, where a step was too long                     (stiffness)
 //! ```
 
+mod closed;
 mod closing;
 mod group;
 mod interface;

@@ -84,6 +84,21 @@ impl<S: Real, const D: usize> Stepper<S, D> {
         Ok(Self::Explicit(Box::new(Explicit::new(groups, site))))
     }
 
+    /// Whether an explicit scheme closes its steps by motion before heat.
+    pub(super) fn is_motion_first(&self) -> bool {
+        match self {
+            Self::Newton(_) => false,
+            Self::Explicit(explicit) => explicit.is_motion_first(),
+        }
+    }
+
+    /// Chooses what closes the steps of an explicit scheme.
+    pub(super) fn set_motion_first(&mut self, is_motion_first: bool) {
+        if let Self::Explicit(explicit) = self {
+            explicit.set_motion_first(is_motion_first);
+        }
+    }
+
     /// Number of sets of unknowns of an iteration.
     pub(super) fn sets(&self) -> usize {
         match self {

@@ -1,6 +1,6 @@
 //! One attempt at a step, which changes nothing until it is accepted.
 
-use super::error::{Accuracy, Scales};
+use super::accuracy::{Accuracy, Scales};
 use super::memory::Attempt;
 use super::stages::From;
 use super::tableau::STAGES;

@@ -169,6 +169,13 @@ impl<S: Real> Components<S> {
         places
     }
 
+    /// The mass at each place, zero for anchors, kg.
+    pub(super) fn masses_of(&self, masses: &Masses<S>) -> Vec<S> {
+        let nodes = self.nodes.iter();
+        let of = |&node: &u32| masses.get(node as usize).unwrap_or(S::zero());
+        nodes.map(of).collect()
+    }
+
     /// Place and node of all anchors.
     pub(super) fn anchors(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let placed = self.nodes.iter().enumerate().skip(self.masses);

@@ -110,6 +110,7 @@ pub(super) struct Books<S> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Attempt<S> {
     /// The estimate of its error in units of the tolerance; zero at a fixed step.
+    #[allow(dead_code, reason = "for a controller of the step size")]
     pub(crate) error: S,
     /// What it proves. There is nothing where the error is above 1: the step is not closed then.
     pub(crate) outcome: Option<Outcome<S>>,

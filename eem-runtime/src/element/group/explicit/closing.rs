@@ -4,11 +4,12 @@
 use crate::element::conjugates::{Infeasible, Variational};
 use crate::element::error::StateError;
 use crate::element::group::arms::add_scaled;
+use crate::element::group::explicit::closed::Closed;
 use crate::element::group::explicit::group::FreeGroup;
 use crate::element::group::explicit::interface::{ClosingView, StageRates, StageView};
 use crate::element::group::explicit::rates::{Found, arms_of, pull_nodes};
 use crate::element::group::point::Point;
-use crate::element::kinematics::{Arms, Gradient, Kinematics};
+use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::state::Energy;
 use crate::material::free_energy::{Array, FreeEnergy, Rates};
 use crate::material::inversion::temperature_near;
@@ -21,51 +22,8 @@ const MOST_EVALUATIONS: usize = 6;
 /// A correction of ln θ for which the guess is not nearly right.
 const LARGEST_CORRECTION: f64 = 0.25;
 
-/// What was found of a point when it was closed last.
-#[derive(Clone, Copy)]
-pub(super) struct Closed<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {
-    /// The temperature at which the model was evaluated, K.
-    theta: S,
-    rates: Rates<M::Variables>,
-    /// η and dη/dθ.
-    viscosities: (M::Viscosities, M::Viscosities),
-    gradient: Gradient<K, S, D>,
-}
-
-impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> Closed<S, M, K, D> {
-    /// Nothing yet.
-    pub(super) fn none() -> Self {
-        let zeros = M::Variables::filled(S::zero());
-        let viscosities = M::Viscosities::filled(S::one());
-        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
-        Self {
-            theta: S::zero(),
-            rates: Rates {
-                forces: zeros,
-                slopes: zeros,
-            },
-            viscosities: (viscosities, viscosities),
-            gradient: Gradient::<K, S, D>::filled(nowhere),
-        }
-    }
-
-    /// Forces and viscosities at a temperature that is nearly that of the evaluation:
-    /// `∂f/∂θ = −∂s/∂λ`, `∂g/∂θ = ∂s/∂γ`.
-    #[inline]
-    fn at(&self, theta: S) -> (Rates<M::Variables>, M::Viscosities) {
-        let change = theta - self.theta;
-        let (mut rates, (mut viscosities, slopes)) = (self.rates, self.viscosities);
-        for a in 0..M::MEASURES {
-            rates.forces[a] -= rates.slopes[a] * change;
-        }
-        for k in 0..M::DASHPOTS {
-            let index = M::MEASURES + k;
-            rates.forces[index] += rates.slopes[index] * change;
-            viscosities[k] += slopes[k] * change;
-        }
-        (rates, viscosities)
-    }
-}
+/// The temperature at which a model was evaluated last, the corrected one, and what was evaluated.
+type Settled<S, M, T> = (S, S, (Rates<<M as FreeEnergy<S>>::Variables>, T));
 
 impl<S, M, K, const D: usize> FreeGroup<S, M, K, D>
 where
@@ -223,7 +181,7 @@ where
         x: &M::Variables,
         at: &impl Fn(S) -> (Rates<M::Variables>, T),
         [entropy, guess]: [S; 2],
-    ) -> Result<(S, S, (Rates<M::Variables>, T)), StateError>
+    ) -> Result<Settled<S, M, T>, StateError>
     where
         T: Copy + AsRef<[S]>,
     {
@@ -254,7 +212,7 @@ where
         x: &M::Variables,
         at: &impl Fn(S) -> (Rates<M::Variables>, T),
         [entropy, guess]: [S; 2],
-    ) -> Result<(S, S, (Rates<M::Variables>, T)), StateError> {
+    ) -> Result<Settled<S, M, T>, StateError> {
         let caloric_at = self.model.caloric_at(*x);
         let enough = S::from_f64(0.5) * S::EPSILON.sqrt();
         let found = temperature_near(|theta| (caloric_at(theta).0, []), entropy, guess, enough);

@@ -3,7 +3,7 @@
 use crate::element::conjugates::Variational;
 use crate::element::error::StateError;
 use crate::element::group::element_group::ElementGroup;
-use crate::element::group::explicit::closing::Closed;
+use crate::element::group::explicit::closed::Closed;
 use crate::element::group::explicit::interface::{
     ClosingView, ExplicitGroup, NodeStiffness, PlaceOf, StageRates, StageView,
 };

@@ -94,7 +94,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             }
             let produced = self.produced_heat(index);
             let most = S::from_f64(HEAT_SHARE) * produced;
-            let heats = turns < HEAT_TURNS && !self.is_mechanical_first;
+            let heats = turns < HEAT_TURNS && !self.is_motion_first;
             if !(heats && defect.abs().at_most(most).all()) {
                 return Verdict::Asks;
             }

@@ -175,7 +175,7 @@ mod tests {
 
     #[test]
     fn moments_of_vectors_are_perpendicular() {
-        let (r, p) = ([1.0, 2.0, 3.0], [-0.5, 0.3, 0.9]);
+        let (r, p) = ([1.0_f64, 2.0, 3.0], [-0.5, 0.3, 0.9]);
         let momentum = moment(&r, &p);
         assert!(dot(&momentum, &r).abs() < 1e-15);
     }
