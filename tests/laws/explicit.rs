@@ -172,13 +172,13 @@ fn it_converges_to_the_exact_solution() {
 #[test]
 fn bodies_that_do_not_touch_keep_their_own_energy_and_momentum() {
     let mut scene = Scene::<3>::new();
-    let pivots = [scene.anchor([0.0; 3]), scene.anchor([100.0, 0.0, 0.0])];
+    let pivots = [scene.anchor([0.0; 3]), scene.anchor([4.0, 0.0, 0.0])];
     let log = DoublePendulum::LOGARITHMIC;
     let upper = scene.mass(log.masses[0], log.positions[0], [0.0, 1.0, 0.0]);
     let lower = scene.mass(log.masses[1], log.positions[1], [0.0, 0.0, -1.0]);
     let ends = [[pivots[0], upper], [upper, lower]];
     let hot = ends.map(|ends| scene.spring(LogarithmicStiffness::FIRST, ends));
-    let alone = scene.mass(2.0, [101.5, 0.3, 0.0], [0.0, 1.0, 0.7]);
+    let alone = scene.mass(2.0, [5.5, 0.3, 0.0], [0.0, 1.0, 0.7]);
     let elastic = scene.spring(LogarithmicStiffness::FIRST, [pivots[1], alone]);
     for (spring, theta) in hot.into_iter().zip([380.0, 298.0]) {
         scene.set_temperature(spring, theta);

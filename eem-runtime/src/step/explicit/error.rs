@@ -9,15 +9,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// The scales of the step, at its end before it is closed.
     pub(super) fn scales(&self) -> Scales<S> {
         let size = self.components.masses * D;
-        let norm = |part: &[S]| {
-            let most = part.iter().fold(S::zero(), |most, x| most.maximum(x.abs()));
-            if most.equal(S::zero()).all() {
-                return most;
-            }
-            let scaled = part.iter().map(|&x| x / most);
-            let sum = scaled.fold(S::zero(), |sum, x| sum + x * x);
-            most * sum.sqrt()
-        };
         let momenta = self.offsets.momenta..self.offsets.momenta + size;
         Scales {
             position: norm(&self.y0[..size]).maximum(norm(&self.y[..size])),
@@ -67,4 +58,19 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         five / (five + S::from_f64(0.01) * three).sqrt() / relative
     }
+}
+
+/// |x|₂, scaled where squares would under- or overflow.
+fn norm<S: Real>(x: &[S]) -> S {
+    let sum = x.iter().fold(S::zero(), |sum, &x| sum + x * x);
+    let is_normal = S::MIN_POSITIVE.less(sum) & sum.at_most(S::MAX);
+    if is_normal.all() {
+        return sum.sqrt();
+    }
+    let most = x.iter().fold(S::zero(), |most, x| most.maximum(x.abs()));
+    if most.equal(S::zero()).all() {
+        return most;
+    }
+    let scaled = x.iter().map(|&x| x / most);
+    most * scaled.fold(S::zero(), |sum, x| sum + x * x).sqrt()
 }

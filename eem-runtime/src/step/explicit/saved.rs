@@ -32,6 +32,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// Goes on from what was saved of the same scene.
     pub(crate) fn restore(&mut self, saved: &SavedExplicit<S>) {
         self.is_ready = !saved.is_new;
+        self.is_restored = true;
         self.is_motion_first = saved.is_motion_first;
         let (books, start) = (&mut self.books, &mut self.start);
         books.targets.copy_from_slice(&saved.targets);

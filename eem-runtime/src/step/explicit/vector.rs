@@ -68,8 +68,12 @@ pub(super) struct Inertia<S> {
     matrix: [[S; 3]; 3],
 }
 
-/// The share of the trace, as a power of ε, below which a pivot belongs to a direction without arm.
-const LEAST_PIVOT: f64 = 0.75;
+/// The share of the trace below which a pivot belongs to a direction without arm: ε^¾, 2·10⁻¹² in double
+/// precision.
+fn least_pivot<S: Real>() -> S {
+    let root = S::EPSILON.sqrt();
+    root * root.sqrt()
+}
 
 impl<S: Real> Inertia<S> {
     /// Of nothing.
@@ -113,7 +117,7 @@ impl<S: Real> Inertia<S> {
         }
         let mut matrix = self.matrix;
         let trace = matrix[0][0] + matrix[1][1] + matrix[2][2];
-        let least = S::EPSILON.powf(S::from_f64(LEAST_PIVOT)) * trace;
+        let least = least_pivot::<S>() * trace;
         let (mut order, mut rank) = ([0, 1, 2], 0);
         for step in 0..3 {
             let mut best = step;
