@@ -9,7 +9,7 @@ use super::{Explicit, ExplicitView};
 use crate::element::group::{ComponentEnergy, points};
 use crate::element::state::State;
 use crate::number::compensated::Sum;
-use crate::number::scalar::{Mask, Real};
+use crate::number::scalar::{Mask, Real, Scalar};
 use crate::step::error::StepFailure;
 
 /// Roundings up to which energy and momenta of a state are their targets, as in the certificate.
@@ -85,7 +85,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             let pairs = linear.iter().zip(&target.linear).take(axes);
             let pairs = pairs.chain(angular.iter().zip(&target.angular));
             let off = pairs.map(|(&found, sum)| (found - sum.value).abs());
-            let off = off.fold(S::zero(), |most, off| most.maximum(off));
+            let off = off.fold(S::zero(), Scalar::maximum);
             let [momenta, moments] = self.sizes_of(component);
             let is_free_of_momenta = component.support == Support::Several;
             defect.abs().at_most(rounding * magnitude).all()
