@@ -31,7 +31,7 @@ pub mod guide {}
 pub mod __private {
     pub use core;
     pub use eem_runtime::{
-        Array, Caloric, Describe, Description, FreeEnergy, Scalar, Strain, StrainEnergy, describe,
-        kernel,
+        Array, Caloric, Describe, Description, FreeEnergy, Rates, Scalar, Strain, StrainEnergy,
+        describe, kernel,
     };
 }

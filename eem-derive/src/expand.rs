@@ -13,6 +13,7 @@ mod header;
 mod inputs;
 mod lines;
 mod points;
+mod rates;
 mod statements;
 pub(crate) mod strains;
 

@@ -1,10 +1,12 @@
-//! Steps: the schemes as data, Newton's method, the end of a step and its certificate.
+//! Steps: the schemes as data, Newton's method, the end of a step and its certificate; the explicit scheme.
 
 pub(crate) mod certificate;
 pub(crate) mod control;
 pub(crate) mod error;
+pub(crate) mod explicit;
 pub(crate) mod loads;
 pub(crate) mod newton;
+pub(crate) mod outcome;
 pub(crate) mod pattern;
 pub(crate) mod rule;
 pub(crate) mod scheme;

@@ -31,6 +31,11 @@ pub struct Programs {
     /// The same outputs and ψ, everything that does not depend on θ at
     /// [`Stage::Old`](crate::Stage::Old).
     pub caloric_at: Option<Program>,
+    /// `[f_a …, g_k …, c, ∂s/∂π_a …, ∂s/∂γ_k …]` with `c = θ ∂s/∂θ`; f and g alone without a temperature.
+    pub rates: Program,
+    /// The same outputs, s and ψ; everything that does not depend on θ at
+    /// [`Stage::Old`](crate::Stage::Old). Without a temperature f, g and ψ.
+    pub rates_at: Program,
     /// `[∂²s/∂x_i∂x_j …]` by rows; none without a temperature.
     pub entropy_hessian: Option<Program>,
     /// `[η_k …, dη_k/dθ …]`, inputs parameters and θ (if there is one); none without dashpots.
@@ -54,6 +59,8 @@ impl Programs {
             &self.gradient,
             &self.hessian,
             &self.internal_energy,
+            &self.rates,
+            &self.rates_at,
             &self.entropy_form,
         ];
         let sometimes = [
@@ -82,6 +89,8 @@ impl Model {
             gradient: point.gradient(),
             hessian: point.hessian(),
             internal_energy: point.internal_energy(),
+            rates: point.rates(),
+            rates_at: point.rates_at(),
             caloric: self.temperature.map(|theta| point.caloric(theta)),
             caloric_at: self.temperature.map(|theta| point.caloric_at(theta)),
             entropy_hessian: self.temperature.map(|theta| point.entropy_hessian(theta)),

@@ -59,6 +59,8 @@ fn entropy_form_is_of_second_order_at_the_published_steps() {
 fn every_scheme_has_its_order() {
     for scheme in Scheme::ALL {
         let order = match scheme {
+            // At these steps its errors are roundings; see tests/laws/explicit.rs.
+            Scheme::EemExplicit => continue,
             Scheme::Staggered => 1.0,
             Scheme::Variational4 | Scheme::Gauss4 | Scheme::EemEntropy4 => 4.0,
             Scheme::EemEntropy6 => 6.0,

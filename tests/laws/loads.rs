@@ -8,7 +8,8 @@ use crate::support::{DoublePendulum, Hencky, LogarithmicStiffness, ThermoViscoEl
 const BALANCE_TOLERANCE: f64 = 4e-15;
 const ENTROPY_TOLERANCE: f64 = -2.0;
 
-const EEM: [Scheme; 3] = [
+const EEM: [Scheme; 4] = [
+    Scheme::EemExplicit,
     Scheme::EemEntropy,
     Scheme::EemTemperature,
     Scheme::Staggered,

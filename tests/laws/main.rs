@@ -6,6 +6,7 @@
 mod support;
 
 mod double_pendulums;
+mod explicit;
 mod free_bodies;
 mod generic;
 mod high_order;

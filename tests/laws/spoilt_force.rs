@@ -1,7 +1,7 @@
 //! A step whose forces are wrong is refused, however it was found.
 
 use eem::prelude::*;
-use eem::{Caloric, Law, StepFailure};
+use eem::{Caloric, Law, Rates, StepFailure};
 
 use crate::support::{LogarithmicStiffness, ThermoViscoElastic};
 
@@ -51,6 +51,12 @@ impl<M: FreeEnergy<f64>> FreeEnergy<f64> for Spoilt<M> {
         viscosity(theta: f64) -> (M::Viscosities, M::Viscosities);
         entropy_form_old(x0: &M::Variables) -> M::EntropyFormOld;
         temperature_form_old(x0: &M::Variables) -> M::TemperatureFormOld;
+    }
+
+    fn rates(&self, x: &M::Variables) -> Rates<M::Variables> {
+        let mut rates = self.material.rates(x);
+        rates.forces[0] *= 1.0 + self.error;
+        rates
     }
 
     fn entropy_form(
@@ -154,4 +160,35 @@ fn a_step_of_the_single_pendulum_with_a_wrong_force_is_refused() {
 #[test]
 fn a_step_of_the_double_pendulum_with_a_wrong_force_is_refused() {
     check(log);
+}
+
+/// The mean correction of an explicit run of half a second.
+fn correction<const D: usize>(mut run: Simulation<D>, steps: u32) -> f64 {
+    run.set_step_size(0.5 / f64::from(steps)).unwrap();
+    for _ in 0..steps {
+        run.step().unwrap();
+    }
+    run.corrections().total / f64::from(steps)
+}
+
+/// An explicit step puts the energy back also where a force is wrong: then what it puts back falls with the
+/// first power of the step, and not with the ninth.
+#[test]
+fn the_correction_of_explicit_steps_shows_a_wrong_force() {
+    const STEPS: [u32; 2] = [50, 100];
+    const WRONG: f64 = 1e-6;
+    let explicit = Scheme::EemExplicit;
+    let check = |name: &str, of: &dyn Fn(f64, u32) -> f64| {
+        let [honest, wrong] = [0.0, WRONG].map(|error| STEPS.map(|steps| of(error, steps)));
+        let slope = (wrong[0] / wrong[1]).log2();
+        println!("{name}: honest {honest:?}, wrong {wrong:?}, slope {slope}");
+        assert!((slope - 1.0).abs() <= 0.3, "{name}: {slope}");
+        assert!(wrong[1] > 100.0 * honest[1], "{name}");
+    };
+    check("single", &|error, steps| {
+        correction(single(error, explicit), steps)
+    });
+    check("log", &|error, steps| {
+        correction(log(error, explicit), steps)
+    });
 }

@@ -220,6 +220,30 @@ mod files {
         assert_eq!(before, bits(&run));
     }
 
+    /// Energy and momenta of an explicit run are those of the state that somebody has edited.
+    #[test]
+    fn targets_follow_an_edited_state() {
+        let mut run = single_pendulum(Scheme::EemExplicit, 0.01);
+        trace(&mut run.run, 5);
+        let text = serde_json::to_string(&run.run.checkpoint()).unwrap();
+        let momentum = run.run.momentum(run.bob).unwrap();
+        let start = text.find("\"momenta\":").unwrap();
+        let (head, tail) = text.split_at(start);
+        let value = format!("[{:?},0.0]", momentum.y);
+        assert!(tail.contains(&value), "{tail}");
+        let edited = head.to_owned() + &tail.replacen(&value, "[2.5,0.0]", 1);
+        let checkpoint: Checkpoint = serde_json::from_str(&edited).unwrap();
+        run.run.restore(&checkpoint).unwrap();
+        approx::assert_relative_eq!(run.run.momentum(run.bob).unwrap().y, 2.5);
+        let mut laws = crate::support::Laws::new(&run.run);
+        for _ in 0..100 {
+            run.run.step().unwrap();
+            laws.watch(&run.run);
+        }
+        println!("{laws:?}");
+        assert!(laws.energy <= 6e-15 && laws.angular_momentum <= 2e-15);
+    }
+
     /// The error of restoring a pendulum from a text in which `from` has been replaced by `to`.
     fn damaged(from: &str, to: &str) -> String {
         let mut run = single_pendulum(Scheme::EemEntropy, 0.125).run;

@@ -8,6 +8,7 @@ use quote::quote;
 
 use super::docs;
 use super::inputs::Inputs;
+use super::rates::rates;
 use super::statements::{Statements, value};
 
 /// All functions of one state.
@@ -33,6 +34,7 @@ pub(super) fn points(programs: &Programs, inputs: &Inputs) -> TokenStream {
     let hessian = hessian(&programs.hessian, inputs);
     let caloric = caloric(programs.caloric.as_ref(), inputs);
     let caloric_at = caloric_at(programs.caloric_at.as_ref(), inputs);
+    let rates = rates(programs, inputs);
     let entropy_hessian = entropy_hessian(programs.entropy_hessian.as_ref(), inputs);
     let viscosity = viscosity(programs.viscosity.as_ref(), inputs);
     quote! {
@@ -46,6 +48,7 @@ pub(super) fn points(programs: &Programs, inputs: &Inputs) -> TokenStream {
         #hessian
         #caloric
         #caloric_at
+        #rates
         #entropy_hessian
         #viscosity
     }

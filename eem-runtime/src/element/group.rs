@@ -23,6 +23,7 @@ mod correct;
 mod element_group;
 mod eliminate;
 mod evaluate;
+mod explicit;
 mod generic;
 mod inspect;
 mod interface;
@@ -41,6 +42,9 @@ mod view;
 
 pub(crate) use arms::points;
 pub(crate) use element_group::ElementGroup;
+pub(crate) use explicit::{
+    ClosingView, ComponentEnergy, ExplicitGroup, FreeGroup, PlaceOf, StageRates, StageView,
+};
 pub(crate) use interface::{Elements, Group};
 pub(crate) use misfit::Misfit;
 pub(crate) use stages::{Projections, Source, StageGroup, Values};

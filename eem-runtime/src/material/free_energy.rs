@@ -53,6 +53,17 @@ pub struct Caloric<S> {
     pub magnitude: S,
 }
 
+/// What the rates of a state follow from. `V` is an array with an entry per variable of
+/// `x = (π₁ … π_M, γ₁ … γ_K, θ)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rates<V> {
+    /// `(f₁ … f_M, g₁ … g_K, c)` with `f = ∂ψ/∂π`, `g = −∂ψ/∂γ` and `c = θ ∂s/∂θ`, J/K; without c where
+    /// there is no temperature.
+    pub forces: V,
+    /// `(∂s/∂π₁ … ∂s/∂π_M, ∂s/∂γ₁ … ∂s/∂γ_K, 0)`; all zero without temperature.
+    pub slopes: V,
+}
+
 /// A Helmholtz free energy `ψ(x)` and all that the schemes need of it.
 ///
 /// Derived, never written by hand: `#[derive(FreeEnergy)]` generates every
@@ -151,6 +162,42 @@ pub trait FreeEnergy<S: Scalar> {
                 *last = theta;
             }
             (self.caloric(&x), self.free_energy(&x))
+        }
+    }
+
+    /// Forces, heat capacity and the slopes of the entropy, of which the rates of a state consist.
+    fn rates(&self, x: &Self::Variables) -> Rates<Self::Variables> {
+        let (gradient, hessian) = self.hessian(x);
+        let mut rates = Rates {
+            forces: gradient,
+            slopes: Self::Variables::filled(S::zero()),
+        };
+        let last = Self::MEASURES + Self::DASHPOTS;
+        for dashpot in Self::MEASURES..last {
+            rates.forces[dashpot] = -gradient[dashpot];
+        }
+        if Self::THERMAL {
+            rates.forces[last] = -x[last] * hessian[last][last];
+            for index in 0..last {
+                rates.slopes[index] = -hessian[last][index];
+            }
+        }
+        rates
+    }
+
+    /// [`rates`](Self::rates) with `[s, ψ]`, J/K and J, as functions of the temperature, with the other
+    /// variables of `x`. What does not depend on the temperature is computed once. Without temperature
+    /// the argument does not matter, and s is zero.
+    fn rates_at(&self, x: Self::Variables) -> impl Fn(S) -> (Rates<Self::Variables>, [S; 2]) {
+        move |theta| {
+            let mut x = x;
+            let mut entropy = S::zero();
+            if Self::THERMAL {
+                let last = Self::MEASURES + Self::DASHPOTS;
+                x[last] = theta;
+                entropy = -self.gradient(&x)[last];
+            }
+            (self.rates(&x), [entropy, self.free_energy(&x)])
         }
     }
 

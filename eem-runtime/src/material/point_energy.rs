@@ -1,6 +1,6 @@
 //! The free energy of a point of a solid: that per volume, times the volume.
 
-use crate::material::free_energy::{Array, Caloric, FreeEnergy};
+use crate::material::free_energy::{Array, Caloric, FreeEnergy, Rates};
 use crate::number::scalar::Real;
 
 /// A free energy per volume at a point that stands for some volume. Energy, entropy, forces and viscosities
@@ -30,6 +30,13 @@ impl<S: Real, M: FreeEnergy<S>> PointEnergy<S, M> {
             *row = self.scaled(*row);
         }
         rows
+    }
+
+    fn scaled_rates(&self, rates: Rates<M::Variables>) -> Rates<M::Variables> {
+        Rates {
+            forces: self.scaled(rates.forces),
+            slopes: self.scaled(rates.slopes),
+        }
     }
 
     fn scaled_caloric(&self, caloric: Caloric<S>) -> Caloric<S> {
@@ -116,6 +123,18 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
         move |theta| {
             let (caloric, psi) = density(theta);
             (self.scaled_caloric(caloric), self.volume * psi)
+        }
+    }
+
+    fn rates(&self, x: &M::Variables) -> Rates<M::Variables> {
+        self.scaled_rates(self.density.rates(x))
+    }
+
+    fn rates_at(&self, x: M::Variables) -> impl Fn(S) -> (Rates<M::Variables>, [S; 2]) {
+        let density = self.density.rates_at(x);
+        move |theta| {
+            let (rates, values) = density(theta);
+            (self.scaled_rates(rates), self.scaled(values))
         }
     }
 

@@ -11,6 +11,7 @@ mod scheme_name;
 use crate::element::state::State;
 use crate::number::compensated::{Compensated, Sum};
 use crate::number::scalar::{Mask, Real, is_positive};
+use crate::step::explicit::SavedExplicit;
 use crate::step::newton::NewtonSettings;
 use crate::step::scheme::Scheme;
 use crate::step::solver::SavedPast;
@@ -76,6 +77,12 @@ pub struct Checkpoint<S = f64> {
     pub(crate) control: Option<SavedControl<S>>,
     pub(crate) state: State<S>,
     pub(crate) past: SavedPast<S>,
+    /// Of an explicit scheme; without it, its targets are those of the state.
+    #[cfg_attr(
+        feature = "serde",
+        serde(default = "Option::default", skip_serializing_if = "Option::is_none")
+    )]
+    pub(crate) explicit: Option<SavedExplicit<S>>,
 }
 
 impl<S: Copy> Checkpoint<S> {
@@ -101,7 +108,7 @@ impl<S: Real> Checkpoint<S> {
         scheme: Scheme,
         scene: (&Outline, &Numbers),
         state: &State<S>,
-        past: &SavedPast<S>,
+        (past, explicit): (&SavedPast<S>, Option<&SavedExplicit<S>>),
     ) -> Result<(), RestoreError> {
         if self.scheme != scheme {
             return Err(RestoreError::Scheme {
@@ -131,7 +138,11 @@ impl<S: Real> Checkpoint<S> {
         let steps = self.control.map(|control| control.smallest);
         let steps = [self.step].into_iter().chain(steps);
         expect_all(positive, "step size", steps, is_positive)?;
-        self.check_past(past)
+        self.check_past(past)?;
+        match (&self.explicit, explicit) {
+            (Some(own), Some(other)) => check_explicit(own, other),
+            _ => Ok(()),
+        }
     }
 
     /// Errors of forecasts are sums of squares, which may overflow: then nothing is foretold.
@@ -146,6 +157,28 @@ impl<S: Real> Checkpoint<S> {
             S::zero().at_most(error).all()
         })
     }
+}
+
+/// What an explicit scheme has saved is of the same scene, and finite.
+fn check_explicit<S: Real>(
+    own: &SavedExplicit<S>,
+    other: &SavedExplicit<S>,
+) -> Result<(), RestoreError> {
+    expect_count("components", own.targets.len(), other.targets.len())?;
+    let shares = own.shares.values().len();
+    expect_count("shares of reservoirs", shares, other.shares.values().len())?;
+    check_sums("shares of reservoirs", own.shares.sums())?;
+    for (quantity, sums) in own.sums() {
+        check_sums(quantity, sums)?;
+    }
+    for ((quantity, own), (_, other)) in own.lists().into_iter().zip(other.lists()) {
+        expect_count(quantity, own.len(), other.len())?;
+        expect_all("finite", quantity, own.iter().copied(), Real::is_finite)?;
+    }
+    let momentum = [own.largest_momentum].into_iter();
+    expect_all("not negative", "the largest momentum", momentum, |value| {
+        S::zero().at_most(value).all()
+    })
 }
 
 /// All lists of sums of a state with their names.

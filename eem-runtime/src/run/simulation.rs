@@ -6,6 +6,7 @@ mod control;
 mod control_memory;
 mod event;
 pub(crate) mod generic;
+mod halves;
 mod inspect;
 pub(crate) mod linearize;
 mod resume;
@@ -19,9 +20,8 @@ pub(crate) mod values;
 use core::fmt;
 use core::sync::atomic::{AtomicBool, Ordering};
 
-use crate::algebra::system::MOST_FIXED;
 use crate::element::conduction::Conduction;
-use crate::element::group::{Placed, StepView};
+use crate::element::group::StepView;
 use crate::element::handle::SceneId;
 use crate::element::layout::{Layout, Shape};
 use crate::element::masses::Masses;
@@ -32,15 +32,16 @@ use crate::number::scalar::{Discord, Mask, Real};
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
-use crate::step::certificate::Certificate;
 use crate::step::error::{StepError, StepFailure};
+use crate::step::explicit::{Demand, ExplicitView};
 use crate::step::newton::StepReport;
-use crate::step::scheme::{Closing, Scheme};
+use crate::step::outcome::{Attempt, Corrections};
+use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
-use check::{check_end, check_step};
+use check::{check_end, check_solids, check_step};
 use control_memory::Control;
 use start::initial_state;
-use stepper::{Parts, Stepper};
+use stepper::{Newton, Parts, Stepper};
 use totals::check_totals;
 
 /// What the elements share during the next step; borrows only the fields that it names.
@@ -86,9 +87,18 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     has_stepped: bool,
     /// The report with the largest `|defect|/bound` so far.
     worst: Option<StepReport<S>>,
+    corrections: Corrections<S>,
     /// Something failed while S was several numbers: alone, some of them might not have failed, so that
     /// nothing that follows counts. Never set where S is a single number.
     has_parted: AtomicBool,
+}
+
+/// A step that was tried.
+enum Tried<S> {
+    /// It is made.
+    Made(StepReport<S>),
+    /// Its error is so many tolerances; nothing has changed.
+    Refused(S),
 }
 
 impl<const D: usize, S: Real> fmt::Debug for Simulation<D, S> {
@@ -110,9 +120,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub fn new(scene: Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, SceneError> {
         scene.check()?;
         let has_solids = scene.groups.iter().any(|group| !group.shape().is_spring);
-        if has_solids && scheme.closing() != Closing::Increments {
-            let scheme = scheme.name();
-            return Err(SceneError::NotForSolids { scheme });
+        if has_solids {
+            check_solids(scheme)?;
         }
         check_step(step)?;
         let mut layout = scene.layout();
@@ -128,12 +137,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         state.follow_velocities(D, &masses);
         // Large, and all that it said is in the masses and in the state.
         drop(scene.nodes);
-        let placed = Placed {
-            nodes: &scene.elements,
-            layout: &layout,
-        };
-        let groups = scene.groups.into_iter();
-        let groups = groups.map(|blueprint| blueprint.build(scheme.conjugates(), placed));
         let parts = Parts {
             scheme,
             masses: &masses,
@@ -142,7 +145,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             conduction: &conduction,
             loads: &scene.loads,
         };
-        let stepper = Stepper::new(groups.collect(), parts, &mut state)?;
+        let stepper = Stepper::new(scene.groups, parts, &mut state)?;
         layout.forget_places();
         let run = Self {
             scene: scene.id,
@@ -161,6 +164,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             state,
             has_stepped: false,
             worst: None,
+            corrections: Corrections::none(),
             has_parted: AtomicBool::new(false),
         };
         check_totals(&run.ledger())?;
@@ -182,11 +186,23 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// One step of the present size.
     fn single_step(&mut self) -> Result<StepReport<S>, StepError> {
+        match self.try_step(Demand::None)? {
+            Tried::Made(report) => Ok(report),
+            Tried::Refused(_) => unreachable!("a step without a tolerance has no error"),
+        }
+    }
+
+    /// One step of the present size, unless it estimates its own error and that is not within what is
+    /// demanded.
+    fn try_step(&mut self, demand: Demand<S>) -> Result<Tried<S>, StepError> {
         self.has_stepped = false;
         self.effort.restart();
-        let certificate = match self.find_next() {
-            Ok(certificate) => certificate,
+        let Attempt { error, outcome } = match self.find_next(demand) {
+            Ok(attempt) => attempt,
             Err(failure) => return Err(self.failed(failure)),
+        };
+        let Some(outcome) = outcome else {
+            return Ok(Tried::Refused(error));
         };
         core::mem::swap(&mut self.state, &mut self.next);
         self.has_stepped = true;
@@ -196,18 +212,20 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             iterations: self.effort.history.len(),
             update: self.effort.end.update,
             residual: self.effort.end.residual,
-            defect: certificate.defect,
-            bound: certificate.bound,
-            production: certificate.production,
-            least_production: certificate.least_production,
-            error: S::zero(),
+            defect: outcome.defect,
+            bound: outcome.bound,
+            production: outcome.production,
+            least_production: outcome.least_production,
+            correction: outcome.correction.abs(),
+            error,
         };
+        self.corrections.note(outcome.correction);
         self.note_worst(&report);
-        Ok(report)
+        Ok(Tried::Made(report))
     }
 
     /// Writes the next state.
-    fn find_next(&mut self) -> Result<Certificate<S>, StepFailure> {
+    fn find_next(&mut self, demand: Demand<S>) -> Result<Attempt<S>, StepFailure> {
         if self.has_parted() {
             // An experiment that ignores failed steps and waits for something would loop forever.
             return Err(Discord.into());
@@ -215,21 +233,35 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         check_end(self.time() + self.step)?;
         self.evaluate_loads()?;
         let (effort, next) = (&mut self.effort, &mut *self.next);
-        let Stepper {
+        let newton = match &mut self.stepper {
+            Stepper::Newton(newton) => newton,
+            Stepper::Explicit(explicit) => {
+                let view = ExplicitView {
+                    step: self.step,
+                    state: &self.state,
+                    conduction: &self.conduction,
+                    loads: &self.loads,
+                    masses: &self.masses,
+                };
+                return explicit.step(&view, demand, next);
+            }
+        };
+        let Newton {
             groups,
             solver,
             loads,
             stages,
             between,
-        } = &mut self.stepper;
+        } = &mut **newton;
         let Some(between) = between else {
             let view = view!(self, Phase::Whole, &self.state, [loads, stages]);
-            return solver.solve(groups, &view, effort, next);
+            return Ok(Attempt::made(solver.solve(groups, &view, effort, next)?));
         };
         let view = view!(self, Phase::Mechanics, &self.state, [loads, stages]);
         let motion = solver.solve(groups, &view, effort, between)?;
         let view = view!(self, Phase::Heat, between, [loads, stages]);
-        Ok(motion.and(solver.solve(groups, &view, effort, next)?))
+        let heat = solver.solve(groups, &view, effort, next)?;
+        Ok(Attempt::made(motion.and(heat)))
     }
 
     /// Keeps a report if it comes closer to its bound than all before.
@@ -249,7 +281,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             return Ok(());
         }
         let span = [self.time(), self.step];
-        self.stepper.evaluate_loads(
+        let Stepper::Newton(newton) = &mut self.stepper else {
+            return Ok(());
+        };
+        newton.evaluate_loads(
             &self.loads,
             &self.masses,
             self.scheme,
@@ -294,6 +329,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.worst.as_ref()
     }
 
+    /// By how much the energy of all steps so far was corrected; zero for a scheme that is not explicit.
+    /// [`restore`](Self::restore) forgets it.
+    #[must_use]
+    pub const fn corrections(&self) -> &Corrections<S> {
+        &self.corrections
+    }
+
     /// The time, s.
     #[must_use]
     pub fn time(&self) -> S {
@@ -306,17 +348,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.scheme
     }
 
-    /// Number of unknowns of the global system of one Newton iteration.
+    /// Number of unknowns of the global system of one Newton iteration; none for an explicit scheme.
     #[must_use]
-    pub const fn unknowns(&self) -> usize {
-        self.stepper.solver.sets() * self.layout.unknowns
+    pub fn unknowns(&self) -> usize {
+        self.stepper.sets() * self.layout.unknowns
     }
 
     /// Whether several numbers in one S can go through a step together: in the dense elimination of a
     /// few unknowns, whose pivots are on the diagonal, in a scheme with one set of forces, and with weight
     /// for all of them or for none.
     pub(crate) fn suits_lanes(&self) -> bool {
-        let is_small = self.stepper.stages.is_empty() && self.unknowns() <= MOST_FIXED;
-        is_small && self.loads.suit_lanes()
+        self.stepper.suits_lanes(self.unknowns()) && self.loads.suit_lanes()
     }
 }

@@ -7,7 +7,9 @@ use crate::element::conjugates::{
     Conjugates, EemEntropy, EemTemperature, ElementScheme, Midpoint, MidpointTemperature,
     Trapezoidal, TrapezoidalTemperature, Variational,
 };
-use crate::element::group::{ElementGroup, Group, Placed, Projections, Source, StageGroup, Values};
+use crate::element::group::{
+    ElementGroup, ExplicitGroup, FreeGroup, Group, Placed, Projections, Source, StageGroup, Values,
+};
 use crate::element::handle::Element;
 use crate::element::kinematics::Kinematics;
 use crate::element::layout::Shape;
@@ -27,6 +29,8 @@ pub(crate) trait Blueprint<S: Real, const D: usize>: Any + Debug + Send + Sync {
     fn check_parameters(&self, place: usize, element: Element) -> Result<(), SceneError>;
     /// The elements, ready to be stepped.
     fn build(self: Box<Self>, by: Conjugates, placed: Placed<'_>) -> Box<dyn Group<S, D>>;
+    /// The elements, ready for an explicit scheme.
+    fn build_explicit(self: Box<Self>, placed: Placed<'_>) -> Box<dyn ExplicitGroup<S, D>>;
 }
 
 /// Elements of `P` points each, of the model `M` with the kinematics `K`.
@@ -121,6 +125,10 @@ where
             }
         };
         group(self.elements, placed)
+    }
+
+    fn build_explicit(self: Box<Self>, placed: Placed<'_>) -> Box<dyn ExplicitGroup<S, D>> {
+        Box::new(FreeGroup::<S, M, K, D>::new(self.elements, placed))
     }
 }
 

@@ -24,6 +24,14 @@ pub enum SceneError {
         /// The name of the scheme.
         scheme: &'static str,
     },
+    /// The scheme is explicit and the scene has solids.
+    #[error(
+        "{scheme} is not for solids: their masses couple nodes, so that every stage would solve a large linear system, and their small stiff elements allow only tiny steps; use eem-entropy or eem-temperature"
+    )]
+    ExplicitSolids {
+        /// The name of the scheme.
+        scheme: &'static str,
+    },
     /// A quadrilateral is inside out at a point of its reference configuration, or has no area there.
     #[error(
         "det dX/dxi of the solid at {element} is {value} m^2, it must be positive and finite: give its corners against the clock",

@@ -1,10 +1,12 @@
 //! How accurate steps have to be, and how large the next one is.
 
+mod accuracy;
 mod controller;
 mod statistics;
 mod tolerance;
 
-pub(crate) use controller::{AFTER_FAILURE, Controller, Verdict};
+pub(crate) use accuracy::{Accuracy, Estimate};
+pub(crate) use controller::{AFTER_FAILURE, Controller};
 pub use statistics::StepStatistics;
 pub use tolerance::Tolerance;
-pub(crate) use tolerance::{Accuracy, Scales, norm};
+pub(crate) use tolerance::{Scales, norm};

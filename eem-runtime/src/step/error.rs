@@ -138,6 +138,58 @@ pub enum StepFailure {
         /// The time, s.
         time: f64,
     },
+    /// The step of an explicit scheme is longer than the fastest motion allows.
+    #[error(
+        "{rate} is {product:.1} in the explicit step to t = {time} s, it is stable up to {limit}; take a step of at most {longest:.1e} s, or the implicit scheme {scheme}", time = Readable(*time))]
+    Unstable {
+        /// What is fast: `ωh` of a vibration, `κh/c` of conduction, `kh/η` of a dashpot.
+        rate: &'static str,
+        /// Its rate times the step.
+        product: f64,
+        /// The largest product for which the scheme is stable.
+        limit: f64,
+        /// The longest stable step, s.
+        longest: f64,
+        /// The name of a scheme that is stable.
+        scheme: &'static str,
+        /// The time at the end of the step, s.
+        time: f64,
+    },
+    /// An element is too cold, or stores too little heat, for an explicit step.
+    #[error(
+        "{element} has the heat capacity {heat_capacity:.3e} J/K at {temperature} K, too little for the heat of the explicit step to t = {time} s; take a shorter step, or the implicit scheme {scheme}", temperature = Readable(*temperature), time = Readable(*time))]
+    TooCold {
+        /// The element.
+        element: Element,
+        /// Its heat capacity at the start of the step, J/K.
+        heat_capacity: f64,
+        /// Its temperature at the start of the step, K.
+        temperature: f64,
+        /// The name of a scheme that may do.
+        scheme: &'static str,
+        /// The time at the end of the step, s.
+        time: f64,
+    },
+    /// An explicit step misses the energy by more than its accuracy explains.
+    #[error(
+        "the explicit step to t = {time} s misses the energy by {correction:.1e} of its terms, {limit:.0e} is allowed; take a shorter step", time = Readable(*time))]
+    Correction {
+        /// What the energy was off by, relative to its terms.
+        correction: f64,
+        /// The largest that is allowed.
+        limit: f64,
+        /// The time at the end of the step, s.
+        time: f64,
+    },
+    /// Nothing can move in a way that gives an explicit step its energy.
+    #[error(
+        "the explicit step to t = {time} s lacks {defect:.3e} J, and neither heat nor motion can give it; take a shorter step", time = Readable(*time))]
+    NotClosed {
+        /// What is missing, J.
+        defect: f64,
+        /// The time at the end of the step, s.
+        time: f64,
+    },
     /// The time at the end of the step cannot be represented.
     #[error("the time at the end of the step is {value} s, it must be finite", value = Readable(*value))]
     Time {

@@ -74,6 +74,19 @@ impl<S: Real> StepLoads<S> {
         self.evaluate_temperatures(loads, [middle, end])
     }
 
+    /// Evaluates forces and weights at a time.
+    pub(crate) fn evaluate_forces_at<const D: usize>(
+        &mut self,
+        loads: &Loads<S, D>,
+        masses: &Masses<S>,
+        scheme: Scheme,
+        time: S,
+    ) -> Result<(), StepFailure> {
+        self.evaluate_forces(loads, scheme, [time; 3])?;
+        self.add_weights(loads, masses);
+        Ok(())
+    }
+
     fn evaluate_forces<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,

@@ -70,6 +70,9 @@ pub struct StepReport<S> {
     /// The estimated error of the step in units of its tolerance, below 1.2; zero where [step
     /// control](crate::Simulation::control_steps) is off.
     pub error: S,
+    /// By how much an explicit step missed the energy before it was closed, relative to the magnitude of the
+    /// terms of the energy; zero for other schemes. See [`Simulation::corrections`](crate::Simulation::corrections).
+    pub correction: S,
 }
 
 impl<S: Real> StepReport<S> {
@@ -86,6 +89,7 @@ impl<S: Real> StepReport<S> {
             production: self.production + later.production,
             least_production: self.least_production.minimum(later.least_production),
             error: self.error.maximum(later.error),
+            correction: self.correction.maximum(later.correction),
         }
     }
 }

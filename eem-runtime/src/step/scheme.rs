@@ -5,7 +5,7 @@ use core::str::FromStr;
 
 use crate::element::conjugates::Conjugates;
 use crate::element::tableau::{Tableau, UnknownSet};
-use crate::step::control::Accuracy;
+use crate::step::control::{Accuracy, Estimate};
 use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
 
 /// The time integration schemes.
@@ -16,6 +16,7 @@ use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
 /// | `EemTemperature` | exact | exact | exact | 2 |
 /// | `EemEntropy4` | exact | exact | exact | 4 |
 /// | `EemEntropy6` | exact | exact | exact | 6 |
+/// | `EemExplicit` | exact | exact | exact | 8 |
 /// | `Variational` | bounded | in practice | exact | 2 |
 /// | `Variational4` | bounded | exact | exact | 4 |
 /// | `Staggered` | exact | exact | exact | 1 |
@@ -46,6 +47,9 @@ pub enum Scheme {
     /// Energy–entropy–momentum scheme in temperature form (Conde Martín, Betsch & García Orden
     /// 2016, eqs. 37–39).
     EemTemperature,
+    /// Explicit Runge–Kutta stages of order 8 (DOP853), entropies by quadrature, and energy and momenta put
+    /// back at the end of every step. For accuracy, where vibrations are resolved: `ωh < 5.96`.
+    EemExplicit,
     /// Variational integrator with thermacies (Kern, Romero, Conde Martín & García Orden 2021,
     /// §III.A).
     Variational,
@@ -73,9 +77,10 @@ pub enum Scheme {
 
 impl Scheme {
     /// All schemes.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::EemEntropy,
         Self::EemTemperature,
+        Self::EemExplicit,
         Self::Variational,
         Self::Variational4,
         Self::Staggered,
@@ -146,6 +151,8 @@ pub(crate) enum Closing {
     Start,
     /// As the [`Tableau`] says.
     Stages,
+    /// No Newton iteration: the [explicit scheme](crate::step::explicit) closes its steps itself.
+    Explicit,
 }
 
 /// What a scheme is.
@@ -203,6 +210,13 @@ impl Rule {
         Self { order, ..self }
     }
 
+    const fn closed_explicitly(self) -> Self {
+        Self {
+            closing: Closing::Explicit,
+            ..self
+        }
+    }
+
     const fn through_stages(self, order: u8) -> Self {
         Self {
             closing: Closing::Stages,
@@ -218,6 +232,10 @@ impl Scheme {
         match self {
             Self::EemEntropy => Rule::exact("eem-entropy", EntropyForm),
             Self::EemTemperature => Rule::exact("eem-temperature", TemperatureForm),
+            // Its elements have no algorithmic quantities of their own.
+            Self::EemExplicit => Rule::exact("eem-explicit", MeanMeasures)
+                .of_order(8)
+                .closed_explicitly(),
             Self::Staggered => Rule::exact("staggered", EntropyForm).of_order(1),
             Self::Variational => Rule::variational("variational", MeanMeasures),
             Self::Variational4 => {
@@ -285,7 +303,10 @@ impl Scheme {
     pub(crate) const fn accuracy(self) -> Accuracy {
         Accuracy {
             order: self.order(),
-            is_proportional: true,
+            estimate: match self.closing() {
+                Closing::Explicit => Estimate::Embedded,
+                Closing::Increments | Closing::Start | Closing::Stages => Estimate::Halves,
+            },
         }
     }
 

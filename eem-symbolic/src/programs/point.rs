@@ -78,6 +78,49 @@ impl<'m> PointPrograms<'m> {
         [entropy, capacity, magnitude]
     }
 
+    pub(super) fn rates(&mut self) -> Program {
+        let outputs = self.rate_quantities();
+        self.program(&self.variables, &outputs)
+    }
+
+    /// The same, s and ψ, with everything but the temperature at the old stage.
+    pub(super) fn rates_at(&mut self) -> Program {
+        let mut outputs = self.rate_quantities();
+        let theta = self.model.temperature;
+        outputs.extend(theta.map(|theta| self.model.entropy(&mut self.graph, theta)));
+        outputs.push(self.model.psi);
+        let known = self.variables.iter();
+        let known = known.filter(|&&symbol| Some(symbol) != theta);
+        let known = self.model.parameters.iter().chain(known);
+        let known: Vec<_> = known.copied().collect();
+        self.staged(&known, theta.as_slice(), &outputs)
+    }
+
+    /// `f, g, c, ∂s/∂π, ∂s/∂γ`.
+    fn rate_quantities(&mut self) -> Vec<ExprId> {
+        let mechanical = self.model.measures.iter().chain(&self.model.dashpots);
+        let mechanical: Vec<_> = mechanical.copied().collect();
+        let measures = self.model.measures.len();
+        let mut outputs = Vec::new();
+        for (index, &x) in mechanical.iter().enumerate() {
+            let slope = diff(&mut self.graph, self.model.psi, x);
+            let is_force = index < measures;
+            outputs.push(if is_force {
+                slope
+            } else {
+                self.graph.neg(slope)
+            });
+        }
+        if let Some(theta) = self.model.temperature {
+            let entropy = self.model.entropy(&mut self.graph, theta);
+            outputs.push(heat_capacity(&mut self.graph, entropy, theta));
+            let slopes = mechanical.iter();
+            let slopes = slopes.map(|&x| diff(&mut self.graph, entropy, x));
+            outputs.extend(slopes);
+        }
+        outputs
+    }
+
     pub(super) fn entropy_hessian(&mut self, theta: Symbol) -> Program {
         let entropy = self.model.entropy(&mut self.graph, theta);
         let gradient = self.slopes(entropy);

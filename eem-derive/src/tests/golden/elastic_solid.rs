@@ -121,6 +121,52 @@ const _: () = {
                 magnitude: __zero,
             }
         }
+        /// Forces f and g, heat capacity c, slopes of the entropy.
+        ///
+        /// 1 multiplication.
+        fn rates(&self, __x: &Self::Variables) -> __eem::Rates<Self::Variables> {
+            let __v0 = __x[0];
+            let __v1 = <__S as __eem::Scalar>::from_f64(self.la);
+            let __v2 = __v0 * __v1;
+            let __v3 = <__S as __eem::Scalar>::from_f64(self.mu);
+            __eem::Rates {
+                forces: [__v2, __v3],
+                slopes: [<__S as __eem::Scalar>::zero(), <__S as __eem::Scalar>::zero()],
+            }
+        }
+        /// The same, the entropy s and the free energy ψ, as functions of the temperature.
+        ///
+        /// No operations.
+        fn rates_at(
+            &self,
+            __x: Self::Variables,
+        ) -> impl __eem::core::ops::Fn(
+            __S,
+        ) -> (__eem::Rates<Self::Variables>, [__S; 2]) {
+            let __v0 = __x[0];
+            let __v1 = <__S as __eem::Scalar>::from_f64(self.la);
+            let __v2 = __v0 * __v1;
+            let __v3 = <__S as __eem::Scalar>::from_f64(self.mu);
+            let __v4 = __v0 * __v0;
+            let __v5 = __v1 * __v4;
+            let __v6 = __x[1];
+            let __v7 = __v3 * __v6;
+            let __v8 = <__S as __eem::Scalar>::from_f64(0.5);
+            let __v9 = __v5 * __v8;
+            let __v10 = __v7 + __v9;
+            move |_| {
+                (
+                    __eem::Rates {
+                        forces: [__v2, __v3],
+                        slopes: [
+                            <__S as __eem::Scalar>::zero(),
+                            <__S as __eem::Scalar>::zero(),
+                        ],
+                    },
+                    [<__S as __eem::Scalar>::zero(), __v10],
+                )
+            }
+        }
         /// There is no temperature: zero.
         fn entropy_hessian(&self, _: &Self::Variables) -> Self::Hessian {
             let __row = __eem::Array::filled(<__S as __eem::Scalar>::zero());

@@ -114,6 +114,48 @@ const _: () = {
                 magnitude: __zero,
             }
         }
+        /// Forces f and g, heat capacity c, slopes of the entropy.
+        ///
+        /// 2 operations: 1 addition, 1 multiplication.
+        fn rates(&self, __x: &Self::Variables) -> __eem::Rates<Self::Variables> {
+            let __v0 = <__S as __eem::Scalar>::from_f64(self.stiffness);
+            let __v1 = __x[0];
+            let __v2 = <__S as __eem::Scalar>::from_f64(self.length);
+            let __v3 = __v1 - __v2;
+            let __v4 = __v0 * __v3;
+            __eem::Rates {
+                forces: [__v4],
+                slopes: [<__S as __eem::Scalar>::zero()],
+            }
+        }
+        /// The same, the entropy s and the free energy ψ, as functions of the temperature.
+        ///
+        /// No operations.
+        fn rates_at(
+            &self,
+            __x: Self::Variables,
+        ) -> impl __eem::core::ops::Fn(
+            __S,
+        ) -> (__eem::Rates<Self::Variables>, [__S; 2]) {
+            let __v0 = <__S as __eem::Scalar>::from_f64(self.stiffness);
+            let __v1 = __x[0];
+            let __v2 = <__S as __eem::Scalar>::from_f64(self.length);
+            let __v3 = __v1 - __v2;
+            let __v4 = __v0 * __v3;
+            let __v5 = __v3 * __v3;
+            let __v6 = __v0 * __v5;
+            let __v7 = <__S as __eem::Scalar>::from_f64(0.5);
+            let __v8 = __v6 * __v7;
+            move |_| {
+                (
+                    __eem::Rates {
+                        forces: [__v4],
+                        slopes: [<__S as __eem::Scalar>::zero()],
+                    },
+                    [<__S as __eem::Scalar>::zero(), __v8],
+                )
+            }
+        }
         /// There is no temperature: zero.
         fn entropy_hessian(&self, _: &Self::Variables) -> Self::Hessian {
             let __row = __eem::Array::filled(<__S as __eem::Scalar>::zero());

@@ -348,6 +348,95 @@ const _: () = {
                 (__caloric, __v39)
             }
         }
+        /// Forces f and g, heat capacity c, slopes of the entropy.
+        ///
+        /// 10 operations: 7 additions, 3 multiplications.
+        fn rates(&self, __x: &Self::Variables) -> __eem::Rates<Self::Variables> {
+            let __v0 = <__S as __eem::Scalar>::from_f64(self.stiffness);
+            let __v1 = __x[0];
+            let __v2 = <__S as __eem::Scalar>::from_f64(self.length);
+            let __v3 = __v2 - __v1;
+            let __v4 = <__S as __eem::Scalar>::from_f64(self.branch);
+            let __v5 = __x[1];
+            let __v6 = __v3 + __v5;
+            let __v7 = <__S as __eem::Scalar>::from_f64(self.coupling);
+            let __v8 = __x[2];
+            let __v9 = <__S as __eem::Scalar>::from_f64(self.theta_ref);
+            let __v10 = __v8 - __v9;
+            let __v11 = __v0 * __v3;
+            let __v12 = __v4 * __v6;
+            let __v13 = __v7 * __v10;
+            let __v14 = __v11 + __v12;
+            let __v15 = __v13 + __v14;
+            let __v16 = <__S as __eem::Scalar>::from_f64(self.capacity);
+            let __v17 = -__v15;
+            let __v18 = -__v12;
+            let __v19 = <__S as __eem::Scalar>::from_f64(0.0);
+            __eem::Rates {
+                forces: [__v17, __v18, __v16],
+                slopes: [__v7, __v19, <__S as __eem::Scalar>::zero()],
+            }
+        }
+        /// The same, the entropy s and the free energy ψ, as functions of the temperature.
+        ///
+        /// 13 operations: 6 additions, 5 multiplications, 1 division, 1 function. Transcendental functions: 1 call for 1 argument.
+        fn rates_at(
+            &self,
+            __x: Self::Variables,
+        ) -> impl __eem::core::ops::Fn(
+            __S,
+        ) -> (__eem::Rates<Self::Variables>, [__S; 2]) {
+            let __v1 = <__S as __eem::Scalar>::from_f64(self.theta_ref);
+            let __v4 = <__S as __eem::Scalar>::from_f64(self.stiffness);
+            let __v5 = __x[0];
+            let __v6 = <__S as __eem::Scalar>::from_f64(self.length);
+            let __v7 = __v5 - __v6;
+            let __v8 = __v4 * __v7;
+            let __v9 = <__S as __eem::Scalar>::from_f64(self.branch);
+            let __v10 = __x[1];
+            let __v11 = __v5 - __v10;
+            let __v12 = __v11 - __v6;
+            let __v13 = __v9 * __v12;
+            let __v14 = <__S as __eem::Scalar>::from_f64(self.coupling);
+            let __v16 = __v8 + __v13;
+            let __v19 = __v10 - __v5;
+            let __v20 = __v6 + __v19;
+            let __v21 = __v9 * __v20;
+            let __v22 = <__S as __eem::Scalar>::from_f64(self.capacity);
+            let __v23 = __v7 * __v14;
+            let __v26 = __v7 * __v7;
+            let __v27 = __v4 * __v26;
+            let __v28 = __v12 * __v12;
+            let __v29 = __v9 * __v28;
+            let __v32 = __v27 + __v29;
+            let __v33 = <__S as __eem::Scalar>::from_f64(0.5);
+            let __v34 = __v32 * __v33;
+            let __v39 = -__v21;
+            move |__theta| {
+                let __v0 = __theta;
+                let __v2 = __v0 / __v1;
+                let __v3 = <__S as __eem::Scalar>::ln(__v2);
+                let __v15 = __v1 - __v0;
+                let __v17 = __v14 * __v15;
+                let __v18 = __v16 + __v17;
+                let __v24 = __v22 * __v3;
+                let __v25 = __v23 + __v24;
+                let __v30 = __v0 * __v3;
+                let __v31 = __v15 + __v30;
+                let __v35 = __v22 * __v31;
+                let __v36 = __v15 * __v23;
+                let __v37 = __v34 - __v35;
+                let __v38 = __v36 + __v37;
+                let __v40 = <__S as __eem::Scalar>::from_f64(0.0);
+                (
+                    __eem::Rates {
+                        forces: [__v18, __v39, __v22],
+                        slopes: [__v14, __v40, <__S as __eem::Scalar>::zero()],
+                    },
+                    [__v25, __v38],
+                )
+            }
+        }
         /// Hessian of the entropy, ∂²s/∂x².
         ///
         /// 4 operations: 1 addition, 2 multiplications, 1 division.

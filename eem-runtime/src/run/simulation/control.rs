@@ -1,27 +1,15 @@
-//! Steps whose size follows from an accuracy.
-//!
-//! A step of the size H is made twice: at once, and in two halves. The halves are what is kept; their
-//! difference from the whole says how accurate they are,
-//!
-//! ```text
-//! error = |y_H − y_{H/2, H/2}|/(2ᵖ − 1)
-//! ```
-//!
-//! Every part is a step of the scheme like any other, and proves its laws. The estimate asks nothing of the
-//! scheme but its order p, so that it stays right where the motion is stiff or conduction is fast.
+//! Steps whose size follows from an accuracy: they are tried, judged, and kept or made again.
 
 use core::mem;
 
-use super::Simulation;
 use super::control_memory::{Control, SMALLEST};
-use crate::element::state::State;
+use super::{Simulation, Tried};
 use crate::number::scalar::{Discord, Mask, Real, is_positive};
 use crate::run::checkpoint::SavedControl;
 use crate::scene::error::SceneError;
-use crate::step::control::{
-    AFTER_FAILURE, Controller, Scales, StepStatistics, Tolerance, Verdict, norm,
-};
+use crate::step::control::{AFTER_FAILURE, Controller, Estimate, StepStatistics, Tolerance, norm};
 use crate::step::error::{StepError, StepFailure, StepLimit};
+use crate::step::explicit::Demand;
 use crate::step::newton::StepReport;
 
 /// # Step control
@@ -93,13 +81,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Controls steps like this, or makes all of one size.
     pub(super) fn go_on_with(&mut self, memory: Option<SavedControl<S>>) {
         self.control = memory.map(|memory| {
+            let accuracy = self.scheme.accuracy();
+            let halves = (accuracy.estimate == Estimate::Halves).then(|| self.room_for_halves());
             Box::new(Control {
                 memory,
-                accuracy: self.scheme.accuracy(),
-                before: State::clone(&self.state),
-                past: self.stepper.past(),
-                whole: State::clone(&self.state),
-                are_strains: self.viscous_strains(),
+                accuracy,
+                halves,
             })
         });
     }
@@ -166,29 +153,25 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             let full = self.step;
             let arriving = self.size_towards(end, full)?;
             let size = arriving.unwrap_or(full);
+            let mut controller = control.memory.controller;
             let (next, limit) = match self.attempt(control, size) {
-                Ok(mut report) => {
-                    let mut controller = control.memory.controller;
-                    match controller.judge(size, report.error, control.accuracy) {
-                        Verdict::Accepted(next) => {
-                            // A step that the end has shortened says nothing about the next ones.
-                            if !size.less(full).all() {
-                                self.step = next;
-                                control.memory.controller = controller;
-                            }
-                            if arriving.is_some() {
-                                self.arrive_at(end, &mut report);
-                            }
-                            self.accept(control);
-                            return Ok(report);
-                        }
-                        Verdict::Rejected(next) => {
-                            self.take_back(control);
-                            control.memory.statistics.rejected_by_error += 1;
-                            let error = report.error.to_f64();
-                            (next, StepLimit::Error { error })
-                        }
+                Ok(Tried::Made(mut report)) => {
+                    // A step that the end has shortened says nothing about the next ones.
+                    if !size.less(full).all() {
+                        self.step = controller.next(size, report.error, control.accuracy);
+                        control.memory.controller = controller;
                     }
+                    if arriving.is_some() {
+                        self.arrive_at(end, &mut report);
+                    }
+                    self.accept(control);
+                    return Ok(report);
+                }
+                Ok(Tried::Refused(error)) => {
+                    control.memory.statistics.rejected_by_error += 1;
+                    let next = size * control.accuracy.left_after(error);
+                    let error = error.to_f64();
+                    (next, StepLimit::Error { error })
                 }
                 Err(error) => {
                     let statistics = &mut control.memory.statistics;
@@ -208,45 +191,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// A step of this size in two halves, and its error; the state is what it was if a part fails.
-    fn attempt(&mut self, control: &mut Control<S>, size: S) -> Result<StepReport<S>, StepError> {
-        control.before.copy_all_from(&self.state);
-        self.stepper.save_past_to(&mut control.past);
-        let whole = self.step_by(size)?;
-        control.whole.copy_from(&self.state);
-        self.take_back(control);
-        let mut report = self.step_in_halves(control, size)?;
-        report.iterations += whole.iterations;
-        let ends = [&control.before, &*self.state];
-        let memory = &control.memory;
-        let largest = memory.largest_momentum;
-        let scales = Scales::new(&memory.tolerance, control.accuracy, ends, largest);
-        let share = S::from_f64(f64::from(control.accuracy.order).exp2() - 1.0).recip();
-        report.error = share * scales.error([&control.whole, &self.state], &control.are_strains);
-        Ok(report)
-    }
-
-    fn step_in_halves(
-        &mut self,
-        control: &Control<S>,
-        size: S,
-    ) -> Result<StepReport<S>, StepError> {
-        let half = S::from_f64(0.5) * size;
-        let first = self.step_by(half)?;
-        match self.step_by(half) {
-            Ok(second) => Ok(first.and(second)),
-            Err(error) => {
-                self.take_back(control);
-                Err(error)
-            }
+    /// A step of this size and its error; the state is what it was if there is none.
+    fn attempt(&mut self, control: &mut Control<S>, size: S) -> Result<Tried<S>, StepError> {
+        let Control {
+            memory,
+            accuracy,
+            halves,
+        } = control;
+        match halves {
+            Some(halves) => self.try_halves(halves, (memory, *accuracy), size),
+            None => self.try_step_by(size, Demand::Within(memory.tolerance)),
         }
-    }
-
-    /// Goes back to where the last step began.
-    fn take_back(&mut self, control: &Control<S>) {
-        self.has_stepped = false;
-        self.state.copy_all_from(&control.before);
-        self.stepper.restore(&control.past);
     }
 
     fn accept(&self, control: &mut Control<S>) {
@@ -256,28 +211,21 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         memory.largest_momentum = memory.largest_momentum.maximum(momentum);
     }
 
-    /// Which viscous variables are strains of solids.
-    fn viscous_strains(&self) -> Vec<bool> {
-        let mut are_strains = vec![false; self.layout.viscous];
-        for &[group, place] in &self.places {
-            let shape = self.shapes[group as usize];
-            let first = self
-                .stepper
-                .elements(group as usize)
-                .slots(place as usize)
-                .viscous;
-            are_strains[first..first + shape.dashpots].fill(!shape.is_spring);
-        }
-        are_strains
-    }
-
     /// Takes back the step that has just been made.
     pub(super) fn undo(&mut self) {
         if let Some(control) = self.control.take() {
-            self.take_back(&control);
+            if let Some(halves) = &control.halves {
+                self.return_to(halves);
+            } else {
+                self.swap_back();
+            }
             self.control = Some(control);
             return;
         }
+        self.swap_back();
+    }
+
+    fn swap_back(&mut self) {
         mem::swap(&mut self.state, &mut self.next);
         self.has_stepped = false;
         self.stepper.undo();
@@ -288,7 +236,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let Some(control) = self.control.take() else {
             return self.step_by(size);
         };
-        let report = self.step_in_halves(&control, size);
+        let report = match &control.halves {
+            Some(halves) => self.step_in_halves(halves, size),
+            None => self.step_by(size),
+        };
         self.control = Some(control);
         report
     }

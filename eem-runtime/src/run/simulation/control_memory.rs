@@ -13,7 +13,13 @@ pub(super) const SMALLEST: f64 = 16.0;
 pub(super) struct Control<S> {
     pub(super) memory: SavedControl<S>,
     pub(super) accuracy: Accuracy,
-    /// Where the last step began.
+    /// For schemes that have no estimate of their own.
+    pub(super) halves: Option<Halves<S>>,
+}
+
+/// What is kept of a step that is made at once and in two halves.
+pub(super) struct Halves<S> {
+    /// Where it began.
     pub(super) before: State<S>,
     pub(super) past: SavedPast<S>,
     /// Where it led at once.

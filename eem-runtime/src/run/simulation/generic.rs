@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::Simulation;
+use super::stepper::Stepper;
 use crate::element::conduction::Partner;
 use crate::element::group::{ElementGeneric, Elements};
 use crate::element::state::State;
@@ -78,7 +79,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             return None;
         }
         let ends = [&*self.next, &*self.state];
-        let elements = self.stepper.groups.iter();
+        let Stepper::Newton(newton) = &self.stepper else {
+            return None;
+        };
+        let elements = newton.groups.iter();
         let elements: Vec<_> = elements
             .flat_map(|group| group.generic_of_step(ends))
             .collect();

@@ -1,6 +1,6 @@
 //! Residual and tangent of the system that Newton's method solves, at given unknowns.
 
-use super::stepper::Stepper;
+use super::stepper::{Newton, Stepper};
 use super::{Simulation, view};
 use crate::element::group::StepView;
 use crate::element::phase::Phase;
@@ -55,13 +55,18 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         if let Err(failure) = self.evaluate_loads() {
             return Err(self.failed(failure));
         }
-        let Stepper {
+        let Stepper::Newton(newton) = &mut self.stepper else {
+            // An explicit scheme solves no system.
+            let (residual, tangent) = (Vec::new(), Vec::new());
+            return Ok(StepTangent { residual, tangent });
+        };
+        let Newton {
             groups,
             solver,
             loads,
             stages,
             ..
-        } = &mut self.stepper;
+        } = &mut **newton;
         let view = view!(self, Phase::Whole, &self.state, [loads, stages]);
         let linearized = solver.linearize(groups, &view, unknowns, &mut self.effort);
         match linearized {

@@ -4,6 +4,7 @@ use super::Simulation;
 use crate::element::state::State;
 use crate::number::scalar::Real;
 use crate::run::checkpoint::{Checkpoint, Outline, RestoreError};
+use crate::step::outcome::Corrections;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// The present state, with all that the next steps depend on.
@@ -25,6 +26,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// ```
     #[must_use]
     pub fn checkpoint(&self) -> Checkpoint<S> {
+        let (past, explicit) = self.stepper.past();
         Checkpoint {
             scheme: self.scheme,
             outline: self.outline(),
@@ -36,7 +38,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 energies: Vec::new(),
                 ..State::clone(&self.state)
             },
-            past: self.stepper.past(),
+            past,
+            explicit,
         }
     }
 
@@ -53,9 +56,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Motions and thermostats are evaluated at the time of the checkpoint to compare.
     pub fn restore(&mut self, checkpoint: &Checkpoint<S>) -> Result<(), RestoreError> {
         let past = self.stepper.past();
+        let past = (&past.0, past.1.as_ref());
         let scene = (&self.outline(), &self.numbers());
         checkpoint
-            .check(self.scheme, scene, &self.state, &past)
+            .check(self.scheme, scene, &self.state, past)
             .and_then(|()| self.audit(&checkpoint.state, checkpoint.step))
             .inspect_err(|_| self.part())?;
         self.check_control(checkpoint.control)?;
@@ -66,7 +70,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let state = &mut self.state;
         self.stepper.each_mut(|group| group.find_energies(state));
         self.worst = None;
-        self.stepper.restore(&checkpoint.past);
+        self.corrections = Corrections::none();
+        self.stepper
+            .restore(&checkpoint.past, checkpoint.explicit.as_ref());
         self.step = checkpoint.step;
         self.go_on_with(checkpoint.control);
         Ok(())

@@ -3,10 +3,11 @@
 use core::mem;
 use core::ops::ControlFlow;
 
-use super::Simulation;
+use super::{Simulation, Tried};
 use crate::number::compensated::Sum;
 use crate::number::scalar::{Mask, Real};
 use crate::step::error::{StepError, StepFailure};
+use crate::step::explicit::Demand;
 use crate::step::newton::StepReport;
 
 /// How a run ended.
@@ -189,9 +190,21 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// One step of another size, which later steps do not have.
     pub(super) fn step_by(&mut self, size: S) -> Result<StepReport<S>, StepError> {
+        self.of_size(size).run.single_step()
+    }
+
+    /// The same for one that estimates its own error, see [`try_step`](Self::try_step).
+    pub(super) fn try_step_by(
+        &mut self,
+        size: S,
+        demand: Demand<S>,
+    ) -> Result<Tried<S>, StepError> {
+        self.of_size(size).run.try_step(demand)
+    }
+
+    fn of_size(&mut self, size: S) -> OtherSize<'_, D, S> {
         let usual = mem::replace(&mut self.step, size);
-        let other = OtherSize { run: self, usual };
-        other.run.single_step()
+        OtherSize { run: self, usual }
     }
 }
 

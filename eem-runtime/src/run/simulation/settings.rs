@@ -25,6 +25,19 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(())
     }
 
+    /// Whether the explicit scheme gives a step the energy that it misses by motion before heat.
+    #[must_use]
+    pub fn is_motion_first(&self) -> bool {
+        self.stepper.is_motion_first()
+    }
+
+    /// Changes what the explicit scheme takes to give a step the energy that it misses: heat first, as is
+    /// usual, or motion first. Heat is more accurate, and changes at most 0.3 % of what elements produce in
+    /// the step; motion leaves productions as they are. It has no effect on other schemes.
+    pub fn set_motion_first(&mut self, is_motion_first: bool) {
+        self.stepper.set_motion_first(is_motion_first);
+    }
+
     /// How hard a step tries.
     #[must_use]
     pub const fn newton_settings(&self) -> NewtonSettings<S> {

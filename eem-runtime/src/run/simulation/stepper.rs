@@ -1,22 +1,33 @@
 //! What steps a scene: its elements, what acts on them, and the solver.
 
+use crate::algebra::system::MOST_FIXED;
 use crate::element::conduction::Conduction;
-use crate::element::group::{Elements, Group};
+use crate::element::group::{Elements, Group, Placed};
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::element::tableau::Tableau;
 use crate::number::scalar::Real;
+use crate::scene::blueprint::Blueprint;
 use crate::scene::entry::ElementEntry;
 use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
 use crate::step::error::StepFailure;
-use crate::step::scheme::Scheme;
+use crate::step::explicit::{Explicit, SavedExplicit, Site};
+use crate::step::scheme::{Closing, Scheme};
 use crate::step::solver::{SavedPast, Solver};
 
+/// What steps a scene.
+pub(super) enum Stepper<S: Real, const D: usize> {
+    /// Newton's method.
+    Newton(Box<Newton<S, D>>),
+    /// An explicit scheme.
+    Explicit(Box<Explicit<S, D>>),
+}
+
 /// Elements, loads and solver of a scene.
-pub(super) struct Stepper<S: Real, const D: usize> {
+pub(super) struct Newton<S: Real, const D: usize> {
     pub(super) groups: Vec<Box<dyn Group<S, D>>>,
     pub(super) solver: Solver<S, D>,
     /// What acts in the next step.
@@ -32,7 +43,7 @@ pub(super) struct Stepper<S: Real, const D: usize> {
 pub(super) struct Parts<'a, S: Real, const D: usize> {
     pub(super) scheme: Scheme,
     pub(super) masses: &'a Masses<S>,
-    pub(super) elements: &'a [ElementEntry<S>],
+    pub(super) elements: &'a Vec<ElementEntry<S>>,
     pub(super) layout: &'a Layout,
     pub(super) conduction: &'a Conduction<S>,
     pub(super) loads: &'a Loads<S, D>,
@@ -41,6 +52,147 @@ pub(super) struct Parts<'a, S: Real, const D: usize> {
 impl<S: Real, const D: usize> Stepper<S, D> {
     /// Finds the entropies of an initial state, and gets ready.
     pub(super) fn new(
+        blueprints: Vec<Box<dyn Blueprint<S, D>>>,
+        parts: Parts<'_, S, D>,
+        state: &mut State<S>,
+    ) -> Result<Self, SceneError> {
+        let placed = Placed {
+            nodes: parts.elements,
+            layout: parts.layout,
+        };
+        if parts.scheme.closing() != Closing::Explicit {
+            let by = parts.scheme.conjugates();
+            let groups = blueprints.into_iter();
+            let groups = groups.map(|blueprint| blueprint.build(by, placed));
+            let newton = Newton::new(groups.collect(), parts, state)?;
+            return Ok(Self::Newton(Box::new(newton)));
+        }
+        let groups = blueprints.into_iter();
+        let mut groups: Vec<_> = groups
+            .map(|blueprint| blueprint.build_explicit(placed))
+            .collect();
+        for group in &mut groups {
+            group.elements_mut().initialize(state)?;
+        }
+        let site = Site {
+            masses: parts.masses,
+            elements: parts.elements,
+            layout: parts.layout,
+            conduction: parts.conduction,
+            loads: parts.loads,
+        };
+        Ok(Self::Explicit(Box::new(Explicit::new(groups, site))))
+    }
+
+    /// Whether an explicit scheme closes its steps by motion before heat.
+    pub(super) fn is_motion_first(&self) -> bool {
+        match self {
+            Self::Newton(_) => false,
+            Self::Explicit(explicit) => explicit.is_motion_first(),
+        }
+    }
+
+    /// Chooses what closes the steps of an explicit scheme.
+    pub(super) fn set_motion_first(&mut self, is_motion_first: bool) {
+        if let Self::Explicit(explicit) = self {
+            explicit.set_motion_first(is_motion_first);
+        }
+    }
+
+    /// Number of sets of unknowns of an iteration.
+    pub(super) fn sets(&self) -> usize {
+        match self {
+            Self::Newton(newton) => newton.solver.sets(),
+            Self::Explicit(_) => 0,
+        }
+    }
+
+    /// How often all elements have been evaluated, at all stages.
+    pub(super) fn evaluations(&self) -> u64 {
+        match self {
+            Self::Newton(newton) => {
+                let stages = u64::try_from(newton.stages.len().max(1)).unwrap_or(u64::MAX);
+                newton.solver.evaluations().saturating_mul(stages)
+            }
+            Self::Explicit(explicit) => explicit.evaluations(),
+        }
+    }
+
+    /// Whether several numbers in one S can go through a step of so many unknowns together.
+    pub(super) fn suits_lanes(&self, unknowns: usize) -> bool {
+        match self {
+            Self::Newton(newton) => newton.stages.is_empty() && unknowns <= MOST_FIXED,
+            Self::Explicit(_) => false,
+        }
+    }
+
+    /// What the start of the next step depends on besides the state.
+    pub(super) fn past(&self) -> (SavedPast<S>, Option<SavedExplicit<S>>) {
+        match self {
+            Self::Newton(newton) => (newton.solver.past(), None),
+            Self::Explicit(explicit) => (SavedPast::none(), Some(explicit.save())),
+        }
+    }
+
+    /// The past of Newton's method where it was saved before.
+    pub(super) fn save_past_to(&self, past: &mut SavedPast<S>) {
+        if let Self::Newton(newton) = self {
+            newton.solver.save_past_to(past);
+        }
+    }
+
+    /// Goes on from a saved past.
+    pub(super) fn restore(&mut self, past: &SavedPast<S>, saved: Option<&SavedExplicit<S>>) {
+        match self {
+            Self::Newton(newton) => newton.solver.restore(past),
+            Self::Explicit(explicit) => match saved {
+                Some(saved) => explicit.restore(saved),
+                None => explicit.forget(),
+            },
+        }
+    }
+
+    /// Takes back what the last step left for the next ones.
+    pub(super) fn undo(&mut self) {
+        match self {
+            Self::Newton(newton) => newton.solver.undo(),
+            Self::Explicit(explicit) => explicit.undo(),
+        }
+    }
+
+    /// A group.
+    pub(super) fn elements(&self, group: usize) -> &dyn Elements<S, D> {
+        match self {
+            Self::Newton(newton) => newton.groups[group].elements(),
+            Self::Explicit(explicit) => explicit.elements(group),
+        }
+    }
+
+    /// All groups.
+    pub(super) fn all(&self) -> impl Iterator<Item = &dyn Elements<S, D>> {
+        let groups = match self {
+            Self::Newton(newton) => newton.groups.len(),
+            Self::Explicit(explicit) => explicit.groups(),
+        };
+        (0..groups).map(|group| self.elements(group))
+    }
+
+    /// Does something with all groups.
+    pub(super) fn each_mut(&mut self, mut visit: impl FnMut(&mut dyn Elements<S, D>)) {
+        match self {
+            Self::Newton(newton) => {
+                for group in &mut newton.groups {
+                    visit(group.elements_mut());
+                }
+            }
+            Self::Explicit(explicit) => explicit.each_mut(visit),
+        }
+    }
+}
+
+impl<S: Real, const D: usize> Newton<S, D> {
+    /// Finds the entropies of an initial state, and gets ready.
+    fn new(
         mut groups: Vec<Box<dyn Group<S, D>>>,
         parts: Parts<'_, S, D>,
         state: &mut State<S>,
@@ -97,42 +249,5 @@ impl<S: Real, const D: usize> Stepper<S, D> {
             stage.evaluate_supports(loads, at, q0)?;
         }
         Ok(())
-    }
-
-    /// What the start of the next step depends on besides the state.
-    pub(super) fn past(&self) -> SavedPast<S> {
-        self.solver.past()
-    }
-
-    /// The same where it was saved before.
-    pub(super) fn save_past_to(&self, past: &mut SavedPast<S>) {
-        self.solver.save_past_to(past);
-    }
-
-    /// Goes on from a saved past.
-    pub(super) fn restore(&mut self, past: &SavedPast<S>) {
-        self.solver.restore(past);
-    }
-
-    /// Takes back what the last step left for the next ones.
-    pub(super) fn undo(&mut self) {
-        self.solver.undo();
-    }
-
-    /// A group.
-    pub(super) fn elements(&self, group: usize) -> &dyn Elements<S, D> {
-        self.groups[group].elements()
-    }
-
-    /// All groups.
-    pub(super) fn all(&self) -> impl Iterator<Item = &dyn Elements<S, D>> {
-        self.groups.iter().map(|group| group.elements())
-    }
-
-    /// Does something with all groups.
-    pub(super) fn each_mut(&mut self, mut visit: impl FnMut(&mut dyn Elements<S, D>)) {
-        for group in &mut self.groups {
-            visit(group.elements_mut());
-        }
     }
 }

@@ -1,22 +1,10 @@
 //! The size of the next step from the errors of the last ones.
 
-use crate::number::scalar::{Mask, Real};
-use crate::step::control::tolerance::Accuracy;
-
-/// The error that a step aims at, in units of the tolerance.
-const AIM: f64 = 0.8;
-
-/// The error beyond which a step is rejected, in units of the tolerance.
-const MOST: f64 = 1.2;
+use crate::number::scalar::Real;
+use crate::step::control::accuracy::{AIM, Accuracy, Estimate};
 
 /// The memory of the filter: b of H211b (Söderlind 2003, *Digital filters in adaptive time-stepping*).
 const MEMORY: f64 = 4.0;
-
-/// How much of the size is left after a step that was not accurate, at least.
-const LEAST_AFTER_ERROR: f64 = 0.2;
-
-/// Rejected steps aim lower.
-const CAUTION: f64 = 0.9;
 
 /// How much of the size is left after a step that failed.
 pub(crate) const AFTER_FAILURE: f64 = 0.25;
@@ -24,8 +12,27 @@ pub(crate) const AFTER_FAILURE: f64 = 0.25;
 /// Errors that are smaller say no more than this one.
 const LEAST_ERROR: f64 = 1e-10;
 
-/// A digital filter, H211b: `h₊ = h (0.8/e_n)^(1/bk) (0.8/e_{n−1})^(1/bk) (h_n/h_{n−1})^(−1/b)`, with the order k of
-/// the error and `b = 4`; the factor f is limited to `1 + arctan(f − 1)`.
+/// Of an embedded estimate: the share of the error in the power, and the memory of the one before (Hairer, Nørsett &
+/// Wanner, *Solving ODEs I*, II.4, with less memory than theirs, which would make steps far smaller).
+const FORGETTING: f64 = 0.03;
+const REMEMBERING: f64 = 0.04;
+
+/// The smallest error that such a memory takes in.
+const LEAST_REMEMBERED: f64 = 1e-4;
+
+/// By how much such a step may change.
+const CHANGES: [f64; 2] = [1.0 / 3.0, 6.0];
+
+/// What makes the next step as large as the errors of the last two allow.
+///
+/// Where two halves of a step tell its error, a digital filter, H211b, with the order k of the error and `b = 4`; its
+/// factor f is limited to `1 + arctan(f − 1)`. Where the scheme has an estimate, of order p, a proportional
+/// controller with some memory.
+///
+/// ```text
+/// h₊ = h (0.8/e_n)^(1/bk) (0.8/e_{n−1})^(1/bk) (h_n/h_{n−1})^(−1/b)
+/// h₊ = h 0.8 e_n^(−(1/p − 0.03)) e_{n−1}^0.04
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(
     feature = "serde",
@@ -37,41 +44,43 @@ pub(crate) struct Controller<S> {
     last: Option<[S; 2]>,
 }
 
-/// What becomes of a step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Verdict<S> {
-    /// Accepted; the next one should have this size.
-    Accepted(S),
-    /// Rejected; it should be tried again with this one.
-    Rejected(S),
-}
-
 impl<S: Real> Controller<S> {
     /// Before the first step.
     pub(crate) const fn new() -> Self {
         Self { last: None }
     }
 
-    /// Judges a step of this size with this error, in units of the tolerance.
-    pub(crate) fn judge(&mut self, size: S, error: S, accuracy: Accuracy) -> Verdict<S> {
-        let order = 1.0 + f64::from(accuracy.order);
-        if !error.at_most(S::from_f64(MOST)).all() {
-            let left = S::from_f64(CAUTION) * error.powf(S::from_f64(-1.0 / order));
-            let least = S::from_f64(LEAST_AFTER_ERROR);
-            // Not a number where the error is none.
-            let share = if least.less(left).all() { left } else { least };
-            return Verdict::Rejected(size * share);
-        }
-        let error = error.maximum(S::from_f64(LEAST_ERROR));
-        let [last_error, last_size] = self.last.unwrap_or([error, size]);
-        let power = S::from_f64(1.0 / (MEMORY * order));
-        let aim = S::from_f64(AIM);
-        let factor = (aim / error).powf(power)
-            * (aim / last_error).powf(power)
-            * (size / last_size).powf(S::from_f64(-1.0 / MEMORY));
-        self.last = Some([error, size]);
-        Verdict::Accepted(size * limited(factor))
+    /// The size of the next step after one of this size and with this error, in units of the tolerance.
+    pub(crate) fn next(&mut self, size: S, error: S, accuracy: Accuracy) -> S {
+        let last = self.last.replace([error, size]).unwrap_or([error, size]);
+        let order = accuracy.order_of_estimate();
+        let factor = match accuracy.estimate {
+            Estimate::Halves => filtered([size, error], last, order),
+            Estimate::Embedded => proportional(error, last, order),
+        };
+        size * factor
     }
+}
+
+/// The change of size that the filter makes.
+fn filtered<S: Real>([size, error]: [S; 2], [last_error, last_size]: [S; 2], order: f64) -> S {
+    let share = |error: S| {
+        let error = error.maximum(S::from_f64(LEAST_ERROR));
+        (S::from_f64(AIM) / error).powf(S::from_f64(1.0 / (MEMORY * order)))
+    };
+    let memory = (size / last_size).powf(S::from_f64(-1.0 / MEMORY));
+    limited(share(error) * share(last_error) * memory)
+}
+
+/// The change of size for an embedded estimate.
+fn proportional<S: Real>(error: S, [last_error, _]: [S; 2], order: f64) -> S {
+    let error = error.maximum(S::from_f64(LEAST_ERROR));
+    let last_error = last_error.maximum(S::from_f64(LEAST_REMEMBERED));
+    let factor = S::from_f64(AIM)
+        * error.powf(S::from_f64(FORGETTING - 1.0 / order))
+        * last_error.powf(S::from_f64(REMEMBERING));
+    let [least, most] = CHANGES.map(S::from_f64);
+    factor.maximum(least).minimum(most)
 }
 
 /// `1 + arctan(f − 1)`
@@ -85,7 +94,7 @@ mod tests {
 
     const SECOND: Accuracy = Accuracy {
         order: 2,
-        is_proportional: true,
+        estimate: Estimate::Halves,
     };
 
     /// Sizes and rejections of a run whose error is `(h/s)³` with a scale s that changes.
@@ -95,16 +104,14 @@ mod tests {
         let mut sizes = Vec::new();
         while sizes.len() < 60 {
             let error = (size / scale(sizes.len())).powi(3);
-            match controller.judge(size, error, SECOND) {
-                Verdict::Accepted(next) => {
-                    sizes.push(size);
-                    size = next;
-                }
-                Verdict::Rejected(next) => {
-                    assert!(next < size);
-                    size = next;
-                    rejections += 1;
-                }
+            if SECOND.accepts(error) {
+                sizes.push(size);
+                size = controller.next(size, error, SECOND);
+            } else {
+                let share: f64 = SECOND.left_after(error);
+                assert!(share < 1.0);
+                size *= share;
+                rejections += 1;
             }
         }
         (sizes, rejections)
@@ -127,7 +134,7 @@ mod tests {
 
     #[test]
     fn an_error_that_is_not_a_number_is_rejected() {
-        let verdict = Controller::new().judge(1.0, f64::NAN, SECOND);
-        assert_eq!(verdict, Verdict::Rejected(LEAST_AFTER_ERROR));
+        assert!(!SECOND.accepts(f64::NAN));
+        assert!((0.1..0.5).contains(&SECOND.left_after(f64::NAN)));
     }
 }

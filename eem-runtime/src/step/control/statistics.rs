@@ -30,10 +30,14 @@ impl StepStatistics {
             StepFailure::NotConverged { .. } | StepFailure::SingularTangent => {
                 &mut self.rejected_by_newton
             }
-            StepFailure::State(_) | StepFailure::Unbounded { .. } | StepFailure::Energy { .. } => {
-                &mut self.rejected_by_domain
-            }
-            StepFailure::LawNotKept { .. } => &mut self.rejected_by_law,
+            StepFailure::State(_)
+            | StepFailure::Unbounded { .. }
+            | StepFailure::Unstable { .. }
+            | StepFailure::TooCold { .. }
+            | StepFailure::Energy { .. } => &mut self.rejected_by_domain,
+            StepFailure::LawNotKept { .. }
+            | StepFailure::Correction { .. }
+            | StepFailure::NotClosed { .. } => &mut self.rejected_by_law,
             _ => return false,
         };
         *cause += 1;

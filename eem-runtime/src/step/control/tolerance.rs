@@ -3,6 +3,7 @@
 use crate::element::state::State;
 use crate::number::scalar::{Mask, Real, is_positive};
 use crate::scene::error::SceneError;
+use crate::step::control::accuracy::Accuracy;
 
 /// The accuracy that a run asks of its steps.
 ///
@@ -108,44 +109,6 @@ impl<S: Real> Tolerance<S> {
     }
 }
 
-/// How the error of a scheme goes with its step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Accuracy {
-    /// p: the error of a step is estimated as of order p + 1.
-    pub(crate) order: u8,
-    /// Whether tolerances are those of the state and not of a step.
-    pub(crate) is_proportional: bool,
-}
-
-/// Roundings in a difference of two states that can be told from an error.
-const ROUNDINGS: f64 = 16.0;
-
-impl Accuracy {
-    /// p.
-    fn order(self) -> f64 {
-        f64::from(self.order)
-    }
-
-    /// The relative tolerance of a step.
-    fn of_step<S: Real>(self, relative: S) -> S {
-        if self.is_proportional {
-            relative.powf(S::from_f64(1.0 + 1.0 / self.order()))
-        } else {
-            relative
-        }
-    }
-
-    /// The smallest relative tolerance whose errors can be told from rounding.
-    fn floor<S: Real>(self) -> f64 {
-        let rounding = ROUNDINGS * S::EPSILON.to_f64();
-        if self.is_proportional {
-            rounding.powf(self.order() / (self.order() + 1.0))
-        } else {
-            rounding
-        }
-    }
-}
-
 /// What errors of a step are compared with.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scales<S> {
@@ -221,12 +184,13 @@ pub(crate) fn norm<S: Real>(values: &[S]) -> S {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::step::control::accuracy::Estimate;
 
     #[test]
     fn tolerances_of_steps_make_errors_of_the_state_proportional() {
         let accuracy = |order| Accuracy {
             order,
-            is_proportional: true,
+            estimate: Estimate::Halves,
         };
         let step: f64 = accuracy(2).of_step(1e-6);
         assert!((step / 1e-9 - 1.0).abs() < 1e-12);
@@ -237,7 +201,7 @@ mod tests {
     fn what_cannot_be_reached_is_refused_with_the_floor() {
         let accuracy = Accuracy {
             order: 2,
-            is_proportional: true,
+            estimate: Estimate::Halves,
         };
         for relative in [0.0, -1.0, f64::NAN, 1.0, 1e-12] {
             let refused = Tolerance::new(relative).check(accuracy);

@@ -130,7 +130,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 self.find_impulse(groups, view, Along::Scheme);
                 self.move_from_start(groups, view);
             }
-            Closing::Stages => {}
+            Closing::Stages | Closing::Explicit => {}
         }
     }
 

@@ -1,0 +1,21 @@
+//! What the elements of an explicit scheme do: one dynamic call per group and phase.
+//!
+//! ```text
+//! rates      forces and rates of a stage                                          (rates)
+//! close      temperatures from entropies, and energies, of a state that closes a step     (closing)
+//! pull       forces on the nodes in such a state                                  (closing)
+//! finish     rates of the closed state, with which the next step begins           (closing)
+//! stiffness  how fast elements are, where a step was too long                     (stiffness)
+//! ```
+
+mod closed;
+mod closing;
+mod group;
+mod interface;
+mod rates;
+mod stiffness;
+
+pub(crate) use group::FreeGroup;
+pub(crate) use interface::{
+    ClosingView, ComponentEnergy, ExplicitGroup, PlaceOf, StageRates, StageView,
+};

@@ -1,0 +1,107 @@
+//! The elements of one model in an explicit scheme.
+
+use crate::element::conjugates::Variational;
+use crate::element::error::StateError;
+use crate::element::group::element_group::ElementGroup;
+use crate::element::group::explicit::closed::Closed;
+use crate::element::group::explicit::interface::{
+    ClosingView, ExplicitGroup, NodeStiffness, PlaceOf, StageRates, StageView,
+};
+use crate::element::group::interface::Elements;
+use crate::element::group::view::Placed;
+use crate::element::handle::Element;
+use crate::element::kinematics::Kinematics;
+use crate::element::state::State;
+use crate::material::free_energy::{Array, FreeEnergy};
+use crate::number::scalar::Real;
+
+/// Elements of the model `M` with the kinematics `K`. Their forces follow from the state alone.
+pub(crate) struct FreeGroup<S, M, K, const D: usize>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+{
+    /// What they are in a state.
+    pub(super) elements: ElementGroup<S, M, K, Variational, D>,
+    /// The component of each member.
+    pub(super) components: Vec<u32>,
+    /// Where its nodes are in the vectors of stages.
+    pub(super) places: Vec<K::PerNode<u32>>,
+    /// Per point, what was found when it was closed last.
+    pub(super) closed: Vec<Closed<S, M, K, D>>,
+}
+
+impl<S, M, K, const D: usize> FreeGroup<S, M, K, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+{
+    pub(crate) fn new<const P: usize>(
+        elements: Vec<(Element, [(M, K); P])>,
+        placed: Placed<'_>,
+    ) -> Self {
+        let elements = ElementGroup::new(elements, placed);
+        let points = elements.points().count();
+        Self {
+            components: vec![0; elements.members.len()],
+            places: vec![K::PerNode::filled(0); elements.members.len()],
+            closed: (0..points).map(|_| Closed::none()).collect(),
+            elements,
+        }
+    }
+}
+
+impl<S, M, K, const D: usize> ExplicitGroup<S, D> for FreeGroup<S, M, K, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+{
+    fn elements(&self) -> &dyn Elements<S, D> {
+        &self.elements
+    }
+
+    fn elements_mut(&mut self) -> &mut dyn Elements<S, D> {
+        &mut self.elements
+    }
+
+    fn join(&mut self, component_of: &[u32], places: &dyn PlaceOf) {
+        let own = self.components.iter_mut().zip(&mut self.places);
+        for (member, (component, own)) in self.elements.members.iter().zip(own) {
+            *component = component_of[member.only().element.index];
+            for (place, &node) in own.as_mut().iter_mut().zip(member.site.nodes.as_ref()) {
+                *place = places.place_of(*component, node);
+            }
+        }
+    }
+
+    fn rates(
+        &self,
+        view: &StageView<'_, S>,
+        rates: &mut StageRates<'_, S>,
+    ) -> Result<(), StateError> {
+        self.rates_of_all(view, rates)
+    }
+
+    fn close(&mut self, view: &mut ClosingView<'_, S>) -> Result<(), StateError> {
+        self.close_all(view)
+    }
+
+    fn pull(&self, asked: &[bool], forces: &mut [S], creeping: [&mut [S]; 2]) {
+        self.pull_all(asked, forces, creeping);
+    }
+
+    fn finish(
+        &self,
+        view: &StageView<'_, S>,
+        rates: &mut StageRates<'_, S>,
+    ) -> Result<(), StateError> {
+        self.finish_all(view, rates)
+    }
+
+    fn stiffness(&self, state: &State<S>, see: &mut dyn FnMut(NodeStiffness<S>)) {
+        self.stiffness_of_all(state, see);
+    }
+}

@@ -1,0 +1,232 @@
+//! The explicit energy–entropy–momentum scheme of order 8.
+//!
+//! Stages of DOP853 in positions, momenta, viscous stretches and temperatures; entropies by quadrature over
+//! the stages, with productions that are never negative; one closing per step and connected component that
+//! puts energy and momenta back to their targets to rounding.
+//!
+//! ```text
+//! attempt    stages, and what they say of their error                    (attempt, stages, error)
+//! book       entropies and targets from the integrals of the step        (quadrature, guard, booking)
+//! close      momenta, then energy: by heat, by motion, by shape          (closing)
+//! finish     the rates with which the next step begins                   (attempt)
+//! ```
+
+mod attempt;
+mod booking;
+mod closing;
+mod components;
+mod demand;
+mod error;
+mod guard;
+mod memory;
+mod past;
+mod prescribed;
+mod quadrature;
+mod saved;
+mod scratch;
+mod stability;
+mod stages;
+mod start;
+mod tableau;
+mod vector;
+
+use crate::element::conduction::Conduction;
+use crate::element::group::{Elements, ExplicitGroup};
+use crate::element::layout::Layout;
+use crate::element::loads::StepLoads;
+use crate::element::masses::Masses;
+use crate::element::state::State;
+use crate::number::compact::compact;
+use crate::number::scalar::{Mask, Real};
+use crate::scene::entry::ElementEntry;
+use crate::scene::loads::Loads;
+use components::Components;
+use memory::{Books, Offsets, Quadrature, Sample};
+use prescribed::Prescribed;
+use scratch::Scratch;
+
+pub(crate) use demand::Demand;
+pub(crate) use past::SavedExplicit;
+
+/// Rates of stages that are kept at the same time, besides those of the start: those of stage 10 and 11 take
+/// the places of stages that are not needed any more.
+const BUFFERS: usize = 9;
+
+/// An explicit scheme at work on a scene.
+pub(crate) struct Explicit<S: Real, const D: usize> {
+    groups: Vec<Box<dyn ExplicitGroup<S, D>>>,
+    components: Components<S>,
+    offsets: Offsets,
+    /// m and 1/m per place; zero for anchors.
+    masses: Vec<S>,
+    per_mass: Vec<S>,
+    /// The place of the temperature of each dashpot among the reciprocals; that of one without.
+    dashpot_slots: Vec<u32>,
+    /// Whether each thermal slot has a thermostat; empty without any.
+    held: Vec<bool>,
+    /// Whether each thermal slot has a path of heat or a dashpot.
+    produces: Vec<bool>,
+    prescribed: Prescribed<S, D>,
+    /// The acceleration of free fall, m/s², if there is any.
+    gravity: Option<[S; D]>,
+    loads: StepLoads<S>,
+    /// The stage vector at the start of the step and at the present stage.
+    y0: Vec<S>,
+    y: Vec<S>,
+    k: [Vec<S>; BUFFERS],
+    /// Rates at the start of the step, and at its end.
+    start: Sample<S, D>,
+    end: Sample<S, D>,
+    /// 1/θ of slots and reservoirs, and 1.
+    per_theta: Vec<S>,
+    quadrature: Quadrature<S, D>,
+    books: Books<S>,
+    new_books: Books<S>,
+    scratch: Scratch<S>,
+    /// Energy defects are closed by motion before heat.
+    is_motion_first: bool,
+    /// Rates and targets are those of the present state.
+    is_ready: bool,
+    /// They come from a checkpoint, whose state may have been changed since.
+    is_restored: bool,
+    /// How often all elements have been evaluated.
+    evaluations: u64,
+}
+
+/// What a step needs besides the memory of the scheme.
+#[derive(Clone, Copy)]
+pub(crate) struct ExplicitView<'a, S: Real, const D: usize> {
+    /// h, s.
+    pub(crate) step: S,
+    /// The old state.
+    pub(crate) state: &'a State<S>,
+    pub(crate) conduction: &'a Conduction<S>,
+    pub(crate) loads: &'a Loads<S, D>,
+    pub(crate) masses: &'a Masses<S>,
+}
+
+/// What an explicit scheme is made for.
+#[derive(Clone, Copy)]
+pub(crate) struct Site<'a, S: Real, const D: usize> {
+    pub(crate) masses: &'a Masses<S>,
+    pub(crate) elements: &'a [ElementEntry<S>],
+    pub(crate) layout: &'a Layout,
+    pub(crate) conduction: &'a Conduction<S>,
+    pub(crate) loads: &'a Loads<S, D>,
+}
+
+impl<S: Real, const D: usize> Explicit<S, D> {
+    /// For these groups, which know their entropies already.
+    pub(crate) fn new(mut groups: Vec<Box<dyn ExplicitGroup<S, D>>>, site: Site<'_, S, D>) -> Self {
+        let components = Components::new(site.masses, site.elements, site.layout, site.conduction);
+        let places = components.places();
+        for group in &mut groups {
+            group.join(&components.of_element, &places);
+        }
+        let reservoirs = &site.conduction.reservoirs;
+        let offsets = Offsets::new(components.nodes.len() * D, site.layout, reservoirs.len());
+        let prescribed = Prescribed::new(site.loads, site.layout);
+        let mut held = Vec::new();
+        for slot in prescribed.slots() {
+            held.resize(site.layout.thermal, false);
+            held[slot] = true;
+        }
+        let loads = StepLoads::new(site.masses.len() * D, site.layout, site.loads);
+        let has_loads = loads.has_total_force() || prescribed.moves();
+        let counts = [held.len(), if has_loads { components.all.len() } else { 0 }];
+        let masses = components.masses_of(site.masses);
+        let per_mass = masses.iter().map(|&mass| {
+            let is_anchor = mass.equal(S::zero()).all();
+            if is_anchor { mass } else { mass.recip() }
+        });
+        let anchors = components.nodes.len() - components.masses;
+        let sample = Sample::new(offsets, anchors, [held.len(), loads.total_force.len()]);
+        let vector = || vec![S::zero(); offsets.size];
+        let temperatures = offsets.size - offsets.temperatures;
+        let dashpot_slots = dashpot_slots(site.layout, temperatures);
+        let produces = produces(&components, site.layout, &dashpot_slots);
+        Self {
+            per_mass: per_mass.collect(),
+            masses,
+            produces,
+            quadrature: Quadrature::new(components.paths.len(), site.layout.viscous, counts),
+            y0: vector(),
+            y: vector(),
+            k: core::array::from_fn(|_| vector()),
+            end: sample.clone(),
+            start: sample,
+            per_theta: vec![S::one(); temperatures + 1],
+            books: Books::new(&components, held.len()),
+            new_books: Books::new(&components, held.len()),
+            scratch: Scratch::new(&components, site.layout, components.nodes.len() * D),
+            dashpot_slots,
+            groups,
+            components,
+            offsets,
+            held,
+            prescribed,
+            loads,
+            gravity: site.loads.have_weight().then(|| site.loads.gravity.into()),
+            is_motion_first: false,
+            is_ready: false,
+            is_restored: false,
+            evaluations: 0,
+        }
+    }
+
+    /// A group of elements.
+    pub(crate) fn elements(&self, group: usize) -> &dyn Elements<S, D> {
+        self.groups[group].elements()
+    }
+
+    /// How many groups of elements there are.
+    pub(crate) fn groups(&self) -> usize {
+        self.groups.len()
+    }
+
+    /// Does something with all groups of elements.
+    pub(crate) fn each_mut(&mut self, mut visit: impl FnMut(&mut dyn Elements<S, D>)) {
+        for group in &mut self.groups {
+            visit(group.elements_mut());
+        }
+    }
+
+    /// How often all elements have been evaluated.
+    pub(crate) const fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    /// Whether energy defects are closed by motion before heat.
+    pub(crate) const fn is_motion_first(&self) -> bool {
+        self.is_motion_first
+    }
+
+    /// Chooses what gives a step its energy first.
+    pub(crate) const fn set_motion_first(&mut self, is_motion_first: bool) {
+        self.is_motion_first = is_motion_first;
+    }
+}
+
+/// The place of the temperature of each dashpot; behind all temperatures for one without.
+fn dashpot_slots(layout: &Layout, temperatures: usize) -> Vec<u32> {
+    let mut slots = vec![compact(temperatures); layout.viscous];
+    let ends = layout.elements.iter().skip(1).map(|slots| slots.viscous);
+    for (own, end) in layout.elements.iter().zip(ends.chain([layout.viscous])) {
+        if let Some(slot) = own.thermal {
+            slots[own.viscous..end].fill(compact(slot));
+        }
+    }
+    slots
+}
+
+/// Whether each thermal slot has a path of heat or a dashpot.
+fn produces<S>(components: &Components<S>, layout: &Layout, dashpot_slots: &[u32]) -> Vec<bool> {
+    let mut produces = vec![false; layout.thermal];
+    let ends = components.paths.iter().flat_map(|path| path.ends);
+    for slot in ends.chain(dashpot_slots.iter().copied()) {
+        if let Some(produces) = produces.get_mut(slot as usize) {
+            *produces = true;
+        }
+    }
+    produces
+}

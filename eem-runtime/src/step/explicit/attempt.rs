@@ -1,0 +1,234 @@
+//! One attempt at a step, which changes nothing until it is accepted.
+
+use super::demand::{Demand, Scales};
+use super::stages::From;
+use super::tableau::STAGES;
+use super::{Explicit, ExplicitView};
+use crate::element::state::State;
+use crate::number::scalar::{Discord, Mask, Real};
+use crate::step::error::{Law, StepFailure};
+use crate::step::outcome::{Attempt, Outcome};
+
+/// Roundings of the magnitude of the energy that a step may be off by, as in the certificate.
+const ROUNDINGS: f64 = 64.0;
+
+impl<S: Real, const D: usize> Explicit<S, D> {
+    /// One step: an attempt that is accepted unless its error exceeds what is demanded, or the reason why there
+    /// is none.
+    pub(crate) fn step(
+        &mut self,
+        view: &ExplicitView<'_, S, D>,
+        demand: Demand<S>,
+        next: &mut State<S>,
+    ) -> Result<Attempt<S>, StepFailure> {
+        let attempt = self.attempt(view, demand, next);
+        let attempt = attempt.map_err(|failure| self.explain(failure, view))?;
+        if attempt.outcome.is_some() {
+            self.accept();
+        }
+        Ok(attempt)
+    }
+
+    /// Writes the state after a step to `next`, from a state that is that of the last accepted step, or after
+    /// [`forget`](Self::forget) any. It counts once it is [accepted](Self::accept).
+    fn attempt(
+        &mut self,
+        view: &ExplicitView<'_, S, D>,
+        demand: Demand<S>,
+        next: &mut State<S>,
+    ) -> Result<Attempt<S>, StepFailure> {
+        if S::LANES > 1 {
+            return Err(Discord.into());
+        }
+        let was_ready = self.is_ready;
+        let attempt = self.attempt_ready(view, demand, next);
+        if attempt.is_err() {
+            // As it was before, also if nothing was known of the state.
+            self.is_ready = was_ready;
+        }
+        attempt
+    }
+
+    fn attempt_ready(
+        &mut self,
+        view: &ExplicitView<'_, S, D>,
+        demand: Demand<S>,
+        next: &mut State<S>,
+    ) -> Result<Attempt<S>, StepFailure> {
+        let h = view.step;
+        let time = view.state.time.value;
+        self.prescribed.evaluate(view.loads, [time, h])?;
+        self.load(view);
+        if self.is_restored && self.is_ready {
+            self.is_ready = self.fits(view.state);
+        }
+        self.is_restored = false;
+        if !self.is_ready {
+            self.prepare(view)?;
+        }
+        self.go_through_stages(view)?;
+        self.expect_finite(time + h)?;
+        let scales = self.scales();
+        let error = match demand {
+            Demand::None => S::zero(),
+            Demand::Within(tolerance) => self.estimate(h, &tolerance, scales),
+        };
+        if !error.at_most(S::one()).all() {
+            let outcome = None;
+            return Ok(Attempt { error, outcome });
+        }
+        self.book(view, next);
+        self.close(view, (demand, scales), next)?;
+        let correction = self.correction(demand, time + h)?;
+        self.finish()?;
+        self.conclude_thermostats(view.state, next);
+        self.store(view.state, next);
+        let outcome = self.prove(scales, correction, time + h)?;
+        Ok(Attempt {
+            error,
+            outcome: Some(outcome),
+        })
+    }
+
+    /// The step that was attempted last is made: the next one starts from its state.
+    fn accept(&mut self) {
+        core::mem::swap(&mut self.start, &mut self.end);
+        core::mem::swap(&mut self.books, &mut self.new_books);
+    }
+
+    /// Takes back what has just been accepted.
+    pub(crate) fn undo(&mut self) {
+        self.accept();
+    }
+
+    /// The next step starts from another state: rates and targets are found anew.
+    pub(crate) fn forget(&mut self) {
+        self.is_ready = false;
+    }
+
+    /// All stages, and the end of the step before it is closed.
+    fn go_through_stages(&mut self, view: &ExplicitView<'_, S, D>) -> Result<(), StepFailure> {
+        self.quadrature.clear();
+        self.gather(0, view.step);
+        for stage in 1..STAGES {
+            self.go_to(stage, view.step);
+            self.evaluate(stage, view)?;
+            self.gather(stage, view.step);
+        }
+        self.go_to(STAGES, view.step);
+        Ok(())
+    }
+
+    fn expect_finite(&self, time: S) -> Result<(), StepFailure> {
+        if !time.is_finite() {
+            let value = time.to_f64();
+            return Err(StepFailure::Time { value });
+        }
+        let moving = &self.y[..self.offsets.viscous];
+        let Some(at) = moving.iter().position(|value| !value.is_finite()) else {
+            return Ok(());
+        };
+        let is_position = at < self.offsets.momenta;
+        let place = at % self.offsets.momenta / D;
+        Err(StepFailure::Unbounded {
+            node: self.components.nodes[place] as usize,
+            axis: at % D,
+            quantity: if is_position { "position" } else { "momentum" },
+            value: moving[at].to_f64(),
+        })
+    }
+
+    /// The largest first defect of all components, which has to be small.
+    fn correction(&self, demand: Demand<S>, time: S) -> Result<S, StepFailure> {
+        let all = self
+            .scratch
+            .progress
+            .iter()
+            .map(|progress| progress.correction);
+        let largest = all.fold(S::zero(), |largest, correction| {
+            let is_larger = largest.abs().less(correction.abs()).all();
+            if is_larger { correction } else { largest }
+        });
+        let limit = demand.largest_correction();
+        if largest.abs().at_most(limit).all() {
+            return Ok(largest);
+        }
+        Err(StepFailure::Correction {
+            correction: largest.abs().to_f64(),
+            limit: limit.to_f64(),
+            time: time.to_f64(),
+        })
+    }
+
+    /// The rates of the closed state.
+    fn finish(&mut self) -> Result<(), StepFailure> {
+        let mut rates = core::mem::take(&mut self.end.rates);
+        let found = self.find_rates(STAGES - 1, From::Closing, &mut rates);
+        self.end.rates = rates;
+        Ok(found?)
+    }
+
+    /// Writes the closed state.
+    fn store(&self, old: &State<S>, next: &mut State<S>) {
+        let offsets = self.offsets;
+        next.positions.copy_from(&old.positions);
+        next.momenta.copy_from(&old.momenta);
+        let placed = self.components.nodes.iter().enumerate();
+        let part = |from: usize, place: usize| &self.y[from + place * D..from + (place + 1) * D];
+        next.positions.write(|values| {
+            for (place, &node) in placed.clone() {
+                let node = node as usize * D;
+                values[node..node + D].copy_from_slice(part(0, place));
+            }
+            for (node, position, _) in self.prescribed.motions(STAGES - 1) {
+                values[node * D..(node + 1) * D].copy_from_slice(position);
+            }
+        });
+        next.momenta.write(|values| {
+            for (place, &node) in placed.take(self.components.masses) {
+                let node = node as usize * D;
+                values[node..node + D].copy_from_slice(part(offsets.momenta, place));
+            }
+        });
+        let viscous = &self.y[offsets.viscous..offsets.temperatures];
+        next.viscous.write(|values| values.copy_from_slice(viscous));
+        let temperatures = &self.y[offsets.temperatures..offsets.reservoirs];
+        next.temperatures.copy_from_slice(temperatures);
+    }
+
+    /// What is left of all defects, formed with energies of the state, has to be rounding.
+    fn prove(
+        &mut self,
+        scales: Scales<S>,
+        correction: S,
+        time: S,
+    ) -> Result<Outcome<S>, StepFailure> {
+        let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
+        let (mut residue, mut bound) = (S::zero(), S::zero());
+        for index in 0..self.components.all.len() {
+            let [defect, magnitude] = self.defect_of(index);
+            if !defect.abs().at_most(rounding * magnitude).all() {
+                return Err(StepFailure::LawNotKept {
+                    law: Law::Energy,
+                    defect: -defect.to_f64(),
+                    bound: (rounding * magnitude).to_f64(),
+                    element: None,
+                    time: time.to_f64(),
+                });
+            }
+            residue -= defect;
+            bound += rounding * magnitude;
+        }
+        self.new_books.largest_momentum = scales.momentum;
+        self.new_books.residue = residue;
+        let scratch = &self.scratch;
+        let has_produced = scratch.least.less(S::MAX);
+        Ok(Outcome {
+            defect: residue - self.books.residue,
+            bound,
+            production: scratch.production,
+            least_production: S::select(has_produced, scratch.least, S::zero()),
+            correction,
+        })
+    }
+}

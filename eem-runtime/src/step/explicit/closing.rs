@@ -1,0 +1,133 @@
+//! The closing of a step: energy and momenta of each component are put back to their targets.
+//!
+//! Momenta first, by a rigid motion. Then energy, by the first of these that can give it:
+//!
+//! | by | changes | cannot |
+//! |---|---|---|
+//! | heat | what elements have produced themselves, by up to 0.3 % | where less is produced |
+//! | motion | the part of the momenta that is no rigid motion | where there is little of it: turning points |
+//! | shape | positions, viscous stretches and exchanged heat, downhill | at equilibrium |
+//! | sink | entropies of elements that produce | without production |
+//!
+//! None of them lowers the entropy: what an element gives is at most what it has produced in this step.
+
+mod energy;
+mod momenta;
+mod rigid;
+mod shape;
+
+use super::demand::{Demand, Scales};
+use super::{Explicit, ExplicitView};
+use crate::element::error::StateError;
+use crate::element::group::{ClosingView, ComponentEnergy};
+use crate::element::state::State;
+use crate::number::scalar::Real;
+use crate::step::error::StepFailure;
+
+/// Changes of a component after which its closing is given up.
+const MOST_TURNS: usize = 10;
+
+/// What a look at the energy of a component says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Verdict {
+    /// It is what it has to be.
+    Closed,
+    /// Its elements have to be evaluated again.
+    Changed,
+    /// Its forces have to be known.
+    Asks,
+    /// Nothing can give it what it lacks.
+    Failed,
+}
+
+impl<S: Real, const D: usize> Explicit<S, D> {
+    /// Closes all components.
+    pub(super) fn close(
+        &mut self,
+        view: &ExplicitView<'_, S, D>,
+        (demand, scales): (Demand<S>, Scales<S>),
+        next: &mut State<S>,
+    ) -> Result<(), StepFailure> {
+        for index in 0..self.components.all.len() {
+            self.turn_single_mass(index);
+        }
+        self.scratch.open.fill(true);
+        self.find_energies(next)?;
+        self.book_thermostats(next);
+        self.share_productions();
+        loop {
+            let mut has_asked = false;
+            self.scratch.asked.fill(false);
+            for index in 0..self.components.all.len() {
+                if !self.scratch.open[index] {
+                    continue;
+                }
+                let verdict = self.balance(index, next);
+                self.scratch.open[index] = verdict == Verdict::Changed;
+                self.scratch.asked[index] = verdict == Verdict::Asks;
+                has_asked |= verdict == Verdict::Asks;
+            }
+            if has_asked {
+                self.find_forces(view);
+                for index in 0..self.components.all.len() {
+                    if self.scratch.asked[index] {
+                        let verdict = self.reshape(index, view, next);
+                        self.scratch.open[index] = verdict == Verdict::Changed;
+                        if verdict == Verdict::Failed {
+                            self.turn_rigidly(index, (view, demand, scales), next)?;
+                        }
+                    }
+                }
+            }
+            if !self.scratch.open.iter().any(|&open| open) {
+                return Ok(());
+            }
+            self.find_energies(next)?;
+        }
+    }
+
+    /// Temperatures and energies of the elements of open components.
+    fn find_energies(&mut self, next: &mut State<S>) -> Result<(), StateError> {
+        let open = self.scratch.open.iter();
+        for (energy, _) in self
+            .scratch
+            .energies
+            .iter_mut()
+            .zip(open)
+            .filter(|(_, open)| **open)
+        {
+            *energy = ComponentEnergy::none();
+        }
+        let offsets = self.offsets;
+        let (nodes, internal) = self.y.split_at_mut(offsets.viscous);
+        let (viscous, temperatures) = internal.split_at_mut(offsets.temperatures - offsets.viscous);
+        let mut view = ClosingView {
+            open: &self.scratch.open,
+            positions: &nodes[..offsets.momenta],
+            viscous,
+            temperatures,
+            held: &self.held,
+            capacities: &mut self.scratch.capacities,
+            next,
+            energies: &mut self.scratch.energies,
+        };
+        self.evaluations += 1;
+        for group in &mut self.groups {
+            group.close(&mut view)?;
+        }
+        Ok(())
+    }
+
+    /// Forces of the elements, with weights, in the components that ask for them: the gradient of the energy.
+    fn find_forces(&mut self, view: &ExplicitView<'_, S, D>) {
+        let forces = self.scratch.forces.as_chunks_mut::<D>().0;
+        for (force, &mass) in forces.iter_mut().zip(&self.masses) {
+            *force = core::array::from_fn(|axis| mass * view.loads.gravity[axis]);
+        }
+        let scratch = &mut self.scratch;
+        for group in &self.groups {
+            let creeping = [&mut *scratch.creep, &mut *scratch.powers];
+            group.pull(&scratch.asked, &mut scratch.forces, creeping);
+        }
+    }
+}

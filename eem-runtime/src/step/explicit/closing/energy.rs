@@ -1,0 +1,170 @@
+//! The energy of a component, and heat that puts it back.
+
+use super::super::Explicit;
+use super::{MOST_TURNS, Verdict};
+use crate::element::group::points;
+use crate::element::state::State;
+use crate::number::compensated::Total;
+use crate::number::scalar::{Mask, Real};
+use core::ops::Range;
+
+/// The part of what elements produce in a step that heat may change.
+const HEAT_SHARE: f64 = 0.003;
+
+/// Turns in which heat is tried.
+const HEAT_TURNS: usize = 3;
+
+/// Roundings, in u = ε/2, of the magnitude of the energy up to which it is what it has to be.
+const ENOUGH: f64 = 2.0;
+
+impl<S: Real, const D: usize> Explicit<S, D> {
+    /// The energy of a component and the magnitude of its terms, J.
+    pub(in super::super) fn energy_of(&self, index: usize) -> [S; 2] {
+        let component = &self.components.all[index];
+        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
+        let momenta = points::<S, D>(&self.y[self.offsets.momenta..self.offsets.viscous]);
+        let (mut energy, half) = (Total::new(), S::from_f64(0.5));
+        let mut magnitude = self.scratch.energies[index].magnitude;
+        for place in component.masses.clone() {
+            let mut square = S::zero();
+            for p in momenta[place] {
+                square += p * p;
+            }
+            let kinetic = half * square * self.per_mass[place];
+            energy.add(kinetic);
+            magnitude += kinetic;
+            if let Some(gravity) = &self.gravity {
+                for (&g, &q) in gravity.iter().zip(&positions[place]) {
+                    let potential = -self.masses[place] * g * q;
+                    energy.add(potential);
+                    magnitude += potential.abs();
+                }
+            }
+        }
+        let inner = self.scratch.energies[index].value.value();
+        let books = &self.new_books;
+        let lost = books.targets[index].lost;
+        for term in [inner, lost.value, lost.carry] {
+            energy.add(term);
+        }
+        magnitude += lost.value.abs();
+        for share in component.shares.clone() {
+            let reservoir = self.components.shares[share].reservoir as usize;
+            let theta = self.y0[self.offsets.reservoirs + reservoir];
+            let sum = books.shares.sum(share);
+            energy.add(theta * sum.value);
+            energy.add(theta * sum.carry);
+            magnitude += (theta * sum.value).abs();
+        }
+        [energy.value(), magnitude]
+    }
+
+    /// What the energy of a component lacks, and the magnitude of its terms, J.
+    pub(in super::super) fn defect_of(&self, index: usize) -> [S; 2] {
+        let [energy, magnitude] = self.energy_of(index);
+        let target = self.new_books.targets[index].energy;
+        let defect = (target.value - energy) + target.carry;
+        [defect, magnitude + target.value.abs()]
+    }
+
+    /// Puts momenta back, and then energy by heat as long as no element has to be evaluated for it.
+    pub(super) fn balance(&mut self, index: usize, next: &mut State<S>) -> Verdict {
+        self.restore_momenta(index);
+        loop {
+            let [defect, magnitude] = self.defect_of(index);
+            let progress = &mut self.scratch.progress[index];
+            progress.defect = defect;
+            if progress.scale.equal(S::zero()).all() {
+                progress.scale = magnitude;
+                let has_terms = S::zero().less(magnitude).all();
+                progress.correction = if has_terms {
+                    defect / magnitude
+                } else {
+                    S::zero()
+                };
+            }
+            let enough = S::from_f64(0.5 * ENOUGH) * S::EPSILON * progress.scale;
+            if progress.is_rigid || defect.abs().at_most(enough).all() {
+                return Verdict::Closed;
+            }
+            let turns = progress.turns;
+            progress.turns += 1;
+            if turns >= MOST_TURNS || !defect.is_finite() {
+                return Verdict::Asks;
+            }
+            let produced = self.produced_heat(index);
+            let most = S::from_f64(HEAT_SHARE) * produced;
+            let heats = turns < HEAT_TURNS && !self.is_motion_first;
+            if !(heats && defect.abs().at_most(most).all()) {
+                return Verdict::Asks;
+            }
+            self.scratch.progress[index].has_heated = true;
+            if !self.heat(index, defect / produced, next) {
+                return Verdict::Changed;
+            }
+        }
+    }
+
+    /// The heat that the elements of a component have produced themselves, `Σ Π θ`, J.
+    pub(super) fn produced_heat(&self, index: usize) -> S {
+        let slots = &self.components.slots[self.components.all[index].slots.clone()];
+        let temperatures = &self.y[self.offsets.temperatures..];
+        let lost = self.scratch.progress[index].lost;
+        slots.iter().fold(lost, |sum, &slot| {
+            let slot = slot as usize;
+            sum + self.scratch.produced[slot] * temperatures[slot]
+        })
+    }
+
+    /// Every element gets the part ε of what it has produced itself. Whether energy, temperatures and forces
+    /// are known without another evaluation.
+    pub(super) fn heat(&mut self, index: usize, part: S, next: &mut State<S>) -> bool {
+        let scratch = &mut self.scratch;
+        let lost = &mut scratch.progress[index].lost;
+        let change = *lost * part;
+        if !change.equal(S::zero()).all() {
+            *lost += change;
+            next.dissipated.add(change);
+            self.new_books.targets[index].lost.add(change);
+        }
+        let mut is_small = true;
+        for at in self.slots_of(index) {
+            let slot = self.components.slots[at] as usize;
+            let entropy = self.scratch.produced[slot] * part;
+            if !entropy.equal(S::zero()).all() {
+                is_small &= self.warm(index, slot, entropy, next);
+            }
+        }
+        is_small
+    }
+
+    pub(super) fn slots_of(&self, index: usize) -> Range<usize> {
+        self.components.all[index].slots.clone()
+    }
+
+    /// Gives entropy to an element as if it had produced it: `θ (1 + r + r²/2)` with `r = x/c`, and
+    /// `e + θ x (1 + r/2)`. Whether that is exact to rounding.
+    pub(super) fn warm(
+        &mut self,
+        index: usize,
+        slot: usize,
+        entropy: S,
+        next: &mut State<S>,
+    ) -> bool {
+        let half = S::from_f64(0.5);
+        let theta = &mut self.y[self.offsets.temperatures + slot];
+        let scratch = &mut self.scratch;
+        let ratio = entropy / scratch.capacities[slot];
+        let energy = *theta * entropy * (S::one() + half * ratio);
+        next.entropies.add(slot, entropy);
+        scratch.produced[slot] += entropy;
+        scratch.production += entropy;
+        scratch.energies[index].value.add(energy);
+        let element = self.components.elements[slot] as usize;
+        next.energies[element].value += energy;
+        *theta += *theta * ratio * (S::one() + half * ratio);
+        // 2 √u: what is left out is the cube, and the second order of forces.
+        let small = (S::EPSILON + S::EPSILON).sqrt();
+        ratio.abs().less(small).all()
+    }
+}

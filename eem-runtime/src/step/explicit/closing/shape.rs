@@ -1,0 +1,282 @@
+//! Energy by motion, by shape, and by entropy at last.
+
+use super::super::components::{Component, Support};
+use super::super::vector::{add, difference, dot, spin};
+use super::super::{Explicit, ExplicitView};
+use super::momenta::Rigid;
+use super::{MOST_TURNS, Verdict};
+use crate::element::group::points;
+use crate::element::state::State;
+use crate::number::scalar::{Mask, Real};
+
+/// The least part of what can give energy that is motion, for motion to give it.
+const LEAST_MOTION: f64 = 0.05;
+
+/// The largest change of motion and shape, as a part of what there is.
+const LARGEST_PART: f64 = 0.1;
+
+/// After heat, motion gives what is left if it is this small a part of it.
+const REST_OF_HEAT: f64 = 1e-9;
+
+/// Turns in which the shape changes.
+const SHAPE_TURNS: usize = 5;
+
+/// Roundings, in u = ε/2, that a component may lack where nothing can give them.
+const FROZEN: f64 = 16.0;
+
+/// What can give a component energy, J.
+#[derive(Clone, Copy, Debug)]
+struct Means<S, const D: usize> {
+    rigid: Rigid<S, D>,
+    /// The kinetic energy of what is no rigid motion, T.
+    motion: S,
+    /// `2 T + h² Σ |F|²/m + h Σ g²/η + Σ 2hκ(Δθ)²/(θ_a + θ_b)`.
+    all: S,
+    /// The mean acceleration by weights and elements of a free component, which moves no energy, m/s².
+    drift: [S; D],
+}
+
+impl<S: Real, const D: usize> Explicit<S, D> {
+    /// Gives a component its energy by other means than heat.
+    pub(super) fn reshape(
+        &mut self,
+        index: usize,
+        view: &ExplicitView<'_, S, D>,
+        next: &mut State<S>,
+    ) -> Verdict {
+        let progress = self.scratch.progress[index];
+        let (defect, turns) = (progress.defect, progress.turns);
+        if !defect.is_finite() {
+            return Verdict::Failed;
+        }
+        let means = self.means(index, view);
+        let share = defect / means.all;
+        let is_small = share.abs().less(S::from_f64(LARGEST_PART)).all();
+        let moves = (S::from_f64(LEAST_MOTION) * means.all).at_most(means.motion + means.motion)
+            & (-means.motion).less(defect);
+        let rest = S::from_f64(REST_OF_HEAT) * means.motion;
+        let is_rest = progress.has_heated && defect.abs().at_most(rest).all();
+        let has_motion = S::zero().less(means.motion).all();
+        if has_motion && (is_rest || (is_small && moves.all())) {
+            let x = defect / means.motion;
+            let part = x / (S::one() + (S::one() + x).sqrt());
+            self.scale_motion(index, &means.rigid, part);
+            return Verdict::Closed;
+        }
+        if turns >= MOST_TURNS {
+            return self.unless_rounding(index);
+        }
+        if is_small && turns <= SHAPE_TURNS {
+            self.shift(index, (view, &means), share, next);
+            self.turn_single_mass(index);
+            return Verdict::Changed;
+        }
+        if self.sink(index, defect, next) {
+            return Verdict::Changed;
+        }
+        self.unless_rounding(index)
+    }
+
+    /// What is left is rounding, or nothing can give it.
+    fn unless_rounding(&self, index: usize) -> Verdict {
+        let progress = &self.scratch.progress[index];
+        let bound = S::from_f64(0.5 * FROZEN) * S::EPSILON * progress.scale;
+        if progress.defect.abs().at_most(bound).all() {
+            Verdict::Closed
+        } else {
+            Verdict::Failed
+        }
+    }
+
+    fn means(&self, index: usize, view: &ExplicitView<'_, S, D>) -> Means<S, D> {
+        let (component, h) = (&self.components.all[index], view.step);
+        let (linear, angular) = self.momenta_of(component);
+        let rigid = self.rigid(component, (&linear, &angular));
+        let forces = points::<S, D>(&self.scratch.forces);
+        let mut drift = [S::zero(); D];
+        if component.support == Support::Free {
+            for place in component.masses.clone() {
+                add(&mut drift, component.mass.recip(), &forces[place]);
+            }
+        }
+        let mut means = Means {
+            rigid,
+            motion: S::zero(),
+            all: S::zero(),
+            drift,
+        };
+        let (half, mut shape) = (S::from_f64(0.5), S::zero());
+        for place in component.masses.clone() {
+            let own = self.inner_momentum(place, &rigid);
+            let force = self.inner_force(place, &means);
+            means.motion += half * dot(&own, &own) * self.per_mass[place];
+            shape += dot(&force, &force) * self.per_mass[place];
+        }
+        means.all = means.motion + means.motion + h * h * shape;
+        means.all += h * self.creeping_power(index) + self.exchange(component, h);
+        means
+    }
+
+    /// `Σ g²/η`, W.
+    fn creeping_power(&self, index: usize) -> S {
+        let powers = self.scratch.powers.iter();
+        let owned = powers.zip(&self.components.of_dashpot);
+        let own = owned.filter(|&(_, &owner)| owner as usize == index);
+        own.fold(S::zero(), |sum, (&power, _)| sum + power)
+    }
+
+    /// `Σ 2hκ(Δθ)²/(θ_a + θ_b)` of the paths without a thermostat at an end, J.
+    fn exchange(&self, component: &Component<S>, h: S) -> S {
+        let mut sum = S::zero();
+        for path in &self.components.paths[component.paths.clone()] {
+            let [a, b] = path
+                .ends
+                .map(|end| self.y[self.offsets.temperatures + end as usize]);
+            if !self.meets_thermostat(path.ends) {
+                let drop = a - b;
+                let heat = (h + h) * path.conductance * drop;
+                sum += heat * drop / (a + b);
+            }
+        }
+        sum
+    }
+
+    fn meets_thermostat(&self, ends: [u32; 2]) -> bool {
+        let is_held = |end: u32| self.held.get(end as usize).copied().unwrap_or(false);
+        ends.into_iter().any(is_held)
+    }
+
+    /// The momentum of a mass that is no rigid motion.
+    fn inner_momentum(&self, place: usize, rigid: &Rigid<S, D>) -> [S; D] {
+        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
+        let momenta = points::<S, D>(&self.y[self.offsets.momenta..self.offsets.viscous]);
+        let mass = self.masses[place];
+        let mut own = momenta[place];
+        let arm = difference(&positions[place], &rigid.origin);
+        add(&mut own, -mass, &rigid.velocity);
+        add(&mut own, -mass, &spin(&rigid.omega, &arm));
+        own
+    }
+
+    /// The gradient of the energy at fixed momenta, with its sign changed: the force less that of the
+    /// rotation.
+    fn inner_force(&self, place: usize, means: &Means<S, D>) -> [S; D] {
+        let forces = points::<S, D>(&self.scratch.forces);
+        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
+        let (mass, rigid) = (self.masses[place], &means.rigid);
+        let arm = difference(&positions[place], &rigid.origin);
+        let toward = spin(&rigid.omega, &spin(&rigid.omega, &arm));
+        let mut force = forces[place];
+        add(&mut force, -mass, &toward);
+        add(&mut force, -mass, &means.drift);
+        force
+    }
+
+    /// `p += a p_int`.
+    fn scale_motion(&mut self, index: usize, rigid: &Rigid<S, D>, part: S) {
+        for place in self.components.all[index].masses.clone() {
+            let own = self.inner_momentum(place, rigid);
+            let momenta = &mut self.y[self.offsets.momenta..self.offsets.viscous];
+            add(&mut momenta.as_chunks_mut::<D>().0[place], part, &own);
+        }
+    }
+
+    /// Moves all that can move along the gradient of the energy.
+    fn shift(
+        &mut self,
+        index: usize,
+        (view, means): (&ExplicitView<'_, S, D>, &Means<S, D>),
+        share: S,
+        next: &mut State<S>,
+    ) {
+        let h = view.step;
+        let offsets = self.offsets;
+        let masses = self.components.all[index].masses.clone();
+        for place in masses.clone() {
+            let own = self.inner_momentum(place, &means.rigid);
+            let force = self.inner_force(place, means);
+            // Positions are read again by no other place of the loop below.
+            let change = self.per_mass[place] * share * h * h;
+            let forces = &mut self.scratch.forces.as_chunks_mut::<D>().0[place];
+            *forces = force.map(|force| change * force);
+            let momenta = &mut self.y[offsets.momenta..offsets.viscous];
+            add(&mut momenta.as_chunks_mut::<D>().0[place], share, &own);
+        }
+        for place in masses {
+            let change = points::<S, D>(&self.scratch.forces)[place];
+            let positions = &mut self.y[..offsets.momenta];
+            add(
+                &mut positions.as_chunks_mut::<D>().0[place],
+                -S::one(),
+                &change,
+            );
+        }
+        for (dashpot, &owner) in self.components.of_dashpot.iter().enumerate() {
+            if owner as usize == index {
+                self.y[offsets.viscous + dashpot] -= share * h * self.scratch.creep[dashpot];
+            }
+        }
+        self.exchange_heat(index, share * h, next);
+    }
+
+    /// Entropy that goes from the warmer to the cooler end of each path, without production.
+    fn exchange_heat(&mut self, index: usize, duration: S, next: &mut State<S>) {
+        let slots = self.scratch.produced.len();
+        for path in &self.components.paths[self.components.all[index].paths.clone()] {
+            if self.meets_thermostat(path.ends) {
+                continue;
+            }
+            let ends = path.ends.map(|end| end as usize);
+            let [a, b] = ends.map(|end| self.y[self.offsets.temperatures + end]);
+            let entropy = (duration + duration) * path.conductance * (a - b) / (a + b);
+            next.entropies.add(ends[0], entropy);
+            match path.share {
+                None => next.entropies.add(ends[1], -entropy),
+                Some(share) => {
+                    self.new_books.shares.add(share as usize, -entropy);
+                    next.reservoir_entropies.add(ends[1] - slots, -entropy);
+                }
+            }
+        }
+    }
+
+    /// Energy to entropy, or back as far as it was produced in this step; whether there is where.
+    fn sink(&mut self, index: usize, defect: S, next: &mut State<S>) -> bool {
+        if defect.less(S::zero()).all() {
+            let produced = self.produced_heat(index);
+            if !S::zero().less(produced).all() {
+                return false;
+            }
+            self.heat(index, (defect / produced).maximum(-S::one()), next);
+            return true;
+        }
+        let slots = self
+            .slots_of(index)
+            .map(|at| self.components.slots[at] as usize);
+        let takes =
+            |slot: &usize| self.produces[*slot] && !self.held.get(*slot).copied().unwrap_or(false);
+        let temperatures = &self.y[self.offsets.temperatures..];
+        let all = slots.filter(takes).fold(S::zero(), |all, slot| {
+            all + self.scratch.capacities[slot] * temperatures[slot]
+        });
+        if S::zero().less(all).all() {
+            for at in self.slots_of(index) {
+                let slot = self.components.slots[at] as usize;
+                let is_held = self.held.get(slot).copied().unwrap_or(false);
+                if self.produces[slot] && !is_held {
+                    let entropy = self.scratch.capacities[slot] * (defect / all);
+                    self.warm(index, slot, entropy, next);
+                }
+            }
+            return true;
+        }
+        let mut losing = self.components.losing.iter();
+        let loses = losing.any(|&(component, _)| component as usize == index);
+        if loses {
+            self.scratch.progress[index].lost += defect;
+            next.dissipated.add(defect);
+            self.new_books.targets[index].lost.add(defect);
+        }
+        loses
+    }
+}

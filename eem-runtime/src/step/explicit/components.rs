@@ -1,0 +1,349 @@
+//! The connected components of a scene: what is joined by springs or by paths of heat.
+//!
+//! Anchors and reservoirs join nothing. Energy and momenta of each component have targets of their own, so
+//! that nothing is moved between bodies that do not touch.
+
+use core::ops::Range;
+use std::collections::BTreeMap;
+
+use crate::element::conduction::{Conduction, Partner};
+use crate::element::group::PlaceOf;
+use crate::element::layout::Layout;
+use crate::element::masses::Masses;
+use crate::number::compact::compact;
+use crate::number::scalar::Real;
+use crate::scene::entry::ElementEntry;
+
+/// What holds the masses of a component.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Support {
+    /// Nothing: both momenta are kept.
+    Free,
+    /// One anchor at this place, about which the angular momentum is kept.
+    Anchor(usize),
+    /// Several: no momentum is kept.
+    Several,
+}
+
+/// A connected component.
+#[derive(Clone, Debug)]
+pub(super) struct Component<S> {
+    /// Its masses among the [places](Components::nodes), its thermal slots and its paths of heat in the
+    /// lists of [`Components`].
+    pub(super) masses: Range<usize>,
+    pub(super) slots: Range<usize>,
+    pub(super) paths: Range<usize>,
+    /// Its [`shares`](Components::shares).
+    pub(super) shares: Range<usize>,
+    pub(super) support: Support,
+    /// The mass of all its masses, kg.
+    pub(super) mass: S,
+}
+
+/// A path of heat.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Path<S> {
+    /// The thermal slot at one end, and at the other: reservoirs come behind all thermal slots.
+    pub(super) ends: [u32; 2],
+    /// For a reservoir, which of the [shares](Components::shares) receives its entropy.
+    pub(super) share: Option<u32>,
+    /// κ, W/K.
+    pub(super) conductance: S,
+}
+
+/// The entropy that a reservoir receives from a component.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Share {
+    pub(super) component: u32,
+    pub(super) reservoir: u32,
+}
+
+/// All components of a scene, with what belongs to each side by side.
+#[derive(Clone, Debug)]
+pub(super) struct Components<S> {
+    pub(super) all: Vec<Component<S>>,
+    /// The node of the scene at each place: first the masses of the first component, then those of the
+    /// next; behind all masses the anchors, once per component that they hold.
+    pub(super) nodes: Vec<u32>,
+    /// The component of each place.
+    pub(super) of_place: Vec<u32>,
+    /// Number of masses.
+    pub(super) masses: usize,
+    pub(super) slots: Vec<u32>,
+    pub(super) paths: Vec<Path<S>>,
+    pub(super) shares: Vec<Share>,
+    /// The component of each element, and of each dashpot.
+    pub(super) of_element: Vec<u32>,
+    pub(super) of_dashpot: Vec<u32>,
+    /// The element of each thermal slot.
+    pub(super) elements: Vec<u32>,
+    /// The component and the dashpots of each element without temperature that has dashpots.
+    pub(super) losing: Vec<(u32, Range<usize>)>,
+}
+
+/// Sets that are merged: each points to another of the same set, the first to itself.
+struct Sets(Vec<usize>);
+
+impl Sets {
+    fn first(&mut self, mut of: usize) -> usize {
+        while self.0[of] != of {
+            // Halves the way of later questions.
+            self.0[of] = self.0[self.0[of]];
+            of = self.0[of];
+        }
+        of
+    }
+
+    fn merge(&mut self, one: usize, other: usize) {
+        let [one, other] = [one, other].map(|of| self.first(of));
+        self.0[one.max(other)] = one.min(other);
+    }
+}
+
+impl<S: Real> Components<S> {
+    /// The components of a scene; `dashpots` are those of each element.
+    pub(super) fn new(
+        masses: &Masses<S>,
+        elements: &[ElementEntry<S>],
+        layout: &Layout,
+        conduction: &Conduction<S>,
+    ) -> Self {
+        let nodes = masses.len();
+        let mut slot_elements = vec![0; layout.thermal];
+        let thermal = layout.elements.iter().enumerate();
+        for (element, slots) in thermal {
+            if let Some(slot) = slots.thermal {
+                slot_elements[slot] = compact(element);
+            }
+        }
+        let mut sets = Sets((0..nodes + elements.len()).collect());
+        for (element, entry) in elements.iter().enumerate() {
+            for &node in &entry.nodes {
+                if masses.get(node).is_some() {
+                    sets.merge(node, nodes + element);
+                }
+            }
+        }
+        let element_of = |slot: usize| nodes + slot_elements[slot] as usize;
+        for slot in 0..layout.thermal {
+            for link in conduction.links(slot) {
+                if let Partner::Slot(partner) = link.partner {
+                    sets.merge(element_of(slot), element_of(partner));
+                }
+            }
+        }
+        let (numbers, count) = numbered(&mut sets, masses, nodes);
+        let mut components = Self {
+            all: Vec::with_capacity(count),
+            nodes: Vec::new(),
+            of_place: Vec::new(),
+            masses: 0,
+            slots: Vec::new(),
+            paths: Vec::new(),
+            shares: Vec::new(),
+            of_dashpot: dashpots(layout, &numbers[nodes..]),
+            of_element: numbers[nodes..].to_vec(),
+            losing: losing(layout, &numbers[nodes..]),
+            elements: slot_elements,
+        };
+        components.place_masses(&numbers, count, masses);
+        components.fill(conduction);
+        components.place_anchors(masses, elements);
+        components
+    }
+
+    /// The places of nodes, of which anchors have one per component.
+    pub(super) fn places(&self) -> Places {
+        let placed = self.nodes.iter().zip(&self.of_place).enumerate();
+        let mut places = Places {
+            of_masses: vec![None; self.nodes.iter().max().map_or(0, |&last| last as usize + 1)],
+            of_anchors: BTreeMap::new(),
+        };
+        for (place, (&node, &component)) in placed {
+            if place < self.masses {
+                places.of_masses[node as usize] = Some(compact(place));
+            } else {
+                places.of_anchors.insert((component, node), compact(place));
+            }
+        }
+        places
+    }
+
+    /// The mass at each place, zero for anchors, kg.
+    pub(super) fn masses_of(&self, masses: &Masses<S>) -> Vec<S> {
+        let nodes = self.nodes.iter();
+        let of = |&node: &u32| masses.get(node as usize).unwrap_or(S::zero());
+        nodes.map(of).collect()
+    }
+
+    /// Place and node of all anchors.
+    pub(super) fn anchors(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let placed = self.nodes.iter().enumerate().skip(self.masses);
+        placed.map(|(place, &node)| (place, node as usize))
+    }
+
+    /// Gives the masses their places, component after component.
+    fn place_masses(&mut self, numbers: &[u32], count: usize, masses: &Masses<S>) {
+        let mut own = vec![Vec::new(); count];
+        for (node, mass) in masses.iter().enumerate() {
+            if let Some(mass) = mass {
+                own[numbers[node] as usize].push((compact(node), mass));
+            }
+        }
+        for (component, own) in own.into_iter().enumerate() {
+            let start = self.nodes.len();
+            let mut mass = S::zero();
+            for (node, own) in own {
+                self.nodes.push(node);
+                self.of_place.push(compact(component));
+                mass += own;
+            }
+            self.all.push(Component {
+                masses: start..self.nodes.len(),
+                slots: 0..0,
+                paths: 0..0,
+                shares: 0..0,
+                support: Support::Free,
+                mass,
+            });
+        }
+        self.masses = self.nodes.len();
+    }
+
+    /// Lists thermal slots and paths of heat, component after component.
+    fn fill(&mut self, conduction: &Conduction<S>) {
+        let mut own = vec![Vec::new(); self.all.len()];
+        for (slot, &element) in self.elements.iter().enumerate() {
+            own[self.of_element[element as usize] as usize].push(compact(slot));
+        }
+        for (component, own) in own.into_iter().enumerate() {
+            let starts = [self.slots.len(), self.paths.len(), self.shares.len()];
+            for slot in own {
+                self.slots.push(slot);
+                self.add_paths(component, slot, conduction);
+            }
+            self.all[component].slots = starts[0]..self.slots.len();
+            self.all[component].paths = starts[1]..self.paths.len();
+            self.all[component].shares = starts[2]..self.shares.len();
+        }
+    }
+
+    /// Gives each anchor a place for every component that it holds.
+    fn place_anchors(&mut self, masses: &Masses<S>, elements: &[ElementEntry<S>]) {
+        let mut places = BTreeMap::new();
+        for (element, entry) in elements.iter().enumerate() {
+            let component = self.of_element[element];
+            for &node in entry
+                .nodes
+                .iter()
+                .filter(|&&node| masses.get(node).is_none())
+            {
+                let key = (component, node);
+                if places.contains_key(&key) {
+                    continue;
+                }
+                let place = self.nodes.len();
+                places.insert(key, place);
+                self.nodes.push(compact(node));
+                self.of_place.push(component);
+                let support = &mut self.all[component as usize].support;
+                *support = match *support {
+                    Support::Free => Support::Anchor(place),
+                    Support::Anchor(_) | Support::Several => Support::Several,
+                };
+            }
+        }
+    }
+
+    /// The paths that begin at a slot; each is listed at both ends.
+    fn add_paths(&mut self, component: usize, slot: u32, conduction: &Conduction<S>) {
+        for link in conduction.links(slot as usize) {
+            let (far, share) = match link.partner {
+                Partner::Slot(partner) if partner < slot as usize => continue,
+                Partner::Slot(partner) => (partner, None),
+                Partner::Reservoir(reservoir) => {
+                    let share = self.share(compact(component), compact(reservoir));
+                    (self.elements.len() + reservoir, Some(share))
+                }
+            };
+            self.paths.push(Path {
+                ends: [slot, compact(far)],
+                share,
+                conductance: link.conductance,
+            });
+        }
+    }
+
+    fn share(&mut self, component: u32, reservoir: u32) -> u32 {
+        let own = self.shares.iter().rev();
+        let mut own = own.take_while(|share| share.component == component);
+        if let Some(back) = own.position(|share| share.reservoir == reservoir) {
+            return compact(self.shares.len() - 1 - back);
+        }
+        self.shares.push(Share {
+            component,
+            reservoir,
+        });
+        compact(self.shares.len() - 1)
+    }
+}
+
+/// Where nodes are in the vectors of stages.
+pub(super) struct Places {
+    of_masses: Vec<Option<u32>>,
+    of_anchors: BTreeMap<(u32, u32), u32>,
+}
+
+impl PlaceOf for Places {
+    fn place_of(&self, component: u32, node: u32) -> u32 {
+        let mass = self.of_masses.get(node as usize).copied().flatten();
+        let anchor = || self.of_anchors.get(&(component, node)).copied();
+        mass.or_else(anchor)
+            .unwrap_or_else(|| unreachable!("nodes of elements have places"))
+    }
+}
+
+/// The number of the component of each set in the order of their first members, and how many there are.
+fn numbered<S: Real>(sets: &mut Sets, masses: &Masses<S>, nodes: usize) -> (Vec<u32>, usize) {
+    let mut numbers = vec![0; sets.0.len()];
+    let mut count = 0;
+    for member in 0..sets.0.len() {
+        let is_anchor = member < nodes && masses.get(member).is_none();
+        if is_anchor {
+            continue;
+        }
+        let first = sets.first(member);
+        if first == member {
+            numbers[member] = compact(count);
+            count += 1;
+        } else {
+            numbers[member] = numbers[first];
+        }
+    }
+    (numbers, count)
+}
+
+/// The dashpots of each element.
+fn ranges(layout: &Layout) -> impl Iterator<Item = Range<usize>> + '_ {
+    let ends = layout.elements.iter().skip(1).map(|slots| slots.viscous);
+    let ends = ends.chain([layout.viscous]);
+    let elements = layout.elements.iter().zip(ends);
+    elements.map(|(slots, end)| slots.viscous..end)
+}
+
+/// The component of each dashpot.
+fn dashpots(layout: &Layout, components: &[u32]) -> Vec<u32> {
+    let own = ranges(layout).zip(components);
+    own.flat_map(|(dashpots, &component)| dashpots.map(move |_| component))
+        .collect()
+}
+
+/// Elements whose dashpots lose their heat.
+fn losing(layout: &Layout, components: &[u32]) -> Vec<(u32, Range<usize>)> {
+    let elements = layout.elements.iter().zip(ranges(layout)).zip(components);
+    let losing =
+        elements.filter(|((slots, dashpots), _)| slots.thermal.is_none() && !dashpots.is_empty());
+    losing
+        .map(|((_, dashpots), &component)| (component, dashpots))
+        .collect()
+}

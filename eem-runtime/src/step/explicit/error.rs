@@ -1,0 +1,80 @@
+//! The estimate of the error of a step (Hairer, Nørsett & Wanner, section II.10).
+
+use super::Explicit;
+use super::demand::Scales;
+use super::tableau::{ERROR_3, ERROR_5};
+use crate::number::scalar::{Mask, Real};
+use crate::step::control::Tolerance;
+
+impl<S: Real, const D: usize> Explicit<S, D> {
+    /// The scales of the step, at its end before it is closed.
+    pub(super) fn scales(&self) -> Scales<S> {
+        let size = self.components.masses * D;
+        let momenta = self.offsets.momenta..self.offsets.momenta + size;
+        Scales {
+            position: norm(&self.y0[..size]).maximum(norm(&self.y[..size])),
+            momentum: norm(&self.y[momenta]).maximum(self.books.largest_momentum),
+        }
+    }
+
+    /// The error of the step in units of the tolerance,
+    ///
+    /// ```text
+    /// e₅²/√(e₅² + 0.01 e₃²),     e = |h Σ E k / scale|₂
+    /// ```
+    ///
+    /// with the scales of a [`Tolerance`]: |q| for positions and viscous stretches, the largest |p| so far for
+    /// momenta, and θ.
+    pub(super) fn estimate(&self, h: S, tolerance: &Tolerance<S>, scales: Scales<S>) -> S {
+        let k = self.weighted_rates();
+        let [fifth, third] = [&ERROR_5, &ERROR_3].map(|row| row.map(|e| h * S::from_f64(e)));
+        let mut sums = [S::zero(); 2];
+        let mut see = |index: usize, scale: S| {
+            let (mut five, mut three) = (S::zero(), S::zero());
+            for term in 0..k.len() {
+                five += fifth[term] * k[term][index];
+                three += third[term] * k[term][index];
+            }
+            // Where the scale is zero nothing moves.
+            let has_scale = S::zero().less(scale).all();
+            let per_scale = if has_scale { scale.recip() } else { S::zero() };
+            for (sum, error) in sums.iter_mut().zip([five, three]) {
+                *sum += (error * per_scale) * (error * per_scale);
+            }
+        };
+        let offsets = self.offsets;
+        let size = self.components.masses * D;
+        let of = |size: S, absolute: S| tolerance.relative * size + absolute;
+        let position = of(scales.position, tolerance.position);
+        for index in (0..size).chain(offsets.viscous..offsets.temperatures) {
+            see(index, position);
+        }
+        let momentum = of(scales.momentum, tolerance.momentum);
+        for index in offsets.momenta..offsets.momenta + size {
+            see(index, momentum);
+        }
+        for index in offsets.temperatures..offsets.reservoirs {
+            see(index, of(self.y0[index], tolerance.temperature));
+        }
+        let [five, three] = sums;
+        if five.at_most(S::zero()).all() {
+            return S::zero();
+        }
+        five / (five + S::from_f64(0.01) * three).sqrt()
+    }
+}
+
+/// |x|₂, scaled where squares would under- or overflow.
+fn norm<S: Real>(x: &[S]) -> S {
+    let sum = x.iter().fold(S::zero(), |sum, &x| sum + x * x);
+    let is_normal = S::MIN_POSITIVE.less(sum) & sum.at_most(S::MAX);
+    if is_normal.all() {
+        return sum.sqrt();
+    }
+    let most = x.iter().fold(S::zero(), |most, x| most.maximum(x.abs()));
+    if most.equal(S::zero()).all() {
+        return most;
+    }
+    let scaled = x.iter().map(|&x| x / most);
+    most * scaled.fold(S::zero(), |sum, x| sum + x * x).sqrt()
+}

@@ -1,0 +1,183 @@
+//! What an explicit scheme keeps: rates, quadratures, targets.
+
+use crate::element::layout::Layout;
+use crate::number::compensated::{Compensated, Sum};
+use crate::number::scalar::Real;
+use crate::step::explicit::components::Components;
+use crate::step::explicit::guard::PathSums;
+
+/// Where the parts of a stage vector begin: positions, momenta, viscous stretches, temperatures of thermal
+/// slots and then of reservoirs.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Offsets {
+    pub(super) momenta: usize,
+    pub(super) viscous: usize,
+    pub(super) temperatures: usize,
+    pub(super) reservoirs: usize,
+    pub(super) size: usize,
+}
+
+impl Offsets {
+    /// With so many coordinates and reservoirs.
+    pub(super) fn new(coordinates: usize, layout: &Layout, reservoirs: usize) -> Self {
+        let viscous = 2 * coordinates;
+        let temperatures = viscous + layout.viscous;
+        Self {
+            momenta: coordinates,
+            viscous,
+            temperatures,
+            reservoirs: temperatures + layout.thermal,
+            size: temperatures + layout.thermal + reservoirs,
+        }
+    }
+}
+
+/// The rates of a state, and powers that are integrated over a step.
+#[derive(Clone, Debug)]
+pub(super) struct Sample<S, const D: usize> {
+    /// Per variable of a stage vector.
+    pub(super) rates: Vec<S>,
+    /// `g γ̇` of each dashpot, W.
+    pub(super) powers: Vec<S>,
+    /// `f λ̇` and the heat that flows in, per thermal slot, W; empty without thermostats.
+    pub(super) supply: Vec<S>,
+    /// The force of the elements on each place of an anchor, N.
+    pub(super) reactions: Vec<[S; D]>,
+    /// The loads on the nodes of the scene, with their weights, N; empty without.
+    pub(super) loads: Vec<S>,
+    /// The same without weights.
+    pub(super) forces: Vec<S>,
+}
+
+/// What loads have done to a component in a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LoadSums<S, const D: usize> {
+    /// J.
+    pub(super) work: S,
+    /// N s.
+    pub(super) impulse: [S; D],
+    /// N m s.
+    pub(super) torque: [S; 3],
+}
+
+/// Integrals over a step.
+#[derive(Clone, Debug)]
+pub(super) struct Quadrature<S, const D: usize> {
+    pub(super) paths: Vec<PathSums<S>>,
+    /// Of each dashpot, `∫ g γ̇/θ`, J/K; `∫ g γ̇` in elements without temperature, J.
+    pub(super) dashpots: Vec<S>,
+    /// `∫ supply`, per thermal slot, J; empty without thermostats.
+    pub(super) supply: Vec<S>,
+    /// Per component; empty without loads and moved anchors.
+    pub(super) loads: Vec<LoadSums<S, D>>,
+}
+
+/// What energy and momenta of a component have to be, to twice the precision.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
+pub(crate) struct Target<S> {
+    /// E, with the heat that reservoirs have received and that dashpots have lost, J.
+    pub(crate) energy: Sum<S>,
+    /// L, kg m/s, per axis, at most three.
+    pub(crate) linear: [Sum<S>; 3],
+    /// J about the anchor, or about the centre of mass where there is none, kg m²/s.
+    pub(crate) angular: [Sum<S>; 3],
+    /// Heat of dashpots in elements without temperature, J.
+    pub(crate) lost: Sum<S>,
+}
+
+/// What steps have booked.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Books<S> {
+    /// Per component.
+    pub(super) targets: Vec<Target<S>>,
+    /// What each reservoir has received from each component, J/K.
+    pub(super) shares: Compensated<S>,
+    /// The energies of elements with thermostats, per thermal slot, J; empty without.
+    pub(super) held_energies: Vec<S>,
+    /// The largest |p|₂ of all states so far, kg m/s.
+    pub(super) largest_momentum: S,
+    /// E less its targets, of all components, J.
+    pub(super) residue: S,
+}
+
+impl<S: Real> Target<S> {
+    /// Zero.
+    pub(super) fn none() -> Self {
+        let zero = Sum::new(S::zero());
+        Self {
+            energy: zero,
+            linear: [zero; 3],
+            angular: [zero; 3],
+            lost: zero,
+        }
+    }
+}
+
+impl<S: Real> Books<S> {
+    pub(super) fn new(components: &Components<S>, held: usize) -> Self {
+        Self {
+            targets: vec![Target::none(); components.all.len()],
+            shares: Compensated::new(vec![S::zero(); components.shares.len()]),
+            held_energies: vec![S::zero(); held],
+            largest_momentum: S::zero(),
+            residue: S::zero(),
+        }
+    }
+
+    /// Takes over those of the same scene.
+    pub(super) fn copy_from(&mut self, other: &Self) {
+        self.targets.copy_from_slice(&other.targets);
+        self.shares.copy_from(&other.shares);
+        self.held_energies.copy_from_slice(&other.held_energies);
+        self.largest_momentum = other.largest_momentum;
+        self.residue = other.residue;
+    }
+}
+
+impl<S: Real, const D: usize> Sample<S, D> {
+    pub(super) fn new(offsets: Offsets, anchors: usize, [supply, loads]: [usize; 2]) -> Self {
+        Self {
+            rates: vec![S::zero(); offsets.size],
+            powers: vec![S::zero(); offsets.temperatures - offsets.viscous],
+            supply: vec![S::zero(); supply],
+            reactions: vec![[S::zero(); D]; anchors],
+            loads: vec![S::zero(); loads],
+            forces: vec![S::zero(); loads],
+        }
+    }
+}
+
+impl<S: Real, const D: usize> LoadSums<S, D> {
+    pub(super) fn none() -> Self {
+        Self {
+            work: S::zero(),
+            impulse: [S::zero(); D],
+            torque: [S::zero(); 3],
+        }
+    }
+}
+
+impl<S: Real, const D: usize> Quadrature<S, D> {
+    /// Of a scene with so many dashpots, thermal slots with thermostats and components with loads.
+    pub(super) fn new(paths: usize, dashpots: usize, [supply, loads]: [usize; 2]) -> Self {
+        Self {
+            paths: vec![PathSums::none(); paths],
+            dashpots: vec![S::zero(); dashpots],
+            supply: vec![S::zero(); supply],
+            loads: vec![LoadSums::none(); loads],
+        }
+    }
+
+    /// Begins a step.
+    pub(super) fn clear(&mut self) {
+        self.paths.fill(PathSums::none());
+        self.dashpots.fill(S::zero());
+        self.supply.fill(S::zero());
+        self.loads.fill(LoadSums::none());
+    }
+}

@@ -1,0 +1,77 @@
+//! What an explicit scheme keeps between steps, as it is saved.
+
+use crate::number::compensated::Compensated;
+use crate::number::scalar::Real;
+use crate::step::explicit::memory::Target;
+
+/// Targets, what reservoirs have received from each component, and the rates of the present state, bit for
+/// bit.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
+pub(crate) struct SavedExplicit<S> {
+    /// Whether the next step takes rates and targets from the state instead of what follows.
+    pub(crate) is_new: bool,
+    pub(crate) is_motion_first: bool,
+    pub(crate) targets: Vec<Target<S>>,
+    pub(crate) shares: Compensated<S>,
+    pub(crate) held_energies: Vec<S>,
+    pub(crate) largest_momentum: S,
+    pub(crate) residue: S,
+    pub(crate) rates: Vec<S>,
+    pub(crate) powers: Vec<S>,
+    pub(crate) supply: Vec<S>,
+    pub(crate) reactions: Vec<S>,
+    pub(crate) loads: Vec<S>,
+    pub(crate) forces: Vec<S>,
+}
+
+impl<S: Real> SavedExplicit<S> {
+    /// All sums with their names.
+    pub(crate) fn sums(&self) -> [(&'static str, impl Iterator<Item = (S, S)> + Clone + '_); 1] {
+        let of = |target: &Target<S>| {
+            let single = [target.energy, target.lost];
+            let all = single
+                .into_iter()
+                .chain(target.linear)
+                .chain(target.angular);
+            all.map(|sum| (sum.value, sum.carry))
+        };
+        [("targets", self.targets.iter().flat_map(of))]
+    }
+
+    /// Forgets what belongs to no state.
+    pub(super) fn clear(&mut self) {
+        self.targets.fill(Target::none());
+        self.shares.write(|shares| shares.fill(S::zero()));
+        (self.largest_momentum, self.residue) = (S::zero(), S::zero());
+        let lists = [
+            &mut self.held_energies,
+            &mut self.rates,
+            &mut self.powers,
+            &mut self.supply,
+            &mut self.reactions,
+            &mut self.loads,
+            &mut self.forces,
+        ];
+        for list in lists {
+            list.fill(S::zero());
+        }
+    }
+
+    /// All lists with their names.
+    pub(crate) fn lists(&self) -> [(&'static str, &[S]); 7] {
+        [
+            ("rates", &self.rates),
+            ("powers of dashpots", &self.powers),
+            ("powers of thermostats", &self.supply),
+            ("reactions of anchors", &self.reactions),
+            ("energies of thermostats", &self.held_energies),
+            ("loads with weights", &self.loads),
+            ("loads", &self.forces),
+        ]
+    }
+}

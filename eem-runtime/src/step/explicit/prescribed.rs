@@ -1,0 +1,243 @@
+//! Moved anchors and thermostats at the times of the stages.
+//!
+//! The motion of an anchor is taken as the polynomial through its positions at Chebyshev points of the
+//! step, whose derivative is the velocity: no more is known of a function of time than its values. The
+//! degree is 10, so that the error is of an order above that of the scheme.
+
+use core::f64::consts::PI;
+
+use crate::element::handle::{Element, Node};
+use crate::element::layout::Layout;
+use crate::number::scalar::{Real, is_positive};
+use crate::scene::loads::Loads;
+use crate::step::error::StepFailure;
+use crate::step::explicit::tableau::{STAGES, TIMES};
+
+/// Number of points of a step at which motions are evaluated, one more than the degree.
+const POINTS: usize = 11;
+
+/// Positions and velocities of the stages from those of the points, both ends among them.
+#[derive(Clone, Debug)]
+struct Interpolation<S> {
+    /// Where the points are, as shares of the step.
+    points: [S; POINTS],
+    values: [[S; POINTS]; STAGES],
+    slopes: [[S; POINTS]; STAGES],
+}
+
+impl<S: Real> Interpolation<S> {
+    fn new() -> Self {
+        let index = |m: usize| f64::from(u8::try_from(m).unwrap_or(0));
+        let degree = index(POINTS - 1);
+        let at: [f64; POINTS] =
+            core::array::from_fn(|m| 0.5 - 0.5 * (PI * index(m) / degree).cos());
+        let mut values = [[S::zero(); POINTS]; STAGES];
+        let mut slopes = values;
+        for (stage, &time) in TIMES.iter().enumerate() {
+            for m in 0..POINTS {
+                // Lagrange's polynomial of a point, and its derivative by the product rule.
+                let factor = |k: usize| (time - at[k]) / (at[m] - at[k]);
+                let product = |but: usize| {
+                    let others = (0..POINTS).filter(|&k| k != m && k != but);
+                    others.map(factor).product::<f64>()
+                };
+                let others = (0..POINTS).filter(|&k| k != m);
+                let slope: f64 = others.map(|k| product(k) / (at[m] - at[k])).sum();
+                values[stage][m] = S::from_f64(product(m));
+                slopes[stage][m] = S::from_f64(slope);
+            }
+        }
+        Self {
+            points: at.map(S::from_f64),
+            values,
+            slopes,
+        }
+    }
+}
+
+/// An anchor that is moved.
+#[derive(Clone, Debug)]
+struct Moved<S, const D: usize> {
+    node: Node,
+    /// Which of the motions of the scene.
+    motion: usize,
+    /// Of the stages, m and m/s.
+    positions: [[S; D]; STAGES],
+    velocities: [[S; D]; STAGES],
+}
+
+/// An element with a thermostat.
+#[derive(Clone, Debug)]
+struct Held<S> {
+    element: Element,
+    slot: usize,
+    /// Which of the temperatures of the scene.
+    temperature: usize,
+    /// Of the stages, K.
+    temperatures: [S; STAGES],
+}
+
+/// All that is prescribed in a scene.
+#[derive(Clone, Debug)]
+pub(super) struct Prescribed<S, const D: usize> {
+    interpolation: Interpolation<S>,
+    moved: Vec<Moved<S, D>>,
+    held: Vec<Held<S>>,
+}
+
+impl<S: Real, const D: usize> Prescribed<S, D> {
+    pub(super) fn new(loads: &Loads<S, D>, layout: &Layout) -> Self {
+        // Of several motions of one anchor the last one counts, as in the implicit schemes.
+        let mut moved: Vec<Moved<S, D>> = Vec::new();
+        for (motion, (node, _)) in loads.motions.iter().enumerate() {
+            moved.retain(|moved| moved.node != *node);
+            moved.push(Moved {
+                node: *node,
+                motion,
+                positions: [[S::zero(); D]; STAGES],
+                velocities: [[S::zero(); D]; STAGES],
+            });
+        }
+        let mut held: Vec<Held<S>> = Vec::new();
+        for (temperature, (element, _)) in loads.temperatures.iter().enumerate() {
+            let Some(slot) = layout.elements[element.index].thermal else {
+                continue;
+            };
+            held.retain(|held| held.slot != slot);
+            held.push(Held {
+                element: *element,
+                slot,
+                temperature,
+                temperatures: [S::one(); STAGES],
+            });
+        }
+        Self {
+            interpolation: Interpolation::new(),
+            moved,
+            held,
+        }
+    }
+
+    /// Whether some anchor is moved.
+    pub(super) fn moves(&self) -> bool {
+        !self.moved.is_empty()
+    }
+
+    /// The thermal slots with thermostats.
+    pub(super) fn slots(&self) -> impl Iterator<Item = usize> + '_ {
+        self.held.iter().map(|held| held.slot)
+    }
+
+    /// `(slot, θ)` of all thermostats at a stage.
+    pub(super) fn temperatures(&self, stage: usize) -> impl Iterator<Item = (usize, S)> + '_ {
+        let held = self.held.iter();
+        held.map(move |held| (held.slot, held.temperatures[stage]))
+    }
+
+    /// Node, position and velocity of all moved anchors at a stage.
+    pub(super) fn motions(
+        &self,
+        stage: usize,
+    ) -> impl Iterator<Item = (usize, &[S; D], &[S; D])> + '_ {
+        let moved = self.moved.iter();
+        moved.map(move |moved| {
+            let at = moved.node.index;
+            (at, &moved.positions[stage], &moved.velocities[stage])
+        })
+    }
+
+    /// Evaluates everything in the step from `time` by `step`.
+    pub(super) fn evaluate(
+        &mut self,
+        loads: &Loads<S, D>,
+        [time, step]: [S; 2],
+    ) -> Result<(), StepFailure> {
+        for moved in &mut self.moved {
+            moved.evaluate(&self.interpolation, loads, [time, step])?;
+        }
+        for held in &mut self.held {
+            for (stage, &share) in TIMES.iter().enumerate() {
+                let at = time + S::from_f64(share) * step;
+                let theta = (loads.temperatures[held.temperature].1)(at);
+                if !is_positive(theta) {
+                    return Err(StepFailure::PrescribedTemperature {
+                        element: held.element,
+                        value: theta.to_f64(),
+                        time: at.to_f64(),
+                    });
+                }
+                held.temperatures[stage] = theta;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<S: Real, const D: usize> Moved<S, D> {
+    fn evaluate(
+        &mut self,
+        interpolation: &Interpolation<S>,
+        loads: &Loads<S, D>,
+        [time, step]: [S; 2],
+    ) -> Result<(), StepFailure> {
+        let mut positions = [[S::zero(); D]; POINTS];
+        for (position, &share) in positions.iter_mut().zip(&interpolation.points) {
+            let at = time + share * step;
+            let found = (loads.motions[self.motion].1)(at);
+            for axis in 0..D {
+                position[axis] = found[axis];
+                if !found[axis].is_finite() {
+                    return Err(StepFailure::Motion {
+                        node: self.node,
+                        axis,
+                        value: found[axis].to_f64(),
+                        time: at.to_f64(),
+                    });
+                }
+            }
+        }
+        let (start, end) = (positions[0], positions[POINTS - 1]);
+        for stage in 0..STAGES {
+            for axis in 0..D {
+                // Small numbers, which lose no digits beside the distance from the origin.
+                let from_start = |m: usize| positions[m][axis] - start[axis];
+                let sum = |row: &[S; POINTS]| {
+                    (1..POINTS).fold(S::zero(), |sum, m| sum + row[m] * from_start(m))
+                };
+                self.positions[stage][axis] = start[axis] + sum(&interpolation.values[stage]);
+                self.velocities[stage][axis] = sum(&interpolation.slopes[stage]) / step;
+            }
+        }
+        self.positions[0] = start;
+        self.positions[STAGES - 1] = end;
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn polynomials_of_the_degree_are_exact() {
+        let interpolation = Interpolation::<f64>::new();
+        let points = interpolation.points;
+        for power in 0..=10 {
+            for (stage, &time) in TIMES.iter().enumerate() {
+                let sum = |row: [f64; POINTS]| -> f64 {
+                    let terms = row.iter().zip(points);
+                    terms.map(|(w, at)| w * at.powi(power)).sum()
+                };
+                let slope = if power == 0 {
+                    0.0
+                } else {
+                    f64::from(power) * time.powi(power - 1)
+                };
+                let value = sum(interpolation.values[stage]) - time.powi(power);
+                assert!(value.abs() < 1e-14, "{stage} {power} {value:e}");
+                let slope = sum(interpolation.slopes[stage]) - slope;
+                assert!(slope.abs() < 1e-12, "{stage} {power} {slope:e}");
+            }
+        }
+    }
+}

@@ -1,0 +1,51 @@
+//! An explicit scheme is saved and goes on from what was saved.
+
+use super::Explicit;
+use super::past::SavedExplicit;
+use crate::number::scalar::Real;
+
+impl<S: Real, const D: usize> Explicit<S, D> {
+    /// What the next step depends on besides the state.
+    pub(crate) fn save(&self) -> SavedExplicit<S> {
+        let (books, start) = (&self.books, &self.start);
+        let mut saved = SavedExplicit {
+            is_new: !self.is_ready,
+            is_motion_first: self.is_motion_first,
+            targets: books.targets.clone(),
+            shares: books.shares.clone(),
+            held_energies: books.held_energies.clone(),
+            largest_momentum: books.largest_momentum,
+            residue: books.residue,
+            rates: start.rates.clone(),
+            powers: start.powers.clone(),
+            supply: start.supply.clone(),
+            reactions: start.reactions.as_flattened().to_vec(),
+            loads: start.loads.clone(),
+            forces: start.forces.clone(),
+        };
+        if saved.is_new {
+            saved.clear();
+        }
+        saved
+    }
+
+    /// Goes on from what was saved of the same scene.
+    pub(crate) fn restore(&mut self, saved: &SavedExplicit<S>) {
+        self.is_ready = !saved.is_new;
+        self.is_restored = true;
+        self.is_motion_first = saved.is_motion_first;
+        let (books, start) = (&mut self.books, &mut self.start);
+        books.targets.copy_from_slice(&saved.targets);
+        books.shares.copy_from(&saved.shares);
+        books.held_energies.copy_from_slice(&saved.held_energies);
+        books.largest_momentum = saved.largest_momentum;
+        books.residue = saved.residue;
+        start.rates.copy_from_slice(&saved.rates);
+        start.powers.copy_from_slice(&saved.powers);
+        start.supply.copy_from_slice(&saved.supply);
+        start.loads.copy_from_slice(&saved.loads);
+        start.forces.copy_from_slice(&saved.forces);
+        let reactions = start.reactions.as_flattened_mut();
+        reactions.copy_from_slice(&saved.reactions);
+    }
+}

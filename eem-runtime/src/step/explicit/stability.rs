@@ -1,0 +1,131 @@
+//! Why an explicit step failed: it is longer than the fastest motion allows, or an element is too cold.
+
+use super::{Explicit, ExplicitView};
+use crate::element::error::StateError;
+use crate::number::scalar::{Mask, Real};
+use crate::step::error::StepFailure;
+use crate::step::scheme::Scheme;
+
+/// Up to these products with the step the stability function of DOP853 is at most 1: on the imaginary axis,
+/// vibrations, and on the real one, conduction and dashpots.
+const IMAGINARY_LIMIT: f64 = 5.96;
+const REAL_LIMIT: f64 = 6.39;
+
+impl<S: Real, const D: usize> Explicit<S, D> {
+    /// The reason behind a failure, if the step is too long to be stable.
+    #[cold]
+    pub(crate) fn explain(
+        &self,
+        failure: StepFailure,
+        view: &ExplicitView<'_, S, D>,
+    ) -> StepFailure {
+        let of_numbers = matches!(
+            failure,
+            StepFailure::State(_)
+                | StepFailure::Unbounded { .. }
+                | StepFailure::Correction { .. }
+                | StepFailure::NotClosed { .. }
+                | StepFailure::LawNotKept { .. }
+        );
+        if !of_numbers {
+            return failure;
+        }
+        let time = (view.state.time.value + view.step).to_f64();
+        let h = view.step.to_f64();
+        let rates = self.fastest(view);
+        let limits = [
+            ("ωh", IMAGINARY_LIMIT),
+            ("κh/c", REAL_LIMIT),
+            ("kh/η", REAL_LIMIT),
+        ];
+        for ((rate, limit), fastest) in limits.into_iter().zip(rates) {
+            if h * fastest > limit {
+                return StepFailure::Unstable {
+                    rate,
+                    product: h * fastest,
+                    limit,
+                    longest: limit / fastest,
+                    scheme: Scheme::EemEntropy.name(),
+                    time,
+                };
+            }
+        }
+        self.too_cold(&failure, view).unwrap_or(failure)
+    }
+
+    /// The fastest vibration, conduction and dashpot, by bounds of the eigenvalues: sums of rows of the
+    /// matrices that are symmetric in `√m q` and `√c θ`, 1/s.
+    fn fastest(&self, view: &ExplicitView<'_, S, D>) -> [f64; 3] {
+        let nodes = view.masses.len();
+        let per_root = |mass: Option<S>| mass.map_or(S::zero(), |mass| mass.sqrt().recip());
+        let per_root: Vec<S> = view.masses.iter().map(per_root).collect();
+        let mut squares = vec![S::zero(); nodes];
+        let mut capacities = vec![S::zero(); view.state.temperatures.len()];
+        let mut relaxation = S::zero();
+        for group in &self.groups {
+            group.stiffness(view.state, &mut |element| {
+                let [a, b] = element.nodes;
+                let both = per_root[a] + per_root[b];
+                squares[a] += element.stiffness * per_root[a] * both;
+                squares[b] += element.stiffness * per_root[b] * both;
+                relaxation = relaxation.maximum(element.relaxation);
+                if let Some((slot, capacity)) = element.capacity {
+                    capacities[slot] = capacity;
+                }
+            });
+        }
+        let largest = |values: &[S]| values.iter().fold(S::zero(), |most, &x| most.maximum(x));
+        let mut flows = vec![S::zero(); capacities.len()];
+        for path in &self.components.paths {
+            let ends = path.ends.map(|end| end as usize);
+            let per_root = |end: usize| {
+                let capacity = capacities.get(end).copied();
+                capacity.map_or(S::zero(), |capacity| capacity.sqrt().recip())
+            };
+            let both = per_root(ends[0]) + per_root(ends[1]);
+            for end in ends {
+                if let Some(flow) = flows.get_mut(end) {
+                    *flow += path.conductance * per_root(end) * both;
+                }
+            }
+        }
+        let vibration = largest(&squares).sqrt();
+        [vibration, largest(&flows), relaxation].map(Real::to_f64)
+    }
+
+    /// The element without an admissible temperature, as it was at the start of the step.
+    fn too_cold(
+        &self,
+        failure: &StepFailure,
+        view: &ExplicitView<'_, S, D>,
+    ) -> Option<StepFailure> {
+        let StepFailure::State(
+            StateError::Temperature { element, .. }
+            | StateError::HeatCapacity { element, .. }
+            | StateError::NoSuchTemperature { element, .. },
+        ) = failure
+        else {
+            return None;
+        };
+        let mut elements = self.components.elements.iter();
+        let slot = elements.position(|&own| own as usize == element.index)?;
+        let mut heat_capacity = S::zero();
+        for group in &self.groups {
+            group.stiffness(view.state, &mut |found| {
+                if let Some((own, capacity)) = found.capacity
+                    && own == slot
+                {
+                    heat_capacity = capacity;
+                }
+            });
+        }
+        let is_known = S::zero().less(heat_capacity).all();
+        is_known.then(|| StepFailure::TooCold {
+            element: *element,
+            heat_capacity: heat_capacity.to_f64(),
+            temperature: view.state.temperatures[slot].to_f64(),
+            scheme: Scheme::EemEntropy.name(),
+            time: (view.state.time.value + view.step).to_f64(),
+        })
+    }
+}

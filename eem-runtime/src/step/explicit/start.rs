@@ -1,0 +1,161 @@
+//! Rates and targets of a state from which nothing is known yet: the first, or one that was changed.
+
+use super::components::Component;
+use super::components::Support;
+use super::memory::Target;
+use super::stages::From;
+use super::vector::{add, difference, length, moment};
+use super::{Explicit, ExplicitView};
+use crate::element::group::{ComponentEnergy, points};
+use crate::element::state::State;
+use crate::number::compensated::Sum;
+use crate::number::scalar::{Mask, Real, Scalar};
+use crate::step::error::StepFailure;
+
+/// Roundings up to which energy and momenta of a state are their targets, as in the certificate.
+const ROUNDINGS: f64 = 64.0;
+
+impl<S: Real, const D: usize> Explicit<S, D> {
+    /// Takes the start of a step from a state.
+    pub(super) fn load(&mut self, view: &ExplicitView<'_, S, D>) {
+        let (state, offsets) = (view.state, self.offsets);
+        let nodes = &self.components.nodes;
+        let y0 = &mut self.y0;
+        let (moving, internal) = y0.split_at_mut(offsets.viscous);
+        let (positions, momenta) = moving.split_at_mut(offsets.momenta);
+        let placed = positions.as_chunks_mut::<D>().0.iter_mut();
+        let placed = placed.zip(momenta.as_chunks_mut::<D>().0);
+        let old = points::<S, D>(state.positions.values());
+        let old_momenta = points::<S, D>(state.momenta.values());
+        for ((position, momentum), &node) in placed.zip(nodes) {
+            *position = old[node as usize];
+            *momentum = old_momenta[node as usize];
+        }
+        let (viscous, temperatures) = internal.split_at_mut(offsets.temperatures - offsets.viscous);
+        let (temperatures, reservoirs) =
+            temperatures.split_at_mut(offsets.reservoirs - offsets.temperatures);
+        viscous.copy_from_slice(state.viscous.values());
+        temperatures.copy_from_slice(&state.temperatures);
+        reservoirs.copy_from_slice(&view.conduction.reservoirs);
+    }
+
+    /// Finds rates and targets of a state that is loaded.
+    pub(super) fn prepare(&mut self, view: &ExplicitView<'_, S, D>) -> Result<(), StepFailure> {
+        self.y.copy_from_slice(&self.y0);
+        self.evaluate_loads(view, view.state.time.value)?;
+        let mut rates = core::mem::take(&mut self.end.rates);
+        let found = self.find_rates(0, From::Model, &mut rates);
+        self.end.rates = rates;
+        found?;
+        core::mem::swap(&mut self.start, &mut self.end);
+        self.set_targets(view.state);
+        self.is_ready = true;
+        Ok(())
+    }
+
+    /// Sums the energies of the elements of a state.
+    fn sum_energies(&mut self, state: &State<S>) {
+        self.scratch.energies.fill(ComponentEnergy::none());
+        let elements = self.components.of_element.iter().zip(&state.energies);
+        for (&component, energy) in elements {
+            let sum = &mut self.scratch.energies[component as usize];
+            sum.value.add(energy.value);
+            sum.magnitude += energy.magnitude;
+        }
+    }
+
+    /// Whether the targets are those of a state that is loaded, to rounding: somebody may have changed the
+    /// state of a checkpoint.
+    pub(super) fn fits(&mut self, state: &State<S>) -> bool {
+        self.y.copy_from_slice(&self.y0);
+        self.new_books.copy_from(&self.books);
+        self.sum_energies(state);
+        let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
+        (0..self.components.all.len()).all(|index| {
+            let [defect, magnitude] = self.defect_of(index);
+            let component = &self.components.all[index];
+            let (linear, angular) = self.momenta_of(component);
+            let target = &self.books.targets[index];
+            // An anchor takes linear momentum.
+            let axes = if component.support == Support::Free {
+                D
+            } else {
+                0
+            };
+            let pairs = linear.iter().zip(&target.linear).take(axes);
+            let pairs = pairs.chain(angular.iter().zip(&target.angular));
+            let off = pairs.map(|(&found, sum)| (found - sum.value).abs());
+            let off = off.fold(S::zero(), Scalar::maximum);
+            let [momenta, moments] = self.sizes_of(component);
+            let is_free_of_momenta = component.support == Support::Several;
+            defect.abs().at_most(rounding * magnitude).all()
+                && (is_free_of_momenta || off.at_most(rounding * (momenta + moments)).all())
+        })
+    }
+
+    /// `Σ |p|` and `Σ |q| |p|`: times ε, the rounding of the momenta.
+    fn sizes_of(&self, component: &Component<S>) -> [S; 2] {
+        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
+        let momenta = points::<S, D>(&self.y[self.offsets.momenta..self.offsets.viscous]);
+        let mut sizes = [S::zero(); 2];
+        for place in component.masses.clone() {
+            let momentum = length(&momenta[place]);
+            sizes[0] += momentum;
+            sizes[1] += momentum * length(&positions[place]);
+        }
+        sizes
+    }
+
+    /// Energy and momenta of the state are what they have to be from now on.
+    fn set_targets(&mut self, state: &State<S>) {
+        self.books.shares.write(|shares| shares.fill(S::zero()));
+        (self.books.largest_momentum, self.books.residue) = (S::zero(), S::zero());
+        self.new_books.copy_from(&self.books);
+        self.sum_energies(state);
+        for slot in 0..self.held.len() {
+            let element = self.components.elements[slot] as usize;
+            self.books.held_energies[slot] = state.energies[element].value;
+        }
+        for index in 0..self.components.all.len() {
+            self.books.targets[index] = Target::none();
+            self.new_books.targets[index] = Target::none();
+            let [energy, _] = self.energy_of(index);
+            let component = &self.components.all[index];
+            let (linear, angular) = self.momenta_of(component);
+            let mut target = Target::none();
+            target.energy = Sum::new(energy);
+            for (sum, value) in target.linear.iter_mut().zip(linear) {
+                *sum = Sum::new(value);
+            }
+            target.angular = angular.map(Sum::new);
+            self.books.targets[index] = target;
+        }
+    }
+
+    /// The centre of mass, m.
+    pub(super) fn center(&self, component: &Component<S>, positions: &[[S; D]]) -> [S; D] {
+        let mut sum = [S::zero(); D];
+        for place in component.masses.clone() {
+            add(&mut sum, self.masses[place], &positions[place]);
+        }
+        sum.map(|moment| moment / component.mass)
+    }
+
+    /// Linear momentum, and angular momentum about the anchor, or about the centre of mass.
+    pub(super) fn momenta_of(&self, component: &Component<S>) -> ([S; D], [S; 3]) {
+        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
+        let momenta = points::<S, D>(&self.y[self.offsets.momenta..self.offsets.viscous]);
+        let (mut linear, mut angular) = ([S::zero(); D], [S::zero(); 3]);
+        let origin = match component.support {
+            Support::Free => self.center(component, positions),
+            Support::Anchor(place) => positions[place],
+            Support::Several => return (linear, angular),
+        };
+        for place in component.masses.clone() {
+            let arm = difference(&positions[place], &origin);
+            add(&mut linear, S::one(), &momenta[place]);
+            add(&mut angular, S::one(), &moment(&arm, &momenta[place]));
+        }
+        (linear, angular)
+    }
+}

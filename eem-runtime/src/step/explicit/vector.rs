@@ -1,0 +1,204 @@
+//! Vectors of angular momentum, whatever the dimension of the scene.
+//!
+//! They have three components; in the plane only the third is not zero, on a line none.
+
+use crate::number::scalar::{Mask, Real};
+
+/// `r × p`.
+#[inline]
+pub(super) fn moment<S: Real, const D: usize>(r: &[S; D], p: &[S; D]) -> [S; 3] {
+    let zero = S::zero();
+    match D {
+        2 => [zero, zero, r[0] * p[1] - r[1] * p[0]],
+        3 => [
+            r[1] * p[2] - r[2] * p[1],
+            r[2] * p[0] - r[0] * p[2],
+            r[0] * p[1] - r[1] * p[0],
+        ],
+        _ => [zero; 3],
+    }
+}
+
+/// `ω × r`.
+#[inline]
+pub(super) fn spin<S: Real, const D: usize>(omega: &[S; 3], r: &[S; D]) -> [S; D] {
+    let mut speed = [S::zero(); D];
+    match D {
+        2 => {
+            speed[0] = -omega[2] * r[1];
+            speed[1] = omega[2] * r[0];
+        }
+        3 => {
+            speed[0] = omega[1] * r[2] - omega[2] * r[1];
+            speed[1] = omega[2] * r[0] - omega[0] * r[2];
+            speed[2] = omega[0] * r[1] - omega[1] * r[0];
+        }
+        _ => {}
+    }
+    speed
+}
+
+#[inline]
+pub(super) fn dot<S: Real, const D: usize>(a: &[S; D], b: &[S; D]) -> S {
+    a.iter().zip(b).fold(S::zero(), |sum, (&a, &b)| sum + a * b)
+}
+
+/// `|a|`, where squares may over- or underflow too.
+pub(super) fn length<S: Real, const D: usize>(a: &[S; D]) -> S {
+    a.iter().fold(S::zero(), |length, &x| length.hypot(x))
+}
+
+/// `sum += factor a`.
+#[inline]
+pub(super) fn add<S: Real, const D: usize>(sum: &mut [S; D], factor: S, a: &[S; D]) {
+    for (sum, &a) in sum.iter_mut().zip(a) {
+        *sum += factor * a;
+    }
+}
+
+#[inline]
+pub(super) fn difference<S: Real, const D: usize>(a: &[S; D], b: &[S; D]) -> [S; D] {
+    core::array::from_fn(|axis| a[axis] - b[axis])
+}
+
+/// The moments of inertia of a body about a point, kg m²: a symmetric matrix of which the plane needs one
+/// entry.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Inertia<S> {
+    matrix: [[S; 3]; 3],
+}
+
+/// The share of the trace below which a pivot belongs to a direction without arm: ε^¾, 2·10⁻¹² in double
+/// precision.
+fn least_pivot<S: Real>() -> S {
+    let root = S::EPSILON.sqrt();
+    root * root.sqrt()
+}
+
+impl<S: Real> Inertia<S> {
+    /// Of nothing.
+    pub(super) fn none() -> Self {
+        Self {
+            matrix: [[S::zero(); 3]; 3],
+        }
+    }
+
+    /// Adds a mass at the end of an arm.
+    #[inline]
+    pub(super) fn add<const D: usize>(&mut self, mass: S, r: &[S; D]) {
+        let square = dot(r, r);
+        if D == 2 {
+            self.matrix[2][2] += mass * square;
+            return;
+        }
+        for row in 0..D.min(3) {
+            self.matrix[row][row] += mass * square;
+            for column in 0..D.min(3) {
+                self.matrix[row][column] -= mass * (r[row] * r[column]);
+            }
+        }
+    }
+
+    /// Adds the same moment about all axes.
+    pub(super) fn add_sphere(&mut self, moment: S) {
+        for axis in 0..3 {
+            self.matrix[axis][axis] += moment;
+        }
+    }
+
+    /// ω with `I ω = J`, by elimination with the largest diagonal entry that is left as pivot. There is no
+    /// arm in directions whose pivot vanishes, and no momentum: ω is zero there.
+    pub(super) fn solve<const D: usize>(&self, mut right: [S; 3]) -> [S; 3] {
+        let zero = S::zero();
+        if D == 2 {
+            let inertia = self.matrix[2][2];
+            let is_none = inertia.at_most(zero).all();
+            return [zero, zero, if is_none { zero } else { right[2] / inertia }];
+        }
+        let mut matrix = self.matrix;
+        let trace = matrix[0][0] + matrix[1][1] + matrix[2][2];
+        let least = least_pivot::<S>() * trace;
+        let (mut order, mut rank) = ([0, 1, 2], 0);
+        for step in 0..3 {
+            let mut best = step;
+            for other in step + 1..3 {
+                let [own, found] = [order[other], order[best]].map(|axis| matrix[axis][axis]);
+                if found.less(own).all() {
+                    best = other;
+                }
+            }
+            order.swap(step, best);
+            let pivot = order[step];
+            if matrix[pivot][pivot].at_most(least).all() {
+                break;
+            }
+            rank += 1;
+            for &row in &order[rank..] {
+                let factor = matrix[row][pivot] / matrix[pivot][pivot];
+                for &column in &order[rank..] {
+                    matrix[row][column] -= factor * matrix[pivot][column];
+                }
+                right[row] -= factor * right[pivot];
+            }
+        }
+        let mut omega = [zero; 3];
+        for step in (0..rank).rev() {
+            let pivot = order[step];
+            let known = &order[step + 1..rank];
+            let rest = known.iter().fold(right[pivot], |rest, &column| {
+                rest - matrix[pivot][column] * omega[column]
+            });
+            omega[pivot] = rest / matrix[pivot][pivot];
+        }
+        omega
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn inertia(arms: &[[f64; 3]]) -> Inertia<f64> {
+        let mut inertia = Inertia::none();
+        for (mass, arm) in (1..).zip(arms) {
+            inertia.add(f64::from(mass), arm);
+        }
+        inertia
+    }
+
+    #[test]
+    fn the_rotation_of_a_body_follows_from_its_angular_momentum() {
+        let arms = [[1.0, 0.2, -0.3], [0.1, 2.0, 0.4], [0.3, -0.5, 1.1]];
+        let omega = [0.3, -0.7, 1.9];
+        let mut momentum = [0.0; 3];
+        for (mass, arm) in [1.0, 2.0, 3.0].into_iter().zip(&arms) {
+            add(&mut momentum, mass, &moment(arm, &spin(&omega, arm)));
+        }
+        let found = inertia(&arms).solve::<3>(momentum);
+        for (found, omega) in found.into_iter().zip(omega) {
+            assert!((found - omega).abs() < 1e-15, "{found} {omega}");
+        }
+    }
+
+    // All masses on a line with the pivot, also on a diagonal, where rounding leaves no pivot zero.
+    #[test]
+    fn there_is_no_rotation_about_a_line_of_masses() {
+        for line in [[1.0, 0.0, 0.0], [0.0, 0.0, 2.0], [0.3, 1.7, -0.9]] {
+            let far = line.map(|x: f64| 2.5 * x);
+            let omega = [0.2, -0.4, 0.6];
+            let momentum = [1.0, 2.0].into_iter().zip([&line, &far]);
+            let momentum = momentum.fold([0.0; 3], |mut sum, (mass, arm)| {
+                add(&mut sum, mass, &moment(arm, &spin(&omega, arm)));
+                sum
+            });
+            let found = inertia(&[line, far]).solve::<3>(momentum);
+            assert!(found.iter().all(|x| x.abs() < 10.0), "{found:?}");
+            let again = [1.0, 2.0].into_iter().zip([&line, &far]);
+            let again = again.fold([0.0; 3], |mut sum, (mass, arm)| {
+                add(&mut sum, mass, &moment(arm, &spin(&found, arm)));
+                sum
+            });
+            assert!(length(&difference(&again, &momentum)) < 1e-14 * length(&momentum));
+        }
+    }
+}

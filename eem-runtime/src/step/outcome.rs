@@ -1,0 +1,81 @@
+//! What a step proves of itself, whatever solver has found it.
+
+use crate::number::scalar::Real;
+use crate::step::certificate::Certificate;
+
+/// What a step proves of itself.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Outcome<S> {
+    /// `ΔE − work − heat`, and what rounding explains of it, J.
+    pub(crate) defect: S,
+    pub(crate) bound: S,
+    /// Σ over dashpots and paths of heat, and the smallest of them, J/K.
+    pub(crate) production: S,
+    pub(crate) least_production: S,
+    /// What an explicit step was off by before it was closed, relative to the terms of the energy: the
+    /// largest of all components, with its sign.
+    pub(crate) correction: S,
+}
+
+impl<S: Real> From<Certificate<S>> for Outcome<S> {
+    fn from(certificate: Certificate<S>) -> Self {
+        Self {
+            defect: certificate.defect,
+            bound: certificate.bound,
+            production: certificate.production,
+            least_production: certificate.least_production,
+            correction: S::zero(),
+        }
+    }
+}
+
+/// By how much the energy of explicit steps has been corrected, relative to its terms.
+///
+/// [`StepReport::correction`](crate::StepReport::correction) of all steps of a simulation so far. At
+/// small steps it falls with the ninth power of the step; if it falls with the first, a force is wrong.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corrections<S> {
+    /// The largest.
+    pub largest: S,
+    /// `Σ |correction|`.
+    pub total: S,
+    /// `Σ correction`, positive where energy was missing.
+    pub signed: S,
+}
+
+impl<S: Real> Corrections<S> {
+    /// Of no step.
+    pub(crate) fn none() -> Self {
+        Self {
+            largest: S::zero(),
+            total: S::zero(),
+            signed: S::zero(),
+        }
+    }
+
+    /// Counts a step.
+    pub(crate) fn note(&mut self, correction: S) {
+        self.largest = self.largest.maximum(correction.abs());
+        self.total += correction.abs();
+        self.signed += correction;
+    }
+}
+
+/// What an attempt at a step has found.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Attempt<S> {
+    /// The estimate of its error in units of the tolerance; zero without one.
+    pub(crate) error: S,
+    /// What it proves; nothing where the error exceeds the tolerance, as the step is not made then.
+    pub(crate) outcome: Option<Outcome<S>>,
+}
+
+impl<S: Real> Attempt<S> {
+    /// A step that was made without a tolerance.
+    pub(crate) fn made(outcome: impl Into<Outcome<S>>) -> Self {
+        Self {
+            error: S::zero(),
+            outcome: Some(outcome.into()),
+        }
+    }
+}
