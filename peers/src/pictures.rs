@@ -43,7 +43,7 @@ pub(crate) fn write(
 }
 
 fn error(row: &Row) -> Option<f64> {
-    row.largest_error().filter(|&error| error <= LOST)
+    row.largest_error.filter(|&error| error <= LOST)
 }
 
 /// A curve for every line.

@@ -71,6 +71,13 @@ impl Reference {
         let stated = |i: usize| (self.doubts[i] <= DOUBT * errors[i]).then_some(errors[i]);
         [stated(0), stated(1), stated(2)]
     }
+
+    /// The largest error of all kinds, if the largest doubt is small enough beside it.
+    pub(crate) fn largest_error(&self, state: &State) -> Option<f64> {
+        let largest = |values: [f64; 3]| values.into_iter().fold(0.0, larger);
+        let error = largest(state.errors(&self.state));
+        (largest(self.doubts) <= DOUBT * error).then_some(error)
+    }
 }
 
 #[expect(

@@ -16,6 +16,8 @@ pub(crate) struct Row {
     pub(crate) step: Option<f64>,
     /// Of q, p and θ at the end time, relative; none where they are unknown.
     pub(crate) errors: [Option<f64>; 3],
+    /// The largest of them, which may be known although a much smaller one is not; not a column.
+    pub(crate) largest_error: Option<f64>,
     /// max |ΔE|/|E| over the run.
     pub(crate) energy_defect: Option<f64>,
     pub(crate) steps: u64,
@@ -34,11 +36,6 @@ impl Row {
             energy_defect: Some(energy_defect),
             ..Self::default()
         }
-    }
-
-    /// The largest of the errors that are known.
-    pub(crate) fn largest_error(&self) -> Option<f64> {
-        self.errors.into_iter().flatten().reduce(f64::max)
     }
 
     /// The line of a picture that the row belongs to, as the library calls its own.
@@ -82,7 +79,7 @@ pub(crate) fn write(directory: &Path, rows: &[Row]) -> Result<(), Box<dyn Error>
     Ok(())
 }
 
-/// Reads a file with these columns.
+/// Reads a file with these columns; the largest error is that of rows in which all three are known.
 pub(crate) fn read(path: &Path) -> Result<Vec<Row>, Box<dyn Error>> {
     let mut reader = csv::Reader::from_path(path)?;
     if reader.headers()? != StudyReport::CSV_HEADS.as_slice() {
@@ -92,11 +89,14 @@ pub(crate) fn read(path: &Path) -> Result<Vec<Row>, Box<dyn Error>> {
     for record in reader.records() {
         let record = record?;
         let number = |column: usize| record[column].parse::<f64>().ok();
+        let errors = [number(3), number(4), number(5)];
+        let all: Option<Vec<f64>> = errors.into_iter().collect();
         rows.push(Row {
             scheme: record[0].to_owned(),
             tolerance: number(1),
             step: number(2),
-            errors: [number(3), number(4), number(5)],
+            errors,
+            largest_error: all.and_then(|all| all.into_iter().reduce(f64::max)),
             energy_defect: number(6),
             steps: record[7].parse()?,
             rejected: record[8].parse()?,

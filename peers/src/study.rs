@@ -92,11 +92,13 @@ fn measure<const N: usize, S: System<N>>(
             return Row::failed(task.tolerance, defect);
         }
     };
+    let end = task.system.state(&solved.y);
     Row {
         scheme: String::new(),
         tolerance: Some(task.tolerance),
         step: None,
-        errors: reference.errors(&task.system.state(&solved.y)),
+        errors: reference.errors(&end),
+        largest_error: reference.largest_error(&end),
         energy_defect: Some(defect),
         steps: solved.steps,
         rejected: solved.rejected,

@@ -38,7 +38,7 @@ pub(crate) fn lines(rows: &[Row]) -> Vec<String> {
 /// Errors and times of a line.
 fn points(rows: &[Row], line: &str) -> Vec<(f64, f64)> {
     let rows = rows.iter().filter(|row| row.line() == line);
-    rows.filter_map(|row| Some((row.largest_error()?, row.seconds?)))
+    rows.filter_map(|row| Some((row.largest_error?, row.seconds?)))
         .collect()
 }
 

@@ -94,6 +94,7 @@ fn an_error_below_the_references_doubt_is_not_stated() {
     let mut state = reference.state.clone();
     state.positions[0] += 1e-5;
     state.temperatures[0] *= 1.0 + 1e-5;
+    assert!(reference.largest_error(&state).is_none());
     let [q, p, theta] = reference.errors(&state);
     assert_eq!((q, p), (None, Some(0.0)));
     assert!(theta.is_some_and(|error| (error / 1e-5 - 1.0).abs() < 1e-6));
