@@ -61,4 +61,5 @@ pub use step::control::{StepStatistics, Tolerance};
 pub use step::error::{Law, NewtonIteration, StepError, StepFailure, StepLimit};
 pub use step::newton::{NewtonSettings, StepReport};
 pub use step::outcome::Corrections;
-pub use step::scheme::{Scheme, UnknownScheme};
+pub use step::scheme::Scheme;
+pub use step::scheme_name::UnknownScheme;

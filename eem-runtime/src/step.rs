@@ -10,4 +10,5 @@ pub(crate) mod outcome;
 pub(crate) mod pattern;
 pub(crate) mod rule;
 pub(crate) mod scheme;
+pub(crate) mod scheme_name;
 pub(crate) mod solver;

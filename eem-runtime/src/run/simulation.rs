@@ -322,20 +322,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// The step so far that came closest to its bound, or exceeded it by most: the one with the
-    /// largest `|defect|/bound`. `None` before the first step; [`restore`](Self::restore) forgets it.
-    #[must_use]
-    pub const fn worst_step(&self) -> Option<&StepReport<S>> {
-        self.worst.as_ref()
-    }
-
-    /// By how much the energy of all steps so far was corrected; zero for a scheme that is not explicit.
-    /// [`restore`](Self::restore) forgets it.
-    #[must_use]
-    pub const fn corrections(&self) -> &Corrections<S> {
-        &self.corrections
-    }
-
     /// The time, s.
     #[must_use]
     pub fn time(&self) -> S {

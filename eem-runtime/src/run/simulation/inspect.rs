@@ -9,12 +9,28 @@ use crate::element::layout::Slots;
 use crate::number::scalar::Real;
 use crate::run::ledger::Ledger;
 use crate::scene::error::SceneError;
+use crate::step::newton::StepReport;
+use crate::step::outcome::Corrections;
 
 /// # Looking at the state
 ///
 /// Every question about a handle fails with [`SceneError::ForeignHandle`] if the handle is not of
 /// this scene.
 impl<const D: usize, S: Real> Simulation<D, S> {
+    /// The step so far that came closest to its bound, or exceeded it by most: the one with the
+    /// largest `|defect|/bound`. `None` before the first step; [`restore`](Self::restore) forgets it.
+    #[must_use]
+    pub const fn worst_step(&self) -> Option<&StepReport<S>> {
+        self.worst.as_ref()
+    }
+
+    /// By how much the energy of all steps so far was corrected; zero for a scheme that is not explicit.
+    /// [`restore`](Self::restore) forgets it.
+    #[must_use]
+    pub const fn corrections(&self) -> &Corrections<S> {
+        &self.corrections
+    }
+
     /// The position of a node, m.
     ///
     /// # Errors

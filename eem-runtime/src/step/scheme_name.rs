@@ -1,0 +1,42 @@
+//! Names of schemes, as command lines and files have them.
+
+use core::fmt;
+use core::str::FromStr;
+
+use crate::step::scheme::Scheme;
+
+impl fmt::Display for Scheme {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// There is no scheme of this name; the message lists those there are.
+///
+/// ```
+/// use eem_runtime::Scheme;
+///
+/// assert_eq!("eem-entropy".parse(), Ok(Scheme::EemEntropy));
+/// let error = "euler".parse::<Scheme>().unwrap_err();
+/// assert!(error.to_string().starts_with("no scheme is named `euler`; there are eem-entropy, "));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no scheme is named `{name}`; there are {}", names())]
+pub struct UnknownScheme {
+    /// What was asked for.
+    pub name: String,
+}
+
+fn names() -> String {
+    Scheme::ALL.map(Scheme::name).join(", ")
+}
+
+impl FromStr for Scheme {
+    type Err = UnknownScheme;
+
+    fn from_str(name: &str) -> Result<Self, UnknownScheme> {
+        Self::from_name(name).ok_or_else(|| UnknownScheme {
+            name: name.to_owned(),
+        })
+    }
+}
