@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use eem::prelude::*;
-use eem::{EndState, RunEnd, SceneError, StateQuantity, StepFailure, Tolerance};
+use eem::{EndState, RunEnd, SceneError, StateQuantity, StepFailure, StepReport, Tolerance};
 
 use crate::support::{single_pendulum, single_pendulum_scene};
 
@@ -43,6 +43,7 @@ fn errors_are_proportional_to_tolerances() {
         (Scheme::EemEntropy, [1e-3, 1e-5]),
         (Scheme::EemTemperature, [1e-3, 1e-5]),
         (Scheme::Gauss4, [1e-5, 1e-8]),
+        (Scheme::EemEntropy4, [1e-5, 1e-8]),
     ] {
         let errors = tolerances.map(|tolerance| {
             let mut run = controlled(scheme, tolerance);
@@ -62,6 +63,8 @@ fn errors_are_proportional_to_tolerances() {
 fn estimates_are_the_errors_of_the_steps() {
     let cases = [
         (Scheme::EemEntropy, 2.0_f64, 1e-3),
+        (Scheme::EemEntropy4, 4.0, 1e-5),
+        (Scheme::EemEntropy6, 6.0, 1e-7),
         (Scheme::Gauss4, 4.0, 1e-6),
     ];
     for (scheme, order, tolerance) in cases {
@@ -102,43 +105,69 @@ fn estimates_are_the_errors_of_the_steps() {
     }
 }
 
+/// Its estimate is that of a formula of lower order, so that errors stay far below tolerances.
+#[test]
+fn the_explicit_scheme_is_as_accurate_as_it_is_asked_to_be() {
+    let exact = exact();
+    for tolerance in [1e-2, 1e-3, 1e-4, 1e-6, 1e-8] {
+        let mut run = controlled(Scheme::EemExplicit, tolerance);
+        to(&mut run, 2.0);
+        let error = largest_difference(&run, &exact);
+        // The reference is known to 1e-12.
+        assert!(error < tolerance.max(1e-11), "{error:e} at {tolerance:e}");
+        assert!(run.step_statistics().unwrap().accepted < 150);
+    }
+}
+
 #[test]
 fn laws_hold_whatever_the_steps() {
-    for scheme in [Scheme::EemEntropy, Scheme::EemTemperature] {
-        let mut run = controlled(scheme, 1e-2);
+    for (scheme, tolerance) in [
+        (Scheme::EemEntropy, 1e-2),
+        (Scheme::EemTemperature, 1e-2),
+        (Scheme::EemEntropy4, 1e-4),
+        (Scheme::EemEntropy6, 1e-5),
+        (Scheme::EemExplicit, 1e-3),
+    ] {
+        let mut run = controlled(scheme, tolerance);
         let first = run.ledger();
         let mut entropy = first.entropy;
         run.run_until(10.0, |run, _| {
             let ledger = run.ledger();
             assert!((ledger.balance - first.balance).abs() <= 4e-15 * first.energy);
-            assert!(ledger.entropy >= entropy);
+            assert!(ledger.entropy >= entropy, "{scheme}");
             entropy = ledger.entropy;
             ControlFlow::Continue(())
         })
         .unwrap();
         let steps = run.step_statistics().unwrap();
-        assert!(steps.accepted > 50 && steps.rejected() > 0, "{steps:?}");
+        assert!(steps.accepted > 30, "{scheme}: {steps:?}");
         assert_eq!(run.time().to_bits(), 10.0_f64.to_bits());
     }
 }
 
 #[test]
 fn a_resumed_run_has_the_bits_of_one_that_was_never_interrupted() {
-    let mut run = controlled(Scheme::EemTemperature, 1e-3);
-    for _ in 0..10 {
-        run.step().unwrap();
+    for scheme in [
+        Scheme::EemTemperature,
+        Scheme::EemEntropy4,
+        Scheme::EemExplicit,
+    ] {
+        let mut run = controlled(scheme, 1e-3);
+        for _ in 0..10 {
+            run.step().unwrap();
+        }
+        let saved = run.checkpoint();
+        let text = serde_json::to_string(&saved).unwrap();
+        let mut resumed = single_pendulum(scheme, 1.0).run;
+        resumed
+            .restore(&serde_json::from_str(&text).unwrap())
+            .unwrap();
+        for run in [&mut run, &mut resumed] {
+            to(run, 3.0);
+        }
+        assert_eq!(run.checkpoint(), resumed.checkpoint(), "{scheme}");
+        assert_eq!(run.step_statistics(), resumed.step_statistics());
     }
-    let saved = run.checkpoint();
-    let text = serde_json::to_string(&saved).unwrap();
-    let mut resumed = single_pendulum(Scheme::EemTemperature, 1.0).run;
-    resumed
-        .restore(&serde_json::from_str(&text).unwrap())
-        .unwrap();
-    for run in [&mut run, &mut resumed] {
-        to(run, 2.0);
-    }
-    assert_eq!(run.checkpoint(), resumed.checkpoint());
-    assert_eq!(run.step_statistics(), resumed.step_statistics());
 }
 
 /// Output at other times shortens steps, and leaves the size of those that follow.
@@ -161,18 +190,20 @@ fn requested_times_are_hit_and_cost_one_step_each() {
 
 #[test]
 fn events_are_found_within_controlled_steps() {
-    let mut pendulum = single_pendulum(Scheme::EemEntropy, 0.05);
-    pendulum.run.control_steps(Tolerance::new(1e-4)).unwrap();
-    let bob = pendulum.bob;
-    let first = pendulum.run.ledger();
-    let height = |run: &Simulation<2>| run.position(bob).unwrap()[1] - 1.0;
-    let end = pendulum
-        .run
-        .run_until_event(10.0, 1e-12, height, |_, _| ControlFlow::Continue(()));
-    assert_eq!(end, Ok(RunEnd::Event));
-    assert!((0.0..1e-11).contains(&height(&pendulum.run)));
-    let last = pendulum.run.ledger();
-    assert!((last.balance - first.balance).abs() <= 4e-15 * first.energy);
+    for scheme in [Scheme::EemEntropy, Scheme::EemExplicit] {
+        let mut pendulum = single_pendulum(scheme, 0.05);
+        pendulum.run.control_steps(Tolerance::new(1e-4)).unwrap();
+        let bob = pendulum.bob;
+        let first = pendulum.run.ledger();
+        let height = |run: &Simulation<2>| run.position(bob).unwrap()[1] - 1.0;
+        let goes_on = |_: &Simulation<2>, _: &StepReport<f64>| ControlFlow::Continue(());
+        let end = pendulum.run.run_until_event(10.0, 1e-12, height, goes_on);
+        assert_eq!(end, Ok(RunEnd::Event));
+        assert!((0.0..1e-11).contains(&height(&pendulum.run)), "{scheme}");
+        let last = pendulum.run.ledger();
+        assert!((last.balance - first.balance).abs() <= 4e-15 * first.energy);
+        to(&mut pendulum.run, 10.0);
+    }
 }
 
 #[test]
