@@ -133,16 +133,6 @@ fn pendulum(scheme: Scheme, step: f64) -> Result<(Simulation<3>, Watched), Scene
     Ok((Simulation::new(scene, scheme, step)?, watched))
 }
 
-/// The order of a scheme.
-fn order(scheme: Scheme) -> f64 {
-    match scheme {
-        Scheme::Staggered => 1.0,
-        Scheme::Variational4 | Scheme::Gauss4 | Scheme::EemEntropy4 => 4.0,
-        Scheme::EemEntropy6 => 6.0,
-        _ => 2.0,
-    }
-}
-
 /// The errors of one scheme.
 #[derive(Debug)]
 struct Study {
@@ -266,7 +256,7 @@ fn check(studies: &[Study]) -> Claims {
     for study in studies {
         claims.at_most(
             &format!("{}: |slope − order|", study.scheme.name()),
-            Some((study.slope() - order(study.scheme)).abs()),
+            Some((study.slope() - f64::from(study.scheme.order())).abs()),
             SLOPE_TOLERANCE,
         );
     }
@@ -319,7 +309,7 @@ fn guides(studies: &[Study]) -> Vec<Curve> {
     let guide = |slope: f64| {
         let same = studies
             .iter()
-            .filter(|study| order(study.scheme).total_cmp(&slope).is_eq());
+            .filter(|study| f64::from(study.scheme.order()).total_cmp(&slope).is_eq());
         let best = same.min_by(|a, b| least(a).1.total_cmp(&least(b).1))?;
         let (step, error) = least(best);
         let line = |&(h, _): &(f64, f64)| (h, BELOW * error * (h / step).powf(slope));

@@ -146,7 +146,7 @@ fn run(options: &Options) -> Result<Claims, Box<dyn Error>> {
     // Equal steps of at most the size asked for that hit the end time exactly.
     let end = options.common.end(plan.end);
     let largest = end / (grid.end() / grid.step).round();
-    let schemes = options.common.schemes().into_iter();
+    let schemes = options.common.schemes_of_any_step().into_iter();
     let settings: Vec<Setting> = schemes
         .flat_map(|scheme| settings(scheme, largest, plan.halvings))
         .collect();

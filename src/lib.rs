@@ -26,6 +26,10 @@ pub mod prelude {
 #[doc = include_str!("../docs/guide.md")]
 pub mod guide {}
 
+/// Choosing a scheme: what each costs and keeps, by scene and accuracy.
+#[doc = include_str!("../docs/choosing.md")]
+pub mod choosing {}
+
 /// What generated code names. Not part of the public interface.
 #[doc(hidden)]
 pub mod __private {

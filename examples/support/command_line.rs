@@ -35,8 +35,16 @@ impl CommandLine {
         read(about)
     }
 
-    /// The schemes asked for.
+    /// The schemes asked for. The explicit one takes part in no comparison at equal steps, as it needs steps that
+    /// resolve all vibrations; by its name it is run.
     pub(crate) fn schemes(&self) -> Vec<Scheme> {
+        let mut schemes = self.schemes_of_any_step();
+        schemes.retain(|&scheme| self.scheme != ALL || scheme != Scheme::EemExplicit);
+        schemes
+    }
+
+    /// The schemes asked for, by an example in which each has steps of its own.
+    pub(crate) fn schemes_of_any_step(&self) -> Vec<Scheme> {
         let is_chosen = |scheme: &Scheme| self.scheme == ALL || self.scheme == scheme.name();
         Scheme::ALL.into_iter().filter(is_chosen).collect()
     }

@@ -76,7 +76,7 @@ const DOTS: Dash = Dash::Dashed { length: 3, gap: 8 };
 
 /// The first look is the reference's; the colours are those of Okabe & Ito (2008), which
 /// colour-blind readers can tell apart.
-const LOOKS: [Look; 12] = [
+const LOOKS: [Look; 17] = [
     look((0, 0, 0), Dash::Solid, Marker::None),
     look((0, 114, 178), Dash::Solid, Marker::Plus),
     look((213, 94, 0), LONG, Marker::Cross),
@@ -89,6 +89,11 @@ const LOOKS: [Look; 12] = [
     look((120, 60, 160), DOTS, Marker::Diamond),
     look((190, 170, 0), Dash::Solid, Marker::Triangle),
     look((0, 80, 60), LONG, Marker::Square),
+    look((0, 60, 140), LONG, Marker::Square),
+    look((160, 30, 30), SHORT, Marker::Diamond),
+    look((40, 40, 40), DOTS, Marker::Plus),
+    look((150, 110, 200), SHORT, Marker::Square),
+    look((90, 130, 20), DOTS, Marker::Square),
 ];
 
 const fn look((red, green, blue): (u8, u8, u8), dash: Dash, marker: Marker) -> Look {
