@@ -18,7 +18,7 @@ pub mod prelude {
     pub use crate::{
         Checkpoint, Describe, Element, Ensemble, FreeEnergy, Law, Ledger, NewtonSettings, Node,
         Quantity, Recorder, Reservoir, RunEnd, Scene, SceneError, Scheme, Section, Simulation,
-        StepError, StepFailure, StepReport,
+        StepError, StepFailure, StepReport, Tolerance,
     };
 }
 

@@ -232,7 +232,7 @@ fn what_cannot_be_asked_is_refused() {
 #[test]
 fn steps_that_would_be_too_small_say_what_limits_them() {
     let mut run = controlled(Scheme::EemEntropy, 1e-8);
-    run.set_smallest_step(1e-3).unwrap();
+    run.limit_steps([1e-3, 1.0]).unwrap();
     let before = run.checkpoint();
     let error = run.step().unwrap_err();
     assert!(matches!(error.failure, StepFailure::TooSmall { .. }));
@@ -260,4 +260,46 @@ fn failed_steps_are_made_again() {
         steps.rejected_by_newton + steps.rejected_by_domain > 0,
         "{steps:?}"
     );
+}
+
+/// Where nothing moves steps grow, up to the limit that they have.
+#[test]
+fn steps_at_rest_grow_to_their_limit() {
+    for scheme in [Scheme::EemEntropy, Scheme::EemExplicit] {
+        let mut scene = Scene::<2>::new();
+        scene.anchor([0.0, 0.0]);
+        scene.mass(1.0, [1.0, 0.0], [0.0, 0.0]);
+        let mut run = Simulation::new(scene, scheme, 0.1).unwrap();
+        run.control_steps(Tolerance::new(1e-6)).unwrap();
+        run.limit_steps([1e-9, 2.0]).unwrap();
+        for _ in 0..40 {
+            run.step().unwrap();
+        }
+        assert_eq!(run.step_size().to_bits(), 2.0_f64.to_bits(), "{scheme}");
+        for limits in [[0.0, 1.0], [1.0, f64::NAN], [2.0, 1.0]] {
+            let refused = run.limit_steps(limits);
+            assert!(
+                matches!(refused, Err(SceneError::Step { .. })),
+                "{limits:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn an_edited_memory_of_step_control_is_refused() {
+    let mut run = controlled(Scheme::EemEntropy, 1e-3);
+    run.step().unwrap();
+    let saved = serde_json::to_value(run.checkpoint()).unwrap();
+    for (pointer, value) in [
+        ("/control/smallest", -1.0),
+        ("/control/largest_momentum", -1.0),
+        ("/control/controller/last/1", 0.0),
+        ("/control/tolerance/relative", 0.0),
+    ] {
+        let mut edited = saved.clone();
+        *edited.pointer_mut(pointer).unwrap() = serde_json::json!(value);
+        let edited: eem::Checkpoint = serde_json::from_value(edited).unwrap();
+        assert!(run.restore(&edited).is_err(), "{pointer}");
+    }
 }

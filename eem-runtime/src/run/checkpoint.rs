@@ -135,9 +135,19 @@ impl<S: Real> Checkpoint<S> {
         expect_count("temperatures", own.len(), other.len())?;
         let positive = "positive and finite";
         expect_all(positive, "temperatures", own.iter().copied(), is_positive)?;
-        let steps = self.control.map(|control| control.smallest);
-        let steps = [self.step].into_iter().chain(steps);
-        expect_all(positive, "step size", steps, is_positive)?;
+        expect_all(positive, "step size", [self.step].into_iter(), is_positive)?;
+        if let Some(control) = &self.control {
+            let sizes = control.sizes();
+            expect_all(
+                positive,
+                "step size",
+                sizes.into_iter().flatten(),
+                is_positive,
+            )?;
+            expect_all("not negative", "step control", control.others(), |value| {
+                (S::zero().at_most(value) & value.at_most(S::MAX)).all()
+            })?;
+        }
         self.check_past(past)?;
         match (&self.explicit, explicit) {
             (Some(own), Some(other)) => check_explicit(own, other),

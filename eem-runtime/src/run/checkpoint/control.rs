@@ -1,5 +1,6 @@
 //! What step control remembers from step to step.
 
+use crate::number::scalar::Real;
 use crate::step::control::{Controller, StepStatistics, Tolerance};
 
 /// What step control remembers from step to step.
@@ -15,6 +16,21 @@ pub(crate) struct SavedControl<S> {
     pub(crate) statistics: StepStatistics,
     /// The largest `|p|₂` so far, kg m/s.
     pub(crate) largest_momentum: S,
-    /// The smallest step that may be taken, s.
+    /// The smallest and the largest step that may be taken, s.
     pub(crate) smallest: S,
+    pub(crate) largest: S,
+}
+
+impl<S: Real> SavedControl<S> {
+    /// All sizes of steps, s.
+    pub(super) fn sizes(&self) -> [Option<S>; 3] {
+        let last = self.controller.last.map(|[_, size]| size);
+        [Some(self.smallest), Some(self.largest), last]
+    }
+
+    /// What else has to be a number and not negative: the largest momentum, and the error of the last step.
+    pub(super) fn others(&self) -> impl Iterator<Item = S> {
+        let last = self.controller.last.map(|[error, _]| error);
+        [self.largest_momentum].into_iter().chain(last)
+    }
 }

@@ -2,9 +2,10 @@
 
 use core::mem;
 
+use super::check::check_step;
 use super::control_memory::{Control, SMALLEST};
 use super::{Simulation, Tried};
-use crate::number::scalar::{Discord, Mask, Real, is_positive};
+use crate::number::scalar::{Discord, Mask, Real};
 use crate::run::checkpoint::SavedControl;
 use crate::scene::error::SceneError;
 use crate::step::control::{AFTER_FAILURE, Controller, Estimate, StepStatistics, Tolerance, norm};
@@ -58,6 +59,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             statistics: StepStatistics::default(),
             largest_momentum: S::zero(),
             smallest: S::from_f64(SMALLEST) * S::EPSILON * self.step,
+            largest: S::MAX,
         };
         self.check_control(Some(memory))?;
         self.go_on_with(Some(memory));
@@ -112,20 +114,26 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             .map(|control| control.memory.statistics)
     }
 
-    /// The smallest step that step control may take, s. Default 16 ε times the size at which control began;
-    /// never less than 16 ε times the time.
+    /// The smallest and the largest step that step control may take, s. Default are 16 ε times the size at which
+    /// control began, and no limit; never less than 16 ε times the time. Where nothing moves steps grow without
+    /// limit: one that knows how soon a load sets in should be given.
     ///
     /// # Errors
     ///
-    /// [`SceneError::Step`] if it is not positive and finite; the old one then stays.
-    pub fn set_smallest_step(&mut self, smallest: S) -> Result<(), SceneError> {
-        if !is_positive(smallest) {
+    /// [`SceneError::Step`] unless both are positive and finite and the first is not above the second; the old
+    /// ones then stay.
+    pub fn limit_steps(&mut self, [smallest, largest]: [S; 2]) -> Result<(), SceneError> {
+        check_step(smallest).inspect_err(|_| self.part())?;
+        check_step(largest).inspect_err(|_| self.part())?;
+        if !smallest.at_most(largest).all() {
             self.part();
             let value = smallest.to_f64();
             return Err(SceneError::Step { value });
         }
         if let Some(control) = &mut self.control {
             control.memory.smallest = smallest;
+            control.memory.largest = largest;
+            self.step = self.step.minimum(largest);
         }
         Ok(())
     }
@@ -158,7 +166,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 Ok(Tried::Made(mut report)) => {
                     // A step that the end has shortened says nothing about the next ones.
                     if !size.less(full).all() {
-                        self.step = controller.next(size, report.error, control.accuracy);
+                        let next = controller.next(size, report.error, control.accuracy);
+                        self.step = next.minimum(control.memory.largest);
                         control.memory.controller = controller;
                     }
                     if arriving.is_some() {
@@ -183,7 +192,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 }
             };
             let smallest = control.smallest(self.time());
-            if next.less(smallest).all() {
+            // Also where it is not a number.
+            if !smallest.at_most(next).all() {
                 let smallest = smallest.to_f64();
                 return Err(self.failed(StepFailure::TooSmall { smallest, limit }));
             }

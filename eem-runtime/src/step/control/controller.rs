@@ -41,7 +41,7 @@ const CHANGES: [f64; 2] = [1.0 / 3.0, 6.0];
 )]
 pub(crate) struct Controller<S> {
     /// The error and the size of the last accepted step; none before the first.
-    last: Option<[S; 2]>,
+    pub(crate) last: Option<[S; 2]>,
 }
 
 impl<S: Real> Controller<S> {

@@ -175,10 +175,19 @@ impl<S: Real> Scales<S> {
     }
 }
 
-/// `|x|₂`
-pub(crate) fn norm<S: Real>(values: &[S]) -> S {
-    let squares = values.iter().fold(S::zero(), |sum, &x| sum + x * x);
-    squares.sqrt()
+/// `|x|₂`, scaled where squares would under- or overflow.
+pub(crate) fn norm<S: Real>(x: &[S]) -> S {
+    let sum = x.iter().fold(S::zero(), |sum, &x| sum + x * x);
+    let is_normal = S::MIN_POSITIVE.less(sum) & sum.at_most(S::MAX);
+    if is_normal.all() {
+        return sum.sqrt();
+    }
+    let most = x.iter().fold(S::zero(), |most, x| most.maximum(x.abs()));
+    if most.equal(S::zero()).all() {
+        return most;
+    }
+    let scaled = x.iter().map(|&x| x / most);
+    most * scaled.fold(S::zero(), |sum, x| sum + x * x).sqrt()
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use super::Explicit;
 use super::demand::Scales;
 use super::tableau::{ERROR_3, ERROR_5};
 use crate::number::scalar::{Mask, Real};
-use crate::step::control::Tolerance;
+use crate::step::control::{Tolerance, norm};
 
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// The scales of the step, at its end before it is closed.
@@ -62,19 +62,4 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         five / (five + S::from_f64(0.01) * three).sqrt()
     }
-}
-
-/// |x|₂, scaled where squares would under- or overflow.
-fn norm<S: Real>(x: &[S]) -> S {
-    let sum = x.iter().fold(S::zero(), |sum, &x| sum + x * x);
-    let is_normal = S::MIN_POSITIVE.less(sum) & sum.at_most(S::MAX);
-    if is_normal.all() {
-        return sum.sqrt();
-    }
-    let most = x.iter().fold(S::zero(), |most, x| most.maximum(x.abs()));
-    if most.equal(S::zero()).all() {
-        return most;
-    }
-    let scaled = x.iter().map(|&x| x / most);
-    most * scaled.fold(S::zero(), |sum, x| sum + x * x).sqrt()
 }
