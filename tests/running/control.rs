@@ -1,6 +1,9 @@
 //! Step control: errors follow tolerances, laws hold, and everything that runs with equal steps runs with these.
 
 use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicI32, Ordering};
 
 use eem::prelude::*;
 use eem::{EndState, RunEnd, SceneError, StateQuantity, StepFailure, StepReport, Tolerance};
@@ -270,16 +273,26 @@ fn steps_at_rest_grow_to_their_limit() {
         scene.anchor([0.0, 0.0]);
         scene.mass(1.0, [1.0, 0.0], [0.0, 0.0]);
         let mut run = Simulation::new(scene, scheme, 0.1).unwrap();
+        let refused = run.limit_steps([1e-9, 2.0]);
+        assert!(matches!(
+            refused,
+            Err(SceneError::StepLimits {
+                is_controlled: false,
+                ..
+            })
+        ));
         run.control_steps(Tolerance::new(1e-6)).unwrap();
         run.limit_steps([1e-9, 2.0]).unwrap();
         for _ in 0..40 {
             run.step().unwrap();
         }
-        assert_eq!(run.step_size().to_bits(), 2.0_f64.to_bits(), "{scheme}");
+        let before = run.time();
+        run.step().unwrap();
+        assert!((run.time() - before - 2.0).abs() < 1e-12, "{scheme}");
         for limits in [[0.0, 1.0], [1.0, f64::NAN], [2.0, 1.0]] {
             let refused = run.limit_steps(limits);
             assert!(
-                matches!(refused, Err(SceneError::Step { .. })),
+                matches!(refused, Err(SceneError::StepLimits { .. })),
                 "{limits:?}"
             );
         }
@@ -299,7 +312,44 @@ fn an_edited_memory_of_step_control_is_refused() {
     ] {
         let mut edited = saved.clone();
         *edited.pointer_mut(pointer).unwrap() = serde_json::json!(value);
-        let edited: eem::Checkpoint = serde_json::from_value(edited).unwrap();
+        let edited: Checkpoint = serde_json::from_value(edited).unwrap();
         assert!(run.restore(&edited).is_err(), "{pointer}");
+    }
+}
+
+/// In the second half of a step, too.
+#[test]
+fn a_load_that_panics_leaves_state_and_control() {
+    for scheme in [Scheme::EemEntropy, Scheme::EemExplicit] {
+        for calm in 0..8 {
+            let mut scene = Scene::<2>::new();
+            let mass = scene.mass(1.0, [1.0, 0.0], [0.0, 0.0]);
+            let calls = Arc::new(AtomicI32::new(-1000));
+            let own = Arc::clone(&calls);
+            scene.force(mass, move |_| {
+                assert!(own.fetch_add(1, Ordering::Relaxed) != 0);
+                [1.0, 0.0]
+            });
+            let mut run = Simulation::new(scene, scheme, 0.1).unwrap();
+            run.control_steps(Tolerance::new(1e-4)).unwrap();
+            run.step().unwrap();
+            let before = EndState::of(&run);
+            calls.store(-calm, Ordering::Relaxed);
+            if catch_unwind(AssertUnwindSafe(|| run.step())).is_err() {
+                assert_eq!(EndState::of(&run), before, "{scheme}, after {calm} calls");
+            }
+            assert!(run.tolerance().is_some());
+        }
+    }
+}
+
+/// A mass that nothing holds flies straight on, however small the step.
+#[test]
+fn a_lone_free_mass_is_no_reason_to_refuse_an_explicit_step() {
+    for step in [1e-12, 1e-3, 1.0] {
+        let mut scene = Scene::<2>::new();
+        scene.mass(1.5, [5.8, 0.0], [-1.6, -3.1]);
+        let mut run = Simulation::new(scene, Scheme::EemExplicit, step).unwrap();
+        run.step().unwrap();
     }
 }

@@ -3,6 +3,7 @@
 use crate::element::masses::Masses;
 use crate::material::free_energy::Caloric;
 use crate::number::compensated::{Compensated, Sum};
+use crate::number::digest::Digest;
 use crate::number::scalar::Real;
 
 /// Positions, momenta, viscous stretches, entropies and what has been booked.
@@ -100,6 +101,25 @@ impl<S: Real> State<S> {
         let velocities = self.velocities.values();
         let momenta = &mut self.momenta;
         momenta.write(|momenta| masses.find_momenta(dimension, velocities, momenta));
+    }
+
+    /// Whether it is the same as another, but for time and what has been booked.
+    pub(crate) fn digest(&self) -> Digest {
+        let sums = [
+            &self.positions,
+            &self.momenta,
+            &self.viscous,
+            &self.entropies,
+        ];
+        Digest::of(|digest| {
+            for (value, carry) in sums.into_iter().flat_map(Compensated::sums) {
+                digest.number(value);
+                digest.number(carry);
+            }
+            for &theta in &self.temperatures {
+                digest.number(theta);
+            }
+        })
     }
 
     /// The velocity of a node of this mass, m/s.

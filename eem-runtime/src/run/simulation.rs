@@ -179,7 +179,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// simulation is then as it was before.
     pub fn step(&mut self) -> Result<StepReport<S>, StepError> {
         if self.control.is_some() {
-            return self.controlled_step(S::MAX);
+            return self.controlled_step(S::from_f64(f64::INFINITY));
         }
         self.single_step()
     }

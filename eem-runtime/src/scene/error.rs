@@ -202,6 +202,18 @@ pub enum SceneError {
         /// Its unit.
         unit: &'static str,
     },
+    /// Limits of steps that are none, or that there is no step control to keep.
+    #[error("steps from {smallest} to {largest} s: the smallest must be positive, the largest finite and not below it{}",
+        if *is_controlled { "" } else { ", and steps must be controlled: call `control_steps` first" },
+        smallest = Readable(*smallest), largest = Readable(*largest))]
+    StepLimits {
+        /// The smallest step, s.
+        smallest: f64,
+        /// The largest step, s.
+        largest: f64,
+        /// Whether steps are controlled.
+        is_controlled: bool,
+    },
     /// The steps of the scheme must all have one size.
     #[error(
         "the steps of {scheme} must have one size: its energy stays near its value only then; eem-entropy and eem-temperature keep it with any"

@@ -87,8 +87,6 @@ pub(crate) struct Explicit<S: Real, const D: usize> {
     is_motion_first: bool,
     /// Rates and targets are those of the present state.
     is_ready: bool,
-    /// They come from a checkpoint, whose state may have been changed since.
-    is_restored: bool,
     /// How often all elements have been evaluated.
     evaluations: u64,
 }
@@ -169,7 +167,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             gravity: site.loads.have_weight().then(|| site.loads.gravity.into()),
             is_motion_first: false,
             is_ready: false,
-            is_restored: false,
             evaluations: 0,
         }
     }

@@ -2,7 +2,6 @@
 
 use core::mem;
 
-use super::check::check_step;
 use super::control_memory::{Control, SMALLEST};
 use super::{Simulation, Tried};
 use crate::number::scalar::{Discord, Mask, Real};
@@ -120,22 +119,26 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// # Errors
     ///
-    /// [`SceneError::Step`] unless both are positive and finite and the first is not above the second; the old
-    /// ones then stay.
+    /// [`SceneError::StepLimits`] unless both are positive and finite, the first is not above the second, and
+    /// steps are [controlled](Self::control_steps); the old ones then stay.
     pub fn limit_steps(&mut self, [smallest, largest]: [S; 2]) -> Result<(), SceneError> {
-        check_step(smallest).inspect_err(|_| self.part())?;
-        check_step(largest).inspect_err(|_| self.part())?;
-        if !smallest.at_most(largest).all() {
-            self.part();
-            let value = smallest.to_f64();
-            return Err(SceneError::Step { value });
+        let is_range = S::zero().less(smallest) & smallest.at_most(largest) & largest.less(S::MAX);
+        match &mut self.control {
+            Some(control) if is_range.all() => {
+                control.memory.smallest = smallest;
+                control.memory.largest = largest;
+                Ok(())
+            }
+            control => {
+                let is_controlled = control.is_some();
+                self.part();
+                Err(SceneError::StepLimits {
+                    smallest: smallest.to_f64(),
+                    largest: largest.to_f64(),
+                    is_controlled,
+                })
+            }
         }
-        if let Some(control) = &mut self.control {
-            control.memory.smallest = smallest;
-            control.memory.largest = largest;
-            self.step = self.step.minimum(largest);
-        }
-        Ok(())
     }
 
     /// A step that is accurate, not beyond `end`.
@@ -144,11 +147,22 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             // Each of the numbers needs steps of its own.
             return Err(self.refused(Discord.into()));
         }
-        let Some(mut control) = self.control.take() else {
+        let Some(control) = self.control.take() else {
             return self.single_step();
         };
-        let found = self.find_accurate_step(&mut control, end);
-        self.control = Some(control);
+        let usual = self.step;
+        let mut held = Held {
+            run: self,
+            control: Some(control),
+        };
+        let Held { run, control } = &mut held;
+        let found = match control {
+            Some(control) => run.find_accurate_step(control, end),
+            None => run.single_step(),
+        };
+        if found.is_err() {
+            run.step = usual;
+        }
         found
     }
 
@@ -158,6 +172,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         end: S,
     ) -> Result<StepReport<S>, StepError> {
         loop {
+            let memory = &control.memory;
+            self.step = self.step.maximum(memory.smallest).minimum(memory.largest);
             let full = self.step;
             let arriving = self.size_towards(end, full)?;
             let size = arriving.unwrap_or(full);
@@ -166,8 +182,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 Ok(Tried::Made(mut report)) => {
                     // A step that the end has shortened says nothing about the next ones.
                     if !size.less(full).all() {
-                        let next = controller.next(size, report.error, control.accuracy);
-                        self.step = next.minimum(control.memory.largest);
+                        self.step = controller.next(size, report.error, control.accuracy);
                         control.memory.controller = controller;
                     }
                     if arriving.is_some() {
@@ -246,11 +261,35 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let Some(control) = self.control.take() else {
             return self.step_by(size);
         };
-        let report = match &control.halves {
-            Some(halves) => self.step_in_halves(halves, size),
-            None => self.step_by(size),
+        let mut held = Held {
+            run: self,
+            control: Some(control),
         };
-        self.control = Some(control);
-        report
+        let Held { run, control } = &mut held;
+        match control.as_mut().and_then(|control| control.halves.as_mut()) {
+            Some(halves) => run.step_in_halves(halves, size),
+            None => run.step_by(size),
+        }
+    }
+}
+
+/// A simulation whose control has been taken out. It gets it back, and the state from which a step began, even
+/// where a load panics.
+struct Held<'a, const D: usize, S: Real> {
+    run: &'a mut Simulation<D, S>,
+    control: Option<Box<Control<S>>>,
+}
+
+impl<const D: usize, S: Real> Drop for Held<'_, D, S> {
+    fn drop(&mut self) {
+        let halves = self
+            .control
+            .as_mut()
+            .and_then(|control| control.halves.as_mut());
+        if let Some(halves) = halves.filter(|halves| halves.is_under_way) {
+            halves.is_under_way = false;
+            self.run.return_to(halves);
+        }
+        self.run.control = self.control.take();
     }
 }

@@ -26,6 +26,8 @@ pub(super) struct Halves<S> {
     pub(super) whole: State<S>,
     /// Which viscous variables are strains of solids.
     pub(super) are_strains: Vec<bool>,
+    /// The state is somewhere between the ends of the step.
+    pub(super) is_under_way: bool,
 }
 
 impl<S: Real> Control<S> {

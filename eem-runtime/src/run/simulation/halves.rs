@@ -28,6 +28,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             past,
             whole: State::clone(&self.state),
             are_strains: self.viscous_strains(),
+            is_under_way: false,
         }
     }
 
@@ -61,12 +62,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Two steps of half a size.
     pub(super) fn step_in_halves(
         &mut self,
-        halves: &Halves<S>,
+        halves: &mut Halves<S>,
         size: S,
     ) -> Result<StepReport<S>, StepError> {
         let half = S::from_f64(0.5) * size;
         let first = self.step_by(half)?;
-        match self.step_by(half) {
+        halves.is_under_way = true;
+        let second = self.step_by(half);
+        halves.is_under_way = false;
+        match second {
             Ok(second) => Ok(first.and(second)),
             Err(error) => {
                 self.return_to(halves);

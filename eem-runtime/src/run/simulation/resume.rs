@@ -26,7 +26,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// ```
     #[must_use]
     pub fn checkpoint(&self) -> Checkpoint<S> {
-        let (past, explicit) = self.stepper.past();
+        let (past, mut explicit) = self.stepper.past();
+        if let Some(explicit) = &mut explicit {
+            explicit.state = Some(self.state.digest());
+        }
         Checkpoint {
             scheme: self.scheme,
             outline: self.outline(),
@@ -71,8 +74,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.stepper.each_mut(|group| group.find_energies(state));
         self.worst = None;
         self.corrections = Corrections::none();
-        self.stepper
-            .restore(&checkpoint.past, checkpoint.explicit.as_ref());
+        // Of a state that has been edited nothing is known.
+        let explicit = checkpoint.explicit.as_ref();
+        let digest = self.state.digest();
+        let explicit = explicit.filter(|saved| saved.state == Some(digest));
+        self.stepper.restore(&checkpoint.past, explicit);
         self.step = checkpoint.step;
         self.go_on_with(checkpoint.control);
         Ok(())

@@ -59,10 +59,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let time = view.state.time.value;
         self.prescribed.evaluate(view.loads, [time, h])?;
         self.load(view);
-        if self.is_restored && self.is_ready {
-            self.is_ready = self.fits(view.state);
-        }
-        self.is_restored = false;
         if !self.is_ready {
             self.prepare(view)?;
         }

@@ -1,6 +1,7 @@
 //! What an explicit scheme keeps between steps, as it is saved.
 
 use crate::number::compensated::Compensated;
+use crate::number::digest::Digest;
 use crate::number::scalar::Real;
 use crate::step::explicit::memory::Target;
 
@@ -15,6 +16,8 @@ use crate::step::explicit::memory::Target;
 pub(crate) struct SavedExplicit<S> {
     /// Whether the next step takes rates and targets from the state instead of what follows.
     pub(crate) is_new: bool,
+    /// The state that it belongs to; none yet where it is not saved with one.
+    pub(crate) state: Option<Digest>,
     pub(crate) is_motion_first: bool,
     pub(crate) targets: Vec<Target<S>>,
     pub(crate) shares: Compensated<S>,

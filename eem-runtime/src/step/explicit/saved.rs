@@ -10,6 +10,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let (books, start) = (&self.books, &self.start);
         let mut saved = SavedExplicit {
             is_new: !self.is_ready,
+            state: None,
             is_motion_first: self.is_motion_first,
             targets: books.targets.clone(),
             shares: books.shares.clone(),
@@ -32,7 +33,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// Goes on from what was saved of the same scene.
     pub(crate) fn restore(&mut self, saved: &SavedExplicit<S>) {
         self.is_ready = !saved.is_new;
-        self.is_restored = true;
         self.is_motion_first = saved.is_motion_first;
         let (books, start) = (&mut self.books, &mut self.start);
         books.targets.copy_from_slice(&saved.targets);

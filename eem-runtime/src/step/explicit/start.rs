@@ -4,16 +4,13 @@ use super::components::Component;
 use super::components::Support;
 use super::memory::Target;
 use super::stages::From;
-use super::vector::{add, difference, length, moment};
+use super::vector::{add, difference, moment};
 use super::{Explicit, ExplicitView};
 use crate::element::group::{ComponentEnergy, points};
 use crate::element::state::State;
 use crate::number::compensated::Sum;
-use crate::number::scalar::{Mask, Real, Scalar};
+use crate::number::scalar::Real;
 use crate::step::error::StepFailure;
-
-/// Roundings up to which energy and momenta of a state are their targets, as in the certificate.
-const ROUNDINGS: f64 = 64.0;
 
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// Takes the start of a step from a state.
@@ -62,48 +59,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             sum.value.add(energy.value);
             sum.magnitude += energy.magnitude;
         }
-    }
-
-    /// Whether the targets are those of a state that is loaded, to rounding: somebody may have changed the
-    /// state of a checkpoint.
-    pub(super) fn fits(&mut self, state: &State<S>) -> bool {
-        self.y.copy_from_slice(&self.y0);
-        self.new_books.copy_from(&self.books);
-        self.sum_energies(state);
-        let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
-        (0..self.components.all.len()).all(|index| {
-            let [defect, magnitude] = self.defect_of(index);
-            let component = &self.components.all[index];
-            let (linear, angular) = self.momenta_of(component);
-            let target = &self.books.targets[index];
-            // An anchor takes linear momentum.
-            let axes = if component.support == Support::Free {
-                D
-            } else {
-                0
-            };
-            let pairs = linear.iter().zip(&target.linear).take(axes);
-            let pairs = pairs.chain(angular.iter().zip(&target.angular));
-            let off = pairs.map(|(&found, sum)| (found - sum.value).abs());
-            let off = off.fold(S::zero(), Scalar::maximum);
-            let [momenta, moments] = self.sizes_of(component);
-            let is_free_of_momenta = component.support == Support::Several;
-            defect.abs().at_most(rounding * magnitude).all()
-                && (is_free_of_momenta || off.at_most(rounding * (momenta + moments)).all())
-        })
-    }
-
-    /// `Σ |p|` and `Σ |q| |p|`: times ε, the rounding of the momenta.
-    fn sizes_of(&self, component: &Component<S>) -> [S; 2] {
-        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
-        let momenta = points::<S, D>(&self.y[self.offsets.momenta..self.offsets.viscous]);
-        let mut sizes = [S::zero(); 2];
-        for place in component.masses.clone() {
-            let momentum = length(&momenta[place]);
-            sizes[0] += momentum;
-            sizes[1] += momentum * length(&positions[place]);
-        }
-        sizes
     }
 
     /// Energy and momenta of the state are what they have to be from now on.

@@ -79,7 +79,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             Support::Anchor(place) => rigid.origin = positions[place],
             Support::Several => return rigid,
         }
-        if D < 2 {
+        let is_free_mass = component.support == Support::Free && component.masses.len() == 1;
+        if D < 2 || is_free_mass {
             return rigid;
         }
         let mut inertia = Inertia::none();
