@@ -60,6 +60,9 @@ const HALVINGS: u32 = 8;
 /// So many of the smallest steps decide the slope.
 const FITTED: usize = 3;
 
+/// The scheme of the reference.
+const REFERENCE: Scheme = Scheme::Variational4;
+
 /// The reference is of fourth order and halves the smallest step so often. Its error is then below
 /// 1/4000 of all errors that it judges, which does not show in the slopes.
 const REFERENCE_HALVINGS: u32 = 3;
@@ -150,10 +153,7 @@ fn run(command_line: &CommandLine) -> Result<Claims, Box<dyn Error>> {
     let directory = command_line.out.as_deref();
     directory.map_or(Ok(()), output::prepare)?;
 
-    let exact = end_state(
-        Scheme::Variational4,
-        largest.halved(HALVINGS + REFERENCE_HALVINGS),
-    )?;
+    let exact = end_state(REFERENCE, largest.halved(HALVINGS + REFERENCE_HALVINGS))?;
     let mut studies = Vec::new();
     for scheme in command_line.schemes() {
         let mut points = Vec::new();
@@ -253,7 +253,9 @@ fn check(studies: &[Study]) -> Claims {
         ));
         return claims;
     }
-    for study in studies {
+    // One of higher order than the reference comes so close to it that its slope says nothing here.
+    let judged = |study: &&Study| study.scheme.order() <= REFERENCE.order();
+    for study in studies.iter().filter(judged) {
         claims.at_most(
             &format!("{}: |slope − order|", study.scheme.name()),
             Some((study.slope() - f64::from(study.scheme.order())).abs()),
