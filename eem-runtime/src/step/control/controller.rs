@@ -129,7 +129,7 @@ mod tests {
     #[test]
     fn slow_changes_cost_no_rejections() {
         let (_, rejections) =
-            run(|step| 1.0 + 0.3 * (0.3 * f64::from(u8::try_from(step).unwrap())).sin());
+            run(|step| 1.0 + 0.3 * (0.1 * f64::from(u8::try_from(step).unwrap())).sin());
         assert_eq!(rejections, 0);
     }
 
