@@ -96,6 +96,9 @@ enum CaseName {
 /// The relative tolerance that the runs with tolerances begin with.
 const LARGEST_TOLERANCE: f64 = 1e-2;
 
+/// How many others follow, each a tenth of the one before.
+const DECADES: u32 = 6;
+
 /// How a case is run unless the command line says otherwise.
 #[derive(Clone, Copy, Debug)]
 struct Plan {
@@ -147,9 +150,13 @@ fn run(options: &Options) -> Result<Claims, Box<dyn Error>> {
     let end = options.common.end(plan.end);
     let largest = end / (grid.end() / grid.step).round();
     let schemes = options.common.schemes_of_any_step().into_iter();
-    let settings: Vec<Setting> = schemes
+    let mut settings: Vec<Setting> = schemes
         .flat_map(|scheme| settings(scheme, largest, plan.halvings))
         .collect();
+    if options.common.takes_all_schemes() {
+        let chosen = Setting::by_decades(Scheme::Auto, LARGEST_TOLERANCE, DECADES);
+        settings.extend(chosen);
+    }
     let report = study(options.case, &settings, end)?;
     terminal::say(format_args!("{report}"));
     match directory {
@@ -164,7 +171,7 @@ fn settings(scheme: Scheme, largest: f64, halvings: u32) -> Vec<Setting> {
     let mut settings: Vec<_> = Setting::halved(scheme, largest, halvings).collect();
     if scheme.is_exact() && scheme.order() > 1 {
         // A scheme of order 2 needs ten thousands of steps for what lies beyond.
-        let decades = if scheme.order() > 2 { 6 } else { 2 };
+        let decades = if scheme.order() > 2 { DECADES } else { 2 };
         settings.extend(Setting::by_decades(scheme, LARGEST_TOLERANCE, decades));
     }
     settings

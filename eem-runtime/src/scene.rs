@@ -133,7 +133,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         for node in nodes {
             self.expect_own(node.scene, &node);
         }
-        let (group, set) = self.set_of(ElementSet::<M, Stretch<D>, 1>::new);
+        let (group, set) = self.set_of(ElementSet::<S, M, Stretch<D>, D>::new);
         let place = Blueprint::<S, D>::len(set);
         set.push(element, [(model, Stretch)]);
         self.push_element(&nodes, [group, place]);

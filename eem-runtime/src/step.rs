@@ -1,5 +1,6 @@
 //! Steps: the schemes as data, Newton's method, the end of a step and its certificate; the explicit scheme.
 
+pub(crate) mod automatic;
 pub(crate) mod certificate;
 pub(crate) mod control;
 pub(crate) mod error;

@@ -39,14 +39,19 @@ impl CommandLine {
     /// resolve all vibrations; by its name it is run.
     pub(crate) fn schemes(&self) -> Vec<Scheme> {
         let mut schemes = self.schemes_of_any_step();
-        schemes.retain(|&scheme| self.scheme != ALL || scheme != Scheme::EemExplicit);
+        schemes.retain(|&scheme| !self.takes_all_schemes() || scheme != Scheme::EemExplicit);
         schemes
     }
 
     /// The schemes asked for, by an example in which each has steps of its own.
     pub(crate) fn schemes_of_any_step(&self) -> Vec<Scheme> {
-        let is_chosen = |scheme: &Scheme| self.scheme == ALL || self.scheme == scheme.name();
+        let is_chosen = |scheme: &Scheme| self.takes_all_schemes() || self.scheme == scheme.name();
         Scheme::ALL.into_iter().filter(is_chosen).collect()
+    }
+
+    /// Whether no scheme was asked for by its name.
+    pub(crate) fn takes_all_schemes(&self) -> bool {
+        self.scheme == ALL
     }
 
     /// The end time asked for, or the source's, s.

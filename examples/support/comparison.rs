@@ -139,12 +139,12 @@ fn label(run: &Record, shows_it: bool) -> String {
 
 /// A scheme looks the same in every picture, whatever else is drawn; 0 is the reference's look.
 pub(crate) fn look(name: &str) -> usize {
-    let mut schemes = Scheme::ALL.iter();
+    let mut schemes = Scheme::ALL.into_iter().chain([Scheme::Auto]);
     let known = schemes.position(|scheme| scheme.name() == name);
     known.map_or(0, |scheme| 1 + scheme)
 }
 
 /// The `index`-th look that neither a scheme nor the reference has.
 pub(crate) fn look_beside_schemes(index: usize) -> usize {
-    1 + Scheme::ALL.len() + index
+    2 + Scheme::ALL.len() + index
 }

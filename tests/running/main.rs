@@ -6,6 +6,7 @@
 mod support;
 
 mod allocation;
+mod automatic;
 mod control;
 mod ends;
 mod ensemble;

@@ -17,6 +17,7 @@ mod assemble;
 mod at_point;
 mod audit;
 mod begin;
+mod build;
 mod certify;
 mod closing;
 mod correct;
@@ -28,6 +29,7 @@ mod generic;
 mod inspect;
 mod interface;
 mod local;
+mod loose;
 mod member;
 mod misfit;
 mod point;
@@ -41,13 +43,10 @@ mod stages;
 mod view;
 
 pub(crate) use arms::points;
-pub(crate) use element_group::ElementGroup;
-pub(crate) use explicit::{
-    ClosingView, ComponentEnergy, ExplicitGroup, FreeGroup, PlaceOf, StageRates, StageView,
-};
-pub(crate) use interface::{Elements, Group};
+pub(crate) use explicit::{ClosingView, ComponentEnergy, PlaceOf, StageRates, StageView};
+pub(crate) use interface::{Elements, ExplicitGroup, Group, Loose};
+pub(crate) use loose::LooseElements;
 pub(crate) use misfit::Misfit;
-pub(crate) use stages::{Projections, Source, StageGroup, Values};
 pub(crate) use view::{
     Along, ElementGeneric, ElementTotals, ElementView, NodesOf, Old, Placed, Sites, StepView, Trial,
 };

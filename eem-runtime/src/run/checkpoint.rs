@@ -1,5 +1,6 @@
 //! A saved state: everything that the next steps depend on, bit for bit.
 
+mod choice;
 mod control;
 pub(crate) mod error;
 mod expect;
@@ -16,6 +17,7 @@ use crate::step::newton::NewtonSettings;
 use crate::step::scheme::Scheme;
 use crate::step::solver::SavedPast;
 
+pub(crate) use choice::SavedChoice;
 pub(crate) use control::SavedControl;
 pub use error::RestoreError;
 use expect::{expect_all, expect_count};
@@ -75,6 +77,12 @@ pub struct Checkpoint<S = f64> {
     /// None while all steps have one size.
     #[cfg_attr(feature = "serde", serde(default = "Option::default"))]
     pub(crate) control: Option<SavedControl<S>>,
+    /// Of a scheme that is chosen on the way.
+    #[cfg_attr(
+        feature = "serde",
+        serde(default = "Option::default", skip_serializing_if = "Option::is_none")
+    )]
+    pub(crate) choice: Option<SavedChoice>,
     pub(crate) state: State<S>,
     pub(crate) past: SavedPast<S>,
     /// Of an explicit scheme; without it, its targets are those of the state.
@@ -145,6 +153,12 @@ impl<S: Real> Checkpoint<S> {
                 is_positive,
             )?;
             expect_all("not negative", "step control", control.others(), |value| {
+                (S::zero().at_most(value) & value.at_most(S::MAX)).all()
+            })?;
+        }
+        if let Some(saved) = &self.choice {
+            let numbers = saved.choice.numbers().map(S::from_f64);
+            expect_all("not negative", "choice of a scheme", numbers, |value| {
                 (S::zero().at_most(value) & value.at_most(S::MAX)).all()
             })?;
         }

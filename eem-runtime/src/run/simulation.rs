@@ -1,6 +1,9 @@
 //! A scene in motion.
 
+mod attempt;
 mod audit;
+mod automatic;
+mod automatic_memory;
 mod check;
 mod control;
 mod control_memory;
@@ -21,45 +24,27 @@ use core::fmt;
 use core::sync::atomic::{AtomicBool, Ordering};
 
 use crate::element::conduction::Conduction;
-use crate::element::group::StepView;
 use crate::element::handle::SceneId;
 use crate::element::layout::{Layout, Shape};
 use crate::element::masses::Masses;
-use crate::element::phase::Phase;
 use crate::element::state::State;
-use crate::number::compact::compact;
-use crate::number::scalar::{Discord, Mask, Real};
+use crate::number::scalar::Real;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
+use crate::step::automatic::first;
+use crate::step::control::Tolerance;
 use crate::step::error::{StepError, StepFailure};
-use crate::step::explicit::{Demand, ExplicitView};
 use crate::step::newton::StepReport;
-use crate::step::outcome::{Attempt, Corrections};
+use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
-use check::{check_end, check_solids, check_step};
+use automatic_memory::Automatic;
+use check::{check_solids, check_step};
 use control_memory::Control;
-use start::initial_state;
-use stepper::{Newton, Parts, Stepper};
+use start::{initial_state, places_in};
+use stepper::{Parts, Stepper};
 use totals::check_totals;
-
-/// What the elements share during the next step; borrows only the fields that it names.
-macro_rules! view {
-    ($simulation:ident, $phase:expr, $state:expr, [$loads:expr, $stages:expr]) => {
-        StepView {
-            phase: $phase,
-            step: $simulation.step,
-            per_step: $simulation.step.recip(),
-            state: $state,
-            conduction: &$simulation.conduction,
-            loads: $loads,
-            stages: $stages,
-            masses: &$simulation.masses,
-        }
-    };
-}
-use view;
 
 /// A scene that is stepped through time by one scheme.
 ///
@@ -67,6 +52,10 @@ use view;
 pub struct Simulation<const D: usize, S: Real = f64> {
     scene: SceneId,
     scheme: Scheme,
+    /// The same, unless it is chosen on the way.
+    in_use: Scheme,
+    /// Where the scheme is chosen on the way.
+    automatic: Option<Box<Automatic<S>>>,
     step: S,
     masses: Masses<S>,
     /// The group and the place in it of each element.
@@ -114,31 +103,32 @@ impl<const D: usize, S: Real> fmt::Debug for Simulation<D, S> {
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// Checks a scene and makes it ready to be stepped by `scheme` with the time step `step`, s.
     ///
+    /// Steps have this size until [`control_steps`](Self::control_steps) is called. Those of [`Scheme::Auto`] follow
+    /// from an accuracy at once, [`Tolerance::default`] unless another one is asked for; `step` is the first that is
+    /// tried.
+    ///
     /// # Errors
     ///
     /// The first thing that is wrong with the scene, its initial state or the step.
     pub fn new(scene: Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, SceneError> {
         scene.check()?;
         let has_solids = scene.groups.iter().any(|group| !group.shape().is_spring);
+        let in_use = first(scheme, has_solids);
         if has_solids {
-            check_solids(scheme)?;
+            check_solids(in_use)?;
         }
         check_step(step)?;
         let mut layout = scene.layout();
         let conduction = Conduction::new(&scene.conductors, &scene.reservoirs, &layout);
         let mut state = Box::new(initial_state(&scene, &layout));
-        let places = scene
-            .elements
-            .iter()
-            .map(|entry| [entry.group, entry.place].map(compact))
-            .collect();
+        let places = places_in(&scene);
         let shapes = scene.groups.iter().map(|group| group.shape()).collect();
         let masses = Masses::new(scene.nodes.iter().map(|node| node.mass), scene.pairs);
         state.follow_velocities(D, &masses);
         // Large, and all that it said is in the masses and in the state.
         drop(scene.nodes);
         let parts = Parts {
-            scheme,
+            scheme: in_use,
             masses: &masses,
             elements: &scene.elements,
             layout: &layout,
@@ -146,10 +136,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             loads: &scene.loads,
         };
         let stepper = Stepper::new(scene.groups, parts, &mut state)?;
-        layout.forget_places();
-        let run = Self {
+        let automatic =
+            (scheme == Scheme::Auto).then(|| Box::new(Automatic::new(scene.elements, has_solids)));
+        if automatic.is_none() {
+            layout.forget_places();
+        }
+        let mut run = Self {
             scene: scene.id,
             scheme,
+            in_use,
+            automatic,
             step,
             masses,
             places,
@@ -168,6 +164,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             has_parted: AtomicBool::new(false),
         };
         check_totals(&run.ledger())?;
+        if run.automatic.is_some() {
+            run.control_steps(Tolerance::default())?;
+        }
         Ok(run)
     }
 
@@ -182,115 +181,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             return self.controlled_step(S::from_f64(f64::INFINITY));
         }
         self.single_step()
-    }
-
-    /// One step of the present size.
-    fn single_step(&mut self) -> Result<StepReport<S>, StepError> {
-        match self.try_step(Demand::None)? {
-            Tried::Made(report) => Ok(report),
-            Tried::Refused(_) => unreachable!("a step without a tolerance has no error"),
-        }
-    }
-
-    /// One step of the present size, unless it estimates its own error and that is not within what is
-    /// demanded.
-    fn try_step(&mut self, demand: Demand<S>) -> Result<Tried<S>, StepError> {
-        self.has_stepped = false;
-        self.effort.restart();
-        let Attempt { error, outcome } = match self.find_next(demand) {
-            Ok(attempt) => attempt,
-            Err(failure) => return Err(self.failed(failure)),
-        };
-        let Some(outcome) = outcome else {
-            return Ok(Tried::Refused(error));
-        };
-        core::mem::swap(&mut self.state, &mut self.next);
-        self.has_stepped = true;
-        let report = StepReport {
-            time: self.time(),
-            step: self.step,
-            iterations: self.effort.history.len(),
-            update: self.effort.end.update,
-            residual: self.effort.end.residual,
-            defect: outcome.defect,
-            bound: outcome.bound,
-            production: outcome.production,
-            least_production: outcome.least_production,
-            correction: outcome.correction.abs(),
-            error,
-        };
-        self.corrections.note(outcome.correction);
-        self.note_worst(&report);
-        Ok(Tried::Made(report))
-    }
-
-    /// Writes the next state.
-    fn find_next(&mut self, demand: Demand<S>) -> Result<Attempt<S>, StepFailure> {
-        if self.has_parted() {
-            // An experiment that ignores failed steps and waits for something would loop forever.
-            return Err(Discord.into());
-        }
-        check_end(self.time() + self.step)?;
-        self.evaluate_loads()?;
-        let (effort, next) = (&mut self.effort, &mut *self.next);
-        let newton = match &mut self.stepper {
-            Stepper::Newton(newton) => newton,
-            Stepper::Explicit(explicit) => {
-                let view = ExplicitView {
-                    step: self.step,
-                    state: &self.state,
-                    conduction: &self.conduction,
-                    loads: &self.loads,
-                    masses: &self.masses,
-                };
-                return explicit.step(&view, demand, next);
-            }
-        };
-        let Newton {
-            groups,
-            solver,
-            loads,
-            stages,
-            between,
-        } = &mut **newton;
-        let Some(between) = between else {
-            let view = view!(self, Phase::Whole, &self.state, [loads, stages]);
-            return Ok(Attempt::made(solver.solve(groups, &view, effort, next)?));
-        };
-        let view = view!(self, Phase::Mechanics, &self.state, [loads, stages]);
-        let motion = solver.solve(groups, &view, effort, between)?;
-        let view = view!(self, Phase::Heat, between, [loads, stages]);
-        let heat = solver.solve(groups, &view, effort, next)?;
-        Ok(Attempt::made(motion.and(heat)))
-    }
-
-    /// Keeps a report if it comes closer to its bound than all before.
-    fn note_worst(&mut self, report: &StepReport<S>) {
-        let is_worse = self.worst.is_none_or(|worst| {
-            let (own, other) = (report.defect.abs(), worst.defect.abs());
-            (other * report.bound).less(own * worst.bound).any()
-        });
-        if is_worse {
-            self.worst = Some(*report);
-        }
-    }
-
-    /// The loads of the next step.
-    fn evaluate_loads(&mut self) -> Result<(), StepFailure> {
-        if self.loads.are_none() {
-            return Ok(());
-        }
-        let span = [self.time(), self.step];
-        let Stepper::Newton(newton) = &mut self.stepper else {
-            return Ok(());
-        };
-        newton.evaluate_loads(
-            &self.loads,
-            &self.masses,
-            self.scheme,
-            span,
-            self.state.positions.values(),
-        )
     }
 
     /// Whether several numbers in one S have to be run one by one.
@@ -332,6 +222,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     #[must_use]
     pub const fn scheme(&self) -> Scheme {
         self.scheme
+    }
+
+    /// The scheme of the next step, which [`Scheme::Auto`] chooses on the way; else the scheme.
+    #[must_use]
+    pub const fn scheme_in_use(&self) -> Scheme {
+        self.in_use
     }
 
     /// Number of unknowns of the global system of one Newton iteration; none for an explicit scheme.

@@ -94,7 +94,7 @@ impl<S: Real> Scene<2, S> {
         });
         let place = match self.expect_quad::<N>(nodes, (M::STRAINS, section), points) {
             Ok(quad) => {
-                let new = ElementSet::<PointEnergy<S, M>, Quad4<S, N>, 4>::new;
+                let new = ElementSet::<S, PointEnergy<S, M>, Quad4<S, N>, 2>::new;
                 let (group, set) = self.set_of(new);
                 let place = Blueprint::<S, 2>::len(set);
                 let energy = |volume| PointEnergy::new(model.clone(), volume);

@@ -30,8 +30,10 @@ mod start;
 mod tableau;
 mod vector;
 
+use core::mem;
+
 use crate::element::conduction::Conduction;
-use crate::element::group::{Elements, ExplicitGroup};
+use crate::element::group::{Elements, ExplicitGroup, Loose};
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
@@ -186,6 +188,12 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for group in &mut self.groups {
             visit(group.elements_mut());
         }
+    }
+
+    /// Gives its elements away; it cannot step any more.
+    pub(crate) fn take_elements(&mut self) -> Vec<Box<dyn Loose<S, D>>> {
+        let groups = mem::take(&mut self.groups).into_iter();
+        groups.map(ExplicitGroup::into_loose).collect()
     }
 
     /// How often all elements have been evaluated.

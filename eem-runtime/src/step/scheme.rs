@@ -7,6 +7,8 @@ use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
 
 /// The time integration schemes.
 ///
+/// [`Auto`](Self::Auto) chooses among them.
+///
 /// | scheme | first law | second law | momenta | order |
 /// |---|---|---|---|---|
 /// | `EemEntropy` | exact | exact | exact | 2 |
@@ -21,6 +23,7 @@ use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
 /// | `MidpointTemperature` | no | no | exact | 2 |
 /// | `Trapezoidal`, `TrapezoidalTemperature` | no | no | no | 2 |
 /// | `Gauss4` | no | no | nearly | 4 |
+/// | `Auto` | exact | exact | exact | 8 or less |
 ///
 /// "Exact" is to rounding, at every step and for any step size: a step that does not prove it is an error,
 /// see [`StepReport::defect`](crate::StepReport::defect). `Variational4` is stable where vibrations
@@ -70,10 +73,14 @@ pub enum Scheme {
     EemEntropy4,
     /// The same of order 6, with three stages.
     EemEntropy6,
+    /// That of the exact ones above which takes least for a [tolerance](crate::Simulation::control_steps):
+    /// `EemExplicit`, unless stability limits its steps more than accuracy does, and `EemTemperature` for solids. All
+    /// laws hold when the [scheme in use](crate::Simulation::scheme_in_use) changes.
+    Auto,
 }
 
 impl Scheme {
-    /// All schemes.
+    /// All schemes but [`Auto`](Self::Auto), which is none of its own.
     pub const ALL: [Self; 13] = [
         Self::EemEntropy,
         Self::EemTemperature,
@@ -94,12 +101,6 @@ impl Scheme {
     #[must_use]
     pub const fn name(self) -> &'static str {
         self.rule().name
-    }
-
-    /// The scheme of this name.
-    #[must_use]
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|scheme| scheme.name() == name)
     }
 }
 
@@ -197,6 +198,11 @@ impl Scheme {
             Self::EemExplicit => Rule::exact("eem-explicit", MeanMeasures)
                 .of_order(8)
                 .closed_explicitly(),
+            // That of its first one.
+            Self::Auto => Rule {
+                name: "auto",
+                ..Self::EemExplicit.rule()
+            },
             Self::Staggered => Rule::exact("staggered", EntropyForm).of_order(1),
             Self::Variational => Rule::variational("variational", MeanMeasures),
             Self::Variational4 => {

@@ -5,6 +5,14 @@ use core::str::FromStr;
 
 use crate::step::scheme::Scheme;
 
+impl Scheme {
+    /// The scheme of this name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        named().find(|scheme| scheme.name() == name)
+    }
+}
+
 impl fmt::Display for Scheme {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())
@@ -27,8 +35,14 @@ pub struct UnknownScheme {
     pub name: String,
 }
 
+/// All that have a name.
+fn named() -> impl Iterator<Item = Scheme> {
+    Scheme::ALL.into_iter().chain([Scheme::Auto])
+}
+
 fn names() -> String {
-    Scheme::ALL.map(Scheme::name).join(", ")
+    let names: Vec<_> = named().map(Scheme::name).collect();
+    names.join(", ")
 }
 
 impl FromStr for Scheme {

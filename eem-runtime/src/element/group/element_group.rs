@@ -1,6 +1,7 @@
 //! The elements of one model, with one set of forces in a step.
 
-use super::interface::{Elements, Group};
+use super::interface::{Elements, Group, Loose};
+use super::loose::LooseElements;
 use super::member::Member;
 use super::point::Point;
 use super::site::{Contact, Site};
@@ -10,7 +11,6 @@ use crate::element::conjugates::ElementScheme;
 use crate::element::error::StateError;
 use crate::element::group::misfit::Misfit;
 use crate::element::group::view::ElementGeneric;
-use crate::element::handle::Element;
 use crate::element::impulse::Impulses;
 use crate::element::kinematics::{Kinematics, Points};
 use crate::element::layout::Slots;
@@ -41,23 +41,20 @@ where
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    /// Of the first handles of the elements, and what their points consist of.
-    pub(crate) fn new<const P: usize>(
-        elements: Vec<(Element, [(M, K); P])>,
-        placed: Placed<'_>,
-    ) -> Self {
-        let members = elements.into_iter().map(|(first, parts)| {
-            let mut parts = parts.into_iter();
-            let next = |_| {
-                parts
-                    .next()
-                    .unwrap_or_else(|| unreachable!("one per point"))
-            };
-            Member::new(first, next, placed)
-        });
+    pub(crate) fn new(loose: LooseElements<S, M, K, D>, placed: Placed<'_>) -> Self {
+        let members = loose.elements.into_iter();
+        let members = members.map(|(first, points)| Member::new(first, points, placed));
         Self {
             members: members.collect(),
             contacts: Vec::new(),
+        }
+    }
+
+    /// What it was made of.
+    pub(super) fn into_loose(self) -> LooseElements<S, M, K, D> {
+        let elements = self.members.into_iter().map(Member::into_parts);
+        LooseElements {
+            elements: elements.collect(),
         }
     }
 
@@ -134,6 +131,10 @@ where
 
     fn elements_mut(&mut self) -> &mut dyn Elements<S, D> {
         self
+    }
+
+    fn into_loose(self: Box<Self>) -> Box<dyn Loose<S, D>> {
+        Box::new(Self::into_loose(*self))
     }
 
     fn connect(&mut self, sites: &Sites<'_, S, D>) {

@@ -11,11 +11,9 @@
 mod closed;
 mod closing;
 mod group;
-mod interface;
 mod rates;
 mod stiffness;
+pub(super) mod view;
 
 pub(crate) use group::FreeGroup;
-pub(crate) use interface::{
-    ClosingView, ComponentEnergy, ExplicitGroup, PlaceOf, StageRates, StageView,
-};
+pub(crate) use view::{ClosingView, ComponentEnergy, PlaceOf, StageRates, StageView};

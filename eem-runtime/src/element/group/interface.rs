@@ -1,7 +1,9 @@
-//! What the solver sees of elements: one dynamic call per group and phase.
+//! What the solvers see of elements: one dynamic call per group and phase.
 
-use super::view::{Along, ElementTotals, ElementView, Old, Sites, StepView, Trial};
+use super::explicit::view::{ClosingView, NodeStiffness, PlaceOf, StageRates, StageView};
+use super::view::{Along, ElementTotals, ElementView, Old, Placed, Sites, StepView, Trial};
 use crate::algebra::system::LinearSystem;
+use crate::element::conjugates::Conjugates;
 use crate::element::error::StateError;
 use crate::element::group::misfit::Misfit;
 use crate::element::group::view::ElementGeneric;
@@ -48,6 +50,9 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
 
     /// The same, to be changed.
     fn elements_mut(&mut self) -> &mut dyn Elements<S, D>;
+
+    /// The elements without a scheme.
+    fn into_loose(self: Box<Self>) -> Box<dyn Loose<S, D>>;
 
     /// Learns where its elements write in the global systems; once per scene.
     fn connect(&mut self, sites: &Sites<'_, S, D>);
@@ -111,4 +116,54 @@ pub(crate) trait Group<S: Real, const D: usize>: Send + Sync {
 
     /// What they contributed to the discrete GENERIC form of the last step, between two states.
     fn generic_of_step(&self, ends: [&State<S>; 2]) -> Vec<ElementGeneric<S>>;
+}
+
+/// Elements of one model in an explicit scheme.
+pub(crate) trait ExplicitGroup<S: Real, const D: usize>: Send + Sync {
+    /// The elements in a state.
+    fn elements(&self) -> &dyn Elements<S, D>;
+
+    /// The same, to be changed.
+    fn elements_mut(&mut self) -> &mut dyn Elements<S, D>;
+
+    /// The elements without a scheme.
+    fn into_loose(self: Box<Self>) -> Box<dyn Loose<S, D>>;
+
+    /// Learns to which component each element belongs, and where its nodes are in the vectors of stages;
+    /// once per scene.
+    fn join(&mut self, component_of: &[u32], places: &dyn PlaceOf);
+
+    /// Forces and rates at a stage.
+    fn rates(
+        &self,
+        view: &StageView<'_, S>,
+        rates: &mut StageRates<'_, S>,
+    ) -> Result<(), StateError>;
+
+    /// Temperatures and energies of the open components.
+    fn close(&mut self, view: &mut ClosingView<'_, S>) -> Result<(), StateError>;
+
+    /// Adds the forces on the nodes that were found when components were last closed, for those that are
+    /// asked for, and writes `γ̇` and `g γ̇`.
+    fn pull(&self, asked: &[bool], forces: &mut [S], creeping: [&mut [S]; 2]);
+
+    /// The rates of the closed state, at temperatures that differ from those of the last
+    /// [`close`](Self::close) by little.
+    fn finish(
+        &self,
+        view: &StageView<'_, S>,
+        rates: &mut StageRates<'_, S>,
+    ) -> Result<(), StateError>;
+
+    /// How stiff elements are in a state, one after the other.
+    fn stiffness(&self, state: &State<S>, see: &mut dyn FnMut(NodeStiffness<S>));
+}
+
+/// Elements of one model, whatever the model is, for which a scheme is chosen.
+pub(crate) trait Loose<S: Real, const D: usize>: Send + Sync {
+    /// The elements, ready to be stepped.
+    fn build(self: Box<Self>, by: Conjugates, placed: Placed<'_>) -> Box<dyn Group<S, D>>;
+
+    /// The elements, ready for an explicit scheme.
+    fn build_explicit(self: Box<Self>, placed: Placed<'_>) -> Box<dyn ExplicitGroup<S, D>>;
 }

@@ -33,22 +33,29 @@ where
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    /// An element whose points have consecutive handles, of which the first is given, and make what each
-    /// consists of.
-    pub(super) fn new(
-        first: Element,
-        mut make: impl FnMut(usize) -> (M, K),
-        placed: Placed<'_>,
-    ) -> Self {
+    /// An element whose points have consecutive handles, of which the first is given.
+    pub(super) fn new(first: Element, points: K::PerPoint<(M, K)>, placed: Placed<'_>) -> Self {
+        let mut parts = points.into_iter();
         Self {
             site: Site::unconnected(placed.nodes.nodes_of(first)),
             r0: Arms::<K, S, D>::filled([S::zero(); D]),
             points: K::PerPoint::from_fn(|point| {
                 let index = first.index + point;
                 let slots = placed.layout.elements[index];
-                Point::new(Element { index, ..first }, make(point), slots)
+                Point::new(Element { index, ..first }, next_of(&mut parts), slots)
             }),
         }
+    }
+
+    /// What it was made of.
+    pub(super) fn into_parts(self) -> (Element, K::PerPoint<(M, K)>) {
+        let first = self.points.as_ref()[0].element;
+        let mut points = self.points.into_iter();
+        let parts = K::PerPoint::from_fn(|_| {
+            let point = next_of(&mut points);
+            (point.model, point.kinematics)
+        });
+        (first, parts)
     }
 
     /// The point of an element that has one.
@@ -124,4 +131,10 @@ where
         }
         velocities
     }
+}
+
+/// The next of as many as an element has points.
+fn next_of<T>(points: &mut impl Iterator<Item = T>) -> T {
+    let next = points.next();
+    next.unwrap_or_else(|| unreachable!("one per point"))
 }

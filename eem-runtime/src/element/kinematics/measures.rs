@@ -139,7 +139,7 @@ pub trait Kinematics<S: Real, const D: usize>:
 }
 
 /// What an element has at each of its points. Implemented for arrays.
-pub trait Points<T>: AsRef<[T]> + AsMut<[T]> + Send + Sync {
+pub trait Points<T>: AsRef<[T]> + AsMut<[T]> + IntoIterator<Item = T> + Send + Sync {
     /// Number of points.
     const LEN: usize;
 

@@ -22,6 +22,14 @@ pub(crate) struct SavedControl<S> {
 }
 
 impl<S: Real> SavedControl<S> {
+    /// The same for another scheme, to which the errors of earlier steps mean nothing.
+    pub(crate) const fn after_change(self) -> Self {
+        Self {
+            controller: Controller::new(),
+            ..self
+        }
+    }
+
     /// All sizes of steps, s.
     pub(super) fn sizes(&self) -> [Option<S>; 3] {
         let last = self.controller.last.map(|[_, size]| size);

@@ -71,7 +71,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             return Ok(());
         };
         let checked = if self.scheme.may_change_steps() {
-            memory.tolerance.check(self.scheme.accuracy())
+            memory.tolerance.check(self.in_use.accuracy())
         } else {
             let scheme = self.scheme.name();
             Err(SceneError::FixedSteps { scheme })
@@ -81,18 +81,22 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Controls steps like this, or makes all of one size.
     pub(super) fn go_on_with(&mut self, memory: Option<SavedControl<S>>) {
-        self.control = memory.map(|memory| {
-            let accuracy = self.scheme.accuracy();
-            let halves = (accuracy.estimate == Estimate::Halves).then(|| self.room_for_halves());
-            Box::new(Control {
-                memory,
-                accuracy,
-                halves,
-            })
-        });
+        self.control = memory.map(|memory| Box::new(self.control_of(memory)));
     }
 
-    /// From now on all steps have the [present size](Self::step_size).
+    /// What controls steps of the scheme in use like this.
+    pub(super) fn control_of(&self, memory: SavedControl<S>) -> Control<S> {
+        let accuracy = self.in_use.accuracy();
+        let halves = (accuracy.estimate == Estimate::Halves).then(|| self.room_for_halves());
+        Control {
+            memory,
+            accuracy,
+            halves,
+        }
+    }
+
+    /// From now on all steps have the [present size](Self::step_size), and are those of the
+    /// [scheme in use](Self::scheme_in_use).
     pub fn fix_steps(&mut self) {
         self.control = None;
     }
@@ -147,26 +151,28 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             // Each of the numbers needs steps of its own.
             return Err(self.refused(Discord.into()));
         }
-        let Some(control) = self.control.take() else {
-            return self.single_step();
-        };
         let usual = self.step;
-        let mut held = Held {
-            run: self,
-            control: Some(control),
-        };
-        let Held { run, control } = &mut held;
-        let found = match control {
-            Some(control) => run.find_accurate_step(control, end),
+        let found = self.with_control(|run, control| match control {
             None => run.single_step(),
-        };
+            Some(control) if run.automatic.is_some() => run.step_of_choice(control, end),
+            Some(control) => run.find_accurate_step(control, end),
+        });
         if found.is_err() {
-            run.step = usual;
+            self.step = usual;
         }
         found
     }
 
-    fn find_accurate_step(
+    /// Does something with the control taken out of the run, which gets it back even where a load panics.
+    fn with_control<T>(&mut self, act: impl FnOnce(&mut Self, Option<&mut Control<S>>) -> T) -> T {
+        let control = self.control.take();
+        let mut held = Held { run: self, control };
+        let Held { run, control } = &mut held;
+        act(run, control.as_deref_mut())
+    }
+
+    /// The same of the scheme in use.
+    pub(super) fn find_accurate_step(
         &mut self,
         control: &mut Control<S>,
         end: S,
@@ -217,7 +223,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// A step of this size and its error; the state is what it was if there is none.
-    fn attempt(&mut self, control: &mut Control<S>, size: S) -> Result<Tried<S>, StepError> {
+    pub(super) fn attempt(
+        &mut self,
+        control: &mut Control<S>,
+        size: S,
+    ) -> Result<Tried<S>, StepError> {
         let Control {
             memory,
             accuracy,
@@ -229,7 +239,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    fn accept(&self, control: &mut Control<S>) {
+    pub(super) fn accept(&self, control: &mut Control<S>) {
         let memory = &mut control.memory;
         memory.statistics.accepted += 1;
         let momentum = norm(self.state.momenta.values());
@@ -238,16 +248,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Takes back the step that has just been made.
     pub(super) fn undo(&mut self) {
-        if let Some(control) = self.control.take() {
-            if let Some(halves) = &control.halves {
-                self.return_to(halves);
-            } else {
-                self.swap_back();
+        self.with_control(|run, control| {
+            match control.and_then(|control| control.halves.as_ref()) {
+                Some(halves) => run.return_to(halves),
+                None => run.swap_back(),
             }
-            self.control = Some(control);
-            return;
-        }
-        self.swap_back();
+        });
     }
 
     fn swap_back(&mut self) {
@@ -258,18 +264,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Another step from where the last one began, of this size.
     pub(super) fn step_again(&mut self, size: S) -> Result<StepReport<S>, StepError> {
-        let Some(control) = self.control.take() else {
-            return self.step_by(size);
-        };
-        let mut held = Held {
-            run: self,
-            control: Some(control),
-        };
-        let Held { run, control } = &mut held;
-        match control.as_mut().and_then(|control| control.halves.as_mut()) {
-            Some(halves) => run.step_in_halves(halves, size),
-            None => run.step_by(size),
-        }
+        self.with_control(|run, control| {
+            match control.and_then(|control| control.halves.as_mut()) {
+                Some(halves) => run.step_in_halves(halves, size),
+                None => run.step_by(size),
+            }
+        })
     }
 }
 

@@ -74,7 +74,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// one, and for a scheme that is not a discrete GENERIC system.
     #[must_use]
     pub fn generic_of_last_step(&self) -> Option<Generic<S>> {
-        let discrete = matches!(self.scheme, Scheme::EemEntropy | Scheme::EemTemperature);
+        let discrete = matches!(self.in_use, Scheme::EemEntropy | Scheme::EemTemperature);
         if !(discrete && self.has_stepped) {
             return None;
         }

@@ -22,7 +22,7 @@ use crate::step::newton::StepReport;
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// Memory for the two ways of a step.
     pub(super) fn room_for_halves(&self) -> Halves<S> {
-        let (past, _) = self.stepper.past();
+        let (past, _) = self.stepper.past(&self.state);
         Halves {
             before: State::clone(&self.state),
             past,

@@ -1,8 +1,8 @@
 //! Residual and tangent of the system that Newton's method solves, at given unknowns.
 
+use super::Simulation;
+use super::attempt::view;
 use super::stepper::{Newton, Stepper};
-use super::{Simulation, view};
-use crate::element::group::StepView;
 use crate::element::phase::Phase;
 use crate::number::scalar::Real;
 use crate::step::error::{StepError, StepFailure};

@@ -26,10 +26,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// ```
     #[must_use]
     pub fn checkpoint(&self) -> Checkpoint<S> {
-        let (past, mut explicit) = self.stepper.past();
-        if let Some(explicit) = &mut explicit {
-            explicit.state = Some(self.state.digest());
-        }
+        let (past, explicit) = self.stepper.past(&self.state);
         Checkpoint {
             scheme: self.scheme,
             outline: self.outline(),
@@ -37,6 +34,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             step: self.step,
             newton: self.newton_settings(),
             control: self.control.as_ref().map(|control| control.memory),
+            choice: self.saved_choice(),
             state: State {
                 energies: Vec::new(),
                 ..State::clone(&self.state)
@@ -58,13 +56,29 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// Motions and thermostats are evaluated at the time of the checkpoint to compare.
     pub fn restore(&mut self, checkpoint: &Checkpoint<S>) -> Result<(), RestoreError> {
-        let past = self.stepper.past();
+        let own = (self.in_use, self.stepper.past(&self.state));
+        let saved = self.choice_in(checkpoint)?;
+        if let Some(saved) = saved.filter(|saved| saved.scheme != own.0) {
+            self.use_scheme(saved.scheme);
+        }
+        self.restore_in_scheme(checkpoint).inspect_err(|_| {
+            self.part();
+            let (scheme, past) = own;
+            if self.in_use != scheme {
+                self.use_scheme(scheme);
+                self.stepper.restore(&past.0, past.1.as_ref());
+            }
+        })
+    }
+
+    /// The same where the scheme of the checkpoint is in use.
+    fn restore_in_scheme(&mut self, checkpoint: &Checkpoint<S>) -> Result<(), RestoreError> {
+        let past = self.stepper.past(&self.state);
         let past = (&past.0, past.1.as_ref());
         let scene = (&self.outline(), &self.numbers());
         checkpoint
             .check(self.scheme, scene, &self.state, past)
-            .and_then(|()| self.audit(&checkpoint.state, checkpoint.step))
-            .inspect_err(|_| self.part())?;
+            .and_then(|()| self.audit(&checkpoint.state, checkpoint.step))?;
         self.check_control(checkpoint.control)?;
         self.set_newton_settings(checkpoint.newton)?;
         self.has_stepped = false;
@@ -76,11 +90,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.corrections = Corrections::none();
         // Of a state that has been edited nothing is known.
         let explicit = checkpoint.explicit.as_ref();
-        let digest = self.state.digest();
-        let explicit = explicit.filter(|saved| saved.state == Some(digest));
+        let explicit = explicit.filter(|saved| saved.state == self.state.digest());
         self.stepper.restore(&checkpoint.past, explicit);
         self.step = checkpoint.step;
         self.go_on_with(checkpoint.control);
+        self.restore_choice(checkpoint.choice);
         Ok(())
     }
 

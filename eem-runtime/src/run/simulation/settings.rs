@@ -28,7 +28,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Whether the explicit scheme gives a step the energy that it misses by motion before heat.
     #[must_use]
     pub fn is_motion_first(&self) -> bool {
-        self.stepper.is_motion_first()
+        let automatic = self.automatic.as_ref();
+        automatic.map_or(self.stepper.is_motion_first(), |automatic| {
+            automatic.is_motion_first
+        })
     }
 
     /// Changes what the explicit scheme takes to give a step the energy that it misses: heat first, as is
@@ -36,6 +39,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// the step; motion leaves productions as they are. It has no effect on other schemes.
     pub fn set_motion_first(&mut self, is_motion_first: bool) {
         self.stepper.set_motion_first(is_motion_first);
+        if let Some(automatic) = &mut self.automatic {
+            automatic.is_motion_first = is_motion_first;
+        }
     }
 
     /// How hard a step tries.

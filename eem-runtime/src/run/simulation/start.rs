@@ -4,9 +4,17 @@ use nalgebra::SVector;
 
 use crate::element::layout::Layout;
 use crate::element::state::{Energy, State};
+use crate::number::compact::compact;
 use crate::number::compensated::{Compensated, Sum};
 use crate::number::scalar::Real;
 use crate::scene::Scene;
+
+/// The group of each element, and its place there.
+pub(super) fn places_in<const D: usize, S: Real>(scene: &Scene<D, S>) -> Vec<[u32; 2]> {
+    let elements = scene.elements.iter();
+    let places = elements.map(|entry| [entry.group, entry.place].map(compact));
+    places.collect()
+}
 
 /// The state that the scene describes; its entropies are still to be found.
 pub(super) fn initial_state<const D: usize, S: Real>(

@@ -1,8 +1,10 @@
 //! What steps a scene: its elements, what acts on them, and the solver.
 
+use core::mem;
+
 use crate::algebra::system::MOST_FIXED;
 use crate::element::conduction::Conduction;
-use crate::element::group::{Elements, Group, Placed};
+use crate::element::group::{Elements, Group, Loose, Placed};
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
@@ -56,32 +58,55 @@ impl<S: Real, const D: usize> Stepper<S, D> {
         parts: Parts<'_, S, D>,
         state: &mut State<S>,
     ) -> Result<Self, SceneError> {
+        let blueprints = blueprints.into_iter();
+        let elements = blueprints.map(Blueprint::into_loose).collect();
+        let mut stepper = Self::build(elements, parts, state);
+        let mut found = Ok(());
+        stepper.each_mut(|group| {
+            if found.is_ok() {
+                found = group.initialize(state);
+            }
+        });
+        found?;
+        Ok(stepper)
+    }
+
+    /// For elements in a state whose entropies are known, or still to be found.
+    pub(super) fn build(
+        elements: Vec<Box<dyn Loose<S, D>>>,
+        parts: Parts<'_, S, D>,
+        state: &State<S>,
+    ) -> Self {
         let placed = Placed {
             nodes: parts.elements,
             layout: parts.layout,
         };
-        if parts.scheme.closing() != Closing::Explicit {
-            let by = parts.scheme.conjugates();
-            let groups = blueprints.into_iter();
-            let groups = groups.map(|blueprint| blueprint.build(by, placed));
-            let newton = Newton::new(groups.collect(), parts, state)?;
-            return Ok(Self::Newton(Box::new(newton)));
+        let elements = elements.into_iter();
+        if parts.scheme.closing() == Closing::Explicit {
+            let groups = elements.map(|elements| elements.build_explicit(placed));
+            let site = Site {
+                masses: parts.masses,
+                elements: parts.elements,
+                layout: parts.layout,
+                conduction: parts.conduction,
+                loads: parts.loads,
+            };
+            return Self::Explicit(Box::new(Explicit::new(groups.collect(), site)));
         }
-        let groups = blueprints.into_iter();
-        let mut groups: Vec<_> = groups
-            .map(|blueprint| blueprint.build_explicit(placed))
-            .collect();
-        for group in &mut groups {
-            group.elements_mut().initialize(state)?;
+        let by = parts.scheme.conjugates();
+        let groups = elements.map(|elements| elements.build(by, placed));
+        Self::Newton(Box::new(Newton::new(groups.collect(), parts, state)))
+    }
+
+    /// Gives its elements away; it cannot step any more.
+    pub(super) fn take_elements(&mut self) -> Vec<Box<dyn Loose<S, D>>> {
+        match self {
+            Self::Newton(newton) => {
+                let groups = mem::take(&mut newton.groups).into_iter();
+                groups.map(Group::into_loose).collect()
+            }
+            Self::Explicit(explicit) => explicit.take_elements(),
         }
-        let site = Site {
-            masses: parts.masses,
-            elements: parts.elements,
-            layout: parts.layout,
-            conduction: parts.conduction,
-            loads: parts.loads,
-        };
-        Ok(Self::Explicit(Box::new(Explicit::new(groups, site))))
     }
 
     /// Whether an explicit scheme closes its steps by motion before heat.
@@ -126,11 +151,11 @@ impl<S: Real, const D: usize> Stepper<S, D> {
         }
     }
 
-    /// What the start of the next step depends on besides the state.
-    pub(super) fn past(&self) -> (SavedPast<S>, Option<SavedExplicit<S>>) {
+    /// What the start of the step from this state depends on besides.
+    pub(super) fn past(&self, state: &State<S>) -> (SavedPast<S>, Option<SavedExplicit<S>>) {
         match self {
             Self::Newton(newton) => (newton.solver.past(), None),
-            Self::Explicit(explicit) => (SavedPast::none(), Some(explicit.save())),
+            Self::Explicit(explicit) => (SavedPast::none(), Some(explicit.save(state))),
         }
     }
 
@@ -191,15 +216,11 @@ impl<S: Real, const D: usize> Stepper<S, D> {
 }
 
 impl<S: Real, const D: usize> Newton<S, D> {
-    /// Finds the entropies of an initial state, and gets ready.
     fn new(
         mut groups: Vec<Box<dyn Group<S, D>>>,
         parts: Parts<'_, S, D>,
-        state: &mut State<S>,
-    ) -> Result<Self, SceneError> {
-        for group in &mut groups {
-            group.elements_mut().initialize(state)?;
-        }
+        state: &State<S>,
+    ) -> Self {
         let Parts {
             scheme,
             masses,
@@ -215,13 +236,13 @@ impl<S: Real, const D: usize> Newton<S, D> {
         for group in &mut groups {
             group.connect(&solver.sites(layout, conduction));
         }
-        Ok(Self {
+        Self {
             groups,
             solver,
             loads: whole,
             stages: (0..stages).map(|_| memory()).collect(),
             between: scheme.is_split().then(|| state.clone()),
-        })
+        }
     }
 
     /// Evaluates the loads of the step from `time` by `step` at the positions `q0`.

@@ -29,6 +29,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// How often the forces of all elements have been evaluated since the simulation was made, once for each
     /// stage of a scheme with several.
     pub(crate) fn evaluations(&self) -> u64 {
-        self.stepper.evaluations()
+        let earlier = self
+            .automatic
+            .as_ref()
+            .map_or(0, |automatic| automatic.evaluations);
+        earlier + self.stepper.evaluations()
     }
 }

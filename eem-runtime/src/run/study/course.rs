@@ -79,8 +79,11 @@ impl Course {
             Steps::Controlled(_) => FIRST * self.end,
         };
         let mut run = Simulation::new(build(), self.scheme, S::from_f64(step))?;
-        if let Steps::Controlled(relative) = self.steps {
-            run.control_steps(Tolerance::new(S::from_f64(relative)))?;
+        match self.steps {
+            Steps::Equal(_) => run.fix_steps(),
+            Steps::Controlled(relative) => {
+                run.control_steps(Tolerance::new(S::from_f64(relative)))?;
+            }
         }
         Ok(run)
     }

@@ -21,6 +21,9 @@ pub struct StepStatistics {
     pub rejected_by_domain: u64,
     /// Rejected since they did not prove their laws.
     pub rejected_by_law: u64,
+    /// How often [`Scheme::Auto`](crate::Scheme::Auto) has gone on with another scheme.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub changes_of_scheme: u64,
 }
 
 impl StepStatistics {
@@ -42,6 +45,11 @@ impl StepStatistics {
         };
         *cause += 1;
         true
+    }
+
+    /// Those that were rejected for another reason than their error.
+    pub(crate) const fn failures(&self) -> u64 {
+        self.rejected() - self.rejected_by_error
     }
 
     /// All that were rejected.

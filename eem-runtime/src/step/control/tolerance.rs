@@ -5,6 +5,9 @@ use crate::number::scalar::{Mask, Real, is_positive};
 use crate::scene::error::SceneError;
 use crate::step::control::accuracy::Accuracy;
 
+/// Numbers whose rounding is coarser are of single precision.
+const SINGLE: f64 = 1e-12;
+
 /// The accuracy that a run asks of its steps.
 ///
 /// Positions are compared with `|q|₂`, momenta with the largest `|p|₂` of the run so far, and each temperature
@@ -48,6 +51,14 @@ pub struct Tolerance<S = f64> {
     pub momentum: S,
     /// `a_θ`, K.
     pub temperature: S,
+}
+
+/// A relative tolerance of 1e-6, in single precision of 1e-3.
+impl<S: Real> Default for Tolerance<S> {
+    fn default() -> Self {
+        let of_double = S::EPSILON.to_f64() < SINGLE;
+        Self::new(S::from_f64(if of_double { 1e-6 } else { 1e-3 }))
+    }
 }
 
 impl<S: Real> Tolerance<S> {

@@ -16,8 +16,8 @@ use crate::step::explicit::memory::Target;
 pub(crate) struct SavedExplicit<S> {
     /// Whether the next step takes rates and targets from the state instead of what follows.
     pub(crate) is_new: bool,
-    /// The state that it belongs to; none yet where it is not saved with one.
-    pub(crate) state: Option<Digest>,
+    /// The state that it belongs to.
+    pub(crate) state: Digest,
     pub(crate) is_motion_first: bool,
     pub(crate) targets: Vec<Target<S>>,
     pub(crate) shares: Compensated<S>,

@@ -2,15 +2,16 @@
 
 use super::Explicit;
 use super::past::SavedExplicit;
+use crate::element::state::State;
 use crate::number::scalar::Real;
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// What the next step depends on besides the state.
-    pub(crate) fn save(&self) -> SavedExplicit<S> {
+    /// What the step from this state depends on besides.
+    pub(crate) fn save(&self, state: &State<S>) -> SavedExplicit<S> {
         let (books, start) = (&self.books, &self.start);
         let mut saved = SavedExplicit {
             is_new: !self.is_ready,
-            state: None,
+            state: state.digest(),
             is_motion_first: self.is_motion_first,
             targets: books.targets.clone(),
             shares: books.shares.clone(),

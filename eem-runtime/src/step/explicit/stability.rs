@@ -11,6 +11,9 @@ use crate::step::scheme::Scheme;
 const IMAGINARY_LIMIT: f64 = 5.96;
 const REAL_LIMIT: f64 = 6.39;
 
+/// Of the fastest vibration, conduction and dashpot.
+const LIMITS: [f64; 3] = [IMAGINARY_LIMIT, REAL_LIMIT, REAL_LIMIT];
+
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// The reason behind a failure, if the step is too long to be stable.
     #[cold]
@@ -33,12 +36,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let time = (view.state.time.value + view.step).to_f64();
         let h = view.step.to_f64();
         let rates = self.fastest(view);
-        let limits = [
-            ("ωh", IMAGINARY_LIMIT),
-            ("κh/c", REAL_LIMIT),
-            ("kh/η", REAL_LIMIT),
-        ];
-        for ((rate, limit), fastest) in limits.into_iter().zip(rates) {
+        let limits = ["ωh", "κh/c", "kh/η"].into_iter().zip(LIMITS);
+        for ((rate, limit), fastest) in limits.zip(rates) {
             if h * fastest > limit {
                 return StepFailure::Unstable {
                     rate,
@@ -51,6 +50,13 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             }
         }
         self.too_cold(&failure, view).unwrap_or(failure)
+    }
+
+    /// The step as a share of the longest one that is stable.
+    pub(crate) fn share_of_stable_step(&self, view: &ExplicitView<'_, S, D>) -> f64 {
+        let rates = self.fastest(view).into_iter();
+        let shares = rates.zip(LIMITS).map(|(rate, limit)| rate / limit);
+        view.step.to_f64() * shares.fold(0.0, f64::max)
     }
 
     /// The fastest vibration, conduction and dashpot, by bounds of the eigenvalues: sums of rows of the

@@ -4,12 +4,12 @@ use crate::element::conjugates::Variational;
 use crate::element::error::StateError;
 use crate::element::group::element_group::ElementGroup;
 use crate::element::group::explicit::closed::Closed;
-use crate::element::group::explicit::interface::{
-    ClosingView, ExplicitGroup, NodeStiffness, PlaceOf, StageRates, StageView,
+use crate::element::group::explicit::view::{
+    ClosingView, NodeStiffness, PlaceOf, StageRates, StageView,
 };
-use crate::element::group::interface::Elements;
+use crate::element::group::interface::{Elements, ExplicitGroup, Loose};
+use crate::element::group::loose::LooseElements;
 use crate::element::group::view::Placed;
-use crate::element::handle::Element;
 use crate::element::kinematics::Kinematics;
 use crate::element::state::State;
 use crate::material::free_energy::{Array, FreeEnergy};
@@ -38,10 +38,7 @@ where
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
 {
-    pub(crate) fn new<const P: usize>(
-        elements: Vec<(Element, [(M, K); P])>,
-        placed: Placed<'_>,
-    ) -> Self {
+    pub(crate) fn new(elements: LooseElements<S, M, K, D>, placed: Placed<'_>) -> Self {
         let elements = ElementGroup::new(elements, placed);
         let points = elements.points().count();
         Self {
@@ -65,6 +62,10 @@ where
 
     fn elements_mut(&mut self) -> &mut dyn Elements<S, D> {
         &mut self.elements
+    }
+
+    fn into_loose(self: Box<Self>) -> Box<dyn Loose<S, D>> {
+        Box::new(self.elements.into_loose())
     }
 
     fn join(&mut self, component_of: &[u32], places: &dyn PlaceOf) {

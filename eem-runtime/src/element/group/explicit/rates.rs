@@ -8,7 +8,7 @@ use crate::element::conjugates::{Infeasible, Variational};
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, along};
 use crate::element::group::explicit::group::FreeGroup;
-use crate::element::group::explicit::interface::{StageRates, StageView};
+use crate::element::group::explicit::view::{StageRates, StageView};
 use crate::element::group::point::Point;
 use crate::element::kinematics::{Arms, Gradient, Kinematics, Measures};
 use crate::material::free_energy::{Array, FreeEnergy, Rates};

@@ -2,7 +2,7 @@
 
 use crate::element::conjugates::Variational;
 use crate::element::group::explicit::group::FreeGroup;
-use crate::element::group::explicit::interface::NodeStiffness;
+use crate::element::group::explicit::view::NodeStiffness;
 use crate::element::group::point::Point;
 use crate::element::kinematics::Kinematics;
 use crate::element::state::State;

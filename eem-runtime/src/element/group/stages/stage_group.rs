@@ -8,9 +8,9 @@ use crate::algebra::system::LinearSystem;
 use crate::element::conjugates::Variational;
 use crate::element::error::StateError;
 use crate::element::group::element_group::ElementGroup;
-use crate::element::group::interface::{Elements, Group};
+use crate::element::group::interface::{Elements, Group, Loose};
+use crate::element::group::loose::LooseElements;
 use crate::element::group::view::{Along, ElementGeneric, Old, Placed, Sites, StepView, Trial};
-use crate::element::handle::Element;
 use crate::element::impulse::Impulses;
 use crate::element::kinematics::Kinematics;
 use crate::element::recount::Recount;
@@ -42,9 +42,9 @@ where
     K: Kinematics<S, D>,
     C: Source<S, M, K, D>,
 {
-    pub(crate) fn new<const P: usize>(
+    pub(crate) fn new(
         rule: &'static Tableau,
-        elements: Vec<(Element, [(M, K); P])>,
+        elements: LooseElements<S, M, K, D>,
         placed: Placed<'_>,
     ) -> Self {
         let elements = ElementGroup::new(elements, placed);
@@ -72,6 +72,10 @@ where
 
     fn elements_mut(&mut self) -> &mut dyn Elements<S, D> {
         &mut self.elements
+    }
+
+    fn into_loose(self: Box<Self>) -> Box<dyn Loose<S, D>> {
+        Box::new(self.elements.into_loose())
     }
 
     fn connect(&mut self, sites: &Sites<'_, S, D>) {

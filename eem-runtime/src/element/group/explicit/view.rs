@@ -1,7 +1,5 @@
-//! What an explicit scheme sees of elements.
+//! What elements see of an explicit scheme.
 
-use crate::element::error::StateError;
-use crate::element::group::interface::Elements;
 use crate::element::state::State;
 use crate::number::compensated::Total;
 use crate::number::scalar::Real;
@@ -88,42 +86,4 @@ pub(crate) struct NodeStiffness<S> {
 pub(crate) trait PlaceOf {
     /// The place of a node of an element of a component.
     fn place_of(&self, component: u32, node: u32) -> u32;
-}
-
-/// Elements of one model in an explicit scheme.
-pub(crate) trait ExplicitGroup<S: Real, const D: usize>: Send + Sync {
-    /// The elements in a state.
-    fn elements(&self) -> &dyn Elements<S, D>;
-
-    /// The same, to be changed.
-    fn elements_mut(&mut self) -> &mut dyn Elements<S, D>;
-
-    /// Learns to which component each element belongs, and where its nodes are in the vectors of stages;
-    /// once per scene.
-    fn join(&mut self, component_of: &[u32], places: &dyn PlaceOf);
-
-    /// Forces and rates at a stage.
-    fn rates(
-        &self,
-        view: &StageView<'_, S>,
-        rates: &mut StageRates<'_, S>,
-    ) -> Result<(), StateError>;
-
-    /// Temperatures and energies of the open components.
-    fn close(&mut self, view: &mut ClosingView<'_, S>) -> Result<(), StateError>;
-
-    /// Adds the forces on the nodes that were found when components were last closed, for those that are
-    /// asked for, and writes `γ̇` and `g γ̇`.
-    fn pull(&self, asked: &[bool], forces: &mut [S], creeping: [&mut [S]; 2]);
-
-    /// The rates of the closed state, at temperatures that differ from those of the last
-    /// [`close`](Self::close) by little.
-    fn finish(
-        &self,
-        view: &StageView<'_, S>,
-        rates: &mut StageRates<'_, S>,
-    ) -> Result<(), StateError>;
-
-    /// How stiff elements are in a state, one after the other.
-    fn stiffness(&self, state: &State<S>, see: &mut dyn FnMut(NodeStiffness<S>));
 }

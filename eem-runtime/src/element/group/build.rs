@@ -1,0 +1,75 @@
+//! What schemes make of loose elements.
+
+use super::element_group::ElementGroup;
+use super::explicit::FreeGroup;
+use super::interface::{ExplicitGroup, Group, Loose};
+use super::loose::LooseElements;
+use super::stages::{Projections, Source, StageGroup, Values};
+use super::view::Placed;
+use crate::element::conjugates::{
+    Conjugates, EemEntropy, EemTemperature, ElementScheme, Midpoint, MidpointTemperature,
+    Trapezoidal, TrapezoidalTemperature, Variational,
+};
+use crate::element::kinematics::Kinematics;
+use crate::element::tableau::Tableau;
+use crate::material::free_energy::FreeEnergy;
+use crate::number::scalar::Real;
+
+impl<S, M, K, const D: usize> Loose<S, D> for LooseElements<S, M, K, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+{
+    fn build(self: Box<Self>, by: Conjugates, placed: Placed<'_>) -> Box<dyn Group<S, D>> {
+        let group = match by {
+            Conjugates::EntropyForm => single::<S, M, K, EemEntropy, D>,
+            Conjugates::TemperatureForm => single::<S, M, K, EemTemperature, D>,
+            Conjugates::MeanMeasures => single::<S, M, K, Variational, D>,
+            Conjugates::Midpoint => single::<S, M, K, Midpoint, D>,
+            Conjugates::MidpointTemperature => single::<S, M, K, MidpointTemperature, D>,
+            Conjugates::End => single::<S, M, K, Trapezoidal, D>,
+            Conjugates::EndTemperature => single::<S, M, K, TrapezoidalTemperature, D>,
+            Conjugates::Stages(rule) if rule.path.is_some() => {
+                return staged::<S, M, K, Projections<S, M, K, D>, D>(rule, *self, placed);
+            }
+            Conjugates::Stages(rule) => {
+                return staged::<S, M, K, Values<S, M, K, D>, D>(rule, *self, placed);
+            }
+        };
+        group(*self, placed)
+    }
+
+    fn build_explicit(self: Box<Self>, placed: Placed<'_>) -> Box<dyn ExplicitGroup<S, D>> {
+        Box::new(FreeGroup::new(*self, placed))
+    }
+}
+
+/// The group of a scheme with one set of forces.
+fn single<S, M, K, C, const D: usize>(
+    elements: LooseElements<S, M, K, D>,
+    placed: Placed<'_>,
+) -> Box<dyn Group<S, D>>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    Box::new(ElementGroup::<S, M, K, C, D>::new(elements, placed))
+}
+
+/// The group of a scheme that goes through stages, with conjugates of `C`.
+fn staged<S, M, K, C, const D: usize>(
+    rule: &'static Tableau,
+    elements: LooseElements<S, M, K, D>,
+    placed: Placed<'_>,
+) -> Box<dyn Group<S, D>>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: Source<S, M, K, D>,
+{
+    Box::new(StageGroup::<S, M, K, C, D>::new(rule, elements, placed))
+}

@@ -1,0 +1,28 @@
+//! What a run keeps that chooses its scheme.
+
+use crate::scene::entry::ElementEntry;
+use crate::step::automatic::Choice;
+
+/// What a run with `Scheme::Auto` keeps besides.
+pub(super) struct Automatic<S> {
+    pub(super) choice: Choice,
+    pub(super) has_solids: bool,
+    /// Where the elements are, for the next scheme.
+    pub(super) elements: Vec<ElementEntry<S>>,
+    /// How often all elements have been evaluated by earlier schemes.
+    pub(super) evaluations: u64,
+    /// For when the scheme is the explicit one.
+    pub(super) is_motion_first: bool,
+}
+
+impl<S> Automatic<S> {
+    pub(super) const fn new(elements: Vec<ElementEntry<S>>, has_solids: bool) -> Self {
+        Self {
+            choice: Choice::new(),
+            has_solids,
+            elements,
+            evaluations: 0,
+            is_motion_first: false,
+        }
+    }
+}

@@ -1,0 +1,241 @@
+//! A scheme that is chosen on the way: explicit where that takes least, implicit where stability would limit the
+//! steps, with all laws across the change.
+
+use std::f64::consts::FRAC_PI_2;
+use std::ops::ControlFlow;
+
+use eem::prelude::*;
+use eem::{Checkpoint, RestoreError, SceneError, StepFailure, StepReport, Tolerance};
+
+use crate::support::{DoublePendulum, ThermoViscoElastic, single_pendulum};
+
+/// A spring that softens by a factor e in so many kelvins.
+#[derive(Clone, Debug, FreeEnergy)]
+#[free_energy(|lambda: Stretch, theta: Temperature| {
+    0.5 * stiffness * exp((theta_ref - theta) / kelvins) * (lambda - length).powi(2)
+        + capacity * (theta - theta_ref - theta * ln(theta / theta_ref))
+})]
+struct Softening {
+    stiffness: f64,
+    length: f64,
+    kelvins: f64,
+    capacity: f64,
+    theta_ref: f64,
+}
+
+/// A mass that goes round on a spring of 10¹⁰ N/m, vibrations of 10⁵ rad/s, or of 20 N/m when it is hot.
+const ROTOR: Softening = Softening {
+    stiffness: 1e10,
+    length: 1.0,
+    kelvins: 10.0,
+    capacity: 1.0,
+    theta_ref: 300.0,
+};
+
+fn rotor(
+    tolerance: f64,
+    temperature: impl Fn(f64) -> f64 + Send + Sync + 'static,
+) -> Simulation<2> {
+    let mut scene = Scene::<2>::new();
+    let pivot = scene.anchor([0.0; 2]);
+    let mass = scene.mass(1.0, [1.0, 0.0], [0.0, 1.0]);
+    let spring = scene.spring(ROTOR, [pivot, mass]);
+    scene.set_temperature(spring, temperature(0.0));
+    scene.prescribe_temperature(spring, temperature);
+    let mut run = Simulation::new(scene, Scheme::Auto, 1e-3).unwrap();
+    run.control_steps(Tolerance::new(tolerance)).unwrap();
+    run
+}
+
+fn go_on(_: &Simulation<2>, _: &StepReport<f64>) -> ControlFlow<()> {
+    ControlFlow::Continue(())
+}
+
+#[test]
+fn accurate_motion_of_a_pendulum_is_explicit() {
+    let mut run = single_pendulum(Scheme::Auto, 0.05).run;
+    assert_eq!(run.tolerance(), Some(Tolerance::new(1e-6)));
+    run.run_until(5.0, go_on).unwrap();
+    let mut explicit = single_pendulum(Scheme::EemExplicit, 0.05).run;
+    explicit.control_steps(Tolerance::default()).unwrap();
+    explicit.run_until(5.0, go_on).unwrap();
+    assert_eq!(run.scheme(), Scheme::Auto);
+    assert_eq!(run.scheme_in_use(), Scheme::EemExplicit);
+    assert_eq!(run.step_statistics(), explicit.step_statistics());
+    assert_eq!(run.ledger(), explicit.ledger());
+}
+
+#[test]
+fn stiff_motion_becomes_implicit_and_soft_motion_explicit_again() {
+    // Stiff for a second, soft after three.
+    let mut run = rotor(1e-6, |t| 400.0 + 100.0 * (3.0 * (t - 2.0)).tanh());
+    let first = run.ledger();
+    let (mut used, mut worst) = (vec![run.scheme_in_use()], 0.0_f64);
+    let end = run.run_until(12.0, |run, report| {
+        if used.last() != Some(&run.scheme_in_use()) {
+            used.push(run.scheme_in_use());
+        }
+        assert!(report.defect.abs() <= report.bound, "{report:?}");
+        worst = worst.max((run.ledger().balance - first.balance).abs());
+        ControlFlow::Continue(())
+    });
+    end.unwrap();
+    let statistics = run.step_statistics().unwrap();
+    let [explicit, implicit] = [Scheme::EemExplicit, Scheme::EemEntropy6];
+    assert_eq!(used[..2], [explicit, implicit]);
+    assert_eq!(used.last(), Some(&explicit));
+    assert_eq!(statistics.changes_of_scheme, 2);
+    assert!(statistics.accepted < 20_000, "{statistics:?}");
+    // Roundings of the heat in the spring.
+    let rounding = f64::EPSILON * ROTOR.capacity * 500.0;
+    assert!(worst < 100.0 * rounding, "{:e}", worst / rounding);
+}
+
+#[test]
+fn laws_hold_when_the_scheme_changes() {
+    // Fast conduction between the two springs, which stability limits.
+    let stiff = DoublePendulum {
+        conductance: 1e6,
+        ..DoublePendulum::KRUEGER
+    };
+    let mut run = stiff.simulation(Scheme::Auto, 1e-3).run;
+    run.control_steps(Tolerance::new(1e-3)).unwrap();
+    let first = run.ledger();
+    let mut entropy = first.entropy;
+    let steps = run.run_until(2.0, |run, _| {
+        let now = run.ledger();
+        assert!((now.energy / first.energy - 1.0).abs() < 1e-14);
+        assert!(now.entropy >= entropy * (1.0 - f64::EPSILON));
+        entropy = now.entropy;
+        ControlFlow::Continue(())
+    });
+    steps.unwrap();
+    let statistics = run.step_statistics().unwrap();
+    assert_eq!(run.scheme_in_use(), Scheme::EemTemperature);
+    assert!(statistics.changes_of_scheme >= 1, "{statistics:?}");
+}
+
+/// The state and all that the next steps depend on.
+fn bits(run: &Simulation<2>) -> String {
+    format!("{:?}", run.checkpoint())
+}
+
+#[test]
+fn a_resumed_run_has_the_same_bits_whatever_scheme_it_was_using() {
+    let build = || rotor(1e-3, |t| 400.0 + 100.0 * (3.0 * (t - 2.0)).tanh());
+    let mut run = build();
+    let mut seen = [false; 2];
+    for _ in 0..8 {
+        for _ in 0..60 {
+            run.step().unwrap();
+        }
+        seen[usize::from(run.scheme_in_use() == Scheme::EemExplicit)] = true;
+        let saved = run.checkpoint();
+        let text = serde_json::to_string(&saved).unwrap();
+        let read: Checkpoint = serde_json::from_str(&text).unwrap();
+        let mut other = build();
+        other.restore(&read).unwrap();
+        assert_eq!(bits(&other), bits(&run));
+        for _ in 0..40 {
+            assert_eq!(other.step(), run.step());
+        }
+        assert_eq!(bits(&other), bits(&run));
+        // And back.
+        run.restore(&saved).unwrap();
+        run.run_until(run.time() + 0.05, go_on).unwrap();
+    }
+    assert_eq!(seen, [true; 2]);
+}
+
+#[test]
+fn a_checkpoint_whose_choice_is_impossible_is_refused() {
+    let build = || rotor(1e-3, |_| 300.0);
+    let mut run = build();
+    for _ in 0..5 {
+        run.step().unwrap();
+    }
+    let saved = run.checkpoint();
+    let before = bits(&run);
+    let mut refused = |edit: &dyn Fn(&mut serde_json::Value)| {
+        let mut text = serde_json::to_value(&saved).unwrap();
+        edit(&mut text["choice"]);
+        let edited: Checkpoint = serde_json::from_value(text).unwrap();
+        let refused = run.restore(&edited).unwrap_err();
+        assert_eq!(bits(&run), before);
+        refused
+    };
+    let error = refused(&|choice| choice["scheme"] = "midpoint".into());
+    assert!(matches!(error, RestoreError::Scheme { .. }), "{error}");
+    for name in ["spent", "due", "wait"] {
+        let error = refused(&|choice| choice["choice"][name] = (-1.0).into());
+        assert!(error.to_string().contains("choice of a scheme"), "{error}");
+    }
+    run.restore(&saved).unwrap();
+}
+
+#[test]
+fn where_one_scheme_finds_no_step_another_one_does() {
+    let cooling = |scheme| {
+        let mut scene = Scene::<2>::new();
+        let nodes = [0.0, 1.0].map(|x| scene.anchor([x, 0.0]));
+        let spring = scene.spring(ThermoViscoElastic::PENDULUM, nodes);
+        scene.set_temperature(spring, 300.2);
+        let air = scene.reservoir(300.0);
+        scene.conduct(spring, air, 1e5);
+        let mut run = Simulation::new(scene, scheme, 0.1).unwrap();
+        run.control_steps(Tolerance::new(1e-2)).unwrap();
+        run.limit_steps([0.02, 1.0]).unwrap();
+        let end = run.run_until(1.0, go_on);
+        (end, run, spring)
+    };
+    let (end, ..) = cooling(Scheme::EemExplicit);
+    let failure = end.unwrap_err().failure;
+    assert!(matches!(failure, StepFailure::TooSmall { .. }), "{failure}");
+    let (end, run, spring) = cooling(Scheme::Auto);
+    end.unwrap();
+    assert_eq!(run.step_statistics().unwrap().changes_of_scheme, 1);
+    assert!((run.temperature(spring).unwrap() - 300.0).abs() < 0.2);
+}
+
+#[test]
+fn solids_are_stepped_implicitly() {
+    use crate::support::solids::{SECTION, ThermoelasticSolid};
+    let mut scene = Scene::<2>::new();
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let nodes = corners.map(|at| scene.node(at, [0.0; 2]));
+    for point in scene.quadrilateral(ThermoelasticSolid::RUBBER, nodes, SECTION) {
+        scene.set_temperature(point, 300.0);
+    }
+    let mut run = Simulation::new(scene, Scheme::Auto, 0.01).unwrap();
+    run.run_until(0.05, go_on).unwrap();
+    assert_eq!(run.scheme_in_use(), Scheme::EemTemperature);
+}
+
+#[test]
+fn fixed_steps_are_those_of_the_scheme_in_use() {
+    let mut run = single_pendulum(Scheme::Auto, 0.05).run;
+    run.fix_steps();
+    let mut explicit = single_pendulum(Scheme::EemExplicit, 0.05).run;
+    for _ in 0..20 {
+        assert_eq!(run.step(), explicit.step());
+    }
+    let refused = run.control_steps(Tolerance::new(0.0)).unwrap_err();
+    assert!(matches!(refused, SceneError::Tolerance { .. }));
+}
+
+#[test]
+fn events_and_output_times_work_in_both_kinds() {
+    let mut run = rotor(1e-3, |_| 300.0);
+    let mut times = Vec::new();
+    run.run_at([0.1, 0.5, 0.7], |run| {
+        times.push(run.time());
+        ControlFlow::Continue(())
+    })
+    .unwrap();
+    assert_eq!(times, [0.1, 0.5, 0.7]);
+    assert_eq!(run.scheme_in_use(), Scheme::EemTemperature);
+    // A quarter of a turn.
+    let height = |run: &Simulation<2>| run.ledger().linear_momentum[1];
+    run.run_until_event(3.0, 1e-6, height, go_on).unwrap();
+    assert!((run.time() - FRAC_PI_2).abs() < 1e-2, "{}", run.time());
+}
