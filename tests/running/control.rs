@@ -353,3 +353,77 @@ fn a_lone_free_mass_is_no_reason_to_refuse_an_explicit_step() {
         run.step().unwrap();
     }
 }
+
+#[test]
+fn samples_between_steps_leave_the_steps_as_they_are() {
+    let times: Vec<f64> = (1..=40).map(|k| 0.05 * f64::from(k)).collect();
+    let mut exact = single_pendulum(Scheme::Gauss4, 1e-3).run;
+    for scheme in [
+        Scheme::EemEntropy,
+        Scheme::EemTemperature,
+        Scheme::EemEntropy4,
+        Scheme::EemExplicit,
+        Scheme::Variational,
+        Scheme::Auto,
+    ] {
+        let build = || {
+            let mut run = single_pendulum(scheme, 0.03).run;
+            if scheme.may_change_steps() {
+                run.control_steps(Tolerance::new(1e-4)).unwrap();
+            }
+            run
+        };
+        let (mut alone, mut sampled) = (build(), build());
+        to(&mut alone, 2.0);
+        let mut rows = Vec::new();
+        let first = sampled.ledger();
+        let end = sampled.sample_at(&times, |run| {
+            let ledger = run.ledger();
+            if scheme.is_exact() {
+                assert!((ledger.balance / first.balance - 1.0).abs() < 1e-14);
+            }
+            rows.push((run.time(), EndState::of(run)));
+            ControlFlow::Continue(())
+        });
+        assert_eq!(end, Ok(RunEnd::Reached));
+        assert_eq!(sampled.checkpoint(), alone.checkpoint(), "{scheme}");
+        let seen: Vec<f64> = rows.iter().map(|(time, _)| *time).collect();
+        assert_eq!(seen, times);
+        if scheme != Scheme::Variational {
+            let mut reference = single_pendulum(Scheme::Gauss4, 1e-3).run;
+            for (time, state) in rows.iter().take(12) {
+                to(&mut reference, *time);
+                let error = state.difference(&EndState::of(&reference), StateQuantity::Positions);
+                assert!(error.unwrap() < 1e-3, "{scheme} at {time}: {error:?}");
+            }
+        }
+    }
+    // Not in order, or in the past.
+    let error = exact
+        .sample_at(&[0.2, 0.1], |_| ControlFlow::Continue(()))
+        .unwrap_err();
+    assert!(matches!(error.failure, StepFailure::End { .. }), "{error}");
+    // Where the observer stops it.
+    let mut run = controlled(Scheme::EemExplicit, 1e-4);
+    let stop = |run: &Simulation<2>| {
+        if run.time() > 0.1 {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    };
+    assert_eq!(run.sample_at(&times, stop), Ok(RunEnd::Stopped));
+    assert_eq!(run.time().to_bits(), times[2].to_bits());
+    run.step().unwrap();
+}
+
+#[test]
+fn a_failed_search_for_an_event_leaves_the_control_as_it_was() {
+    let mut run = controlled(Scheme::EemEntropy, 1e-4);
+    to(&mut run, 0.5);
+    let before = (run.step_statistics(), run.step_size(), run.time());
+    let function = |run: &Simulation<2>| if run.time() > 0.5 { f64::NAN } else { 1.0 };
+    let error = run.run_until_event(2.0, 0.0, function, |_, _| ControlFlow::Continue(()));
+    assert!(error.is_err());
+    assert_eq!((run.step_statistics(), run.step_size(), run.time()), before);
+}

@@ -14,6 +14,7 @@ mod inspect;
 pub(crate) mod linearize;
 mod resume;
 pub(crate) mod run;
+mod sampling;
 mod settings;
 mod start;
 mod stepper;

@@ -68,7 +68,9 @@ pub enum StepFailure {
         value: f64,
     },
     /// Newton's method used up its iterations.
-    #[error("Newton's method did not converge, its last scaled update was {update:.1e}")]
+    #[error(
+        "Newton's method did not converge, its last scaled update was {update:.1e}; take a smaller step"
+    )]
     NotConverged {
         /// The largest scaled update of the last iteration.
         update: f64,
@@ -99,7 +101,9 @@ pub enum StepFailure {
         time: f64,
     },
     /// The tangent is singular.
-    #[error("the tangent matrix is singular")]
+    #[error(
+        "the tangent matrix is singular: in this step a force or a heat flow answers to no motion or temperature; take a smaller step"
+    )]
     SingularTangent,
     /// A load is not finite.
     #[error(
@@ -217,7 +221,7 @@ pub enum StepFailure {
         value: f64,
     },
     /// The function whose change of sign is an event has no sign.
-    #[error("the function of the event is not a number")]
+    #[error("the function of the event is not a number, it must be one in every state of the run")]
     EventFunction,
     /// A trial state has the wrong number of unknowns.
     #[error("{given} unknowns were given, the scene has {expected}")]

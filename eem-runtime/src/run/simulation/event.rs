@@ -70,13 +70,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             return Err(self.refused(StepFailure::EventFunction));
         }
         while self.is_before(end)? {
-            let mut report = self.step_towards(end)?;
-            let after = self.value(&mut function)?;
-            let found = Bracket::new(report.step, [before, after]);
-            let is_event = found.is_some();
-            if let Some(bracket) = found {
-                report = self.locate(bracket, report, [end, tolerance], &mut function)?;
-            }
+            let control = self.control.as_ref().map(|control| control.memory);
+            let usual = self.step;
+            let whole = self.step_towards(end)?;
+            let looked = self.look_for(&mut function, whole, before, [end, tolerance]);
+            let (report, after, is_event) = looked.inspect_err(|_| {
+                // As if the step had never been made.
+                self.step = usual;
+                if let (Some(own), Some(before)) = (&mut self.control, control) {
+                    own.memory = before;
+                }
+            })?;
             let stopped = observer(self, &report).is_break();
             if is_event {
                 return Ok(RunEnd::Event);
@@ -87,6 +91,25 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             before = after;
         }
         Ok(RunEnd::Reached)
+    }
+
+    /// The event in the last step, if there is one: the report of the step that is kept, and the function at the
+    /// end of the whole one.
+    fn look_for(
+        &mut self,
+        function: &mut impl FnMut(&Self) -> S,
+        whole: StepReport<S>,
+        before: S,
+        [end, tolerance]: [S; 2],
+    ) -> Result<(StepReport<S>, S, bool), StepError> {
+        let after = self.value(function)?;
+        match Bracket::new(whole.step, [before, after]) {
+            None => Ok((whole, after, false)),
+            Some(bracket) => {
+                let report = self.locate(bracket, whole, [end, tolerance], function)?;
+                Ok((report, after, true))
+            }
+        }
     }
 
     /// Replaces the last step, `report`, by a shorter one that ends just behind the event.

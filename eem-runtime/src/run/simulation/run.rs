@@ -84,7 +84,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// Each time is hit to the last bit by a shorter step, after which the steps have the size that they had
     /// before. The states that the observer sees are therefore states of the scheme, which obey the laws; those
-    /// of an interpolation between steps do not.
+    /// of an interpolation between steps do not. [`sample_at`](Self::sample_at) leaves the steps as they are.
     ///
     /// # Errors
     ///
@@ -183,7 +183,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// `end − t`, with t to twice the precision, s.
-    fn time_left(&self, end: S) -> S {
+    pub(super) fn time_left(&self, end: S) -> S {
         let Sum { value, carry } = self.state.time;
         (end - value) - carry
     }

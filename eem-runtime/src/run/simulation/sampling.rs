@@ -1,0 +1,118 @@
+//! States at times that the steps of a run know nothing of.
+
+use core::ops::ControlFlow;
+
+use super::Simulation;
+use super::run::RunEnd;
+use crate::element::state::State;
+use crate::number::scalar::{Discord, Mask, Real};
+use crate::step::error::{StepError, StepFailure};
+
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// Runs until the last of these times, s, in the steps of [`run_until`](Self::run_until), and calls `observer` at
+    /// each of them.
+    ///
+    /// A time between the ends of a step is reached by a step of the scheme that is then taken back, so that the run
+    /// has the bits that it has without. What the observer sees is a state of the scheme, as accurate as the others,
+    /// which obeys the laws; an interpolation between steps would not. Each time costs a step.
+    /// [`run_at`](Self::run_at) makes the steps end at the times instead, which is cheaper where they are rare, and
+    /// the way to meet a load that jumps.
+    ///
+    /// Where the observer stops the run, it stays at the state that the observer has seen.
+    ///
+    /// # Errors
+    ///
+    /// As [`run_until`](Self::run_until), of which each time is an end; times must not fall.
+    ///
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// use eem_runtime::{RunEnd, Scene, Scheme, Simulation};
+    ///
+    /// let mut scene = Scene::<2>::new();
+    /// scene.mass(1.0, [0.0, 0.0], [1.0, 0.0]);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.4)?;
+    /// let mut rows = Vec::new();
+    /// let end = run.sample_at(&[0.1, 0.3, 1.0, 1.6], |run| {
+    ///     rows.push((run.time(), run.ledger().kinetic_energy));
+    ///     ControlFlow::Continue(())
+    /// })?;
+    /// assert_eq!((end, run.time()), (RunEnd::Reached, 1.6));
+    /// assert_eq!(rows, [(0.1, 0.5), (0.3, 0.5), (1.0, 0.5), (1.6, 0.5)]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn sample_at(
+        &mut self,
+        times: &[S],
+        mut observer: impl FnMut(&Self) -> ControlFlow<()>,
+    ) -> Result<RunEnd, StepError> {
+        if S::LANES > 1 {
+            // Each of the numbers may have steps of its own.
+            return Err(self.refused(Discord.into()));
+        }
+        let mut last = self.time();
+        for &time in times {
+            if !last.at_most(time).all() {
+                let end = time.to_f64();
+                return Err(self.refused(StepFailure::End { end }));
+            }
+            last = time;
+        }
+        let mut left = times;
+        while let [time, ..] = *left {
+            let mut passed = 0;
+            if self.is_before(time)? {
+                self.step_towards(last)?;
+                let is_passed = |time: &&S| time.less(self.time()).all();
+                passed = left.iter().take_while(is_passed).count();
+                if passed > 0 && self.sample(&left[..passed], &mut observer)?.is_break() {
+                    return Ok(RunEnd::Stopped);
+                }
+            } else {
+                passed += 1;
+                if observer(self).is_break() {
+                    return Ok(RunEnd::Stopped);
+                }
+            }
+            left = &left[passed..];
+        }
+        Ok(RunEnd::Reached)
+    }
+
+    /// Shows the states at these times, which the last step has passed.
+    fn sample(
+        &mut self,
+        times: &[S],
+        observer: &mut impl FnMut(&Self) -> ControlFlow<()>,
+    ) -> Result<ControlFlow<()>, StepError> {
+        let after = State::clone(&self.state);
+        let past = self.stepper.past(&self.state);
+        let counted = (self.worst, self.corrections);
+        let seen = self.sample_from_start(times, observer);
+        if matches!(seen, Ok(ControlFlow::Break(()))) {
+            return seen;
+        }
+        self.state.copy_all_from(&after);
+        self.stepper.restore(&past.0, past.1.as_ref());
+        (self.worst, self.corrections) = counted;
+        self.has_stepped = false;
+        seen
+    }
+
+    /// The same, from where the last step began.
+    fn sample_from_start(
+        &mut self,
+        times: &[S],
+        observer: &mut impl FnMut(&Self) -> ControlFlow<()>,
+    ) -> Result<ControlFlow<()>, StepError> {
+        self.undo();
+        for &time in times {
+            let mut report = self.step_again(self.time_left(time))?;
+            self.arrive_at(time, &mut report);
+            if observer(self).is_break() {
+                return Ok(ControlFlow::Break(()));
+            }
+            self.undo();
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+}
