@@ -55,10 +55,10 @@ fn go_on(_: &Simulation<2>, _: &StepReport<f64>) -> ControlFlow<()> {
 fn accurate_motion_of_a_pendulum_is_explicit() {
     let mut run = single_pendulum(Scheme::Auto, 0.05).run;
     assert_eq!(run.tolerance(), Some(Tolerance::new(1e-6)));
-    run.run_until(5.0, go_on).unwrap();
+    run.run_until(5.0).unwrap();
     let mut explicit = single_pendulum(Scheme::EemExplicit, 0.05).run;
     explicit.control_steps(Tolerance::default()).unwrap();
-    explicit.run_until(5.0, go_on).unwrap();
+    explicit.run_until(5.0).unwrap();
     assert_eq!(run.scheme(), Scheme::Auto);
     assert_eq!(run.scheme_in_use(), Scheme::EemExplicit);
     assert_eq!(run.step_statistics(), explicit.step_statistics());
@@ -71,7 +71,7 @@ fn stiff_motion_becomes_implicit_and_soft_motion_explicit_again() {
     let mut run = rotor(1e-6, |t| 400.0 + 100.0 * (3.0 * (t - 2.0)).tanh());
     let first = run.ledger();
     let (mut used, mut worst) = (vec![run.scheme_in_use()], 0.0_f64);
-    let end = run.run_until(12.0, |run, report| {
+    let end = run.run_until_with(12.0, |run, report| {
         if used.last() != Some(&run.scheme_in_use()) {
             used.push(run.scheme_in_use());
         }
@@ -102,7 +102,7 @@ fn laws_hold_when_the_scheme_changes() {
     run.control_steps(Tolerance::new(1e-3)).unwrap();
     let first = run.ledger();
     let mut entropy = first.entropy;
-    let steps = run.run_until(2.0, |run, _| {
+    let steps = run.run_until_with(2.0, |run, _| {
         let now = run.ledger();
         assert!((now.energy / first.energy - 1.0).abs() < 1e-14);
         assert!(now.entropy >= entropy * (1.0 - f64::EPSILON));
@@ -142,7 +142,7 @@ fn a_resumed_run_has_the_same_bits_whatever_scheme_it_was_using() {
         assert_eq!(bits(&other), bits(&run));
         // And back.
         run.restore(&saved).unwrap();
-        run.run_until(run.time() + 0.05, go_on).unwrap();
+        run.run_until(run.time() + 0.05).unwrap();
     }
     assert_eq!(seen, [true; 2]);
 }
@@ -185,7 +185,7 @@ fn where_one_scheme_finds_no_step_another_one_does() {
         let mut run = Simulation::new(scene, scheme, 0.1).unwrap();
         run.control_steps(Tolerance::new(1e-2)).unwrap();
         run.limit_steps([0.02, 1.0]).unwrap();
-        let end = run.run_until(1.0, go_on);
+        let end = run.run_until(1.0);
         (end, run, spring)
     };
     let (end, ..) = cooling(Scheme::EemExplicit);
@@ -207,7 +207,7 @@ fn solids_are_stepped_implicitly() {
         scene.set_temperature(point, 300.0);
     }
     let mut run = Simulation::new(scene, Scheme::Auto, 0.01).unwrap();
-    run.run_until(0.05, go_on).unwrap();
+    run.run_until(0.05).unwrap();
     assert_eq!(run.scheme_in_use(), Scheme::EemTemperature);
 }
 

@@ -17,8 +17,8 @@ fn controlled(scheme: Scheme, tolerance: f64) -> Simulation<2> {
 }
 
 fn to(run: &mut Simulation<2>, end: f64) {
-    let reached = run.run_until(end, |_, _| ControlFlow::Continue(()));
-    assert_eq!(reached, Ok(RunEnd::Reached));
+    let reached = run.run_until(end);
+    assert_eq!(reached, Ok(()));
 }
 
 /// The pendulum after 2 s by Gauss collocation in steps of 1 ms.
@@ -75,7 +75,7 @@ fn estimates_are_the_errors_of_the_steps() {
         let mut before = run.checkpoint();
         let mut largest_momentum = 0.0_f64;
         let mut ratios = Vec::new();
-        run.run_until(1.0, |run, report| {
+        run.run_until_with(1.0, |run, report| {
             let mut fine = single_pendulum(scheme, 1.0).run;
             fine.restore(&before).unwrap();
             fine.fix_steps();
@@ -134,7 +134,7 @@ fn laws_hold_whatever_the_steps() {
         let mut run = controlled(scheme, tolerance);
         let first = run.ledger();
         let mut entropy = first.entropy;
-        run.run_until(10.0, |run, _| {
+        run.run_until_with(10.0, |run, _| {
             let ledger = run.ledger();
             assert!((ledger.balance - first.balance).abs() <= 4e-15 * first.energy);
             assert!(ledger.entropy >= entropy, "{scheme}");

@@ -24,7 +24,7 @@ fn the_end_is_hit_to_the_last_bit_and_the_step_size_stays() {
     for end in [0.3, 1.0, std::f64::consts::PI, 7.78] {
         let mut run = single_pendulum(Scheme::EemEntropy, 0.07).run;
         let mut sizes = Vec::new();
-        let reached = run.run_until(end, |run, report| {
+        let reached = run.run_until_with(end, |run, report| {
             assert_eq!(run.time().to_bits(), report.time.to_bits());
             assert_eq!(run.step_size().to_bits(), 0.07_f64.to_bits());
             sizes.push(report.step);
@@ -40,7 +40,7 @@ fn the_end_is_hit_to_the_last_bit_and_the_step_size_stays() {
                 .all(|size| size.to_bits() == 0.07_f64.to_bits())
         );
         // No step is left to make.
-        run.run_until(end, |_, _| unreachable!()).unwrap();
+        run.run_until_with(end, |_, _| unreachable!()).unwrap();
     }
 }
 
@@ -54,7 +54,7 @@ fn whole_numbers_of_steps_are_full_steps() {
         }
         let mut in_one_call = single_pendulum(Scheme::EemTemperature, step);
         let end = step * f64::from(steps);
-        in_one_call.run.run_until(end, watch).unwrap();
+        in_one_call.run.run_until_with(end, watch).unwrap();
         assert_eq!(in_one_call.run.time().to_bits(), end.to_bits());
         let [one, other] = [by_hand, in_one_call].map(|pendulum| pendulum.row().map(f64::to_bits));
         assert_eq!(one, other, "{steps} steps of {step} s");
@@ -72,7 +72,7 @@ fn an_observer_stops_a_run() {
             _ => ControlFlow::Continue(()),
         }
     };
-    let end = run.run_until(f64::INFINITY, observer).unwrap();
+    let end = run.run_until_with(f64::INFINITY, observer).unwrap();
     assert_eq!((end, seen), (RunEnd::Stopped, 5));
     approx::assert_relative_eq!(run.time(), 0.5);
 }
@@ -83,7 +83,7 @@ fn impossible_ends_are_errors() {
     run.step().unwrap();
     let before = bits(&run);
     for end in [f64::NAN, 0.0, -1.0, f64::NEG_INFINITY] {
-        let error = run.run_until(end, watch).unwrap_err();
+        let error = run.run_until_with(end, watch).unwrap_err();
         assert!(matches!(error.failure, StepFailure::End { .. }), "{error}");
         let error = run.run_until_event(end, 0.1, |_| 1.0, watch).unwrap_err();
         assert!(matches!(error.failure, StepFailure::End { .. }), "{error}");
@@ -94,7 +94,7 @@ fn impossible_ends_are_errors() {
 #[test]
 fn a_failed_step_ends_a_run_where_it_was() {
     let mut run = single_pendulum(Scheme::EemEntropy, 0.1).run;
-    run.run_until(0.5, watch).unwrap();
+    run.run_until_with(0.5, watch).unwrap();
     let settings = run.newton_settings();
     run.set_newton_settings(NewtonSettings {
         max_iterations: 1,
@@ -102,7 +102,7 @@ fn a_failed_step_ends_a_run_where_it_was() {
     })
     .unwrap();
     let before = bits(&run);
-    let error = run.run_until(2.05, watch).unwrap_err();
+    let error = run.run_until_with(2.05, watch).unwrap_err();
     assert!(matches!(error.failure, StepFailure::NotConverged { .. }));
     assert_eq!(before, bits(&run));
 }
@@ -112,7 +112,7 @@ fn a_run_allocates_nothing() {
     let Pendulum { mut run, bob, .. } = single_pendulum(Scheme::EemEntropy, 0.01);
     run.step().unwrap();
     let counted = allocation_counter::measure(|| {
-        run.run_until(1.003, watch).unwrap();
+        run.run_until_with(1.003, watch).unwrap();
         let height = |run: &Simulation<2>| run.position(bob).map_or(f64::NAN, |q| q.x);
         run.run_until_event(9.0, 1e-9, height, watch).unwrap();
     });
@@ -129,7 +129,7 @@ fn single_precision_reaches_its_end_too() {
         steps += 1;
         ControlFlow::Continue(())
     };
-    run.run_until(20.0, observer).unwrap();
+    run.run_until_with(20.0, observer).unwrap();
     assert_eq!((run.time().to_bits(), steps), (20.0_f32.to_bits(), 200));
 }
 
@@ -261,8 +261,8 @@ fn events_that_cannot_be_are_errors() {
     approx::assert_relative_eq!(error.time, 0.3, max_relative = 1e-15);
     approx::assert_relative_eq!(run.time(), 0.3, max_relative = 1e-15);
     // The run goes on as if nothing had happened.
-    run.run_until(0.8, watch).unwrap();
+    run.run_until_with(0.8, watch).unwrap();
     let mut quiet = single_pendulum(Scheme::EemEntropy, 0.1).run;
-    quiet.run_until(0.8, watch).unwrap();
+    quiet.run_until_with(0.8, watch).unwrap();
     assert_eq!(bits(&quiet), bits(&run));
 }

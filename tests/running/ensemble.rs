@@ -182,7 +182,7 @@ fn a_failed_step_is_reported_with_its_numbers() {
             (scene, stone)
         },
         |run, stone, _| {
-            run.run_until(3.0, |_, _| ControlFlow::Continue(()))?;
+            run.run_until(3.0)?;
             Ok(run.position(stone)?.x)
         },
     );

@@ -37,7 +37,7 @@ fn columns_hold_what_the_simulation_says() {
     let mut recorder = Recorder::new(&run, quantities).unwrap().every(4);
     recorder.reserve(10);
     let mut iterations = Vec::new();
-    let end = run.run_until(1.0, |run, report| {
+    let end = run.run_until_with(1.0, |run, report| {
         iterations.push(report.iterations);
         recorder.observe(run, report)
     });
@@ -96,7 +96,7 @@ fn recorders_refuse_what_a_simulation_does_not_have() {
     let quantities = [("q", Quantity::Position(pendulum.bob))];
     let mut recorder = Recorder::new(&pendulum.run, quantities).unwrap();
     let mut stranger = other.run;
-    let end = stranger.run_until(1.0, |run, report| recorder.observe(run, report));
+    let end = stranger.run_until_with(1.0, |run, report| recorder.observe(run, report));
     assert_eq!(end.unwrap(), RunEnd::Stopped);
     let error = recorder.record(&stranger).unwrap_err();
     assert!(matches!(error, SceneError::ForeignHandle { .. }));
@@ -118,7 +118,7 @@ fn csv_gives_back_every_bit() {
         ("iterations", Quantity::NewtonIterations),
     ];
     let mut recorder = Recorder::new(&run, quantities).unwrap();
-    run.run_until(0.2, |run, report| recorder.observe(run, report))
+    run.run_until_with(0.2, |run, report| recorder.observe(run, report))
         .unwrap();
     let mut bytes = Vec::new();
     recorder.write_csv(&mut bytes).unwrap();

@@ -263,8 +263,7 @@ fn a_run_that_fails_is_a_row_without_errors() {
 fn references_can_be_given() {
     let end_of = |scheme| {
         let mut run = single_pendulum(scheme, STEP / 64.0).run;
-        run.run_until(END, |_, _| ControlFlow::Continue(()))
-            .unwrap();
+        run.run_until(END).unwrap();
         EndState::of(&run)
     };
     let states = [Scheme::Gauss4, Scheme::Variational4].map(end_of);

@@ -41,7 +41,7 @@ const TIME: &str = "time";
 ///     ],
 /// )?
 /// .every(2);
-/// run.run_until(1.0, |run, report| recorder.observe(run, report))?;
+/// run.run_until_with(1.0, |run, report| recorder.observe(run, report))?;
 ///
 /// let names: Vec<_> = recorder.columns().iter().map(|column| column.name()).collect();
 /// assert_eq!(names, ["time", "q_x", "q_y", "distance"]);

@@ -268,8 +268,7 @@ fn what_a_run_saves_it_can_restore() {
             }
             let end = run.time() + 0.0037;
             if step % 7 == 0 {
-                run.run_until(end, |_, _| ControlFlow::Continue(()))
-                    .unwrap();
+                run.run_until(end).unwrap();
             }
             let saved = run.checkpoint();
             let restored = other.restore(&saved);

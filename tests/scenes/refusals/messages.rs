@@ -39,7 +39,7 @@ fn no_message_has_more_digits_than_a_number() {
         let mut run = Simulation::new(scene, Scheme::EemEntropy, 1e-300).unwrap();
         texts.push(run.set_step_size(-size).unwrap_err().to_string());
         let go_on = |_: &Simulation<2>, _: &StepReport<f64>| ControlFlow::Continue(());
-        texts.push(run.run_until(-size, go_on).unwrap_err().to_string());
+        texts.push(run.run_until_with(-size, go_on).unwrap_err().to_string());
         for text in texts {
             assert!(text.len() < 200, "{text}");
             let digits = text.split(|c: char| !c.is_ascii_digit()).map(str::len);

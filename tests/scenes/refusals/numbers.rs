@@ -171,7 +171,7 @@ fn ends_and_tolerances_of_runs() {
                 ControlFlow::Break(())
             }
         };
-        let end = run.run_until(wild, go_on);
+        let end = run.run_until_with(wild, go_on);
         // The increments h² F/m of a step may be too small for any number.
         let is_too_short = wild * wild < f64::MIN_POSITIVE;
         let is_expected = end.is_ok() == (wild >= 0.0) || is_too_short;

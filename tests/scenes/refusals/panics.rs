@@ -66,7 +66,7 @@ fn the_simulation_is_as_it_was_and_goes_on() {
             assert_eq!(before, bits(&run), "{}: {culprit}", scheme.name());
             // A run shortens its last step, which must not outlive a panic.
             let end = run.time() + 0.005;
-            let towards = AssertUnwindSafe(|| run.run_until(end, |_, _| ControlFlow::Continue(())));
+            let towards = AssertUnwindSafe(|| run.run_until(end));
             assert!(catch_unwind(towards).is_err());
             assert_eq!(before, bits(&run), "{}: {culprit} in a run", scheme.name());
             switch.store(false, Ordering::Relaxed);

@@ -44,7 +44,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// scene.spring(Spring { k: 1.0, length: 1.0 }, [wall, mass]);
     /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
     /// run.control_steps(Tolerance::new(1e-6))?;
-    /// run.run_until(5.0, |_, _| ControlFlow::Continue(()))?;
+    /// run.run_until(5.0)?;
     ///
     /// let exact = 1.0 + 0.1 * 5.0_f64.cos();
     /// assert!((run.position(mass)?[0] - exact).abs() < 5e-6);

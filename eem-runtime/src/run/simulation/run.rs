@@ -27,19 +27,41 @@ pub enum RunEnd {
 const END_ROUNDINGS: f64 = 2.0;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// Steps until the time `end`, s, and calls `observer` after every step.
+    /// Steps until the time `end`, s.
     ///
     /// The last step is shortened so that the time is then `end` to the last bit; the step size
     /// stays what it is. An end that lies a whole number of steps ahead, up to rounding, is reached
-    /// by full steps only. The end may be infinite for a run that the observer stops.
-    ///
-    /// The observer decides with [`ControlFlow`] whether the run goes on; a
-    /// [`Recorder`](crate::Recorder) is one. The run itself allocates nothing.
+    /// by full steps only. The run itself allocates nothing.
     ///
     /// # Errors
     ///
     /// The error of the step that failed, with the simulation as it was before that step;
     /// [`StepFailure::End`] if `end` is not a number or lies before the present time.
+    ///
+    /// ```
+    /// use eem_runtime::{Scene, Scheme, Simulation};
+    ///
+    /// let mut scene = Scene::<2>::new();
+    /// let mass = scene.mass(1.0, [0.0, 0.0], [3.0, 0.0]);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.3)?;
+    /// run.run_until(1.0)?;
+    /// assert_eq!((run.time(), run.step_size()), (1.0, 0.3));
+    /// assert_eq!(run.position(mass)?[0], 3.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn run_until(&mut self, end: S) -> Result<(), StepError> {
+        self.run_until_with(end, |_, _| ControlFlow::Continue(()))?;
+        Ok(())
+    }
+
+    /// The same, and calls `observer` after every step.
+    ///
+    /// The observer decides with [`ControlFlow`] whether the run goes on; a
+    /// [`Recorder`](crate::Recorder) is one. The end may be infinite for a run that the observer stops.
+    ///
+    /// # Errors
+    ///
+    /// As [`run_until`](Self::run_until).
     ///
     /// ```
     /// use core::ops::ControlFlow;
@@ -50,7 +72,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.3)?;
     ///
     /// let mut sizes = Vec::new();
-    /// let end = run.run_until(1.0, |_, report| {
+    /// let end = run.run_until_with(1.0, |_, report| {
     ///     sizes.push(report.step);
     ///     ControlFlow::Continue(())
     /// })?;
@@ -58,13 +80,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// assert_eq!(sizes[..3], [0.3; 3]);
     /// assert!((sizes[3] - 0.1_f64).abs() < 1e-15);
     ///
-    /// let end = run.run_until(f64::INFINITY, |run, _| {
+    /// let end = run.run_until_with(f64::INFINITY, |run, _| {
     ///     if run.time() > 1.5 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     /// })?;
     /// assert_eq!((end, run.time()), (RunEnd::Stopped, 1.6));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn run_until(
+    pub fn run_until_with(
         &mut self,
         end: S,
         mut observer: impl FnMut(&Self, &StepReport<S>) -> ControlFlow<()>,
@@ -111,7 +133,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         mut observer: impl FnMut(&Self) -> ControlFlow<()>,
     ) -> Result<RunEnd, StepError> {
         for time in times {
-            self.run_until(time, |_, _| ControlFlow::Continue(()))?;
+            self.run_until(time)?;
             if observer(self).is_break() {
                 return Ok(RunEnd::Stopped);
             }

@@ -102,7 +102,7 @@ impl Course {
                 }
             }
             Steps::Controlled(_) => {
-                run.run_until(S::from_f64(self.end), |run, report| {
+                run.run_until_with(S::from_f64(self.end), |run, report| {
                     watch(run, report);
                     ControlFlow::Continue(())
                 })?;
