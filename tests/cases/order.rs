@@ -2,6 +2,7 @@
 
 use eem::prelude::*;
 
+use crate::support::orders::{exact_row, step_to};
 use crate::support::{DoublePendulum, reference, single_pendulum};
 
 /// What a fitted slope over a factor of four in h may be off.
@@ -10,12 +11,9 @@ const SLOPE_TOLERANCE: f64 = 0.1;
 /// The largest error of q, p, γ, θ and σ at the time `end`, each relative to its size.
 fn error(scheme: Scheme, step: f64, end: f64) -> f64 {
     // time, q_x, q_y, p_x, p_y, γ, θ, σ, error estimate
-    let rows = reference("single_pendulum_exact.csv");
-    let exact = rows.iter().find(|row| row[0] >= end).unwrap();
+    let exact = exact_row("single_pendulum", end);
     let mut pendulum = single_pendulum(scheme, step);
-    while pendulum.run.time() < end - 0.5 * step {
-        pendulum.run.step().unwrap();
-    }
+    step_to(&mut pendulum.run, end);
     let [qx, qy, px, py, theta, gamma, sigma] = pendulum.row();
     let vector = |x: f64, y: f64, at: usize| {
         (x - exact[at]).hypot(y - exact[at + 1]) / exact[at].hypot(exact[at + 1])

@@ -4,6 +4,7 @@
 use eem::prelude::*;
 
 use crate::support::dashpots::{OneDashpot, TwoDashpots};
+use crate::support::orders::{exact_row, slope, step_to};
 use crate::support::{
     DoublePendulum, Hencky, Laws, ThermoViscoElastic, pendulums_in_contact, reference,
     single_pendulum,
@@ -30,30 +31,14 @@ const UNITS: [f64; 7] = [3.0, 3.0, 10.0, 10.0, 0.1, 300.0, 5.7];
 /// The largest error of the single pendulum at the time `end`.
 fn error(scheme: Scheme, step: f64, end: f64) -> f64 {
     // time, q_x, q_y, p_x, p_y, γ, θ, σ, error estimate
-    let rows = reference("single_pendulum_exact.csv");
-    let exact = rows.iter().find(|row| row[0] >= end).unwrap();
+    let exact = exact_row("single_pendulum", end);
     let mut pendulum = single_pendulum(scheme, step);
-    while pendulum.run.time() < end - 0.5 * step {
-        pendulum.run.step().unwrap();
-    }
+    step_to(&mut pendulum.run, end);
     let [qx, qy, px, py, theta, gamma, sigma] = pendulum.row();
     let row = [qx, qy, px, py, gamma, theta, sigma];
     let differences = row.iter().zip(&exact[1..]).zip(UNITS);
     let errors = differences.map(|((x, exact), unit)| (x - exact).abs() / unit);
     errors.fold(0.0, f64::max)
-}
-
-/// The slope of a least-squares line through (ln h, ln error) for h, h/2, h/4, …
-fn slope(errors: &[f64]) -> f64 {
-    #[expect(clippy::cast_precision_loss, reason = "a handful of points")]
-    let middle = (errors.len() - 1) as f64 / 2.0;
-    let (mut above, mut below, mut x) = (0.0, 0.0, middle);
-    for error in errors {
-        above += x * error.log2();
-        below += x * x;
-        x -= 1.0;
-    }
-    above / below
 }
 
 #[test]

@@ -2,9 +2,9 @@
 
 use eem::prelude::*;
 
+use crate::support::orders::{exact_row, slope, step_to};
 use crate::support::{
-    DoublePendulum, Hencky, Laws, ThermoViscoElastic, pendulums_in_contact, reference,
-    single_pendulum,
+    DoublePendulum, Hencky, Laws, ThermoViscoElastic, pendulums_in_contact, single_pendulum,
 };
 
 const SCHEME: Scheme = Scheme::Variational4;
@@ -16,27 +16,11 @@ const MOMENTUM_TOLERANCE: f64 = 1e-13;
 /// The entropy is a sum of rounded terms; a difference of two can be off by an ulp of each.
 const ENTROPY_TOLERANCE: f64 = -2.0;
 
-/// The slope of a least-squares line through (ln h, ln error) for h, h/2, h/4, …
-fn slope(errors: &[f64]) -> f64 {
-    #[expect(clippy::cast_precision_loss, reason = "a handful of points")]
-    let middle = (errors.len() - 1) as f64 / 2.0;
-    let (mut above, mut below, mut x) = (0.0, 0.0, middle);
-    for error in errors {
-        above += x * error.log2();
-        below += x * x;
-        x -= 1.0;
-    }
-    above / below
-}
-
 /// The largest relative error of q, p and θ of a double pendulum at a time of the reference.
 fn error(case: &DoublePendulum, step: f64, end: f64) -> f64 {
-    let rows = reference(&format!("double_pendulum_{}_exact.csv", case.name));
-    let exact = rows.iter().find(|row| row[0] >= end).unwrap();
+    let exact = exact_row(&format!("double_pendulum_{}", case.name), end);
     let mut pendulum = case.simulation(SCHEME, step);
-    while pendulum.run.time() < end - 0.5 * step {
-        pendulum.run.step().unwrap();
-    }
+    step_to(&mut pendulum.run, end);
     let norm = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
     let row = pendulum.row();
     let errors = [0..6, 6..12, 12..14].map(|part| {

@@ -76,6 +76,20 @@ pub(crate) struct EntropyBalance {
     pub(crate) supply: &'static [f64],
 }
 
+impl EntropyBalance {
+    /// `s_i = s⁰ + h Σ_j rates_j Φ_j` of a stage whose temperature is unknown, with the row of its own entropy.
+    pub(crate) const fn of_stage(stage: usize, [own, rates, supply]: [&'static [f64]; 3]) -> Self {
+        Self {
+            entropies: own,
+            old: 1.0,
+            rates,
+            stage,
+            unknown: stage,
+            supply,
+        }
+    }
+}
+
 /// How the end of a step follows from the stages.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Ending {

@@ -52,14 +52,7 @@ const fn supply(stage: usize) -> [f64; 3] {
 }
 
 const fn balance(stage: usize) -> EntropyBalance {
-    EntropyBalance {
-        entropies: &OWN[stage],
-        old: 1.0,
-        rates: &RATES[stage],
-        stage,
-        unknown: stage,
-        supply: &SUPPLY[stage],
-    }
+    EntropyBalance::of_stage(stage, [&OWN[stage], &RATES[stage], &SUPPLY[stage]])
 }
 
 /// See the module.

@@ -52,12 +52,5 @@ pub(super) const RULE: Tableau = Tableau {
 };
 
 const fn balance(stage: usize) -> EntropyBalance {
-    EntropyBalance {
-        entropies: &OWN[stage],
-        old: 1.0,
-        rates: &RATES[stage],
-        stage,
-        unknown: stage,
-        supply: &SUPPLY[stage],
-    }
+    EntropyBalance::of_stage(stage, [&OWN[stage], &RATES[stage], &SUPPLY[stage]])
 }
