@@ -2,6 +2,8 @@
 
 pub use eem_derive::FreeEnergy;
 pub use eem_runtime::*;
+/// Vectors and matrices of positions, momenta and of [`Generic`].
+pub use nalgebra;
 
 /// Everything that a program which builds and steps scenes needs, for `use eem::prelude::*`.
 ///

@@ -32,7 +32,7 @@ fn insulated_pendulum(effort: Effort) -> Tally {
             produced.abs() <= 0.0,
             format!("{}: ΔS = {produced:e} J/K", scheme.name()),
         );
-        let off = |of: fn(&Ledger<f64, 2>) -> f64| (of(&end) - of(&start)).abs();
+        let off = |of: fn(&Ledger<2>) -> f64| (of(&end) - of(&start)).abs();
         tally.note(format!(
             "{}: |E − E₀| = {:.1e} J of {:.1e} J, |J − J₀|/J₀ = {:.1e}",
             scheme.name(),

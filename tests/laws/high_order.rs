@@ -178,7 +178,7 @@ fn stiff_and_weak_conduction_keep_all_laws() {
 }
 
 /// The sum of the magnitudes that enter the balance, whose roundings its defect is made of.
-fn magnitude<const D: usize>(ledger: &Ledger<f64, D>) -> f64 {
+fn magnitude<const D: usize>(ledger: &Ledger<D>) -> f64 {
     let terms = [
         ledger.kinetic_energy,
         ledger.potential_energy,

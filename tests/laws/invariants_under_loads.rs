@@ -72,7 +72,7 @@ fn thermal(model: &LogarithmicStiffness) -> f64 {
 fn defect<const N: usize>(
     run: &mut Simulation<3>,
     cancelling: f64,
-    terms: impl Fn(&Ledger<f64, 3>) -> [f64; N],
+    terms: impl Fn(&Ledger<3>) -> [f64; N],
 ) -> f64 {
     let sum = |terms: [f64; N]| terms.iter().sum::<f64>();
     let size = |terms: [f64; N]| cancelling + terms.iter().map(|term| term.abs()).sum::<f64>();
@@ -90,7 +90,7 @@ fn defect<const N: usize>(
 }
 
 /// Kinetic, potential and internal energy, less the work of forces.
-fn mechanical(ledger: &Ledger<f64, 3>) -> [f64; 4] {
+fn mechanical(ledger: &Ledger<3>) -> [f64; 4] {
     [
         ledger.kinetic_energy,
         ledger.potential_energy,
@@ -220,7 +220,7 @@ fn an_isothermal_dashpot_loses_free_energy_in_every_step() {
             is_pushed,
             Heat::Prescribed,
         );
-        let terms = |ledger: &Ledger<f64, 3>| {
+        let terms = |ledger: &Ledger<3>| {
             let [kinetic, potential, internal, work] = mechanical(ledger);
             [
                 kinetic,

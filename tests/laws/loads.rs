@@ -16,7 +16,7 @@ const EEM: [Scheme; 4] = [
 ];
 
 /// The sum of the magnitudes that enter the balance, whose roundings its defect is made of.
-fn magnitude<const D: usize>(ledger: &Ledger<f64, D>) -> f64 {
+fn magnitude<const D: usize>(ledger: &Ledger<D>) -> f64 {
     // θ s of the elements at about room temperature, of which the internal energy is a part.
     let thermal = 300.0 * ledger.element_entropy;
     let terms = [

@@ -5,6 +5,8 @@
 //! thermostats, work, heat and lost heat are sums that the steps have kept; of the entropy there is also
 //! the value of the state, [`Ledger::element_entropy_of_state`], which no step has touched.
 
+mod sheet;
+
 use nalgebra::SVector;
 
 use crate::element::group::{ElementTotals, Elements};
@@ -29,8 +31,19 @@ use crate::number::scalar::Real;
 /// S = Σ s + Σ σ_r + entropy of the thermostats
 /// E − work − heat = const
 /// ```
+///
+/// ```
+/// use eem_runtime::{Scene, Scheme, Simulation};
+///
+/// let mut scene = Scene::<2>::new();
+/// scene.mass(2.0, [0.0, 0.0], [3.0, 0.0]);
+/// let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+/// let sheet = run.ledger().to_string();
+/// assert!(sheet.contains("| E − work − heat     | 9.000000000000000e0  | J     |"), "{sheet}");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ledger<S: Real, const D: usize> {
+pub struct Ledger<const D: usize, S: Real = f64> {
     /// `Σ p·v/2`, J, which is `Σ p²/2m` where masses do not couple nodes.
     pub kinetic_energy: S,
     /// `−Σ m g·q`, J.
@@ -69,7 +82,7 @@ pub struct Ledger<S: Real, const D: usize> {
     pub angular_momentum: SVector<S, 3>,
 }
 
-impl<S: Real, const D: usize> Ledger<S, D> {
+impl<const D: usize, S: Real> Ledger<D, S> {
     /// The balance sheet of a state.
     pub(crate) fn of<'a>(
         state: &State<S>,

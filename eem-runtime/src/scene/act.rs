@@ -73,6 +73,33 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
     }
 
+    /// A constant temperature of an element, K, at which it begins and which a thermostat keeps. The heat and the
+    /// entropy that it gives are booked.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    ///
+    /// #[derive(FreeEnergy)]
+    /// #[free_energy(|lambda: Stretch, theta: Temperature| {
+    ///     0.5 * k * (lambda - 1.0).powi(2) - a * (theta - t0) * ln(lambda) - c * theta * ln(theta / t0)
+    /// })]
+    /// struct Wire { k: f64, a: f64, c: f64, t0: f64 }
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let wall = scene.anchor([0.0]);
+    /// let mass = scene.mass(1.0, [1.1], [0.0]);
+    /// let wire = scene.spring(Wire { k: 5.0, a: 1.0, c: 2.0, t0: 300.0 }, [wall, mass]);
+    /// scene.hold_temperature(wire, 310.0);
+    /// let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.01)?;
+    /// run.run_until(1.0)?;
+    /// assert!((run.temperature(wire)? - 310.0).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn hold_temperature(&mut self, element: Element, temperature: S) {
+        self.set_temperature(element, temperature);
+        self.prescribe_temperature(element, move |_| temperature);
+    }
+
     /// Whether a node is of this scene and a mass or an anchor; if not, that is noted as misuse.
     fn expect_kind(&mut self, node: Node, mass: bool, quantity: &'static str) -> bool {
         if !self.expect_own(node.scene, &node) {

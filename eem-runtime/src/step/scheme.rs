@@ -5,9 +5,7 @@ use crate::element::tableau::{Tableau, UnknownSet};
 use crate::step::control::{Accuracy, Estimate};
 use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
 
-/// The time integration schemes.
-///
-/// [`Auto`](Self::Auto) chooses among them.
+/// The time integration schemes. [`Auto`](Self::Auto), the default, chooses among them.
 ///
 /// | scheme | first law | second law | momenta | order |
 /// |---|---|---|---|---|
@@ -39,7 +37,7 @@ use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
 /// assert_eq!(Scheme::EemEntropy.name(), "eem-entropy");
 /// assert!(Scheme::ALL.iter().all(|scheme| scheme.to_string().parse() == Ok(*scheme)));
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Scheme {
     /// Energy–entropy–momentum scheme in entropy form (García Orden & Romero 2012, eqs. 25–28).
@@ -76,6 +74,7 @@ pub enum Scheme {
     /// That of the exact ones above which takes least for a [tolerance](crate::Simulation::control_steps):
     /// `EemExplicit`, unless stability limits its steps more than accuracy does, and `EemTemperature` for solids. All
     /// laws hold when the [scheme in use](crate::Simulation::scheme_in_use) changes.
+    #[default]
     Auto,
 }
 

@@ -60,7 +60,7 @@ pub enum Quantity<const D: usize, S: Real = f64> {
     /// The angular momentum of the ledger, kg m²/s.
     AngularMomentum,
     /// Any other entry of the ledger.
-    Ledger(fn(&Ledger<S, D>) -> S),
+    Ledger(fn(&Ledger<D, S>) -> S),
     /// Newton iterations since the row before; 0 in the first row.
     NewtonIterations,
     /// A function of the simulation.
@@ -119,7 +119,7 @@ impl<const D: usize, S: Real> Quantity<D, S> {
         &self,
         run: &Simulation<D, S>,
         iterations: usize,
-        ledger: &mut Option<Ledger<S, D>>,
+        ledger: &mut Option<Ledger<D, S>>,
         row: &mut Vec<f64>,
     ) -> Result<(), SceneError> {
         let mut totals = || *ledger.get_or_insert_with(|| run.ledger());

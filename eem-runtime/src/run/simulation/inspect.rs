@@ -153,7 +153,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Energies, entropies and momenta, computed from the state by their definitions.
     #[must_use]
-    pub fn ledger(&self) -> Ledger<S, D> {
+    pub fn ledger(&self) -> Ledger<D, S> {
         Ledger::of(
             &self.state,
             &self.masses,

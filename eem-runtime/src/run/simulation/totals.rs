@@ -13,7 +13,7 @@ pub(super) struct Overflow {
 }
 
 /// The first sum that is not finite. The laws could not be checked with it.
-pub(super) fn overflow<S: Real, const D: usize>(ledger: &Ledger<S, D>) -> Option<Overflow> {
+pub(super) fn overflow<S: Real, const D: usize>(ledger: &Ledger<D, S>) -> Option<Overflow> {
     let sums = [
         ("kinetic energy", ledger.kinetic_energy, "J"),
         ("potential energy", ledger.potential_energy, "J"),
@@ -36,7 +36,7 @@ pub(super) fn overflow<S: Real, const D: usize>(ledger: &Ledger<S, D>) -> Option
 
 /// An error unless all sums of the initial state are finite.
 pub(super) fn check_totals<S: Real, const D: usize>(
-    ledger: &Ledger<S, D>,
+    ledger: &Ledger<D, S>,
 ) -> Result<(), SceneError> {
     match overflow(ledger) {
         None => Ok(()),
