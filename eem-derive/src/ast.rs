@@ -184,8 +184,12 @@ impl<'a> Expr<'a> {
 pub(crate) enum ExprKind<'a> {
     /// A literal, exact where 128-bit rationals can hold it.
     Number(Number),
-    /// A field, an argument or a binding.
+    /// A field, an argument, a binding or a constant of the program.
     Name(&'a Ident),
+    /// A constant of the program by its path, `crate::gas::R`.
+    Constant(&'a syn::Path),
+    /// `name[2]`, an entry of an array.
+    Entry(Entry<'a>),
     /// `-x`
     Negate(Box<Expr<'a>>),
     /// `x + y` and its relatives.
@@ -196,6 +200,15 @@ pub(crate) enum ExprKind<'a> {
     Block(Block<'a>),
     /// Something that has been reported, and the expressions in it.
     Wrong(Vec<Expr<'a>>),
+}
+
+/// `name[index]`
+#[derive(Clone, Copy)]
+pub(crate) struct Entry<'a> {
+    pub(crate) array: &'a Ident,
+    pub(crate) index: usize,
+    /// The index as written, for errors about it.
+    pub(crate) literal: &'a syn::LitInt,
 }
 
 /// The arithmetic operators.
@@ -210,6 +223,12 @@ pub(crate) enum Operator {
 /// The name starts with an underscore: it may be without use.
 pub(crate) fn is_underscored(ident: &Ident) -> bool {
     name(ident).starts_with('_')
+}
+
+/// The name is written as those of constants are: in upper case.
+pub(crate) fn is_upper_case(ident: &Ident) -> bool {
+    let name = name(ident);
+    name.contains(char::is_uppercase) && !name.contains(char::is_lowercase)
 }
 
 /// The name without `r#`: `r#type` and `type` are the same name.

@@ -3,6 +3,7 @@
 //! One function per rule, one file per subject. This file is the table of contents.
 
 mod callee;
+pub(crate) mod constants;
 mod laws;
 mod names;
 mod parameters;

@@ -22,9 +22,7 @@ pub(crate) fn lower(cx: &Ctxt, checked: &Checked<'_>) -> Option<Model> {
         .map(|v| graph.symbol(&ast::name(v.ident)))
         .collect();
     let parameters = checked.parameters.iter();
-    let parameters: Vec<Symbol> = parameters
-        .map(|p| graph.symbol(&ast::name(p.ident)))
-        .collect();
+    let parameters: Vec<Symbol> = parameters.map(|p| graph.symbol(&p.name)).collect();
     let mut lowering = Lowering {
         cx,
         checked,
@@ -87,9 +85,9 @@ impl Lowering<'_> {
     fn value(&mut self, expr: &Expr<'_>) -> Option<ExprId> {
         Some(match &expr.kind {
             ExprKind::Number(number) => self.graph.number(*number),
-            ExprKind::Parameter(field) => {
+            ExprKind::Parameter(origin) => {
                 let mut parameters = self.checked.parameters.iter();
-                let index = parameters.position(|parameter| parameter.field == *field)?;
+                let index = parameters.position(|parameter| parameter.origin == *origin)?;
                 self.graph.variable(self.parameters[index])
             }
             ExprKind::Variable(index) => self.graph.variable(self.variables[*index]),

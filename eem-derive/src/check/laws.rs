@@ -71,7 +71,7 @@ fn declare_bindings(scope: &mut Scope, block: &Block<'_>) {
 
 fn declare_inner(scope: &mut Scope, expr: &Expr<'_>) {
     match &expr.kind {
-        ExprKind::Number(_) | ExprKind::Name(_) => {}
+        ExprKind::Number(_) | ExprKind::Name(_) | ExprKind::Constant(_) | ExprKind::Entry(_) => {}
         ExprKind::Negate(inner) => declare_inner(scope, inner),
         ExprKind::Binary(_, left, right) => {
             declare_inner(scope, left);

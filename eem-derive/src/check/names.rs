@@ -28,7 +28,7 @@ pub(super) fn check_arguments(cx: &Ctxt, input: &Input<'_>) {
 /// A `let` does not hide what can be seen where it stands.
 pub(super) fn check_binding(cx: &Ctxt, scope: &Scope, ident: &Ident) {
     let what = match scope.resolve(ident) {
-        Some(Meaning::Field(_)) => "a field",
+        Some(Meaning::Field(_) | Meaning::Array(..)) => "a field",
         Some(Meaning::Argument(_) | Meaning::ForeignArgument(_) | Meaning::WrongArgument) => {
             "an argument"
         }

@@ -2,16 +2,17 @@
 
 use eem_symbolic::Function;
 use proc_macro2::Ident;
+use quote::ToTokens;
 
 use super::callee::Callee;
-use super::names;
-use super::parameters::Used;
+use super::parameters::{Used, array};
 use super::resolver::Resolver;
 use super::scope::{Meaning, Scope};
+use super::{constants, names};
 use crate::ast::{self, Block, Input};
-use crate::checked::{Body, Expr, ExprKind, Variable};
+use crate::checked::{Body, Expr, ExprKind, Origin, Variable};
 use crate::ctxt::Ctxt;
-use crate::message::expression as message;
+use crate::message::{expression as message, field};
 use crate::nearest::nearest;
 
 /// The free energy with its names resolved.
@@ -42,10 +43,10 @@ pub(super) fn declare_fields(scope: &mut Scope, input: &Input<'_>) {
         return scope.declare_unreadable();
     };
     for (index, field) in fields.iter().enumerate() {
-        let meaning = if field.unused {
-            Meaning::UnusedField
-        } else {
-            Meaning::Field(index)
+        let meaning = match array(field.ty) {
+            _ if field.unused => Meaning::UnusedField,
+            Some((_, length)) => Meaning::Array(index, length),
+            None => Meaning::Field(index),
         };
         scope.declare(field.ident, meaning);
     }
@@ -80,6 +81,11 @@ impl<'a> Resolver<'_, 'a> {
             ast::ExprKind::Block(block) => return self.block(block),
             ast::ExprKind::Number(number) => ExprKind::Number(*number),
             ast::ExprKind::Name(ident) => self.name(ident),
+            ast::ExprKind::Constant(path) => match constants::of_std(path) {
+                Some(value) => ExprKind::Number(value.into()),
+                None => self.constant(path),
+            },
+            ast::ExprKind::Entry(entry) => self.entry(entry),
             ast::ExprKind::Negate(inner) => ExprKind::Negate(Box::new(self.expr(inner))),
             ast::ExprKind::Binary(operator, left, right) => {
                 let (left, right) = (self.expr(left), self.expr(right));
@@ -108,16 +114,72 @@ impl<'a> Resolver<'_, 'a> {
         match self.scope.resolve(ident) {
             Some(Meaning::Field(index)) => {
                 self.used.mark(index);
-                return ExprKind::Parameter(index);
+                return ExprKind::Parameter(Origin::Field(index));
+            }
+            Some(Meaning::Array(index, _)) => {
+                self.used.mark(index);
+                self.cx.error(ident, &field::array_without_index(ident));
+                return self.wrong([]);
             }
             Some(Meaning::Argument(index)) => return ExprKind::Variable(index),
             Some(Meaning::Binding(index)) => {
                 self.names[index].1 = true;
                 return ExprKind::Binding(index);
             }
+            Some(Meaning::Unreadable) | None if ast::is_upper_case(ident) => {
+                return match constants::bare(ident) {
+                    Some(value) => ExprKind::Number(value.into()),
+                    None => self.constant(ident),
+                };
+            }
             Some(meaning) => self.refuse(ident, meaning),
             None => self.unknown(ident),
         }
+        self.wrong([])
+    }
+
+    /// A constant of the program, which Rust resolves.
+    fn constant(&mut self, path: impl ToTokens) -> ExprKind<'a> {
+        let index = self.used.constants.mention(path);
+        ExprKind::Parameter(Origin::Constant(index))
+    }
+
+    /// `name[2]`
+    fn entry(&mut self, entry: &ast::Entry<'a>) -> ExprKind<'a> {
+        let ast::Entry {
+            array: ident,
+            index,
+            literal,
+        } = *entry;
+        let what = match self.scope.resolve(ident) {
+            Some(Meaning::Array(field, length)) => {
+                self.used.mark_entry(field, index);
+                match length {
+                    Some(length) if index >= length => {
+                        let message = field::index_out_of_range(ident, index, length);
+                        self.cx.error(literal, &message);
+                        return self.wrong([]);
+                    }
+                    _ => return ExprKind::Parameter(Origin::Entry(field, index)),
+                }
+            }
+            Some(Meaning::Field(field)) => {
+                self.used.mark(field);
+                "a number"
+            }
+            Some(Meaning::Argument(_)) => "an argument",
+            Some(Meaning::Binding(_)) => "a `let` binding",
+            None if ast::is_upper_case(ident) => "a constant",
+            Some(meaning) => {
+                self.refuse(ident, meaning);
+                return self.wrong([]);
+            }
+            None => {
+                self.unknown(ident);
+                return self.wrong([]);
+            }
+        };
+        self.cx.error(literal, &field::index_of_number(ident, what));
         self.wrong([])
     }
 
@@ -190,7 +252,7 @@ fn diff_variable<'a>(resolver: &Resolver<'_, 'a>, variable: &'a ast::Expr<'a>) -
     };
     match resolver.scope.resolve(ident) {
         Some(Meaning::Argument(index)) => return Some(index),
-        Some(Meaning::Field(_)) => refuse("parameter"),
+        Some(Meaning::Field(_) | Meaning::Array(..)) => refuse("parameter"),
         // The binding hides an argument, which has been reported.
         Some(Meaning::Binding(_)) if is_argument(resolver, ident) => {}
         Some(Meaning::Binding(_)) => refuse("`let` binding"),

@@ -71,7 +71,7 @@ impl<'r, 'a> Resolver<'r, 'a> {
             Meaning::UnusedField => field::unused_and_used(ident),
             // Reported where they are declared.
             Meaning::WrongArgument | Meaning::Unreadable => return,
-            Meaning::Field(_) | Meaning::Argument(_) | Meaning::Binding(_) => {
+            Meaning::Field(_) | Meaning::Array(..) | Meaning::Argument(_) | Meaning::Binding(_) => {
                 unreachable!("these can be used everywhere")
             }
         };
@@ -97,7 +97,7 @@ impl<'r, 'a> Resolver<'r, 'a> {
     pub(super) fn unknown(&self, ident: &Ident) {
         let name = ast::name(ident);
         let nearest = self.scope.nearest(ident);
-        let constant = message::syntax::constant_value(&name);
+        let constant = message::syntax::constant_of_paper(&name);
         let message = match (nearest, constant) {
             _ if is_function(ident) => message::name_is_a_function(&name),
             (None, Some(value)) => message::syntax::constant(&name, value),

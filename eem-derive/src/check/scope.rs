@@ -12,6 +12,8 @@ use crate::nearest::nearest;
 pub(super) enum Meaning {
     /// Field of the struct.
     Field(usize),
+    /// Field that is an array, with its length if that is written out.
+    Array(usize, Option<usize>),
     /// Field that is marked as unused.
     UnusedField,
     /// Argument of the free energy, in the order of the state.
@@ -32,7 +34,11 @@ impl Meaning {
     /// May be suggested in place of a wrong name.
     fn visible(self) -> bool {
         match self {
-            Self::Field(_) | Self::Argument(_) | Self::WrongArgument | Self::Binding(_) => true,
+            Self::Field(_)
+            | Self::Array(..)
+            | Self::Argument(_)
+            | Self::WrongArgument
+            | Self::Binding(_) => true,
             Self::UnusedField
             | Self::ForeignArgument(_)
             | Self::ForeignBinding

@@ -64,8 +64,8 @@ fn arguments(checked: &Checked<'_>) -> impl Iterator<Item = TokenStream> {
 
 fn parameters(checked: &Checked<'_>, units: &Units) -> impl Iterator<Item = TokenStream> {
     checked.parameters.iter().map(|parameter| {
-        let name = ast::name(parameter.ident);
-        let unit = units.of_field(parameter.field);
+        let name = &parameter.name;
+        let unit = units.of(parameter.origin);
         unit.map_or_else(
             || quote! { __eem::describe::Parameter::without_unit(#name) },
             |unit| quote! { __eem::describe::Parameter::new(#name, #unit) },
