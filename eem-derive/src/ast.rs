@@ -163,7 +163,20 @@ pub(crate) struct Block<'a> {
 pub(crate) struct Binding<'a> {
     /// Nothing if a statement could not be read that may have declared names.
     pub(crate) ident: Option<&'a Ident>,
-    pub(crate) value: Expr<'a>,
+    pub(crate) value: Bound<'a>,
+}
+
+/// What a `let` gives a name.
+pub(crate) enum Bound<'a> {
+    Value(Expr<'a>),
+    Helper(Helper<'a>),
+}
+
+/// `|x, y| body`, a function of the formula that stands for its body at every call.
+pub(crate) struct Helper<'a> {
+    /// Nothing where an argument could not be read.
+    pub(crate) arguments: Vec<Option<&'a Ident>>,
+    pub(crate) body: Block<'a>,
 }
 
 /// An expression and the syntax it comes from.

@@ -4,6 +4,7 @@
 
 mod callee;
 pub(crate) mod constants;
+mod helpers;
 mod laws;
 mod names;
 mod parameters;

@@ -155,6 +155,8 @@ pub(crate) enum ExprKind<'a> {
     Powf(Box<Expr<'a>>, Box<Expr<'a>>),
     /// The derivative with respect to a variable.
     Diff(Box<Expr<'a>>, usize),
+    /// What a helper computes in the call that is given: messages about it name the call.
+    InCall(&'a syn::Expr, Box<Expr<'a>>),
     /// Something that has been reported, and the expressions in it.
     Wrong(Vec<Expr<'a>>),
 }

@@ -115,6 +115,9 @@ use syn::{DeriveInput, parse_macro_input};
 ///   `PI` is π without an import, `core::f64::consts::…` and `std::f64::consts::…` are known by their values.
 /// * numbers: `2`, `2.0`, `1e-3`, `1_000.0`, all exact: `1 / 2` is one half.
 /// * `+`, `-`, `*`, `/`, unary minus, parentheses, blocks with `let`.
+/// * helpers, `let f = |x, y| …;`, called as `f(a, b)`: every call stands for the body with its arguments. A
+///   helper sees what is before it and cannot call itself. What is wrong in a call is said at the token in the
+///   body, with the call.
 /// * `diff(expression, argument)`: the partial derivative, anywhere in an expression.
 /// * in call form `ln(x)` and in method form `x.ln()`: `powi`, `powf`, `sqrt`, `cbrt`, `recip`,
 ///   `abs`, `exp`, `exp_m1`, `ln`, `ln_1p`, `log2`, `log10`, `sin`, `cos`, `tan`, `sinh`, `cosh`,

@@ -13,6 +13,7 @@ use crate::ast::{self, Operator, Role};
 use crate::checked::{Body, Checked, Expr, ExprKind};
 use crate::ctxt::Ctxt;
 use crate::message::expression as message;
+use crate::units::excerpt;
 
 /// Builds the model. Nothing only if something was reported, here or before.
 pub(crate) fn lower(cx: &Ctxt, checked: &Checked<'_>) -> Option<Model> {
@@ -129,6 +130,12 @@ impl Lowering<'_> {
                 let value = self.expr(inner)?;
                 self.check_derivative(inner, value)?;
                 diff(&mut self.graph, value, self.variables[*variable])
+            }
+            ExprKind::InCall(call, inner) => {
+                self.cx.enter(excerpt(call));
+                let value = self.expr(inner);
+                self.cx.leave();
+                value?
             }
             ExprKind::Wrong(parts) => {
                 for part in parts {

@@ -6,6 +6,7 @@
 mod block;
 mod closure;
 mod expr;
+mod helper;
 mod item;
 mod number;
 mod unsupported;

@@ -21,6 +21,7 @@ use crate::checked::{Checked, Source};
 use crate::ctxt::Ctxt;
 use crate::message::unit as message;
 pub(crate) use declared::Units;
+pub(crate) use excerpt::excerpt;
 pub(crate) use quantities::Quantities;
 use quantities::unit;
 use rules::Rules;

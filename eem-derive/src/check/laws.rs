@@ -4,7 +4,7 @@ use super::parameters::Used;
 use super::resolve;
 use super::resolver::Resolver;
 use super::scope::{Meaning, Scope};
-use crate::ast::{self, Argument, Block, Expr, ExprKind, Input, Law, Role};
+use crate::ast::{self, Argument, Block, Bound, Expr, ExprKind, Input, Law, Role};
 use crate::checked::{Body, Variable};
 use crate::ctxt::Ctxt;
 use crate::message::attribute as message;
@@ -64,7 +64,10 @@ fn declare_bindings(scope: &mut Scope, block: &Block<'_>) {
             Some(ident) => scope.declare(ident, Meaning::ForeignBinding),
             None => scope.declare_unreadable(),
         }
-        declare_inner(scope, &binding.value);
+        match &binding.value {
+            Bound::Value(value) => declare_inner(scope, value),
+            Bound::Helper(helper) => declare_bindings(scope, &helper.body),
+        }
     }
     declare_inner(scope, &block.value);
 }

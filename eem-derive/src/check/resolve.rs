@@ -9,7 +9,7 @@ use super::parameters::{Used, array};
 use super::resolver::Resolver;
 use super::scope::{Meaning, Scope};
 use super::{constants, names};
-use crate::ast::{self, Block, Input};
+use crate::ast::{self, Binding, Block, Bound, Input};
 use crate::checked::{Body, Expr, ExprKind, Origin, Variable};
 use crate::ctxt::Ctxt;
 use crate::message::{expression as message, field};
@@ -54,21 +54,26 @@ pub(super) fn declare_fields(scope: &mut Scope, input: &Input<'_>) {
 
 impl<'a> Resolver<'_, 'a> {
     /// Resolves a block; its bindings join those of the body.
-    fn block(&mut self, block: &'a Block<'a>) -> Expr<'a> {
+    pub(super) fn block(&mut self, block: &'a Block<'a>) -> Expr<'a> {
         let mark = self.scope.enter();
-        for binding in &block.bindings {
+        for Binding { ident, value } in &block.bindings {
             // The value is resolved first: `let x = x + 1` refers to the `x` before.
-            let value = self.expr(&binding.value);
-            let Some(ident) = binding.ident else {
+            let value = match (value, ident) {
+                (Bound::Value(value), _) => Some(self.expr(value)),
+                (Bound::Helper(helper), Some(ident)) => {
+                    self.define(ident, helper);
+                    continue;
+                }
+                (Bound::Helper(_), None) => None,
+            };
+            let (Some(ident), Some(value)) = (ident, value) else {
                 self.complete = false;
                 self.scope.declare_unreadable();
                 continue;
             };
             names::check_binding(self.cx, &self.scope, ident);
-            self.scope
-                .declare(ident, Meaning::Binding(self.bindings.len()));
-            self.bindings.push(value);
-            self.names.push((ident, false));
+            let binding = self.bind(ident, value);
+            self.scope.declare(ident, Meaning::Binding(binding));
         }
         let value = self.expr(&block.value);
         self.scope.leave(mark);
@@ -77,8 +82,13 @@ impl<'a> Resolver<'_, 'a> {
 
     /// Resolves an expression.
     pub(super) fn expr(&mut self, expr: &'a ast::Expr<'a>) -> Expr<'a> {
+        self.inlining.level += 1;
         let kind = match &expr.kind {
-            ast::ExprKind::Block(block) => return self.block(block),
+            ast::ExprKind::Block(block) => {
+                let value = self.block(block);
+                self.inlining.level -= 1;
+                return value;
+            }
             ast::ExprKind::Number(number) => ExprKind::Number(*number),
             ast::ExprKind::Name(ident) => self.name(ident),
             ast::ExprKind::Constant(path) => match constants::of_std(path) {
@@ -91,9 +101,12 @@ impl<'a> Resolver<'_, 'a> {
                 let (left, right) = (self.expr(left), self.expr(right));
                 ExprKind::Binary(*operator, Box::new(left), Box::new(right))
             }
-            ast::ExprKind::Call(function, arguments) => self.call(function, arguments),
+            ast::ExprKind::Call(function, arguments) => {
+                self.call(function, arguments, expr.original)
+            }
             ast::ExprKind::Wrong(parts) => self.wrong(parts),
         };
+        self.inlining.level -= 1;
         Expr {
             original: expr.original,
             kind,
@@ -122,7 +135,7 @@ impl<'a> Resolver<'_, 'a> {
                 return self.wrong([]);
             }
             Some(Meaning::Argument(index)) => return ExprKind::Variable(index),
-            Some(Meaning::Binding(index)) => {
+            Some(Meaning::Binding(index) | Meaning::HelperArgument(index)) => {
                 self.names[index].1 = true;
                 return ExprKind::Binding(index);
             }
@@ -167,7 +180,7 @@ impl<'a> Resolver<'_, 'a> {
                 self.used.mark(field);
                 "a number"
             }
-            Some(Meaning::Argument(_)) => "an argument",
+            Some(Meaning::Argument(_) | Meaning::HelperArgument(_)) => "an argument",
             Some(Meaning::Binding(_)) => "a `let` binding",
             None if ast::is_upper_case(ident) => "a constant",
             Some(meaning) => {
@@ -184,9 +197,17 @@ impl<'a> Resolver<'_, 'a> {
     }
 
     /// Resolves `function(arguments)`.
-    fn call(&mut self, function: &'a Ident, arguments: &'a [ast::Expr<'a>]) -> ExprKind<'a> {
+    fn call(
+        &mut self,
+        function: &'a Ident,
+        arguments: &'a [ast::Expr<'a>],
+        original: &'a syn::Expr,
+    ) -> ExprKind<'a> {
         let name = ast::name(function);
         let Some(callee) = Callee::from_name(&name) else {
+            if let Some(Meaning::Helper(helper)) = self.scope.resolve(function) {
+                return self.inline(helper, function, arguments, original);
+            }
             report_unknown(self, function, &name);
             return self.wrong(arguments);
         };
@@ -219,10 +240,19 @@ impl<'a> Resolver<'_, 'a> {
 }
 
 fn report_unknown(resolver: &Resolver<'_, '_>, function: &Ident, name: &str) {
-    let nearest = nearest(name, Callee::names());
+    let helpers = resolver
+        .helpers
+        .iter()
+        .map(|helper| ast::name(helper.ident));
+    let helpers: Vec<String> = helpers.collect();
+    let mut known: Vec<&str> = Callee::names().collect();
+    known.extend(helpers.iter().map(String::as_str));
+    let nearest = nearest(name, known);
     let message = match resolver.scope.resolve(function) {
         // The value of the binding is a closure, which has been reported.
         Some(Meaning::Binding(index)) if resolver.is_wrong(index) => return,
+        Some(Meaning::ForeignBinding) => message::law_of_binding(function),
+        Some(Meaning::OpenHelper) => message::helper::calls_itself(function),
         // A declaration that could not be read may have this name.
         Some(Meaning::Unreadable) if nearest.is_none() => return,
         None | Some(Meaning::Unreadable) => {
@@ -254,7 +284,8 @@ fn diff_variable<'a>(resolver: &Resolver<'_, 'a>, variable: &'a ast::Expr<'a>) -
         Some(Meaning::Argument(index)) => return Some(index),
         Some(Meaning::Field(_) | Meaning::Array(..)) => refuse("parameter"),
         // The binding hides an argument, which has been reported.
-        Some(Meaning::Binding(_)) if is_argument(resolver, ident) => {}
+        Some(Meaning::Binding(_) | Meaning::HelperArgument(_)) if is_argument(resolver, ident) => {}
+        Some(Meaning::HelperArgument(_)) => refuse("helper argument"),
         Some(Meaning::Binding(_)) => refuse("`let` binding"),
         Some(meaning) => resolver.refuse(ident, meaning),
         None => resolver.unknown(ident),

@@ -22,6 +22,12 @@ pub(super) enum Meaning {
     WrongArgument,
     /// `let` binding.
     Binding(usize),
+    /// An argument of a helper, which is a binding in every call.
+    HelperArgument(usize),
+    /// `let` binding of a closure.
+    Helper(usize),
+    /// A helper inside of its own body.
+    OpenHelper,
     /// An argument that a viscosity must not use.
     ForeignArgument(Role),
     /// A `let` of the free energy, which a viscosity does not see.
@@ -38,8 +44,11 @@ impl Meaning {
             | Self::Array(..)
             | Self::Argument(_)
             | Self::WrongArgument
-            | Self::Binding(_) => true,
-            Self::UnusedField
+            | Self::Binding(_)
+            | Self::HelperArgument(_)
+            | Self::Helper(_) => true,
+            Self::OpenHelper
+            | Self::UnusedField
             | Self::ForeignArgument(_)
             | Self::ForeignBinding
             | Self::Unreadable => false,
@@ -48,7 +57,7 @@ impl Meaning {
 }
 
 /// The names that can be used at a point, innermost last.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Scope {
     names: Vec<(String, Meaning)>,
 }

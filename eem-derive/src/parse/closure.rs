@@ -1,18 +1,22 @@
 //! The closure of a free energy: its arguments with their roles, and its body.
 
+use proc_macro2::TokenStream;
 use quote::ToTokens;
 use syn::{ExprClosure, Pat, PatIdent, PatType, ReturnType, Type};
 
 use super::{block, expr};
 use crate::ast::{Argument, Block, Role, Strain};
 use crate::ctxt::Ctxt;
-use crate::message::attribute as message;
 use crate::message::expression::syntax::mutable;
+use crate::message::{Message, attribute as message};
 use crate::nearest::nearest;
 
 /// The arguments whose names can be read; reports the others.
 pub(super) fn arguments<'a>(cx: &Ctxt, closure: &'a ExprClosure) -> Vec<Argument<'a>> {
-    check_modifiers(cx, closure);
+    check_modifiers(cx, closure, message::closure_modifier);
+    if let ReturnType::Type(arrow, _) = &closure.output {
+        cx.error(arrow, &message::closure_output());
+    }
     let arguments = closure.inputs.iter();
     arguments.filter_map(|pat| argument(cx, pat)).collect()
 }
@@ -28,19 +32,18 @@ pub(super) fn body<'a>(cx: &Ctxt, closure: &'a ExprClosure) -> Block<'a> {
     }
 }
 
-fn check_modifiers(cx: &Ctxt, closure: &ExprClosure) {
-    fn refuse(cx: &Ctxt, token: Option<impl ToTokens>, modifier: &str) {
+/// Reports whatever stands before the arguments.
+pub(super) fn check_modifiers(cx: &Ctxt, closure: &ExprClosure, message: fn(&str) -> Message) {
+    let refuse = |token: Option<TokenStream>, modifier: &str| {
         if let Some(token) = token {
-            cx.error(token, &message::closure_modifier(modifier));
+            cx.error(token, &message(modifier));
         }
-    }
-    refuse(cx, closure.lifetimes.as_ref(), "for<…>");
-    refuse(cx, closure.constness, "const");
-    refuse(cx, closure.asyncness, "async");
-    refuse(cx, closure.capture, "move");
-    if let ReturnType::Type(arrow, _) = &closure.output {
-        cx.error(arrow, &message::closure_output());
-    }
+    };
+    let tokens = |token: &dyn ToTokens| token.to_token_stream();
+    refuse(closure.lifetimes.as_ref().map(|t| tokens(t)), "for<…>");
+    refuse(closure.constness.as_ref().map(|t| tokens(t)), "const");
+    refuse(closure.asyncness.as_ref().map(|t| tokens(t)), "async");
+    refuse(closure.capture.as_ref().map(|t| tokens(t)), "move");
 }
 
 fn argument<'a>(cx: &Ctxt, pat: &'a Pat) -> Option<Argument<'a>> {

@@ -123,6 +123,12 @@ impl<'r> Rules<'r> {
                     }
                 }
             }
+            ExprKind::InCall(call, inner) => {
+                self.cx.enter(excerpt(call));
+                let quantity = self.quantity(inner);
+                self.cx.leave();
+                quantity
+            }
             ExprKind::Wrong(parts) => {
                 for part in parts {
                     self.quantity(part);

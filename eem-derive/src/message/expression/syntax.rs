@@ -81,8 +81,8 @@ pub(crate) fn cast() -> Message {
 
 pub(crate) fn closure() -> Message {
     Message::new(
-        "a closure is not part of a formula",
-        "bind the value with `let`; a derivative is `diff(expression, argument)`",
+        "a closure is not a value",
+        "give it a name, `let f = |x| …;`, and call it; a derivative is `diff(expression, argument)`",
     )
 }
 
