@@ -5,6 +5,7 @@
 mod callee;
 pub(crate) mod constants;
 mod helpers;
+mod inlining;
 mod laws;
 mod names;
 mod parameters;

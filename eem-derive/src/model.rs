@@ -131,12 +131,7 @@ impl Lowering<'_> {
                 self.check_derivative(inner, value)?;
                 diff(&mut self.graph, value, self.variables[*variable])
             }
-            ExprKind::InCall(call, inner) => {
-                self.cx.enter(excerpt(call));
-                let value = self.expr(inner);
-                self.cx.leave();
-                value?
-            }
+            ExprKind::InCall(call, inner) => self.in_call(call, inner)?,
             ExprKind::Wrong(parts) => {
                 for part in parts {
                     self.expr(part);
@@ -144,6 +139,14 @@ impl Lowering<'_> {
                 return None;
             }
         })
+    }
+
+    /// What a helper computes in a call.
+    fn in_call(&mut self, call: &syn::Expr, inner: &Expr<'_>) -> Option<ExprId> {
+        self.cx.enter(excerpt(call));
+        let value = self.expr(inner);
+        self.cx.leave();
+        value
     }
 
     fn binary(&mut self, operator: Operator, left: &Expr<'_>, right: &Expr<'_>) -> Option<ExprId> {

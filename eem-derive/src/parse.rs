@@ -8,6 +8,7 @@ mod closure;
 mod expr;
 mod helper;
 mod item;
+mod modifiers;
 mod number;
 mod unsupported;
 
@@ -40,7 +41,7 @@ pub(crate) fn input<'a>(
         fields,
         arguments,
         arguments_complete,
-        energy: closure::body(cx, closure),
+        energy: block::body(cx, &closure.body),
         closure,
         laws,
         laws_complete: attributes.laws_complete,

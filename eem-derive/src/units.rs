@@ -9,6 +9,7 @@
 //! expression with an error has no unit, and nothing more is said about what contains it.
 
 mod constants;
+mod declaration;
 mod declared;
 mod excerpt;
 pub(crate) mod grammar;

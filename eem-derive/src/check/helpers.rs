@@ -8,9 +8,10 @@ use std::mem;
 
 use proc_macro2::Ident;
 
+use super::inlining::{Helper, Inlining};
 use super::names;
 use super::resolver::Resolver;
-use super::scope::{Meaning, Scope};
+use super::scope::Meaning;
 use crate::ast;
 use crate::checked::{Expr, ExprKind};
 use crate::message::expression as message;
@@ -22,26 +23,6 @@ const CALLS: usize = 1000;
 const LEVELS: usize = 500;
 /// Levels of a call: the functions between two expressions.
 const LEVELS_OF_CALL: usize = 5;
-
-/// A helper that is defined.
-pub(super) struct Helper<'a> {
-    pub(super) ident: &'a Ident,
-    pub(super) used: bool,
-    definition: &'a ast::Helper<'a>,
-    /// What its body sees.
-    scope: Scope,
-}
-
-/// The call that is inlined, with those inside of it.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Inlining {
-    /// Levels of expressions that are being resolved.
-    pub(super) level: usize,
-    /// The level of the call in the formula.
-    start: usize,
-    calls: usize,
-    exhausted: bool,
-}
 
 impl<'a> Resolver<'_, 'a> {
     /// Makes a helper known, after a first look at its body.

@@ -3,7 +3,7 @@
 use proc_macro2::Ident;
 
 use super::callee::is_function;
-use super::helpers::{Helper, Inlining};
+use super::inlining::{Helper, Inlining};
 use super::parameters::Used;
 use super::scope::{Meaning, Scope};
 use crate::ast::{self, Role};

@@ -6,9 +6,20 @@ use syn::{Expr as Syntax, ExprBlock, Local, Pat, PatIdent, Stmt};
 
 use super::expr::expr;
 use super::helper;
-use crate::ast::{Binding, Block, Bound, Expr, ExprKind};
+use crate::ast::{Binding, Block, Bound, Expr, ExprKind, Helper};
 use crate::ctxt::Ctxt;
 use crate::message::expression::syntax as message;
+
+/// The body of a closure, which is a block or a bare expression.
+pub(super) fn body<'a>(cx: &Ctxt, original: &'a Syntax) -> Block<'a> {
+    if let Syntax::Block(body) = original {
+        return block(cx, original, body);
+    }
+    Block {
+        bindings: Vec::new(),
+        value: Box::new(expr(cx, original)),
+    }
+}
 
 /// Reads a block; reports every statement that is neither a `let` nor the value at the end.
 pub(super) fn block<'a>(cx: &Ctxt, original: &'a Syntax, block: &'a ExprBlock) -> Block<'a> {
@@ -134,7 +145,12 @@ fn binding<'a>(cx: &Ctxt, block: &'a Syntax, local: &'a Local) -> Binding<'a> {
         cx.error(token, &message::let_else());
     }
     if let Some(closure) = helper::closure(&init.expr) {
-        return helper::binding(cx, ident, closure);
+        let helper = Helper {
+            arguments: helper::arguments(cx, closure),
+            body: body(cx, &closure.body),
+        };
+        let value = Bound::Helper(helper);
+        return Binding { ident, value };
     }
     let value = Bound::Value(expr(cx, &init.expr));
     Binding { ident, value }

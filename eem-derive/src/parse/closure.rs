@@ -1,14 +1,13 @@
-//! The closure of a free energy: its arguments with their roles, and its body.
+//! The closure of a free energy: its arguments with their roles.
 
-use proc_macro2::TokenStream;
 use quote::ToTokens;
 use syn::{ExprClosure, Pat, PatIdent, PatType, ReturnType, Type};
 
-use super::{block, expr};
-use crate::ast::{Argument, Block, Role, Strain};
+use super::modifiers::check_modifiers;
+use crate::ast::{Argument, Role, Strain};
 use crate::ctxt::Ctxt;
+use crate::message::attribute as message;
 use crate::message::expression::syntax::mutable;
-use crate::message::{Message, attribute as message};
 use crate::nearest::nearest;
 
 /// The arguments whose names can be read; reports the others.
@@ -19,31 +18,6 @@ pub(super) fn arguments<'a>(cx: &Ctxt, closure: &'a ExprClosure) -> Vec<Argument
     }
     let arguments = closure.inputs.iter();
     arguments.filter_map(|pat| argument(cx, pat)).collect()
-}
-
-/// The body, which is a block or a bare expression.
-pub(super) fn body<'a>(cx: &Ctxt, closure: &'a ExprClosure) -> Block<'a> {
-    if let syn::Expr::Block(body) = &*closure.body {
-        return block::block(cx, &closure.body, body);
-    }
-    Block {
-        bindings: Vec::new(),
-        value: Box::new(expr::expr(cx, &closure.body)),
-    }
-}
-
-/// Reports whatever stands before the arguments.
-pub(super) fn check_modifiers(cx: &Ctxt, closure: &ExprClosure, message: fn(&str) -> Message) {
-    let refuse = |token: Option<TokenStream>, modifier: &str| {
-        if let Some(token) = token {
-            cx.error(token, &message(modifier));
-        }
-    };
-    let tokens = |token: &dyn ToTokens| token.to_token_stream();
-    refuse(closure.lifetimes.as_ref().map(|t| tokens(t)), "for<…>");
-    refuse(closure.constness.as_ref().map(|t| tokens(t)), "const");
-    refuse(closure.asyncness.as_ref().map(|t| tokens(t)), "async");
-    refuse(closure.capture.as_ref().map(|t| tokens(t)), "move");
 }
 
 fn argument<'a>(cx: &Ctxt, pat: &'a Pat) -> Option<Argument<'a>> {

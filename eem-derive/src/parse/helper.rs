@@ -2,8 +2,7 @@
 
 use syn::{Expr as Syntax, ExprClosure, Pat, PatIdent, ReturnType};
 
-use super::closure;
-use crate::ast::{Binding, Bound, Helper};
+use super::modifiers::check_modifiers;
 use crate::ctxt::Ctxt;
 use crate::message::expression::helper as message;
 use crate::message::expression::syntax::mutable;
@@ -18,26 +17,14 @@ pub(super) fn closure(syntax: &Syntax) -> Option<&ExprClosure> {
     }
 }
 
-/// The binding of a closure.
-pub(super) fn binding<'a>(
-    cx: &Ctxt,
-    ident: Option<&'a syn::Ident>,
-    closure: &'a ExprClosure,
-) -> Binding<'a> {
+/// Its arguments; nothing where one could not be read. Reports all else that a helper does not have.
+pub(super) fn arguments<'a>(cx: &Ctxt, closure: &'a ExprClosure) -> Vec<Option<&'a syn::Ident>> {
     check(cx, closure);
-    let arguments = closure.inputs.iter().map(|pat| argument(cx, pat));
-    let helper = Helper {
-        arguments: arguments.collect(),
-        body: closure::body(cx, closure),
-    };
-    Binding {
-        ident,
-        value: Bound::Helper(helper),
-    }
+    closure.inputs.iter().map(|pat| argument(cx, pat)).collect()
 }
 
 fn check(cx: &Ctxt, closure: &ExprClosure) {
-    closure::check_modifiers(cx, closure, message::modifier);
+    check_modifiers(cx, closure, message::modifier);
     if let ReturnType::Type(_, ty) = &closure.output {
         cx.error(ty, &message::types());
     }

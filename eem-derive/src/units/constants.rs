@@ -4,7 +4,7 @@ use syn::parse::ParseStream;
 use syn::punctuated::Punctuated;
 use syn::{Attribute, Data, Lit, LitStr, Path, Token};
 
-use super::declared::{ATTRIBUTE, Declaration, unit_of};
+use super::declaration::{ATTRIBUTE, Declaration, unit_of};
 use crate::ast;
 use crate::check::constants::{bare, of_std, text};
 use crate::checked::Checked;

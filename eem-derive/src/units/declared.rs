@@ -4,25 +4,10 @@
 use syn::{Attribute, Data, DeriveInput, LitStr};
 
 use super::constants::{self, Annotation};
-use super::grammar;
+use super::declaration::{ATTRIBUTE, Declaration, unit_of};
 use crate::checked::{Checked, Origin};
 use crate::ctxt::Ctxt;
 use crate::message::unit as message;
-use crate::unit::Unit;
-
-/// The name of the attribute.
-pub(super) const ATTRIBUTE: &str = "unit";
-
-/// What is said about the unit of a field or of a constant.
-#[derive(Clone, Debug)]
-pub(super) enum Declaration {
-    /// Nothing.
-    Missing,
-    /// Something that has been reported.
-    Unreadable,
-    /// A unit, and how it was written.
-    Unit(Unit, String),
-}
 
 /// The units of the fields and of the constants.
 #[derive(Debug, Default)]
@@ -111,15 +96,4 @@ fn read_one(cx: &Ctxt, attribute: &Attribute) -> Declaration {
         return Declaration::Unreadable;
     };
     unit_of(cx, &text)
-}
-
-/// The unit that a string says.
-pub(super) fn unit_of(cx: &Ctxt, text: &LitStr) -> Declaration {
-    match grammar::parse(&text.value()) {
-        Ok(unit) => Declaration::Unit(unit, text.value().trim().to_owned()),
-        Err(message) => {
-            cx.error(text, &message);
-            Declaration::Unreadable
-        }
-    }
 }

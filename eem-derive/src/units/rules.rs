@@ -5,7 +5,8 @@ mod sum;
 
 use eem_symbolic::{Function, Rational};
 
-use super::declared::{Declaration, Units};
+use super::declaration::Declaration;
+use super::declared::Units;
 use super::excerpt::excerpt;
 use super::quantities::Quantities;
 use super::unknowns::Unknowns;
