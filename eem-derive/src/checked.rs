@@ -26,6 +26,8 @@ pub(crate) struct Checked<'a> {
     pub(crate) energy: Body<'a>,
     /// One viscosity per dashpot, in the order of the dashpots; nothing where it is missing.
     pub(crate) viscosities: Vec<Option<Body<'a>>>,
+    /// The viscosity of the stretch, if a dashpot stands beside the spring.
+    pub(crate) drag: Option<Body<'a>>,
     /// The roles are complete, and no expression has a hole: this is the model that was meant.
     pub(crate) sound: bool,
 }

@@ -16,6 +16,7 @@ mod points;
 mod rates;
 mod statements;
 pub(crate) mod strains;
+mod viscosities;
 
 use eem_symbolic::{Model, Programs};
 use proc_macro2::TokenStream;

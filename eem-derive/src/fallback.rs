@@ -93,6 +93,7 @@ fn body(scalar: &TokenStream, shape: &Shape) -> TokenStream {
         fn caloric(&self, _: &Self::Variables) -> __eem::Caloric<#scalar> { #never }
         fn entropy_hessian(&self, _: &Self::Variables) -> Self::Hessian { #never }
         fn viscosity(&self, _: #scalar) -> (Self::Viscosities, Self::Viscosities) { #never }
+        fn drag(&self, _: #scalar) -> (Self::Drag, Self::Drag) { #never }
         fn entropy_form_old(&self, _: &Self::Variables) -> Self::EntropyFormOld { #never }
         fn entropy_form(
             &self,
@@ -143,6 +144,7 @@ fn constants(scalar: &TokenStream, shape: &Shape) -> TokenStream {
         type Variables = #state;
         type Hessian = #hessian;
         type Viscosities = #viscosities;
+        type Drag = #nothing;
         type Corners = #corners;
         type Response = #response;
         type Tangent = #tangent;

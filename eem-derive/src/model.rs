@@ -36,6 +36,7 @@ pub(crate) fn lower(cx: &Ctxt, checked: &Checked<'_>) -> Option<Model> {
     let laws = checked.viscosities.iter();
     let viscosities = laws.map(|law| lowering.body(law.as_ref()?));
     let viscosities: Vec<Option<ExprId>> = viscosities.collect();
+    let drag = checked.drag.as_ref().map(|law| lowering.body(law));
     Some(Model {
         measures: lowering.symbols(Role::is_measure),
         strains: lowering.strains(),
@@ -45,6 +46,10 @@ pub(crate) fn lower(cx: &Ctxt, checked: &Checked<'_>) -> Option<Model> {
         graph: lowering.graph,
         psi: psi?,
         viscosities: viscosities.into_iter().collect::<Option<_>>()?,
+        drag: match drag {
+            Some(law) => Some(law?),
+            None => None,
+        },
     })
 }
 

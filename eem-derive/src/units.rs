@@ -44,7 +44,7 @@ pub(crate) fn check(cx: &Ctxt, checked: &Checked<'_>) -> Units {
         ..
     } = rules.quantities;
     rules.body(what, energy, &unit(energy), &checked.energy);
-    for law in checked.viscosities.iter().flatten() {
+    for law in checked.viscosities.iter().flatten().chain(&checked.drag) {
         rules.body("a viscosity", viscosity, &unit(viscosity), law);
     }
     report_missing(cx, checked, &units, &rules.unknowns);

@@ -57,7 +57,7 @@ fn types(programs: &Programs, inputs: &Inputs) -> TokenStream {
         quote!([#row; #rows])
     };
     let (variables, hessian) = (array(inputs.variables), matrix(inputs.variables));
-    let viscosities = array(inputs.dashpots);
+    let (viscosities, drag) = (array(inputs.dashpots), array(inputs.drags));
     let corners = array(inputs.corners());
     let (response, tangent) = (array(inputs.responses()), matrix(inputs.responses()));
     let entropy = array(kept(&programs.entropy_form, inputs).len());
@@ -70,6 +70,7 @@ fn types(programs: &Programs, inputs: &Inputs) -> TokenStream {
         type Variables = #variables;
         type Hessian = #hessian;
         type Viscosities = #viscosities;
+        type Drag = #drag;
         type Corners = #corners;
         type Response = #response;
         type Tangent = #tangent;

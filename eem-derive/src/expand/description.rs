@@ -83,6 +83,7 @@ fn costs(programs: &Programs) -> impl Iterator<Item = TokenStream> {
         ("caloric", programs.caloric.as_ref(), false),
         ("entropy_hessian", programs.entropy_hessian.as_ref(), false),
         ("viscosity", programs.viscosity.as_ref(), false),
+        ("drag", programs.drag.as_ref(), false),
         ("entropy_form", Some(&programs.entropy_form), true),
         ("temperature_form", programs.temperature_form.as_ref(), true),
     ];

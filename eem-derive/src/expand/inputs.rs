@@ -16,6 +16,8 @@ pub(super) struct Inputs {
     pub(super) variables: usize,
     /// Number of dashpots, K.
     pub(super) dashpots: usize,
+    /// Number of measures with a viscosity.
+    pub(super) drags: usize,
     /// There is a temperature.
     pub(super) thermal: bool,
 }
@@ -30,6 +32,7 @@ impl Inputs {
             parameters: parameters.map(|p| parameter(p, scalar)).collect(),
             variables: checked.variables.len(),
             dashpots: of_role(Role::Viscous).count(),
+            drags: usize::from(checked.drag.is_some()),
             thermal: of_role(Role::Temperature).count() == 1,
         }
     }

@@ -20,6 +20,7 @@ mod begin;
 mod certify;
 mod closing;
 mod correct;
+mod drag;
 mod element_group;
 mod eliminate;
 mod evaluate;

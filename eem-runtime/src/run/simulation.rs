@@ -38,7 +38,7 @@ use crate::step::newton::StepReport;
 use crate::step::outcome::{Attempt, Corrections};
 use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
-use check::{check_end, check_solids, check_step};
+use check::{check_end, check_scheme, check_step};
 use control_memory::Control;
 use start::initial_state;
 use stepper::{Newton, Parts, Stepper};
@@ -119,10 +119,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// The first thing that is wrong with the scene, its initial state or the step.
     pub fn new(scene: Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, SceneError> {
         scene.check()?;
-        let has_solids = scene.groups.iter().any(|group| !group.shape().is_spring);
-        if has_solids {
-            check_solids(scheme)?;
-        }
+        check_scheme(&scene, scheme)?;
         check_step(step)?;
         let mut layout = scene.layout();
         let conduction = Conduction::new(&scene.conductors, &scene.reservoirs, &layout);

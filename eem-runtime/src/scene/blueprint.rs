@@ -14,7 +14,7 @@ use crate::element::handle::Element;
 use crate::element::kinematics::Kinematics;
 use crate::element::layout::Shape;
 use crate::element::tableau::Tableau;
-use crate::material::free_energy::FreeEnergy;
+use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
 use crate::scene::error::SceneError;
 
@@ -82,6 +82,7 @@ where
         Shape {
             dashpots: M::DASHPOTS,
             thermal: M::THERMAL,
+            drag: M::Drag::LEN > 0,
             is_spring: K::IS_SPRING,
             viscous_unit: K::VISCOUS_UNIT,
         }

@@ -317,6 +317,12 @@ impl Scheme {
         matches!(self, Self::Staggered)
     }
 
+    /// Whether it steps springs with a dashpot beside them. Both parts of [`Staggered`](Self::Staggered)
+    /// would: the mechanical one moves, the other one warms.
+    pub(crate) const fn takes_drag(self) -> bool {
+        matches!(self, Self::EemEntropy | Self::EemTemperature)
+    }
+
     /// The numbers of a scheme that goes through stages.
     pub(crate) const fn tableau(self) -> Option<&'static Tableau> {
         match self.conjugates() {

@@ -3,6 +3,7 @@
 
 use super::arms::measures_in;
 use super::at_point::MemoryAtPoint;
+use super::drag::Drag;
 use super::eliminate::{Condensed, PerUnknown};
 use super::site::Contact;
 use crate::element::conjugates::{ElementScheme, Form, Placement, Start};
@@ -52,6 +53,8 @@ where
     pub(super) slopes: M::Hessian,
     /// `η_k` and `dη_k/dθ` at θ*.
     pub(super) viscosities: (M::Viscosities, M::Viscosities),
+    /// The dashpot beside the spring, if there is one.
+    pub(super) drag: Drag<M::Drag>,
     /// The derivative of the measures by the new arms.
     pub(super) sensitivity: Gradient<K, S, D>,
     /// Local unknowns as functions of the global ones.
@@ -102,6 +105,7 @@ where
             response: M::Response::filled(S::zero()),
             slopes: M::Hessian::filled(zeros),
             viscosities: (viscosities, viscosities),
+            drag: Drag::zero(M::Drag::filled(S::zero())),
             sensitivity: Gradient::<K, S, D>::filled(nowhere),
             condensed: Condensed::zero(),
             single: C::AtPoint::filled(MemoryAtPoint::<S, M, K, D>::zero(nowhere)),
