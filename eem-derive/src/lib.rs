@@ -128,6 +128,10 @@ use syn::{DeriveInput, parse_macro_input};
 /// `#[viscosity(gamma = law)]`, one law per dashpot in N s/m, in a solid in Pa s, separated by commas or in several
 /// attributes. A law may use the temperature and the fields.
 ///
+/// With the name of the `Stretch`, `#[viscosity(lambda = law)]`, a dashpot stands beside the spring
+/// (Kelvin–Voigt): the force `η λ̇`, and its heat `η λ̇²`. The schemes `EemEntropy` and `EemTemperature` step it
+/// and keep the laws; others refuse a scene with one.
+///
 /// # Units
 ///
 /// `#[unit("J/K")]` on a field says what it is measured in. A model whose formulas use no field

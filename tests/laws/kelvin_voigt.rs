@@ -23,7 +23,7 @@ const SCHEMES: [Scheme; 2] = [Scheme::EemEntropy, Scheme::EemTemperature];
         + capacity * (theta - theta_ref - theta * ln(theta / theta_ref))
 })]
 #[viscosity(lambda = eta * exp(activation * (1 / theta - 1 / theta_ref)))]
-struct Voigt {
+pub(crate) struct Voigt {
     #[unit("J")]
     k: f64,
     #[unit("m")]
@@ -40,7 +40,7 @@ struct Voigt {
     activation: f64,
 }
 
-const VOIGT: Voigt = Voigt {
+pub(crate) const VOIGT: Voigt = Voigt {
     k: 60.0,
     length: 1.0,
     beta: 0.1,
@@ -138,7 +138,7 @@ fn all_laws_are_kept_at_any_step() {
     keeps_all_laws(&VOIGT, ENERGY_TOLERANCE);
     keeps_all_laws(&BOTH, ENERGY_TOLERANCE);
     // Hardly there at all, and beyond the spring by far.
-    for eta in [1e-9, 1e4, 1e6] {
+    for eta in [1e-9, 1e4, 1e5] {
         keeps_all_laws(&Voigt { eta, ..VOIGT }, 1e-13);
         keeps_all_laws(&Both { fast: eta, ..BOTH }, 1e-13);
     }

@@ -29,6 +29,7 @@ const _: () = {
         type Variables = [__S; 2];
         type Hessian = [[__S; 2]; 2];
         type Viscosities = [__S; 0];
+        type Drag = [__S; 0];
         type Corners = [__S; 0];
         type Response = [__S; 2];
         type Tangent = [[__S; 2]; 2];
@@ -174,6 +175,10 @@ const _: () = {
         }
         /// There is no dashpot: nothing.
         fn viscosity(&self, _: __S) -> (Self::Viscosities, Self::Viscosities) {
+            ([], [])
+        }
+        /// No dashpot stands beside the spring: nothing.
+        fn drag(&self, _: __S) -> (Self::Drag, Self::Drag) {
             ([], [])
         }
         /// Entropy form: what depends on the old state alone.

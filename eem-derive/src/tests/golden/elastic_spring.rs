@@ -22,6 +22,7 @@ const _: () = {
         type Variables = [__S; 1];
         type Hessian = [[__S; 1]; 1];
         type Viscosities = [__S; 0];
+        type Drag = [__S; 0];
         type Corners = [__S; 0];
         type Response = [__S; 1];
         type Tangent = [[__S; 1]; 1];
@@ -163,6 +164,10 @@ const _: () = {
         }
         /// There is no dashpot: nothing.
         fn viscosity(&self, _: __S) -> (Self::Viscosities, Self::Viscosities) {
+            ([], [])
+        }
+        /// No dashpot stands beside the spring: nothing.
+        fn drag(&self, _: __S) -> (Self::Drag, Self::Drag) {
             ([], [])
         }
         /// Entropy form: what depends on the old state alone.
