@@ -28,6 +28,7 @@ mod explicit;
 mod generic;
 mod inspect;
 mod interface;
+mod kelvin_voigt;
 mod local;
 mod member;
 mod misfit;

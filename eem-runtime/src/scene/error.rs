@@ -267,10 +267,7 @@ pub enum SceneError {
         mass: f64,
     },
     /// The weight of a mass is not finite.
-    #[error(
-        "component {axis} of the weight m g of {node} is {value} N, it must be finite",
-        value = Readable(*value)
-    )]
+    #[error("component {axis} of the weight m g of {node} is {value} N, it must be finite", value = Readable(*value))]
     Weight {
         /// The node.
         node: Node,

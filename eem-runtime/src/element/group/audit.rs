@@ -1,6 +1,6 @@
 //! Whether elements can be in a state that comes from outside, and which parameters they have.
 
-use super::drag::check_drag;
+use super::kelvin_voigt::check_drag;
 use super::point::Point;
 use crate::element::conjugates::{ElementScheme, Infeasible};
 use crate::element::error::StateError;

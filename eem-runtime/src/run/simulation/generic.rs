@@ -147,16 +147,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     add_rank_one(&mut irreversible, theta / eta, &w);
                 }
                 for (eta, by_position) in &element.drags {
-                    // ṗ = −η λ̇ ∂λ/∂q and ṡ = η λ̇²/θ.
-                    let mut w = Vec::new();
-                    let mut rate = S::zero();
-                    for &(coordinate, entry) in by_position {
-                        if let Some(q) = places.positions[coordinate] {
-                            w.push((q + places.momenta, entry));
-                        }
-                        rate += entry * velocities[coordinate];
-                    }
-                    w.push((places.entropies + slot, -rate / theta));
+                    let w = places.drag(by_position, velocities, (slot, theta));
                     add_rank_one(&mut irreversible, *eta * theta, &w);
                 }
             }
@@ -223,6 +214,27 @@ struct Places {
     entropies: usize,
     reservoirs: usize,
     size: usize,
+}
+
+impl Places {
+    /// `w` of the dashpot beside a spring, `ηθ w wᵀ ∇S`: `ṗ = −η λ̇ ∂λ/∂q` and `ṡ = η λ̇²/θ`.
+    fn drag<S: Real>(
+        &self,
+        by_position: &[(usize, S)],
+        velocities: &[S],
+        (slot, theta): (usize, S),
+    ) -> Vec<(usize, S)> {
+        let mut w = Vec::with_capacity(by_position.len() + 1);
+        let mut rate = S::zero();
+        for &(coordinate, entry) in by_position {
+            if let Some(q) = self.positions[coordinate] {
+                w.push((q + self.momenta, entry));
+            }
+            rate += entry * velocities[coordinate];
+        }
+        w.push((self.entropies + slot, -rate / theta));
+        w
+    }
 }
 
 /// Adds `factor w wᵀ` for a `w` with these entries.

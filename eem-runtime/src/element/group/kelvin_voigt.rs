@@ -1,0 +1,192 @@
+//! The dashpot beside a spring (Kelvin–Voigt), whose force acts along λ.
+//!
+//! ```text
+//! f_d = η(θ*) (λ¹ − λ⁰)/h,   heat η(θ*) (λ¹ − λ⁰)²/h
+//! ```
+//!
+//! It acts along the same mean-value gradient as f*, so that its work is `f_d Δλ`, the heat that the element
+//! receives, for any step. `Δλ = D*λ Δr` is found from the motion of the nodes: the difference of lengths would
+//! lose its digits where the dashpot is stiff. The response stays that of the free energy; whoever needs the force between the
+//! nodes asks [`Point::pulls`].
+
+use super::arms::{along, measures_in};
+use super::local::Dissipation;
+use super::point::{Point, temperature_in};
+use super::pose::Pose;
+use crate::element::conjugates::{ElementScheme, Form};
+use crate::element::error::StateError;
+use crate::element::group::view::StepView;
+use crate::element::kinematics::{Arms, Kinematics, Measures};
+use crate::element::tally::Tally;
+use crate::material::free_energy::{Array, FreeEnergy};
+use crate::number::scalar::{Real, is_positive};
+
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S>,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// Number of measures with a dashpot of their own.
+    pub(super) const DRAGS: usize = M::Drag::LEN;
+
+    /// Finds `Δλ` along the gradients of the trial.
+    #[inline]
+    pub(super) fn extend(&mut self, pose: &Pose<K, S, D>, motion: &Arms<K, S, D>) {
+        for a in 0..Self::DRAGS {
+            self.drag.extension[a] = along::<K, S, D>(&pose.direction[a], motion);
+        }
+    }
+
+    /// Takes the viscosity at a temperature, which is positive.
+    #[inline]
+    pub(super) fn find_drag_viscosity(&mut self, theta: S) -> Result<(), StateError> {
+        if Self::DRAGS == 0 {
+            return Ok(());
+        }
+        self.drag.viscosity = self.model.drag(theta);
+        check_drag::<S, M, K, D>(self.drag.viscosity.0, theta)
+            .map_err(|error| error.of(self.element))
+    }
+
+    /// Finds the force that goes with a response, in a step of so many seconds⁻¹.
+    #[inline]
+    pub(super) fn find_drag(
+        &mut self,
+        per_step: S,
+        response: &M::Response,
+    ) -> Result<(), StateError> {
+        self.find_drag_viscosity(temperature_in::<S, M>(response))?;
+        for a in 0..Self::DRAGS {
+            self.drag.force[a] = self.drag.viscosity.0[a] * (self.drag.extension[a] * per_step);
+        }
+        Ok(())
+    }
+
+    /// Adds the force that has been found, with its derivatives, to a form; returns the forces without it.
+    #[inline]
+    pub(super) fn add_drag(&self, per_step: S, (response, tangent): &mut Form<S, M>) -> M::Drag {
+        let mut elastic = M::Drag::filled(S::zero());
+        for a in 0..Self::DRAGS {
+            elastic[a] = response[a];
+            response[a] += self.drag.force[a];
+            if M::THERMAL {
+                let thinning = self.thinning(a, per_step);
+                for column in 0..Self::VARIABLES {
+                    let by_theta = tangent[Self::TEMPERATURE][column];
+                    tangent[a][column] += thinning * by_theta;
+                }
+            }
+            tangent[a][a] += self.drag.viscosity.0[a] * per_step;
+        }
+        elastic
+    }
+
+    /// `λ̇ dη/dθ`, the derivative of the force by θ*.
+    #[inline]
+    fn thinning(&self, a: usize, per_step: S) -> S {
+        self.drag.extension[a] * per_step * self.drag.viscosity.1[a]
+    }
+
+    /// The response of a kept form is that of the free energy.
+    #[inline]
+    pub(super) fn drop_drag(&mut self, elastic: &M::Drag) {
+        for a in 0..Self::DRAGS {
+            self.response[a] = elastic[a];
+        }
+    }
+
+    /// Adds `η λ̇²` and its derivatives to what the dashpots turn into heat.
+    #[inline]
+    pub(super) fn dissipate_by_drag(
+        &self,
+        view: &StepView<'_, S>,
+        (_, tangent): &Form<S, M>,
+        dissipation: &mut Dissipation<S, M>,
+    ) {
+        for a in 0..Self::DRAGS {
+            let rate = self.drag.extension[a] * view.per_step;
+            let force = self.drag.force[a];
+            dissipation.power += force * rate;
+            if M::THERMAL {
+                let thinning = rate * self.thinning(a, view.per_step);
+                for column in 0..Self::VARIABLES {
+                    let by_theta = tangent[Self::TEMPERATURE][column];
+                    dissipation.by[column] += thinning * by_theta;
+                }
+            }
+            // ∂(η λ̇²)/∂λ = 2 η λ̇/h
+            dissipation.by[a] += (force + force) * view.per_step;
+        }
+    }
+
+    /// Books the heat of the step, J.
+    #[inline]
+    pub(super) fn book_drag(&self, per_theta: S, tally: &mut Tally<S>) -> S {
+        let mut dissipated = S::zero();
+        for a in 0..Self::DRAGS {
+            let heat = self.drag.force[a] * self.drag.extension[a];
+            dissipated += heat;
+            tally.produce(heat * per_theta);
+        }
+        dissipated
+    }
+
+    /// The forces between the nodes: those of the response and those of dashpots beside the spring, N.
+    #[inline]
+    pub(super) fn pulls(&self) -> Measures<K, S, D> {
+        let mut forces = measures_in::<K, S, D>(&self.response);
+        for a in 0..Self::DRAGS {
+            forces[a] += self.drag.force[a];
+        }
+        forces
+    }
+
+    /// The same of a row of the response, whatever it is.
+    #[inline]
+    pub(super) fn pull_of_row(&self, row: usize) -> S {
+        if row < Self::DRAGS {
+            self.response[row] + self.drag.force[row]
+        } else {
+            self.response[row]
+        }
+    }
+}
+
+/// A viscosity that is none.
+pub(super) struct WrongDrag {
+    value: f64,
+    unit: &'static str,
+    temperature: Option<f64>,
+}
+
+impl WrongDrag {
+    /// The same, said of an element.
+    pub(super) fn of(self, element: crate::element::handle::Element) -> StateError {
+        StateError::Drag {
+            element,
+            value: self.value,
+            unit: self.unit,
+            temperature: self.temperature,
+        }
+    }
+}
+
+/// The viscosity of a dashpot beside a spring is positive and finite.
+#[inline]
+pub(super) fn check_drag<S, M, K, const D: usize>(drag: M::Drag, theta: S) -> Result<(), WrongDrag>
+where
+    S: Real,
+    M: FreeEnergy<S>,
+    K: Kinematics<S, D>,
+{
+    match drag.as_ref().iter().find(|&&eta| !is_positive(eta)) {
+        None => Ok(()),
+        Some(eta) => Err(WrongDrag {
+            value: eta.to_f64(),
+            unit: K::VISCOSITY_UNIT,
+            temperature: M::THERMAL.then(|| theta.to_f64()),
+        }),
+    }
+}
