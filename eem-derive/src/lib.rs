@@ -130,7 +130,7 @@ use syn::{DeriveInput, parse_macro_input};
 ///
 /// With the name of the `Stretch`, `#[viscosity(lambda = law)]`, a dashpot stands beside the spring
 /// (Kelvin–Voigt): the force `η λ̇`, and its heat `η λ̇²`. The schemes `EemEntropy` and `EemTemperature` step it
-/// and keep the laws; others refuse a scene with one.
+/// and keep the laws, and the midpoint and trapezoidal rules step it; others refuse a scene with one.
 ///
 /// # Units
 ///

@@ -317,10 +317,20 @@ impl Scheme {
         matches!(self, Self::Staggered)
     }
 
-    /// Whether it steps springs with a dashpot beside them. Both parts of [`Staggered`](Self::Staggered)
-    /// would: the mechanical one moves, the other one warms.
+    /// Whether it steps springs with a dashpot beside them: the schemes of one stage in which motion and heat
+    /// go together, and whose forces act along a gradient at a time of the step.
     pub(crate) const fn takes_drag(self) -> bool {
-        matches!(self, Self::EemEntropy | Self::EemTemperature)
+        use Conjugates::{End, EndTemperature, EntropyForm, TemperatureForm};
+        let takes = matches!(
+            self.conjugates(),
+            EntropyForm
+                | TemperatureForm
+                | Conjugates::Midpoint
+                | Conjugates::MidpointTemperature
+                | End
+                | EndTemperature
+        );
+        takes && !self.is_split()
     }
 
     /// The numbers of a scheme that goes through stages.

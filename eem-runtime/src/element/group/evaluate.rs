@@ -54,7 +54,7 @@ where
                 let seen = point.locate_trial(arms.ends(), trial)?;
                 let pose = point.pose(&arms.old, &seen);
                 point.sensitivity = pose.sensitivity;
-                point.extend(&pose, &arms.motion);
+                let by_rate = point.extend(&pose, &arms.motion);
                 // It stays where the model writes it: copies of it would be a good part of the work.
                 let mut form = point.form(trial);
                 if M::THERMAL && C::IN_TEMPERATURE {
@@ -64,6 +64,9 @@ where
                 let elastic = point.add_drag(view.per_step, &mut form);
                 let contact = point.contact_in(&self.contacts);
                 point.condense(view, &trial.seen, &form, contact)?;
+                if let Some(by_rate) = &by_rate {
+                    point.warm_by_rates(view, by_rate);
+                }
                 let mut target = Target {
                     values: &mut *values,
                     right: &mut *right,
@@ -71,7 +74,8 @@ where
                     contact,
                 };
                 if view.phase.moves() {
-                    let own = point.momentum(view.step, &pose, &form, &mut target);
+                    let form = (&form, by_rate.as_ref());
+                    let own = point.momentum(view.step, &pose, form, &mut target);
                     gather(&mut share, own);
                 }
                 point.assemble_temperature(trial, &form, &mut target);

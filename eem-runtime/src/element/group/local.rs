@@ -123,7 +123,7 @@ where
     /// Whether `r_s` depends on global unknowns otherwise than through the measures.
     #[inline]
     pub(super) fn depends_on_heat(is_coupled: bool) -> bool {
-        C::IN_TEMPERATURE || (M::THERMAL && is_coupled)
+        C::IN_TEMPERATURE || (M::THERMAL && (is_coupled || Self::HAS_RATES))
     }
 
     /// The heat that conduction gives it.

@@ -184,13 +184,14 @@ where
 
     /// The power of the dashpots that the scheme takes from the old state, `Σ g⁰ (1 − w) γ̇⁰`, W.
     pub(super) fn old_dissipation(&self) -> S {
+        let of_drag = self.old_drag_power();
         if C::IMPLICIT >= 1.0 || M::DASHPOTS == 0 {
-            return S::zero();
+            return of_drag;
         }
         let forces = self.model.gradient(&self.start.x0);
         let dashpots = M::MEASURES..Self::TEMPERATURE;
         let old = self.single.as_ref().iter();
-        old.fold(S::zero(), |sum, old| {
+        old.fold(of_drag, |sum, old| {
             dashpots
                 .clone()
                 .fold(sum, |sum, k| sum - forces[k] * old.old_rates[k])
