@@ -163,9 +163,9 @@ fn free_masses_keep_their_momenta() {
             scene.mass(2.0, [1.3, 0.2, 0.0], [0.0, 1.0, 0.5]),
             scene.mass(0.5, [0.3, 1.1, 0.4], [-1.0, 0.0, 0.3]),
         ];
-        for (i, j) in [(0, 1), (1, 2), (2, 0)] {
+        for (i, j, theta) in [(0, 1, 310.0), (1, 2, 330.0), (2, 0, 350.0)] {
             let spring = scene.spring(VOIGT, [masses[i], masses[j]]);
-            scene.set_temperature(spring, 310.0 + 20.0 * i as f64);
+            scene.set_temperature(spring, theta);
         }
         let mut run = Simulation::new(scene, scheme, 0.1).unwrap();
         let mut laws = Laws::new(&run);

@@ -1,4 +1,5 @@
 #[allow(clippy::unreadable_literal, clippy::excessive_precision)]
+#[allow(clippy::approx_constant)]
 #[allow(clippy::many_single_char_names, clippy::similar_names)]
 #[allow(clippy::too_many_lines, clippy::cognitive_complexity, clippy::let_and_return)]
 #[allow(unused_qualifications)]
