@@ -317,20 +317,10 @@ impl Scheme {
         matches!(self, Self::Staggered)
     }
 
-    /// Whether it steps springs with a dashpot beside them: the schemes of one stage in which motion and heat
-    /// go together, and whose forces act along a gradient at a time of the step.
+    /// Whether it steps springs with a dashpot beside them: along one gradient, with their heat.
     pub(crate) const fn takes_drag(self) -> bool {
-        use Conjugates::{End, EndTemperature, EntropyForm, TemperatureForm};
-        let takes = matches!(
-            self.conjugates(),
-            EntropyForm
-                | TemperatureForm
-                | Conjugates::Midpoint
-                | Conjugates::MidpointTemperature
-                | End
-                | EndTemperature
-        );
-        takes && !self.is_split()
+        use Conjugates::{MeanMeasures, Stages};
+        !matches!(self.conjugates(), Stages(_) | MeanMeasures) && !self.is_split()
     }
 
     /// The numbers of a scheme that goes through stages.
