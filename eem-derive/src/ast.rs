@@ -163,7 +163,20 @@ pub(crate) struct Block<'a> {
 pub(crate) struct Binding<'a> {
     /// Nothing if a statement could not be read that may have declared names.
     pub(crate) ident: Option<&'a Ident>,
-    pub(crate) value: Expr<'a>,
+    pub(crate) value: Bound<'a>,
+}
+
+/// What a `let` gives a name.
+pub(crate) enum Bound<'a> {
+    Value(Expr<'a>),
+    Helper(Helper<'a>),
+}
+
+/// `|x, y| body`, a function of the formula that stands for its body at every call.
+pub(crate) struct Helper<'a> {
+    /// Nothing where an argument could not be read.
+    pub(crate) arguments: Vec<Option<&'a Ident>>,
+    pub(crate) body: Block<'a>,
 }
 
 /// An expression and the syntax it comes from.
@@ -184,8 +197,12 @@ impl<'a> Expr<'a> {
 pub(crate) enum ExprKind<'a> {
     /// A literal, exact where 128-bit rationals can hold it.
     Number(Number),
-    /// A field, an argument or a binding.
+    /// A field, an argument, a binding or a constant of the program.
     Name(&'a Ident),
+    /// A constant of the program by its path, `crate::gas::R`.
+    Constant(&'a syn::Path),
+    /// `name[2]`, an entry of an array.
+    Entry(Entry<'a>),
     /// `-x`
     Negate(Box<Expr<'a>>),
     /// `x + y` and its relatives.
@@ -196,6 +213,15 @@ pub(crate) enum ExprKind<'a> {
     Block(Block<'a>),
     /// Something that has been reported, and the expressions in it.
     Wrong(Vec<Expr<'a>>),
+}
+
+/// `name[index]`
+#[derive(Clone, Copy)]
+pub(crate) struct Entry<'a> {
+    pub(crate) array: &'a Ident,
+    pub(crate) index: usize,
+    /// The index as written, for errors about it.
+    pub(crate) literal: &'a syn::LitInt,
 }
 
 /// The arithmetic operators.
@@ -210,6 +236,12 @@ pub(crate) enum Operator {
 /// The name starts with an underscore: it may be without use.
 pub(crate) fn is_underscored(ident: &Ident) -> bool {
     name(ident).starts_with('_')
+}
+
+/// The name is written as those of constants are: in upper case.
+pub(crate) fn is_upper_case(ident: &Ident) -> bool {
+    let name = name(ident);
+    name.contains(char::is_uppercase) && !name.contains(char::is_lowercase)
 }
 
 /// The name without `r#`: `r#type` and `type` are the same name.

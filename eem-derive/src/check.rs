@@ -3,6 +3,9 @@
 //! One function per rule, one file per subject. This file is the table of contents.
 
 mod callee;
+pub(crate) mod constants;
+mod helpers;
+mod inlining;
 mod laws;
 mod names;
 mod parameters;
@@ -26,7 +29,7 @@ pub(crate) fn check<'a>(cx: &Ctxt, input: &'a Input<'a>) -> Checked<'a> {
     names::check_arguments(cx, input);
     let mut used = parameters::Used::none(input);
     let energy = resolve::energy(cx, input, &variables, &mut used);
-    let viscosities = laws::viscosities(cx, input, &variables, &mut used);
+    let laws = laws::laws(cx, input, &variables, &mut used);
     laws::check_names(cx, input);
     laws::check_complete(cx, input);
     let sound = used.is_complete() && roles::are_sound(input);
@@ -39,7 +42,8 @@ pub(crate) fn check<'a>(cx: &Ctxt, input: &'a Input<'a>) -> Checked<'a> {
         parameters: parameters::parameters(cx, input, &used),
         variables,
         energy,
-        viscosities,
+        viscosities: laws.viscosities,
+        drag: laws.drag,
         sound,
     }
 }

@@ -5,7 +5,7 @@
 //! law. If nothing has been reported, there are no holes, and roles and laws are complete.
 
 use eem_symbolic::{Function, Number};
-use proc_macro2::Ident;
+use proc_macro2::{Ident, TokenStream};
 
 use crate::ast::{Operator, Role, Strain};
 
@@ -17,7 +17,8 @@ pub(crate) struct Checked<'a> {
     pub(crate) krate: &'a syn::Path,
     /// The scalar that the implementation is for.
     pub(crate) scalar: Scalar<'a>,
-    /// The fields that an expression mentions, in order of declaration.
+    /// The fields that an expression mentions, in order of declaration, then the constants of the
+    /// program, in order of appearance.
     pub(crate) parameters: Vec<Parameter<'a>>,
     /// The arguments in the order of the state: measures, dashpots, temperature.
     pub(crate) variables: Vec<Variable<'a>>,
@@ -25,6 +26,8 @@ pub(crate) struct Checked<'a> {
     pub(crate) energy: Body<'a>,
     /// One viscosity per dashpot, in the order of the dashpots; nothing where it is missing.
     pub(crate) viscosities: Vec<Option<Body<'a>>>,
+    /// The viscosity of the stretch, if a dashpot stands beside the spring.
+    pub(crate) drag: Option<Body<'a>>,
     /// The roles are complete, and no expression has a hole: this is the model that was meant.
     pub(crate) sound: bool,
 }
@@ -33,6 +36,14 @@ impl Checked<'_> {
     /// The measures of strain in the order of the state; none in a spring.
     pub(crate) fn strains(&self) -> impl Iterator<Item = Strain> {
         self.variables.iter().filter_map(|v| v.role.strain())
+    }
+
+    /// The paths of the constants of the program, in order of appearance.
+    pub(crate) fn constants(&self) -> impl Iterator<Item = &TokenStream> {
+        self.parameters.iter().filter_map(|p| match &p.source {
+            Source::Constant(path) => Some(path),
+            Source::Field(..) | Source::Entry(..) => None,
+        })
     }
 
     /// It is a free energy per volume, of strains.
@@ -50,13 +61,47 @@ pub(crate) enum Scalar<'a> {
     Parameter(&'a Ident),
 }
 
-/// A field that an expression mentions.
-#[derive(Clone, Copy, Debug)]
+/// A number that an expression mentions and whose value is known at run time only.
+#[derive(Clone, Debug)]
 pub(crate) struct Parameter<'a> {
-    /// Which field of the struct it is.
-    pub(crate) field: usize,
-    pub(crate) ident: &'a Ident,
-    pub(crate) kind: ParameterKind,
+    /// What it is.
+    pub(crate) origin: Origin,
+    /// Its name in formulas: `stiffness`, `stiffness[2]`, `R`.
+    pub(crate) name: String,
+    /// How the generated code reads it.
+    pub(crate) source: Source<'a>,
+}
+
+/// What a parameter is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Origin {
+    /// Index of a field of the struct.
+    Field(usize),
+    /// Index of a field that is an array, and of an entry of it.
+    Entry(usize, usize),
+    /// A constant of the program, in order of appearance.
+    Constant(usize),
+}
+
+impl Origin {
+    /// The field of the struct, unless it is a constant.
+    pub(crate) fn field(self) -> Option<usize> {
+        match self {
+            Self::Field(field) | Self::Entry(field, _) => Some(field),
+            Self::Constant(_) => None,
+        }
+    }
+}
+
+/// How the generated code reads a parameter.
+#[derive(Clone, Debug)]
+pub(crate) enum Source<'a> {
+    /// `self.name`
+    Field(&'a Ident, ParameterKind),
+    /// `self.name[2]`
+    Entry(&'a Ident, usize, ParameterKind),
+    /// A path that Rust resolves.
+    Constant(TokenStream),
 }
 
 /// How a field becomes a scalar.
@@ -94,8 +139,8 @@ pub(crate) struct Expr<'a> {
 /// A resolved expression.
 pub(crate) enum ExprKind<'a> {
     Number(Number),
-    /// Index of a field of the struct: see [`Parameter::field`].
-    Parameter(usize),
+    /// One of [`Checked::parameters`].
+    Parameter(Origin),
     /// Index into [`Checked::variables`].
     Variable(usize),
     /// Index into [`Body::bindings`].
@@ -112,6 +157,8 @@ pub(crate) enum ExprKind<'a> {
     Powf(Box<Expr<'a>>, Box<Expr<'a>>),
     /// The derivative with respect to a variable.
     Diff(Box<Expr<'a>>, usize),
+    /// What a helper computes in the call that is given: messages about it name the call.
+    InCall(&'a syn::Expr, Box<Expr<'a>>),
     /// Something that has been reported, and the expressions in it.
     Wrong(Vec<Expr<'a>>),
 }

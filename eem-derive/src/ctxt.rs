@@ -1,8 +1,8 @@
 //! Collects the errors of all phases, so that a user sees them at once.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 
-use proc_macro2::Span;
+use proc_macro2::{Span, TokenStream};
 use quote::ToTokens;
 
 use crate::message::Message;
@@ -13,7 +13,23 @@ use crate::message::Message;
 /// the last phase is a [`Ctxt::barrier`].
 #[derive(Debug, Default)]
 pub(crate) struct Ctxt {
-    errors: RefCell<Vec<syn::Error>>,
+    reports: RefCell<Vec<Report>>,
+    /// The calls of helpers that are looked into, outermost first, as quoted.
+    calls: RefCell<Vec<String>>,
+    /// Counts who wants to hear nothing because all has been reported before.
+    muted: Cell<usize>,
+}
+
+/// One error.
+#[derive(Debug)]
+struct Report {
+    /// Where it is; its text is that of the message.
+    error: syn::Error,
+    /// The tokens there, if there are any.
+    tokens: TokenStream,
+    message: Message,
+    /// The calls of helpers in which it was found: it is said once for all of them.
+    calls: Vec<String>,
 }
 
 impl Ctxt {
@@ -24,27 +40,87 @@ impl Ctxt {
 
     /// Reports `message` at the given tokens, which should be as few as show the mistake.
     pub(crate) fn error(&self, tokens: impl ToTokens, message: &Message) {
-        self.push(syn::Error::new_spanned(tokens, message));
+        let tokens = tokens.into_token_stream();
+        self.push(syn::Error::new_spanned(&tokens, message), tokens, message);
     }
 
     /// Reports `message` at a single span, for delimiters and other places without tokens.
     pub(crate) fn error_at(&self, span: Span, message: &Message) {
-        self.push(syn::Error::new(span, message));
+        self.push(syn::Error::new(span, message), TokenStream::new(), message);
     }
 
-    fn push(&self, error: syn::Error) {
-        self.errors.borrow_mut().push(error);
+    /// From here on it is about the body of a helper in this call.
+    pub(crate) fn enter(&self, call: String) {
+        self.calls.borrow_mut().push(call);
+    }
+
+    /// The end of what [`enter`](Self::enter) began.
+    pub(crate) fn leave(&self) {
+        self.calls.borrow_mut().pop();
+    }
+
+    /// From here on nothing is reported.
+    pub(crate) fn mute(&self) {
+        self.muted.set(self.muted.get() + 1);
+    }
+
+    /// The end of what [`mute`](Self::mute) began.
+    pub(crate) fn unmute(&self) {
+        self.muted.set(self.muted.get() - 1);
+    }
+
+    /// Whether nothing is reported.
+    pub(crate) fn is_muted(&self) -> bool {
+        self.muted.get() > 0
+    }
+
+    fn push(&self, error: syn::Error, tokens: TokenStream, message: &Message) {
+        if self.is_muted() {
+            return;
+        }
+        let mut reports = self.reports.borrow_mut();
+        let calls = self.calls.borrow();
+        // From the innermost call to the one in the formula.
+        let calls: Vec<String> = calls.iter().rev().map(|call| format!("`{call}`")).collect();
+        let calls = (!calls.is_empty()).then(|| calls.join(", called in "));
+        let place = format!("{:?}", error.span());
+        let same = reports.iter_mut().find(|report| {
+            let same_place = || format!("{:?}", report.error.span()) == place;
+            !report.calls.is_empty() && report.message == *message && same_place()
+        });
+        match (same, calls) {
+            (Some(report), Some(calls)) => {
+                if !report.calls.contains(&calls) {
+                    report.calls.push(calls);
+                }
+            }
+            (_, calls) => reports.push(Report {
+                error,
+                tokens,
+                message: message.clone(),
+                calls: calls.into_iter().collect(),
+            }),
+        }
     }
 
     /// The value if nothing was reported, otherwise all errors in one, in the order of the source.
     pub(crate) fn barrier<T>(&self, value: Option<T>) -> syn::Result<T> {
-        let mut errors = self.errors.take();
+        let mut reports = self.reports.take();
         // Stable: errors at one place stay in the order of the phases.
-        errors.sort_by_cached_key(|error| position(error.span()));
-        match errors.into_iter().reduce(combined) {
+        reports.sort_by_cached_key(|report| position(report.error.span()));
+        match reports.into_iter().map(Report::into_error).reduce(combined) {
             Some(error) => Err(error),
             None => Ok(value.unwrap_or_else(|| unreachable!("a phase without a value says why"))),
         }
+    }
+}
+
+impl Report {
+    fn into_error(self) -> syn::Error {
+        if self.calls.is_empty() {
+            return self.error;
+        }
+        syn::Error::new_spanned(self.tokens, self.message.within(&self.calls))
     }
 }
 
@@ -71,7 +147,7 @@ impl Drop for Ctxt {
     fn drop(&mut self) {
         if !std::thread::panicking() {
             assert!(
-                self.errors.borrow().is_empty(),
+                self.reports.borrow().is_empty(),
                 "errors were reported and not shown"
             );
         }

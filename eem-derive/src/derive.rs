@@ -4,6 +4,7 @@ use proc_macro2::TokenStream;
 use syn::DeriveInput;
 
 use crate::attr::Attributes;
+use crate::checked::Checked;
 use crate::ctxt::Ctxt;
 use crate::fallback::Shape;
 use crate::{check, expand, fallback, model, parse, physics, units};
@@ -16,8 +17,9 @@ pub(crate) fn derive(input: &DeriveInput) -> TokenStream {
     let cx = Ctxt::new();
     let attributes = Attributes::from_syn(&cx, input);
     let parsed = parse::input(&cx, input, &attributes);
-    let shape = parsed.as_ref().map_or_else(Shape::default, Shape::new);
+    let mut shape = parsed.as_ref().map_or_else(Shape::default, Shape::new);
     let checked = parsed.as_ref().map(|parsed| check::check(&cx, parsed));
+    shape.mention(checked.iter().flat_map(Checked::constants));
     let model = checked.as_ref().and_then(|checked| {
         let units = units::check(&cx, checked);
         let model = model::lower(&cx, checked)?;

@@ -16,6 +16,7 @@ mod points;
 mod rates;
 mod statements;
 pub(crate) mod strains;
+mod viscosities;
 
 use eem_symbolic::{Model, Programs};
 use proc_macro2::TokenStream;
@@ -61,6 +62,8 @@ pub(crate) fn wrap(krate: &Path, implementation: &TokenStream) -> TokenStream {
     quote! {
         // Numbers have all their digits, without separators.
         #[allow(clippy::unreadable_literal, clippy::excessive_precision)]
+        // `PI` of a formula is a number like any other.
+        #[allow(clippy::approx_constant)]
         // Values are named `__v0`, `__v1`, …
         #[allow(clippy::many_single_char_names, clippy::similar_names)]
         // A long formula makes a long function.

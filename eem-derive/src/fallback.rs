@@ -18,6 +18,7 @@ pub(crate) struct Shape {
     strains: Vec<Strain>,
     dashpots: usize,
     thermal: bool,
+    constants: Vec<TokenStream>,
 }
 
 impl Shape {
@@ -35,7 +36,13 @@ impl Shape {
             strains: Strain::ALL.into_iter().filter(strain).collect(),
             dashpots: count(Role::Viscous),
             thermal: count(Role::Temperature) > 0,
+            constants: Vec::new(),
         }
+    }
+
+    /// Mentions the constants of the formulas, so that Rust says at once which of them do not exist.
+    pub(crate) fn mention<'c>(&mut self, constants: impl Iterator<Item = &'c TokenStream>) {
+        self.constants.extend(constants.cloned());
     }
 }
 
@@ -66,11 +73,18 @@ fn empty_description(input: &DeriveInput) -> TokenStream {
 
 // Expands to: a model whose functions are never run because the program does not compile.
 fn body(scalar: &TokenStream, shape: &Shape) -> TokenStream {
+    let mentioned = shape.constants.iter();
+    let mentioned = mentioned.map(|path| {
+        quote! { let _: __eem::core::primitive::f64 = __eem::core::convert::From::from(#path); }
+    });
     let shape = constants(scalar, shape);
     let never = quote! { __eem::core::panic!("the free energy has errors") };
     quote! {
         #shape
-        fn parameter(&self, _: __eem::core::primitive::usize) -> #scalar { #never }
+        fn parameter(&self, _: __eem::core::primitive::usize) -> #scalar {
+            #(#mentioned)*
+            #never
+        }
         fn free_energy(&self, _: &Self::Variables) -> #scalar { #never }
         fn energy_magnitude(&self, _: &Self::Variables) -> #scalar { #never }
         fn internal_energy(&self, _: &Self::Variables) -> #scalar { #never }
@@ -79,6 +93,7 @@ fn body(scalar: &TokenStream, shape: &Shape) -> TokenStream {
         fn caloric(&self, _: &Self::Variables) -> __eem::Caloric<#scalar> { #never }
         fn entropy_hessian(&self, _: &Self::Variables) -> Self::Hessian { #never }
         fn viscosity(&self, _: #scalar) -> (Self::Viscosities, Self::Viscosities) { #never }
+        fn drag(&self, _: #scalar) -> (Self::Drag, Self::Drag) { #never }
         fn entropy_form_old(&self, _: &Self::Variables) -> Self::EntropyFormOld { #never }
         fn entropy_form(
             &self,
@@ -100,6 +115,7 @@ fn constants(scalar: &TokenStream, shape: &Shape) -> TokenStream {
         ref strains,
         dashpots,
         thermal,
+        ..
     } = shape;
     let measures = strains.len().max(1);
     let variables = measures + dashpots + usize::from(thermal);
@@ -128,6 +144,7 @@ fn constants(scalar: &TokenStream, shape: &Shape) -> TokenStream {
         type Variables = #state;
         type Hessian = #hessian;
         type Viscosities = #viscosities;
+        type Drag = #nothing;
         type Corners = #corners;
         type Response = #response;
         type Tangent = #tangent;

@@ -108,8 +108,16 @@ use syn::{DeriveInput, parse_macro_input};
 /// * names: arguments, fields of type `f64`, `f32` or of a type parameter, and `let` bindings. A
 ///   name means one thing: no argument has the name of a field, and no `let` a name that can be seen
 ///   where it stands.
+/// * entries of fields that are arrays: with `stiffness: [f64; 3]` there are `stiffness[0]` to
+///   `stiffness[2]`. Index and length are written out. Every entry is a parameter of its own.
+/// * constants of the program, whose names are in upper case: `R`, `crate::gas::R`, `Self::R`. Rust finds
+///   them where the struct stands; their type is `f64`, or one that fits without loss such as `f32` or `i32`.
+///   `PI` is π without an import, `core::f64::consts::…` and `std::f64::consts::…` are known by their values.
 /// * numbers: `2`, `2.0`, `1e-3`, `1_000.0`, all exact: `1 / 2` is one half.
 /// * `+`, `-`, `*`, `/`, unary minus, parentheses, blocks with `let`.
+/// * helpers, `let f = |x, y| …;`, called as `f(a, b)`: every call stands for the body with its arguments. A
+///   helper sees what is before it and cannot call itself. What is wrong in a call is said at the token in the
+///   body, with the call.
 /// * `diff(expression, argument)`: the partial derivative, anywhere in an expression.
 /// * in call form `ln(x)` and in method form `x.ln()`: `powi`, `powf`, `sqrt`, `cbrt`, `recip`,
 ///   `abs`, `exp`, `exp_m1`, `ln`, `ln_1p`, `log2`, `log10`, `sin`, `cos`, `tan`, `sinh`, `cosh`,
@@ -119,6 +127,10 @@ use syn::{DeriveInput, parse_macro_input};
 ///
 /// `#[viscosity(gamma = law)]`, one law per dashpot in N s/m, in a solid in Pa s, separated by commas or in several
 /// attributes. A law may use the temperature and the fields.
+///
+/// With the name of the `Stretch`, `#[viscosity(lambda = law)]`, a dashpot stands beside the spring
+/// (Kelvin–Voigt): the force `η λ̇`, and its heat `η λ̇²`. The schemes `EemEntropy` and `EemTemperature` step it
+/// and keep the laws, and the midpoint and trapezoidal rules step it; others refuse a scene with one.
 ///
 /// # Units
 ///
@@ -139,6 +151,9 @@ use syn::{DeriveInput, parse_macro_input};
 /// All others multiply and divide units; `diff(e, x)` has the unit of `e/x`. Exponents are exact
 /// rationals.
 ///
+/// The unit above an array is that of every entry. A constant is a pure number, unless the struct says
+/// what it is measured in, with the path that the formula has: `#[unit(R = "J/(mol K)", crate::MOLES = "mol")]`.
+///
 /// A unit is a product of symbols: `N s/m`, `kg*m^2/(s^2 K)`, `J·K⁻¹`, `m^(1/2)`, `1/s`, and `1` for a
 /// pure number. Known are the units of the SI (`rad` and `sr` are 1, `ohm` stands for Ω), with
 /// their prefixes, and `min`, `h`, `d`, `L`, `t`, `bar`. What can be read in two ways is refused:
@@ -151,8 +166,8 @@ use syn::{DeriveInput, parse_macro_input};
 ///
 /// # Fields that are no parameters
 ///
-/// Fields of other types may be there for any purpose. A number that neither the free energy nor a
-/// viscosity uses is an error, because a parameter without effect is most often a term that was
+/// Fields of other types may be there for any purpose. A number, or an entry of an array of numbers, that
+/// neither the free energy nor a viscosity uses is an error, because a parameter without effect is most often a term that was
 /// forgotten. `#[free_energy(unused)]` on the field says that it is no parameter; a name that
 /// starts with an underscore says so too.
 ///

@@ -15,8 +15,11 @@ pub(crate) mod unit;
 #[cfg(test)]
 pub(crate) mod written;
 
+/// Calls of helpers that a message names.
+const CALLS: usize = 3;
+
 /// What is wrong and what to write.
-#[derive(Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Message {
     text: String,
     help: String,
@@ -34,9 +37,23 @@ impl Message {
     }
 }
 
+impl Message {
+    /// The message with the calls of helpers in which it is true, in quotes.
+    pub(crate) fn within(&self, calls: &[String]) -> String {
+        let mut lines = vec![self.text.clone()];
+        let shown = calls.iter().take(CALLS);
+        lines.extend(shown.map(|call| format!("in the call {call}")));
+        if let Some(others @ 1..) = calls.len().checked_sub(CALLS) {
+            lines.push(format!("and in other calls: {others}"));
+        }
+        lines.push(format!("help: {}", self.help));
+        lines.join("\n")
+    }
+}
+
 impl Display for Message {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        write!(f, "{}\nhelp: {}", self.text, self.help)
+        f.write_str(&self.within(&[]))
     }
 }
 

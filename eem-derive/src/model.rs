@@ -13,6 +13,7 @@ use crate::ast::{self, Operator, Role};
 use crate::checked::{Body, Checked, Expr, ExprKind};
 use crate::ctxt::Ctxt;
 use crate::message::expression as message;
+use crate::units::excerpt;
 
 /// Builds the model. Nothing only if something was reported, here or before.
 pub(crate) fn lower(cx: &Ctxt, checked: &Checked<'_>) -> Option<Model> {
@@ -22,9 +23,7 @@ pub(crate) fn lower(cx: &Ctxt, checked: &Checked<'_>) -> Option<Model> {
         .map(|v| graph.symbol(&ast::name(v.ident)))
         .collect();
     let parameters = checked.parameters.iter();
-    let parameters: Vec<Symbol> = parameters
-        .map(|p| graph.symbol(&ast::name(p.ident)))
-        .collect();
+    let parameters: Vec<Symbol> = parameters.map(|p| graph.symbol(&p.name)).collect();
     let mut lowering = Lowering {
         cx,
         checked,
@@ -37,6 +36,7 @@ pub(crate) fn lower(cx: &Ctxt, checked: &Checked<'_>) -> Option<Model> {
     let laws = checked.viscosities.iter();
     let viscosities = laws.map(|law| lowering.body(law.as_ref()?));
     let viscosities: Vec<Option<ExprId>> = viscosities.collect();
+    let drag = checked.drag.as_ref().map(|law| lowering.body(law));
     Some(Model {
         measures: lowering.symbols(Role::is_measure),
         strains: lowering.strains(),
@@ -46,6 +46,10 @@ pub(crate) fn lower(cx: &Ctxt, checked: &Checked<'_>) -> Option<Model> {
         graph: lowering.graph,
         psi: psi?,
         viscosities: viscosities.into_iter().collect::<Option<_>>()?,
+        drag: match drag {
+            Some(law) => Some(law?),
+            None => None,
+        },
     })
 }
 
@@ -87,9 +91,9 @@ impl Lowering<'_> {
     fn value(&mut self, expr: &Expr<'_>) -> Option<ExprId> {
         Some(match &expr.kind {
             ExprKind::Number(number) => self.graph.number(*number),
-            ExprKind::Parameter(field) => {
+            ExprKind::Parameter(origin) => {
                 let mut parameters = self.checked.parameters.iter();
-                let index = parameters.position(|parameter| parameter.field == *field)?;
+                let index = parameters.position(|parameter| parameter.origin == *origin)?;
                 self.graph.variable(self.parameters[index])
             }
             ExprKind::Variable(index) => self.graph.variable(self.variables[*index]),
@@ -132,6 +136,7 @@ impl Lowering<'_> {
                 self.check_derivative(inner, value)?;
                 diff(&mut self.graph, value, self.variables[*variable])
             }
+            ExprKind::InCall(call, inner) => self.in_call(call, inner)?,
             ExprKind::Wrong(parts) => {
                 for part in parts {
                     self.expr(part);
@@ -139,6 +144,14 @@ impl Lowering<'_> {
                 return None;
             }
         })
+    }
+
+    /// What a helper computes in a call.
+    fn in_call(&mut self, call: &syn::Expr, inner: &Expr<'_>) -> Option<ExprId> {
+        self.cx.enter(excerpt(call));
+        let value = self.expr(inner);
+        self.cx.leave();
+        value
     }
 
     fn binary(&mut self, operator: Operator, left: &Expr<'_>, right: &Expr<'_>) -> Option<ExprId> {

@@ -6,7 +6,9 @@
 mod block;
 mod closure;
 mod expr;
+mod helper;
 mod item;
+mod modifiers;
 mod number;
 mod unsupported;
 
@@ -39,7 +41,7 @@ pub(crate) fn input<'a>(
         fields,
         arguments,
         arguments_complete,
-        energy: closure::body(cx, closure),
+        energy: block::body(cx, &closure.body),
         closure,
         laws,
         laws_complete: attributes.laws_complete,

@@ -26,6 +26,11 @@ pub(crate) fn check(cx: &Ctxt, checked: &Checked<'_>, model: &Model) {
                     cx.error(law.value.original, &message::no_viscosity());
                 }
             }
+            Flaw::NoDrag => {
+                if let Some(law) = &checked.drag {
+                    cx.error(law.value.original, &message::no_viscosity());
+                }
+            }
         }
     }
 }

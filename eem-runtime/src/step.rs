@@ -12,4 +12,5 @@ pub(crate) mod pattern;
 pub(crate) mod rule;
 pub(crate) mod scheme;
 pub(crate) mod scheme_name;
+mod scheme_needs;
 pub(crate) mod solver;

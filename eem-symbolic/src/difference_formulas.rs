@@ -42,6 +42,7 @@ impl Model {
     ///     parameters: vec![k],
     ///     psi,
     ///     viscosities: vec![],
+    ///     drag: None,
     /// };
     /// assert_eq!(model.difference_formulas()[0].formula, "k*(x⁰ + x¹)");
     /// ```

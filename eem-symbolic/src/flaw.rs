@@ -21,6 +21,8 @@ pub enum Flaw {
     NegativeHeatCapacity,
     /// The viscosity of this dashpot, counted from 0, is nowhere positive.
     NoViscosity(usize),
+    /// The viscosity of the first measure is nowhere positive.
+    NoDrag,
 }
 
 impl Model {
@@ -42,6 +44,7 @@ impl Model {
     ///     parameters: vec![],
     ///     psi,
     ///     viscosities: vec![],
+    ///     drag: None,
     /// };
     /// assert_eq!(model.flaws(), [Flaw::NoHeatCapacity]);
     /// ```
@@ -61,6 +64,10 @@ impl Model {
             if !sign(&graph, law, &self.bounds()).positive {
                 flaws.push(Flaw::NoViscosity(dashpot));
             }
+        }
+        let never_positive = |law| !sign(&graph, law, &self.bounds()).positive;
+        if self.drag.is_some_and(never_positive) {
+            flaws.push(Flaw::NoDrag);
         }
         flaws
     }

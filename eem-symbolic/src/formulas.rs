@@ -21,6 +21,8 @@ pub struct Formulas {
     pub heat_capacity: Option<String>,
     /// `η_k`.
     pub viscosities: Vec<String>,
+    /// η of the first measure, if it has one.
+    pub drag: Option<String>,
 }
 
 impl Model {
@@ -57,6 +59,7 @@ impl Model {
                 .iter()
                 .map(|&law| format(&graph, law))
                 .collect(),
+            drag: self.drag.map(|law| format(&graph, law)),
         }
     }
 }

@@ -26,6 +26,9 @@ pub struct Model {
     pub psi: ExprId,
     /// One viscosity `η_k` per dashpot, a function of the parameters and θ.
     pub viscosities: Vec<ExprId>,
+    /// The viscosity of the first measure, a function of the parameters and θ, if a dashpot stands beside
+    /// the spring (Kelvin–Voigt).
+    pub drag: Option<ExprId>,
 }
 
 impl Model {

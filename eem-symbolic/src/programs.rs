@@ -40,6 +40,8 @@ pub struct Programs {
     pub entropy_hessian: Option<Program>,
     /// `[η_k …, dη_k/dθ …]`, inputs parameters and θ (if there is one); none without dashpots.
     pub viscosity: Option<Program>,
+    /// `[η, dη/dθ]` of the measure, inputs as there; none without a dashpot beside the spring.
+    pub drag: Option<Program>,
     /// `[f*_a …, g*_k …, θ*, Δs]` followed by the R×N tangent by rows, in entropy form.
     pub entropy_form: Program,
     /// The same outputs in temperature form, without corners; none without a temperature.
@@ -68,6 +70,7 @@ impl Programs {
             &self.caloric_at,
             &self.entropy_hessian,
             &self.viscosity,
+            &self.drag,
             &self.temperature_form,
         ];
         let sometimes = sometimes.into_iter().flatten();
@@ -94,7 +97,8 @@ impl Model {
             caloric: self.temperature.map(|theta| point.caloric(theta)),
             caloric_at: self.temperature.map(|theta| point.caloric_at(theta)),
             entropy_hessian: self.temperature.map(|theta| point.entropy_hessian(theta)),
-            viscosity: (!self.dashpots.is_empty()).then(|| point.viscosity()),
+            viscosity: (!self.dashpots.is_empty()).then(|| point.viscosity(&self.viscosities)),
+            drag: self.drag.map(|law| point.viscosity(&[law])),
             entropy_form: self.entropy_form(),
             temperature_form: self.temperature.map(|_| self.temperature_form()),
         }

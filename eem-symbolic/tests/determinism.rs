@@ -63,6 +63,7 @@ fn spring(reversed: bool) -> Model {
         parameters: symbols[2..].to_vec(),
         psi,
         viscosities: Vec::new(),
+        drag: None,
     }
 }
 

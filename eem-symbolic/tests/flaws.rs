@@ -23,12 +23,14 @@ fn flaws(psi: &str, viscosity: &str) -> Vec<String> {
         parameters: vec![],
         psi,
         viscosities: vec![viscosity],
+        drag: Some(viscosity),
     };
     let words = model.flaws().into_iter().map(|flaw| match flaw {
         Flaw::Independent(symbol) => model.graph.name(symbol).to_owned(),
         Flaw::NoHeatCapacity => "linear".to_owned(),
         Flaw::NegativeHeatCapacity => "negative".to_owned(),
         Flaw::NoViscosity(dashpot) => format!("viscosity {dashpot}"),
+        Flaw::NoDrag => "drag".to_owned(),
     });
     words.collect()
 }
@@ -94,7 +96,7 @@ fn viscosities_that_are_nowhere_positive_are_found() {
         "a - a",
         "-theta*b^2 - 1",
     ] {
-        assert_eq!(flaws(SOUND, law), ["viscosity 0"], "{law}");
+        assert_eq!(flaws(SOUND, law), ["viscosity 0", "drag"], "{law}");
     }
     for law in [
         "a",

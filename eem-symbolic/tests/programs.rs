@@ -362,6 +362,7 @@ fn wide(terms: i64) -> Model {
         parameters: Vec::new(),
         psi,
         viscosities: Vec::new(),
+        drag: None,
     }
 }
 

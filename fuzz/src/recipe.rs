@@ -101,6 +101,7 @@ impl Recipe {
             parameters: vec![k, c],
             psi: self.psi,
             viscosities: vec![viscosity],
+            drag: None,
         }
     }
 }

@@ -4,12 +4,14 @@ use eem::Generic;
 use eem::prelude::*;
 use nalgebra::{DMatrix, DVector};
 
+use crate::kelvin_voigt::VOIGT;
 use crate::support::{DoublePendulum, Hencky, ThermoViscoElastic};
 
 /// Roundings of one sum of products, relative to its terms.
 const ROUNDING: f64 = 1e-14;
 
-/// Three springs of two models, two of them in contact with each other and with the air.
+/// Four springs of three models, two of them in contact with each other and with the air, one with a dashpot
+/// beside it.
 fn scene(scheme: Scheme, step: f64) -> Simulation<2> {
     let mut scene = Scene::<2>::new();
     let pivot = scene.anchor([0.0, 0.0]);
@@ -26,6 +28,8 @@ fn scene(scheme: Scheme, step: f64) -> Simulation<2> {
         natural_length: 1.5,
     };
     scene.spring(hencky, [pivot, masses[1]]);
+    let voigt = scene.spring(VOIGT, [masses[1], masses[0]]);
+    scene.set_temperature(voigt, 320.0);
     let air = scene.reservoir(295.0);
     for (spring, temperature) in springs.into_iter().zip([330.0, 305.0]) {
         scene.set_temperature(spring, temperature);

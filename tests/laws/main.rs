@@ -11,6 +11,7 @@ mod free_bodies;
 mod generic;
 mod high_order;
 mod invariants_under_loads;
+mod kelvin_voigt;
 mod loads;
 mod several_dashpots;
 mod single_pendulum;

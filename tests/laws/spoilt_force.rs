@@ -33,6 +33,7 @@ impl<M: FreeEnergy<f64>> FreeEnergy<f64> for Spoilt<M> {
     type Variables = M::Variables;
     type Hessian = M::Hessian;
     type Viscosities = M::Viscosities;
+    type Drag = M::Drag;
     type Corners = M::Corners;
     type Response = M::Response;
     type Tangent = M::Tangent;
@@ -49,6 +50,7 @@ impl<M: FreeEnergy<f64>> FreeEnergy<f64> for Spoilt<M> {
         caloric(x: &M::Variables) -> Caloric<f64>;
         entropy_hessian(x: &M::Variables) -> M::Hessian;
         viscosity(theta: f64) -> (M::Viscosities, M::Viscosities);
+        drag(theta: f64) -> (M::Drag, M::Drag);
         entropy_form_old(x0: &M::Variables) -> M::EntropyFormOld;
         temperature_form_old(x0: &M::Variables) -> M::TemperatureFormOld;
     }

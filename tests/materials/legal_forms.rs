@@ -52,6 +52,18 @@ formulas! {
     powers: x.powi(-1) + powi(x, 2) + powi(x, 6 / 3) + x.powi(0) => 3.5;
     real_powers: x.powf(0.5) * powf(x, 1 / 2) + 4.powf(x) => 2.5;
     powers_of_powers: x.powf(x).powf(2) => 0.5;
+    helpers: { let f = |a, b| a * b + 1; f(x, 2) + f(f(x, x), 4) } => 8.0;
+    helpers_with_blocks: { let f = |a| { let b = a * a; b * b }; f(2 * x) + x.f() } => 1.0625;
+    helpers_see_what_is_before_them: { let y = 2 * x; let f = |a| a * y; let z = 3; f(z) } => 3.0;
+    arguments_are_those_of_the_call: { let f = |a| a + 1; let g = |b| f(b) * f(2 * b); g(f(x)) } => 10.0;
+    derivatives_of_helpers: { let f = |a| a.powi(3); diff(f(x) * x, x) } => 0.5;
+    derivatives_in_helpers: { let f = |a| diff(a * x, x); f(x) + f(x.powi(2)) } => 1.75;
+    the_same_name_in_two_helpers: { let f = |a| { let b = a; b }; let g = |a| { let b = 2 * a; b }; f(x) + g(x) } => 1.5;
+    helpers_in_blocks: { let y = { let f = |a| a * x; f(2) }; let f = |a| a + y; f(x) } => 1.5;
+    helpers_in_parentheses: { let f = (|a| (a + 1)); f(x) } => 1.5;
+    a_number_as_exponent: { let f = |a, n| a.powi(n); f(x, 2) + f(x, 1 + 2) } => 0.375;
+    pi: sin(PI / 6) + core::f64::consts::FRAC_PI_2 / ::std::f64::consts::PI + x => 1.5;
+    constants_of_std: exp(x) / sqrt(std::f64::consts::E) + std::f64::consts::LOG2_E * core::f64::consts::LN_2 => 2.0;
     names_of_functions_are_free: { let ln = ln(x); let exp = exp(ln); exp } => 0.5;
 }
 

@@ -19,6 +19,7 @@ mod guide;
 mod hygiene;
 mod legal_forms;
 pub mod lint_silence;
+mod named_numbers;
 mod spellings;
 mod transcendental_count;
 mod zoo;

@@ -11,7 +11,7 @@ use core::slice;
 use counting::Until;
 use eem::prelude::*;
 use eem::{MemberError, MemberFailure};
-use scenes::{Chain, Double, Driven, Elastic, Pendulum, Sweep, Thermoelastic};
+use scenes::{Chain, Damped, Double, Driven, Elastic, Pendulum, Sweep, Thermoelastic};
 use turning::Turning;
 use watched::{Case, Input, Seen, Watched};
 
@@ -123,6 +123,15 @@ fn parameters_of_a_material_may_differ() {
     let inputs = inputs(|i| [400.0 + 50.0 * i, i, 1.0 + 0.01 * i]);
     for scheme in SCHEMES {
         check(Sweep, (scheme, 0.01, 100), &inputs);
+    }
+}
+
+#[test]
+fn dashpots_beside_springs_have_the_bits_of_one_by_one() {
+    let inputs = inputs(|i| [1.0 + 0.5 * i, 290.0 + 10.0 * i, 0.01 * 3.0_f64.powf(i)]);
+    for scheme in [Scheme::EemEntropy, Scheme::EemTemperature] {
+        check(Damped, (scheme, 0.02, 100), &inputs);
+        check(Damped, (scheme, 0.2, 30), &inputs[..6]);
     }
 }
 

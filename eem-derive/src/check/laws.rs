@@ -1,40 +1,50 @@
-//! The viscosity laws: one per dashpot, of the temperature and the parameters.
+//! The viscosity laws: one per dashpot, perhaps one of the stretch, of the temperature and the parameters.
 
 use super::parameters::Used;
 use super::resolve;
 use super::resolver::Resolver;
 use super::scope::{Meaning, Scope};
-use crate::ast::{self, Argument, Block, Expr, ExprKind, Input, Law, Role};
+use crate::ast::{self, Argument, Block, Bound, Expr, ExprKind, Input, Law, Role};
 use crate::checked::{Body, Variable};
 use crate::ctxt::Ctxt;
 use crate::message::attribute as message;
 use crate::nearest::nearest;
 use crate::units::Quantities;
 
-/// The laws with their names resolved, in the order of the dashpots.
-pub(super) fn viscosities<'a>(
+/// The laws with their names resolved.
+pub(super) struct Laws<'a> {
+    /// In the order of the dashpots; nothing where one is missing.
+    pub(super) viscosities: Vec<Option<Body<'a>>>,
+    /// That of the stretch, if there is one.
+    pub(super) drag: Option<Body<'a>>,
+}
+
+/// Resolves the names of all laws.
+pub(super) fn laws<'a>(
     cx: &Ctxt,
     input: &'a Input<'a>,
     variables: &[Variable<'a>],
     used: &mut Used,
-) -> Vec<Option<Body<'a>>> {
+) -> Laws<'a> {
     let mut bodies = Vec::new();
     for law in &input.laws {
         let mut resolver = Resolver::new(cx, scope(input, variables), variables, used);
         let value = resolver.expr(&law.value);
         bodies.push((ast::name(law.dashpot), resolver.finish(value)));
     }
+    let mut take = |variable: &Variable<'a>| {
+        let name = ast::name(variable.ident);
+        let position = bodies.iter().position(|(n, _)| *n == name);
+        Some(bodies.remove(position?).1)
+    };
+    let stretch = variables.iter().find(|v| v.role == Role::Stretch);
+    let drag = stretch.and_then(&mut take);
     let dashpots = variables.iter().filter(|v| v.role == Role::Viscous);
-    dashpots
-        .map(|dashpot| {
-            let name = ast::name(dashpot.ident);
-            let position = bodies.iter().position(|(n, _)| *n == name);
-            if position.is_none() {
-                used.give_up();
-            }
-            Some(bodies.remove(position?).1)
-        })
-        .collect()
+    let viscosities: Vec<_> = dashpots.map(take).collect();
+    if viscosities.iter().any(Option::is_none) {
+        used.give_up();
+    }
+    Laws { viscosities, drag }
 }
 
 /// What a law sees. Names of the free energy that it does not see are declared as such, so that
@@ -64,14 +74,17 @@ fn declare_bindings(scope: &mut Scope, block: &Block<'_>) {
             Some(ident) => scope.declare(ident, Meaning::ForeignBinding),
             None => scope.declare_unreadable(),
         }
-        declare_inner(scope, &binding.value);
+        match &binding.value {
+            Bound::Value(value) => declare_inner(scope, value),
+            Bound::Helper(helper) => declare_bindings(scope, &helper.body),
+        }
     }
     declare_inner(scope, &block.value);
 }
 
 fn declare_inner(scope: &mut Scope, expr: &Expr<'_>) {
     match &expr.kind {
-        ExprKind::Number(_) | ExprKind::Name(_) => {}
+        ExprKind::Number(_) | ExprKind::Name(_) | ExprKind::Constant(_) | ExprKind::Entry(_) => {}
         ExprKind::Negate(inner) => declare_inner(scope, inner),
         ExprKind::Binary(_, left, right) => {
             declare_inner(scope, left);
@@ -93,7 +106,7 @@ pub(super) fn check_names(cx: &Ctxt, input: &Input<'_>) {
         let same = |ident| ast::name(ident) == name;
         match input.arguments.iter().find(|a| same(a.ident)) {
             Some(Argument {
-                role: Some(Role::Viscous) | None,
+                role: Some(Role::Viscous | Role::Stretch) | None,
                 ..
             }) => {}
             Some(&Argument {

@@ -5,6 +5,7 @@
 
 use proc_macro2::Ident;
 
+use super::callee::is_function;
 use super::scope::{Meaning, Scope};
 use crate::ast::{self, Input};
 use crate::ctxt::Ctxt;
@@ -27,16 +28,41 @@ pub(super) fn check_arguments(cx: &Ctxt, input: &Input<'_>) {
 
 /// A `let` does not hide what can be seen where it stands.
 pub(super) fn check_binding(cx: &Ctxt, scope: &Scope, ident: &Ident) {
+    check(cx, scope, ident, |free| format!("let {free} = …;"));
+}
+
+/// Neither does the name of a helper, which is no function's.
+pub(super) fn check_helper(cx: &Ctxt, scope: &Scope, ident: &Ident) {
+    if is_function(ident) {
+        let free = free(scope, ident);
+        let message = message::binding_hides(ident, "a function", &format!("let {free} = |…| …;"));
+        return cx.error(ident, &message);
+    }
+    check(cx, scope, ident, |free| format!("let {free} = |…| …;"));
+}
+
+/// Neither does an argument of a helper.
+pub(super) fn check_helper_argument(cx: &Ctxt, scope: &Scope, ident: &Ident) {
+    check(cx, scope, ident, |free| format!("|{free}| …"));
+}
+
+fn check(cx: &Ctxt, scope: &Scope, ident: &Ident, instead: impl Fn(String) -> String) {
     let what = match scope.resolve(ident) {
-        Some(Meaning::Field(_)) => "a field",
+        Some(Meaning::Field(_) | Meaning::Array(..)) => "a field",
         Some(Meaning::Argument(_) | Meaning::ForeignArgument(_) | Meaning::WrongArgument) => {
             "an argument"
         }
-        Some(Meaning::Binding(_)) => "an earlier `let`",
+        Some(Meaning::HelperArgument(_)) => "an argument of a helper",
+        Some(Meaning::Binding(_) | Meaning::Helper(_) | Meaning::OpenHelper) => "an earlier `let`",
         Some(Meaning::ForeignBinding | Meaning::UnusedField | Meaning::Unreadable) | None => return,
     };
-    let free = (1..).map(|n| format!("{}_{n}", ast::name(ident)));
-    let free = free.into_iter().find(|name| !scope.contains(name));
-    let message = message::binding_hides(ident, what, &free.unwrap_or_default());
+    let message = message::binding_hides(ident, what, &instead(free(scope, ident)));
     cx.error(ident, &message);
+}
+
+/// A name like this one that is not taken.
+fn free(scope: &Scope, ident: &Ident) -> String {
+    let numbered = (1..).map(|n| format!("{}_{n}", ast::name(ident)));
+    let mut free = numbered.filter(|name| !scope.contains(name));
+    free.next().unwrap_or_default()
 }

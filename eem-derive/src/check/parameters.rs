@@ -1,20 +1,26 @@
 //! Which fields are parameters, and what scalar they make the model work in.
 //!
+//! A field is a number or an array of numbers, every entry of which is a parameter of its own.
 //! Only fields that an expression mentions count: a struct may carry anything else. But a number
 //! that no expression mentions is a parameter without effect, unless the struct says so.
 
-use proc_macro2::Ident;
+use std::collections::BTreeSet;
+
+use proc_macro2::{Ident, TokenStream};
 use syn::Type;
 
+use super::constants::Constants;
 use crate::ast::{self, Field, Input};
-use crate::checked::{Parameter, ParameterKind, Scalar};
+use crate::checked::{Origin, Parameter, ParameterKind, Scalar, Source};
 use crate::ctxt::Ctxt;
 use crate::message::field as message;
 
-/// The fields that expressions have mentioned so far.
+/// The fields and constants that expressions have mentioned so far.
 #[derive(Debug)]
 pub(super) struct Used {
-    fields: Vec<bool>,
+    /// For every field which entries are mentioned; a number has one, 0.
+    fields: Vec<BTreeSet<usize>>,
+    pub(super) constants: Constants,
     /// Nothing has been reported that may have hidden the use of a field.
     complete: bool,
 }
@@ -23,7 +29,8 @@ impl Used {
     /// No field has been mentioned.
     pub(super) fn none(input: &Input<'_>) -> Self {
         Self {
-            fields: vec![false; input.fields.iter().flatten().count()],
+            fields: vec![BTreeSet::new(); input.fields.iter().flatten().count()],
+            constants: Constants::default(),
             complete: input.laws_complete,
         }
     }
@@ -38,9 +45,14 @@ impl Used {
         self.complete = false;
     }
 
-    /// An expression mentions field `index`.
+    /// An expression mentions field `index`, which is no array.
     pub(super) fn mark(&mut self, index: usize) {
-        self.fields[index] = true;
+        self.mark_entry(index, 0);
+    }
+
+    /// An expression mentions an entry of field `index`.
+    pub(super) fn mark_entry(&mut self, index: usize, entry: usize) {
+        self.fields[index].insert(entry);
     }
 
     fn fields<'i, 'a>(
@@ -48,7 +60,7 @@ impl Used {
         input: &'i Input<'a>,
     ) -> impl Iterator<Item = (usize, &'i Field<'a>)> {
         let fields = input.fields.iter().flatten().enumerate();
-        fields.filter(|&(index, _)| self.fields[index])
+        fields.filter(|&(index, _)| !self.fields[index].is_empty())
     }
 }
 
@@ -60,32 +72,73 @@ enum Kind<'a> {
     Other,
 }
 
-/// The fields that are used, in order of declaration; reports those whose type cannot be one.
+/// The fields that are used, in order of declaration, and the constants; reports fields whose type cannot
+/// be a parameter.
 pub(super) fn parameters<'a>(cx: &Ctxt, input: &Input<'a>, used: &Used) -> Vec<Parameter<'a>> {
-    let parameter = |(index, field): (usize, &Field<'a>)| {
-        let kind = match kind(input, field.ty) {
+    let mut parameters = Vec::new();
+    for (index, field) in used.fields(input) {
+        let (ident, name) = (field.ident, ast::name(field.ident));
+        let array = array(field.ty);
+        let ty = array.map_or(field.ty, |(ty, _)| ty);
+        let kind = match kind(input, ty) {
             Kind::Double => ParameterKind::Double,
             Kind::Single => ParameterKind::Single,
             Kind::TypeParameter(_) => ParameterKind::Scalar,
             Kind::Other => {
                 cx.error(field.ty, &message::not_a_parameter(field.ident));
-                return None;
+                continue;
             }
         };
-        Some(Parameter {
-            field: index,
-            ident: field.ident,
-            kind,
-        })
+        match array {
+            None => parameters.push(Parameter {
+                origin: Origin::Field(index),
+                name,
+                source: Source::Field(ident, kind),
+            }),
+            Some((_, None)) => cx.error(field.ty, &message::array_without_length(ident)),
+            Some((_, Some(_))) => {
+                let entries = used.fields[index].iter();
+                parameters.extend(entries.map(|&entry| Parameter {
+                    origin: Origin::Entry(index, entry),
+                    name: format!("{name}[{entry}]"),
+                    source: Source::Entry(ident, entry, kind),
+                }));
+            }
+        }
+    }
+    parameters.extend(constants(input, used));
+    parameters
+}
+
+/// The constants by the last names of their paths; by their paths if something else has that name.
+fn constants<'a>(input: &Input<'a>, used: &Used) -> Vec<Parameter<'a>> {
+    let last = |path: &str| path.rsplit("::").next().unwrap_or_default().to_owned();
+    let paths = used.constants.paths();
+    let fields = input.fields.iter().flatten().map(|field| field.ident);
+    let arguments = input.arguments.iter().map(|argument| argument.ident);
+    let taken: Vec<String> = fields.chain(arguments).map(ast::name).collect();
+    let parameter = |(index, (path, tokens)): (usize, &(String, TokenStream))| {
+        let short = last(path);
+        let same = paths
+            .iter()
+            .filter(|(other, _)| last(other) == short)
+            .count();
+        let is_free = same == 1 && !taken.contains(&short);
+        Parameter {
+            origin: Origin::Constant(index),
+            name: if is_free { short } else { path.clone() },
+            source: Source::Constant(tokens.clone()),
+        }
     };
-    used.fields(input).filter_map(parameter).collect()
+    paths.iter().enumerate().map(parameter).collect()
 }
 
 /// The scalar of the model: the one type parameter among the types of its parameters, if any.
 pub(super) fn scalar<'a>(cx: &Ctxt, input: &Input<'a>, used: &Used) -> Scalar<'a> {
     let mut scalar = Scalar::Any;
     for (_, field) in used.fields(input) {
-        let Kind::TypeParameter(parameter) = kind(input, field.ty) else {
+        let ty = array(field.ty).map_or(field.ty, |(ty, _)| ty);
+        let Kind::TypeParameter(parameter) = kind(input, ty) else {
             continue;
         };
         match scalar {
@@ -98,7 +151,8 @@ pub(super) fn scalar<'a>(cx: &Ctxt, input: &Input<'a>, used: &Used) -> Scalar<'a
     scalar
 }
 
-/// Every number is a parameter that an expression mentions, or is marked as unused.
+/// Every number is a parameter that an expression mentions, or is marked as unused; so is every entry
+/// of an array of numbers.
 ///
 /// Fields of other types are no numbers, and so is a type parameter that is not the scalar.
 pub(super) fn check_used(cx: &Ctxt, input: &Input<'_>, used: &Used, scalar: Scalar<'_>) {
@@ -106,14 +160,27 @@ pub(super) fn check_used(cx: &Ctxt, input: &Input<'_>, used: &Used, scalar: Scal
         return;
     }
     for (index, field) in input.fields.iter().flatten().enumerate() {
-        let number = match kind(input, field.ty) {
+        let array = array(field.ty);
+        let number = match kind(input, array.map_or(field.ty, |(ty, _)| ty)) {
             Kind::Double | Kind::Single => true,
             Kind::TypeParameter(parameter) => scalar == Scalar::Parameter(parameter),
             Kind::Other => false,
         };
         let marked = field.unused || field.wrong || ast::is_underscored(field.ident);
-        if number && !marked && !used.fields[index] && !is_hidden(input, field) {
-            cx.error(field.ident, &message::unused(field.ident));
+        if !number || marked || is_hidden(input, field) {
+            continue;
+        }
+        let used = &used.fields[index];
+        let name = ast::name(field.ident);
+        let missing = match array {
+            Some((_, Some(length))) if !used.is_empty() => {
+                let unused = (0..length).find(|entry| !used.contains(entry));
+                unused.map(|entry| format!("{name}[{entry}]"))
+            }
+            _ => used.is_empty().then_some(name),
+        };
+        if let Some(name) = missing {
+            cx.error(field.ident, &message::unused(&name));
         }
     }
 }
@@ -122,6 +189,25 @@ pub(super) fn check_used(cx: &Ctxt, input: &Input<'_>, used: &Used, scalar: Scal
 fn is_hidden(input: &Input<'_>, field: &Field<'_>) -> bool {
     let mut arguments = input.arguments.iter();
     arguments.any(|argument| ast::name(argument.ident) == ast::name(field.ident))
+}
+
+/// The type of the entries of an array and their number, if that is written out.
+pub(super) fn array(ty: &Type) -> Option<(&Type, Option<usize>)> {
+    match ty {
+        Type::Group(group) => array(&group.elem),
+        Type::Paren(paren) => array(&paren.elem),
+        Type::Array(array) => {
+            let length = match &array.len {
+                syn::Expr::Lit(syn::ExprLit {
+                    lit: syn::Lit::Int(length),
+                    ..
+                }) => length.base10_parse().ok(),
+                _ => None,
+            };
+            Some((&array.elem, length))
+        }
+        _ => None,
+    }
 }
 
 fn kind<'a>(input: &Input<'a>, ty: &Type) -> Kind<'a> {

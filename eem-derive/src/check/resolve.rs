@@ -2,16 +2,17 @@
 
 use eem_symbolic::Function;
 use proc_macro2::Ident;
+use quote::ToTokens;
 
 use super::callee::Callee;
-use super::names;
-use super::parameters::Used;
+use super::parameters::{Used, array};
 use super::resolver::Resolver;
 use super::scope::{Meaning, Scope};
-use crate::ast::{self, Block, Input};
-use crate::checked::{Body, Expr, ExprKind, Variable};
+use super::{constants, names};
+use crate::ast::{self, Binding, Block, Bound, Input};
+use crate::checked::{Body, Expr, ExprKind, Origin, Variable};
 use crate::ctxt::Ctxt;
-use crate::message::expression as message;
+use crate::message::{expression as message, field};
 use crate::nearest::nearest;
 
 /// The free energy with its names resolved.
@@ -42,10 +43,10 @@ pub(super) fn declare_fields(scope: &mut Scope, input: &Input<'_>) {
         return scope.declare_unreadable();
     };
     for (index, field) in fields.iter().enumerate() {
-        let meaning = if field.unused {
-            Meaning::UnusedField
-        } else {
-            Meaning::Field(index)
+        let meaning = match array(field.ty) {
+            _ if field.unused => Meaning::UnusedField,
+            Some((_, length)) => Meaning::Array(index, length),
+            None => Meaning::Field(index),
         };
         scope.declare(field.ident, meaning);
     }
@@ -53,21 +54,26 @@ pub(super) fn declare_fields(scope: &mut Scope, input: &Input<'_>) {
 
 impl<'a> Resolver<'_, 'a> {
     /// Resolves a block; its bindings join those of the body.
-    fn block(&mut self, block: &'a Block<'a>) -> Expr<'a> {
+    pub(super) fn block(&mut self, block: &'a Block<'a>) -> Expr<'a> {
         let mark = self.scope.enter();
-        for binding in &block.bindings {
+        for Binding { ident, value } in &block.bindings {
             // The value is resolved first: `let x = x + 1` refers to the `x` before.
-            let value = self.expr(&binding.value);
-            let Some(ident) = binding.ident else {
+            let value = match (value, ident) {
+                (Bound::Value(value), _) => Some(self.expr(value)),
+                (Bound::Helper(helper), Some(ident)) => {
+                    self.define(ident, helper);
+                    continue;
+                }
+                (Bound::Helper(_), None) => None,
+            };
+            let (Some(ident), Some(value)) = (ident, value) else {
                 self.complete = false;
                 self.scope.declare_unreadable();
                 continue;
             };
             names::check_binding(self.cx, &self.scope, ident);
-            self.scope
-                .declare(ident, Meaning::Binding(self.bindings.len()));
-            self.bindings.push(value);
-            self.names.push((ident, false));
+            let binding = self.bind(ident, value);
+            self.scope.declare(ident, Meaning::Binding(binding));
         }
         let value = self.expr(&block.value);
         self.scope.leave(mark);
@@ -76,18 +82,31 @@ impl<'a> Resolver<'_, 'a> {
 
     /// Resolves an expression.
     pub(super) fn expr(&mut self, expr: &'a ast::Expr<'a>) -> Expr<'a> {
+        self.inlining.level += 1;
         let kind = match &expr.kind {
-            ast::ExprKind::Block(block) => return self.block(block),
+            ast::ExprKind::Block(block) => {
+                let value = self.block(block);
+                self.inlining.level -= 1;
+                return value;
+            }
             ast::ExprKind::Number(number) => ExprKind::Number(*number),
             ast::ExprKind::Name(ident) => self.name(ident),
+            ast::ExprKind::Constant(path) => match constants::of_std(path) {
+                Some(value) => ExprKind::Number(value.into()),
+                None => self.constant(path),
+            },
+            ast::ExprKind::Entry(entry) => self.entry(entry),
             ast::ExprKind::Negate(inner) => ExprKind::Negate(Box::new(self.expr(inner))),
             ast::ExprKind::Binary(operator, left, right) => {
                 let (left, right) = (self.expr(left), self.expr(right));
                 ExprKind::Binary(*operator, Box::new(left), Box::new(right))
             }
-            ast::ExprKind::Call(function, arguments) => self.call(function, arguments),
+            ast::ExprKind::Call(function, arguments) => {
+                self.call(function, arguments, expr.original)
+            }
             ast::ExprKind::Wrong(parts) => self.wrong(parts),
         };
+        self.inlining.level -= 1;
         Expr {
             original: expr.original,
             kind,
@@ -108,12 +127,23 @@ impl<'a> Resolver<'_, 'a> {
         match self.scope.resolve(ident) {
             Some(Meaning::Field(index)) => {
                 self.used.mark(index);
-                return ExprKind::Parameter(index);
+                return ExprKind::Parameter(Origin::Field(index));
+            }
+            Some(Meaning::Array(index, _)) => {
+                self.used.mark(index);
+                self.cx.error(ident, &field::array_without_index(ident));
+                return self.wrong([]);
             }
             Some(Meaning::Argument(index)) => return ExprKind::Variable(index),
-            Some(Meaning::Binding(index)) => {
+            Some(Meaning::Binding(index) | Meaning::HelperArgument(index)) => {
                 self.names[index].1 = true;
                 return ExprKind::Binding(index);
+            }
+            Some(Meaning::Unreadable) | None if ast::is_upper_case(ident) => {
+                return match constants::bare(ident) {
+                    Some(value) => ExprKind::Number(value.into()),
+                    None => self.constant(ident),
+                };
             }
             Some(meaning) => self.refuse(ident, meaning),
             None => self.unknown(ident),
@@ -121,10 +151,63 @@ impl<'a> Resolver<'_, 'a> {
         self.wrong([])
     }
 
+    /// A constant of the program, which Rust resolves.
+    fn constant(&mut self, path: impl ToTokens) -> ExprKind<'a> {
+        let index = self.used.constants.mention(path);
+        ExprKind::Parameter(Origin::Constant(index))
+    }
+
+    /// `name[2]`
+    fn entry(&mut self, entry: &ast::Entry<'a>) -> ExprKind<'a> {
+        let ast::Entry {
+            array: ident,
+            index,
+            literal,
+        } = *entry;
+        let what = match self.scope.resolve(ident) {
+            Some(Meaning::Array(field, length)) => {
+                self.used.mark_entry(field, index);
+                match length {
+                    Some(length) if index >= length => {
+                        let message = field::index_out_of_range(ident, index, length);
+                        self.cx.error(literal, &message);
+                        return self.wrong([]);
+                    }
+                    _ => return ExprKind::Parameter(Origin::Entry(field, index)),
+                }
+            }
+            Some(Meaning::Field(field)) => {
+                self.used.mark(field);
+                "a number"
+            }
+            Some(Meaning::Argument(_) | Meaning::HelperArgument(_)) => "an argument",
+            Some(Meaning::Binding(_)) => "a `let` binding",
+            None if ast::is_upper_case(ident) => "a constant",
+            Some(meaning) => {
+                self.refuse(ident, meaning);
+                return self.wrong([]);
+            }
+            None => {
+                self.unknown(ident);
+                return self.wrong([]);
+            }
+        };
+        self.cx.error(literal, &field::index_of_number(ident, what));
+        self.wrong([])
+    }
+
     /// Resolves `function(arguments)`.
-    fn call(&mut self, function: &'a Ident, arguments: &'a [ast::Expr<'a>]) -> ExprKind<'a> {
+    fn call(
+        &mut self,
+        function: &'a Ident,
+        arguments: &'a [ast::Expr<'a>],
+        original: &'a syn::Expr,
+    ) -> ExprKind<'a> {
         let name = ast::name(function);
         let Some(callee) = Callee::from_name(&name) else {
+            if let Some(Meaning::Helper(helper)) = self.scope.resolve(function) {
+                return self.inline(helper, function, arguments, original);
+            }
             report_unknown(self, function, &name);
             return self.wrong(arguments);
         };
@@ -157,10 +240,19 @@ impl<'a> Resolver<'_, 'a> {
 }
 
 fn report_unknown(resolver: &Resolver<'_, '_>, function: &Ident, name: &str) {
-    let nearest = nearest(name, Callee::names());
+    let helpers = resolver
+        .helpers
+        .iter()
+        .map(|helper| ast::name(helper.ident));
+    let helpers: Vec<String> = helpers.collect();
+    let mut known: Vec<&str> = Callee::names().collect();
+    known.extend(helpers.iter().map(String::as_str));
+    let nearest = nearest(name, known);
     let message = match resolver.scope.resolve(function) {
         // The value of the binding is a closure, which has been reported.
         Some(Meaning::Binding(index)) if resolver.is_wrong(index) => return,
+        Some(Meaning::ForeignBinding) => message::law_of_binding(function),
+        Some(Meaning::OpenHelper) => message::helper::calls_itself(function),
         // A declaration that could not be read may have this name.
         Some(Meaning::Unreadable) if nearest.is_none() => return,
         None | Some(Meaning::Unreadable) => {
@@ -190,9 +282,10 @@ fn diff_variable<'a>(resolver: &Resolver<'_, 'a>, variable: &'a ast::Expr<'a>) -
     };
     match resolver.scope.resolve(ident) {
         Some(Meaning::Argument(index)) => return Some(index),
-        Some(Meaning::Field(_)) => refuse("parameter"),
+        Some(Meaning::Field(_) | Meaning::Array(..)) => refuse("parameter"),
         // The binding hides an argument, which has been reported.
-        Some(Meaning::Binding(_)) if is_argument(resolver, ident) => {}
+        Some(Meaning::Binding(_) | Meaning::HelperArgument(_)) if is_argument(resolver, ident) => {}
+        Some(Meaning::HelperArgument(_)) => refuse("helper argument"),
         Some(Meaning::Binding(_)) => refuse("`let` binding"),
         Some(meaning) => resolver.refuse(ident, meaning),
         None => resolver.unknown(ident),

@@ -3,6 +3,7 @@
 use proc_macro2::Ident;
 
 use super::callee::is_function;
+use super::inlining::{Helper, Inlining};
 use super::parameters::Used;
 use super::scope::{Meaning, Scope};
 use crate::ast::{self, Role};
@@ -17,8 +18,15 @@ pub(super) struct Resolver<'r, 'a> {
     pub(super) variables: &'r [Variable<'a>],
     pub(super) used: &'r mut Used,
     pub(super) bindings: Vec<Expr<'a>>,
-    /// The names of the bindings, and whether something mentions them.
-    pub(super) names: Vec<(&'a Ident, bool)>,
+    /// The names of the bindings that somebody wrote here, and whether something mentions them.
+    pub(super) names: Vec<(Option<&'a Ident>, bool)>,
+    /// The same of those in the bodies of helpers.
+    pub(super) inner_names: Vec<(Option<&'a Ident>, bool)>,
+    /// The helpers, whether they are visible or not.
+    pub(super) helpers: Vec<Helper<'a>>,
+    /// The calls of helpers that are being resolved, outermost first.
+    pub(super) calls: Vec<&'a syn::Expr>,
+    pub(super) inlining: Inlining,
     /// No expression has been reported that may have used a name: what is not used can be reported.
     pub(super) complete: bool,
 }
@@ -38,6 +46,10 @@ impl<'r, 'a> Resolver<'r, 'a> {
             used,
             bindings: Vec::new(),
             names: Vec::new(),
+            inner_names: Vec::new(),
+            helpers: Vec::new(),
+            calls: Vec::new(),
+            inlining: Inlining::default(),
             complete: true,
         }
     }
@@ -45,7 +57,13 @@ impl<'r, 'a> Resolver<'r, 'a> {
     /// The body that ends in `value`. Reports bindings without effect.
     pub(super) fn finish(self, value: Expr<'a>) -> Body<'a> {
         if self.complete {
-            let unused = self.names.iter().filter(|(_, used)| !used);
+            let names = self.names.iter().chain(&self.inner_names);
+            let names = names.filter_map(|&(ident, used)| Some((ident?, used)));
+            let helpers = self
+                .helpers
+                .iter()
+                .map(|helper| (helper.ident, helper.used));
+            let unused = names.chain(helpers).filter(|(_, used)| !used);
             for (ident, _) in unused.filter(|(ident, _)| !ast::is_underscored(ident)) {
                 self.cx.error(ident, &message::unused_binding(ident));
             }
@@ -69,9 +87,16 @@ impl<'r, 'a> Resolver<'r, 'a> {
             Meaning::ForeignArgument(role) => message::law_of_state(ident, role),
             Meaning::ForeignBinding => message::law_of_binding(ident),
             Meaning::UnusedField => field::unused_and_used(ident),
+            Meaning::Helper(_) | Meaning::OpenHelper => {
+                message::name_is_a_function(&ast::name(ident))
+            }
             // Reported where they are declared.
             Meaning::WrongArgument | Meaning::Unreadable => return,
-            Meaning::Field(_) | Meaning::Argument(_) | Meaning::Binding(_) => {
+            Meaning::Field(_)
+            | Meaning::Array(..)
+            | Meaning::Argument(_)
+            | Meaning::Binding(_)
+            | Meaning::HelperArgument(_) => {
                 unreachable!("these can be used everywhere")
             }
         };
@@ -97,7 +122,7 @@ impl<'r, 'a> Resolver<'r, 'a> {
     pub(super) fn unknown(&self, ident: &Ident) {
         let name = ast::name(ident);
         let nearest = self.scope.nearest(ident);
-        let constant = message::syntax::constant_value(&name);
+        let constant = message::syntax::constant_of_paper(&name);
         let message = match (nearest, constant) {
             _ if is_function(ident) => message::name_is_a_function(&name),
             (None, Some(value)) => message::syntax::constant(&name, value),

@@ -12,6 +12,8 @@ use crate::nearest::nearest;
 pub(super) enum Meaning {
     /// Field of the struct.
     Field(usize),
+    /// Field that is an array, with its length if that is written out.
+    Array(usize, Option<usize>),
     /// Field that is marked as unused.
     UnusedField,
     /// Argument of the free energy, in the order of the state.
@@ -20,6 +22,12 @@ pub(super) enum Meaning {
     WrongArgument,
     /// `let` binding.
     Binding(usize),
+    /// An argument of a helper, which is a binding in every call.
+    HelperArgument(usize),
+    /// `let` binding of a closure.
+    Helper(usize),
+    /// A helper inside of its own body.
+    OpenHelper,
     /// An argument that a viscosity must not use.
     ForeignArgument(Role),
     /// A `let` of the free energy, which a viscosity does not see.
@@ -32,8 +40,15 @@ impl Meaning {
     /// May be suggested in place of a wrong name.
     fn visible(self) -> bool {
         match self {
-            Self::Field(_) | Self::Argument(_) | Self::WrongArgument | Self::Binding(_) => true,
-            Self::UnusedField
+            Self::Field(_)
+            | Self::Array(..)
+            | Self::Argument(_)
+            | Self::WrongArgument
+            | Self::Binding(_)
+            | Self::HelperArgument(_)
+            | Self::Helper(_) => true,
+            Self::OpenHelper
+            | Self::UnusedField
             | Self::ForeignArgument(_)
             | Self::ForeignBinding
             | Self::Unreadable => false,
@@ -42,7 +57,7 @@ impl Meaning {
 }
 
 /// The names that can be used at a point, innermost last.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Scope {
     names: Vec<(String, Meaning)>,
 }

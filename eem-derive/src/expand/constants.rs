@@ -6,7 +6,6 @@ use quote::quote;
 
 use super::forms::kept;
 use super::inputs::Inputs;
-use crate::ast;
 use crate::checked::Checked;
 
 // Expands to:
@@ -23,7 +22,7 @@ pub(super) fn constants(
     let (dashpots, thermal) = (Literal::usize_unsuffixed(inputs.dashpots), inputs.thermal);
     let measures = Literal::usize_unsuffixed(inputs.measures());
     let per_volume = per_volume(checked.per_volume());
-    let names = checked.parameters.iter().map(|p| ast::name(p.ident));
+    let names = checked.parameters.iter().map(|p| &p.name);
     let (scalar, parameters) = (&inputs.scalar, &inputs.parameters);
     let count = Literal::usize_unsuffixed(parameters.len());
     quote! {
@@ -58,7 +57,7 @@ fn types(programs: &Programs, inputs: &Inputs) -> TokenStream {
         quote!([#row; #rows])
     };
     let (variables, hessian) = (array(inputs.variables), matrix(inputs.variables));
-    let viscosities = array(inputs.dashpots);
+    let (viscosities, drag) = (array(inputs.dashpots), array(inputs.drags));
     let corners = array(inputs.corners());
     let (response, tangent) = (array(inputs.responses()), matrix(inputs.responses()));
     let entropy = array(kept(&programs.entropy_form, inputs).len());
@@ -71,6 +70,7 @@ fn types(programs: &Programs, inputs: &Inputs) -> TokenStream {
         type Variables = #variables;
         type Hessian = #hessian;
         type Viscosities = #viscosities;
+        type Drag = #drag;
         type Corners = #corners;
         type Response = #response;
         type Tangent = #tangent;

@@ -64,8 +64,8 @@ fn arguments(checked: &Checked<'_>) -> impl Iterator<Item = TokenStream> {
 
 fn parameters(checked: &Checked<'_>, units: &Units) -> impl Iterator<Item = TokenStream> {
     checked.parameters.iter().map(|parameter| {
-        let name = ast::name(parameter.ident);
-        let unit = units.of_field(parameter.field);
+        let name = &parameter.name;
+        let unit = units.of(parameter.origin);
         unit.map_or_else(
             || quote! { __eem::describe::Parameter::without_unit(#name) },
             |unit| quote! { __eem::describe::Parameter::new(#name, #unit) },
@@ -83,6 +83,7 @@ fn costs(programs: &Programs) -> impl Iterator<Item = TokenStream> {
         ("caloric", programs.caloric.as_ref(), false),
         ("entropy_hessian", programs.entropy_hessian.as_ref(), false),
         ("viscosity", programs.viscosity.as_ref(), false),
+        ("drag", programs.drag.as_ref(), false),
         ("entropy_form", Some(&programs.entropy_form), true),
         ("temperature_form", programs.temperature_form.as_ref(), true),
     ];

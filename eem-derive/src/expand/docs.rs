@@ -5,7 +5,6 @@ use proc_macro2::TokenStream;
 use quote::quote;
 
 use super::equation::Equation;
-use crate::ast;
 use crate::checked::Checked;
 use crate::units::Units;
 
@@ -42,8 +41,8 @@ pub(super) fn formulas(
 fn table_of_units(checked: &Checked<'_>, units: &Units) -> Vec<String> {
     let parameters = checked.parameters.iter();
     let rows = parameters.filter_map(|parameter| {
-        let unit = units.of_field(parameter.field)?;
-        Some(format!("| `{}` | `{unit}` |", ast::name(parameter.ident)))
+        let unit = units.of(parameter.origin)?;
+        Some(format!("| `{}` | `{unit}` |", parameter.name))
     });
     let rows: Vec<String> = rows.collect();
     if rows.is_empty() {

@@ -78,6 +78,10 @@ pub(super) fn equations(checked: &Checked<'_>, formulas: &Formulas) -> Vec<Equat
             units.viscosity,
         ));
     }
+    if let (Some(drag), Some(name)) = (&formulas.drag, names(Role::is_measure).next()) {
+        let symbol = format!("η[{name}]");
+        equations.push(Equation::new(&symbol, "", drag, units.viscosity));
+    }
     equations
 }
 

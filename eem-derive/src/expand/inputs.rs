@@ -4,7 +4,7 @@ use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 use crate::ast::Role;
-use crate::checked::{Checked, Parameter, ParameterKind};
+use crate::checked::{Checked, Parameter, ParameterKind, Source};
 
 /// The parameters and the shape of the state of one model.
 pub(super) struct Inputs {
@@ -16,6 +16,8 @@ pub(super) struct Inputs {
     pub(super) variables: usize,
     /// Number of dashpots, K.
     pub(super) dashpots: usize,
+    /// Number of measures with a viscosity.
+    pub(super) drags: usize,
     /// There is a temperature.
     pub(super) thermal: bool,
 }
@@ -30,6 +32,7 @@ impl Inputs {
             parameters: parameters.map(|p| parameter(p, scalar)).collect(),
             variables: checked.variables.len(),
             dashpots: of_role(Role::Viscous).count(),
+            drags: usize::from(checked.drag.is_some()),
             thermal: of_role(Role::Temperature).count() == 1,
         }
     }
@@ -94,14 +97,22 @@ impl Inputs {
 }
 
 fn parameter(parameter: &Parameter<'_>, scalar: &TokenStream) -> TokenStream {
-    let ident = parameter.ident;
-    match parameter.kind {
-        ParameterKind::Double => quote!(<#scalar as __eem::Scalar>::from_f64(self.#ident)),
+    let (place, kind) = match &parameter.source {
+        Source::Field(ident, kind) => (quote!(self.#ident), *kind),
+        Source::Entry(ident, entry, kind) => {
+            let entry = Literal::usize_unsuffixed(*entry);
+            (quote!(self.#ident[#entry]), *kind)
+        }
+        // An `f64`, or a number that is one without loss.
+        Source::Constant(path) => (path.clone(), ParameterKind::Single),
+    };
+    match kind {
+        ParameterKind::Double => quote!(<#scalar as __eem::Scalar>::from_f64(#place)),
         ParameterKind::Single => {
-            let double = quote!(__eem::core::convert::From::from(self.#ident));
+            let double = quote!(__eem::core::convert::From::from(#place));
             quote!(<#scalar as __eem::Scalar>::from_f64(#double))
         }
-        ParameterKind::Scalar => quote!(self.#ident),
+        ParameterKind::Scalar => place,
     }
 }
 

@@ -10,6 +10,7 @@ use super::docs;
 use super::inputs::Inputs;
 use super::rates::rates;
 use super::statements::{Statements, value};
+use super::viscosities::viscosities;
 
 /// All functions of one state.
 pub(super) fn points(programs: &Programs, inputs: &Inputs) -> TokenStream {
@@ -36,7 +37,7 @@ pub(super) fn points(programs: &Programs, inputs: &Inputs) -> TokenStream {
     let caloric_at = caloric_at(programs.caloric_at.as_ref(), inputs);
     let rates = rates(programs, inputs);
     let entropy_hessian = entropy_hessian(programs.entropy_hessian.as_ref(), inputs);
-    let viscosity = viscosity(programs.viscosity.as_ref(), inputs);
+    let viscosities = viscosities(programs, inputs);
     quote! {
         #free_energy_docs
         fn free_energy(&self, __x: &Self::Variables) -> #scalar { #free_energy }
@@ -50,7 +51,7 @@ pub(super) fn points(programs: &Programs, inputs: &Inputs) -> TokenStream {
         #caloric_at
         #rates
         #entropy_hessian
-        #viscosity
+        #viscosities
     }
 }
 
@@ -196,45 +197,6 @@ fn entropy_hessian(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
         fn entropy_hessian(&self, __x: &Self::Variables) -> Self::Hessian {
             #lets
             [#(#rows),*]
-        }
-    }
-}
-
-// Expands to: `let __v0 = __theta; … ([__v7], [__v8])`.
-fn viscosity(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
-    let scalar = &inputs.scalar;
-    let Some(program) = program else {
-        return quote! {
-            /// There is no dashpot: nothing.
-            fn viscosity(&self, _: #scalar) -> (Self::Viscosities, Self::Viscosities) {
-                ([], [])
-            }
-        };
-    };
-    let lets = Statements {
-        program,
-        scalar,
-        input: Box::new(|index| inputs.viscosity(index)),
-        known: BTreeMap::new(),
-    }
-    .lets(|_, _| true);
-    let outputs: Vec<_> = program
-        .outputs
-        .iter()
-        .map(|&output| value(output))
-        .collect();
-    let (viscosities, derivatives) = outputs.split_at(inputs.dashpots);
-    let theta = if inputs.thermal {
-        quote!(__theta)
-    } else {
-        quote!(_)
-    };
-    let docs = docs::function("Viscosities η and dη/dθ.", program);
-    quote! {
-        #docs
-        fn viscosity(&self, #theta: #scalar) -> (Self::Viscosities, Self::Viscosities) {
-            #lets
-            ([#(#viscosities),*], [#(#derivatives),*])
         }
     }
 }

@@ -190,7 +190,7 @@ pub(crate) fn argument_hides_field(argument: &Ident) -> Message {
 pub(crate) fn empty_viscosity() -> Message {
     Message::new(
         "`#[viscosity]` without a law",
-        "write `#[viscosity(gamma = …)]` with the name of a `Viscous` argument",
+        "write `#[viscosity(gamma = …)]` with the name of a `Viscous` argument or of the `Stretch`",
     )
 }
 
@@ -238,6 +238,6 @@ pub(crate) fn viscosity_of_another_role(name: &Ident, role: Role) -> Message {
     let name = ast::name(name);
     Message::new(
         format!("`{name}` has no viscosity: it is a `{}`", role.name()),
-        "only arguments of role `Viscous` have one",
+        "only arguments of role `Viscous` and `Stretch` have one",
     )
 }

@@ -5,6 +5,7 @@ use proc_macro2::Ident;
 use super::{Message, list};
 use crate::ast::{self, Role};
 
+pub(crate) mod helper;
 pub(crate) mod rest;
 pub(crate) mod syntax;
 
@@ -27,11 +28,12 @@ pub(crate) fn unknown_name(name: &Ident, nearest: Option<&str>, role: Option<Rol
     Message::new(format!("unknown name `{name}`"), help)
 }
 
-pub(crate) fn binding_hides(binding: &Ident, what: &str, free: &str) -> Message {
+/// `instead` is how to write it with a free name.
+pub(crate) fn binding_hides(binding: &Ident, what: &str, instead: &str) -> Message {
     let name = ast::name(binding);
     Message::new(
         format!("`{name}` is the name of {what} already"),
-        format!("a name means one thing in a formula: write `let {free} = …;`"),
+        format!("a name means one thing in a formula: write `{instead}`"),
     )
 }
 

@@ -9,8 +9,43 @@ pub(crate) fn not_a_parameter(field: &Ident) -> Message {
     let name = ast::name(field);
     Message::new(
         format!("the free energy uses `{name}`, but a field of this type cannot be a parameter"),
-        "parameters are `f64`, `f32` or a type parameter of the struct, under these names: an alias is not seen through",
+        "parameters are `f64`, `f32` or a type parameter of the struct, under these names, or arrays of them: an alias is not seen through",
     )
+}
+
+pub(crate) fn array_without_length(field: &Ident) -> Message {
+    let name = ast::name(field);
+    Message::new(
+        format!(
+            "the free energy uses `{name}`, but the length of this array is not a number that is written out"
+        ),
+        "every entry is a parameter: write the length as in `[f64; 3]`",
+    )
+}
+
+pub(crate) fn array_without_index(field: &Ident) -> Message {
+    let name = ast::name(field);
+    Message::new(
+        format!("`{name}` is an array of parameters"),
+        format!("name one of them: `{name}[0]`"),
+    )
+}
+
+pub(crate) fn index_of_number(name: &Ident, what: &str) -> Message {
+    let name = ast::name(name);
+    Message::new(
+        format!("`{name}` is {what} and has no entries"),
+        format!("write `{name}` without an index; a field can be an array, `[f64; 3]`"),
+    )
+}
+
+pub(crate) fn index_out_of_range(field: &Ident, index: usize, length: usize) -> Message {
+    let name = ast::name(field);
+    let help = match length.checked_sub(1) {
+        Some(last) => format!("its entries are `{name}[0]` to `{name}[{last}]`"),
+        None => "it has no entries".to_owned(),
+    };
+    Message::new(format!("`{name}` has no entry {index}"), help)
 }
 
 pub(crate) fn second_scalar(parameter: &Ident, first: &Ident) -> Message {
@@ -22,8 +57,8 @@ pub(crate) fn second_scalar(parameter: &Ident, first: &Ident) -> Message {
     )
 }
 
-pub(crate) fn unused(field: &Ident) -> Message {
-    let name = ast::name(field);
+/// `name` is a field or an entry of one.
+pub(crate) fn unused(name: &str) -> Message {
     Message::new(
         format!("neither the free energy nor a viscosity uses `{name}`"),
         "add the term that is missing, remove the field, or mark it: `#[free_energy(unused)]`",

@@ -2,7 +2,7 @@
 
 use proc_macro2::Ident;
 
-use super::Message;
+use super::{Message, list};
 use crate::ast;
 use crate::unit::Unit;
 
@@ -11,7 +11,9 @@ const EXAMPLE: &str = "`#[unit(\"J/K\")]`";
 pub(crate) fn not_on_a_field() -> Message {
     Message::new(
         "`#[unit]` is not expected on a struct",
-        format!("write {EXAMPLE} above a field"),
+        format!(
+            "write {EXAMPLE} above a field; the unit of a constant is `#[unit(R = \"J/(mol K)\")]`"
+        ),
     )
 }
 
@@ -24,6 +26,51 @@ pub(crate) fn not_a_string() -> Message {
 
 pub(crate) fn second() -> Message {
     Message::new("a second unit", "a field has one unit; remove one of them")
+}
+
+pub(crate) fn unreadable_constants() -> Message {
+    Message::new(
+        "`#[unit]` on a struct takes constants and their units",
+        "write `#[unit(R = \"J/(mol K)\")]` with the path of the constant as it stands in the formula",
+    )
+}
+
+pub(crate) fn second_of_constant(name: &str) -> Message {
+    Message::new(
+        format!("a second unit of the constant `{name}`"),
+        "a constant has one unit; remove one of them",
+    )
+}
+
+pub(crate) fn of_pure_number(name: &str) -> Message {
+    Message::new(
+        format!("`{name}` is a pure number"),
+        "remove its unit; a unit comes with a field or a constant of your own",
+    )
+}
+
+pub(crate) fn of_field(name: &str) -> Message {
+    Message::new(
+        format!("`{name}` is a field, and not a constant"),
+        format!("its unit stands above it, as in {EXAMPLE}"),
+    )
+}
+
+pub(crate) fn of_no_constant<'n>(
+    name: &str,
+    nearest: Option<&str>,
+    constants: impl IntoIterator<Item = &'n str>,
+) -> Message {
+    let mut constants = constants.into_iter().peekable();
+    let help = match nearest {
+        Some(nearest) => format!("did you mean `{nearest}`?"),
+        None if constants.peek().is_none() => "remove its unit".to_owned(),
+        None => format!(
+            "the constants of the formulas are {}, spelt like this",
+            list(constants)
+        ),
+    };
+    Message::new(format!("no formula mentions the constant `{name}`"), help)
 }
 
 pub(crate) fn empty() -> Message {

@@ -5,9 +5,21 @@ use quote::ToTokens as _;
 use syn::{Expr as Syntax, ExprBlock, Local, Pat, PatIdent, Stmt};
 
 use super::expr::expr;
-use crate::ast::{Binding, Block, Expr, ExprKind};
+use super::helper;
+use crate::ast::{Binding, Block, Bound, Expr, ExprKind, Helper};
 use crate::ctxt::Ctxt;
 use crate::message::expression::syntax as message;
+
+/// The body of a closure, which is a block or a bare expression.
+pub(super) fn body<'a>(cx: &Ctxt, original: &'a Syntax) -> Block<'a> {
+    if let Syntax::Block(body) = original {
+        return block(cx, original, body);
+    }
+    Block {
+        bindings: Vec::new(),
+        value: Box::new(expr(cx, original)),
+    }
+}
 
 /// Reads a block; reports every statement that is neither a `let` nor the value at the end.
 pub(super) fn block<'a>(cx: &Ctxt, original: &'a Syntax, block: &'a ExprBlock) -> Block<'a> {
@@ -39,7 +51,10 @@ pub(super) fn block<'a>(cx: &Ctxt, original: &'a Syntax, block: &'a ExprBlock) -
             }
             value
         }
-        Some(other) => statement(cx, original, other).value,
+        Some(other) => match statement(cx, original, other).value {
+            Bound::Value(value) => value,
+            Bound::Helper(_) => Expr::hole(original),
+        },
         None => {
             let end = block.block.brace_token.span.close();
             cx.error_at(end, &message::block_without_value());
@@ -86,7 +101,10 @@ fn statement<'a>(cx: &Ctxt, block: &'a Syntax, statement: &'a Stmt) -> Binding<'
             }
         }
     }
-    Binding { ident: None, value }
+    Binding {
+        ident: None,
+        value: Bound::Value(value),
+    }
 }
 
 fn binding<'a>(cx: &Ctxt, block: &'a Syntax, local: &'a Local) -> Binding<'a> {
@@ -120,12 +138,20 @@ fn binding<'a>(cx: &Ctxt, block: &'a Syntax, local: &'a Local) -> Binding<'a> {
     };
     let Some(init) = &local.init else {
         cx.error(local, &message::let_without_value());
-        let value = Expr::hole(block);
+        let value = Bound::Value(Expr::hole(block));
         return Binding { ident, value };
     };
     if let Some((token, _)) = &init.diverge {
         cx.error(token, &message::let_else());
     }
-    let value = expr(cx, &init.expr);
+    if let Some(closure) = helper::closure(&init.expr) {
+        let helper = Helper {
+            arguments: helper::arguments(cx, closure),
+            body: body(cx, &closure.body),
+        };
+        let value = Bound::Helper(helper);
+        return Binding { ident, value };
+    }
+    let value = Bound::Value(expr(cx, &init.expr));
     Binding { ident, value }
 }

@@ -1,10 +1,10 @@
-//! The closure of a free energy: its arguments with their roles, and its body.
+//! The closure of a free energy: its arguments with their roles.
 
 use quote::ToTokens;
 use syn::{ExprClosure, Pat, PatIdent, PatType, ReturnType, Type};
 
-use super::{block, expr};
-use crate::ast::{Argument, Block, Role, Strain};
+use super::modifiers::check_modifiers;
+use crate::ast::{Argument, Role, Strain};
 use crate::ctxt::Ctxt;
 use crate::message::attribute as message;
 use crate::message::expression::syntax::mutable;
@@ -12,35 +12,12 @@ use crate::nearest::nearest;
 
 /// The arguments whose names can be read; reports the others.
 pub(super) fn arguments<'a>(cx: &Ctxt, closure: &'a ExprClosure) -> Vec<Argument<'a>> {
-    check_modifiers(cx, closure);
-    let arguments = closure.inputs.iter();
-    arguments.filter_map(|pat| argument(cx, pat)).collect()
-}
-
-/// The body, which is a block or a bare expression.
-pub(super) fn body<'a>(cx: &Ctxt, closure: &'a ExprClosure) -> Block<'a> {
-    if let syn::Expr::Block(body) = &*closure.body {
-        return block::block(cx, &closure.body, body);
-    }
-    Block {
-        bindings: Vec::new(),
-        value: Box::new(expr::expr(cx, &closure.body)),
-    }
-}
-
-fn check_modifiers(cx: &Ctxt, closure: &ExprClosure) {
-    fn refuse(cx: &Ctxt, token: Option<impl ToTokens>, modifier: &str) {
-        if let Some(token) = token {
-            cx.error(token, &message::closure_modifier(modifier));
-        }
-    }
-    refuse(cx, closure.lifetimes.as_ref(), "for<…>");
-    refuse(cx, closure.constness, "const");
-    refuse(cx, closure.asyncness, "async");
-    refuse(cx, closure.capture, "move");
+    check_modifiers(cx, closure, message::closure_modifier);
     if let ReturnType::Type(arrow, _) = &closure.output {
         cx.error(arrow, &message::closure_output());
     }
+    let arguments = closure.inputs.iter();
+    arguments.filter_map(|pat| argument(cx, pat)).collect()
 }
 
 fn argument<'a>(cx: &Ctxt, pat: &'a Pat) -> Option<Argument<'a>> {

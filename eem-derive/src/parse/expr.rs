@@ -3,7 +3,7 @@
 use syn::{BinOp, Expr as Syntax, UnOp};
 
 use super::{block, number, unsupported};
-use crate::ast::{Expr, ExprKind, Operator};
+use crate::ast::{Entry, Expr, ExprKind, Operator, is_upper_case};
 use crate::ctxt::Ctxt;
 use crate::message::expression::syntax as message;
 
@@ -17,6 +17,7 @@ pub(super) fn expr<'a>(cx: &Ctxt, original: &'a Syntax) -> Expr<'a> {
         Syntax::Path(path) => (&*path.attrs, name(cx, path)),
         Syntax::Unary(unary) => (&*unary.attrs, negation(cx, unary)),
         Syntax::Binary(binary) => (&*binary.attrs, operation(cx, binary)),
+        Syntax::Index(index) => (&*index.attrs, entry(cx, index)),
         Syntax::Call(call) => (&*call.attrs, function_call(cx, call)),
         Syntax::MethodCall(call) => (&*call.attrs, method_call(cx, call)),
         Syntax::Block(block) => {
@@ -35,11 +36,59 @@ pub(super) fn expr<'a>(cx: &Ctxt, original: &'a Syntax) -> Expr<'a> {
 }
 
 fn name<'a>(cx: &Ctxt, path: &'a syn::ExprPath) -> ExprKind<'a> {
-    let ident = path.path.get_ident().filter(|_| path.qself.is_none());
-    if ident.is_none() {
-        unsupported::report_path(cx, path);
+    match path.path.get_ident().filter(|_| path.qself.is_none()) {
+        Some(ident) => ExprKind::Name(ident),
+        None if is_constant(path) => ExprKind::Constant(&path.path),
+        None => {
+            unsupported::report_path(cx, path);
+            ExprKind::Wrong(Vec::new())
+        }
     }
-    ident.map_or(ExprKind::Wrong(Vec::new()), ExprKind::Name)
+}
+
+/// Whether a path of several names ends like that of a constant: `crate::gas::R`.
+fn is_constant(path: &syn::ExprPath) -> bool {
+    let mut segments = path.path.segments.iter();
+    let plain = segments.all(|segment| segment.arguments.is_none());
+    let last = path.path.segments.last();
+    let upper = last.is_some_and(|segment| is_upper_case(&segment.ident));
+    plain && upper && path.qself.is_none() && path.path.segments.len() > 1
+}
+
+/// `name[2]`
+fn entry<'a>(cx: &Ctxt, original: &'a syn::ExprIndex) -> ExprKind<'a> {
+    let array = match &*original.expr {
+        Syntax::Path(path) if path.qself.is_none() => path.path.get_ident(),
+        _ => None,
+    };
+    let literal = match &*original.index {
+        Syntax::Lit(syn::ExprLit {
+            lit: syn::Lit::Int(literal),
+            ..
+        }) => Some(literal),
+        _ => None,
+    };
+    if array.is_none() {
+        let brackets = original.bracket_token.span.join();
+        cx.error_at(brackets, &message::index_of_value());
+    }
+    let Some(literal) = literal else {
+        cx.error(&original.index, &message::index_is_not_a_literal());
+        return wrong(cx, array.is_none().then_some(&*original.expr));
+    };
+    let index = literal.base10_parse();
+    match array.zip(index.ok()) {
+        Some((array, index)) => ExprKind::Entry(Entry {
+            array,
+            index,
+            literal,
+        }),
+        None if array.is_some() => {
+            cx.error(literal, &message::index_is_not_a_literal());
+            wrong(cx, [])
+        }
+        None => wrong(cx, [&*original.expr]),
+    }
 }
 
 /// A hole with everything in it that can be read.

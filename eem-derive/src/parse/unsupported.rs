@@ -67,7 +67,6 @@ fn report_opaque(cx: &Ctxt, expr: &Expr) {
         Expr::Break(e) => cx.error(e.break_token, &message::jump("break")),
         Expr::Continue(e) => cx.error(e.continue_token, &message::jump("continue")),
         Expr::Closure(e) => cx.error(e, &message::closure()),
-        Expr::Index(e) => cx.error_at(e.bracket_token.span.join(), &message::index()),
         Expr::Macro(e) => cx.error(&e.mac.path, &message::invocation()),
         Expr::Repeat(e) => cx.error(e, &message::aggregate("an array")),
         Expr::Struct(e) => cx.error(&e.path, &message::aggregate("a struct")),
@@ -122,10 +121,7 @@ pub(super) fn report_path(cx: &Ctxt, path: &ExprPath) {
         message::generic_arguments()
     } else {
         let text = path.to_token_stream().to_string().replace(' ', "");
-        match message::constant_value(&last) {
-            Some(value) => message::constant(&text, value),
-            None => message::path(&text, &last),
-        }
+        message::path(&text, &last)
     };
     cx.error(path, &message);
 }

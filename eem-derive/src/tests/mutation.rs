@@ -7,7 +7,7 @@ use proc_macro2::{Group, TokenStream, TokenTree};
 use syn::DeriveInput;
 
 /// Models with something of everything; short, because every mutation may be expanded.
-const MODELS: [&str; 5] = [
+const MODELS: [&str; 7] = [
     "#[free_energy(|lambda: Stretch, gamma: Viscous, theta: Temperature| {
         let strain = ln(lambda / length);
         k * strain.powi(2) + (lambda + gamma.powi(2)).powf(1.5) - c * theta * ln(theta / 300)
@@ -31,12 +31,22 @@ const MODELS: [&str; 5] = [
     })]
     #[viscosity(g = a / t)]
     struct Solid { #[unit(\"Pa\")] a: f64, b: f64 }",
+    "#[free_energy(|x: Stretch, g: Viscous| {
+        let f = |a, b| { let c = a * b; c + g };
+        let h = |a| f(a, a) * f(x, 2);
+        k * h(x) + f(h(x), 1)
+    })]
+    #[viscosity(g = { let f = |a| a * a; f(k) })]
+    struct Helpers { #[unit(\"N/m\")] k: f64 }",
+    "#[free_energy(|x: Stretch| k[0] * x + k[1] * R * x.powi(2) / crate::L * PI + core::f64::consts::E * k[0])]
+    #[unit(R = \"1\", crate::L = \"m\")]
+    struct Chain { #[unit(\"N\")] k: [f64; 2], _rest: [f32; 3] }",
 ];
 
 /// Tokens that mistakes are made of.
 const FOREIGN: &str = "a x lambda theta zeta Stretch Viscous e1 j Dilatation StrainTrace 0 1 -1 2.5 1e999 \"s\" 'c' true + - * / ^ % & ! ? \
     = == < .. ; , : :: . | || => ln exp powi diff abs sqrt if else match for return let mut fn const \
-    unsafe async self as _ ( ) { } [ ] crate unused #[viscosity] 2u8 r#type struct";
+    unsafe async self as _ ( ) { } [ ] crate unused f h |a| f(x) k R k[1] [2] [f64;2] #[viscosity] 2u8 r#type struct";
 
 /// xorshift64*, Vigna 2016.
 struct Random(u64);

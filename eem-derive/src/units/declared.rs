@@ -1,66 +1,81 @@
-//! The units of what a formula names: fields by their `#[unit("…")]`, arguments by their role.
+//! The units of what a formula names: fields by their `#[unit("…")]`, constants by one on the struct,
+//! arguments by their role.
 
 use syn::{Attribute, Data, DeriveInput, LitStr};
 
-use super::grammar;
+use super::constants::{self, Annotation};
+use super::declaration::{ATTRIBUTE, Declaration, unit_of};
+use crate::checked::{Checked, Origin};
 use crate::ctxt::Ctxt;
 use crate::message::unit as message;
-use crate::unit::Unit;
 
-/// The name of the attribute.
-const ATTRIBUTE: &str = "unit";
-
-/// What is said about the unit of a field.
-#[derive(Debug)]
-pub(super) enum Declaration {
-    /// Nothing.
-    Missing,
-    /// Something that has been reported.
-    Unreadable,
-    /// A unit, and how it was written.
-    Unit(Unit, String),
-}
-
-/// The units of the fields.
+/// The units of the fields and of the constants.
 #[derive(Debug, Default)]
 pub(crate) struct Units {
-    declarations: Vec<Declaration>,
+    fields: Vec<Declaration>,
+    constants: Vec<Annotation>,
+    /// Some parameter has a unit: the formulas are looked at.
+    some: bool,
 }
 
 impl Units {
-    /// The declarations of all named fields, in their order.
-    pub(super) fn read(cx: &Ctxt, input: &DeriveInput) -> Self {
-        for attribute in input.attrs.iter().filter(|a| a.path().is_ident(ATTRIBUTE)) {
-            cx.error(attribute.path(), &message::not_on_a_field());
-        }
-        let Data::Struct(data) = &input.data else {
-            return Self::default();
+    /// The declarations of all named fields, in their order, and of the constants of the formulas.
+    pub(super) fn read(cx: &Ctxt, checked: &Checked<'_>) -> Self {
+        let mut units = Self {
+            fields: fields(cx, checked.original),
+            constants: constants::read(cx, checked),
+            some: false,
         };
-        let fields = data.fields.iter();
-        let declarations = fields.map(|field| declaration(cx, &field.attrs));
-        Self {
-            declarations: declarations.collect(),
+        let mut used = checked.parameters.iter();
+        units.some = used.any(|parameter| units.is_declared(parameter.origin));
+        units
+    }
+
+    /// Whether some parameter has a unit.
+    pub(super) fn are_checked(&self) -> bool {
+        self.some
+    }
+
+    /// What is said about the unit of a parameter.
+    pub(super) fn declaration(&self, origin: Origin) -> Option<&Declaration> {
+        match origin {
+            Origin::Field(field) | Origin::Entry(field, _) => self.fields.get(field),
+            Origin::Constant(index) => {
+                let mut annotations = self.constants.iter();
+                let annotation = annotations.find(|annotation| annotation.constant == index);
+                annotation.map(|annotation| &annotation.declaration)
+            }
         }
     }
 
-    /// What is said about the unit of a field.
-    pub(super) fn declaration(&self, index: usize) -> Option<&Declaration> {
-        self.declarations.get(index)
-    }
-
-    /// The unit of a field as it was written, by the index of the field in the struct.
-    pub(crate) fn of_field(&self, index: usize) -> Option<&str> {
-        match self.declarations.get(index)? {
-            Declaration::Unit(_, text) => Some(text),
-            Declaration::Missing | Declaration::Unreadable => None,
+    /// The unit of a parameter as it was written; a constant without one is a pure number, if units are
+    /// checked at all.
+    pub(crate) fn of(&self, origin: Origin) -> Option<&str> {
+        match (self.declaration(origin), origin) {
+            (Some(Declaration::Unit(_, text)), _) => Some(text),
+            (None, Origin::Constant(_)) => self.some.then_some("1"),
+            _ => None,
         }
     }
 
-    /// Whether a field says anything about its unit.
-    pub(super) fn is_declared(&self, index: usize) -> bool {
-        let declaration = self.declarations.get(index);
+    /// Whether anything is said about the unit of a parameter.
+    fn is_declared(&self, origin: Origin) -> bool {
+        let declaration = self.declaration(origin);
         declaration.is_some_and(|declaration| !matches!(declaration, Declaration::Missing))
     }
+
+    /// Whether a field should have a unit and has none.
+    pub(super) fn is_missing(&self, origin: Origin) -> bool {
+        matches!(self.declaration(origin), Some(Declaration::Missing))
+    }
+}
+
+fn fields(cx: &Ctxt, input: &DeriveInput) -> Vec<Declaration> {
+    let Data::Struct(data) = &input.data else {
+        return Vec::new();
+    };
+    let fields = data.fields.iter();
+    fields.map(|field| declaration(cx, &field.attrs)).collect()
 }
 
 fn declaration(cx: &Ctxt, attributes: &[Attribute]) -> Declaration {
@@ -80,11 +95,5 @@ fn read_one(cx: &Ctxt, attribute: &Attribute) -> Declaration {
         cx.error(&attribute.meta, &message::not_a_string());
         return Declaration::Unreadable;
     };
-    match grammar::parse(&text.value()) {
-        Ok(unit) => Declaration::Unit(unit, text.value().trim().to_owned()),
-        Err(message) => {
-            cx.error(&text, &message);
-            Declaration::Unreadable
-        }
-    }
+    unit_of(cx, &text)
 }

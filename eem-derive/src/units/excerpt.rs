@@ -7,7 +7,7 @@ use quote::ToTokens;
 const LONGEST: usize = 48;
 
 /// The expression as a person would write it; the middle of a long one is left out.
-pub(super) fn excerpt(expr: &syn::Expr) -> String {
+pub(crate) fn excerpt(expr: &syn::Expr) -> String {
     let mut text = String::new();
     write(expr.to_token_stream(), &mut text);
     let length = text.chars().count();

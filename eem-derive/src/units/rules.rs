@@ -5,12 +5,13 @@ mod sum;
 
 use eem_symbolic::{Function, Rational};
 
-use super::declared::{Declaration, Units};
+use super::declaration::Declaration;
+use super::declared::Units;
 use super::excerpt::excerpt;
 use super::quantities::Quantities;
 use super::unknowns::Unknowns;
-use crate::ast::{self, Operator};
-use crate::checked::{Body, Checked, Expr, ExprKind};
+use crate::ast::Operator;
+use crate::checked::{Body, Checked, Expr, ExprKind, Origin};
 use crate::ctxt::Ctxt;
 use crate::message::unit::{self as message, Side};
 use crate::unit::Unit;
@@ -21,8 +22,8 @@ struct Quantity {
     unit: Unit,
     /// Its value, if it is a number.
     value: Option<Rational>,
-    /// The first field in it that has a scale: a message about different scales names it.
-    scaled: Option<usize>,
+    /// The first parameter in it that has a scale: a message about different scales names it.
+    scaled: Option<Origin>,
 }
 
 impl Quantity {
@@ -101,7 +102,7 @@ impl<'r> Rules<'r> {
     fn quantity(&mut self, expr: &Expr<'_>) -> Option<Quantity> {
         match &expr.kind {
             ExprKind::Number(number) => Some(Quantity::number(number.exact())),
-            ExprKind::Parameter(field) => self.parameter(*field),
+            ExprKind::Parameter(origin) => self.parameter(*origin),
             ExprKind::Variable(index) => {
                 let role = self.checked.variables.get(*index)?.role;
                 Some(Quantity::new(self.quantities.of_role(role)))
@@ -122,6 +123,12 @@ impl<'r> Rules<'r> {
                         self.product(expr, *operator, &a?, &b?)
                     }
                 }
+            }
+            ExprKind::InCall(call, inner) => {
+                self.cx.enter(excerpt(call));
+                let quantity = self.quantity(inner);
+                self.cx.leave();
+                quantity
             }
             ExprKind::Wrong(parts) => {
                 for part in parts {
@@ -153,13 +160,17 @@ impl<'r> Rules<'r> {
         }
     }
 
-    fn parameter(&self, field: usize) -> Option<Quantity> {
-        match self.units.declaration(field)? {
+    fn parameter(&self, origin: Origin) -> Option<Quantity> {
+        let Some(declaration) = self.units.declaration(origin) else {
+            // A constant of which nothing is said.
+            return Some(Quantity::number(None));
+        };
+        match declaration {
             Declaration::Unit(unit, _) => Some(Quantity {
-                scaled: (!unit.scale().is_one()).then_some(field),
+                scaled: (!unit.scale().is_one()).then_some(origin),
                 ..Quantity::new(unit.clone())
             }),
-            Declaration::Missing => Some(Quantity::new(Unit::unknown(field))),
+            Declaration::Missing => Some(Quantity::new(Unit::unknown(origin.field()?))),
             Declaration::Unreadable => None,
         }
     }
@@ -197,14 +208,11 @@ impl<'r> Rules<'r> {
     }
 
     /// Help where units differ by a factor only: the field that brings it in.
-    fn scale_help(&self, scaled: Option<usize>) -> Option<String> {
+    fn scale_help(&self, scaled: Option<Origin>) -> Option<String> {
         let mut parameters = self.checked.parameters.iter();
-        let parameter = parameters.find(|parameter| Some(parameter.field) == scaled)?;
-        match self.units.declaration(parameter.field)? {
-            Declaration::Unit(unit, _) => {
-                let name = ast::name(parameter.ident);
-                Some(message::field_with_scale(&name, unit))
-            }
+        let parameter = parameters.find(|parameter| Some(parameter.origin) == scaled)?;
+        match self.units.declaration(parameter.origin)? {
+            Declaration::Unit(unit, _) => Some(message::field_with_scale(&parameter.name, unit)),
             Declaration::Missing | Declaration::Unreadable => None,
         }
     }

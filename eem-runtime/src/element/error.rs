@@ -104,6 +104,20 @@ pub enum StateError {
         /// The temperature, K, if the model has one.
         temperature: Option<f64>,
     },
+    /// The viscosity of the dashpot beside a spring is not positive and finite.
+    #[error(
+        "the viscosity of the stretch of {element} is {value} {unit}{}, it must be positive and finite",
+        temperature.as_ref().map_or_else(String::new, |theta| format!(" at {} K", Readable(*theta))), value = Readable(*value))]
+    Drag {
+        /// The element.
+        element: Element,
+        /// The viscosity.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+        /// The temperature, K, if the model has one.
+        temperature: Option<f64>,
+    },
     /// No temperature has the entropy that the element must have.
     #[error("{element}: {source}")]
     NoSuchTemperature {

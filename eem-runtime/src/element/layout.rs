@@ -11,6 +11,8 @@ use crate::element::handle::{Element, HeatPartner};
 pub(crate) struct Shape {
     pub(crate) dashpots: usize,
     pub(crate) thermal: bool,
+    /// Whether a dashpot stands beside the spring.
+    pub(crate) drag: bool,
     /// Whether it has a length and a force.
     pub(crate) is_spring: bool,
     /// The unit of a viscous stretch.

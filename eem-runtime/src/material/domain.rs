@@ -174,7 +174,7 @@ pub fn check_domain<S: Real, M: FreeEnergy<S>>(
     search::search(&space, samples, &|x| examine(model, &space, x))
 }
 
-/// Heat capacity, then viscosities, of a sound state.
+/// Heat capacity, then viscosities, that of the stretch last, of a sound state.
 fn examine<S: Real, M: FreeEnergy<S>>(
     model: &M,
     space: &Space,
@@ -222,6 +222,14 @@ fn examine<S: Real, M: FreeEnergy<S>>(
                 value,
                 point,
             });
+        }
+        found.push(value);
+    }
+    let (drag, _) = model.drag(S::from_f64(theta));
+    for value in drag.as_ref().iter().map(|value| value.to_f64()) {
+        if !is_sound(value) {
+            let point = point();
+            return Err(DomainError::Drag { value, point });
         }
         found.push(value);
     }

@@ -109,6 +109,8 @@ pub trait FreeEnergy<S: Scalar> {
     type Hessian: Array<Self::Variables>;
     /// `[S; K]`.
     type Viscosities: Array<S>;
+    /// `[S; 1]` if a dashpot stands beside the spring (Kelvin–Voigt), else `[S; 0]`.
+    type Drag: Array<S>;
     /// `[S; 2(N − 1)]`, `[S; 0]` without temperature.
     type Corners: Array<S>;
     /// `[S; R]`.
@@ -207,6 +209,9 @@ pub trait FreeEnergy<S: Scalar> {
 
     /// `η_k(θ)` and `dη_k/dθ`, N s/m and N s/(m K).
     fn viscosity(&self, theta: S) -> (Self::Viscosities, Self::Viscosities);
+
+    /// `η(θ)` and `dη/dθ` of the dashpot beside the spring, whose force is `η λ̇`, N s/m and N s/(m K).
+    fn drag(&self, theta: S) -> (Self::Drag, Self::Drag);
 
     /// What [`entropy_form`](Self::entropy_form) needs of the old state.
     fn entropy_form_old(&self, x0: &Self::Variables) -> Self::EntropyFormOld;

@@ -83,6 +83,7 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
     type Variables = M::Variables;
     type Hessian = M::Hessian;
     type Viscosities = M::Viscosities;
+    type Drag = M::Drag;
     type Corners = M::Corners;
     type Response = M::Response;
     type Tangent = M::Tangent;
@@ -145,6 +146,11 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
     fn viscosity(&self, theta: S) -> (M::Viscosities, M::Viscosities) {
         let (viscosities, slopes) = self.density.viscosity(theta);
         (self.scaled(viscosities), self.scaled(slopes))
+    }
+
+    fn drag(&self, theta: S) -> (M::Drag, M::Drag) {
+        let (drag, slope) = self.density.drag(theta);
+        (self.scaled(drag), self.scaled(slope))
     }
 
     fn entropy_form_old(&self, x0: &M::Variables) -> M::EntropyFormOld {

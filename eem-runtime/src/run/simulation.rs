@@ -41,7 +41,7 @@ use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
 use automatic_memory::Automatic;
-use check::{check_solids, check_step};
+use check::{check_scheme, check_step, needs_second_order};
 use control_memory::Control;
 use start::{initial_state, places_in};
 use stepper::{Parts, Stepper};
@@ -113,11 +113,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// The first thing that is wrong with the scene, its initial state or the step.
     pub fn new(scene: Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, SceneError> {
         scene.check()?;
-        let has_solids = scene.groups.iter().any(|group| !group.shape().is_spring);
-        let in_use = first(scheme, has_solids);
-        if has_solids {
-            check_solids(in_use)?;
-        }
+        let is_second = needs_second_order(&scene);
+        let in_use = first(scheme, is_second);
+        check_scheme(&scene, in_use)?;
         check_step(step)?;
         let mut layout = scene.layout();
         let conduction = Conduction::new(&scene.conductors, &scene.reservoirs, &layout);
@@ -138,7 +136,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         };
         let stepper = Stepper::new(scene.groups, parts, &mut state)?;
         let automatic =
-            (scheme == Scheme::Auto).then(|| Box::new(Automatic::new(scene.elements, has_solids)));
+            (scheme == Scheme::Auto).then(|| Box::new(Automatic::new(scene.elements, is_second)));
         if automatic.is_none() {
             layout.forget_places();
         }

@@ -7,7 +7,7 @@ use crate::element::group::{Loose, LooseElements};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Kinematics, Points};
 use crate::element::layout::Shape;
-use crate::material::free_energy::FreeEnergy;
+use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
 use crate::scene::error::SceneError;
 
@@ -80,6 +80,7 @@ where
         Shape {
             dashpots: M::DASHPOTS,
             thermal: M::THERMAL,
+            drag: M::Drag::LEN > 0,
             is_spring: K::IS_SPRING,
             viscous_unit: K::VISCOUS_UNIT,
         }

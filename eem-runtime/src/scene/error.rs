@@ -32,6 +32,16 @@ pub enum SceneError {
         /// The name of the scheme.
         scheme: &'static str,
     },
+    /// A dashpot stands beside a spring, and the scheme has no force for it.
+    #[error(
+        "{scheme} does not step the viscosity of the stretch that {element} has; use eem-entropy or eem-temperature"
+    )]
+    NoDrag {
+        /// The name of the scheme.
+        scheme: &'static str,
+        /// The first such element.
+        element: Element,
+    },
     /// A quadrilateral is inside out at a point of its reference configuration, or has no area there.
     #[error(
         "det dX/dxi of the solid at {element} is {value} m^2, it must be positive and finite: give its corners against the clock",
@@ -257,10 +267,7 @@ pub enum SceneError {
         mass: f64,
     },
     /// The weight of a mass is not finite.
-    #[error(
-        "component {axis} of the weight m g of {node} is {value} N, it must be finite",
-        value = Readable(*value)
-    )]
+    #[error("component {axis} of the weight m g of {node} is {value} N, it must be finite", value = Readable(*value))]
     Weight {
         /// The node.
         node: Node,

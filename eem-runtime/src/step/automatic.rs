@@ -50,18 +50,18 @@ const EXPLICIT_TRIAL: f64 = 400.0;
 const MEMORY: f64 = 0.8;
 
 /// The scheme with which a run begins that was asked for this one.
-pub(crate) const fn first(asked: Scheme, has_solids: bool) -> Scheme {
+pub(crate) const fn first(asked: Scheme, is_second: bool) -> Scheme {
     match asked {
-        Scheme::Auto if has_solids => Scheme::EemTemperature,
+        Scheme::Auto if is_second => Scheme::EemTemperature,
         Scheme::Auto => Scheme::EemExplicit,
         own => own,
     }
 }
 
 /// The implicit scheme for a tolerance.
-pub(crate) fn implicit<S: Real>(tolerance: &Tolerance<S>, has_solids: bool) -> Scheme {
+pub(crate) fn implicit<S: Real>(tolerance: &Tolerance<S>, is_second: bool) -> Scheme {
     let is_rough = tolerance.relative.to_f64() >= ROUGH;
-    if is_rough || has_solids {
+    if is_rough || is_second {
         Scheme::EemTemperature
     } else {
         Scheme::EemEntropy6

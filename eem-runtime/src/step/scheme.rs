@@ -1,7 +1,6 @@
 //! The time integration schemes, a row of data each.
 
 use crate::element::conjugates::Conjugates;
-use crate::element::tableau::{Tableau, UnknownSet};
 use crate::step::control::{Accuracy, Estimate};
 use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
 
@@ -72,8 +71,8 @@ pub enum Scheme {
     /// The same of order 6, with three stages.
     EemEntropy6,
     /// That of the exact ones above which takes least for a [tolerance](crate::Simulation::control_steps):
-    /// `EemExplicit`, unless stability limits its steps more than accuracy does, and `EemTemperature` for solids. All
-    /// laws hold when the [scheme in use](crate::Simulation::scheme_in_use) changes.
+    /// `EemExplicit`, unless stability limits its steps more than accuracy does, and `EemTemperature` for solids and
+    /// dashpots beside springs. Laws hold when the [scheme in use](crate::Simulation::scheme_in_use) changes.
     #[default]
     Auto,
 }
@@ -300,50 +299,5 @@ impl Scheme {
     /// ordinary rules, for the same reason.
     pub(crate) const fn follows_its_solution(self) -> bool {
         !self.rule().is_ordinary
-    }
-
-    /// Whether nodes feel forces that the old state alone decides; see
-    /// [`IMPLICIT`](crate::element::conjugates::ElementScheme::IMPLICIT).
-    pub(crate) const fn has_old_forces(self) -> bool {
-        matches!(
-            self.conjugates(),
-            Conjugates::End | Conjugates::EndTemperature
-        )
-    }
-
-    /// Whether its elements have a
-    /// [starting form](crate::element::conjugates::ElementScheme::starting_form).
-    pub(crate) const fn has_starting_form(self) -> bool {
-        matches!(self.conjugates(), Conjugates::EntropyForm)
-    }
-
-    /// Whether mechanics and heat are stepped one after the other.
-    pub(crate) const fn is_split(self) -> bool {
-        matches!(self, Self::Staggered)
-    }
-
-    /// The numbers of a scheme that goes through stages.
-    pub(crate) const fn tableau(self) -> Option<&'static Tableau> {
-        match self.conjugates() {
-            Conjugates::Stages(rule) => Some(rule),
-            _ => None,
-        }
-    }
-
-    /// The sets of unknowns.
-    pub(crate) fn sets(self) -> Vec<UnknownSet> {
-        let Some(rule) = self.tableau() else {
-            // `(2m/h)(q¹ − q⁰) − 2p⁰ + h F`: twice that of one stage at the end.
-            return vec![UnknownSet {
-                time: 1.0,
-                inertia: 2.0,
-            }];
-        };
-        let sets = (0..rule.sets()).map(|set| {
-            let time = rule.times[rule.stage_of(set)];
-            let inertia = time.recip();
-            UnknownSet { time, inertia }
-        });
-        sets.collect()
     }
 }

@@ -131,19 +131,17 @@ impl<'m> PointPrograms<'m> {
         self.program(&self.variables, &hessian)
     }
 
-    pub(super) fn viscosity(&mut self) -> Program {
+    /// Laws and their derivatives by θ.
+    pub(super) fn viscosity(&mut self, laws: &[ExprId]) -> Program {
         let theta = self.model.temperature;
         let mut slopes = Vec::new();
-        for &law in &self.model.viscosities {
+        for &law in laws {
             slopes.push(match theta {
                 Some(theta) => diff(&mut self.graph, law, theta),
                 None => self.graph.integer(0),
             });
         }
-        self.program(
-            theta.as_slice(),
-            &[&self.model.viscosities[..], &slopes].concat(),
-        )
+        self.program(theta.as_slice(), &[laws, &slopes].concat())
     }
 
     fn slopes(&mut self, e: ExprId) -> Vec<ExprId> {

@@ -66,6 +66,7 @@ impl Writer {
             parameters: Vec::new(),
             psi,
             viscosities: Vec::new(),
+            drag: None,
         }
     }
 

@@ -163,6 +163,7 @@ fn thermo_visco_elastic(name: &'static str, dashpots: usize, state: Vec<f64>) ->
         parameters: w.parameters,
         psi,
         viscosities: vec![law; dashpots],
+        drag: None,
     };
     Law {
         name,
@@ -203,6 +204,7 @@ pub(crate) fn logarithmic_stiffness() -> Law {
         parameters: w.parameters,
         psi,
         viscosities: Vec::new(),
+        drag: None,
     };
     let name = "logarithmic stiffness";
     Law {
@@ -244,6 +246,7 @@ pub(crate) fn einstein() -> Law {
         parameters: w.parameters,
         psi,
         viscosities: Vec::new(),
+        drag: None,
     };
     Law {
         name: "Einstein solid",
@@ -284,6 +287,7 @@ pub(crate) fn elastic() -> Law {
         parameters: w.parameters,
         psi,
         viscosities: vec![eta],
+        drag: None,
     };
     Law {
         name: "elastic",

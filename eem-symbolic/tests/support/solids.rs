@@ -45,6 +45,7 @@ fn law(
         parameters: w.parameters,
         psi,
         viscosities,
+        drag: None,
     };
     Law {
         name,

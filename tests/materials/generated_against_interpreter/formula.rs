@@ -61,6 +61,7 @@ pub(crate) fn model(arguments: &[(Role, E)], parameters: &[E], psi: E, viscositi
         graph: GRAPH.with(|graph| graph.borrow().clone()),
         psi: psi.0,
         viscosities: viscosities.iter().map(|e| e.0).collect(),
+        drag: None,
     }
 }
 

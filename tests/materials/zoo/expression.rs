@@ -122,5 +122,6 @@ pub(crate) fn model(
         graph: with(|graph| graph.clone()),
         psi: psi.0,
         viscosities: viscosities.iter().map(|eta| eta.0).collect(),
+        drag: None,
     }
 }

@@ -108,6 +108,43 @@ struct Material<S> {
     length: S,
 }
 
+/// A constant of the program.
+const CAPACITY: f64 = 3.0;
+
+/// With a dashpot beside the spring, an array, constants and helpers.
+#[derive(Clone, Debug, FreeEnergy)]
+#[free_energy(|lambda: Stretch, theta: Temperature| {
+    let log = |x, reference| ln(x / reference);
+    let square = |x| x * x;
+    stiffness[0] * square(log(lambda, 1)) + PI * stiffness[1] * square(square(lambda - 1))
+        + CAPACITY * (theta - 300 - theta * log(theta, 300))
+})]
+#[viscosity(lambda = eta * exp(CAPACITY - self::CAPACITY * theta / 300))]
+struct Voigt<S> {
+    stiffness: [S; 2],
+    eta: S,
+}
+
+/// A mass on it, started at `input[1]` K, with the second stiffness `input[0]` N/m³ and the viscosity `input[2]`
+/// N s/m.
+pub(crate) struct Damped;
+
+impl Case<2> for Damped {
+    fn scene<S: Real>(&self, [stiffness, theta, eta]: [S; 3]) -> (Scene<2, S>, Parts) {
+        let mut scene = Scene::default();
+        let pivot = scene.anchor(vector([0.0, 0.0]));
+        let bob = scene.mass(S::one(), vector([1.4, 0.0]), vector([0.2, 1.0]));
+        let law = Voigt {
+            stiffness: [S::from_f64(20.0), stiffness],
+            eta,
+        };
+        let spring = scene.spring(law, [pivot, bob]);
+        scene.set_temperature(spring, theta);
+        let (nodes, elements) = (vec![bob], vec![spring]);
+        (scene, Parts { nodes, elements })
+    }
+}
+
 /// A sweep over the material: stiffness `input[0]` J, coupling `input[1]` J/K, length `input[2]` m.
 pub(crate) struct Sweep;
 

@@ -15,9 +15,16 @@ struct Misspelt {
 }
 
 #[derive(FreeEnergy)]
-#[free_energy(|lambda: Stretch| k * lambda)]
-#[viscosity(lambda = k)]
+#[free_energy(|lambda: Stretch, theta: Temperature| k * lambda - theta * ln(theta))]
+#[viscosity(lambda = k, theta = k)]
 struct AnotherRole {
+    k: f64,
+}
+
+#[derive(FreeEnergy)]
+#[free_energy(|e1: StrainTrace| k * e1.powi(2))]
+#[viscosity(e1 = k)]
+struct Solid {
     k: f64,
 }
 

@@ -1,8 +1,14 @@
 use eem::FreeEnergy;
 
 #[derive(FreeEnergy)]
-#[free_energy(|lambda: Stretch| k * lambda * PI + core::f64::consts::TAU + f64::consts::LN_2)]
+#[free_energy(|lambda: Stretch| k * lambda * pi + e * lamda + core::f64::consts::Pi + R[0])]
 struct Model {
+    k: f64,
+}
+
+#[derive(FreeEnergy)]
+#[free_energy(|lambda: Stretch| k * lambda.powi(2) / (PI - core::f64::consts::PI) + ln(-PI))]
+struct Values {
     k: f64,
 }
 

@@ -12,7 +12,7 @@ struct Model {
 }
 
 #[derive(FreeEnergy)]
-#[free_energy(|x: Stretch| stiffness * x.powi(2) * theta * (THETA_REF - gamma))]
+#[free_energy(|x: Stretch| stiffness * x.powi(2) * theta * (theta_ref - gamma))]
 struct Undeclared {
     stiffness: f64,
 }

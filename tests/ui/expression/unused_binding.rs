@@ -11,4 +11,17 @@ struct Model {
     k: f64,
 }
 
+#[derive(FreeEnergy)]
+#[free_energy(|lambda: Stretch| {
+    let unused = |x| x * k;
+    let _kept = |x| x * k;
+    let partly = |x, y| { let z = x; let _kept = y; let inner = |u| u + y; x };
+    let called_by_none = |x| partly(x, x);
+    let empty = |x, _y| k;
+    k * lambda + empty(lambda, k) + empty(k, k)
+})]
+struct Helpers {
+    k: f64,
+}
+
 fn main() {}

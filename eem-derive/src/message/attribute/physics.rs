@@ -56,7 +56,7 @@ pub(crate) fn negative_heat_capacity(theta: &Variable<'_>) -> Message {
 pub(crate) fn no_viscosity() -> Message {
     Message::new(
         "this viscosity is nowhere positive",
-        "a dashpot needs one above zero; without it, remove the argument from the free energy",
+        "a dashpot needs one above zero; without it, remove the law, and a `Viscous` argument from the free energy",
     )
 }
 

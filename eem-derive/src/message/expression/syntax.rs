@@ -81,15 +81,22 @@ pub(crate) fn cast() -> Message {
 
 pub(crate) fn closure() -> Message {
     Message::new(
-        "a closure is not part of a formula",
-        "bind the value with `let`; a derivative is `diff(expression, argument)`",
+        "a closure is not a value",
+        "give it a name, `let f = |x| …;`, and call it; a derivative is `diff(expression, argument)`",
     )
 }
 
-pub(crate) fn index() -> Message {
+pub(crate) fn index_of_value() -> Message {
     Message::new(
-        "a parameter is a number and has no elements",
-        "use one field per parameter",
+        "this has no entries",
+        "a field can be an array, `stiffness: [f64; 3]`, with the entries `stiffness[0]` to `stiffness[2]`",
+    )
+}
+
+pub(crate) fn index_is_not_a_literal() -> Message {
+    Message::new(
+        "the index of an entry is a number that is written out, such as `2`",
+        "every entry is a parameter of its own; a sum over entries is written out",
     )
 }
 
@@ -141,27 +148,26 @@ pub(crate) fn field_access(name: Option<&str>) -> Message {
 pub(crate) fn path(path: &str, last: &str) -> Message {
     Message::new(
         format!("`{path}` is outside of the free energy"),
-        format!("names are bare: write `{last}` for a field or a function, or the number itself"),
+        format!(
+            "names of fields and functions are bare: write `{last}`; a path leads to a constant, whose name is in upper case"
+        ),
     )
 }
 
-/// The constants that `std` has under a name, with all digits of an `f64`.
-pub(crate) fn constant_value(name: &str) -> Option<&'static str> {
+/// What is written for constants that have short names on paper.
+pub(crate) fn constant_of_paper(name: &str) -> Option<&'static str> {
     Some(match name {
-        "PI" | "pi" => "3.141592653589793",
-        "TAU" => "6.283185307179586",
-        "E" | "e" => "2.718281828459045",
-        "SQRT_2" => "sqrt(2)",
-        "LN_2" => "ln(2)",
-        "LN_10" => "ln(10)",
+        "pi" | "π" => "PI",
+        "tau" | "τ" => "core::f64::consts::TAU",
+        "e" => "core::f64::consts::E",
         _ => return None,
     })
 }
 
-pub(crate) fn constant(path: &str, value: &str) -> Message {
+pub(crate) fn constant(name: &str, constant: &str) -> Message {
     Message::new(
-        format!("the constant `{path}` is outside of the free energy"),
-        format!("write `{value}`"),
+        format!("unknown name `{name}`"),
+        format!("the constant is `{constant}`; a parameter is a field, `{name}: f64`"),
     )
 }
 

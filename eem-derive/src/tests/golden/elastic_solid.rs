@@ -1,4 +1,5 @@
 #[allow(clippy::unreadable_literal, clippy::excessive_precision)]
+#[allow(clippy::approx_constant)]
 #[allow(clippy::many_single_char_names, clippy::similar_names)]
 #[allow(clippy::too_many_lines, clippy::cognitive_complexity, clippy::let_and_return)]
 #[allow(unused_qualifications)]
@@ -29,6 +30,7 @@ const _: () = {
         type Variables = [__S; 2];
         type Hessian = [[__S; 2]; 2];
         type Viscosities = [__S; 0];
+        type Drag = [__S; 0];
         type Corners = [__S; 0];
         type Response = [__S; 2];
         type Tangent = [[__S; 2]; 2];
@@ -174,6 +176,10 @@ const _: () = {
         }
         /// There is no dashpot: nothing.
         fn viscosity(&self, _: __S) -> (Self::Viscosities, Self::Viscosities) {
+            ([], [])
+        }
+        /// No dashpot stands beside the spring: nothing.
+        fn drag(&self, _: __S) -> (Self::Drag, Self::Drag) {
             ([], [])
         }
         /// Entropy form: what depends on the old state alone.

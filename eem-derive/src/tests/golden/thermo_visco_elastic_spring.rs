@@ -1,4 +1,5 @@
 #[allow(clippy::unreadable_literal, clippy::excessive_precision)]
+#[allow(clippy::approx_constant)]
 #[allow(clippy::many_single_char_names, clippy::similar_names)]
 #[allow(clippy::too_many_lines, clippy::cognitive_complexity, clippy::let_and_return)]
 #[allow(unused_qualifications)]
@@ -37,6 +38,7 @@ const _: () = {
         type Variables = [__S; 3];
         type Hessian = [[__S; 3]; 3];
         type Viscosities = [__S; 1];
+        type Drag = [__S; 0];
         type Corners = [__S; 4];
         type Response = [__S; 4];
         type Tangent = [[__S; 3]; 4];
@@ -473,6 +475,10 @@ const _: () = {
             let __v15 = __v9 * __v14;
             let __v16 = -__v15;
             ([__v11], [__v16])
+        }
+        /// No dashpot stands beside the spring: nothing.
+        fn drag(&self, _: __S) -> (Self::Drag, Self::Drag) {
+            ([], [])
         }
         /// Entropy form: what depends on the old state alone.
         ///

@@ -6,7 +6,7 @@ use super::pose::Pose;
 use super::site::{Contact, Site};
 use crate::element::conjugates::{ElementScheme, Form};
 use crate::element::group::view::Trial;
-use crate::element::kinematics::{Arms, Blocks, Kinematics, Measures};
+use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics, Measures};
 use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
 
@@ -97,7 +97,7 @@ where
             let by = factor * row.by_measure[a];
             add_scaled::<K, S, D>(&mut sum, by, &self.sensitivity[a]);
         }
-        if C::IN_TEMPERATURE {
+        if C::IN_TEMPERATURE || (M::THERMAL && Self::HAS_RATES) {
             for at_point in self.single.as_ref() {
                 let by = -factor * row.by_heat;
                 add_scaled::<K, S, D>(&mut sum, by, &at_point.by_increment);
@@ -113,7 +113,7 @@ where
         &self,
         step: S,
         pose: &Pose<K, S, D>,
-        form: &Form<S, M>,
+        (form, by_rate): (&Form<S, M>, Option<&Gradient<K, S, D>>),
         target: &mut Target<'_, K, S, D>,
     ) -> Momentum<K, S, D> {
         let impulse = step * S::from_f64(C::IMPLICIT);
@@ -124,6 +124,12 @@ where
             let row = self.condensed_row(a, form, target.contact.is_some());
             forces[a] = impulse * form.0[a];
             forces_by_arm[a] = self.by_arm(&row, impulse);
+            if let Some(by_rate) = by_rate
+                && a < Self::DRAGS
+            {
+                let by = self.force_by_rate(a, step.recip(), impulse, by_rate);
+                add_scaled::<K, S, D>(&mut forces_by_arm[a], S::one(), &by);
+            }
             values[a] = impulse * row.value;
             if M::THERMAL
                 && let Some(contact) = target.contact

@@ -1,5 +1,6 @@
 //! Whether elements can be in a state that comes from outside, and which parameters they have.
 
+use super::kelvin_voigt::check_drag;
 use super::point::Point;
 use crate::element::conjugates::{ElementScheme, Infeasible};
 use crate::element::error::StateError;
@@ -79,6 +80,8 @@ where
         } else {
             S::zero()
         };
+        let (drag, _) = self.model.drag(theta);
+        check_drag::<S, M, K, D>(drag, theta).map_err(|error| error.of(self.element))?;
         let (viscosities, _) = self.model.viscosity(theta);
         let mut viscosities = viscosities.as_ref().iter().enumerate();
         match viscosities.find(|&(_, &eta)| !is_positive(eta)) {

@@ -132,9 +132,9 @@ where
         let x0 = self.start.x0;
         let theta = x0[Self::VARIABLES - 1];
         self.find_viscosities(theta)?;
-        let gradient = self.model.gradient(&x0);
+        let mut gradient = self.model.gradient(&x0);
         let mut rates = M::Variables::filled(S::zero());
-        let mut heat = S::zero();
+        let mut heat = self.add_old_drag((r0, velocities), &mut gradient, &mut rates)?;
         for k in 0..M::DASHPOTS {
             let index = M::MEASURES + k;
             let g = -gradient[index];

@@ -120,7 +120,8 @@ where
     #[inline]
     pub(super) fn largest_pull(&self, r1: &Arms<K, S, D>) -> S {
         let slopes = self.kinematics.slopes(r1, &measures_in::<K, S, D>(&self.x));
-        let forces = self.response.as_ref().iter().zip(slopes.as_ref());
+        let forces = self.pulls();
+        let forces = forces.as_ref().iter().zip(slopes.as_ref());
         forces.fold(S::zero(), |sum, (&force, &slope)| sum + slope * force.abs())
     }
 
@@ -130,7 +131,7 @@ where
         let slopes = self.kinematics.slopes(r1, &new);
         let mut sum = S::zero();
         for a in 0..M::MEASURES {
-            sum += slopes[a] * (self.response[a].abs() + self.resolution_of_row(a, &sizes));
+            sum += slopes[a] * (self.pull_of_row(a).abs() + self.resolution_of_row(a, &sizes));
         }
         let lengths = [old, new].map(|measures| self.kinematics.length(&measures));
         sum * (S::one() + motion / lengths[0].minimum(lengths[1]))
@@ -180,7 +181,7 @@ where
         for row in 0..M::MEASURES + M::DASHPOTS {
             let size = sizes1[row].abs();
             let rounding = S::EPSILON * size * size;
-            sum += self.response[row].abs() * (sizes0[row].abs() + size);
+            sum += self.pull_of_row(row).abs() * (sizes0[row].abs() + size);
             sum += self.slopes[row][row].abs() * rounding;
         }
         if K::IS_SPRING && matches!(care, Care::Quick) {

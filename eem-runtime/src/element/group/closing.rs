@@ -182,16 +182,14 @@ where
                 measures1,
             },
         };
-        let forces = measures_in::<K, S, D>(&self.response);
-        self.kinematics.secant(&ends, &forces)
+        self.kinematics.secant(&ends, &self.pulls())
     }
 
     /// The nodal forces of the found response along the gradient between two configurations, N.
     pub(super) fn force(&self, at: Placement, ends: [&Arms<K, S, D>; 2]) -> K::PerNode<[S; D]> {
         let measures0 = measures_in::<K, S, D>(&self.start.x0);
         let pose = Pose::between(self.kinematics, at, ends, measures0);
-        let forces = measures_in::<K, S, D>(&self.response);
-        spread::<K, S, D>(&pose.pull(self.kinematics, at, &forces))
+        spread::<K, S, D>(&pose.pull(self.kinematics, at, &self.pulls()))
     }
 
     /// Books the increments of the internal variables and of the reservoirs' entropies; returns the
@@ -208,7 +206,7 @@ where
         let h = view.thermal_step();
         let share = S::from_f64(C::IMPLICIT) * h;
         let per_theta = self.per_temperature();
-        let mut dissipated = S::zero();
+        let mut dissipated = self.book_drag(per_theta, tally);
         for k in 0..M::DASHPOTS {
             let old = &view.state.viscous;
             next.viscous.advance(slots.viscous + k, old, self.creep[k]);
@@ -220,7 +218,7 @@ where
         }
         tally.turn_over(dissipated);
         let Some(slot) = slots.thermal else {
-            if M::DASHPOTS > 0 {
+            if M::DASHPOTS + Self::DRAGS > 0 {
                 next.dissipated.add(dissipated + h * self.old_dissipation());
             }
             return Received::new(S::zero());

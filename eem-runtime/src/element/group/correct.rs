@@ -62,7 +62,7 @@ where
         {
             heat = self.condensed.heat_factor * contact.heat(solution);
         }
-        if C::IN_TEMPERATURE {
+        if C::IN_TEMPERATURE || (M::THERMAL && Self::HAS_RATES) {
             for at_point in self.single.as_ref() {
                 heat += along::<K, S, D>(&at_point.by_increment, motion);
             }

@@ -30,7 +30,7 @@ where
                 let arms = member.trial_arms(view, trial);
                 member.points.as_mut().iter_mut().try_for_each(|point| {
                     let found = point.found_by(trial.settled);
-                    point.respond_alone(view.step, trial, &arms)?;
+                    point.respond_alone(view, trial, &arms)?;
                     point.return_to(found, trial.settled);
                     Ok(())
                 })
@@ -54,14 +54,19 @@ where
                 let seen = point.locate_trial(arms.ends(), trial)?;
                 let pose = point.pose(&arms.old, &seen);
                 point.sensitivity = pose.sensitivity;
+                let by_rate = point.extend(&pose, &arms.motion);
                 // It stays where the model writes it: copies of it would be a good part of the work.
                 let mut form = point.form(trial);
                 if M::THERMAL && C::IN_TEMPERATURE {
                     point.change_entropy_at_rates(view.step, &pose, &arms.motion, &mut form);
                 }
-                point.accept(&form)?;
+                point.accept(view.per_step, &form)?;
+                let elastic = point.add_drag(view.per_step, &mut form);
                 let contact = point.contact_in(&self.contacts);
                 point.condense(view, &trial.seen, &form, contact)?;
+                if let Some(by_rate) = &by_rate {
+                    point.warm_by_rates(view, by_rate);
+                }
                 let mut target = Target {
                     values: &mut *values,
                     right: &mut *right,
@@ -69,11 +74,13 @@ where
                     contact,
                 };
                 if view.phase.moves() {
-                    let own = point.momentum(view.step, &pose, &form, &mut target);
+                    let form = (&form, by_rate.as_ref());
+                    let own = point.momentum(view.step, &pose, form, &mut target);
                     gather(&mut share, own);
                 }
                 point.assemble_temperature(trial, &form, &mut target);
                 point.keep(&form);
+                point.drop_drag(&elastic);
                 point.return_to(found, trial.settled);
             }
             if let Some(share) = share {

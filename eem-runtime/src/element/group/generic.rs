@@ -1,10 +1,12 @@
 //! What one element contributes to the GENERIC form of the equations.
 
+use super::arms::{measures_in, spread};
 use super::point::Point;
+use super::pose::Pose;
 use super::view::ElementGeneric;
 use crate::element::conjugates::{ElementScheme, Placement};
 use crate::element::group::element_group::ElementGroup;
-use crate::element::kinematics::{Arms, Kinematics};
+use crate::element::kinematics::{Arms, Kinematics, Measures};
 use crate::element::state::State;
 use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
@@ -23,8 +25,8 @@ where
             let r = member.arms_in(state);
             for point in member.points.as_mut() {
                 point.take_derivatives(&r, state);
-                let force = point.force(Placement::End, [&r, &r]);
-                elements.push(point.generic(&member.site.nodes, &force));
+                let at = (Placement::End, [&r, &r]);
+                elements.push(point.generic(&member.site.nodes, at));
             }
         }
         elements
@@ -35,10 +37,7 @@ where
         let members = self.members.iter().flat_map(|member| {
             let [r0, r1] = ends.map(|state| member.arms_in(state));
             let points = member.points.as_ref().iter();
-            points.map(move |point| {
-                let force = point.force(C::PLACEMENT, [&r0, &r1]);
-                point.generic(&member.site.nodes, &force)
-            })
+            points.map(move |point| point.generic(&member.site.nodes, (C::PLACEMENT, [&r0, &r1])))
         });
         members.collect()
     }
@@ -57,6 +56,7 @@ where
         let gradient = self.model.gradient(&x);
         let theta = x[M::Variables::LEN - 1];
         self.viscosities = self.model.viscosity(theta);
+        self.drag.viscosity = self.model.drag(theta);
         self.start.x0 = x;
         for index in 0..M::MEASURES + M::DASHPOTS {
             let is_force = index < M::MEASURES;
@@ -68,20 +68,36 @@ where
         }
     }
 
-    /// The present response, with these forces on the nodes.
-    fn generic(&self, nodes: &K::PerNode<u32>, force: &K::PerNode<[S; D]>) -> ElementGeneric<S> {
-        let nodes = nodes.as_ref().iter().zip(force.as_ref());
-        let forces = nodes.flat_map(|(&node, force)| {
-            let axes = force.iter().enumerate();
-            axes.map(move |(axis, &entry)| (node as usize * D + axis, entry))
+    /// The present response, along the gradients between two configurations.
+    fn generic(
+        &self,
+        nodes: &K::PerNode<u32>,
+        (at, ends): (Placement, [&Arms<K, S, D>; 2]),
+    ) -> ElementGeneric<S> {
+        let measures0 = measures_in::<K, S, D>(&self.start.x0);
+        let pose = Pose::between(self.kinematics, at, ends, measures0);
+        let on_nodes = |forces: &Measures<K, S, D>| {
+            let by_node = spread::<K, S, D>(&pose.pull(self.kinematics, at, forces));
+            let mut entries = Vec::new();
+            for (&node, force) in nodes.as_ref().iter().zip(by_node.as_ref()) {
+                let axes = force.iter().enumerate();
+                entries.extend(axes.map(|(axis, &entry)| (node as usize * D + axis, entry)));
+            }
+            entries
+        };
+        let drags = (0..Self::DRAGS).map(|a| {
+            let mut unit = Measures::<K, S, D>::filled(S::zero());
+            unit[a] = S::one();
+            (self.drag.viscosity.0[a], on_nodes(&unit))
         });
         let dashpots = (0..M::DASHPOTS).map(|k| {
             let g = self.response[M::MEASURES + k];
             (self.slots().viscous + k, g, self.viscosities.0[k])
         });
         ElementGeneric {
-            forces: forces.collect(),
+            forces: on_nodes(&measures_in::<K, S, D>(&self.response)),
             dashpots: dashpots.collect(),
+            drags: drags.collect(),
             temperature: self.slots().thermal.map(|slot| (slot, self.temperature())),
         }
     }

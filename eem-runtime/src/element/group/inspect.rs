@@ -91,6 +91,7 @@ where
         let slot = self.slots().thermal;
         let theta = slot.map_or(S::zero(), |slot| state.temperatures[slot]);
         self.find_viscosities(theta)?;
+        self.find_drag_viscosity(theta)?;
         let caloric = self.model.caloric(&x);
         let energy = self.energy_at(&x, caloric)?;
         check_gradient::<S, M>(self.element, &self.model.gradient(&x))?;

@@ -26,9 +26,9 @@ use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
 
 /// What the dashpots turn into heat, `Σ η γ̇²`, W, and its derivative by the variables.
-struct Dissipation<S: Real, M: FreeEnergy<S>> {
-    power: S,
-    by: M::Variables,
+pub(super) struct Dissipation<S: Real, M: FreeEnergy<S>> {
+    pub(super) power: S,
+    pub(super) by: M::Variables,
 }
 
 impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
@@ -68,6 +68,7 @@ where
         for k in 0..M::DASHPOTS {
             self.dashpot_balance(view, k, form, &mut system, &mut dissipation);
         }
+        self.dissipate_by_drag(view, form, &mut dissipation);
         if M::THERMAL {
             let row = M::DASHPOTS;
             if self.is_prescribed {
@@ -122,7 +123,7 @@ where
     /// Whether `r_s` depends on global unknowns otherwise than through the measures.
     #[inline]
     pub(super) fn depends_on_heat(is_coupled: bool) -> bool {
-        C::IN_TEMPERATURE || (M::THERMAL && is_coupled)
+        C::IN_TEMPERATURE || (M::THERMAL && (is_coupled || Self::HAS_RATES))
     }
 
     /// The heat that conduction gives it.
@@ -283,7 +284,7 @@ where
         for column in 0..Self::VARIABLES {
             let mut entry =
                 tangent[Self::ENTROPY][column] + by_theta * tangent[Self::TEMPERATURE][column];
-            if M::DASHPOTS > 0 {
+            if M::DASHPOTS + Self::DRAGS > 0 {
                 entry -= weight * dissipation.by[column];
             }
             system.rows[row][column] = entry;

@@ -100,10 +100,11 @@ where
         }
     }
 
-    /// The motion `r¹ − r⁰ − (1 − w) h ṙ⁰` of the arms, which only a scheme in temperature asks for.
+    /// The motion `r¹ − r⁰ − (1 − w) h ṙ⁰` of the arms, for which only schemes in temperature and dashpots
+    /// beside springs ask.
     #[inline]
     fn motion(&self, view: &StepView<'_, S>, trial: &Trial<S, D>) -> Arms<K, S, D> {
-        if !C::IN_TEMPERATURE {
+        if !C::IN_TEMPERATURE && M::Drag::LEN == 0 {
             return self.r0;
         }
         let rest = (S::one() - S::from_f64(C::IMPLICIT)) * view.step;

@@ -3,6 +3,7 @@
 
 use super::arms::measures_in;
 use super::at_point::MemoryAtPoint;
+use super::drag::Drag;
 use super::eliminate::{Condensed, PerUnknown};
 use super::site::Contact;
 use crate::element::conjugates::{ElementScheme, Form, Placement, Start};
@@ -52,6 +53,8 @@ where
     pub(super) slopes: M::Hessian,
     /// `η_k` and `dη_k/dθ` at θ*.
     pub(super) viscosities: (M::Viscosities, M::Viscosities),
+    /// The dashpot beside the spring, if there is one.
+    pub(super) drag: Drag<M::Drag>,
     /// The derivative of the measures by the new arms.
     pub(super) sensitivity: Gradient<K, S, D>,
     /// Local unknowns as functions of the global ones.
@@ -102,6 +105,7 @@ where
             response: M::Response::filled(S::zero()),
             slopes: M::Hessian::filled(zeros),
             viscosities: (viscosities, viscosities),
+            drag: Drag::zero(M::Drag::filled(S::zero())),
             sensitivity: Gradient::<K, S, D>::filled(nowhere),
             condensed: Condensed::zero(),
             single: C::AtPoint::filled(MemoryAtPoint::<S, M, K, D>::zero(nowhere)),
@@ -180,13 +184,14 @@ where
 
     /// The power of the dashpots that the scheme takes from the old state, `Σ g⁰ (1 − w) γ̇⁰`, W.
     pub(super) fn old_dissipation(&self) -> S {
+        let of_drag = self.old_drag_power();
         if C::IMPLICIT >= 1.0 || M::DASHPOTS == 0 {
-            return S::zero();
+            return of_drag;
         }
         let forces = self.model.gradient(&self.start.x0);
         let dashpots = M::MEASURES..Self::TEMPERATURE;
         let old = self.single.as_ref().iter();
-        old.fold(S::zero(), |sum, old| {
+        old.fold(of_drag, |sum, old| {
             dashpots
                 .clone()
                 .fold(sum, |sum, k| sum - forces[k] * old.old_rates[k])

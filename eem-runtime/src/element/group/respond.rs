@@ -5,7 +5,7 @@ use super::point::{Point, temperature_in};
 use super::pose::{Pose, seen_arms, seen_measures};
 use crate::element::conjugates::{ElementScheme, Form};
 use crate::element::error::StateError;
-use crate::element::group::view::Trial;
+use crate::element::group::view::{StepView, Trial};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Ends, Kinematics, Measures};
 use crate::material::free_energy::{Array, FreeEnergy};
@@ -95,42 +95,48 @@ where
     /// Finds the viscosities that go with a response, unless the trial is not stable or something
     /// is not finite.
     #[inline]
-    pub(super) fn accept(&mut self, form: &Form<S, M>) -> Result<(), StateError> {
+    pub(super) fn accept(&mut self, per_step: S, form: &Form<S, M>) -> Result<(), StateError> {
         C::check(&self.x, form).map_err(|infeasible| infeasible.of(self.element))?;
-        self.accept_response(&form.0)
+        self.accept_response(per_step, &form.0)
     }
 
     /// The response at the trial that has been located, where no tangent is needed: at the end of a step.
     #[inline]
     pub(super) fn respond_alone(
         &mut self,
-        step: S,
+        view: &StepView<'_, S>,
         trial: &Trial<S, D>,
         arms: &TrialArms<K, S, D>,
     ) -> Result<(), StateError> {
+        let per_step = view.per_step;
         let seen = self.locate_trial(arms.ends(), trial)?;
+        if Self::DRAGS > 0 {
+            let pose = self.pose(&arms.old, &seen);
+            self.extend(&pose, &arms.motion);
+        }
         if trial.is_start {
             let form = self.form(trial);
-            self.accept(&form)?;
+            self.accept(per_step, &form)?;
             self.response = form.0;
             return Ok(());
         }
         if M::THERMAL && C::IN_TEMPERATURE {
             let mut form = self.form(trial);
             let pose = self.pose(&arms.old, &seen);
-            self.change_entropy_at_rates(step, &pose, &arms.motion, &mut form);
-            self.accept(&form)?;
+            self.change_entropy_at_rates(view.step, &pose, &arms.motion, &mut form);
+            self.accept(per_step, &form)?;
             self.response = form.0;
             return Ok(());
         }
         self.response = C::response(&self.model, &self.start, &self.x, &self.memory);
         let response = self.response;
-        self.accept_response(&response)
+        self.accept_response(per_step, &response)
     }
 
     #[inline]
-    fn accept_response(&mut self, response: &M::Response) -> Result<(), StateError> {
+    fn accept_response(&mut self, per_step: S, response: &M::Response) -> Result<(), StateError> {
         check_response::<S, M>(self.element, response)?;
+        self.find_drag(per_step, response)?;
         self.find_viscosities(temperature_in::<S, M>(response))
     }
 

@@ -1,5 +1,6 @@
 //! Where several numbers move together, those that have found their new state keep it.
 
+use super::drag::Drag;
 use super::point::Point;
 use crate::element::conjugates::ElementScheme;
 use crate::element::kinematics::Kinematics;
@@ -13,6 +14,7 @@ pub(super) struct Found<S: Real, M: FreeEnergy<S>> {
     creep: M::Viscosities,
     response: M::Response,
     viscosities: M::Viscosities,
+    drag: Drag<M::Drag>,
 }
 
 impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
@@ -33,6 +35,7 @@ where
             creep: self.creep,
             response: self.response,
             viscosities: self.viscosities.0,
+            drag: self.drag,
         })
     }
 
@@ -51,5 +54,9 @@ where
         keep(self.creep.as_mut(), found.creep.as_ref());
         keep(self.response.as_mut(), found.response.as_ref());
         keep(self.viscosities.0.as_mut(), found.viscosities.as_ref());
+        let drag = &mut self.drag;
+        keep(drag.viscosity.0.as_mut(), found.drag.viscosity.0.as_ref());
+        keep(drag.extension.as_mut(), found.drag.extension.as_ref());
+        keep(drag.force.as_mut(), found.drag.force.as_ref());
     }
 }

@@ -160,6 +160,8 @@ pub(crate) struct ElementGeneric<S> {
     pub(crate) forces: Vec<(usize, S)>,
     /// `(slot, g, η)`: dashpot force, N, and viscosity, N s/m.
     pub(crate) dashpots: Vec<(usize, S, S)>,
+    /// `(η, ∂λ/∂q)` of a dashpot beside the spring, N s/m, with its coordinates.
+    pub(crate) drags: Vec<(S, Vec<(usize, S)>)>,
     /// `(slot, θ)`, K, if the element has a temperature.
     pub(crate) temperature: Option<(usize, S)>,
 }

@@ -60,4 +60,13 @@ pub enum DomainError {
         /// The state.
         point: DomainPoint,
     },
+    /// The viscosity of the dashpot beside the spring is not positive and finite.
+    #[error(
+        "the viscosity of the stretch is {value} {unit} at {point}, it must be positive and finite", value = Readable(*value), unit = point.kind.viscosity())]
+    Drag {
+        /// The viscosity, N s/m.
+        value: f64,
+        /// The state.
+        point: DomainPoint,
+    },
 }

@@ -24,6 +24,8 @@ pub struct DomainReport {
     pub heat_capacity: Option<Least>,
     /// The smallest viscosity of each dashpot, N s/m or Pa s.
     pub viscosities: Vec<Least>,
+    /// The smallest viscosity of the dashpot beside the spring, N s/m, if there is one.
+    pub drag: Option<Least>,
 }
 
 impl fmt::Display for DomainReport {
@@ -41,6 +43,14 @@ impl fmt::Display for DomainReport {
             write!(
                 f,
                 "; viscosity of dashpot {dashpot} {:.6} {} or more, least at {point}",
+                Readable(*value),
+                point.kind.viscosity()
+            )?;
+        }
+        if let Some(Least { value, point }) = &self.drag {
+            write!(
+                f,
+                "; viscosity of the stretch {:.6} {} or more, least at {point}",
                 Readable(*value),
                 point.kind.viscosity()
             )?;
@@ -123,6 +133,11 @@ impl Space {
     /// Whether there is a temperature.
     pub(super) fn is_thermal(&self) -> bool {
         self.shape.thermal
+    }
+
+    /// Number of dashpots.
+    pub(super) fn dashpots(&self) -> usize {
+        self.shape.dashpots
     }
 
     /// Whether variable `index` is a length or a temperature, and neither viscous nor a strain.

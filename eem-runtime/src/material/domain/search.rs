@@ -95,10 +95,12 @@ pub(super) fn search(
             point: space.point(&space.state(&least.unit)),
         });
     }
-    let viscosities = leasts.split_off(usize::from(space.is_thermal()));
+    let mut viscosities = leasts.split_off(usize::from(space.is_thermal()));
+    let drag = viscosities.split_off(space.dashpots()).pop();
     Ok(DomainReport {
         evaluations: examiner.evaluations,
         heat_capacity: leasts.pop(),
         viscosities,
+        drag,
     })
 }

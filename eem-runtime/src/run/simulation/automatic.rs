@@ -64,8 +64,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Whether a scheme can be asked for steps of this tolerance.
     fn is_candidate(&self, scheme: Scheme, control: &Control<S>) -> bool {
-        let has_solids = (self.automatic.as_ref()).is_some_and(|automatic| automatic.has_solids);
-        let suits = !has_solids || scheme.closing() == Closing::Increments;
+        let is_second = (self.automatic.as_ref()).is_some_and(|automatic| automatic.is_second);
+        let suits = !is_second || scheme.closing() == Closing::Increments;
         suits && control.memory.tolerance.check(scheme.accuracy()).is_ok()
     }
 
@@ -117,7 +117,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let Some(automatic) = &mut self.automatic else {
             return Ok(None);
         };
-        let scheme = implicit(&control.memory.tolerance, automatic.has_solids);
+        let scheme = implicit(&control.memory.tolerance, automatic.is_second);
         let Some(size) = automatic.choice.implicit_trial(scheme, unknowns) else {
             return Ok(None);
         };
@@ -177,7 +177,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             Verdict::None => {}
             Verdict::Keep => control.memory.statistics.changes_of_scheme += 1,
             Verdict::Return(size) => {
-                let scheme = implicit(&control.memory.tolerance, automatic.has_solids);
+                let scheme = implicit(&control.memory.tolerance, automatic.is_second);
                 self.go_over_to(scheme, control);
                 self.step = S::from_f64(size);
             }
@@ -241,8 +241,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         };
         let choice = checkpoint.choice;
         let suits = |scheme: Scheme| {
-            let may_have_solids = scheme.closing() == Closing::Increments;
-            CANDIDATES.contains(&scheme) && (may_have_solids || !automatic.has_solids)
+            let is_suited = scheme.closing() == Closing::Increments;
+            CANDIDATES.contains(&scheme) && (is_suited || !automatic.is_second)
         };
         match choice {
             Some(saved) if !suits(saved.scheme) => Err(RestoreError::Scheme {

@@ -6,7 +6,8 @@ use crate::step::automatic::Choice;
 /// What a run with `Scheme::Auto` keeps besides.
 pub(super) struct Automatic<S> {
     pub(super) choice: Choice,
-    pub(super) has_solids: bool,
+    /// Whether only schemes of second order can step the scene.
+    pub(super) is_second: bool,
     /// Where the elements are, for the next scheme.
     pub(super) elements: Vec<ElementEntry<S>>,
     /// How often all elements have been evaluated by earlier schemes.
@@ -16,10 +17,10 @@ pub(super) struct Automatic<S> {
 }
 
 impl<S> Automatic<S> {
-    pub(super) const fn new(elements: Vec<ElementEntry<S>>, has_solids: bool) -> Self {
+    pub(super) const fn new(elements: Vec<ElementEntry<S>>, is_second: bool) -> Self {
         Self {
             choice: Choice::new(),
-            has_solids,
+            is_second,
             elements,
             evaluations: 0,
             is_motion_first: false,

@@ -144,7 +144,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                         (places.viscous + viscous, S::one()),
                         (places.entropies + slot, force / theta),
                     ];
-                    add_rank_one(&mut irreversible, theta / eta, w);
+                    add_rank_one(&mut irreversible, theta / eta, &w);
+                }
+                for (eta, by_position) in &element.drags {
+                    let w = places.drag(by_position, velocities, (slot, theta));
+                    add_rank_one(&mut irreversible, *eta * theta, &w);
                 }
             }
         }
@@ -173,7 +177,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     (places.entropies + slot, theta.recip()),
                     (partner, -other.recip()),
                 ];
-                add_rank_one(matrix, link.conductance * theta * other, w);
+                add_rank_one(matrix, link.conductance * theta * other, &w);
             }
         }
     }
@@ -212,10 +216,31 @@ struct Places {
     size: usize,
 }
 
-/// Adds `factor w wᵀ` for a `w` with two entries.
-fn add_rank_one<S: Real>(matrix: &mut DMatrix<S>, factor: S, w: [(usize, S); 2]) {
-    for (row, left) in w {
-        for (column, right) in w {
+impl Places {
+    /// `w` of the dashpot beside a spring, `ηθ w wᵀ ∇S`: `ṗ = −η λ̇ ∂λ/∂q` and `ṡ = η λ̇²/θ`.
+    fn drag<S: Real>(
+        &self,
+        by_position: &[(usize, S)],
+        velocities: &[S],
+        (slot, theta): (usize, S),
+    ) -> Vec<(usize, S)> {
+        let mut w = Vec::with_capacity(by_position.len() + 1);
+        let mut rate = S::zero();
+        for &(coordinate, entry) in by_position {
+            if let Some(q) = self.positions[coordinate] {
+                w.push((q + self.momenta, entry));
+            }
+            rate += entry * velocities[coordinate];
+        }
+        w.push((self.entropies + slot, -rate / theta));
+        w
+    }
+}
+
+/// Adds `factor w wᵀ` for a `w` with these entries.
+fn add_rank_one<S: Real>(matrix: &mut DMatrix<S>, factor: S, w: &[(usize, S)]) {
+    for &(row, left) in w {
+        for &(column, right) in w {
             matrix[(row, column)] += factor * (left * right);
         }
     }

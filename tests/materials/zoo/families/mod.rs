@@ -4,6 +4,7 @@ mod bonds;
 mod dashpots;
 mod gases;
 mod heat;
+mod helpers;
 mod memory;
 mod published;
 mod rubber;
@@ -68,6 +69,8 @@ pub(crate) fn all() -> Vec<Box<dyn Specimen>> {
         memory::Falk,
         memory::TwoPhases,
         memory::GlassTransition,
+        helpers::Branches,
+        helpers::Periodic,
         dashpots::Maxwell,
         dashpots::Zener,
         dashpots::Burgers,

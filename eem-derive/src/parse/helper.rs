@@ -1,0 +1,59 @@
+//! Helpers: `let f = |x, y| …;`.
+
+use syn::{Expr as Syntax, ExprClosure, Pat, PatIdent, ReturnType};
+
+use super::modifiers::check_modifiers;
+use crate::ctxt::Ctxt;
+use crate::message::expression::helper as message;
+use crate::message::expression::syntax::mutable;
+
+/// The closure that a `let` binds, if it binds one.
+pub(super) fn closure(syntax: &Syntax) -> Option<&ExprClosure> {
+    match syntax {
+        Syntax::Group(group) => closure(&group.expr),
+        Syntax::Paren(paren) => closure(&paren.expr),
+        Syntax::Closure(closure) => Some(closure),
+        _ => None,
+    }
+}
+
+/// Its arguments; nothing where one could not be read. Reports all else that a helper does not have.
+pub(super) fn arguments<'a>(cx: &Ctxt, closure: &'a ExprClosure) -> Vec<Option<&'a syn::Ident>> {
+    check(cx, closure);
+    closure.inputs.iter().map(|pat| argument(cx, pat)).collect()
+}
+
+fn check(cx: &Ctxt, closure: &ExprClosure) {
+    check_modifiers(cx, closure, message::modifier);
+    if let ReturnType::Type(_, ty) = &closure.output {
+        cx.error(ty, &message::types());
+    }
+    if closure.inputs.is_empty() {
+        cx.error(closure, &message::without_arguments());
+    }
+}
+
+fn argument<'a>(cx: &Ctxt, pat: &'a Pat) -> Option<&'a syn::Ident> {
+    match pat {
+        Pat::Type(typed) => {
+            cx.error(&typed.ty, &message::types());
+            argument(cx, &typed.pat)
+        }
+        Pat::Ident(PatIdent {
+            by_ref: None,
+            mutability,
+            subpat: None,
+            ident,
+            ..
+        }) => {
+            if let Some(token) = mutability {
+                cx.error(token, &mutable());
+            }
+            Some(ident)
+        }
+        other => {
+            cx.error(other, &message::pattern());
+            None
+        }
+    }
+}

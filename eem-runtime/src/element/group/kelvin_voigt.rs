@@ -1,0 +1,301 @@
+//! The dashpot beside a spring (Kelvin–Voigt), whose force acts along λ.
+//!
+//! ```text
+//! f_d = η(θ*) (λ¹ − λ⁰)/h,   heat η(θ*) (λ¹ − λ⁰)²/h
+//! ```
+//!
+//! It acts along the same mean-value gradient as f*, so that its work is `f_d Δλ`, the heat that the element
+//! receives, for any step. `Δλ = D*λ Δr` is found from the motion of the nodes: the difference of lengths would
+//! lose its digits where the dashpot is stiff. The ordinary rules take `η λ̇` where they look at the motion. The response stays that of the free energy; whoever needs the force between the
+//! nodes asks [`Point::pulls`].
+
+use super::arms::{add_scaled, along, measures_in, scale};
+use super::local::Dissipation;
+use super::point::{Point, temperature_in};
+use super::pose::Pose;
+use crate::element::conjugates::{ElementScheme, Form};
+use crate::element::error::StateError;
+use crate::element::group::view::StepView;
+use crate::element::kinematics::{Arms, Gradient, Kinematics, Measures};
+use crate::element::tally::Tally;
+use crate::material::free_energy::{Array, FreeEnergy};
+use crate::number::scalar::{Real, is_positive};
+
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S>,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// Number of measures with a dashpot of their own.
+    pub(super) const DRAGS: usize = M::Drag::LEN;
+
+    /// Whether `λ̇` is no difference of lengths but the rate of an ordinary rule, which depends on the motion
+    /// of the nodes in a way of its own.
+    pub(super) const HAS_RATES: bool = Self::DRAGS > 0 && !C::EXACT;
+
+    /// Finds `Δλ` along the gradients of the trial. Of an ordinary rule it is `w h λ̇`, what the rates that it
+    /// takes from the trial change; then the derivatives by the new arms come back.
+    #[inline]
+    pub(super) fn extend(
+        &mut self,
+        pose: &Pose<K, S, D>,
+        motion: &Arms<K, S, D>,
+    ) -> Option<Gradient<K, S, D>> {
+        if Self::HAS_RATES {
+            let (own, by_arm) = pose.increase(self.kinematics, C::PLACEMENT, motion);
+            for a in 0..Self::DRAGS {
+                self.drag.extension[a] = own[a];
+            }
+            return Some(by_arm);
+        }
+        for a in 0..Self::DRAGS {
+            self.drag.extension[a] = along::<K, S, D>(&pose.direction[a], motion);
+        }
+        None
+    }
+
+    /// `λ̇` of the trial, m/s.
+    #[inline]
+    fn extension_rate(&self, a: usize, per_step: S) -> S {
+        self.drag.extension[a] * Self::per_share(per_step)
+    }
+
+    /// `1/(w h)`, 1/s.
+    #[inline]
+    fn per_share(per_step: S) -> S {
+        per_step * S::from_f64(C::IMPLICIT.recip())
+    }
+
+    /// Takes the viscosity at a temperature, which is positive.
+    #[inline]
+    pub(super) fn find_drag_viscosity(&mut self, theta: S) -> Result<(), StateError> {
+        if Self::DRAGS == 0 {
+            return Ok(());
+        }
+        self.drag.viscosity = self.model.drag(theta);
+        check_drag::<S, M, K, D>(self.drag.viscosity.0, theta)
+            .map_err(|error| error.of(self.element))
+    }
+
+    /// Finds the force that goes with a response, in a step of so many seconds⁻¹.
+    #[inline]
+    pub(super) fn find_drag(
+        &mut self,
+        per_step: S,
+        response: &M::Response,
+    ) -> Result<(), StateError> {
+        self.find_drag_viscosity(temperature_in::<S, M>(response))?;
+        for a in 0..Self::DRAGS {
+            self.drag.force[a] = self.drag.viscosity.0[a] * self.extension_rate(a, per_step);
+        }
+        Ok(())
+    }
+
+    /// Adds the force that has been found, with its derivatives, to a form; returns the forces without it.
+    #[inline]
+    pub(super) fn add_drag(&self, per_step: S, (response, tangent): &mut Form<S, M>) -> M::Drag {
+        let mut elastic = M::Drag::filled(S::zero());
+        for a in 0..Self::DRAGS {
+            elastic[a] = response[a];
+            response[a] += self.drag.force[a];
+            if M::THERMAL {
+                let thinning = self.thinning(a, per_step);
+                for column in 0..Self::VARIABLES {
+                    let by_theta = tangent[Self::TEMPERATURE][column];
+                    tangent[a][column] += thinning * by_theta;
+                }
+            }
+            if !Self::HAS_RATES {
+                tangent[a][a] += self.drag.viscosity.0[a] * per_step;
+            }
+        }
+        elastic
+    }
+
+    /// `λ̇ dη/dθ`, the derivative of the force by θ*.
+    #[inline]
+    fn thinning(&self, a: usize, per_step: S) -> S {
+        self.extension_rate(a, per_step) * self.drag.viscosity.1[a]
+    }
+
+    /// The response of a kept form is that of the free energy.
+    #[inline]
+    pub(super) fn drop_drag(&mut self, elastic: &M::Drag) {
+        for a in 0..Self::DRAGS {
+            self.response[a] = elastic[a];
+        }
+    }
+
+    /// Adds `η λ̇²` and its derivatives to what the dashpots turn into heat.
+    #[inline]
+    pub(super) fn dissipate_by_drag(
+        &self,
+        view: &StepView<'_, S>,
+        (_, tangent): &Form<S, M>,
+        dissipation: &mut Dissipation<S, M>,
+    ) {
+        for a in 0..Self::DRAGS {
+            let rate = self.extension_rate(a, view.per_step);
+            let force = self.drag.force[a];
+            dissipation.power += force * rate;
+            if M::THERMAL {
+                let thinning = rate * self.thinning(a, view.per_step);
+                for column in 0..Self::VARIABLES {
+                    let by_theta = tangent[Self::TEMPERATURE][column];
+                    dissipation.by[column] += thinning * by_theta;
+                }
+            }
+            if !Self::HAS_RATES {
+                // ∂(η λ̇²)/∂λ = 2 η λ̇/h
+                dissipation.by[a] += (force + force) * view.per_step;
+            }
+        }
+    }
+
+    /// Of an ordinary rule: how the heat balance depends on the new arms through the rates.
+    pub(super) fn warm_by_rates(&mut self, view: &StepView<'_, S>, by_arm: &Gradient<K, S, D>) {
+        let per_share = Self::per_share(view.per_step);
+        for at_point in self.single.as_mut() {
+            for a in 0..Self::DRAGS {
+                let force = self.drag.force[a];
+                let mut by = by_arm[a];
+                let by_extension = self.condensed.heat_factor * (force + force) * per_share;
+                scale::<K, S, D>(&mut by, by_extension);
+                if C::IN_TEMPERATURE {
+                    add_scaled::<K, S, D>(&mut at_point.by_increment, S::one(), &by);
+                } else {
+                    at_point.by_increment = by;
+                }
+            }
+        }
+    }
+
+    /// The derivative of a force by the new arms through its rate, times a factor.
+    pub(super) fn force_by_rate(
+        &self,
+        a: usize,
+        per_step: S,
+        factor: S,
+        by_arm: &Gradient<K, S, D>,
+    ) -> Arms<K, S, D> {
+        let mut by = by_arm[a];
+        let eta = self.drag.viscosity.0[a];
+        scale::<K, S, D>(&mut by, factor * eta * Self::per_share(per_step));
+        by
+    }
+
+    /// Of a rule with old forces: adds the force of the old state and its rate, of which the rule takes the
+    /// share `1 − w`; returns its power, W.
+    pub(super) fn add_old_drag(
+        &mut self,
+        (r0, velocities): (&Arms<K, S, D>, &Arms<K, S, D>),
+        gradient: &mut M::Variables,
+        rates: &mut M::Variables,
+    ) -> Result<S, StateError> {
+        let mut power = S::zero();
+        if Self::DRAGS == 0 {
+            return Ok(power);
+        }
+        let x0 = self.start.x0;
+        self.find_drag_viscosity(x0[Self::VARIABLES - 1])?;
+        let measures0 = measures_in::<K, S, D>(&x0);
+        let by_arm = self.kinematics.gradient(r0, &measures0);
+        let share = S::one() - S::from_f64(C::IMPLICIT);
+        for a in 0..Self::DRAGS {
+            let rate = along::<K, S, D>(&by_arm[a], velocities);
+            let force = self.drag.viscosity.0[a] * rate;
+            gradient[a] += force;
+            rates[a] = share * rate;
+            power += force * rate;
+        }
+        Ok(power)
+    }
+
+    /// The power of the old state that the rule takes, `(1 − w) η λ̇⁰²`, of an element without temperature, W.
+    pub(super) fn old_drag_power(&self) -> S {
+        let mut power = S::zero();
+        if Self::DRAGS == 0 || C::IMPLICIT >= 1.0 {
+            return power;
+        }
+        let (eta, _) = self.model.drag(S::zero());
+        let per_share = (S::one() - S::from_f64(C::IMPLICIT)).recip();
+        for at_point in self.single.as_ref() {
+            for a in 0..Self::DRAGS {
+                let rate = at_point.old_rates[a];
+                power += eta[a] * rate * rate * per_share;
+            }
+        }
+        power
+    }
+
+    /// Books the heat of the step, J.
+    #[inline]
+    pub(super) fn book_drag(&self, per_theta: S, tally: &mut Tally<S>) -> S {
+        let mut dissipated = S::zero();
+        for a in 0..Self::DRAGS {
+            let heat = self.drag.force[a] * self.drag.extension[a];
+            dissipated += heat;
+            tally.produce(heat * per_theta);
+        }
+        dissipated
+    }
+
+    /// The forces between the nodes: those of the response and those of dashpots beside the spring, N.
+    #[inline]
+    pub(super) fn pulls(&self) -> Measures<K, S, D> {
+        let mut forces = measures_in::<K, S, D>(&self.response);
+        for a in 0..Self::DRAGS {
+            forces[a] += self.drag.force[a];
+        }
+        forces
+    }
+
+    /// The same of a row of the response, whatever it is.
+    #[inline]
+    pub(super) fn pull_of_row(&self, row: usize) -> S {
+        if row < Self::DRAGS {
+            self.response[row] + self.drag.force[row]
+        } else {
+            self.response[row]
+        }
+    }
+}
+
+/// A viscosity that is none.
+pub(super) struct WrongDrag {
+    value: f64,
+    unit: &'static str,
+    temperature: Option<f64>,
+}
+
+impl WrongDrag {
+    /// The same, said of an element.
+    pub(super) fn of(self, element: crate::element::handle::Element) -> StateError {
+        StateError::Drag {
+            element,
+            value: self.value,
+            unit: self.unit,
+            temperature: self.temperature,
+        }
+    }
+}
+
+/// The viscosity of a dashpot beside a spring is positive and finite.
+#[inline]
+pub(super) fn check_drag<S, M, K, const D: usize>(drag: M::Drag, theta: S) -> Result<(), WrongDrag>
+where
+    S: Real,
+    M: FreeEnergy<S>,
+    K: Kinematics<S, D>,
+{
+    match drag.as_ref().iter().find(|&&eta| !is_positive(eta)) {
+        None => Ok(()),
+        Some(eta) => Err(WrongDrag {
+            value: eta.to_f64(),
+            unit: K::VISCOSITY_UNIT,
+            temperature: M::THERMAL.then(|| theta.to_f64()),
+        }),
+    }
+}

@@ -1,0 +1,58 @@
+//! What a scheme needs of its elements and of its solver.
+
+use crate::element::conjugates::Conjugates;
+use crate::element::tableau::{Tableau, UnknownSet};
+use crate::step::scheme::Scheme;
+
+impl Scheme {
+    /// Whether nodes feel forces that the old state alone decides; see
+    /// [`IMPLICIT`](crate::element::conjugates::ElementScheme::IMPLICIT).
+    pub(crate) const fn has_old_forces(self) -> bool {
+        matches!(
+            self.conjugates(),
+            Conjugates::End | Conjugates::EndTemperature
+        )
+    }
+
+    /// Whether its elements have a
+    /// [starting form](crate::element::conjugates::ElementScheme::starting_form).
+    pub(crate) const fn has_starting_form(self) -> bool {
+        matches!(self.conjugates(), Conjugates::EntropyForm)
+    }
+
+    /// Whether mechanics and heat are stepped one after the other.
+    pub(crate) const fn is_split(self) -> bool {
+        matches!(self, Self::Staggered)
+    }
+
+    /// Whether it steps springs with a dashpot beside them: along one gradient, with their heat.
+    pub(crate) const fn takes_drag(self) -> bool {
+        use Conjugates::{MeanMeasures, Stages};
+        !matches!(self.conjugates(), Stages(_) | MeanMeasures) && !self.is_split()
+    }
+
+    /// The numbers of a scheme that goes through stages.
+    pub(crate) const fn tableau(self) -> Option<&'static Tableau> {
+        match self.conjugates() {
+            Conjugates::Stages(rule) => Some(rule),
+            _ => None,
+        }
+    }
+
+    /// The sets of unknowns.
+    pub(crate) fn sets(self) -> Vec<UnknownSet> {
+        let Some(rule) = self.tableau() else {
+            // `(2m/h)(q¹ − q⁰) − 2p⁰ + h F`: twice that of one stage at the end.
+            return vec![UnknownSet {
+                time: 1.0,
+                inertia: 2.0,
+            }];
+        };
+        let sets = (0..rule.sets()).map(|set| {
+            let time = rule.times[rule.stage_of(set)];
+            let inertia = time.recip();
+            UnknownSet { time, inertia }
+        });
+        sets.collect()
+    }
+}
