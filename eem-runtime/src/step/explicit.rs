@@ -31,7 +31,7 @@ mod tableau;
 mod vector;
 
 use crate::element::conduction::Conduction;
-use crate::element::group::{Elements, ExplicitGroup};
+use crate::element::group::{Elements, ExplicitGroup, Offsets};
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
@@ -41,16 +41,13 @@ use crate::number::scalar::{Mask, Real};
 use crate::scene::entry::ElementEntry;
 use crate::scene::loads::Loads;
 use components::Components;
-use memory::{Books, Offsets, Quadrature, Sample};
+use memory::{Books, Quadrature, Sample};
 use prescribed::Prescribed;
 use scratch::Scratch;
+use stages::Rows;
 
 pub(crate) use demand::Demand;
 pub(crate) use past::SavedExplicit;
-
-/// Rates of stages that are kept at the same time, besides those of the start: those of stage 10 and 11 take
-/// the places of stages that are not needed any more.
-const BUFFERS: usize = 9;
 
 /// An explicit scheme at work on a scene.
 pub(crate) struct Explicit<S: Real, const D: usize> {
@@ -73,8 +70,9 @@ pub(crate) struct Explicit<S: Real, const D: usize> {
     /// The stage vector at the start of the step and at the present stage.
     y0: Vec<S>,
     y: Vec<S>,
-    k: [Vec<S>; BUFFERS],
-    /// Rates at the start of the step, and at its end.
+    /// The rates of all stages.
+    rows: Rows<S>,
+    /// What belongs to the rates at the start of the step, and at its end.
     start: Sample<S, D>,
     end: Sample<S, D>,
     /// 1/θ of slots and reservoirs, and 1.
@@ -139,8 +137,12 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         });
         let anchors = components.nodes.len() - components.masses;
         let sample = Sample::new(offsets, anchors, [held.len(), loads.total_force.len()]);
-        let vector = || vec![S::zero(); offsets.size];
+        let vector = || vec![S::zero(); offsets.padded];
         let temperatures = offsets.size - offsets.temperatures;
+        let mut per_theta = vec![S::one(); temperatures + 1];
+        for (reciprocal, theta) in per_theta[site.layout.thermal..].iter_mut().zip(reservoirs) {
+            *reciprocal = theta.recip();
+        }
         let dashpot_slots = dashpot_slots(site.layout, temperatures);
         let produces = produces(&components, site.layout, &dashpot_slots);
         Self {
@@ -150,10 +152,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             quadrature: Quadrature::new(components.paths.len(), site.layout.viscous, counts),
             y0: vector(),
             y: vector(),
-            k: core::array::from_fn(|_| vector()),
+            rows: core::array::from_fn(|_| vector()),
             end: sample.clone(),
             start: sample,
-            per_theta: vec![S::one(); temperatures + 1],
+            per_theta,
             books: Books::new(&components, held.len()),
             new_books: Books::new(&components, held.len()),
             scratch: Scratch::new(&components, site.layout, components.nodes.len() * D),

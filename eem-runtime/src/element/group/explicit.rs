@@ -17,5 +17,5 @@ mod stiffness;
 
 pub(crate) use group::FreeGroup;
 pub(crate) use interface::{
-    ClosingView, ComponentEnergy, ExplicitGroup, PlaceOf, StageRates, StageView,
+    ClosingView, ComponentEnergy, ExplicitGroup, Offsets, PlaceOf, StageRates, StageView,
 };

@@ -1,7 +1,7 @@
 //! One attempt at a step, which changes nothing until it is accepted.
 
 use super::demand::{Demand, Scales};
-use super::stages::From;
+use super::stages::{END, From, START};
 use super::tableau::STAGES;
 use super::{Explicit, ExplicitView};
 use crate::element::state::State;
@@ -89,6 +89,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// The step that was attempted last is made: the next one starts from its state.
     fn accept(&mut self) {
         core::mem::swap(&mut self.start, &mut self.end);
+        self.rows.swap(START, END);
         core::mem::swap(&mut self.books, &mut self.new_books);
     }
 
@@ -104,7 +105,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// All stages, and the end of the step before it is closed.
     fn go_through_stages(&mut self, view: &ExplicitView<'_, S, D>) -> Result<(), StepFailure> {
-        self.quadrature.clear();
         self.gather(0, view.step);
         for stage in 1..STAGES {
             self.go_to(stage, view.step);
@@ -158,10 +158,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// The rates of the closed state.
     fn finish(&mut self) -> Result<(), StepFailure> {
-        let mut rates = core::mem::take(&mut self.end.rates);
-        let found = self.find_rates(STAGES - 1, From::Closing, &mut rates);
-        self.end.rates = rates;
-        Ok(found?)
+        Ok(self.find_rates(STAGES - 1, From::Closing, END)?)
     }
 
     /// Writes the closed state.

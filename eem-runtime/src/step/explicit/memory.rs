@@ -1,42 +1,14 @@
 //! What an explicit scheme keeps: rates, quadratures, targets.
 
-use crate::element::layout::Layout;
+use crate::element::group::Offsets;
 use crate::number::compensated::{Compensated, Sum};
 use crate::number::scalar::Real;
 use crate::step::explicit::components::Components;
 use crate::step::explicit::guard::PathSums;
 
-/// Where the parts of a stage vector begin: positions, momenta, viscous stretches, temperatures of thermal
-/// slots and then of reservoirs.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Offsets {
-    pub(super) momenta: usize,
-    pub(super) viscous: usize,
-    pub(super) temperatures: usize,
-    pub(super) reservoirs: usize,
-    pub(super) size: usize,
-}
-
-impl Offsets {
-    /// With so many coordinates and reservoirs.
-    pub(super) fn new(coordinates: usize, layout: &Layout, reservoirs: usize) -> Self {
-        let viscous = 2 * coordinates;
-        let temperatures = viscous + layout.viscous;
-        Self {
-            momenta: coordinates,
-            viscous,
-            temperatures,
-            reservoirs: temperatures + layout.thermal,
-            size: temperatures + layout.thermal + reservoirs,
-        }
-    }
-}
-
-/// The rates of a state, and powers that are integrated over a step.
+/// What belongs to the rates of a state, and is integrated over a step.
 #[derive(Clone, Debug)]
 pub(super) struct Sample<S, const D: usize> {
-    /// Per variable of a stage vector.
-    pub(super) rates: Vec<S>,
     /// `g γ̇` of each dashpot, W.
     pub(super) powers: Vec<S>,
     /// `f λ̇` and the heat that flows in, per thermal slot, W; empty without thermostats.
@@ -142,7 +114,6 @@ impl<S: Real> Books<S> {
 impl<S: Real, const D: usize> Sample<S, D> {
     pub(super) fn new(offsets: Offsets, anchors: usize, [supply, loads]: [usize; 2]) -> Self {
         Self {
-            rates: vec![S::zero(); offsets.size],
             powers: vec![S::zero(); offsets.temperatures - offsets.viscous],
             supply: vec![S::zero(); supply],
             reactions: vec![[S::zero(); D]; anchors],

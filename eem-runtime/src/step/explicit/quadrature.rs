@@ -3,35 +3,50 @@
 use super::Explicit;
 use super::components::Support;
 use super::memory::{LoadSums, Sample};
-use super::tableau::{POSITIVE_WEIGHTS, WEIGHTED, WEIGHTS};
+use super::tableau::{POSITIVE_WEIGHTS, STAGES, WEIGHTED, WEIGHTS};
 use super::vector::{add, difference, dot, moment};
 use crate::element::group::points;
 use crate::number::scalar::Real;
 
+/// Both weights of each stage, if it has weights.
+const BOTH_WEIGHTS: [Option<[f64; 2]>; STAGES] = {
+    let mut all = [None; STAGES];
+    let mut at = 0;
+    while at < WEIGHTED.len() {
+        all[WEIGHTED[at]] = Some([WEIGHTS[at], POSITIVE_WEIGHTS[at]]);
+        at += 1;
+    }
+    all
+};
+
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// Adds a stage to all integrals, at the present stage vector.
     pub(super) fn gather(&mut self, stage: usize, h: S) {
-        let Some(at) = WEIGHTED.iter().position(|&weighted| weighted == stage) else {
+        let Some([weight, positive]) = BOTH_WEIGHTS[stage] else {
             return;
         };
-        let weights = [WEIGHTS[at], POSITIVE_WEIGHTS[at]].map(|weight| h * S::from_f64(weight));
-        let y = if stage == 0 { &self.y0 } else { &self.y };
-        let temperatures = &y[self.offsets.temperatures..];
-        for (reciprocal, theta) in self.per_theta.iter_mut().zip(temperatures) {
-            *reciprocal = theta.recip();
+        if stage == 0 {
+            self.quadrature.clear();
         }
-        let paths = self.quadrature.paths.iter_mut();
-        for (sums, path) in paths.zip(&self.components.paths) {
+        let weights = [h * S::from_f64(weight), h * S::from_f64(positive)];
+        let y = if stage == 0 { &self.y0 } else { &self.y };
+        let temperatures = &y[self.offsets.temperatures..self.offsets.size];
+        // Those of reservoirs are known.
+        let slots = self.offsets.reservoirs - self.offsets.temperatures;
+        for slot in 0..slots {
+            self.per_theta[slot] = temperatures[slot].recip();
+        }
+        for (index, path) in self.components.paths.iter().enumerate() {
             let [a, b] = path.ends.map(|end| end as usize);
             let drop = temperatures[b] - temperatures[a];
             let flow = path.conductance * drop * self.per_theta[a];
-            sums.add(weights, flow, flow * drop * self.per_theta[b]);
+            self.quadrature.paths[index].add(weights, flow, flow * drop * self.per_theta[b]);
         }
         let [weight, _] = weights;
         let sample = if stage == 0 { &self.start } else { &self.end };
-        let dashpots = self.quadrature.dashpots.iter_mut().zip(&sample.powers);
-        for ((sum, &power), &slot) in dashpots.zip(&self.dashpot_slots) {
-            *sum += weight * power * self.per_theta[slot as usize];
+        for (index, &slot) in self.dashpot_slots.iter().enumerate() {
+            let power = weight * sample.powers[index];
+            self.quadrature.dashpots[index] += power * self.per_theta[slot as usize];
         }
         for (sum, &supply) in self.quadrature.supply.iter_mut().zip(&sample.supply) {
             *sum += weight * supply;

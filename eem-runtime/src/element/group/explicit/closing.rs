@@ -87,10 +87,10 @@ where
     ) -> Result<(), StateError> {
         let mut closed = self.closed.iter();
         for (member, nodes) in self.elements.members.iter().zip(&self.places) {
-            let motion = arms_of::<K, S, D>(nodes, view.velocities);
+            let motion = arms_of::<K, S, D>(nodes, rates.row);
             let mut pull = Arms::<K, S, D>::filled([S::zero(); D]);
             for (point, closed) in member.points.as_ref().iter().zip(&mut closed) {
-                let theta = point.temperature_in(view.temperatures);
+                let theta = point.temperature_in(&view.y[view.offsets.temperatures..]);
                 let (of_point, viscosities) = closed.at(theta);
                 let found = Found {
                     theta,
@@ -99,12 +99,12 @@ where
                     gradient: &closed.gradient,
                 };
                 if !point.write_rates(view, &motion, &found, rates, &mut pull) {
-                    let r = arms_of::<K, S, D>(nodes, view.positions);
+                    let r = arms_of::<K, S, D>(nodes, view.y);
                     let measures = point.kinematics.measure(&r);
                     return Err(point.refuse(&found, &r, &measures));
                 }
             }
-            pull_nodes::<K, S, D>(nodes, &pull, rates.forces);
+            pull_nodes::<K, S, D>(nodes, &pull, &mut rates.row[view.offsets.momenta..]);
         }
         Ok(())
     }

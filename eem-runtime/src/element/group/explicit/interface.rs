@@ -2,20 +2,50 @@
 
 use crate::element::error::StateError;
 use crate::element::group::interface::Elements;
+use crate::element::layout::Layout;
 use crate::element::state::State;
 use crate::number::compensated::Total;
 use crate::number::scalar::Real;
 
+/// Where the parts of a stage vector begin: positions, momenta, viscous stretches, temperatures of thermal
+/// slots and then of reservoirs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Offsets {
+    pub(crate) momenta: usize,
+    pub(crate) viscous: usize,
+    pub(crate) temperatures: usize,
+    pub(crate) reservoirs: usize,
+    pub(crate) size: usize,
+    /// How long vectors are, with zeros at their ends.
+    pub(crate) padded: usize,
+}
+
+impl Offsets {
+    /// The length of vectors is a multiple of this, for the registers of the machine.
+    pub(crate) const WIDTH: usize = 4;
+
+    /// With so many coordinates and reservoirs.
+    pub(crate) fn new(coordinates: usize, layout: &Layout, reservoirs: usize) -> Self {
+        let viscous = 2 * coordinates;
+        let temperatures = viscous + layout.viscous;
+        let size = temperatures + layout.thermal + reservoirs;
+        Self {
+            momenta: coordinates,
+            viscous,
+            temperatures,
+            reservoirs: temperatures + layout.thermal,
+            size,
+            padded: size.next_multiple_of(Self::WIDTH),
+        }
+    }
+}
+
 /// The state of a scene at a stage.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StageView<'a, S> {
-    /// q and its rate, place after place, m and m/s.
-    pub(crate) positions: &'a [S],
-    pub(crate) velocities: &'a [S],
-    /// γ, m.
-    pub(crate) viscous: &'a [S],
-    /// θ per thermal slot, K.
-    pub(crate) temperatures: &'a [S],
+    pub(crate) offsets: &'a Offsets,
+    /// q, p, γ and θ, place after place and slot after slot.
+    pub(crate) y: &'a [S],
     /// Whether a thermostat gives the temperature, per thermal slot; empty without thermostats.
     pub(crate) held: &'a [bool],
 }
@@ -23,12 +53,9 @@ pub(crate) struct StageView<'a, S> {
 /// The rates of a stage.
 #[derive(Debug)]
 pub(crate) struct StageRates<'a, S> {
-    /// Forces on the places; those of elements are added, N.
-    pub(crate) forces: &'a mut [S],
-    /// `γ̇`, m/s.
-    pub(crate) creep: &'a mut [S],
-    /// On entry the heat that flows into each thermal slot, W; then `θ̇`, K/s, zero where it is held.
-    pub(crate) heating: &'a mut [S],
+    /// Of the stage vector. On entry velocities, loads and the heat that flows into each thermal slot, W; then
+    /// with the forces of elements, `γ̇` and `θ̇`, which is zero where the temperature is held.
+    pub(crate) row: &'a mut [S],
     /// `g γ̇` of each dashpot, W.
     pub(crate) powers: &'a mut [S],
     /// `f λ̇` and the heat that flows in, of each thermal slot, W; empty without thermostats.
