@@ -43,8 +43,7 @@ mod view;
 pub(crate) use arms::points;
 pub(crate) use element_group::ElementGroup;
 pub(crate) use explicit::{
-    ClosingView, ComponentEnergy, ExplicitGroup, FreeGroup, Offsets, PlaceOf, StageRates,
-    StageView,
+    ClosingView, ComponentEnergy, ExplicitGroup, FreeGroup, Offsets, PlaceOf, StageRates, StageView,
 };
 pub(crate) use interface::{Elements, Group};
 pub(crate) use misfit::Misfit;

@@ -57,7 +57,7 @@ pub(crate) struct Explicit<S: Real, const D: usize> {
     /// m and 1/m per place; zero for anchors.
     masses: Vec<S>,
     per_mass: Vec<S>,
-    /// The place of the temperature of each dashpot among the reciprocals; that of one without.
+    /// The place of the temperature of each dashpot among those of slots and reservoirs; behind them without.
     dashpot_slots: Vec<u32>,
     /// Whether each thermal slot has a thermostat; empty without any.
     held: Vec<bool>,
@@ -75,8 +75,6 @@ pub(crate) struct Explicit<S: Real, const D: usize> {
     /// What belongs to the rates at the start of the step, and at its end.
     start: Sample<S, D>,
     end: Sample<S, D>,
-    /// 1/θ of slots and reservoirs, and 1.
-    per_theta: Vec<S>,
     quadrature: Quadrature<S, D>,
     books: Books<S>,
     new_books: Books<S>,
@@ -139,23 +137,22 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let sample = Sample::new(offsets, anchors, [held.len(), loads.total_force.len()]);
         let vector = || vec![S::zero(); offsets.padded];
         let temperatures = offsets.size - offsets.temperatures;
-        let mut per_theta = vec![S::one(); temperatures + 1];
-        for (reciprocal, theta) in per_theta[site.layout.thermal..].iter_mut().zip(reservoirs) {
-            *reciprocal = theta.recip();
-        }
         let dashpot_slots = dashpot_slots(site.layout, temperatures);
         let produces = produces(&components, site.layout, &dashpot_slots);
         Self {
             per_mass: per_mass.collect(),
             masses,
             produces,
-            quadrature: Quadrature::new(components.paths.len(), site.layout.viscous, counts),
+            quadrature: Quadrature::new(
+                [site.layout.thermal, site.layout.viscous],
+                reservoirs,
+                counts,
+            ),
             y0: vector(),
             y: vector(),
             rows: core::array::from_fn(|_| vector()),
             end: sample.clone(),
             start: sample,
-            per_theta,
             books: Books::new(&components, held.len()),
             new_books: Books::new(&components, held.len()),
             scratch: Scratch::new(&components, site.layout, components.nodes.len() * D),

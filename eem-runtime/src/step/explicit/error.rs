@@ -2,7 +2,6 @@
 
 use super::Explicit;
 use super::demand::Scales;
-use super::tableau::{ERROR_3, ERROR_5, WEIGHTED};
 use crate::number::scalar::{Mask, Real};
 use crate::step::control::{Tolerance, norm};
 
@@ -25,18 +24,14 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     ///
     /// with the scales of a [`Tolerance`]: |q| for positions and viscous stretches, the largest |p| so far for
     /// momenta, and θ.
-    pub(super) fn estimate(&self, h: S, tolerance: &Tolerance<S>, scales: Scales<S>) -> S {
-        let [fifth, third] = [&ERROR_5, &ERROR_3].map(|row| row.map(|e| h * S::from_f64(e)));
+    pub(super) fn estimate(&mut self, h: S, tolerance: &Tolerance<S>, scales: Scales<S>) -> S {
+        self.find_errors(h);
+        let [fifth, third] = self.errors();
         let mut sums = [S::zero(); 2];
         let mut see = |index: usize, per_scale: S| {
-            let (mut five, mut three) = (S::zero(), S::zero());
-            for (term, stage) in WEIGHTED.into_iter().enumerate() {
-                let rate = self.rates(stage)[index];
-                five += fifth[term] * rate;
-                three += third[term] * rate;
-            }
-            for (sum, error) in sums.iter_mut().zip([five, three]) {
-                *sum += (error * per_scale) * (error * per_scale);
+            for (sum, errors) in sums.iter_mut().zip([fifth, third]) {
+                let error = errors[index] * per_scale;
+                *sum += error * error;
             }
         };
         let per_scale = |size: S, absolute: S| {

@@ -4,7 +4,7 @@ use crate::element::group::Offsets;
 use crate::number::compensated::{Compensated, Sum};
 use crate::number::scalar::Real;
 use crate::step::explicit::components::Components;
-use crate::step::explicit::guard::PathSums;
+use crate::step::explicit::guard::PerWeight;
 
 /// What belongs to the rates of a state, and is integrated over a step.
 #[derive(Clone, Debug)]
@@ -32,12 +32,13 @@ pub(super) struct LoadSums<S, const D: usize> {
     pub(super) torque: [S; 3],
 }
 
-/// Integrals over a step.
+/// Integrals over a step, and what some of them consist of.
 #[derive(Clone, Debug)]
 pub(super) struct Quadrature<S, const D: usize> {
-    pub(super) paths: Vec<PathSums<S>>,
-    /// Of each dashpot, `∫ g γ̇/θ`, J/K; `∫ g γ̇` in elements without temperature, J.
-    pub(super) dashpots: Vec<S>,
+    /// θ of slots and of reservoirs at the stages with weights, and 1 for dashpots without temperature, K.
+    pub(super) temperatures: Vec<PerWeight<S>>,
+    /// `g γ̇` of each dashpot at these stages, W.
+    pub(super) powers: Vec<PerWeight<S>>,
     /// `∫ supply`, per thermal slot, J; empty without thermostats.
     pub(super) supply: Vec<S>,
     /// Per component; empty without loads and moved anchors.
@@ -134,21 +135,44 @@ impl<S: Real, const D: usize> LoadSums<S, D> {
 }
 
 impl<S: Real, const D: usize> Quadrature<S, D> {
-    /// Of a scene with so many dashpots, thermal slots with thermostats and components with loads.
-    pub(super) fn new(paths: usize, dashpots: usize, [supply, loads]: [usize; 2]) -> Self {
+    /// Of a scene with so many thermal slots, dashpots, slots where there are thermostats, and components with
+    /// loads.
+    pub(super) fn new(
+        [slots, dashpots]: [usize; 2],
+        reservoirs: &[S],
+        [supply, loads]: [usize; 2],
+    ) -> Self {
+        let mut temperatures = vec![[S::one(); _]; slots];
+        temperatures.extend(reservoirs.iter().map(|&theta| [theta; _]));
+        temperatures.push([S::one(); _]);
         Self {
-            paths: vec![PathSums::none(); paths],
-            dashpots: vec![S::zero(); dashpots],
+            temperatures,
+            powers: vec![[S::zero(); _]; dashpots],
             supply: vec![S::zero(); supply],
             loads: vec![LoadSums::none(); loads],
         }
     }
 
+    /// Whether nothing comes from outside, besides the heat of reservoirs.
+    #[inline]
+    pub(super) fn is_closed(&self) -> bool {
+        self.supply.is_empty() && self.loads.is_empty()
+    }
+
     /// Begins a step.
     pub(super) fn clear(&mut self) {
-        self.paths.fill(PathSums::none());
-        self.dashpots.fill(S::zero());
         self.supply.fill(S::zero());
         self.loads.fill(LoadSums::none());
+    }
+
+    /// `∫ g γ̇/θ` of a dashpot, J/K; `∫ g γ̇` of one without temperature, J.
+    #[inline]
+    pub(super) fn of_dashpot(&self, dashpot: usize, slot: usize, weights: &PerWeight<S>) -> S {
+        let mut sum = S::zero();
+        let (powers, temperatures) = (&self.powers[dashpot], &self.temperatures[slot]);
+        for (at, &weight) in weights.iter().enumerate() {
+            sum += weight * powers[at] * temperatures[at].recip();
+        }
+        sum
     }
 }

@@ -3,52 +3,50 @@
 use super::Explicit;
 use super::components::Support;
 use super::memory::{LoadSums, Sample};
-use super::tableau::{POSITIVE_WEIGHTS, STAGES, WEIGHTED, WEIGHTS};
+use super::tableau::{STAGES, WEIGHTED, WEIGHTS};
 use super::vector::{add, difference, dot, moment};
 use crate::element::group::points;
 use crate::number::scalar::Real;
 
-/// Both weights of each stage, if it has weights.
-const BOTH_WEIGHTS: [Option<[f64; 2]>; STAGES] = {
+/// Which of the stages with weights each stage is.
+const WEIGHT_OF: [Option<usize>; STAGES] = {
     let mut all = [None; STAGES];
     let mut at = 0;
     while at < WEIGHTED.len() {
-        all[WEIGHTED[at]] = Some([WEIGHTS[at], POSITIVE_WEIGHTS[at]]);
+        all[WEIGHTED[at]] = Some(at);
         at += 1;
     }
     all
 };
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// Adds a stage to all integrals, at the present stage vector.
+    /// Keeps of a stage what paths and dashpots produce from, and adds it to all integrals of loads, at the
+    /// present stage vector.
     pub(super) fn gather(&mut self, stage: usize, h: S) {
-        let Some([weight, positive]) = BOTH_WEIGHTS[stage] else {
+        let Some(at) = WEIGHT_OF[stage] else {
             return;
         };
+        let (y, sample) = if stage == 0 {
+            (&self.y0, &self.start)
+        } else {
+            (&self.y, &self.end)
+        };
+        let quadrature = &mut self.quadrature;
+        let temperatures = &y[self.offsets.temperatures..self.offsets.reservoirs];
+        for (slot, &theta) in temperatures.iter().enumerate() {
+            quadrature.temperatures[slot][at] = theta;
+        }
+        for (dashpot, &power) in sample.powers.iter().enumerate() {
+            quadrature.powers[dashpot][at] = power;
+        }
+        if quadrature.is_closed() {
+            return;
+        }
         if stage == 0 {
-            self.quadrature.clear();
+            quadrature.clear();
         }
-        let weights = [h * S::from_f64(weight), h * S::from_f64(positive)];
-        let y = if stage == 0 { &self.y0 } else { &self.y };
-        let temperatures = &y[self.offsets.temperatures..self.offsets.size];
-        // Those of reservoirs are known.
-        let slots = self.offsets.reservoirs - self.offsets.temperatures;
-        for slot in 0..slots {
-            self.per_theta[slot] = temperatures[slot].recip();
-        }
-        for (index, path) in self.components.paths.iter().enumerate() {
-            let [a, b] = path.ends.map(|end| end as usize);
-            let drop = temperatures[b] - temperatures[a];
-            let flow = path.conductance * drop * self.per_theta[a];
-            self.quadrature.paths[index].add(weights, flow, flow * drop * self.per_theta[b]);
-        }
-        let [weight, _] = weights;
-        let sample = if stage == 0 { &self.start } else { &self.end };
-        for (index, &slot) in self.dashpot_slots.iter().enumerate() {
-            let power = weight * sample.powers[index];
-            self.quadrature.dashpots[index] += power * self.per_theta[slot as usize];
-        }
-        for (sum, &supply) in self.quadrature.supply.iter_mut().zip(&sample.supply) {
+        let weight = h * S::from_f64(WEIGHTS[at]);
+        for (sum, &supply) in quadrature.supply.iter_mut().zip(&sample.supply) {
             *sum += weight * supply;
         }
         if !self.quadrature.loads.is_empty() {

@@ -1,8 +1,8 @@
 //! The stages of a step: stage vectors and their rates.
 
 use super::tableau::{
-    ROW_1, ROW_2, ROW_3, ROW_4, ROW_5, ROW_6, ROW_7, ROW_8, ROW_9, ROW_10, ROW_11, STAGES, TIMES,
-    WEIGHTED, WEIGHTS,
+    ERROR_3, ERROR_5, ROW_1, ROW_2, ROW_3, ROW_4, ROW_5, ROW_6, ROW_7, ROW_8, ROW_9, ROW_10,
+    ROW_11, STAGES, TIMES, WEIGHTED, WEIGHTS,
 };
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
@@ -69,6 +69,21 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             k[term] = &self.rows[ROWS[stages[term]]];
         }
         add_rows(&mut self.y, &self.y0, k, h, a);
+    }
+
+    /// `h Σ E k` of both estimates, in the rows of two stages that have no weights.
+    pub(super) fn find_errors(&mut self, h: S) {
+        for (row, weights) in [(ROWS[3], &ERROR_5), (ROWS[4], &ERROR_3)] {
+            let mut errors = core::mem::take(&mut self.rows[row]);
+            let rates = WEIGHTED.map(|stage| self.rates(stage));
+            sum_rows(&mut errors, rates, h, weights);
+            self.rows[row] = errors;
+        }
+    }
+
+    /// Where [`find_errors`](Self::find_errors) has left them.
+    pub(super) fn errors(&self) -> [&[S]; 2] {
+        [&self.rows[ROWS[3]], &self.rows[ROWS[4]]]
     }
 
     /// Puts moved anchors and thermostats where they are at a stage.
@@ -198,21 +213,46 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 /// `y = y⁰ + h Σ a k`.
 #[inline(never)]
 fn add_rows<S: Real, const T: usize>(y: &mut [S], y0: &[S], k: [&[S]; T], h: S, a: &[f64; T]) {
-    // A number of which the compiler sees that it is a multiple.
+    let (size, k, factors) = aligned(y, k, h, a);
+    let (y, y0) = (&mut y[..size], &y0[..size]);
+    for index in 0..size {
+        let mut sum = factors[0] * k[0][index];
+        for term in 1..T {
+            sum += factors[term] * k[term][index];
+        }
+        y[index] = y0[index] + sum;
+    }
+}
+
+/// `y = h Σ a k`.
+#[inline(never)]
+fn sum_rows<S: Real, const T: usize>(y: &mut [S], k: [&[S]; T], h: S, a: &[f64; T]) {
+    let (size, k, factors) = aligned(y, k, h, a);
+    let y = &mut y[..size];
+    for index in 0..size {
+        let mut sum = factors[0] * k[0][index];
+        for term in 1..T {
+            sum += factors[term] * k[term][index];
+        }
+        y[index] = sum;
+    }
+}
+
+/// The size of a vector, of which the compiler sees that it is a multiple; rows of it, and their factors `h a`.
+#[inline]
+fn aligned<'a, S: Real, const T: usize>(
+    y: &[S],
+    mut k: [&'a [S]; T],
+    h: S,
+    a: &[f64; T],
+) -> (usize, [&'a [S]; T], [S; T]) {
     let size = y.len() / Offsets::WIDTH * Offsets::WIDTH;
-    let (y, y0, mut rows) = (&mut y[..size], &y0[..size], k);
-    for row in &mut rows {
+    for row in &mut k {
         *row = &row[..size];
     }
     let mut factors = [h; T];
     for (factor, &a) in factors.iter_mut().zip(a) {
         *factor = h * S::from_f64(a);
     }
-    for index in 0..size {
-        let mut sum = factors[0] * rows[0][index];
-        for term in 1..T {
-            sum += factors[term] * rows[term][index];
-        }
-        y[index] = y0[index] + sum;
-    }
+    (size, k, factors)
 }
