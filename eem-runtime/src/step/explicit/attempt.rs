@@ -5,7 +5,7 @@ use super::stages::{END, From, START};
 use super::tableau::STAGES;
 use super::{Explicit, ExplicitView};
 use crate::element::state::State;
-use crate::number::scalar::{Discord, Mask, Real};
+use crate::number::scalar::{Mask, Real};
 use crate::step::error::{Law, StepFailure};
 use crate::step::outcome::{Attempt, Outcome};
 
@@ -37,9 +37,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         demand: Demand<S>,
         next: &mut State<S>,
     ) -> Result<Attempt<S>, StepFailure> {
-        if S::LANES > 1 {
-            return Err(Discord.into());
-        }
         let was_ready = self.is_ready;
         let attempt = self.attempt_ready(view, demand, next);
         if attempt.is_err() {
@@ -142,8 +139,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             .iter()
             .map(|progress| progress.correction);
         let largest = all.fold(S::zero(), |largest, correction| {
-            let is_larger = largest.abs().less(correction.abs()).all();
-            if is_larger { correction } else { largest }
+            let is_larger = largest.abs().less(correction.abs());
+            S::select(is_larger, correction, largest)
         });
         let limit = demand.largest_correction();
         if largest.abs().at_most(limit).all() {

@@ -49,7 +49,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         next: &mut State<S>,
     ) -> Result<(), StepFailure> {
         for index in 0..self.components.all.len() {
-            self.turn_single_mass(index);
+            self.turn_single_mass(index)?;
         }
         self.scratch.open.fill(true);
         self.find_energies(next)?;
@@ -62,7 +62,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 if !self.scratch.open[index] {
                     continue;
                 }
-                let verdict = self.balance(index, next);
+                let verdict = self.balance(index, next)?;
                 self.scratch.open[index] = verdict == Verdict::Changed;
                 self.scratch.asked[index] = verdict == Verdict::Asks;
                 has_asked |= verdict == Verdict::Asks;
@@ -71,7 +71,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 self.find_forces(view);
                 for index in 0..self.components.all.len() {
                     if self.scratch.asked[index] {
-                        let verdict = self.reshape(index, view, next);
+                        let verdict = self.reshape(index, view, next)?;
                         self.scratch.open[index] = verdict == Verdict::Changed;
                         if verdict == Verdict::Failed {
                             self.turn_rigidly(index, (view, demand, scales), next)?;

@@ -2,12 +2,12 @@
 
 use crate::element::group::ComponentEnergy;
 use crate::element::layout::Layout;
-use crate::number::scalar::Real;
+use crate::number::scalar::{Discord, Mask, Real};
 use crate::step::explicit::components::Components;
 
 /// How far the closing of a component is.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Progress<S> {
+pub(super) struct Progress<S: Real> {
     /// Changes so far that were followed by another look at the energy.
     pub(super) turns: usize,
     /// Whether heat has been among them.
@@ -20,13 +20,15 @@ pub(super) struct Progress<S> {
     pub(super) correction: S,
     /// Heat that dashpots without temperature have lost in this step, J.
     pub(super) lost: S,
+    /// Of several numbers, those whose energy is what it has to be: they wait for the others.
+    pub(super) is_closed: S::Mask,
     /// The component has turned like a rigid body, since it was closed in no other way.
     pub(super) is_rigid: bool,
 }
 
 /// Working memory of the closing of a step.
 #[derive(Clone, Debug)]
-pub(super) struct Scratch<S> {
+pub(super) struct Scratch<S: Real> {
     /// Per component.
     pub(super) progress: Vec<Progress<S>>,
     pub(super) energies: Vec<ComponentEnergy<S>>,
@@ -58,8 +60,32 @@ impl<S: Real> Progress<S> {
             scale: S::zero(),
             correction: S::zero(),
             lost: S::zero(),
+            is_closed: S::Mask::none(),
             is_rigid: false,
         }
+    }
+}
+
+impl<S: Real> Progress<S> {
+    /// The one decision of all numbers that are not closed.
+    #[inline]
+    pub(super) fn decide(&self, mask: S::Mask) -> Result<bool, Discord> {
+        if (mask | self.is_closed).all() {
+            return Ok(true);
+        }
+        if (mask & !self.is_closed).any() {
+            return Err(Discord);
+        }
+        Ok(false)
+    }
+
+    /// An error unless nothing is closed: what follows changes all numbers.
+    #[inline]
+    pub(super) fn change_all(&self) -> Result<(), Discord> {
+        if self.is_closed.any() {
+            return Err(Discord);
+        }
+        Ok(())
     }
 }
 

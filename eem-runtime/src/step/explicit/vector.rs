@@ -112,8 +112,11 @@ impl<S: Real> Inertia<S> {
         let zero = S::zero();
         if D == 2 {
             let inertia = self.matrix[2][2];
-            let is_none = inertia.at_most(zero).all();
-            return [zero, zero, if is_none { zero } else { right[2] / inertia }];
+            let is_none = inertia.at_most(zero);
+            return [zero, zero, S::select(is_none, zero, right[2] / inertia)];
+        }
+        if S::LANES > 1 {
+            return self.solve_lanes(right);
         }
         let mut matrix = self.matrix;
         let trace = matrix[0][0] + matrix[1][1] + matrix[2][2];
@@ -149,6 +152,19 @@ impl<S: Real> Inertia<S> {
                 rest - matrix[pivot][column] * omega[column]
             });
             omega[pivot] = rest / matrix[pivot][pivot];
+        }
+        omega
+    }
+
+    /// The same for each of several numbers alone, whose pivots may differ.
+    fn solve_lanes(&self, right: [S; 3]) -> [S; 3] {
+        let mut omega = [S::zero(); 3];
+        for (axis, omega) in omega.iter_mut().enumerate() {
+            *omega = S::pack(|lane| {
+                let matrix = self.matrix.map(|row| row.map(|entry| entry.lane(lane)));
+                let right = right.map(|component| component.lane(lane));
+                Inertia::<f64> { matrix }.solve::<3>(right)[axis]
+            });
         }
         omega
     }

@@ -13,7 +13,7 @@ use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::state::Energy;
 use crate::material::free_energy::{Array, FreeEnergy, Rates};
 use crate::material::inversion::temperature_near;
-use crate::number::scalar::{Mask, Real};
+use crate::number::scalar::{Mask, Real, unless};
 
 /// Evaluations of a temperature after which the safeguarded search takes over. Newton's method from the
 /// temperature of the stages needs one or two.
@@ -175,6 +175,8 @@ where
 
     /// The temperature of an entropy near a guess by Newton's method in ln θ: the one at which the model
     /// was last evaluated, the corrected one, and what was evaluated.
+    ///
+    /// Of several numbers each stops where it would alone, and waits for the others.
     #[inline]
     fn temperature_of<T>(
         &self,
@@ -188,38 +190,48 @@ where
         // √u, whose square is a rounding.
         let enough = (S::from_f64(0.5) * S::EPSILON).sqrt();
         let mut theta = guess;
+        let (mut is_settled, mut is_lost) = (S::Mask::none(), S::Mask::none());
         for _ in 0..MOST_EVALUATIONS {
             let (rates, values) = at(theta);
             let capacity = rates.forces[Self::TEMPERATURE];
             let correction = (entropy - values.as_ref()[0]) / capacity;
             let size = correction.abs();
             let is_near = S::zero().less(capacity) & size.at_most(S::from_f64(LARGEST_CORRECTION));
-            if !is_near.all() {
-                break;
-            }
-            if size.at_most(enough).all() {
+            is_lost = is_lost | !is_near;
+            is_settled = (is_settled | size.at_most(enough)) & !is_lost;
+            if is_settled.all() {
                 return Ok((theta, theta + theta * correction, (rates, values)));
             }
-            theta *= correction.exp();
+            if (is_settled | is_lost).all() {
+                break;
+            }
+            let next = theta * correction.exp();
+            theta = unless(is_settled | is_lost, theta, next);
         }
-        self.search(x, at, [entropy, guess])
+        self.search(x, at, [entropy, guess], (is_settled, theta))
     }
 
-    /// The same from a guess that is not nearly right.
+    /// The same from a guess that is not nearly right; for several numbers only where Newton's method has not
+    /// settled on a temperature.
     #[cold]
-    fn search<T: Copy>(
+    fn search<T: Copy + AsRef<[S]>>(
         &self,
         x: &M::Variables,
         at: &impl Fn(S) -> (Rates<M::Variables>, T),
         [entropy, guess]: [S; 2],
+        (is_settled, settled): (S::Mask, S),
     ) -> Result<Settled<S, M, T>, StateError> {
         let caloric_at = self.model.caloric_at(*x);
         let enough = S::from_f64(0.5) * S::EPSILON.sqrt();
         let found = temperature_near(|theta| (caloric_at(theta).0, []), entropy, guess, enough);
-        let (theta, []) = found.map_err(|source| {
+        let (found, []) = found.map_err(|source| {
             let entropy = entropy.to_f64();
             Infeasible::Entropy { entropy, source }.of(self.element)
         })?;
-        Ok((theta, theta, at(theta)))
+        let theta = S::select(is_settled, settled, found);
+        let (rates, values) = at(theta);
+        let correction = (entropy - values.as_ref()[0]) / rates.forces[Self::TEMPERATURE];
+        let corrected = S::select(is_settled, theta + theta * correction, theta);
+        Ok((theta, corrected, (rates, values)))
     }
 }

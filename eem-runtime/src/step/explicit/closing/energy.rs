@@ -5,7 +5,7 @@ use super::{MOST_TURNS, Verdict};
 use crate::element::group::points;
 use crate::element::state::State;
 use crate::number::compensated::Total;
-use crate::number::scalar::{Mask, Real};
+use crate::number::scalar::{Discord, Mask, Real, unless};
 use core::ops::Range;
 
 /// The part of what elements produce in a step that heat may change.
@@ -68,39 +68,45 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Puts momenta back, and then energy by heat as long as no element has to be evaluated for it.
-    pub(super) fn balance(&mut self, index: usize, next: &mut State<S>) -> Verdict {
+    pub(super) fn balance(
+        &mut self,
+        index: usize,
+        next: &mut State<S>,
+    ) -> Result<Verdict, Discord> {
         self.restore_momenta(index);
         loop {
             let [defect, magnitude] = self.defect_of(index);
             let progress = &mut self.scratch.progress[index];
             progress.defect = defect;
-            if progress.scale.equal(S::zero()).all() {
+            if progress.scale.equal(S::zero()).decide()? {
                 progress.scale = magnitude;
-                let has_terms = S::zero().less(magnitude).all();
-                progress.correction = if has_terms {
-                    defect / magnitude
-                } else {
-                    S::zero()
-                };
+                let has_terms = S::zero().less(magnitude);
+                progress.correction = S::select(has_terms, defect / magnitude, S::zero());
             }
             let enough = S::from_f64(0.5 * ENOUGH) * S::EPSILON * progress.scale;
-            if progress.is_rigid || defect.abs().at_most(enough).all() {
-                return Verdict::Closed;
+            progress.is_closed = progress.is_closed | defect.abs().at_most(enough);
+            if progress.is_rigid || progress.is_closed.all() {
+                return Ok(Verdict::Closed);
             }
             let turns = progress.turns;
             progress.turns += 1;
             if turns >= MOST_TURNS || !defect.is_finite() {
-                return Verdict::Asks;
+                return Ok(Verdict::Asks);
             }
             let produced = self.produced_heat(index);
             let most = S::from_f64(HEAT_SHARE) * produced;
             let heats = turns < HEAT_TURNS && !self.is_motion_first;
-            if !(heats && defect.abs().at_most(most).all()) {
-                return Verdict::Asks;
+            let progress = &mut self.scratch.progress[index];
+            if !(heats && progress.decide(defect.abs().at_most(most))?) {
+                return Ok(Verdict::Asks);
             }
-            self.scratch.progress[index].has_heated = true;
-            if !self.heat(index, defect / produced, next) {
-                return Verdict::Changed;
+            progress.has_heated = true;
+            let part = unless(progress.is_closed, S::zero(), defect / produced);
+            let is_known = self.heat(index, part, next);
+            let progress = &self.scratch.progress[index];
+            if !progress.decide(is_known)? {
+                progress.change_all()?;
+                return Ok(Verdict::Changed);
             }
         }
     }
@@ -118,7 +124,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// Every element gets the part ε of what it has produced itself. Whether energy, temperatures and forces
     /// are known without another evaluation.
-    pub(super) fn heat(&mut self, index: usize, part: S, next: &mut State<S>) -> bool {
+    pub(super) fn heat(&mut self, index: usize, part: S, next: &mut State<S>) -> S::Mask {
         let scratch = &mut self.scratch;
         let lost = &mut scratch.progress[index].lost;
         let change = *lost * part;
@@ -127,12 +133,12 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             next.dissipated.add(change);
             self.new_books.targets[index].lost.add(change);
         }
-        let mut is_small = true;
+        let mut is_small = !S::Mask::none();
         for at in self.slots_of(index) {
             let slot = self.components.slots[at] as usize;
             let entropy = self.scratch.produced[slot] * part;
             if !entropy.equal(S::zero()).all() {
-                is_small &= self.warm(index, slot, entropy, next);
+                is_small = is_small & self.warm(index, slot, entropy, next);
             }
         }
         is_small
@@ -150,7 +156,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         slot: usize,
         entropy: S,
         next: &mut State<S>,
-    ) -> bool {
+    ) -> S::Mask {
         let half = S::from_f64(0.5);
         let theta = &mut self.y[self.offsets.temperatures + slot];
         let scratch = &mut self.scratch;
@@ -165,6 +171,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         *theta += *theta * ratio * (S::one() + half * ratio);
         // 2 √u: what is left out is the cube, and the second order of forces.
         let small = (S::EPSILON + S::EPSILON).sqrt();
-        ratio.abs().less(small).all()
+        ratio.abs().less(small)
     }
 }

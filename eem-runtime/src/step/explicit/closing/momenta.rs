@@ -4,7 +4,7 @@ use super::super::Explicit;
 use super::super::components::{Component, Support};
 use super::super::vector::{Inertia, add, difference, dot, length, spin};
 use crate::element::group::points;
-use crate::number::scalar::{Mask, Real};
+use crate::number::scalar::{Discord, Mask, Real};
 
 /// The rigid part of the motion of a component.
 #[derive(Clone, Copy, Debug)]
@@ -19,13 +19,13 @@ pub(super) struct Rigid<S, const D: usize> {
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// Turns a single mass on an anchor so that its arm is perpendicular to its angular momentum: no
     /// momentum gives it one along its arm.
-    pub(super) fn turn_single_mass(&mut self, index: usize) {
+    pub(super) fn turn_single_mass(&mut self, index: usize) -> Result<(), Discord> {
         let component = &self.components.all[index];
         let Support::Anchor(anchor) = component.support else {
-            return;
+            return Ok(());
         };
         if D != 3 || component.masses.len() != 1 {
-            return;
+            return Ok(());
         }
         let place = component.masses.start;
         let offsets = self.offsets;
@@ -37,16 +37,16 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let arm = difference(&positions[place], &origin);
         let [along, far] = [length(&target), length(&arm)];
         let is_turning = S::zero().less(along) & S::zero().less(far);
-        if !is_turning.all() {
-            return;
+        if !is_turning.decide()? {
+            return Ok(());
         }
         let axis = target.map(|component| component / along);
         let direction = arm.map(|component| component / far);
         let elevation = (0..D).fold(S::zero(), |sum, i| sum + axis[i] * direction[i]);
         let turn = spin(&axis, &direction);
         let sine = length(&turn);
-        if sine.at_most(S::zero()).all() {
-            return;
+        if sine.at_most(S::zero()).decide()? {
+            return Ok(());
         }
         // About J × q, by the elevation of the arm above the plane that it has to be in.
         let mut about = [S::zero(); 3];
@@ -57,6 +57,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let turned = rotated(&arm, &about, angle);
         positions[place] = core::array::from_fn(|i| origin[i] + turned[i]);
         *momentum = rotated(momentum, &about, angle);
+        Ok(())
     }
 
     /// The rigid motion that has these momenta, less what the component has already.

@@ -7,7 +7,7 @@ use super::momenta::Rigid;
 use super::{MOST_TURNS, Verdict};
 use crate::element::group::points;
 use crate::element::state::State;
-use crate::number::scalar::{Mask, Real};
+use crate::number::scalar::{Discord, Mask, Real, unless};
 
 /// The least part of what can give energy that is motion, for motion to give it.
 const LEAST_MOTION: f64 = 0.05;
@@ -43,49 +43,55 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         index: usize,
         view: &ExplicitView<'_, S, D>,
         next: &mut State<S>,
-    ) -> Verdict {
+    ) -> Result<Verdict, Discord> {
         let progress = self.scratch.progress[index];
         let (defect, turns) = (progress.defect, progress.turns);
         if !defect.is_finite() {
-            return Verdict::Failed;
+            return Ok(Verdict::Failed);
         }
         let means = self.means(index, view);
         let share = defect / means.all;
-        let is_small = share.abs().less(S::from_f64(LARGEST_PART)).all();
+        let is_small = share.abs().less(S::from_f64(LARGEST_PART));
         let moves = (S::from_f64(LEAST_MOTION) * means.all).at_most(means.motion + means.motion)
             & (-means.motion).less(defect);
-        let rest = S::from_f64(REST_OF_HEAT) * means.motion;
-        let is_rest = progress.has_heated && defect.abs().at_most(rest).all();
-        let has_motion = S::zero().less(means.motion).all();
-        if has_motion && (is_rest || (is_small && moves.all())) {
+        let mut is_enough = is_small & moves;
+        if progress.has_heated {
+            let rest = S::from_f64(REST_OF_HEAT) * means.motion;
+            is_enough = is_enough | defect.abs().at_most(rest);
+        }
+        let has_motion = S::zero().less(means.motion);
+        if progress.decide(has_motion & is_enough)? {
             let x = defect / means.motion;
             let part = x / (S::one() + (S::one() + x).sqrt());
+            let part = unless(progress.is_closed, S::zero(), part);
             self.scale_motion(index, &means.rigid, part);
-            return Verdict::Closed;
+            return Ok(Verdict::Closed);
         }
         if turns >= MOST_TURNS {
             return self.unless_rounding(index);
         }
-        if is_small && turns <= SHAPE_TURNS {
+        progress.change_all()?;
+        if is_small.decide()? && turns <= SHAPE_TURNS {
             self.shift(index, (view, &means), share, next);
-            self.turn_single_mass(index);
-            return Verdict::Changed;
+            self.turn_single_mass(index)?;
+            return Ok(Verdict::Changed);
         }
-        if self.sink(index, defect, next) {
-            return Verdict::Changed;
+        if self.sink(index, defect, next)? {
+            return Ok(Verdict::Changed);
         }
         self.unless_rounding(index)
     }
 
     /// What is left is rounding, or nothing can give it.
-    fn unless_rounding(&self, index: usize) -> Verdict {
+    fn unless_rounding(&self, index: usize) -> Result<Verdict, Discord> {
         let progress = &self.scratch.progress[index];
         let bound = S::from_f64(0.5 * FROZEN) * S::EPSILON * progress.scale;
-        if progress.defect.abs().at_most(bound).all() {
+        let is_rounding = progress.decide(progress.defect.abs().at_most(bound))?;
+        Ok(if is_rounding {
             Verdict::Closed
         } else {
             Verdict::Failed
-        }
+        })
     }
 
     fn means(&self, index: usize, view: &ExplicitView<'_, S, D>) -> Means<S, D> {
@@ -241,14 +247,14 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Energy to entropy, or back as far as it was produced in this step; whether there is where.
-    fn sink(&mut self, index: usize, defect: S, next: &mut State<S>) -> bool {
-        if defect.less(S::zero()).all() {
+    fn sink(&mut self, index: usize, defect: S, next: &mut State<S>) -> Result<bool, Discord> {
+        if defect.less(S::zero()).decide()? {
             let produced = self.produced_heat(index);
-            if !S::zero().less(produced).all() {
-                return false;
+            if !S::zero().less(produced).decide()? {
+                return Ok(false);
             }
             self.heat(index, (defect / produced).maximum(-S::one()), next);
-            return true;
+            return Ok(true);
         }
         let slots = self
             .slots_of(index)
@@ -259,7 +265,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let all = slots.filter(takes).fold(S::zero(), |all, slot| {
             all + self.scratch.capacities[slot] * temperatures[slot]
         });
-        if S::zero().less(all).all() {
+        if S::zero().less(all).decide()? {
             for at in self.slots_of(index) {
                 let slot = self.components.slots[at] as usize;
                 let is_held = self.held.get(slot).copied().unwrap_or(false);
@@ -268,7 +274,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                     self.warm(index, slot, entropy, next);
                 }
             }
-            return true;
+            return Ok(true);
         }
         let mut losing = self.components.losing.iter();
         let loses = losing.any(|&(component, _)| component as usize == index);
@@ -277,6 +283,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             next.dissipated.add(defect);
             self.new_books.targets[index].lost.add(defect);
         }
-        loses
+        Ok(loses)
     }
 }
