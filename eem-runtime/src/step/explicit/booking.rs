@@ -14,6 +14,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         next.entropies.copy_from(&view.state.entropies);
         self.new_books.copy_from(&self.books);
         self.scratch.progress.fill(Progress::none());
+        self.scratch.waits.fill(S::Mask::none());
         self.scratch.produced.fill(S::zero());
         (self.scratch.production, self.scratch.least) = (S::zero(), S::MAX);
         let weights = Weights::new(view.step);

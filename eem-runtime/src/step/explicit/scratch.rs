@@ -2,7 +2,7 @@
 
 use crate::element::group::ComponentEnergy;
 use crate::element::layout::Layout;
-use crate::number::scalar::{Discord, Mask, Real};
+use crate::number::scalar::{Mask, Real};
 use crate::step::explicit::components::Components;
 
 /// How far the closing of a component is.
@@ -11,7 +11,7 @@ pub(super) struct Progress<S: Real> {
     /// Changes so far that were followed by another look at the energy.
     pub(super) turns: usize,
     /// Whether heat has been among them.
-    pub(super) has_heated: bool,
+    pub(super) has_heated: S::Mask,
     /// What is missing of the energy, J.
     pub(super) defect: S,
     /// The magnitude of the terms of the energy where the closing began; zero before, J.
@@ -20,8 +20,9 @@ pub(super) struct Progress<S: Real> {
     pub(super) correction: S,
     /// Heat that dashpots without temperature have lost in this step, J.
     pub(super) lost: S,
-    /// Of several numbers, those whose energy is what it has to be: they wait for the others.
+    /// Whether the energy is what it has to be, and whether forces have to be known to make it so.
     pub(super) is_closed: S::Mask,
+    pub(super) is_asking: S::Mask,
     /// The component has turned like a rigid body, since it was closed in no other way.
     pub(super) is_rigid: bool,
 }
@@ -35,6 +36,8 @@ pub(super) struct Scratch<S: Real> {
     /// Whether it has to be evaluated; whether its forces are asked for.
     pub(super) open: Vec<bool>,
     pub(super) asked: Vec<bool>,
+    /// Of several numbers, those that have not changed and wait while the others are evaluated.
+    pub(super) waits: Vec<S::Mask>,
     /// c per thermal slot, and what it has produced itself in this step, J/K.
     pub(super) capacities: Vec<S>,
     pub(super) produced: Vec<S>,
@@ -55,37 +58,15 @@ impl<S: Real> Progress<S> {
     pub(super) fn none() -> Self {
         Self {
             turns: 0,
-            has_heated: false,
+            has_heated: S::Mask::none(),
             defect: S::zero(),
             scale: S::zero(),
             correction: S::zero(),
             lost: S::zero(),
             is_closed: S::Mask::none(),
+            is_asking: S::Mask::none(),
             is_rigid: false,
         }
-    }
-}
-
-impl<S: Real> Progress<S> {
-    /// The one decision of all numbers that are not closed.
-    #[inline]
-    pub(super) fn decide(&self, mask: S::Mask) -> Result<bool, Discord> {
-        if (mask | self.is_closed).all() {
-            return Ok(true);
-        }
-        if (mask & !self.is_closed).any() {
-            return Err(Discord);
-        }
-        Ok(false)
-    }
-
-    /// An error unless nothing is closed: what follows changes all numbers.
-    #[inline]
-    pub(super) fn change_all(&self) -> Result<(), Discord> {
-        if self.is_closed.any() {
-            return Err(Discord);
-        }
-        Ok(())
     }
 }
 
@@ -97,6 +78,7 @@ impl<S: Real> Scratch<S> {
             energies: vec![ComponentEnergy::none(); count],
             open: vec![false; count],
             asked: vec![false; count],
+            waits: vec![S::Mask::none(); count],
             capacities: vec![S::zero(); thermal],
             produced: vec![S::zero(); thermal],
             received: vec![S::zero(); thermal],

@@ -141,17 +141,28 @@ where
             }
             _ => (theta, theta, at(theta)),
         };
-        closed.theta = theta;
-        closed.rates = rates;
-        closed.gradient = self.kinematics.gradient(r, &measures);
-        if M::DASHPOTS > 0 {
-            closed.viscosities = self.model.viscosity(theta);
-        }
+        let waits = view.waits[component as usize];
+        let viscosities = if M::DASHPOTS > 0 {
+            self.model.viscosity(theta)
+        } else {
+            closed.viscosities
+        };
+        closed.replace(
+            waits,
+            Closed {
+                theta,
+                rates,
+                viscosities,
+                gradient: self.kinematics.gradient(r, &measures),
+            },
+        );
         self.unless_infinite(psi)?;
         let (mut energy, mut magnitude) = (psi, psi.abs());
+        let keep = |old: S, new: S| unless(waits, old, new);
         if let Some(slot) = thermal {
+            let kept = view.next.entropies.values()[slot];
             if is_held {
-                view.next.entropies.set(slot, entropy);
+                view.next.entropies.set(slot, keep(kept, entropy));
             }
             let kept = view.next.entropies.values()[slot];
             let capacity = rates.forces[Self::TEMPERATURE];
@@ -160,16 +171,17 @@ where
             // Stationary in θ at the kept entropy: the last correction of θ does not change it.
             energy = psi + theta * kept;
             magnitude = energy.abs() + theta * (kept.abs() + capacity);
-            view.temperatures[slot] = settled;
-            view.capacities[slot] = capacity;
+            view.temperatures[slot] = keep(view.temperatures[slot], settled);
+            view.capacities[slot] = keep(view.capacities[slot], capacity);
         }
-        view.next.energies[self.element.index] = Energy {
-            value: energy,
-            magnitude,
-        };
         let sum = &mut view.energies[component as usize];
-        sum.value.add(energy);
-        sum.magnitude += magnitude;
+        sum.value.add(keep(S::zero(), energy));
+        sum.magnitude += keep(S::zero(), magnitude);
+        let stored = &mut view.next.energies[self.element.index];
+        *stored = Energy {
+            value: keep(stored.value, energy),
+            magnitude: keep(stored.magnitude, magnitude),
+        };
         Ok(())
     }
 

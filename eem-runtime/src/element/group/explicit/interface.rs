@@ -67,6 +67,8 @@ pub(crate) struct StageRates<'a, S> {
 pub(crate) struct ClosingView<'a, S: Real> {
     /// Whether a component is still to be closed.
     pub(crate) open: &'a [bool],
+    /// Of several numbers in a component, those that keep what they have.
+    pub(crate) waits: &'a [S::Mask],
     pub(crate) positions: &'a [S],
     pub(crate) viscous: &'a [S],
     /// θ per thermal slot: guesses that become temperatures, except where it is held, K.
@@ -96,6 +98,16 @@ impl<S: Real> ComponentEnergy<S> {
             value: Total::new(),
             magnitude: S::zero(),
         }
+    }
+
+    /// Of no elements, except for numbers that wait.
+    pub(crate) fn clear(&mut self, waits: S::Mask) {
+        let mut cleared = Self::none();
+        if S::LANES > 1 {
+            cleared.value = Total::select(waits, self.value, cleared.value);
+            cleared.magnitude = S::select(waits, self.magnitude, cleared.magnitude);
+        }
+        *self = cleared;
     }
 }
 

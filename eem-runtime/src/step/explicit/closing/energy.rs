@@ -1,11 +1,11 @@
 //! The energy of a component, and heat that puts it back.
 
 use super::super::Explicit;
-use super::{MOST_TURNS, Verdict};
+use super::Verdict;
 use crate::element::group::points;
 use crate::element::state::State;
 use crate::number::compensated::Total;
-use crate::number::scalar::{Discord, Mask, Real, unless};
+use crate::number::scalar::{Mask, Real, unless};
 use core::ops::Range;
 
 /// The part of what elements produce in a step that heat may change.
@@ -68,47 +68,66 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Puts momenta back, and then energy by heat as long as no element has to be evaluated for it.
-    pub(super) fn balance(
-        &mut self,
-        index: usize,
-        next: &mut State<S>,
-    ) -> Result<Verdict, Discord> {
+    ///
+    /// Of several numbers each goes the way that it would go alone.
+    pub(super) fn balance(&mut self, index: usize, next: &mut State<S>) -> Verdict {
         self.restore_momenta(index);
         loop {
-            let [defect, magnitude] = self.defect_of(index);
+            let is_finite = self.look(index);
             let progress = &mut self.scratch.progress[index];
-            progress.defect = defect;
-            if progress.scale.equal(S::zero()).decide()? {
-                progress.scale = magnitude;
-                let has_terms = S::zero().less(magnitude);
-                progress.correction = S::select(has_terms, defect / magnitude, S::zero());
-            }
-            let enough = S::from_f64(0.5 * ENOUGH) * S::EPSILON * progress.scale;
-            progress.is_closed = progress.is_closed | defect.abs().at_most(enough);
             if progress.is_rigid || progress.is_closed.all() {
-                return Ok(Verdict::Closed);
+                return Verdict::Closed;
             }
             let turns = progress.turns;
             progress.turns += 1;
-            if turns >= MOST_TURNS || !defect.is_finite() {
-                return Ok(Verdict::Asks);
+            let mut heats = S::Mask::none();
+            if turns < HEAT_TURNS && is_finite && !self.is_motion_first {
+                heats = self.heat_within_share(index, next);
             }
-            let produced = self.produced_heat(index);
-            let most = S::from_f64(HEAT_SHARE) * produced;
-            let heats = turns < HEAT_TURNS && !self.is_motion_first;
             let progress = &mut self.scratch.progress[index];
-            if !(heats && progress.decide(defect.abs().at_most(most))?) {
-                return Ok(Verdict::Asks);
+            progress.is_asking = !(heats | progress.is_closed);
+            if progress.is_asking.any() {
+                return Verdict::Asks;
             }
-            progress.has_heated = true;
-            let part = unless(progress.is_closed, S::zero(), defect / produced);
-            let is_known = self.heat(index, part, next);
-            let progress = &self.scratch.progress[index];
-            if !progress.decide(is_known)? {
-                progress.change_all()?;
-                return Ok(Verdict::Changed);
+            if !self.scratch.waits[index].all() {
+                return Verdict::Changed;
             }
         }
+    }
+
+    /// Looks at the energy of a component; whether it is a number.
+    fn look(&mut self, index: usize) -> bool {
+        let [defect, magnitude] = self.defect_of(index);
+        let progress = &mut self.scratch.progress[index];
+        progress.defect = defect;
+        let begins = progress.scale.equal(S::zero());
+        if begins.any() {
+            let has_terms = S::zero().less(magnitude);
+            let correction = S::select(has_terms, defect / magnitude, S::zero());
+            progress.correction = S::select(begins, correction, progress.correction);
+            progress.scale = S::select(begins, magnitude, progress.scale);
+        }
+        let enough = S::from_f64(0.5 * ENOUGH) * S::EPSILON * progress.scale;
+        progress.is_closed = progress.is_closed | defect.abs().at_most(enough);
+        self.scratch.waits[index] = !S::Mask::none();
+        defect.is_finite()
+    }
+
+    /// Closes a component by heat where that is little beside what is produced; where that is.
+    fn heat_within_share(&mut self, index: usize, next: &mut State<S>) -> S::Mask {
+        let progress = &self.scratch.progress[index];
+        let (defect, is_closed) = (progress.defect, progress.is_closed);
+        let produced = self.produced_heat(index);
+        let most = S::from_f64(HEAT_SHARE) * produced;
+        let heats = defect.abs().at_most(most) & !is_closed;
+        if heats.any() {
+            let progress = &mut self.scratch.progress[index];
+            progress.has_heated = progress.has_heated | heats;
+            let part = unless(!heats, S::zero(), defect / produced);
+            let is_known = self.heat(index, part, next);
+            self.scratch.waits[index] = is_known | !heats;
+        }
+        heats
     }
 
     /// The heat that the elements of a component have produced themselves, `Σ Π θ`, J.

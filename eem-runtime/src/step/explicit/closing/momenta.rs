@@ -4,7 +4,7 @@ use super::super::Explicit;
 use super::super::components::{Component, Support};
 use super::super::vector::{Inertia, add, difference, dot, length, spin};
 use crate::element::group::points;
-use crate::number::scalar::{Discord, Mask, Real};
+use crate::number::scalar::{Mask, Real, unless};
 
 /// The rigid part of the motion of a component.
 #[derive(Clone, Copy, Debug)]
@@ -18,14 +18,14 @@ pub(super) struct Rigid<S, const D: usize> {
 
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// Turns a single mass on an anchor so that its arm is perpendicular to its angular momentum: no
-    /// momentum gives it one along its arm.
-    pub(super) fn turn_single_mass(&mut self, index: usize) -> Result<(), Discord> {
+    /// momentum gives it one along its arm. Of several numbers it turns only some.
+    pub(super) fn turn_single_mass(&mut self, index: usize, which: S::Mask) {
         let component = &self.components.all[index];
         let Support::Anchor(anchor) = component.support else {
-            return Ok(());
+            return;
         };
         if D != 3 || component.masses.len() != 1 {
-            return Ok(());
+            return;
         }
         let place = component.masses.start;
         let offsets = self.offsets;
@@ -36,17 +36,15 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let origin = positions[anchor];
         let arm = difference(&positions[place], &origin);
         let [along, far] = [length(&target), length(&arm)];
-        let is_turning = S::zero().less(along) & S::zero().less(far);
-        if !is_turning.decide()? {
-            return Ok(());
-        }
         let axis = target.map(|component| component / along);
         let direction = arm.map(|component| component / far);
         let elevation = (0..D).fold(S::zero(), |sum, i| sum + axis[i] * direction[i]);
         let turn = spin(&axis, &direction);
         let sine = length(&turn);
-        if sine.at_most(S::zero()).decide()? {
-            return Ok(());
+        let zero = S::zero();
+        let is_turning = zero.less(along) & zero.less(far) & zero.less(sine) & which;
+        if !is_turning.any() {
+            return;
         }
         // About J × q, by the elevation of the arm above the plane that it has to be in.
         let mut about = [S::zero(); 3];
@@ -55,9 +53,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         let angle = elevation.atan2(sine);
         let turned = rotated(&arm, &about, angle);
-        positions[place] = core::array::from_fn(|i| origin[i] + turned[i]);
-        *momentum = rotated(momentum, &about, angle);
-        Ok(())
+        let position = positions[place];
+        positions[place] =
+            core::array::from_fn(|i| S::select(is_turning, origin[i] + turned[i], position[i]));
+        let turned = rotated(momentum, &about, angle);
+        *momentum = core::array::from_fn(|i| S::select(is_turning, turned[i], momentum[i]));
     }
 
     /// The rigid motion that has these momenta, less what the component has already.
@@ -98,9 +98,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         rigid
     }
 
-    /// Adds a rigid motion to the momenta.
+    /// Adds a rigid motion to the momenta that do not wait.
     fn add_rigid(&mut self, index: usize, rigid: &Rigid<S, D>) {
         let component = &self.components.all[index];
+        let waits = self.scratch.waits[index];
         let offsets = self.offsets;
         let (positions, momenta) = self.y[..offsets.viscous].split_at_mut(offsets.momenta);
         let positions = points::<S, D>(positions);
@@ -108,8 +109,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for place in component.masses.clone() {
             let arm = difference(&positions[place], &rigid.origin);
             let turning = spin(&rigid.omega, &arm);
-            add(&mut momenta[place], self.masses[place], &rigid.velocity);
-            add(&mut momenta[place], self.masses[place], &turning);
+            let mut momentum = momenta[place];
+            add(&mut momentum, self.masses[place], &rigid.velocity);
+            add(&mut momentum, self.masses[place], &turning);
+            momenta[place] =
+                core::array::from_fn(|i| unless(waits, momenta[place][i], momentum[i]));
         }
     }
 

@@ -58,6 +58,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             .add(-lost.change(self.books.targets[index].lost));
         *lost = self.books.targets[index].lost;
         self.scratch.progress[index].is_rigid = true;
+        self.scratch.waits[index] = S::Mask::none();
         self.scratch.open[index] = true;
         Ok(())
     }

@@ -37,7 +37,7 @@ struct Means<S, const D: usize> {
 }
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// Gives a component its energy by other means than heat.
+    /// Gives a component its energy by other means than heat, where it is asked for.
     pub(super) fn reshape(
         &mut self,
         index: usize,
@@ -54,44 +54,66 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let is_small = share.abs().less(S::from_f64(LARGEST_PART));
         let moves = (S::from_f64(LEAST_MOTION) * means.all).at_most(means.motion + means.motion)
             & (-means.motion).less(defect);
-        let mut is_enough = is_small & moves;
-        if progress.has_heated {
-            let rest = S::from_f64(REST_OF_HEAT) * means.motion;
-            is_enough = is_enough | defect.abs().at_most(rest);
-        }
+        let rest = S::from_f64(REST_OF_HEAT) * means.motion;
+        let is_rest = progress.has_heated & defect.abs().at_most(rest);
         let has_motion = S::zero().less(means.motion);
-        if progress.decide(has_motion & is_enough)? {
+        let moves = progress.is_asking & has_motion & (is_rest | (is_small & moves));
+        if moves.any() {
             let x = defect / means.motion;
             let part = x / (S::one() + (S::one() + x).sqrt());
-            let part = unless(progress.is_closed, S::zero(), part);
-            self.scale_motion(index, &means.rigid, part);
-            return Ok(Verdict::Closed);
+            self.scale_motion(index, &means.rigid, unless(!moves, S::zero(), part));
         }
-        if turns >= MOST_TURNS {
-            return self.unless_rounding(index);
+        let is_closed = progress.is_closed | moves;
+        self.scratch.progress[index].is_closed = is_closed;
+        let is_left = progress.is_asking & !moves;
+        let mut shifts = is_left & is_small;
+        if turns >= MOST_TURNS || turns > SHAPE_TURNS {
+            shifts = S::Mask::none();
         }
-        progress.change_all()?;
-        if is_small.decide()? && turns <= SHAPE_TURNS {
+        if shifts.any() {
+            let share = unless(!shifts, S::zero(), share);
             self.shift(index, (view, &means), share, next);
-            self.turn_single_mass(index)?;
-            return Ok(Verdict::Changed);
+            self.turn_single_mass(index, shifts);
+            self.scratch.waits[index] = self.scratch.waits[index] & !shifts;
         }
-        if self.sink(index, defect, next)? {
-            return Ok(Verdict::Changed);
+        let is_left = is_left & !shifts;
+        if is_left.any() && !self.sinks(index, is_left, next)? {
+            return Ok(self.unless_rounding(index, is_left));
         }
-        self.unless_rounding(index)
+        Ok(if is_closed.all() {
+            Verdict::Closed
+        } else {
+            Verdict::Changed
+        })
+    }
+
+    /// Energy to entropy or back where nothing else is left, unless the turns are over; whether there is where.
+    fn sinks(
+        &mut self,
+        index: usize,
+        is_left: S::Mask,
+        next: &mut State<S>,
+    ) -> Result<bool, Discord> {
+        let progress = &self.scratch.progress[index];
+        let defect = progress.defect;
+        if !is_left.decide()? || progress.turns >= MOST_TURNS || !self.sink(index, defect, next)? {
+            return Ok(false);
+        }
+        self.scratch.waits[index] = S::Mask::none();
+        Ok(true)
     }
 
     /// What is left is rounding, or nothing can give it.
-    fn unless_rounding(&self, index: usize) -> Result<Verdict, Discord> {
-        let progress = &self.scratch.progress[index];
+    fn unless_rounding(&mut self, index: usize, is_left: S::Mask) -> Verdict {
+        let progress = &mut self.scratch.progress[index];
         let bound = S::from_f64(0.5 * FROZEN) * S::EPSILON * progress.scale;
-        let is_rounding = progress.decide(progress.defect.abs().at_most(bound))?;
-        Ok(if is_rounding {
+        let is_rounding = progress.defect.abs().at_most(bound);
+        progress.is_closed = progress.is_closed | (is_left & is_rounding);
+        if progress.is_closed.all() {
             Verdict::Closed
         } else {
             Verdict::Failed
-        })
+        }
     }
 
     fn means(&self, index: usize, view: &ExplicitView<'_, S, D>) -> Means<S, D> {
