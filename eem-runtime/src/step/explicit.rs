@@ -41,10 +41,9 @@ use crate::number::scalar::{Mask, Real};
 use crate::scene::entry::ElementEntry;
 use crate::scene::loads::Loads;
 use components::Components;
-use memory::{Books, Quadrature, Sample};
+use memory::{Books, Quadrature, Rows, Sample};
 use prescribed::Prescribed;
 use scratch::Scratch;
-use stages::Rows;
 
 pub(crate) use demand::Demand;
 pub(crate) use past::SavedExplicit;

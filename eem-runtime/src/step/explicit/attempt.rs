@@ -1,7 +1,8 @@
 //! One attempt at a step, which changes nothing until it is accepted.
 
 use super::demand::{Demand, Scales};
-use super::stages::{END, From, START};
+use super::memory::{END, START};
+use super::stages::From;
 use super::tableau::STAGES;
 use super::{Explicit, ExplicitView};
 use crate::element::state::State;

@@ -6,6 +6,13 @@ use crate::number::scalar::Real;
 use crate::step::explicit::components::Components;
 use crate::step::explicit::guard::PerWeight;
 
+/// The rows of the rates at the start of the step, and at its end.
+pub(super) const START: usize = 0;
+pub(super) const END: usize = 10;
+
+/// Vectors of rates that are kept at the same time, per variable of a stage vector.
+pub(super) type Rows<S> = [Vec<S>; END + 1];
+
 /// What belongs to the rates of a state, and is integrated over a step.
 #[derive(Clone, Debug)]
 pub(super) struct Sample<S, const D: usize> {

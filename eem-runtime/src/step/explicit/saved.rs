@@ -1,8 +1,8 @@
 //! An explicit scheme is saved and goes on from what was saved.
 
 use super::Explicit;
+use super::memory::START;
 use super::past::SavedExplicit;
-use super::stages::START;
 use crate::number::scalar::Real;
 
 impl<S: Real, const D: usize> Explicit<S, D> {

@@ -1,5 +1,6 @@
 //! The stages of a step: stage vectors and their rates.
 
+use super::memory::START;
 use super::tableau::{
     ERROR_3, ERROR_5, ROW_1, ROW_2, ROW_3, ROW_4, ROW_5, ROW_6, ROW_7, ROW_8, ROW_9, ROW_10,
     ROW_11, STAGES, TIMES, WEIGHTED, WEIGHTS,
@@ -14,13 +15,6 @@ use crate::step::scheme::Scheme;
 /// The row of the rates of each stage: those of stages 1 and 2 are needed by the next two stages only, and
 /// leave their rows to the last ones.
 const ROWS: [usize; STAGES] = [START, 1, 2, 3, 4, 5, 6, 7, 8, 9, 2, 1];
-
-/// The rows of the rates at the start of the step, and at its end.
-pub(super) const START: usize = 0;
-pub(super) const END: usize = 10;
-
-/// Vectors of rates that are kept at the same time, per variable of a stage vector.
-pub(super) type Rows<S> = [Vec<S>; END + 1];
 
 /// Whether rates are found anew or as the elements were closed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,7 +3,8 @@
 use super::components::Component;
 use super::components::Support;
 use super::memory::Target;
-use super::stages::{END, From, START};
+use super::memory::{END, START};
+use super::stages::From;
 use super::vector::{add, difference, moment};
 use super::{Explicit, ExplicitView};
 use crate::element::group::{ComponentEnergy, points};

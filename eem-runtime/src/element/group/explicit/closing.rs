@@ -10,7 +10,6 @@ use crate::element::group::explicit::interface::{ClosingView, StageRates, StageV
 use crate::element::group::explicit::rates::{Found, arms_of, pull_nodes};
 use crate::element::group::point::Point;
 use crate::element::kinematics::{Arms, Kinematics};
-use crate::element::state::Energy;
 use crate::material::free_energy::{Array, FreeEnergy, Rates};
 use crate::material::inversion::temperature_near;
 use crate::number::scalar::{Mask, Real, unless};
@@ -142,20 +141,16 @@ where
             _ => (theta, theta, at(theta)),
         };
         let waits = view.waits[component as usize];
-        let viscosities = if M::DASHPOTS > 0 {
-            self.model.viscosity(theta)
-        } else {
-            closed.viscosities
-        };
-        closed.replace(
-            waits,
-            Closed {
-                theta,
-                rates,
-                viscosities,
-                gradient: self.kinematics.gradient(r, &measures),
+        let found = Closed {
+            theta,
+            rates,
+            viscosities: match M::DASHPOTS {
+                0 => closed.viscosities,
+                _ => self.model.viscosity(theta),
             },
-        );
+            gradient: self.kinematics.gradient(r, &measures),
+        };
+        closed.replace(waits, found);
         self.unless_infinite(psi)?;
         let (mut energy, mut magnitude) = (psi, psi.abs());
         let keep = |old: S, new: S| unless(waits, old, new);
@@ -175,13 +170,10 @@ where
             view.capacities[slot] = keep(view.capacities[slot], capacity);
         }
         let sum = &mut view.energies[component as usize];
-        sum.value.add(keep(S::zero(), energy));
-        sum.magnitude += keep(S::zero(), magnitude);
+        sum.add(waits, [energy, magnitude]);
         let stored = &mut view.next.energies[self.element.index];
-        *stored = Energy {
-            value: keep(stored.value, energy),
-            magnitude: keep(stored.magnitude, magnitude),
-        };
+        stored.value = keep(stored.value, energy);
+        stored.magnitude = keep(stored.magnitude, magnitude);
         Ok(())
     }
 

@@ -5,7 +5,7 @@ use crate::element::group::interface::Elements;
 use crate::element::layout::Layout;
 use crate::element::state::State;
 use crate::number::compensated::Total;
-use crate::number::scalar::Real;
+use crate::number::scalar::{Real, unless};
 
 /// Where the parts of a stage vector begin: positions, momenta, viscous stretches, temperatures of thermal
 /// slots and then of reservoirs.
@@ -98,6 +98,13 @@ impl<S: Real> ComponentEnergy<S> {
             value: Total::new(),
             magnitude: S::zero(),
         }
+    }
+
+    /// Adds the energy of an element and its magnitude, except for numbers that wait.
+    #[inline]
+    pub(crate) fn add(&mut self, waits: S::Mask, [energy, magnitude]: [S; 2]) {
+        self.value.add(unless(waits, S::zero(), energy));
+        self.magnitude += unless(waits, S::zero(), magnitude);
     }
 
     /// Of no elements, except for numbers that wait.
