@@ -18,6 +18,8 @@ const MEMBERS: u32 = 10_000;
 /// than a second.
 const STEP: f64 = 0.2;
 const STEPS: u32 = 25;
+/// The explicit scheme, and its step, s.
+const EXPLICIT: (Scheme, f64) = (Scheme::EemExplicit, 0.02);
 
 fn main() {
     divan::main();
@@ -100,16 +102,50 @@ fn set_up_in_lanes(bencher: Bencher<'_, '_>, threads: usize) {
     members.bench_local(|| run_in_lanes(threads, 0, black_box(&speeds)));
 }
 
+/// The explicit scheme at a step where it is accurate, so many steps, one scene at a time.
+#[divan::bench(args = [1, 2], sample_size = 1, sample_count = 10)]
+fn explicit_pendulums(bencher: Bencher<'_, '_>, threads: usize) {
+    let speeds: Vec<f64> = (0..MEMBERS).map(|i| 1.0 + 1e-4 * f64::from(i)).collect();
+    let members = bencher.counter(ItemsCount::new(MEMBERS));
+    members.bench_local(|| run_one_by_one(EXPLICIT, threads, STEPS, black_box(&speeds)));
+}
+
+/// The same with four pendulums at once.
+#[divan::bench(args = [1, 2], sample_size = 1, sample_count = 10)]
+fn explicit_pendulums_in_lanes(bencher: Bencher<'_, '_>, threads: usize) {
+    let speeds: Vec<f64> = (0..MEMBERS).map(|i| 1.0 + 1e-4 * f64::from(i)).collect();
+    let members = bencher.counter(ItemsCount::new(MEMBERS));
+    members.bench_local(|| run_together(EXPLICIT, threads, STEPS, black_box(&speeds)));
+}
+
 fn run_in_lanes(threads: usize, steps: u32, speeds: &[f64]) -> usize {
-    let ensemble = Ensemble::new(Scheme::EemTemperature, STEP).threads(threads);
+    run_together((Scheme::EemTemperature, STEP), threads, steps, speeds)
+}
+
+fn run(threads: usize, steps: u32, speeds: &[f64]) -> usize {
+    run_one_by_one((Scheme::EemTemperature, STEP), threads, steps, speeds)
+}
+
+fn run_together(
+    (scheme, step): (Scheme, f64),
+    threads: usize,
+    steps: u32,
+    speeds: &[f64],
+) -> usize {
+    let ensemble = Ensemble::new(scheme, step).threads(threads);
     let results = ensemble.run_experiment(&Pendulums { steps }, speeds);
     let completed = results.iter().flatten().count();
     assert_eq!(completed, speeds.len(), "a pendulum failed");
     completed
 }
 
-fn run(threads: usize, steps: u32, speeds: &[f64]) -> usize {
-    let ensemble = Ensemble::new(Scheme::EemTemperature, STEP).threads(threads);
+fn run_one_by_one(
+    (scheme, step): (Scheme, f64),
+    threads: usize,
+    steps: u32,
+    speeds: &[f64],
+) -> usize {
+    let ensemble = Ensemble::new(scheme, step).threads(threads);
     let results = ensemble.run(
         speeds,
         |&speed| scene(speed),

@@ -45,7 +45,7 @@ mod stages;
 mod view;
 
 pub(crate) use arms::points;
-pub(crate) use explicit::{ClosingView, ComponentEnergy, PlaceOf, StageRates, StageView};
+pub(crate) use explicit::{ClosingView, ComponentEnergy, Offsets, PlaceOf, StageRates, StageView};
 pub(crate) use interface::{Elements, ExplicitGroup, Group, Loose};
 pub(crate) use loose::LooseElements;
 pub(crate) use misfit::Misfit;

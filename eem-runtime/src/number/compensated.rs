@@ -1,7 +1,7 @@
 //! Sums that remember what rounding took from them.
 
 use crate::number::kernel::two_sum;
-use crate::number::scalar::Scalar;
+use crate::number::scalar::{Real, Scalar};
 
 /// Accumulated quantities, each with the rounding error of all its additions so far.
 ///
@@ -214,6 +214,17 @@ impl<S: Scalar> Total<S> {
     /// The sum, rounded once.
     pub(crate) fn value(self) -> S {
         self.value + self.rest
+    }
+
+    /// `then` where the mask holds and `otherwise` elsewhere.
+    pub(crate) fn select(mask: S::Mask, then: Self, otherwise: Self) -> Self
+    where
+        S: Real,
+    {
+        Self {
+            value: S::select(mask, then.value, otherwise.value),
+            rest: S::select(mask, then.rest, otherwise.rest),
+        }
     }
 
     /// Of some terms.

@@ -236,9 +236,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Whether several numbers in one S can go through a step together: in the dense elimination of a
-    /// few unknowns, whose pivots are on the diagonal, in a scheme with one set of forces, and with weight
-    /// for all of them or for none.
+    /// few unknowns, whose pivots are on the diagonal, in a scheme with one set of forces, or in the explicit
+    /// one; and with weight for all of them or for none.
     pub(crate) fn suits_lanes(&self) -> bool {
-        self.stepper.suits_lanes(self.unknowns()) && self.loads.suit_lanes()
+        self.control.is_none()
+            && self.stepper.suits_lanes(self.unknowns())
+            && self.loads.suit_lanes()
     }
 }

@@ -33,7 +33,7 @@ mod vector;
 use core::mem;
 
 use crate::element::conduction::Conduction;
-use crate::element::group::{Elements, ExplicitGroup, Loose};
+use crate::element::group::{Elements, ExplicitGroup, Loose, Offsets};
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
@@ -43,16 +43,12 @@ use crate::number::scalar::{Mask, Real};
 use crate::scene::entry::ElementEntry;
 use crate::scene::loads::Loads;
 use components::Components;
-use memory::{Books, Offsets, Quadrature, Sample};
+use memory::{Books, Quadrature, Rows, Sample};
 use prescribed::Prescribed;
 use scratch::Scratch;
 
 pub(crate) use demand::Demand;
 pub(crate) use past::SavedExplicit;
-
-/// Rates of stages that are kept at the same time, besides those of the start: those of stage 10 and 11 take
-/// the places of stages that are not needed any more.
-const BUFFERS: usize = 9;
 
 /// An explicit scheme at work on a scene.
 pub(crate) struct Explicit<S: Real, const D: usize> {
@@ -62,7 +58,7 @@ pub(crate) struct Explicit<S: Real, const D: usize> {
     /// m and 1/m per place; zero for anchors.
     masses: Vec<S>,
     per_mass: Vec<S>,
-    /// The place of the temperature of each dashpot among the reciprocals; that of one without.
+    /// The place of the temperature of each dashpot among those of slots and reservoirs; behind them without.
     dashpot_slots: Vec<u32>,
     /// Whether each thermal slot has a thermostat; empty without any.
     held: Vec<bool>,
@@ -75,12 +71,11 @@ pub(crate) struct Explicit<S: Real, const D: usize> {
     /// The stage vector at the start of the step and at the present stage.
     y0: Vec<S>,
     y: Vec<S>,
-    k: [Vec<S>; BUFFERS],
-    /// Rates at the start of the step, and at its end.
+    /// The rates of all stages.
+    rows: Rows<S>,
+    /// What belongs to the rates at the start of the step, and at its end.
     start: Sample<S, D>,
     end: Sample<S, D>,
-    /// 1/θ of slots and reservoirs, and 1.
-    per_theta: Vec<S>,
     quadrature: Quadrature<S, D>,
     books: Books<S>,
     new_books: Books<S>,
@@ -141,7 +136,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         });
         let anchors = components.nodes.len() - components.masses;
         let sample = Sample::new(offsets, anchors, [held.len(), loads.total_force.len()]);
-        let vector = || vec![S::zero(); offsets.size];
+        let vector = || vec![S::zero(); offsets.padded];
         let temperatures = offsets.size - offsets.temperatures;
         let dashpot_slots = dashpot_slots(site.layout, temperatures);
         let produces = produces(&components, site.layout, &dashpot_slots);
@@ -149,13 +144,16 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             per_mass: per_mass.collect(),
             masses,
             produces,
-            quadrature: Quadrature::new(components.paths.len(), site.layout.viscous, counts),
+            quadrature: Quadrature::new(
+                [site.layout.thermal, site.layout.viscous],
+                reservoirs,
+                counts,
+            ),
             y0: vector(),
             y: vector(),
-            k: core::array::from_fn(|_| vector()),
+            rows: core::array::from_fn(|_| vector()),
             end: sample.clone(),
             start: sample,
-            per_theta: vec![S::one(); temperatures + 1],
             books: Books::new(&components, held.len()),
             new_books: Books::new(&components, held.len()),
             scratch: Scratch::new(&components, site.layout, components.nodes.len() * D),

@@ -16,4 +16,4 @@ mod stiffness;
 pub(super) mod view;
 
 pub(crate) use group::FreeGroup;
-pub(crate) use view::{ClosingView, ComponentEnergy, PlaceOf, StageRates, StageView};
+pub(crate) use view::{ClosingView, ComponentEnergy, Offsets, PlaceOf, StageRates, StageView};

@@ -147,7 +147,7 @@ impl<S: Real, const D: usize> Stepper<S, D> {
     pub(super) fn suits_lanes(&self, unknowns: usize) -> bool {
         match self {
             Self::Newton(newton) => newton.stages.is_empty() && unknowns <= MOST_FIXED,
-            Self::Explicit(_) => false,
+            Self::Explicit(_) => true,
         }
     }
 

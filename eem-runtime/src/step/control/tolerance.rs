@@ -194,11 +194,10 @@ pub(crate) fn norm<S: Real>(x: &[S]) -> S {
         return sum.sqrt();
     }
     let most = x.iter().fold(S::zero(), |most, x| most.maximum(x.abs()));
-    if most.equal(S::zero()).all() {
-        return most;
-    }
     let scaled = x.iter().map(|&x| x / most);
-    most * scaled.fold(S::zero(), |sum, x| sum + x * x).sqrt()
+    let scaled = most * scaled.fold(S::zero(), |sum, x| sum + x * x).sqrt();
+    let has_none = most.equal(S::zero());
+    S::select(is_normal, sum.sqrt(), S::select(has_none, most, scaled))
 }
 
 #[cfg(test)]

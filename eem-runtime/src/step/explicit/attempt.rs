@@ -1,11 +1,12 @@
 //! One attempt at a step, which changes nothing until it is accepted.
 
 use super::demand::{Demand, Scales};
+use super::memory::{END, START};
 use super::stages::From;
 use super::tableau::STAGES;
 use super::{Explicit, ExplicitView};
 use crate::element::state::State;
-use crate::number::scalar::{Discord, Mask, Real};
+use crate::number::scalar::{Mask, Real};
 use crate::step::error::{Law, StepFailure};
 use crate::step::outcome::{Attempt, Outcome};
 
@@ -37,9 +38,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         demand: Demand<S>,
         next: &mut State<S>,
     ) -> Result<Attempt<S>, StepFailure> {
-        if S::LANES > 1 {
-            return Err(Discord.into());
-        }
         let was_ready = self.is_ready;
         let attempt = self.attempt_ready(view, demand, next);
         if attempt.is_err() {
@@ -89,6 +87,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// The step that was attempted last is made: the next one starts from its state.
     fn accept(&mut self) {
         core::mem::swap(&mut self.start, &mut self.end);
+        self.rows.swap(START, END);
         core::mem::swap(&mut self.books, &mut self.new_books);
     }
 
@@ -104,7 +103,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// All stages, and the end of the step before it is closed.
     fn go_through_stages(&mut self, view: &ExplicitView<'_, S, D>) -> Result<(), StepFailure> {
-        self.quadrature.clear();
         self.gather(0, view.step);
         for stage in 1..STAGES {
             self.go_to(stage, view.step);
@@ -142,8 +140,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             .iter()
             .map(|progress| progress.correction);
         let largest = all.fold(S::zero(), |largest, correction| {
-            let is_larger = largest.abs().less(correction.abs()).all();
-            if is_larger { correction } else { largest }
+            let is_larger = largest.abs().less(correction.abs());
+            S::select(is_larger, correction, largest)
         });
         let limit = demand.largest_correction();
         if largest.abs().at_most(limit).all() {
@@ -158,10 +156,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// The rates of the closed state.
     fn finish(&mut self) -> Result<(), StepFailure> {
-        let mut rates = core::mem::take(&mut self.end.rates);
-        let found = self.find_rates(STAGES - 1, From::Closing, &mut rates);
-        self.end.rates = rates;
-        Ok(found?)
+        Ok(self.find_rates(STAGES - 1, From::Closing, END)?)
     }
 
     /// Writes the closed state.

@@ -1,6 +1,6 @@
 //! What the integrals of a step make of entropies and targets.
 
-use super::guard::guarded;
+use super::guard::{PathRates, Weights, guarded};
 use super::scratch::Progress;
 use super::{Explicit, ExplicitView};
 use crate::element::state::State;
@@ -14,10 +14,12 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         next.entropies.copy_from(&view.state.entropies);
         self.new_books.copy_from(&self.books);
         self.scratch.progress.fill(Progress::none());
+        self.scratch.waits.fill(S::Mask::none());
         self.scratch.produced.fill(S::zero());
         (self.scratch.production, self.scratch.least) = (S::zero(), S::MAX);
-        self.book_paths(next);
-        self.book_dashpots(next);
+        let weights = Weights::new(view.step);
+        self.book_paths(&weights, next);
+        self.book_dashpots(&weights, next);
         self.book_loads(next);
         if !self.held.is_empty() {
             for (slot, received) in self.scratch.received.iter_mut().enumerate() {
@@ -27,15 +29,16 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Entropy flows to one end, and from the other with what is produced.
-    fn book_paths(&mut self, next: &mut State<S>) {
+    fn book_paths(&mut self, weights: &Weights<S>, next: &mut State<S>) {
         let slots = self.scratch.produced.len();
-        let paths = self.components.paths.iter().zip(&self.quadrature.paths);
-        for ((path, sums), kept) in paths.zip(&mut self.scratch.paths) {
-            let ([flow, production], _) = sums.guarded();
+        let temperatures = &self.quadrature.temperatures;
+        for (path, kept) in self.components.paths.iter().zip(&mut self.scratch.paths) {
+            let [a, b] = path.ends.map(|end| end as usize);
+            let rates = PathRates::new(path.conductance, [&temperatures[a], &temperatures[b]]);
+            let ([flow, production], _) = rates.guarded(weights);
             *kept = production;
             self.scratch.production += production;
             self.scratch.least = self.scratch.least.minimum(production);
-            let [a, b] = path.ends.map(|end| end as usize);
             next.entropies.add(a, flow);
             // One by one: the production is far below the rounding of the flow where θ_b is near θ_a.
             for change in [-flow, production] {
@@ -50,11 +53,13 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    fn book_dashpots(&mut self, next: &mut State<S>) {
+    fn book_dashpots(&mut self, weights: &Weights<S>, next: &mut State<S>) {
         let slots = self.scratch.produced.len();
-        for (&slot, &sum) in self.dashpot_slots.iter().zip(&self.quadrature.dashpots) {
+        let quadrature = &self.quadrature;
+        for (dashpot, &slot) in self.dashpot_slots.iter().enumerate() {
             let slot = slot as usize;
             if slot < slots {
+                let sum = quadrature.of_dashpot(dashpot, slot, &weights.usual);
                 let (production, _) = guarded(sum);
                 next.entropies.add(slot, production);
                 self.scratch.produced[slot] += production;
@@ -64,7 +69,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         for (component, dashpots) in &self.components.losing {
             let progress = &mut self.scratch.progress[*component as usize];
-            for &sum in &self.quadrature.dashpots[dashpots.clone()] {
+            for dashpot in dashpots.clone() {
+                let slot = self.dashpot_slots[dashpot] as usize;
+                let sum = quadrature.of_dashpot(dashpot, slot, &weights.usual);
                 let (heat, _) = guarded(sum);
                 progress.lost += heat;
                 next.dissipated.add(heat);

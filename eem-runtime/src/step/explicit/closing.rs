@@ -19,9 +19,9 @@ mod shape;
 use super::demand::{Demand, Scales};
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
-use crate::element::group::{ClosingView, ComponentEnergy};
+use crate::element::group::ClosingView;
 use crate::element::state::State;
-use crate::number::scalar::Real;
+use crate::number::scalar::{Mask, Real};
 use crate::step::error::StepFailure;
 
 /// Changes of a component after which its closing is given up.
@@ -49,7 +49,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         next: &mut State<S>,
     ) -> Result<(), StepFailure> {
         for index in 0..self.components.all.len() {
-            self.turn_single_mass(index);
+            self.turn_single_mass(index, !S::Mask::none());
         }
         self.scratch.open.fill(true);
         self.find_energies(next)?;
@@ -71,7 +71,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 self.find_forces(view);
                 for index in 0..self.components.all.len() {
                     if self.scratch.asked[index] {
-                        let verdict = self.reshape(index, view, next);
+                        let verdict = self.reshape(index, view, next)?;
                         self.scratch.open[index] = verdict == Verdict::Changed;
                         if verdict == Verdict::Failed {
                             self.turn_rigidly(index, (view, demand, scales), next)?;
@@ -88,21 +88,18 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// Temperatures and energies of the elements of open components.
     fn find_energies(&mut self, next: &mut State<S>) -> Result<(), StateError> {
-        let open = self.scratch.open.iter();
-        for (energy, _) in self
-            .scratch
-            .energies
-            .iter_mut()
-            .zip(open)
-            .filter(|(_, open)| **open)
-        {
-            *energy = ComponentEnergy::none();
+        let scratch = &mut self.scratch;
+        for (index, energy) in scratch.energies.iter_mut().enumerate() {
+            if scratch.open[index] {
+                energy.clear(scratch.waits[index]);
+            }
         }
         let offsets = self.offsets;
         let (nodes, internal) = self.y.split_at_mut(offsets.viscous);
         let (viscous, temperatures) = internal.split_at_mut(offsets.temperatures - offsets.viscous);
         let mut view = ClosingView {
             open: &self.scratch.open,
+            waits: &self.scratch.waits,
             positions: &nodes[..offsets.momenta],
             viscous,
             temperatures,

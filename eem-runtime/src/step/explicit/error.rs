@@ -2,7 +2,6 @@
 
 use super::Explicit;
 use super::demand::Scales;
-use super::tableau::{ERROR_3, ERROR_5};
 use crate::number::scalar::{Mask, Real};
 use crate::step::control::{Tolerance, norm};
 
@@ -25,36 +24,34 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     ///
     /// with the scales of a [`Tolerance`]: |q| for positions and viscous stretches, the largest |p| so far for
     /// momenta, and θ.
-    pub(super) fn estimate(&self, h: S, tolerance: &Tolerance<S>, scales: Scales<S>) -> S {
-        let k = self.weighted_rates();
-        let [fifth, third] = [&ERROR_5, &ERROR_3].map(|row| row.map(|e| h * S::from_f64(e)));
+    pub(super) fn estimate(&mut self, h: S, tolerance: &Tolerance<S>, scales: Scales<S>) -> S {
+        self.find_errors(h);
+        let [fifth, third] = self.errors();
         let mut sums = [S::zero(); 2];
-        let mut see = |index: usize, scale: S| {
-            let (mut five, mut three) = (S::zero(), S::zero());
-            for term in 0..k.len() {
-                five += fifth[term] * k[term][index];
-                three += third[term] * k[term][index];
+        let mut see = |index: usize, per_scale: S| {
+            for (sum, errors) in sums.iter_mut().zip([fifth, third]) {
+                let error = errors[index] * per_scale;
+                *sum += error * error;
             }
+        };
+        let per_scale = |size: S, absolute: S| {
+            let scale = tolerance.relative * size + absolute;
             // Where the scale is zero nothing moves.
             let has_scale = S::zero().less(scale).all();
-            let per_scale = if has_scale { scale.recip() } else { S::zero() };
-            for (sum, error) in sums.iter_mut().zip([five, three]) {
-                *sum += (error * per_scale) * (error * per_scale);
-            }
+            if has_scale { scale.recip() } else { S::zero() }
         };
         let offsets = self.offsets;
         let size = self.components.masses * D;
-        let of = |size: S, absolute: S| tolerance.relative * size + absolute;
-        let position = of(scales.position, tolerance.position);
+        let position = per_scale(scales.position, tolerance.position);
         for index in (0..size).chain(offsets.viscous..offsets.temperatures) {
             see(index, position);
         }
-        let momentum = of(scales.momentum, tolerance.momentum);
+        let momentum = per_scale(scales.momentum, tolerance.momentum);
         for index in offsets.momenta..offsets.momenta + size {
             see(index, momentum);
         }
         for index in offsets.temperatures..offsets.reservoirs {
-            see(index, of(self.y0[index], tolerance.temperature));
+            see(index, per_scale(self.y0[index], tolerance.temperature));
         }
         let [five, three] = sums;
         if five.at_most(S::zero()).all() {

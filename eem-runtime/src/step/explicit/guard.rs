@@ -4,89 +4,121 @@
 //! stage may be negative where it is below its own error. Then as much of the sums with positive weights is
 //! mixed in as makes it zero.
 
+use super::tableau::{POSITIVE_WEIGHTS, WEIGHTED, WEIGHTS};
 use crate::number::scalar::{Mask, Real};
 
-/// Entropy that flows along a path of heat and what it produces, as integrals over a step, J/K.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct PathSums<S> {
-    /// `∫ X/θ_a` and `∫ X (θ_b − θ_a)/(θ_a θ_b)` with `X = κ (θ_b − θ_a)`, by the weights of order 8.
-    pub(super) flow: S,
-    pub(super) production: S,
-    /// The same by positive weights.
-    pub(super) flow_positive: S,
-    pub(super) production_positive: S,
+/// A number for each stage that has weights.
+pub(super) type PerWeight<S> = [S; WEIGHTED.len()];
+
+/// Entropy that flows along a path of heat and what it produces, at the stages that have weights, W/K.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PathRates<S> {
+    /// `X/θ_a` and `X (θ_b − θ_a)/(θ_a θ_b)` with `X = κ (θ_b − θ_a)`.
+    flows: PerWeight<S>,
+    productions: PerWeight<S>,
 }
 
-impl<S: Real> PathSums<S> {
-    /// Nothing has flowed.
-    pub(super) fn none() -> Self {
+/// The weights of a step, s.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Weights<S> {
+    pub(super) usual: PerWeight<S>,
+    positive: PerWeight<S>,
+}
+
+impl<S: Real> Weights<S> {
+    /// Of a step of this size.
+    pub(super) fn new(h: S) -> Self {
         Self {
-            flow: S::zero(),
-            production: S::zero(),
-            flow_positive: S::zero(),
-            production_positive: S::zero(),
+            usual: WEIGHTS.map(|weight| h * S::from_f64(weight)),
+            positive: POSITIVE_WEIGHTS.map(|weight| h * S::from_f64(weight)),
         }
     }
+}
 
-    /// Adds a stage with its two weights: the flow and the production per second.
-    #[inline]
-    pub(super) fn add(&mut self, [weight, positive]: [S; 2], flow: S, production: S) {
-        self.flow += weight * flow;
-        self.production += weight * production;
-        self.flow_positive += positive * flow;
-        self.production_positive += positive * production;
-    }
+/// `Σ w x`.
+#[inline]
+pub(super) fn integral<S: Real>(weights: &PerWeight<S>, rates: &PerWeight<S>) -> S {
+    let terms = weights.iter().zip(rates);
+    terms.fold(S::zero(), |sum, (&weight, &rate)| sum + weight * rate)
+}
 
-    /// The flow and the production that count; whether the guard has acted.
+impl<S: Real> PathRates<S> {
+    /// Of a path of this conductance, W/K, between two temperatures, K.
     #[inline]
-    pub(super) fn guarded(&self) -> ([S; 2], bool) {
-        let zero = S::zero();
-        if !self.production.less(zero).all() {
-            return ([self.flow, self.production], false);
+    pub(super) fn new(conductance: S, [a, b]: [&PerWeight<S>; 2]) -> Self {
+        let (mut flows, mut productions) = ([S::zero(); _], [S::zero(); _]);
+        for stage in 0..WEIGHTED.len() {
+            let drop = b[stage] - a[stage];
+            flows[stage] = conductance * drop * a[stage].recip();
+            productions[stage] = flows[stage] * drop * b[stage].recip();
         }
-        // φ with Π + φ (Π⁺ − Π) = 0
-        let all = self.production_positive - self.production;
-        let has_positive = zero.less(self.production_positive);
-        let share = S::select(has_positive, -self.production / all, S::one());
-        let flow = self.flow + share * (self.flow_positive - self.flow);
-        ([flow, zero], true)
+        Self { flows, productions }
     }
+
+    /// The flow and the production in a step that count, J/K; whether the guard has acted.
+    #[inline]
+    pub(super) fn guarded(&self, weights: &Weights<S>) -> ([S; 2], bool) {
+        let sums = |weights| [&self.flows, &self.productions].map(|rates| integral(weights, rates));
+        let usual = sums(&weights.usual);
+        if usual[1].less(S::zero()).any() {
+            (mixed(usual, sums(&weights.positive)), true)
+        } else {
+            (usual, false)
+        }
+    }
+}
+
+/// Flow and production with so much of the positive sums that the production is zero, where it is negative.
+#[cold]
+fn mixed<S: Real>([flow, production]: [S; 2], positive: [S; 2]) -> [S; 2] {
+    let zero = S::zero();
+    let is_negative = production.less(zero);
+    // φ with Π + φ (Π⁺ − Π) = 0
+    let all = positive[1] - production;
+    let has_positive = zero.less(positive[1]);
+    let share = S::select(has_positive, -production / all, S::one());
+    let mixed = flow + share * (positive[0] - flow);
+    [
+        S::select(is_negative, mixed, flow),
+        S::select(is_negative, zero, production),
+    ]
 }
 
 /// The production of a dashpot, J/K, or its heat, J, that counts; whether the guard has acted.
 #[inline]
 pub(super) fn guarded<S: Real>(production: S) -> (S, bool) {
-    let is_negative = production.less(S::zero()).all();
+    let is_negative = production.less(S::zero());
     (
-        if is_negative { S::zero() } else { production },
-        is_negative,
+        S::select(is_negative, S::zero(), production),
+        is_negative.any(),
     )
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::step::explicit::tableau::{POSITIVE_WEIGHTS, WEIGHTS};
 
     /// A path between two temperatures, K, at each weighted stage.
-    fn path(stages: [[f64; 2]; 8]) -> PathSums<f64> {
-        let mut sums = PathSums::none();
-        let weights = WEIGHTS.into_iter().zip(POSITIVE_WEIGHTS);
-        for ((weight, positive), [a, b]) in weights.zip(stages) {
-            let flow = (b - a) / a;
-            sums.add([weight, positive], flow, flow * (b - a) / b);
-        }
-        sums
+    fn path(stages: [[f64; 2]; 8]) -> PathRates<f64> {
+        PathRates::new(1.0, [&stages.map(|[a, _]| a), &stages.map(|[_, b]| b)])
+    }
+
+    /// Flow and production by both weights.
+    fn sums(path: &PathRates<f64>) -> [[f64; 2]; 2] {
+        let weights = Weights::new(1.0);
+        [&weights.usual, &weights.positive]
+            .map(|weights| [&path.flows, &path.productions].map(|rates| integral(weights, rates)))
     }
 
     #[test]
     fn honest_stages_pass_unchanged() {
-        let sums = path([[300.0, 310.0]; 8]);
-        let ([flow, production], has_acted) = sums.guarded();
+        let path = path([[300.0, 310.0]; 8]);
+        let ([flow, production], has_acted) = path.guarded(&Weights::new(1.0));
         assert!(!has_acted);
+        let [usual, _] = sums(&path);
         assert_eq!(
             [flow, production].map(f64::to_bits),
-            [sums.flow, sums.production].map(f64::to_bits)
+            usual.map(f64::to_bits)
         );
         assert!((flow - 10.0 / 300.0).abs() < 1e-16);
     }
@@ -96,32 +128,28 @@ mod tests {
     fn a_negative_production_becomes_zero_and_its_flow_is_mixed() {
         let mut stages = [[300.0, 300.0]; 8];
         stages[3] = [300.0, 330.0];
-        let sums = path(stages);
-        assert!(sums.production < 0.0 && sums.production_positive > 0.0);
-        let ([flow, production], has_acted) = sums.guarded();
+        let path = path(stages);
+        let [usual, positive] = sums(&path);
+        assert!(usual[1] < 0.0 && positive[1] > 0.0);
+        let ([flow, production], has_acted) = path.guarded(&Weights::new(1.0));
         assert!(has_acted);
         assert_eq!(production.to_bits(), 0.0_f64.to_bits());
         // Between the two flows, in proportion to the productions.
-        let share = sums.production / (sums.production - sums.production_positive);
-        let mixed = (1.0 - share) * sums.flow + share * sums.flow_positive;
+        let share = usual[1] / (usual[1] - positive[1]);
+        let mixed = (1.0 - share) * usual[0] + share * positive[0];
         assert!(
-            (flow - mixed).abs() <= 1e-15 * sums.flow.abs(),
+            (flow - mixed).abs() <= 1e-15 * usual[0].abs(),
             "{flow} {mixed}"
         );
-        assert!(sums.flow < flow && flow < sums.flow_positive);
+        assert!(usual[0] < flow && flow < positive[0]);
         // Only one stage has a flow, so that none is left where the production vanishes.
         assert!(flow.abs() < 1e-15);
     }
 
     #[test]
     fn nothing_positive_replaces_all() {
-        let sums = PathSums {
-            flow: 1e-20,
-            production: -1e-40,
-            flow_positive: 3e-20,
-            production_positive: 0.0,
-        };
-        assert_eq!(sums.guarded(), ([3e-20, 0.0], true));
+        let counts = mixed([1e-20, -1e-40], [3e-20, 0.0]);
+        assert_eq!(counts.map(f64::to_bits), [3e-20, 0.0].map(f64::to_bits));
     }
 
     #[test]

@@ -1,42 +1,21 @@
 //! What an explicit scheme keeps: rates, quadratures, targets.
 
-use crate::element::layout::Layout;
+use crate::element::group::Offsets;
 use crate::number::compensated::{Compensated, Sum};
 use crate::number::scalar::Real;
 use crate::step::explicit::components::Components;
-use crate::step::explicit::guard::PathSums;
+use crate::step::explicit::guard::PerWeight;
 
-/// Where the parts of a stage vector begin: positions, momenta, viscous stretches, temperatures of thermal
-/// slots and then of reservoirs.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Offsets {
-    pub(super) momenta: usize,
-    pub(super) viscous: usize,
-    pub(super) temperatures: usize,
-    pub(super) reservoirs: usize,
-    pub(super) size: usize,
-}
+/// The rows of the rates at the start of the step, and at its end.
+pub(super) const START: usize = 0;
+pub(super) const END: usize = 10;
 
-impl Offsets {
-    /// With so many coordinates and reservoirs.
-    pub(super) fn new(coordinates: usize, layout: &Layout, reservoirs: usize) -> Self {
-        let viscous = 2 * coordinates;
-        let temperatures = viscous + layout.viscous;
-        Self {
-            momenta: coordinates,
-            viscous,
-            temperatures,
-            reservoirs: temperatures + layout.thermal,
-            size: temperatures + layout.thermal + reservoirs,
-        }
-    }
-}
+/// Vectors of rates that are kept at the same time, per variable of a stage vector.
+pub(super) type Rows<S> = [Vec<S>; END + 1];
 
-/// The rates of a state, and powers that are integrated over a step.
+/// What belongs to the rates of a state, and is integrated over a step.
 #[derive(Clone, Debug)]
 pub(super) struct Sample<S, const D: usize> {
-    /// Per variable of a stage vector.
-    pub(super) rates: Vec<S>,
     /// `g γ̇` of each dashpot, W.
     pub(super) powers: Vec<S>,
     /// `f λ̇` and the heat that flows in, per thermal slot, W; empty without thermostats.
@@ -60,12 +39,13 @@ pub(super) struct LoadSums<S, const D: usize> {
     pub(super) torque: [S; 3],
 }
 
-/// Integrals over a step.
+/// Integrals over a step, and what some of them consist of.
 #[derive(Clone, Debug)]
 pub(super) struct Quadrature<S, const D: usize> {
-    pub(super) paths: Vec<PathSums<S>>,
-    /// Of each dashpot, `∫ g γ̇/θ`, J/K; `∫ g γ̇` in elements without temperature, J.
-    pub(super) dashpots: Vec<S>,
+    /// θ of slots and of reservoirs at the stages with weights, and 1 for dashpots without temperature, K.
+    pub(super) temperatures: Vec<PerWeight<S>>,
+    /// `g γ̇` of each dashpot at these stages, W.
+    pub(super) powers: Vec<PerWeight<S>>,
     /// `∫ supply`, per thermal slot, J; empty without thermostats.
     pub(super) supply: Vec<S>,
     /// Per component; empty without loads and moved anchors.
@@ -142,7 +122,6 @@ impl<S: Real> Books<S> {
 impl<S: Real, const D: usize> Sample<S, D> {
     pub(super) fn new(offsets: Offsets, anchors: usize, [supply, loads]: [usize; 2]) -> Self {
         Self {
-            rates: vec![S::zero(); offsets.size],
             powers: vec![S::zero(); offsets.temperatures - offsets.viscous],
             supply: vec![S::zero(); supply],
             reactions: vec![[S::zero(); D]; anchors],
@@ -163,21 +142,44 @@ impl<S: Real, const D: usize> LoadSums<S, D> {
 }
 
 impl<S: Real, const D: usize> Quadrature<S, D> {
-    /// Of a scene with so many dashpots, thermal slots with thermostats and components with loads.
-    pub(super) fn new(paths: usize, dashpots: usize, [supply, loads]: [usize; 2]) -> Self {
+    /// Of a scene with so many thermal slots, dashpots, slots where there are thermostats, and components with
+    /// loads.
+    pub(super) fn new(
+        [slots, dashpots]: [usize; 2],
+        reservoirs: &[S],
+        [supply, loads]: [usize; 2],
+    ) -> Self {
+        let mut temperatures = vec![[S::one(); _]; slots];
+        temperatures.extend(reservoirs.iter().map(|&theta| [theta; _]));
+        temperatures.push([S::one(); _]);
         Self {
-            paths: vec![PathSums::none(); paths],
-            dashpots: vec![S::zero(); dashpots],
+            temperatures,
+            powers: vec![[S::zero(); _]; dashpots],
             supply: vec![S::zero(); supply],
             loads: vec![LoadSums::none(); loads],
         }
     }
 
+    /// Whether nothing comes from outside, besides the heat of reservoirs.
+    #[inline]
+    pub(super) fn is_closed(&self) -> bool {
+        self.supply.is_empty() && self.loads.is_empty()
+    }
+
     /// Begins a step.
     pub(super) fn clear(&mut self) {
-        self.paths.fill(PathSums::none());
-        self.dashpots.fill(S::zero());
         self.supply.fill(S::zero());
         self.loads.fill(LoadSums::none());
+    }
+
+    /// `∫ g γ̇/θ` of a dashpot, J/K; `∫ g γ̇` of one without temperature, J.
+    #[inline]
+    pub(super) fn of_dashpot(&self, dashpot: usize, slot: usize, weights: &PerWeight<S>) -> S {
+        let mut sum = S::zero();
+        let (powers, temperatures) = (&self.powers[dashpot], &self.temperatures[slot]);
+        for (at, &weight) in weights.iter().enumerate() {
+            sum += weight * powers[at] * temperatures[at].recip();
+        }
+        sum
     }
 }

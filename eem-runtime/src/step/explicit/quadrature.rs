@@ -3,37 +3,50 @@
 use super::Explicit;
 use super::components::Support;
 use super::memory::{LoadSums, Sample};
-use super::tableau::{POSITIVE_WEIGHTS, WEIGHTED, WEIGHTS};
+use super::tableau::{STAGES, WEIGHTED, WEIGHTS};
 use super::vector::{add, difference, dot, moment};
 use crate::element::group::points;
 use crate::number::scalar::Real;
 
+/// Which of the stages with weights each stage is.
+const WEIGHT_OF: [Option<usize>; STAGES] = {
+    let mut all = [None; STAGES];
+    let mut at = 0;
+    while at < WEIGHTED.len() {
+        all[WEIGHTED[at]] = Some(at);
+        at += 1;
+    }
+    all
+};
+
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// Adds a stage to all integrals, at the present stage vector.
+    /// Keeps of a stage what paths and dashpots produce from, and adds it to all integrals of loads, at the
+    /// present stage vector.
     pub(super) fn gather(&mut self, stage: usize, h: S) {
-        let Some(at) = WEIGHTED.iter().position(|&weighted| weighted == stage) else {
+        let Some(at) = WEIGHT_OF[stage] else {
             return;
         };
-        let weights = [WEIGHTS[at], POSITIVE_WEIGHTS[at]].map(|weight| h * S::from_f64(weight));
-        let y = if stage == 0 { &self.y0 } else { &self.y };
-        let temperatures = &y[self.offsets.temperatures..];
-        for (reciprocal, theta) in self.per_theta.iter_mut().zip(temperatures) {
-            *reciprocal = theta.recip();
+        let (y, sample) = if stage == 0 {
+            (&self.y0, &self.start)
+        } else {
+            (&self.y, &self.end)
+        };
+        let quadrature = &mut self.quadrature;
+        let temperatures = &y[self.offsets.temperatures..self.offsets.reservoirs];
+        for (slot, &theta) in temperatures.iter().enumerate() {
+            quadrature.temperatures[slot][at] = theta;
         }
-        let paths = self.quadrature.paths.iter_mut();
-        for (sums, path) in paths.zip(&self.components.paths) {
-            let [a, b] = path.ends.map(|end| end as usize);
-            let drop = temperatures[b] - temperatures[a];
-            let flow = path.conductance * drop * self.per_theta[a];
-            sums.add(weights, flow, flow * drop * self.per_theta[b]);
+        for (dashpot, &power) in sample.powers.iter().enumerate() {
+            quadrature.powers[dashpot][at] = power;
         }
-        let [weight, _] = weights;
-        let sample = if stage == 0 { &self.start } else { &self.end };
-        let dashpots = self.quadrature.dashpots.iter_mut().zip(&sample.powers);
-        for ((sum, &power), &slot) in dashpots.zip(&self.dashpot_slots) {
-            *sum += weight * power * self.per_theta[slot as usize];
+        if quadrature.is_closed() {
+            return;
         }
-        for (sum, &supply) in self.quadrature.supply.iter_mut().zip(&sample.supply) {
+        if stage == 0 {
+            quadrature.clear();
+        }
+        let weight = h * S::from_f64(WEIGHTS[at]);
+        for (sum, &supply) in quadrature.supply.iter_mut().zip(&sample.supply) {
             *sum += weight * supply;
         }
         if !self.quadrature.loads.is_empty() {

@@ -1,6 +1,7 @@
 //! An explicit scheme is saved and goes on from what was saved.
 
 use super::Explicit;
+use super::memory::START;
 use super::past::SavedExplicit;
 use crate::element::state::State;
 use crate::number::scalar::Real;
@@ -18,7 +19,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             held_energies: books.held_energies.clone(),
             largest_momentum: books.largest_momentum,
             residue: books.residue,
-            rates: start.rates.clone(),
+            rates: self.rows[START][..self.offsets.size].to_vec(),
             powers: start.powers.clone(),
             supply: start.supply.clone(),
             reactions: start.reactions.as_flattened().to_vec(),
@@ -41,7 +42,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         books.held_energies.copy_from_slice(&saved.held_energies);
         books.largest_momentum = saved.largest_momentum;
         books.residue = saved.residue;
-        start.rates.copy_from_slice(&saved.rates);
+        self.rows[START][..self.offsets.size].copy_from_slice(&saved.rates);
         start.powers.copy_from_slice(&saved.powers);
         start.supply.copy_from_slice(&saved.supply);
         start.loads.copy_from_slice(&saved.loads);

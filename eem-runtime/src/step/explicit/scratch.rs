@@ -2,16 +2,16 @@
 
 use crate::element::group::ComponentEnergy;
 use crate::element::layout::Layout;
-use crate::number::scalar::Real;
+use crate::number::scalar::{Mask, Real};
 use crate::step::explicit::components::Components;
 
 /// How far the closing of a component is.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Progress<S> {
+pub(super) struct Progress<S: Real> {
     /// Changes so far that were followed by another look at the energy.
     pub(super) turns: usize,
     /// Whether heat has been among them.
-    pub(super) has_heated: bool,
+    pub(super) has_heated: S::Mask,
     /// What is missing of the energy, J.
     pub(super) defect: S,
     /// The magnitude of the terms of the energy where the closing began; zero before, J.
@@ -20,19 +20,24 @@ pub(super) struct Progress<S> {
     pub(super) correction: S,
     /// Heat that dashpots without temperature have lost in this step, J.
     pub(super) lost: S,
+    /// Whether the energy is what it has to be, and whether forces have to be known to make it so.
+    pub(super) is_closed: S::Mask,
+    pub(super) is_asking: S::Mask,
     /// The component has turned like a rigid body, since it was closed in no other way.
     pub(super) is_rigid: bool,
 }
 
 /// Working memory of the closing of a step.
 #[derive(Clone, Debug)]
-pub(super) struct Scratch<S> {
+pub(super) struct Scratch<S: Real> {
     /// Per component.
     pub(super) progress: Vec<Progress<S>>,
     pub(super) energies: Vec<ComponentEnergy<S>>,
     /// Whether it has to be evaluated; whether its forces are asked for.
     pub(super) open: Vec<bool>,
     pub(super) asked: Vec<bool>,
+    /// Of several numbers, those that have not changed and wait while the others are evaluated.
+    pub(super) waits: Vec<S::Mask>,
     /// c per thermal slot, and what it has produced itself in this step, J/K.
     pub(super) capacities: Vec<S>,
     pub(super) produced: Vec<S>,
@@ -53,11 +58,13 @@ impl<S: Real> Progress<S> {
     pub(super) fn none() -> Self {
         Self {
             turns: 0,
-            has_heated: false,
+            has_heated: S::Mask::none(),
             defect: S::zero(),
             scale: S::zero(),
             correction: S::zero(),
             lost: S::zero(),
+            is_closed: S::Mask::none(),
+            is_asking: S::Mask::none(),
             is_rigid: false,
         }
     }
@@ -71,6 +78,7 @@ impl<S: Real> Scratch<S> {
             energies: vec![ComponentEnergy::none(); count],
             open: vec![false; count],
             asked: vec![false; count],
+            waits: vec![S::Mask::none(); count],
             capacities: vec![S::zero(); thermal],
             produced: vec![S::zero(); thermal],
             received: vec![S::zero(); thermal],

@@ -1,19 +1,20 @@
 //! The stages of a step: stage vectors and their rates.
 
+use super::memory::START;
 use super::tableau::{
-    ROW_1, ROW_2, ROW_3, ROW_4, ROW_5, ROW_6, ROW_7, ROW_8, ROW_9, ROW_10, ROW_11, STAGES, TIMES,
-    WEIGHTED, WEIGHTS,
+    ERROR_3, ERROR_5, ROW_1, ROW_2, ROW_3, ROW_4, ROW_5, ROW_6, ROW_7, ROW_8, ROW_9, ROW_10,
+    ROW_11, STAGES, TIMES, WEIGHTED, WEIGHTS,
 };
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
-use crate::element::group::{StageRates, StageView};
+use crate::element::group::{Offsets, StageRates, StageView, points};
 use crate::number::scalar::Real;
 use crate::step::error::StepFailure;
 use crate::step::scheme::Scheme;
 
-/// The buffer of the rates of each stage but the first: those of stages 1 and 2 are needed by the next two
-/// stages only.
-const BUFFER: [usize; STAGES] = [0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 1, 0];
+/// The row of the rates of each stage: those of stages 1 and 2 are needed by the next two stages only, and
+/// leave their rows to the last ones.
+const ROWS: [usize; STAGES] = [START, 1, 2, 3, 4, 5, 6, 7, 8, 9, 2, 1];
 
 /// Whether rates are found anew or as the elements were closed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,39 +27,57 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// The rates of a stage.
     #[inline]
     pub(super) fn rates(&self, stage: usize) -> &[S] {
-        if stage == 0 {
-            &self.start.rates
-        } else {
-            &self.k[BUFFER[stage]]
-        }
-    }
-
-    /// The rates of the stages that have weights.
-    #[inline]
-    pub(super) fn weighted_rates(&self) -> [&[S]; 8] {
-        WEIGHTED.map(|stage| self.rates(stage))
+        &self.rows[ROWS[stage]]
     }
 
     /// Goes to a stage, or to the end of the step where there are no more stages.
     pub(super) fn go_to(&mut self, stage: usize, h: S) {
-        let mut y = core::mem::take(&mut self.y);
-        let (y0, k) = (&self.y0, |stage: usize| self.rates(stage));
         match stage {
-            1 => combine(&mut y, y0, [k(0)], h, &ROW_1),
-            2 => combine(&mut y, y0, [0, 1].map(k), h, &ROW_2),
-            3 => combine(&mut y, y0, [0, 2].map(k), h, &ROW_3),
-            4 => combine(&mut y, y0, [0, 2, 3].map(k), h, &ROW_4),
-            5 => combine(&mut y, y0, [0, 3, 4].map(k), h, &ROW_5),
-            6 => combine(&mut y, y0, [0, 3, 4, 5].map(k), h, &ROW_6),
-            7 => combine(&mut y, y0, [0, 3, 4, 5, 6].map(k), h, &ROW_7),
-            8 => combine(&mut y, y0, [0, 3, 4, 5, 6, 7].map(k), h, &ROW_8),
-            9 => combine(&mut y, y0, [0, 3, 4, 5, 6, 7, 8].map(k), h, &ROW_9),
-            10 => combine(&mut y, y0, [0, 3, 4, 5, 6, 7, 8, 9].map(k), h, &ROW_10),
-            11 => combine(&mut y, y0, [0, 3, 4, 5, 6, 7, 8, 9, 10].map(k), h, &ROW_11),
-            _ => combine(&mut y, y0, self.weighted_rates(), h, &WEIGHTS),
+            1 => self.combine([0], h, &ROW_1),
+            2 => self.combine([0, 1], h, &ROW_2),
+            3 => self.combine([0, 2], h, &ROW_3),
+            4 => self.combine([0, 2, 3], h, &ROW_4),
+            5 => self.combine([0, 3, 4], h, &ROW_5),
+            6 => self.combine([0, 3, 4, 5], h, &ROW_6),
+            7 => self.combine([0, 3, 4, 5, 6], h, &ROW_7),
+            8 => self.combine([0, 3, 4, 5, 6, 7], h, &ROW_8),
+            9 => self.combine([0, 3, 4, 5, 6, 7, 8], h, &ROW_9),
+            10 => self.combine([0, 3, 4, 5, 6, 7, 8, 9], h, &ROW_10),
+            11 => self.combine([0, 3, 4, 5, 6, 7, 8, 9, 10], h, &ROW_11),
+            _ => self.combine(WEIGHTED, h, &WEIGHTS),
         }
-        self.y = y;
-        self.prescribe(stage.min(STAGES - 1));
+        if !self.prescribed.is_none() {
+            self.prescribe(stage.min(STAGES - 1));
+        }
+    }
+
+    /// `y = y⁰ + h Σ a k` with the rates of some stages.
+    #[inline(always)]
+    #[expect(
+        clippy::inline_always,
+        reason = "stages are constants, whose rows are found without a look at bounds"
+    )]
+    fn combine<const T: usize>(&mut self, stages: [usize; T], h: S, a: &[f64; T]) {
+        let mut k: [&[S]; T] = [&[]; T];
+        for term in 0..T {
+            k[term] = &self.rows[ROWS[stages[term]]];
+        }
+        add_rows(&mut self.y, &self.y0, k, h, a);
+    }
+
+    /// `h Σ E k` of both estimates, in the rows of two stages that have no weights.
+    pub(super) fn find_errors(&mut self, h: S) {
+        for (row, weights) in [(ROWS[3], &ERROR_5), (ROWS[4], &ERROR_3)] {
+            let mut errors = core::mem::take(&mut self.rows[row]);
+            let rates = WEIGHTED.map(|stage| self.rates(stage));
+            sum_rows(&mut errors, rates, h, weights);
+            self.rows[row] = errors;
+        }
+    }
+
+    /// Where [`find_errors`](Self::find_errors) has left them.
+    pub(super) fn errors(&self) -> [&[S]; 2] {
+        [&self.rows[ROWS[3]], &self.rows[ROWS[4]]]
     }
 
     /// Puts moved anchors and thermostats where they are at a stage.
@@ -86,10 +105,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let share = S::from_f64(TIMES[stage]);
         let time = view.state.time.value + share * view.step;
         self.evaluate_loads(view, time)?;
-        let mut rates = core::mem::take(&mut self.k[BUFFER[stage]]);
-        let found = self.find_rates(stage, From::Model, &mut rates);
-        self.k[BUFFER[stage]] = rates;
-        Ok(found?)
+        Ok(self.find_rates(stage, From::Model, ROWS[stage])?)
     }
 
     /// Loads and weights at a time.
@@ -111,37 +127,33 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         Ok(())
     }
 
-    /// The rates of the present stage vector, and the powers that belong to them.
+    /// The rates of the present stage vector, and the powers that belong to them; velocities and forces go to
+    /// a row.
     pub(super) fn find_rates(
         &mut self,
         stage: usize,
         from: From,
-        rates: &mut [S],
+        row: usize,
     ) -> Result<(), StateError> {
-        let offsets = self.offsets;
-        let (nodes, internal) = rates.split_at_mut(offsets.viscous);
-        let (velocities, forces) = nodes.split_at_mut(offsets.momenta);
-        let (creep, heating) = internal.split_at_mut(offsets.temperatures - offsets.viscous);
-        self.begin_rates(stage, velocities, forces);
-        let temperatures = &self.y[offsets.temperatures..];
-        heating.fill(S::zero());
+        self.begin_rates(stage, row);
+        let offsets = &self.offsets;
+        let row = &mut self.rows[row][..];
         for path in &self.components.paths {
-            let [a, b] = path.ends.map(|end| end as usize);
-            let flow = path.conductance * (temperatures[b] - temperatures[a]);
-            heating[a] += flow;
-            heating[b] -= flow;
+            let [a, b] = path.ends.map(|end| offsets.temperatures + end as usize);
+            let flow = path.conductance * (self.y[b] - self.y[a]);
+            row[a] += flow;
+            // A reservoir keeps its temperature.
+            if path.share.is_none() {
+                row[b] -= flow;
+            }
         }
         let view = StageView {
-            positions: &self.y[..offsets.momenta],
-            velocities,
-            viscous: &self.y[offsets.viscous..offsets.temperatures],
-            temperatures,
+            offsets,
+            y: &self.y,
             held: &self.held,
         };
         let mut rates = StageRates {
-            forces: &mut *forces,
-            creep,
-            heating: &mut *heating,
+            row,
             powers: &mut self.end.powers,
             supply: &mut self.end.supply,
         };
@@ -152,23 +164,25 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 From::Closing => group.finish(&view, &mut rates)?,
             }
         }
-        let anchors = &mut forces.as_chunks_mut::<D>().0[self.components.masses..];
-        for (reaction, force) in self.end.reactions.iter_mut().zip(anchors) {
+        let forces = rates.row[offsets.momenta..].as_chunks_mut::<D>().0;
+        for (anchor, reaction) in self.end.reactions.iter_mut().enumerate() {
+            let force = &mut forces[self.components.masses + anchor];
             *reaction = core::mem::replace(force, [S::zero(); D]);
         }
-        heating[offsets.reservoirs - offsets.temperatures..].fill(S::zero());
         Ok(())
     }
 
     /// Velocities, and the loads on all places.
-    fn begin_rates(&self, stage: usize, velocities: &mut [S], forces: &mut [S]) {
+    fn begin_rates(&mut self, stage: usize, row: usize) {
+        let offsets = self.offsets;
+        let (velocities, others) = self.rows[row].split_at_mut(offsets.momenta);
+        others.fill(S::zero());
         let velocities = velocities.as_chunks_mut::<D>().0;
-        let momenta = self.y[self.offsets.momenta..self.offsets.viscous]
-            .as_chunks::<D>()
-            .0;
-        let places = velocities.iter_mut().zip(momenta).zip(&self.per_mass);
-        for ((velocity, momentum), &per_mass) in places {
-            *velocity = momentum.map(|p| p * per_mass);
+        let momenta = points::<S, D>(&self.y[offsets.momenta..offsets.viscous]);
+        // Those of anchors stay zero, unless they are moved.
+        let masses = &self.per_mass[..self.components.masses];
+        for (place, &per_mass) in masses.iter().enumerate() {
+            velocities[place] = momenta[place].map(|p| p * per_mass);
         }
         if self.prescribed.moves() {
             for (place, node) in self.components.anchors() {
@@ -179,30 +193,60 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 }
             }
         }
-        if !self.loads.has_total_force() {
-            forces.fill(S::zero());
-            return;
+        if self.loads.has_total_force() {
+            let loads = points::<S, D>(&self.end.loads);
+            let forces = others.as_chunks_mut::<D>().0.iter_mut();
+            let masses = &self.components.nodes[..self.components.masses];
+            for (force, &node) in forces.zip(masses) {
+                *force = loads[node as usize];
+            }
         }
-        let loads = self.end.loads.as_chunks::<D>().0;
-        let forces = forces.as_chunks_mut::<D>().0;
-        for (force, &node) in forces.iter_mut().zip(&self.components.nodes) {
-            *force = loads[node as usize];
-        }
-        forces[self.components.masses..].fill([S::zero(); D]);
     }
 }
 
 /// `y = y⁰ + h Σ a k`.
-#[inline]
-fn combine<S: Real, const T: usize>(y: &mut [S], y0: &[S], k: [&[S]; T], h: S, a: &[f64; T]) {
-    let size = y.len();
-    let (y0, k) = (&y0[..size], k.map(|k| &k[..size]));
-    let a = a.map(|a| h * S::from_f64(a));
+#[inline(never)]
+fn add_rows<S: Real, const T: usize>(y: &mut [S], y0: &[S], k: [&[S]; T], h: S, a: &[f64; T]) {
+    let (size, k, factors) = aligned(y, k, h, a);
+    let (y, y0) = (&mut y[..size], &y0[..size]);
     for index in 0..size {
-        let mut sum = a[0] * k[0][index];
+        let mut sum = factors[0] * k[0][index];
         for term in 1..T {
-            sum += a[term] * k[term][index];
+            sum += factors[term] * k[term][index];
         }
         y[index] = y0[index] + sum;
     }
+}
+
+/// `y = h Σ a k`.
+#[inline(never)]
+fn sum_rows<S: Real, const T: usize>(y: &mut [S], k: [&[S]; T], h: S, a: &[f64; T]) {
+    let (size, k, factors) = aligned(y, k, h, a);
+    let y = &mut y[..size];
+    for index in 0..size {
+        let mut sum = factors[0] * k[0][index];
+        for term in 1..T {
+            sum += factors[term] * k[term][index];
+        }
+        y[index] = sum;
+    }
+}
+
+/// The size of a vector, of which the compiler sees that it is a multiple; rows of it, and their factors `h a`.
+#[inline]
+fn aligned<'a, S: Real, const T: usize>(
+    y: &[S],
+    mut k: [&'a [S]; T],
+    h: S,
+    a: &[f64; T],
+) -> (usize, [&'a [S]; T], [S; T]) {
+    let size = y.len() / Offsets::WIDTH * Offsets::WIDTH;
+    for row in &mut k {
+        *row = &row[..size];
+    }
+    let mut factors = [h; T];
+    for (factor, &a) in factors.iter_mut().zip(a) {
+        *factor = h * S::from_f64(a);
+    }
+    (size, k, factors)
 }

@@ -3,6 +3,7 @@
 use super::components::Component;
 use super::components::Support;
 use super::memory::Target;
+use super::memory::{END, START};
 use super::stages::From;
 use super::vector::{add, difference, moment};
 use super::{Explicit, ExplicitView};
@@ -33,6 +34,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             temperatures.split_at_mut(offsets.reservoirs - offsets.temperatures);
         viscous.copy_from_slice(state.viscous.values());
         temperatures.copy_from_slice(&state.temperatures);
+        let (reservoirs, _) = reservoirs.split_at_mut(offsets.size - offsets.reservoirs);
         reservoirs.copy_from_slice(&view.conduction.reservoirs);
     }
 
@@ -40,11 +42,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     pub(super) fn prepare(&mut self, view: &ExplicitView<'_, S, D>) -> Result<(), StepFailure> {
         self.y.copy_from_slice(&self.y0);
         self.evaluate_loads(view, view.state.time.value)?;
-        let mut rates = core::mem::take(&mut self.end.rates);
-        let found = self.find_rates(0, From::Model, &mut rates);
-        self.end.rates = rates;
-        found?;
+        self.find_rates(0, From::Model, END)?;
         core::mem::swap(&mut self.start, &mut self.end);
+        self.rows.swap(START, END);
         self.set_targets(view.state);
         self.is_ready = true;
         Ok(())

@@ -106,39 +106,70 @@ impl<S: Real> Inertia<S> {
         }
     }
 
-    /// ω with `I ω = J`, by elimination with the largest diagonal entry that is left as pivot. There is no
-    /// arm in directions whose pivot vanishes, and no momentum: ω is zero there.
+    /// Eliminated with the largest diagonal entry that is left as pivot.
+    pub(super) fn eliminate<const D: usize>(mut self) -> Eliminated<S> {
+        let matrix = &mut self.matrix;
+        let (mut order, mut rank) = ([0, 1, 2], 0);
+        if D == 3 && S::LANES == 1 {
+            let least = least_pivot::<S>() * (matrix[0][0] + matrix[1][1] + matrix[2][2]);
+            for step in 0..3 {
+                let mut best = step;
+                for other in step + 1..3 {
+                    let [own, found] = [order[other], order[best]].map(|axis| matrix[axis][axis]);
+                    if found.less(own).all() {
+                        best = other;
+                    }
+                }
+                order.swap(step, best);
+                let pivot = order[step];
+                if matrix[pivot][pivot].at_most(least).all() {
+                    break;
+                }
+                rank += 1;
+                for &row in &order[rank..] {
+                    let factor = matrix[row][pivot] / matrix[pivot][pivot];
+                    for &column in &order[rank..] {
+                        matrix[row][column] -= factor * matrix[pivot][column];
+                    }
+                    // Not needed any more, but the factor is.
+                    matrix[row][pivot] = factor;
+                }
+            }
+        }
+        Eliminated {
+            matrix: self.matrix,
+            order,
+            rank,
+        }
+    }
+}
+
+/// Moments of inertia after the elimination; as they were in the plane, and for several numbers, whose pivots
+/// may differ.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Eliminated<S> {
+    matrix: [[S; 3]; 3],
+    order: [usize; 3],
+    rank: usize,
+}
+
+impl<S: Real> Eliminated<S> {
+    /// ω with `I ω = J`. There is no arm in directions whose pivot vanishes, and no momentum: ω is zero there.
     pub(super) fn solve<const D: usize>(&self, mut right: [S; 3]) -> [S; 3] {
         let zero = S::zero();
         if D == 2 {
             let inertia = self.matrix[2][2];
-            let is_none = inertia.at_most(zero).all();
-            return [zero, zero, if is_none { zero } else { right[2] / inertia }];
+            let is_none = inertia.at_most(zero);
+            return [zero, zero, S::select(is_none, zero, right[2] / inertia)];
         }
-        let mut matrix = self.matrix;
-        let trace = matrix[0][0] + matrix[1][1] + matrix[2][2];
-        let least = least_pivot::<S>() * trace;
-        let (mut order, mut rank) = ([0, 1, 2], 0);
-        for step in 0..3 {
-            let mut best = step;
-            for other in step + 1..3 {
-                let [own, found] = [order[other], order[best]].map(|axis| matrix[axis][axis]);
-                if found.less(own).all() {
-                    best = other;
-                }
-            }
-            order.swap(step, best);
+        if S::LANES > 1 {
+            return self.solve_lanes(right);
+        }
+        let (matrix, order, rank) = (&self.matrix, &self.order, self.rank);
+        for step in 0..rank {
             let pivot = order[step];
-            if matrix[pivot][pivot].at_most(least).all() {
-                break;
-            }
-            rank += 1;
-            for &row in &order[rank..] {
-                let factor = matrix[row][pivot] / matrix[pivot][pivot];
-                for &column in &order[rank..] {
-                    matrix[row][column] -= factor * matrix[pivot][column];
-                }
-                right[row] -= factor * right[pivot];
+            for &row in &order[step + 1..] {
+                right[row] -= matrix[row][pivot] * right[pivot];
             }
         }
         let mut omega = [zero; 3];
@@ -149,6 +180,20 @@ impl<S: Real> Inertia<S> {
                 rest - matrix[pivot][column] * omega[column]
             });
             omega[pivot] = rest / matrix[pivot][pivot];
+        }
+        omega
+    }
+
+    /// The same for each of several numbers alone.
+    fn solve_lanes(&self, right: [S; 3]) -> [S; 3] {
+        let mut omega = [S::zero(); 3];
+        for (axis, omega) in omega.iter_mut().enumerate() {
+            *omega = S::pack(|lane| {
+                let matrix = self.matrix.map(|row| row.map(|entry| entry.lane(lane)));
+                let right = right.map(|component| component.lane(lane));
+                let eliminated = Inertia::<f64> { matrix }.eliminate::<3>();
+                eliminated.solve::<3>(right)[axis]
+            });
         }
         omega
     }
@@ -174,7 +219,7 @@ mod tests {
         for (mass, arm) in [1.0, 2.0, 3.0].into_iter().zip(&arms) {
             add(&mut momentum, mass, &moment(arm, &spin(&omega, arm)));
         }
-        let found = inertia(&arms).solve::<3>(momentum);
+        let found = inertia(&arms).eliminate::<3>().solve::<3>(momentum);
         for (found, omega) in found.into_iter().zip(omega) {
             assert!((found - omega).abs() < 1e-15, "{found} {omega}");
         }
@@ -191,7 +236,7 @@ mod tests {
                 add(&mut sum, mass, &moment(arm, &spin(&omega, arm)));
                 sum
             });
-            let found = inertia(&[line, far]).solve::<3>(momentum);
+            let found = inertia(&[line, far]).eliminate::<3>().solve::<3>(momentum);
             assert!(found.iter().all(|x| x.abs() < 10.0), "{found:?}");
             let again = [1.0, 2.0].into_iter().zip([&line, &far]);
             let again = again.fold([0.0; 3], |mut sum, (mass, arm)| {

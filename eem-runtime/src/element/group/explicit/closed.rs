@@ -2,7 +2,7 @@
 
 use crate::element::kinematics::{Arms, Gradient, Kinematics};
 use crate::material::free_energy::{Array, FreeEnergy, Rates};
-use crate::number::scalar::Real;
+use crate::number::scalar::{Mask, Real};
 
 /// What was found of a point when it was closed last.
 #[derive(Clone, Copy)]
@@ -29,6 +29,36 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> Closed<S, M
             },
             viscosities: (viscosities, viscosities),
             gradient: Gradient::<K, S, D>::filled(nowhere),
+        }
+    }
+
+    /// Something else was found; what was known before stays for the numbers that wait.
+    #[inline]
+    pub(super) fn replace(&mut self, waits: S::Mask, mut found: Self) {
+        if S::LANES > 1 && waits.any() {
+            found.keep(waits, self);
+        }
+        *self = found;
+    }
+
+    fn keep(&mut self, waits: S::Mask, old: &Self) {
+        let keep = |new: &mut S, old: S| *new = S::select(waits, old, *new);
+        keep(&mut self.theta, old.theta);
+        for index in 0..M::Variables::LEN {
+            keep(&mut self.rates.forces[index], old.rates.forces[index]);
+            keep(&mut self.rates.slopes[index], old.rates.slopes[index]);
+        }
+        for k in 0..M::DASHPOTS {
+            keep(&mut self.viscosities.0[k], old.viscosities.0[k]);
+            keep(&mut self.viscosities.1[k], old.viscosities.1[k]);
+        }
+        for a in 0..M::MEASURES {
+            let arms = self.gradient[a].as_mut().iter_mut();
+            for (arm, old) in arms.zip(old.gradient[a].as_ref()) {
+                for axis in 0..D {
+                    keep(&mut arm[axis], old[axis]);
+                }
+            }
         }
     }
 

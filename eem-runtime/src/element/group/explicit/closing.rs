@@ -10,10 +10,9 @@ use crate::element::group::explicit::rates::{Found, arms_of, pull_nodes};
 use crate::element::group::explicit::view::{ClosingView, StageRates, StageView};
 use crate::element::group::point::Point;
 use crate::element::kinematics::{Arms, Kinematics};
-use crate::element::state::Energy;
 use crate::material::free_energy::{Array, FreeEnergy, Rates};
 use crate::material::inversion::temperature_near;
-use crate::number::scalar::{Mask, Real};
+use crate::number::scalar::{Mask, Real, unless};
 
 /// Evaluations of a temperature after which the safeguarded search takes over. Newton's method from the
 /// temperature of the stages needs one or two.
@@ -87,10 +86,10 @@ where
     ) -> Result<(), StateError> {
         let mut closed = self.closed.iter();
         for (member, nodes) in self.elements.members.iter().zip(&self.places) {
-            let motion = arms_of::<K, S, D>(nodes, view.velocities);
+            let motion = arms_of::<K, S, D>(nodes, rates.row);
             let mut pull = Arms::<K, S, D>::filled([S::zero(); D]);
             for (point, closed) in member.points.as_ref().iter().zip(&mut closed) {
-                let theta = point.temperature_in(view.temperatures);
+                let theta = point.temperature_in(&view.y[view.offsets.temperatures..]);
                 let (of_point, viscosities) = closed.at(theta);
                 let found = Found {
                     theta,
@@ -99,12 +98,12 @@ where
                     gradient: &closed.gradient,
                 };
                 if !point.write_rates(view, &motion, &found, rates, &mut pull) {
-                    let r = arms_of::<K, S, D>(nodes, view.positions);
+                    let r = arms_of::<K, S, D>(nodes, view.y);
                     let measures = point.kinematics.measure(&r);
                     return Err(point.refuse(&found, &r, &measures));
                 }
             }
-            pull_nodes::<K, S, D>(nodes, &pull, rates.forces);
+            pull_nodes::<K, S, D>(nodes, &pull, &mut rates.row[view.offsets.momenta..]);
         }
         Ok(())
     }
@@ -141,17 +140,24 @@ where
             }
             _ => (theta, theta, at(theta)),
         };
-        closed.theta = theta;
-        closed.rates = rates;
-        closed.gradient = self.kinematics.gradient(r, &measures);
-        if M::DASHPOTS > 0 {
-            closed.viscosities = self.model.viscosity(theta);
-        }
+        let waits = view.waits[component as usize];
+        let found = Closed {
+            theta,
+            rates,
+            viscosities: match M::DASHPOTS {
+                0 => closed.viscosities,
+                _ => self.model.viscosity(theta),
+            },
+            gradient: self.kinematics.gradient(r, &measures),
+        };
+        closed.replace(waits, found);
         self.unless_infinite(psi)?;
         let (mut energy, mut magnitude) = (psi, psi.abs());
+        let keep = |old: S, new: S| unless(waits, old, new);
         if let Some(slot) = thermal {
+            let kept = view.next.entropies.values()[slot];
             if is_held {
-                view.next.entropies.set(slot, entropy);
+                view.next.entropies.set(slot, keep(kept, entropy));
             }
             let kept = view.next.entropies.values()[slot];
             let capacity = rates.forces[Self::TEMPERATURE];
@@ -160,21 +166,21 @@ where
             // Stationary in θ at the kept entropy: the last correction of θ does not change it.
             energy = psi + theta * kept;
             magnitude = energy.abs() + theta * (kept.abs() + capacity);
-            view.temperatures[slot] = settled;
-            view.capacities[slot] = capacity;
+            view.temperatures[slot] = keep(view.temperatures[slot], settled);
+            view.capacities[slot] = keep(view.capacities[slot], capacity);
         }
-        view.next.energies[self.element.index] = Energy {
-            value: energy,
-            magnitude,
-        };
         let sum = &mut view.energies[component as usize];
-        sum.value.add(energy);
-        sum.magnitude += magnitude;
+        sum.add(waits, [energy, magnitude]);
+        let stored = &mut view.next.energies[self.element.index];
+        stored.value = keep(stored.value, energy);
+        stored.magnitude = keep(stored.magnitude, magnitude);
         Ok(())
     }
 
     /// The temperature of an entropy near a guess by Newton's method in ln θ: the one at which the model
     /// was last evaluated, the corrected one, and what was evaluated.
+    ///
+    /// Of several numbers each stops where it would alone, and waits for the others.
     #[inline]
     fn temperature_of<T>(
         &self,
@@ -188,38 +194,48 @@ where
         // √u, whose square is a rounding.
         let enough = (S::from_f64(0.5) * S::EPSILON).sqrt();
         let mut theta = guess;
+        let (mut is_settled, mut is_lost) = (S::Mask::none(), S::Mask::none());
         for _ in 0..MOST_EVALUATIONS {
             let (rates, values) = at(theta);
             let capacity = rates.forces[Self::TEMPERATURE];
             let correction = (entropy - values.as_ref()[0]) / capacity;
             let size = correction.abs();
             let is_near = S::zero().less(capacity) & size.at_most(S::from_f64(LARGEST_CORRECTION));
-            if !is_near.all() {
-                break;
-            }
-            if size.at_most(enough).all() {
+            is_lost = is_lost | !is_near;
+            is_settled = (is_settled | size.at_most(enough)) & !is_lost;
+            if is_settled.all() {
                 return Ok((theta, theta + theta * correction, (rates, values)));
             }
-            theta *= correction.exp();
+            if (is_settled | is_lost).all() {
+                break;
+            }
+            let next = theta * correction.exp();
+            theta = unless(is_settled | is_lost, theta, next);
         }
-        self.search(x, at, [entropy, guess])
+        self.search(x, at, [entropy, guess], (is_settled, theta))
     }
 
-    /// The same from a guess that is not nearly right.
+    /// The same from a guess that is not nearly right; for several numbers only where Newton's method has not
+    /// settled on a temperature.
     #[cold]
-    fn search<T: Copy>(
+    fn search<T: Copy + AsRef<[S]>>(
         &self,
         x: &M::Variables,
         at: &impl Fn(S) -> (Rates<M::Variables>, T),
         [entropy, guess]: [S; 2],
+        (is_settled, settled): (S::Mask, S),
     ) -> Result<Settled<S, M, T>, StateError> {
         let caloric_at = self.model.caloric_at(*x);
         let enough = S::from_f64(0.5) * S::EPSILON.sqrt();
         let found = temperature_near(|theta| (caloric_at(theta).0, []), entropy, guess, enough);
-        let (theta, []) = found.map_err(|source| {
+        let (found, []) = found.map_err(|source| {
             let entropy = entropy.to_f64();
             Infeasible::Entropy { entropy, source }.of(self.element)
         })?;
-        Ok((theta, theta, at(theta)))
+        let theta = S::select(is_settled, settled, found);
+        let (rates, values) = at(theta);
+        let correction = (entropy - values.as_ref()[0]) / rates.forces[Self::TEMPERATURE];
+        let corrected = S::select(is_settled, theta + theta * correction, theta);
+        Ok((theta, corrected, (rates, values)))
     }
 }

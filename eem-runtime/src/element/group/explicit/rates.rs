@@ -40,13 +40,14 @@ where
         rates: &mut StageRates<'_, S>,
     ) -> Result<(), StateError> {
         for (member, nodes) in self.elements.members.iter().zip(&self.places) {
-            let r = arms_of::<K, S, D>(nodes, view.positions);
-            let motion = arms_of::<K, S, D>(nodes, view.velocities);
+            // Positions and velocities are the first parts of their vectors.
+            let r = arms_of::<K, S, D>(nodes, view.y);
+            let motion = arms_of::<K, S, D>(nodes, rates.row);
             let mut pull = Arms::<K, S, D>::filled([S::zero(); D]);
             for point in member.points.as_ref() {
                 point.add_rates(view, [&r, &motion], rates, &mut pull)?;
             }
-            pull_nodes::<K, S, D>(nodes, &pull, rates.forces);
+            pull_nodes::<K, S, D>(nodes, &pull, &mut rates.row[view.offsets.momenta..]);
         }
         Ok(())
     }
@@ -61,8 +62,8 @@ pub(super) fn arms_of<K: Kinematics<S, D>, S: Real, const D: usize>(
     let points = coordinates.as_chunks::<D>().0;
     let first = &points[nodes[0] as usize];
     let mut arms = Arms::<K, S, D>::filled([S::zero(); D]);
-    for (arm, &node) in arms.as_mut().iter_mut().zip(&nodes.as_ref()[1..]) {
-        let other = &points[node as usize];
+    for (index, arm) in arms.as_mut().iter_mut().enumerate() {
+        let other = &points[nodes[index + 1] as usize];
         for axis in 0..D {
             arm[axis] = other[axis] - first[axis];
         }
@@ -78,12 +79,14 @@ pub(super) fn pull_nodes<K: Kinematics<S, D>, S: Real, const D: usize>(
     forces: &mut [S],
 ) {
     let points = forces.as_chunks_mut::<D>().0;
-    for (arm, &node) in pull.as_ref().iter().zip(&nodes.as_ref()[1..]) {
-        for (force, &pull) in points[node as usize].iter_mut().zip(arm) {
-            *force -= pull;
+    for (index, arm) in pull.as_ref().iter().enumerate() {
+        let force = &mut points[nodes[index + 1] as usize];
+        for axis in 0..D {
+            force[axis] -= arm[axis];
         }
-        for (force, &pull) in points[nodes[0] as usize].iter_mut().zip(arm) {
-            *force += pull;
+        let force = &mut points[nodes[0] as usize];
+        for axis in 0..D {
+            force[axis] += arm[axis];
         }
     }
 }
@@ -125,7 +128,8 @@ where
         }
     }
 
-    #[inline]
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "arms and pull stay in registers")]
     fn add_rates(
         &self,
         view: &StageView<'_, S>,
@@ -135,8 +139,8 @@ where
     ) -> Result<(), StateError> {
         let measures = self.kinematics.measure(r);
         let gradient = self.kinematics.gradient(r, &measures);
-        let theta = self.temperature_in(view.temperatures);
-        let x = self.variables_at(&measures, view.viscous, theta);
+        let theta = self.temperature_in(&view.y[view.offsets.temperatures..]);
+        let x = self.variables_at(&measures, &view.y[view.offsets.viscous..], theta);
         let found = self.model.rates(&x);
         let viscosities = if M::DASHPOTS > 0 {
             self.model.viscosity(theta).0
@@ -157,7 +161,11 @@ where
     }
 
     /// Adds its pull, and writes its rates; whether all of them are numbers.
-    #[inline]
+    #[inline(always)]
+    #[expect(
+        clippy::inline_always,
+        reason = "what was found stays in registers, and there are two callers"
+    )]
     pub(super) fn write_rates(
         &self,
         view: &StageView<'_, S>,
@@ -175,11 +183,12 @@ where
             drift += slopes[a] * speed;
         }
         let first = self.slots().viscous;
+        let creeping = view.offsets.viscous + first;
         let (mut heat, mut is_sound) = (S::zero(), true);
         for k in 0..M::DASHPOTS {
             let g = forces[M::MEASURES + k];
             let creep = g / found.viscosities[k];
-            rates.creep[first + k] = creep;
+            rates.row[creeping + k] = creep;
             rates.powers[first + k] = g * creep;
             heat += g * creep;
             drift += slopes[M::MEASURES + k] * creep;
@@ -189,13 +198,14 @@ where
             return is_sound && power.is_finite();
         };
         let capacity = forces[Self::TEMPERATURE];
-        let flow = rates.heating[slot];
+        let heated = view.offsets.temperatures + slot;
+        let flow = rates.row[heated];
         let heating = (flow + heat - found.theta * drift) / capacity;
         if let Some(supply) = rates.supply.get_mut(slot) {
             *supply = power + flow;
         }
         let is_held = view.held.get(slot).copied().unwrap_or(false);
-        rates.heating[slot] = if is_held { S::zero() } else { heating };
+        rates.row[heated] = if is_held { S::zero() } else { heating };
         let is_stable = S::zero().less(capacity) & S::zero().less(found.theta);
         is_sound && is_stable.all() && heating.is_finite()
     }

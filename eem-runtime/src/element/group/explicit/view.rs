@@ -1,19 +1,49 @@
 //! What elements see of an explicit scheme.
 
+use crate::element::layout::Layout;
 use crate::element::state::State;
 use crate::number::compensated::Total;
-use crate::number::scalar::Real;
+use crate::number::scalar::{Real, unless};
+
+/// Where the parts of a stage vector begin: positions, momenta, viscous stretches, temperatures of thermal
+/// slots and then of reservoirs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Offsets {
+    pub(crate) momenta: usize,
+    pub(crate) viscous: usize,
+    pub(crate) temperatures: usize,
+    pub(crate) reservoirs: usize,
+    pub(crate) size: usize,
+    /// How long vectors are, with zeros at their ends.
+    pub(crate) padded: usize,
+}
+
+impl Offsets {
+    /// The length of vectors is a multiple of this, for the registers of the machine.
+    pub(crate) const WIDTH: usize = 4;
+
+    /// With so many coordinates and reservoirs.
+    pub(crate) fn new(coordinates: usize, layout: &Layout, reservoirs: usize) -> Self {
+        let viscous = 2 * coordinates;
+        let temperatures = viscous + layout.viscous;
+        let size = temperatures + layout.thermal + reservoirs;
+        Self {
+            momenta: coordinates,
+            viscous,
+            temperatures,
+            reservoirs: temperatures + layout.thermal,
+            size,
+            padded: size.next_multiple_of(Self::WIDTH),
+        }
+    }
+}
 
 /// The state of a scene at a stage.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StageView<'a, S> {
-    /// q and its rate, place after place, m and m/s.
-    pub(crate) positions: &'a [S],
-    pub(crate) velocities: &'a [S],
-    /// γ, m.
-    pub(crate) viscous: &'a [S],
-    /// θ per thermal slot, K.
-    pub(crate) temperatures: &'a [S],
+    pub(crate) offsets: &'a Offsets,
+    /// q, p, γ and θ, place after place and slot after slot.
+    pub(crate) y: &'a [S],
     /// Whether a thermostat gives the temperature, per thermal slot; empty without thermostats.
     pub(crate) held: &'a [bool],
 }
@@ -21,12 +51,9 @@ pub(crate) struct StageView<'a, S> {
 /// The rates of a stage.
 #[derive(Debug)]
 pub(crate) struct StageRates<'a, S> {
-    /// Forces on the places; those of elements are added, N.
-    pub(crate) forces: &'a mut [S],
-    /// `γ̇`, m/s.
-    pub(crate) creep: &'a mut [S],
-    /// On entry the heat that flows into each thermal slot, W; then `θ̇`, K/s, zero where it is held.
-    pub(crate) heating: &'a mut [S],
+    /// Of the stage vector. On entry velocities, loads and the heat that flows into each thermal slot, W; then
+    /// with the forces of elements, `γ̇` and `θ̇`, which is zero where the temperature is held.
+    pub(crate) row: &'a mut [S],
     /// `g γ̇` of each dashpot, W.
     pub(crate) powers: &'a mut [S],
     /// `f λ̇` and the heat that flows in, of each thermal slot, W; empty without thermostats.
@@ -38,6 +65,8 @@ pub(crate) struct StageRates<'a, S> {
 pub(crate) struct ClosingView<'a, S: Real> {
     /// Whether a component is still to be closed.
     pub(crate) open: &'a [bool],
+    /// Of several numbers in a component, those that keep what they have.
+    pub(crate) waits: &'a [S::Mask],
     pub(crate) positions: &'a [S],
     pub(crate) viscous: &'a [S],
     /// θ per thermal slot: guesses that become temperatures, except where it is held, K.
@@ -67,6 +96,23 @@ impl<S: Real> ComponentEnergy<S> {
             value: Total::new(),
             magnitude: S::zero(),
         }
+    }
+
+    /// Adds the energy of an element and its magnitude, except for numbers that wait.
+    #[inline]
+    pub(crate) fn add(&mut self, waits: S::Mask, [energy, magnitude]: [S; 2]) {
+        self.value.add(unless(waits, S::zero(), energy));
+        self.magnitude += unless(waits, S::zero(), magnitude);
+    }
+
+    /// Of no elements, except for numbers that wait.
+    pub(crate) fn clear(&mut self, waits: S::Mask) {
+        let mut cleared = Self::none();
+        if S::LANES > 1 {
+            cleared.value = Total::select(waits, self.value, cleared.value);
+            cleared.magnitude = S::select(waits, self.magnitude, cleared.magnitude);
+        }
+        *self = cleared;
     }
 }
 

@@ -1,11 +1,11 @@
 //! The energy of a component, and heat that puts it back.
 
 use super::super::Explicit;
-use super::{MOST_TURNS, Verdict};
+use super::Verdict;
 use crate::element::group::points;
 use crate::element::state::State;
 use crate::number::compensated::Total;
-use crate::number::scalar::{Mask, Real};
+use crate::number::scalar::{Mask, Real, unless};
 use core::ops::Range;
 
 /// The part of what elements produce in a step that heat may change.
@@ -68,41 +68,66 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Puts momenta back, and then energy by heat as long as no element has to be evaluated for it.
+    ///
+    /// Of several numbers each goes the way that it would go alone.
     pub(super) fn balance(&mut self, index: usize, next: &mut State<S>) -> Verdict {
         self.restore_momenta(index);
         loop {
-            let [defect, magnitude] = self.defect_of(index);
+            let is_finite = self.look(index);
             let progress = &mut self.scratch.progress[index];
-            progress.defect = defect;
-            if progress.scale.equal(S::zero()).all() {
-                progress.scale = magnitude;
-                let has_terms = S::zero().less(magnitude).all();
-                progress.correction = if has_terms {
-                    defect / magnitude
-                } else {
-                    S::zero()
-                };
-            }
-            let enough = S::from_f64(0.5 * ENOUGH) * S::EPSILON * progress.scale;
-            if progress.is_rigid || defect.abs().at_most(enough).all() {
+            if progress.is_rigid || progress.is_closed.all() {
                 return Verdict::Closed;
             }
             let turns = progress.turns;
             progress.turns += 1;
-            if turns >= MOST_TURNS || !defect.is_finite() {
+            let mut heats = S::Mask::none();
+            if turns < HEAT_TURNS && is_finite && !self.is_motion_first {
+                heats = self.heat_within_share(index, next);
+            }
+            let progress = &mut self.scratch.progress[index];
+            progress.is_asking = !(heats | progress.is_closed);
+            if progress.is_asking.any() {
                 return Verdict::Asks;
             }
-            let produced = self.produced_heat(index);
-            let most = S::from_f64(HEAT_SHARE) * produced;
-            let heats = turns < HEAT_TURNS && !self.is_motion_first;
-            if !(heats && defect.abs().at_most(most).all()) {
-                return Verdict::Asks;
-            }
-            self.scratch.progress[index].has_heated = true;
-            if !self.heat(index, defect / produced, next) {
+            if !self.scratch.waits[index].all() {
                 return Verdict::Changed;
             }
         }
+    }
+
+    /// Looks at the energy of a component; whether it is a number.
+    fn look(&mut self, index: usize) -> bool {
+        let [defect, magnitude] = self.defect_of(index);
+        let progress = &mut self.scratch.progress[index];
+        progress.defect = defect;
+        let begins = progress.scale.equal(S::zero());
+        if begins.any() {
+            let has_terms = S::zero().less(magnitude);
+            let correction = S::select(has_terms, defect / magnitude, S::zero());
+            progress.correction = S::select(begins, correction, progress.correction);
+            progress.scale = S::select(begins, magnitude, progress.scale);
+        }
+        let enough = S::from_f64(0.5 * ENOUGH) * S::EPSILON * progress.scale;
+        progress.is_closed = progress.is_closed | defect.abs().at_most(enough);
+        self.scratch.waits[index] = !S::Mask::none();
+        defect.is_finite()
+    }
+
+    /// Closes a component by heat where that is little beside what is produced; where that is.
+    fn heat_within_share(&mut self, index: usize, next: &mut State<S>) -> S::Mask {
+        let progress = &self.scratch.progress[index];
+        let (defect, is_closed) = (progress.defect, progress.is_closed);
+        let produced = self.produced_heat(index);
+        let most = S::from_f64(HEAT_SHARE) * produced;
+        let heats = defect.abs().at_most(most) & !is_closed;
+        if heats.any() {
+            let progress = &mut self.scratch.progress[index];
+            progress.has_heated = progress.has_heated | heats;
+            let part = unless(!heats, S::zero(), defect / produced);
+            let is_known = self.heat(index, part, next);
+            self.scratch.waits[index] = is_known | !heats;
+        }
+        heats
     }
 
     /// The heat that the elements of a component have produced themselves, `Σ Π θ`, J.
@@ -118,7 +143,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// Every element gets the part ε of what it has produced itself. Whether energy, temperatures and forces
     /// are known without another evaluation.
-    pub(super) fn heat(&mut self, index: usize, part: S, next: &mut State<S>) -> bool {
+    pub(super) fn heat(&mut self, index: usize, part: S, next: &mut State<S>) -> S::Mask {
         let scratch = &mut self.scratch;
         let lost = &mut scratch.progress[index].lost;
         let change = *lost * part;
@@ -127,12 +152,12 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             next.dissipated.add(change);
             self.new_books.targets[index].lost.add(change);
         }
-        let mut is_small = true;
+        let mut is_small = !S::Mask::none();
         for at in self.slots_of(index) {
             let slot = self.components.slots[at] as usize;
             let entropy = self.scratch.produced[slot] * part;
             if !entropy.equal(S::zero()).all() {
-                is_small &= self.warm(index, slot, entropy, next);
+                is_small = is_small & self.warm(index, slot, entropy, next);
             }
         }
         is_small
@@ -150,7 +175,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         slot: usize,
         entropy: S,
         next: &mut State<S>,
-    ) -> bool {
+    ) -> S::Mask {
         let half = S::from_f64(0.5);
         let theta = &mut self.y[self.offsets.temperatures + slot];
         let scratch = &mut self.scratch;
@@ -165,6 +190,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         *theta += *theta * ratio * (S::one() + half * ratio);
         // 2 √u: what is left out is the cube, and the second order of forces.
         let small = (S::EPSILON + S::EPSILON).sqrt();
-        ratio.abs().less(small).all()
+        ratio.abs().less(small)
     }
 }

@@ -2,9 +2,9 @@
 
 use super::super::Explicit;
 use super::super::components::{Component, Support};
-use super::super::vector::{Inertia, add, difference, dot, length, spin};
+use super::super::vector::{Eliminated, Inertia, add, difference, dot, length, spin};
 use crate::element::group::points;
-use crate::number::scalar::{Mask, Real};
+use crate::number::scalar::{Mask, Real, unless};
 
 /// The rigid part of the motion of a component.
 #[derive(Clone, Copy, Debug)]
@@ -16,10 +16,37 @@ pub(super) struct Rigid<S, const D: usize> {
     pub(super) omega: [S; 3],
 }
 
+/// A component that turns like a rigid body.
+#[derive(Clone, Copy, Debug)]
+struct Body<S, const D: usize> {
+    /// The anchor or the centre of mass, m.
+    origin: [S; D],
+    /// About it; none where nothing turns.
+    inertia: Option<Eliminated<S>>,
+}
+
+impl<S: Real, const D: usize> Body<S, D> {
+    /// The motion with these momenta.
+    fn motion(
+        &self,
+        component: &Component<S>,
+        (linear, angular): (&[S; D], &[S; 3]),
+    ) -> Rigid<S, D> {
+        let is_free = component.support == Support::Free;
+        let turning = self.inertia.map(|inertia| inertia.solve::<D>(*angular));
+        let zero = S::zero();
+        Rigid {
+            origin: self.origin,
+            velocity: linear.map(|p| if is_free { p / component.mass } else { zero }),
+            omega: turning.unwrap_or([zero; 3]),
+        }
+    }
+}
+
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// Turns a single mass on an anchor so that its arm is perpendicular to its angular momentum: no
-    /// momentum gives it one along its arm.
-    pub(super) fn turn_single_mass(&mut self, index: usize) {
+    /// momentum gives it one along its arm. Of several numbers it turns only some.
+    pub(super) fn turn_single_mass(&mut self, index: usize, which: S::Mask) {
         let component = &self.components.all[index];
         let Support::Anchor(anchor) = component.support else {
             return;
@@ -36,16 +63,14 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let origin = positions[anchor];
         let arm = difference(&positions[place], &origin);
         let [along, far] = [length(&target), length(&arm)];
-        let is_turning = S::zero().less(along) & S::zero().less(far);
-        if !is_turning.all() {
-            return;
-        }
         let axis = target.map(|component| component / along);
         let direction = arm.map(|component| component / far);
         let elevation = (0..D).fold(S::zero(), |sum, i| sum + axis[i] * direction[i]);
         let turn = spin(&axis, &direction);
         let sine = length(&turn);
-        if sine.at_most(S::zero()).all() {
+        let zero = S::zero();
+        let is_turning = zero.less(along) & zero.less(far) & zero.less(sine) & which;
+        if !is_turning.any() {
             return;
         }
         // About J × q, by the elevation of the arm above the plane that it has to be in.
@@ -55,51 +80,56 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         let angle = elevation.atan2(sine);
         let turned = rotated(&arm, &about, angle);
-        positions[place] = core::array::from_fn(|i| origin[i] + turned[i]);
-        *momentum = rotated(momentum, &about, angle);
+        let position = positions[place];
+        positions[place] =
+            core::array::from_fn(|i| S::select(is_turning, origin[i] + turned[i], position[i]));
+        let turned = rotated(momentum, &about, angle);
+        *momentum = core::array::from_fn(|i| S::select(is_turning, turned[i], momentum[i]));
     }
 
     /// The rigid motion that has these momenta, less what the component has already.
     pub(super) fn rigid(
         &self,
         component: &Component<S>,
-        (linear, angular): (&[S; D], &[S; 3]),
+        momenta: (&[S; D], &[S; 3]),
     ) -> Rigid<S, D> {
-        let mut rigid = Rigid {
-            origin: [S::zero(); D],
-            velocity: [S::zero(); D],
-            omega: [S::zero(); 3],
-        };
+        self.body(component).motion(component, momenta)
+    }
+
+    /// A component as it would turn as a rigid body.
+    fn body(&self, component: &Component<S>) -> Body<S, D> {
         let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
+        let mut body = Body {
+            origin: [S::zero(); D],
+            inertia: None,
+        };
         match component.support {
-            Support::Free => {
-                rigid.origin = self.center(component, positions);
-                rigid.velocity = linear.map(|p| p / component.mass);
-            }
-            Support::Anchor(place) => rigid.origin = positions[place],
-            Support::Several => return rigid,
+            Support::Free => body.origin = self.center(component, positions),
+            Support::Anchor(place) => body.origin = positions[place],
+            Support::Several => return body,
         }
         let is_free_mass = component.support == Support::Free && component.masses.len() == 1;
         if D < 2 || is_free_mass {
-            return rigid;
+            return body;
         }
         let mut inertia = Inertia::none();
         let is_single = D == 3 && component.masses.len() == 1;
         for place in component.masses.clone() {
-            let arm = difference(&positions[place], &rigid.origin);
+            let arm = difference(&positions[place], &body.origin);
             if is_single {
                 inertia.add_sphere(self.masses[place] * dot(&arm, &arm));
             } else {
                 inertia.add(self.masses[place], &arm);
             }
         }
-        rigid.omega = inertia.solve::<D>(*angular);
-        rigid
+        body.inertia = Some(inertia.eliminate::<D>());
+        body
     }
 
-    /// Adds a rigid motion to the momenta.
+    /// Adds a rigid motion to the momenta that do not wait.
     fn add_rigid(&mut self, index: usize, rigid: &Rigid<S, D>) {
         let component = &self.components.all[index];
+        let waits = self.scratch.waits[index];
         let offsets = self.offsets;
         let (positions, momenta) = self.y[..offsets.viscous].split_at_mut(offsets.momenta);
         let positions = points::<S, D>(positions);
@@ -107,8 +137,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for place in component.masses.clone() {
             let arm = difference(&positions[place], &rigid.origin);
             let turning = spin(&rigid.omega, &arm);
-            add(&mut momenta[place], self.masses[place], &rigid.velocity);
-            add(&mut momenta[place], self.masses[place], &turning);
+            let mut momentum = momenta[place];
+            add(&mut momentum, self.masses[place], &rigid.velocity);
+            add(&mut momentum, self.masses[place], &turning);
+            momenta[place] =
+                core::array::from_fn(|i| unless(waits, momenta[place][i], momentum[i]));
         }
     }
 
@@ -118,10 +151,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         if self.components.all[index].support == Support::Several {
             return;
         }
-        let target = self.new_books.targets[index];
+        let body = self.body(&self.components.all[index]);
         for _ in 0..if D == 3 { 2 } else { 1 } {
             let component = &self.components.all[index];
             let (linear, angular) = self.momenta_of(component);
+            let target = &self.new_books.targets[index];
             let mut missing = [S::zero(); D];
             let sums = target.linear.iter().zip(linear);
             for (missing, (sum, found)) in missing.iter_mut().zip(sums) {
@@ -131,7 +165,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 let sum = target.angular[axis];
                 (sum.value - angular[axis]) + sum.carry
             });
-            let rigid = self.rigid(component, (&missing, &lacking));
+            let rigid = body.motion(component, (&missing, &lacking));
             self.add_rigid(index, &rigid);
         }
     }

@@ -6,7 +6,7 @@ use super::super::{Explicit, ExplicitView};
 use super::momenta::{Rigid, rotated};
 use crate::element::group::points;
 use crate::element::state::State;
-use crate::number::scalar::{Mask, Real};
+use crate::number::scalar::{Discord, Mask, Real};
 use crate::step::error::StepFailure;
 
 impl<S: Real, const D: usize> Explicit<S, D> {
@@ -18,6 +18,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         (view, demand, scales): (&ExplicitView<'_, S, D>, Demand<S>, Scales<S>),
         next: &mut State<S>,
     ) -> Result<(), StepFailure> {
+        if S::LANES > 1 {
+            // Each has to be close to a turn of its own.
+            return Err(Discord.into());
+        }
         let largest = demand.largest_turn();
         let is_loaded = !self.quadrature.loads.is_empty() || self.gravity.is_some();
         let has_thermostat = self
@@ -54,6 +58,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             .add(-lost.change(self.books.targets[index].lost));
         *lost = self.books.targets[index].lost;
         self.scratch.progress[index].is_rigid = true;
+        self.scratch.waits[index] = S::Mask::none();
         self.scratch.open[index] = true;
         Ok(())
     }

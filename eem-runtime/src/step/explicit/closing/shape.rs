@@ -7,7 +7,7 @@ use super::momenta::Rigid;
 use super::{MOST_TURNS, Verdict};
 use crate::element::group::points;
 use crate::element::state::State;
-use crate::number::scalar::{Mask, Real};
+use crate::number::scalar::{Discord, Mask, Real, unless};
 
 /// The least part of what can give energy that is motion, for motion to give it.
 const LEAST_MOTION: f64 = 0.05;
@@ -37,51 +37,79 @@ struct Means<S, const D: usize> {
 }
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// Gives a component its energy by other means than heat.
+    /// Gives a component its energy by other means than heat, where it is asked for.
     pub(super) fn reshape(
         &mut self,
         index: usize,
         view: &ExplicitView<'_, S, D>,
         next: &mut State<S>,
-    ) -> Verdict {
+    ) -> Result<Verdict, Discord> {
         let progress = self.scratch.progress[index];
         let (defect, turns) = (progress.defect, progress.turns);
         if !defect.is_finite() {
-            return Verdict::Failed;
+            return Ok(Verdict::Failed);
         }
         let means = self.means(index, view);
         let share = defect / means.all;
-        let is_small = share.abs().less(S::from_f64(LARGEST_PART)).all();
+        let is_small = share.abs().less(S::from_f64(LARGEST_PART));
         let moves = (S::from_f64(LEAST_MOTION) * means.all).at_most(means.motion + means.motion)
             & (-means.motion).less(defect);
         let rest = S::from_f64(REST_OF_HEAT) * means.motion;
-        let is_rest = progress.has_heated && defect.abs().at_most(rest).all();
-        let has_motion = S::zero().less(means.motion).all();
-        if has_motion && (is_rest || (is_small && moves.all())) {
+        let is_rest = progress.has_heated & defect.abs().at_most(rest);
+        let has_motion = S::zero().less(means.motion);
+        let moves = progress.is_asking & has_motion & (is_rest | (is_small & moves));
+        if moves.any() {
             let x = defect / means.motion;
             let part = x / (S::one() + (S::one() + x).sqrt());
-            self.scale_motion(index, &means.rigid, part);
-            return Verdict::Closed;
+            self.scale_motion(index, &means.rigid, unless(!moves, S::zero(), part));
         }
-        if turns >= MOST_TURNS {
-            return self.unless_rounding(index);
+        let is_closed = progress.is_closed | moves;
+        self.scratch.progress[index].is_closed = is_closed;
+        let is_left = progress.is_asking & !moves;
+        let mut shifts = is_left & is_small;
+        if turns >= MOST_TURNS || turns > SHAPE_TURNS {
+            shifts = S::Mask::none();
         }
-        if is_small && turns <= SHAPE_TURNS {
+        if shifts.any() {
+            let share = unless(!shifts, S::zero(), share);
             self.shift(index, (view, &means), share, next);
-            self.turn_single_mass(index);
-            return Verdict::Changed;
+            self.turn_single_mass(index, shifts);
+            self.scratch.waits[index] = self.scratch.waits[index] & !shifts;
         }
-        if self.sink(index, defect, next) {
-            return Verdict::Changed;
+        let is_left = is_left & !shifts;
+        if is_left.any() && !self.sinks(index, is_left, next)? {
+            return Ok(self.unless_rounding(index, is_left));
         }
-        self.unless_rounding(index)
+        Ok(if is_closed.all() {
+            Verdict::Closed
+        } else {
+            Verdict::Changed
+        })
+    }
+
+    /// Energy to entropy or back where nothing else is left, unless the turns are over; whether there is where.
+    fn sinks(
+        &mut self,
+        index: usize,
+        is_left: S::Mask,
+        next: &mut State<S>,
+    ) -> Result<bool, Discord> {
+        let progress = &self.scratch.progress[index];
+        let defect = progress.defect;
+        if !is_left.decide()? || progress.turns >= MOST_TURNS || !self.sink(index, defect, next)? {
+            return Ok(false);
+        }
+        self.scratch.waits[index] = S::Mask::none();
+        Ok(true)
     }
 
     /// What is left is rounding, or nothing can give it.
-    fn unless_rounding(&self, index: usize) -> Verdict {
-        let progress = &self.scratch.progress[index];
+    fn unless_rounding(&mut self, index: usize, is_left: S::Mask) -> Verdict {
+        let progress = &mut self.scratch.progress[index];
         let bound = S::from_f64(0.5 * FROZEN) * S::EPSILON * progress.scale;
-        if progress.defect.abs().at_most(bound).all() {
+        let is_rounding = progress.defect.abs().at_most(bound);
+        progress.is_closed = progress.is_closed | (is_left & is_rounding);
+        if progress.is_closed.all() {
             Verdict::Closed
         } else {
             Verdict::Failed
@@ -241,14 +269,14 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Energy to entropy, or back as far as it was produced in this step; whether there is where.
-    fn sink(&mut self, index: usize, defect: S, next: &mut State<S>) -> bool {
-        if defect.less(S::zero()).all() {
+    fn sink(&mut self, index: usize, defect: S, next: &mut State<S>) -> Result<bool, Discord> {
+        if defect.less(S::zero()).decide()? {
             let produced = self.produced_heat(index);
-            if !S::zero().less(produced).all() {
-                return false;
+            if !S::zero().less(produced).decide()? {
+                return Ok(false);
             }
             self.heat(index, (defect / produced).maximum(-S::one()), next);
-            return true;
+            return Ok(true);
         }
         let slots = self
             .slots_of(index)
@@ -259,7 +287,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let all = slots.filter(takes).fold(S::zero(), |all, slot| {
             all + self.scratch.capacities[slot] * temperatures[slot]
         });
-        if S::zero().less(all).all() {
+        if S::zero().less(all).decide()? {
             for at in self.slots_of(index) {
                 let slot = self.components.slots[at] as usize;
                 let is_held = self.held.get(slot).copied().unwrap_or(false);
@@ -268,7 +296,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                     self.warm(index, slot, entropy, next);
                 }
             }
-            return true;
+            return Ok(true);
         }
         let mut losing = self.components.losing.iter();
         let loses = losing.any(|&(component, _)| component as usize == index);
@@ -277,6 +305,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             next.dissipated.add(defect);
             self.new_books.targets[index].lost.add(defect);
         }
-        loses
+        Ok(loses)
     }
 }
