@@ -239,3 +239,59 @@ fn events_and_output_times_work_in_both_kinds() {
     run.run_until_event(3.0, 1e-6, height, go_on).unwrap();
     assert!((run.time() - FRAC_PI_2).abs() < 1e-2, "{}", run.time());
 }
+
+#[test]
+fn samples_are_found_within_steps_at_the_limit_of_stability() {
+    let spring = Softening {
+        stiffness: 1.1e4,
+        capacity: 27.8,
+        kelvins: 100.0,
+        ..ROTOR
+    };
+    let build = || {
+        let mut scene = Scene::<2>::new();
+        let pivot = scene.anchor([0.0; 2]);
+        let mass = scene.mass(9.9, [1.0, 0.0], [0.0, 1.0]);
+        let spring = scene.spring(spring.clone(), [pivot, mass]);
+        let air = scene.reservoir(300.0);
+        scene.conduct(spring, air, 6308.0);
+        scene.set_temperature(spring, 346.6);
+        scene.prescribe_temperature(spring, |t| 346.6 + 28.4 * (3.97 * t).sin());
+        let mut run = Simulation::new(scene, Scheme::Auto, 1e-3).unwrap();
+        run.control_steps(Tolerance::new(6.2e-3)).unwrap();
+        run
+    };
+    let times: Vec<f64> = (1..=50).map(|k| 0.01 * f64::from(k)).collect();
+    let mut run = build();
+    run.sample_at(&times, |_| ControlFlow::Continue(()))
+        .unwrap();
+    for time in &times {
+        let mut run = build();
+        let clock = |run: &Simulation<2>| run.time() - time - 1e-3;
+        run.run_until_event(0.6, 1e-9, clock, go_on).unwrap();
+    }
+}
+
+#[test]
+fn calls_that_fail_leave_no_trace() {
+    let mut run = rotor(1e-3, |_| 300.0);
+    for _ in 0..120 {
+        run.step().unwrap();
+        let before = bits(&run);
+        let broken = |run: &Simulation<2>| {
+            if run.time().fract() == 0.5 {
+                1.0
+            } else {
+                f64::NAN
+            }
+        };
+        assert!(run.run_until_event(9.0, 0.0, broken, go_on).is_err());
+        assert_eq!(bits(&run), before);
+        let start = run.time();
+        let later = |run: &Simulation<2>| if run.time() > start { f64::NAN } else { 1.0 };
+        assert!(run.run_until_event(9.0, 0.0, later, go_on).is_err());
+        let after = bits(&run);
+        // What an explicit scheme foretells has no effect on the steps.
+        assert_eq!(after.split("past:").next(), before.split("past:").next());
+    }
+}

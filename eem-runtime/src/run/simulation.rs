@@ -12,6 +12,7 @@ pub(crate) mod generic;
 mod halves;
 mod inspect;
 pub(crate) mod linearize;
+mod remembering;
 mod resume;
 pub(crate) mod run;
 mod sampling;

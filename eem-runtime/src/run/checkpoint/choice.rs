@@ -13,5 +13,8 @@ use crate::step::scheme::Scheme;
 pub(crate) struct SavedChoice {
     #[cfg_attr(feature = "serde", serde(with = "super::scheme_name"))]
     pub(crate) scheme: Scheme,
+    /// That before a trial.
+    #[cfg_attr(feature = "serde", serde(with = "super::scheme_name"))]
+    pub(crate) previous: Scheme,
     pub(crate) choice: Choice,
 }

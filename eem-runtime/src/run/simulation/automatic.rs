@@ -163,6 +163,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let size = self.step.to_f64();
         if automatic.choice.tries_explicit(size) {
             let size = automatic.choice.begin_trial(size);
+            automatic.previous = self.in_use;
             self.go_over_to(explicit, control);
             self.step = S::from_f64(size).minimum(self.step);
         }
@@ -177,7 +178,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             Verdict::None => {}
             Verdict::Keep => control.memory.statistics.changes_of_scheme += 1,
             Verdict::Return(size) => {
-                let scheme = implicit(&control.memory.tolerance, automatic.is_second);
+                let scheme = automatic.previous;
                 self.go_over_to(scheme, control);
                 self.step = S::from_f64(size);
             }
@@ -227,6 +228,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let automatic = self.automatic.as_ref();
         automatic.map(|automatic| SavedChoice {
             scheme: self.in_use,
+            previous: automatic.previous,
             choice: automatic.choice,
         })
     }
@@ -245,10 +247,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             CANDIDATES.contains(&scheme) && (is_suited || !automatic.is_second)
         };
         match choice {
-            Some(saved) if !suits(saved.scheme) => Err(RestoreError::Scheme {
-                checkpoint: saved.scheme,
-                simulation: self.scheme,
-            }),
+            Some(saved) if !suits(saved.scheme) || !suits(saved.previous) => {
+                Err(RestoreError::Scheme {
+                    checkpoint: saved.scheme,
+                    simulation: self.scheme,
+                })
+            }
             found => Ok(found),
         }
     }
@@ -257,6 +261,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub(super) fn restore_choice(&mut self, saved: Option<SavedChoice>) {
         if let (Some(automatic), Some(saved)) = (&mut self.automatic, saved) {
             automatic.choice = saved.choice;
+            automatic.previous = saved.previous;
         }
     }
 }

@@ -2,12 +2,15 @@
 
 use crate::scene::entry::ElementEntry;
 use crate::step::automatic::Choice;
+use crate::step::scheme::Scheme;
 
 /// What a run with `Scheme::Auto` keeps besides.
 pub(super) struct Automatic<S> {
     pub(super) choice: Choice,
     /// Whether only schemes of second order can step the scene.
     pub(super) is_second: bool,
+    /// The scheme before a trial.
+    pub(super) previous: Scheme,
     /// Where the elements are, for the next scheme.
     pub(super) elements: Vec<ElementEntry<S>>,
     /// How often all elements have been evaluated by earlier schemes.
@@ -21,6 +24,7 @@ impl<S> Automatic<S> {
         Self {
             choice: Choice::new(),
             is_second,
+            previous: Scheme::EemTemperature,
             elements,
             evaluations: 0,
             is_motion_first: false,

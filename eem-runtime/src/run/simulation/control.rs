@@ -151,27 +151,30 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             // Each of the numbers needs steps of its own.
             return Err(self.refused(Discord.into()));
         }
-        let usual = self.step;
+        let memory = self.memory();
         let found = self.with_control(|run, control| match control {
             None => run.single_step(),
             Some(control) if run.automatic.is_some() => run.step_of_choice(control, end),
             Some(control) => run.find_accurate_step(control, end),
         });
         if found.is_err() {
-            self.step = usual;
+            self.remember_uncounted(memory);
         }
         found
     }
 
     /// Does something with the control taken out of the run, which gets it back even where a load panics.
-    fn with_control<T>(&mut self, act: impl FnOnce(&mut Self, Option<&mut Control<S>>) -> T) -> T {
+    pub(super) fn with_control<T>(
+        &mut self,
+        act: impl FnOnce(&mut Self, Option<&mut Control<S>>) -> T,
+    ) -> T {
         let control = self.control.take();
         let mut held = Held { run: self, control };
         let Held { run, control } = &mut held;
         act(run, control.as_deref_mut())
     }
 
-    /// The same of the scheme in use.
+    /// An accurate step of the scheme in use, not beyond `end`.
     pub(super) fn find_accurate_step(
         &mut self,
         control: &mut Control<S>,
@@ -264,11 +267,20 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Another step from where the last one began, of this size.
     pub(super) fn step_again(&mut self, size: S) -> Result<StepReport<S>, StepError> {
-        self.with_control(|run, control| {
-            match control.and_then(|control| control.halves.as_mut()) {
-                Some(halves) => run.step_in_halves(halves, size),
-                None => run.step_by(size),
+        self.with_control(|run, control| match control {
+            Some(Control {
+                halves: Some(halves),
+                ..
+            }) => run.step_in_halves(halves, size),
+            Some(control) => {
+                // As accurate as the last one, if that can be.
+                let demand = Demand::Within(control.memory.tolerance);
+                match run.try_step_by(size, demand) {
+                    Ok(Tried::Made(report)) => Ok(report),
+                    _ => run.step_by(size),
+                }
             }
+            None => run.step_by(size),
         })
     }
 }

@@ -2,12 +2,20 @@
 
 use crate::element::state::State;
 use crate::number::scalar::Real;
-use crate::run::checkpoint::SavedControl;
+use crate::run::checkpoint::{SavedChoice, SavedControl};
 use crate::step::control::Accuracy;
 use crate::step::solver::SavedPast;
 
 /// The smallest step that is tried, in units in the last place of the time, and of the first size.
 pub(super) const SMALLEST: f64 = 16.0;
+
+/// What is remembered of the steps so far.
+#[derive(Clone, Copy)]
+pub(super) struct Memory<S> {
+    pub(super) step: S,
+    pub(super) control: Option<SavedControl<S>>,
+    pub(super) choice: Option<SavedChoice>,
+}
 
 /// What step control remembers, and room for what it compares.
 pub(super) struct Control<S> {

@@ -70,17 +70,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             return Err(self.refused(StepFailure::EventFunction));
         }
         while self.is_before(end)? {
-            let control = self.control.as_ref().map(|control| control.memory);
-            let usual = self.step;
+            let memory = self.memory();
             let whole = self.step_towards(end)?;
             let looked = self.look_for(&mut function, whole, before, [end, tolerance]);
-            let (report, after, is_event) = looked.inspect_err(|_| {
-                // As if the step had never been made.
-                self.step = usual;
-                if let (Some(own), Some(before)) = (&mut self.control, control) {
-                    own.memory = before;
-                }
-            })?;
+            // After an error as if the step had never been made.
+            let looked = looked.inspect_err(|_| self.remember(memory));
+            let (report, after, is_event) = looked?;
             let stopped = observer(self, &report).is_break();
             if is_event {
                 return Ok(RunEnd::Event);
@@ -103,13 +98,22 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         [end, tolerance]: [S; 2],
     ) -> Result<(StepReport<S>, S, bool), StepError> {
         let after = self.value(function)?;
-        match Bracket::new(whole.step, [before, after]) {
-            None => Ok((whole, after, false)),
-            Some(bracket) => {
-                let report = self.locate(bracket, whole, [end, tolerance], function)?;
-                Ok((report, after, true))
-            }
+        let Some(bracket) = Bracket::new(whole.step, [before, after]) else {
+            return Ok((whole, after, false));
+        };
+        let error = match self.locate(bracket, whole, [end, tolerance], function) {
+            Ok(report) => return Ok((report, after, true)),
+            Err(error) => error,
+        };
+        // Where a step of the size that the event needs fails, one of half the size is kept, and the event looked
+        // for from there on.
+        let middle = self.time() + S::from_f64(0.5) * whole.step;
+        let failed = !matches!(error.failure, StepFailure::EventFunction);
+        if self.control.is_none() || !failed || !self.is_before(middle)? {
+            return Err(error);
         }
+        let shorter = self.step_in_scheme_towards(middle)?;
+        self.look_for(function, shorter, before, [end, tolerance])
     }
 
     /// Replaces the last step, `report`, by a shorter one that ends just behind the event.

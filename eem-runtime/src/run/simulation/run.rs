@@ -186,6 +186,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(report)
     }
 
+    /// The same without another choice of the scheme.
+    pub(super) fn step_in_scheme_towards(&mut self, end: S) -> Result<StepReport<S>, StepError> {
+        if self.control.is_none() {
+            return self.step_towards(end);
+        }
+        self.with_control(|run, control| match control {
+            Some(control) => run.find_accurate_step(control, end),
+            None => run.step_towards(end),
+        })
+    }
+
     /// The size of a step that ends at `end`, if one of this size would end there or beyond it.
     pub(super) fn size_towards(&self, end: S, full: S) -> Result<Option<S>, StepError> {
         let left = self.time_left(end);

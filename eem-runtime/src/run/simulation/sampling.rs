@@ -12,9 +12,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Runs until the last of these times, s, in the steps of [`run_until`](Self::run_until), and calls `observer` at
     /// each of them.
     ///
-    /// A time between the ends of a step is reached by a step of the scheme that is then taken back, so that the run
-    /// has the bits that it has without. What the observer sees is a state of the scheme, as accurate as the others,
-    /// which obeys the laws; an interpolation between steps would not. Each time costs a step.
+    /// A time between the ends of a step is reached by a step of the scheme from its beginning, or from the time before;
+    /// these are then taken back, so that the run has the bits that it has without. What the observer sees are states of
+    /// the scheme, as accurate as the others, which obey the laws; those of an interpolation between steps would not.
+    /// Entropy may fall by the error of the steps from the last time within a step to the next one behind its end, which
+    /// is reached on another way. Each time costs a step.
     /// [`run_at`](Self::run_at) makes the steps end at the times instead, which is cheaper where they are rare, and
     /// the way to meet a load that jumps.
     ///
@@ -86,32 +88,34 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ) -> Result<ControlFlow<()>, StepError> {
         let after = State::clone(&self.state);
         let past = self.stepper.past(&self.state);
+        let memory = self.memory();
         let counted = (self.worst, self.corrections);
-        let seen = self.sample_from_start(times, observer);
+        self.undo();
+        let seen = self.sample_on_the_way(times, observer);
         if matches!(seen, Ok(ControlFlow::Break(()))) {
             return seen;
         }
         self.state.copy_all_from(&after);
         self.stepper.restore(&past.0, past.1.as_ref());
+        self.remember(memory);
         (self.worst, self.corrections) = counted;
         self.has_stepped = false;
         seen
     }
 
-    /// The same, from where the last step began.
-    fn sample_from_start(
+    /// The same from where the last step began, one after the other, so that entropy does not fall between them.
+    fn sample_on_the_way(
         &mut self,
         times: &[S],
         observer: &mut impl FnMut(&Self) -> ControlFlow<()>,
     ) -> Result<ControlFlow<()>, StepError> {
-        self.undo();
         for &time in times {
-            let mut report = self.step_again(self.time_left(time))?;
-            self.arrive_at(time, &mut report);
+            while self.is_before(time)? {
+                self.step_in_scheme_towards(time)?;
+            }
             if observer(self).is_break() {
                 return Ok(ControlFlow::Break(()));
             }
-            self.undo();
         }
         Ok(ControlFlow::Continue(()))
     }
