@@ -122,7 +122,10 @@ fn balance_by_scheme(runs: &[Record]) -> Figure {
         Curve {
             label: run.scheme.clone(),
             points: changes
-                .map(|(time, change)| (time, change.abs().max(LEAST_DEFECT)))
+                .scan(LEAST_DEFECT, |largest, (time, change)| {
+                    *largest = largest.max(change.abs());
+                    Some((time, *largest))
+                })
                 .collect(),
             look: comparison::look(&run.scheme),
             trusted: true,
@@ -132,7 +135,7 @@ fn balance_by_scheme(runs: &[Record]) -> Figure {
     Figure {
         title: "What each scheme makes of the first law".to_owned(),
         x_label: "time (s)".to_owned(),
-        y_label: "|E − work − heat| since the start (J)".to_owned(),
+        y_label: "largest |Δ(E − work − heat)| so far (J)".to_owned(),
         curves: runs.iter().map(curve).collect(),
         axes: Axes::Logarithmic,
     }

@@ -62,7 +62,7 @@ fn write_rows(path: &Path, record: &Record) -> io::Result<()> {
 }
 
 /// Units of columns, by how their names begin.
-const UNITS: [(&str, &str); 14] = [
+const UNITS: [(&str, &str); 17] = [
     ("time", "s"),
     ("q", "m"),
     ("p", "kg m/s"),
@@ -77,6 +77,9 @@ const UNITS: [(&str, &str); 14] = [
     ("travel", "m"),
     ("road", "m"),
     ("damper_energy", "J"),
+    ("tyre_force", "N"),
+    ("work", "J"),
+    ("balance", "J"),
 ];
 
 impl Column {

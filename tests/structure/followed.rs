@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+/// A folder in the one that the workspace builds in.
+const TEMPORARY: &str = env!("CARGO_TARGET_TMPDIR");
 
 /// A fenced block: its language, its text, and the prose between the block before and this one.
 struct Block<'a> {
@@ -52,12 +54,14 @@ fn manifest(krate: &Path, dependencies: &str) {
     fs::copy(Path::new(ROOT).join("Cargo.lock"), krate.join("Cargo.lock")).unwrap();
 }
 
-/// What `cargo` with these arguments prints in a crate; its builds share a folder of the workspace.
+/// What `cargo` with these arguments prints in a crate; its builds share dependencies with the workspace.
 fn cargo(krate: &Path, arguments: &[&str]) -> String {
     let output = Command::new(env!("CARGO"))
         .args(arguments)
         .current_dir(krate)
-        .env("CARGO_TARGET_DIR", Path::new(ROOT).join("target/followed"))
+        .env("CARGO_TARGET_DIR", Path::new(TEMPORARY).parent().unwrap())
+        // As in the workspace, so that nothing is built twice.
+        .env("CARGO_PROFILE_DEV_DEBUG", "line-tables-only")
         .output()
         .unwrap();
     let errors = String::from_utf8_lossy(&output.stderr);
