@@ -41,6 +41,7 @@ pub mod guide {}
 pub mod choosing {}
 
 /// Tutorial: from an empty folder to a picture of energy and temperature, in ten minutes.
+///
 #[doc = include_str!("../docs/tutorial.link.md")]
 ///
 #[doc = include_str!("../docs/tutorial.md")]
