@@ -57,6 +57,10 @@ pub mod performance {}
 
 /// Extremes: what was tried to break the laws, what completes and what is refused.
 #[doc = include_str!("../docs/extremes.md")]
+#[allow(
+    clippy::doc_markdown,
+    reason = "tables that a program writes name errors as they are"
+)]
 pub mod extremes {}
 
 /// What generated code names. Not part of the public interface.
