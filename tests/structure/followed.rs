@@ -3,6 +3,8 @@
 //! The blocks are copied, built and run, and what they print is compared. Building takes a minute, so that
 //! these tests are ignored in an ordinary run; the gate (`.ci/run`) asks for them.
 
+#![allow(clippy::unwrap_used, reason = "a test: what is missing is a failure")]
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
