@@ -23,13 +23,15 @@
 //! Sources: `CreepingSpring`, García Orden & Romero, Eur. J. Mech. A/Solids 32 (2012), §4.1;
 //! `ThermoelasticSpring`, the double pendulum of Romero (2009) and of Krüger, Groß & Betsch (2011);
 //! `SofteningSpring`, Conde Martín, Betsch & García Orden, Commun. Nonlinear Sci. Numer. Simul. 32
-//! (2016), §4.2. Nothing moves here: the options for schemes and times are without effect.
+//! (2016), §4.2. Nothing moves here: of the options of the other
+//! examples there is `--out` only.
 //!
 //! What the example claims, and fails without: every parameter has a unit, and occurs in ψ or in a
 //! viscosity; every spring has all formulas of its kind.
 
 use std::error::Error;
 use std::fs;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use eem::Description;
@@ -38,8 +40,7 @@ use eem::prelude::*;
 mod support;
 
 use support::claims::{self, Claims};
-use support::command_line::CommandLine;
-use support::{output, terminal};
+use support::{command_line, output, terminal};
 
 const ABOUT: &str = "The formulas, units and operation counts of three published springs";
 const HINT: &str = "Add --out DIR for one text file per spring.";
@@ -133,15 +134,23 @@ const SPRINGS: [Description; 3] = [
     SofteningSpring::DESCRIPTION,
 ];
 
-fn main() -> ExitCode {
-    claims::verdict(run(&CommandLine::read(ABOUT)))
+/// Options of this example, which steps nothing.
+#[derive(Clone, Debug, clap::Parser)]
+struct Options {
+    /// Directory for a text file per spring; created when missing.
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
 }
 
-fn run(command_line: &CommandLine) -> Result<Claims, Box<dyn Error>> {
+fn main() -> ExitCode {
+    claims::verdict(run(&command_line::read(ABOUT)))
+}
+
+fn run(options: &Options) -> Result<Claims, Box<dyn Error>> {
     for spring in &SPRINGS {
         terminal::say(spring);
     }
-    match &command_line.out {
+    match &options.out {
         None => terminal::say(HINT),
         Some(directory) => {
             output::prepare(directory)?;

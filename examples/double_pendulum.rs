@@ -86,6 +86,15 @@ enum CaseName {
 }
 
 impl CaseName {
+    /// What stands before the titles of pictures.
+    const fn title(self) -> &'static str {
+        match self {
+            Self::Romero => "Romero",
+            Self::Krueger => "Krüger",
+            Self::Log => "logarithmic stiffness",
+        }
+    }
+
     const fn case(self) -> Case {
         match self {
             Self::Romero => cases::ROMERO,
@@ -170,7 +179,12 @@ fn write(
     let drawn = name.case().drawn;
     let early: Vec<Record> = runs.iter().map(|run| run.until(drawn)).collect();
     let (early, early_reference) = (early.as_slice(), &reference.until(drawn));
-    let comparison = |reference, runs| Comparison { reference, runs };
+    let case = name.title();
+    let comparison = |reference, runs| Comparison {
+        case,
+        reference,
+        runs,
+    };
     comparison(Some(early_reference), early).write(directory, &figures::LENGTHS)?;
     let all = comparison(Some(reference), runs);
     all.write(directory, &figures::HISTORIES)?;

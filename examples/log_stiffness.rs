@@ -266,7 +266,12 @@ fn write(directory: &Path, runs: &[Record]) -> Result<(), Box<dyn Error>> {
         output::write_csv(directory, run)?;
     }
     let reference = None;
-    Comparison { reference, runs }.write(directory, &[ENERGY_DEFECT])?;
+    Comparison {
+        case: "",
+        reference,
+        runs,
+    }
+    .write(directory, &[ENERGY_DEFECT])?;
     terminal::say(format_args!("States and picture: {}", directory.display()));
     Ok(())
 }

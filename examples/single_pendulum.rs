@@ -155,9 +155,14 @@ fn write(directory: &Path, reference: &Record, runs: &[Record]) -> Result<(), Bo
         output::write_csv(directory, run)?;
     }
     let reference = Some(reference);
-    let comparison = Comparison { reference, runs };
+    let comparison = Comparison {
+        case: "",
+        reference,
+        runs,
+    };
     comparison.write(directory, &figures::ALL_SCHEMES)?;
     published::write(comparison, directory, &figures::KERN)?;
+    figures::hero(runs).write_svg(&directory.join("energy.svg"))?;
     terminal::say(format_args!("States and figures: {}", directory.display()));
     Ok(())
 }

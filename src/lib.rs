@@ -1,3 +1,13 @@
+// The first definition of a link counts: these, which lead to the pages below, and not those at the
+// end of the README, which lead to the files. The picture is embedded.
+//! [tutorial]: crate::tutorial
+//! [guide]: crate::guide
+//! [choosing]: crate::choosing
+//! [accuracy]: crate::accuracy
+//! [performance]: crate::performance
+//! [extremes]: crate::extremes
+#![doc = include_str!("../docs/energy.link.md")]
+//!
 #![doc = include_str!("../README.md")]
 
 pub use eem_derive::FreeEnergy;
@@ -31,6 +41,29 @@ pub mod guide {}
 /// Choosing a scheme: what each costs and keeps, by scene and accuracy.
 #[doc = include_str!("../docs/choosing.md")]
 pub mod choosing {}
+
+/// Tutorial: from an empty folder to a picture of energy and temperature, in ten minutes.
+///
+#[doc = include_str!("../docs/tutorial.link.md")]
+///
+#[doc = include_str!("../docs/tutorial.md")]
+pub mod tutorial {}
+
+/// Accuracy: tables of all schemes, roundings, and a stiffness that is logarithmic in the temperature.
+#[doc = include_str!("../docs/accuracy.md")]
+pub mod accuracy {}
+
+/// Performance: what a step costs, on which machine.
+#[doc = include_str!("../docs/performance.md")]
+pub mod performance {}
+
+/// Extremes: what was tried to break the laws, what completes and what is refused.
+#[doc = include_str!("../docs/extremes.md")]
+#[allow(
+    clippy::doc_markdown,
+    reason = "tables that a program writes name errors as they are"
+)]
+pub mod extremes {}
 
 /// What generated code names. Not part of the public interface.
 #[doc(hidden)]

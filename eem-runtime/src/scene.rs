@@ -25,7 +25,7 @@ use entry::{ElementEntry, NodeEntry};
 /// Masses on springs that heat up, in `D` dimensions.
 ///
 /// ```
-/// use eem_runtime::Scene;
+/// use eem::Scene;
 ///
 /// let mut scene = Scene::<2>::new();
 /// let pivot = scene.anchor([0.0, 0.0]);

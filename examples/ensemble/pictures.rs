@@ -7,12 +7,16 @@ use std::path::Path;
 use super::members::{Sample, Spring};
 use super::report::{QUANTILES, quantile, real};
 use super::support::comparison;
+use super::support::figures::look::PLAIN;
 use super::support::figures::{Axes, Curve, Figure};
 use super::support::output;
 
-/// Bars of the histogram, over the members between the outermost thousandths.
-const BARS: usize = 20;
-const OUTERMOST: f64 = 0.001;
+/// The shares of the members below the lower whisker, the box, its middle line, its top and the upper
+/// whisker.
+const BOX: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
+
+/// Half of the width of a box, in distances of neighbours.
+const HALF_WIDTH: f64 = 0.3;
 
 /// Parts of the range of the stiffness in each of which quantiles are taken.
 const PARTS: usize = 15;
@@ -41,7 +45,12 @@ pub(crate) fn write(
 /// A row for each member: its unknowns and its end, not a number where there is none.
 fn write_csv(directory: &Path, springs: &[Spring], sample: &Sample) -> Result<(), Box<dyn Error>> {
     let unknowns = Spring::UNKNOWNS.iter().map(|unknown| unknown.name);
-    let ends = ["temperature", "entropy", "energy_defect", "entropy_loss"];
+    let ends = [
+        "temperature (K)",
+        "entropy (J/K)",
+        "energy_defect",
+        "entropy_loss (J/K)",
+    ];
     let heads: Vec<&str> = unknowns.chain(ends).collect();
     let members = springs.iter().zip(&sample.ends);
     let rows: Vec<Vec<f64>> = members
@@ -61,13 +70,13 @@ fn write_csv(directory: &Path, springs: &[Spring], sample: &Sample) -> Result<()
     Ok(())
 }
 
-/// The histogram of the temperature as an outline, for each scheme.
+/// A box for each scheme: half of the members lie in it, ninety of a hundred between its whiskers.
 fn distribution(samples: &[Sample], end: f64) -> Figure {
-    let curve = |sample: &Sample| {
-        let points = outline(&sample.sorted(|end| end.temperature));
+    let curve = |(place, sample): (usize, &Sample)| {
+        let points = outline(real(place + 1), &sample.sorted(|end| end.temperature));
         Curve {
             label: sample.scheme.name().to_owned(),
-            look: comparison::look(sample.scheme.name()),
+            look: PLAIN + comparison::look(sample.scheme.name()),
             trusted: sample.scheme.name().starts_with("eem-") || samples.len() == 1,
             decisive: points.len(),
             points,
@@ -75,30 +84,38 @@ fn distribution(samples: &[Sample], end: f64) -> Figure {
     };
     Figure {
         title: format!("Mean temperature of the spring in the last quarter of {end} s"),
-        x_label: "temperature θ (K)".to_owned(),
-        y_label: "members per kelvin (%)".to_owned(),
-        curves: samples.iter().map(curve).collect(),
+        x_label: "scheme, in the order of the legend; box: 25 to 75 %, whiskers: 5 to 95 %"
+            .to_owned(),
+        y_label: "temperature θ (K)".to_owned(),
+        curves: samples.iter().enumerate().map(curve).collect(),
         axes: Axes::Even,
     }
 }
 
-/// The corners of the bars: how many percent of the members there are per kelvin.
-fn outline(ascending: &[f64]) -> Vec<(f64, f64)> {
-    let ends = [OUTERMOST, 1.0 - OUTERMOST].map(|share| quantile(ascending, share));
-    let [Some(low), Some(high)] = ends else {
+/// Whiskers, box and median about `x` in one line; where a point is not a number, the pen is lifted.
+fn outline(x: f64, ascending: &[f64]) -> Vec<(f64, f64)> {
+    let [Some(least), Some(low), Some(middle), Some(high), Some(most)] =
+        BOX.map(|share| quantile(ascending, share))
+    else {
         return Vec::new();
     };
-    let width = (high - low) / real(BARS);
-    let edge = |bar: usize| low + real(bar) * width;
-    let below = |value: f64| ascending.partition_point(|&member| member < value);
-    let bars = (0..BARS).flat_map(|bar| {
-        let (left, right) = (edge(bar), edge(bar + 1));
-        let members = real(below(right) - below(left));
-        let height = 100.0 * members / real(ascending.len()) / width;
-        [(left, height), (right, height)]
-    });
-    let first = core::iter::once((low, 0.0));
-    first.chain(bars).chain([(high, 0.0)]).collect()
+    let [left, right] = [x - HALF_WIDTH, x + HALF_WIDTH];
+    let lifted = (f64::NAN, f64::NAN);
+    vec![
+        (x, least),
+        (x, low),
+        (left, low),
+        (left, high),
+        (right, high),
+        (right, low),
+        (x, low),
+        lifted,
+        (left, middle),
+        (right, middle),
+        lifted,
+        (x, high),
+        (x, most),
+    ]
 }
 
 /// Quantiles of the temperature over the stiffness.
@@ -126,7 +143,7 @@ fn over_stiffness(springs: &[Spring], sample: &Sample, end: f64) -> Figure {
         let points: Vec<_> = parts.iter().filter_map(point).collect();
         Curve {
             label: labels[index].to_owned(),
-            look: index + 1,
+            look: comparison::look_beside_schemes(index),
             trusted: true,
             decisive: points.len(),
             points,

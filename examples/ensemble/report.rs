@@ -65,7 +65,7 @@ fn row(sample: &Sample) -> Vec<String> {
     let completed = 100.0 * real(temperatures.len()) / total;
     let scientific =
         |value: Option<f64>| value.map_or("–".into(), |value| format!("{value:.1e}"));
-    let mut cells = vec![sample.scheme.name().to_owned(), format!("{completed:.1} %")];
+    let mut cells = vec![sample.scheme.name().to_owned(), percent(completed)];
     for share in QUANTILES {
         cells.push(cell(quantile(&temperatures, share), 2));
     }
@@ -92,7 +92,7 @@ fn shares(springs: &[Spring], sample: &Sample) -> Table {
                     Some((spring.values[index], quantity(end)))
                 })
                 .collect();
-            format!("{:.1} %", 100.0 * correlation(&pairs).powi(2))
+            percent(100.0 * correlation(&pairs).powi(2))
         };
         table.add_row([
             unknown.label.to_owned(),
@@ -123,6 +123,15 @@ pub(crate) fn quantile(ascending: &[f64], share: f64) -> Option<f64> {
     let next = ascending[(below + 1).min(last)];
     let part = position - real(below);
     Some(ascending[below] + part * (next - ascending[below]))
+}
+
+/// A dash where nothing, or a single member, has no share.
+fn percent(value: f64) -> String {
+    if value.is_finite() {
+        format!("{value:.1} %")
+    } else {
+        "–".to_owned()
+    }
 }
 
 fn cell(value: Option<f64>, digits: usize) -> String {

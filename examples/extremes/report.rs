@@ -14,7 +14,7 @@ Every step of an exact scheme (`eem-entropy`, `eem-temperature`, `staggered`) ke
 rounding, or is refused with a typed error that leaves the state as it was. This page is what was
 tried to break that. A judge forms the laws of every step from the stored states, with 32 digits and by
 code that shares nothing with the schemes; the head of
-[`tests/extremes/judge.rs`](../tests/extremes/judge.rs) has its formulas and bounds.
+`tests/extremes/judge.rs` has its formulas and bounds.
 
 *Worst* is the largest energy defect of a step over what rounding explains, 64 ε (A + A⁺): 1 is the
 limit, and 0.007 an ordinary rounding error. *Iterations* are the mean per step and the most of one.

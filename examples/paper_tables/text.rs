@@ -11,9 +11,6 @@ use super::{double_pendulum, single_pendulum};
 
 const HEADS: [&str; 4] = ["example", "number", "published", "ours"];
 
-/// Relative energy defect from which on a run is lost.
-const LOST: f64 = 0.05;
-
 /// A number of a paper and ours, as text.
 type Line = (u8, String, &'static str, String);
 
@@ -101,8 +98,8 @@ fn breakdowns(single: &Runs, double: &Runs) -> Vec<Line> {
 
 /// How a run goes wrong, and when.
 fn fate(run: &Record) -> String {
-    let lost = statistics::first_energy_beyond(run, LOST).map(|row| run.time(row));
-    let lost = lost.map(|time| format!("E off by 5 % at {time:.1} s"));
+    let lost = statistics::first_energy_beyond(run, statistics::BREAKDOWN).map(|row| run.time(row));
+    let lost = lost.map(|time| format!("E off at {time:.1} s"));
     let failed = match &run.outcome {
         Outcome::Failed { time, .. } => Some(format!("Newton fails after {time:.1} s")),
         Outcome::Completed => None,

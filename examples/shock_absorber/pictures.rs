@@ -5,11 +5,15 @@ use std::path::Path;
 
 use super::car::{CELSIUS, CLEARANCE, RADIUS, TRACK};
 use super::ride::Lap;
+use super::support::comparison;
 use super::support::figures::{Axes, Curve, Figure};
 use super::support::record::Record;
 
 /// The part of a lap that is shown from close by, m.
 const STRETCH: [f64; 2] = [20.0, 80.0];
+
+/// The least defect (J) that is drawn; it stands for none at all.
+const LEAST_DEFECT: f64 = 1e-12;
 
 /// A time and a value per state, or a lap and a value.
 type Points = Vec<(f64, f64)>;
@@ -113,13 +117,28 @@ fn energy_ledger(run: &Record) -> Figure {
 
 /// What each scheme makes of the first law.
 fn balance_by_scheme(runs: &[Record]) -> Figure {
-    let curve = |run: &'_ Record| since_start(run, "balance", 1.0);
-    let curves = runs.iter().map(|run| (run.scheme.as_str(), curve(run)));
-    figure(
-        "E − work − heat since the start",
-        ["time (s)", "energy (J)"],
-        curves.collect(),
-    )
+    let curve = |run: &'_ Record| {
+        let changes = since_start(run, "balance", 1.0).into_iter().skip(1);
+        Curve {
+            label: run.scheme.clone(),
+            points: changes
+                .scan(LEAST_DEFECT, |largest, (time, change)| {
+                    *largest = largest.max(change.abs());
+                    Some((time, *largest))
+                })
+                .collect(),
+            look: comparison::look(&run.scheme),
+            trusted: true,
+            decisive: usize::MAX,
+        }
+    };
+    Figure {
+        title: "What each scheme makes of the first law".to_owned(),
+        x_label: "time (s)".to_owned(),
+        y_label: "largest |Δ(E − work − heat)| so far (J)".to_owned(),
+        curves: runs.iter().map(curve).collect(),
+        axes: Axes::Logarithmic,
+    }
 }
 
 /// The change of a column since the start, in other units.
@@ -128,12 +147,14 @@ fn since_start(run: &Record, name: &str, unit: f64) -> Points {
     values(run, name, |value| unit * (value - start.unwrap_or(0.0)))
 }
 
-/// A curve per label, told apart in this order.
+/// A curve per label, told apart in this order; none has the look of a scheme.
 fn figure(title: &str, [x_label, y_label]: [&str; 2], curves: Vec<(&str, Points)>) -> Figure {
     let curve = |(look, (label, points)): (usize, (&str, Points))| Curve {
         label: label.to_owned(),
         points,
-        look,
+        look: look
+            .checked_sub(1)
+            .map_or(0, comparison::look_beside_schemes),
         trusted: true,
         decisive: usize::MAX,
     };

@@ -2,8 +2,9 @@
 
 use eem::Scheme;
 
-use super::support::comparison::Plot;
-use super::support::figures::Axes;
+use super::support::comparison::{self, Plot};
+use super::support::figures::look::BOLD;
+use super::support::figures::{Axes, Figure};
 use super::support::published::{Against, Published};
 use super::support::record::Record;
 
@@ -77,5 +78,27 @@ pub(super) const KERN: [Published; 2] = [
         axes: Axes::Even,
     },
 ];
+
+/// The picture of `README.md`: the scheme that keeps the energy over two that do not.
+pub(super) fn hero(runs: &[Record]) -> Figure {
+    let curve = |(scheme, look): (Scheme, usize)| {
+        let run = runs.iter().find(|run| run.scheme == scheme.name())?;
+        let look = look + comparison::look(scheme.name());
+        let points = run.points("time", "energy");
+        Some(comparison::curve(run, points, look, Axes::Even))
+    };
+    let shown = [
+        (Scheme::EemEntropy, BOLD),
+        (Scheme::Midpoint, 0),
+        (Scheme::Trapezoidal, 0),
+    ];
+    Figure {
+        title: "Total energy of a thermo-visco-elastic pendulum, steps of 0.2 s".to_owned(),
+        x_label: "time (s)".to_owned(),
+        y_label: "total energy E (J)".to_owned(),
+        curves: shown.into_iter().filter_map(curve).collect(),
+        axes: Axes::Even,
+    }
+}
 
 const VARIATIONAL_AND_ENTROPY_FORM: &[Scheme] = &[Scheme::Variational, Scheme::EemEntropy];

@@ -13,9 +13,6 @@ use super::statistics::{self, BREAKDOWN};
 /// none at all, and a value beyond which it does not matter how large they are.
 const DRAWN_DEFECTS: [f64; 2] = [0.25 * f64::EPSILON, 100.0];
 
-/// Relative energy defect from which on a run shows nothing but its own collapse.
-const LOST: f64 = 0.05;
-
 /// What one picture shows of every run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plot {
@@ -68,6 +65,11 @@ impl Plot {
 /// The curve of a run through `points`, clamped where only powers of ten are drawn.
 pub(crate) fn curve(run: &Record, mut points: Vec<(f64, f64)>, look: usize, axes: Axes) -> Curve {
     let is_logarithmic = axes == Axes::Logarithmic;
+    if let Some(row) = lost(run).filter(|_| !is_logarithmic) {
+        // What follows shows nothing but the collapse of the run, and would be streaks over all else.
+        points.retain(|&(x, _)| axes == Axes::Map || x <= run.time(row));
+        points.truncate(row + 1);
+    }
     if is_logarithmic {
         let [least, most] = DRAWN_DEFECTS;
         for (_, defect) in &mut points {
@@ -86,6 +88,8 @@ pub(crate) fn curve(run: &Record, mut points: Vec<(f64, f64)>, look: usize, axes
 /// The runs that are compared: the reference, drawn first if there is one, and a run per scheme.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Comparison<'a> {
+    /// The case, which stands before the titles; nothing where there is one only.
+    pub(crate) case: &'a str,
     pub(crate) reference: Option<&'a Record>,
     pub(crate) runs: &'a [Record],
 }
@@ -104,7 +108,7 @@ impl Comparison<'_> {
         let runs = self.runs.iter().map(|run| (look(&run.scheme), run));
         let curves = self.reference.into_iter().map(|run| (0, run)).chain(runs);
         Figure {
-            title: plot.title.to_owned(),
+            title: titled(self.case, plot.title),
             x_label: plot.x_label.to_owned(),
             y_label: plot.y_label.to_owned(),
             axes: plot.axes,
@@ -115,14 +119,23 @@ impl Comparison<'_> {
     }
 }
 
-/// A run that reached its end and kept its energy decides what the axes show.
-fn is_sound(run: &Record) -> bool {
-    run.completed() && statistics::first_energy_beyond(run, BREAKDOWN).is_none()
+/// A title with its case.
+pub(crate) fn titled(case: &str, title: &str) -> String {
+    if case.is_empty() {
+        title.to_owned()
+    } else {
+        format!("{case}: {title}")
+    }
 }
 
-/// The row in which the energy is plainly wrong: what follows shall not decide the axes.
+/// A run that reached its end and kept its energy decides what the axes show.
+fn is_sound(run: &Record) -> bool {
+    run.completed() && lost(run).is_none()
+}
+
+/// The row in which the energy is plainly wrong: what follows is not drawn.
 fn lost(run: &Record) -> Option<usize> {
-    statistics::first_energy_beyond(run, LOST)
+    statistics::first_energy_beyond(run, BREAKDOWN)
 }
 
 /// The scheme, and what went wrong unless the curve `shows_it`.
@@ -131,7 +144,7 @@ fn label(run: &Record, shows_it: bool) -> String {
     match (&run.outcome, lost(run).filter(|_| !shows_it)) {
         (Outcome::Failed { time, .. }, _) => format!("{scheme} (fails at {time:.1} s)"),
         (Outcome::Completed, Some(row)) => {
-            format!("{scheme} (energy off by 5 % at {:.1} s)", run.time(row))
+            format!("{scheme} (energy off at {:.1} s)", run.time(row))
         }
         (Outcome::Completed, None) => scheme.clone(),
     }

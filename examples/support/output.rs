@@ -54,14 +54,48 @@ pub(crate) fn write_texts(
 fn write_rows(path: &Path, record: &Record) -> io::Result<()> {
     let mut writer = csv::Writer::from_path(path)?;
     let columns = record.columns();
-    writer.write_record(columns.iter().map(|column| column.name.as_str()))?;
+    writer.write_record(columns.iter().map(Column::head))?;
     for row in 0..record.times().len() {
         writer.write_record(columns.iter().map(|column| column.text(row)))?;
     }
     writer.flush()
 }
 
+/// Units of columns, by how their names begin.
+const UNITS: [(&str, &str); 17] = [
+    ("time", "s"),
+    ("q", "m"),
+    ("p", "kg m/s"),
+    ("theta", "K"),
+    ("gamma", "m"),
+    ("reservoir_entropy", "J/K"),
+    ("reservoir_heat", "J"),
+    ("energy", "J"),
+    ("entropy", "J/K"),
+    ("angular_momentum", "kg m²/s"),
+    ("acceleration", "m/s²"),
+    ("travel", "m"),
+    ("road", "m"),
+    ("damper_energy", "J"),
+    ("tyre_force", "N"),
+    ("work", "J"),
+    ("balance", "J"),
+];
+
 impl Column {
+    /// The name with the unit, for example `theta_1 (K)`.
+    fn head(&self) -> String {
+        let name = &self.name;
+        let is_own = |(start, _): &&(&str, &str)| {
+            let rest = name.strip_prefix(start);
+            rest.is_some_and(|rest| {
+                rest.is_empty() || rest.starts_with(|c: char| c == '_' || c.is_ascii_digit())
+            })
+        };
+        let unit = UNITS.iter().find(is_own).map(|(_, unit)| unit);
+        unit.map_or_else(|| name.clone(), |unit| format!("{name} ({unit})"))
+    }
+
     fn text(&self, row: usize) -> String {
         let value = self.values[row];
         if self.name == "newton_iterations" {

@@ -68,7 +68,10 @@ pub(crate) fn write(
 
 impl Published {
     /// The curves; none when no run is of the figure's schemes.
-    fn curves(&self, Comparison { reference, runs }: Comparison<'_>) -> Vec<Curve> {
+    fn curves(&self, comparison: Comparison<'_>) -> Vec<Curve> {
+        let Comparison {
+            reference, runs, ..
+        } = comparison;
         let shown = |run: &&Record| self.schemes.iter().any(|own| own.name() == run.scheme);
         let runs: Vec<&Record> = runs.iter().filter(shown).collect();
         if runs.is_empty() {

@@ -8,7 +8,7 @@ use super::record::Record;
 pub(crate) const TIME_TOLERANCE: f64 = 1e-9;
 
 /// Relative energy defect beyond which a run has broken down, whether or not it goes on.
-pub(crate) const BREAKDOWN: f64 = 0.01;
+pub(crate) const BREAKDOWN: f64 = 0.05;
 
 /// What a run is judged by. A quantity that the record has no column for is `None`.
 #[derive(Clone, Copy, Debug)]

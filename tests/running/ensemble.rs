@@ -193,8 +193,9 @@ fn a_failed_step_is_reported_with_its_numbers() {
     };
     assert!(matches!(step.failure, StepFailure::Load { value, .. } if value.is_nan()));
     assert_eq!(error.to_string(), format!("member 1: {step}"));
-    let source = error.source().unwrap();
-    assert_eq!(source.to_string(), step.to_string());
+    // The message has the cause; a chain of errors would print it twice.
+    assert!(error.source().is_none());
+    assert!(step.source().is_none());
 }
 
 #[test]

@@ -75,6 +75,28 @@ fn columns_hold_what_the_simulation_says() {
 }
 
 #[test]
+fn a_row_that_closes_a_run_is_not_kept_twice() {
+    let Pendulum {
+        mut run, spring, ..
+    } = single_pendulum(Scheme::EemEntropy, 0.1);
+    let quantities = [
+        ("theta", Quantity::Temperature(spring)),
+        ("iterations", Quantity::NewtonIterations),
+    ];
+    let mut recorder = Recorder::new(&run, quantities).unwrap().every(5);
+    run.run_until_with(1.0, |run, report| recorder.observe(run, report))
+        .unwrap();
+    let iterations = recorder.column("iterations").unwrap().to_vec();
+    recorder.record(&run).unwrap();
+    recorder.record(&run).unwrap();
+    assert_eq!(recorder.rows(), 3);
+    assert_eq!(recorder.column("iterations"), Some(iterations.as_slice()));
+    run.step().unwrap();
+    recorder.record(&run).unwrap();
+    assert_eq!(recorder.rows(), 4);
+}
+
+#[test]
 fn recorders_refuse_what_a_simulation_does_not_have() {
     let pendulum = single_pendulum(Scheme::EemEntropy, 0.1);
     let other = single_pendulum(Scheme::EemEntropy, 0.1);

@@ -6,6 +6,8 @@
 //! does not count.
 
 mod circles;
+mod documents;
+mod followed;
 mod imports;
 mod sizes;
 mod sources;

@@ -126,7 +126,7 @@ pub enum StateError {
         /// The entropy, J/K.
         entropy: f64,
         /// What the inversion says.
-        source: InversionError,
+        r#source: InversionError,
     },
     /// A quantity that a model computes is not finite.
     #[error("the {quantity} of {element} is {value}, it must be finite", value = Readable(*value))]

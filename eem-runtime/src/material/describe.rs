@@ -8,7 +8,7 @@ use core::fmt::{self, Display, Formatter};
 /// scalar, and costs nothing until it is asked for.
 ///
 /// ```
-/// use eem_runtime::{Describe, Description, describe};
+/// use eem::{Describe, Description, describe};
 ///
 /// struct Rubber;
 ///

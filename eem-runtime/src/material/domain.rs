@@ -23,7 +23,7 @@ use state::Kind;
 /// A box of states: an interval for each variable of a model.
 ///
 /// ```
-/// use eem_runtime::Domain;
+/// use eem::Domain;
 ///
 /// // One dashpot.
 /// let domain = Domain::of_stretch([0.5, 2.0])

@@ -11,7 +11,7 @@ use crate::number::scalar::Scalar;
 /// variables, so that the trait [`FreeEnergy`] leaves them to associated types.
 ///
 /// ```
-/// use eem_runtime::Array;
+/// use eem::Array;
 ///
 /// let row = <[f64; 3]>::filled(2.0);
 /// assert_eq!(<[f64; 3] as Array<f64>>::LEN, 3);

@@ -60,7 +60,7 @@ pub struct Inversion<S> {
 /// temperature, or the branch does not reach the entropy.
 ///
 /// ```
-/// use eem_runtime::{Caloric, invert};
+/// use eem::{Caloric, invert};
 ///
 /// // A Debye solid at low temperature: S = θ³.
 /// let debye = |theta: f64| Caloric {

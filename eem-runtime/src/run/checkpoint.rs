@@ -41,7 +41,7 @@ pub(crate) use outline::Outline;
 /// every bit of a float; for `serde_json` that is its feature `float_roundtrip`.
 ///
 /// ```
-/// use eem_runtime::{Scene, Scheme, Simulation};
+/// use eem::{Scene, Scheme, Simulation};
 ///
 /// let build = |scheme, step| {
 ///     let mut scene = Scene::<2>::new();

@@ -30,7 +30,7 @@ use progress::{Progress, Watch};
 /// Stones thrown at different speeds, one of them by mistake:
 ///
 /// ```
-/// use eem_runtime::{Ensemble, MemberFailure, Scene, Scheme};
+/// use eem::{Ensemble, MemberFailure, Scene, Scheme};
 ///
 /// let speeds = [5.0, 10.0, f64::NAN, 20.0];
 /// let heights = Ensemble::new(Scheme::EemEntropy, 0.1).run(

@@ -33,7 +33,7 @@ use crate::number::scalar::Real;
 /// ```
 ///
 /// ```
-/// use eem_runtime::{Scene, Scheme, Simulation};
+/// use eem::{Scene, Scheme, Simulation};
 ///
 /// let mut scene = Scene::<2>::new();
 /// scene.mass(2.0, [0.0, 0.0], [3.0, 0.0]);

@@ -25,7 +25,7 @@ const TIME: &str = "time";
 /// [`reserve`](Self::reserve) asks for it beforehand.
 ///
 /// ```
-/// use eem_runtime::{Quantity, Recorder, Scene, Scheme, Simulation};
+/// use eem::{Quantity, Recorder, Scene, Scheme, Simulation};
 ///
 /// let mut scene = Scene::<2>::new();
 /// let pivot = scene.anchor([3.0, 4.0]);
@@ -94,7 +94,7 @@ pub enum RecordError {
         /// The name that it was given.
         name: String,
         /// What is wrong with it.
-        source: SceneError,
+        r#source: SceneError,
     },
     /// Two columns would have the same name; the first of all is `time`.
     #[error("there are two columns of the name `{name}`")]
@@ -185,7 +185,8 @@ impl<const D: usize, S: Real> Recorder<D, S> {
     }
 
     /// Keeps the present state, whether or not its turn has come; the next turn is a full stride
-    /// later.
+    /// later. Where the last row has this time already and no step was seen since, it is replaced: a run
+    /// may be closed with this call, whatever its stride.
     ///
     /// # Errors
     ///
@@ -195,13 +196,22 @@ impl<const D: usize, S: Real> Recorder<D, S> {
         // A row has one value per quantity.
         run.part();
         let mut ledger = None;
+        let time = run.time().to_f64();
+        let last = self.column(TIME).and_then(<[f64]>::last);
+        let is_again = self.steps == 0 && last.is_some_and(|last| last.to_bits() == time.to_bits());
         self.row.clear();
-        self.row.push(run.time().to_f64());
+        self.row.push(time);
         for quantity in &self.quantities {
             quantity.append(run, self.iterations, &mut ledger, &mut self.row)?;
         }
         for (column, &value) in self.columns.iter_mut().zip(&self.row) {
-            column.values.push(value);
+            if !is_again {
+                column.values.push(value);
+            } else if !column.is_count
+                && let Some(last) = column.values.last_mut()
+            {
+                *last = value;
+            }
         }
         (self.steps, self.iterations) = (0, 0);
         Ok(())

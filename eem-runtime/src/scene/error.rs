@@ -345,5 +345,11 @@ pub enum SceneError {
     },
     /// The initial state of an element is outside the domain of its model.
     #[error("at t = 0 s: {0}")]
-    State(#[from] StateError),
+    State(StateError),
+}
+
+impl From<StateError> for SceneError {
+    fn from(error: StateError) -> Self {
+        Self::State(error)
+    }
 }

@@ -257,16 +257,16 @@ pub enum StepLimit {
 
 /// A step that failed. The simulation is as it was before.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[error("step from t = {time} s by {step} s failed after {} iterations: {failure}", history.len(), time = Readable(*time), step = Readable(*step))]
+#[error("step from t = {time} s by {step} s failed after {} iterations in all attempts: {failure}", history.len(), time = Readable(*time), step = Readable(*step))]
 pub struct StepError {
     /// The time at which the step began, s.
     pub time: f64,
     /// The time step, s.
     pub step: f64,
-    /// Why it failed.
-    #[source]
+    /// Why it failed; the message has it, so that it is no `source` of its own.
     pub failure: StepFailure,
-    /// What each iteration did.
+    /// What each iteration of each attempt did; [`NewtonSettings::max_iterations`](crate::NewtonSettings)
+    /// is the limit of one attempt.
     pub history: Box<[NewtonIteration]>,
 }
 

@@ -9,7 +9,7 @@ use crate::number::scalar::{Mask, Real};
 /// tolerance cannot break them.
 ///
 /// ```
-/// use eem_runtime::NewtonSettings;
+/// use eem::NewtonSettings;
 ///
 /// let settings = NewtonSettings::<f64>::default();
 /// assert_eq!(settings.max_iterations, 50);

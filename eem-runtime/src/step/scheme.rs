@@ -31,7 +31,7 @@ use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
 /// faster than a step decay slowly, as with any Gauss collocation.
 ///
 /// ```
-/// use eem_runtime::Scheme;
+/// use eem::Scheme;
 ///
 /// assert_eq!(Scheme::EemEntropy.name(), "eem-entropy");
 /// assert!(Scheme::ALL.iter().all(|scheme| scheme.to_string().parse() == Ok(*scheme)));
@@ -238,7 +238,7 @@ impl Scheme {
     /// The order p: errors of a given time go with `hᵖ`.
     ///
     /// ```
-    /// use eem_runtime::Scheme;
+    /// use eem::Scheme;
     ///
     /// assert_eq!(Scheme::EemEntropy.order(), 2);
     /// assert_eq!(Scheme::Gauss4.order(), 4);
@@ -254,7 +254,7 @@ impl Scheme {
     /// it drifts.
     ///
     /// ```
-    /// use eem_runtime::Scheme;
+    /// use eem::Scheme;
     ///
     /// assert!(Scheme::EemEntropy.may_change_steps());
     /// assert!(!Scheme::Variational4.may_change_steps());
@@ -278,7 +278,7 @@ impl Scheme {
     /// Whether every step keeps energy, entropy and momenta, or is an error.
     ///
     /// ```
-    /// use eem_runtime::Scheme;
+    /// use eem::Scheme;
     ///
     /// assert!(Scheme::EemEntropy.is_exact() && !Scheme::Midpoint.is_exact());
     /// ```

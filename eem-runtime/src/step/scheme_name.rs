@@ -22,7 +22,7 @@ impl fmt::Display for Scheme {
 /// There is no scheme of this name; the message lists those there are.
 ///
 /// ```
-/// use eem_runtime::Scheme;
+/// use eem::Scheme;
 ///
 /// assert_eq!("eem-entropy".parse(), Ok(Scheme::EemEntropy));
 /// let error = "euler".parse::<Scheme>().unwrap_err();

@@ -43,9 +43,9 @@ pub(super) fn draw(figure: &Figure, path: &Path) -> Result<(), Box<dyn Error>> {
     let (width, height) = (size.0.cast_signed(), size.1.cast_signed());
     let canvas = SVGBackend::new(path, size).into_drawing_area();
     canvas.fill(&WHITE)?;
-    let title = font(TITLE_FONT).pos(Pos::new(HPos::Center, VPos::Center));
+    let title = font(title_font(&figure.title, width)).pos(Pos::new(HPos::Center, VPos::Center));
     canvas.draw_text(&figure.title, &title, (width / 2, TITLE_HEIGHT / 2))?;
-    let top = TITLE_HEIGHT + draw_legend(&canvas, &figure.curves, width)?;
+    let top = TITLE_HEIGHT + draw_legend(&canvas, &figure.curves, [width, height])?;
     let aspect = f64::from(width - EDGE - LEFT - RIGHT) / f64::from(height - top - BOTTOM - EDGE);
     let scales = Scale::of(figure.axes);
     let curves = placed(&figure.curves, scales);
@@ -153,16 +153,20 @@ fn draw_curve(
 }
 
 /// Draws the legend below the title and returns its height in pixels.
-fn draw_legend(canvas: &Canvas<'_>, curves: &[Curve], width: i32) -> Result<i32, Box<dyn Error>> {
+fn draw_legend(
+    canvas: &Canvas<'_>,
+    curves: &[Curve],
+    picture: [i32; 2],
+) -> Result<i32, Box<dyn Error>> {
     let named = || curves.iter().filter(|curve| !curve.label.is_empty());
     let labels: Vec<&str> = named().map(|curve| curve.label.as_str()).collect();
-    let places = legend::places(&labels, width);
-    let text = font(f64::from(legend::FONT)).pos(Pos::new(HPos::Left, VPos::Center));
+    let (size, places) = legend::layout(&labels, picture);
+    let text = font(f64::from(size.font)).pos(Pos::new(HPos::Left, VPos::Center));
     for (curve, &(x, y)) in named().zip(&places) {
         let look = look_among(curves, curve);
         let style = look.colour.stroke_width(look.width);
-        let middle = TITLE_HEIGHT + y + legend::ROW / 2;
-        let end = x + legend::SAMPLE;
+        let middle = TITLE_HEIGHT + y + size.row / 2;
+        let end = x + size.sample;
         let sample = [(x, middle), (end, middle)];
         match look.dash {
             Dash::Solid => canvas.draw(&PathElement::new(sample, style))?,
@@ -171,10 +175,10 @@ fn draw_legend(canvas: &Canvas<'_>, curves: &[Curve], width: i32) -> Result<i32,
             }
             Dash::None => {}
         }
-        draw_marker(canvas, (x + legend::SAMPLE / 2, middle), look)?;
-        canvas.draw_text(&curve.label, &text, (end + legend::GAP, middle))?;
+        draw_marker(canvas, (x + size.sample / 2, middle), look)?;
+        canvas.draw_text(&curve.label, &text, (end + size.gap, middle))?;
     }
-    Ok(places.last().map_or(0, |&(_, y)| y + legend::ROW))
+    Ok(places.last().map_or(0, |&(_, y)| y + size.row))
 }
 
 /// Draws a marker at a point of the chart or of the canvas.
@@ -192,6 +196,14 @@ where
         area.draw(&(EmptyElement::at(at) + path))?;
     }
     Ok(())
+}
+
+/// The font of the title: smaller where it would be wider than the picture.
+fn title_font(title: &str, width: i32) -> f64 {
+    let characters = i32::try_from(title.chars().count()).unwrap_or(i32::from(i16::MAX));
+    let usual = f64::from(legend::text_width(characters, 100)) * TITLE_FONT / 100.0;
+    let room = f64::from(width - 2 * EDGE);
+    TITLE_FONT * (room / usual.max(room))
 }
 
 /// A font whose size in the picture is `pixels`: the SVG backend divides the size by 1.24.

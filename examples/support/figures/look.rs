@@ -115,6 +115,12 @@ const LIGHT_BAND: Look = Look {
     marker: Marker::None,
 };
 
+/// Added to the index of a look: a wide line of its colour without dash and marker.
+pub(crate) const BOLD: usize = 2000;
+
+/// Added to the index of a look: its colour without dash and marker.
+pub(crate) const PLAIN: usize = 3000;
+
 /// Added to the index of a look: open circles of its colour, without a line.
 pub(crate) const OPEN: usize = 1000;
 
@@ -123,6 +129,15 @@ impl Look {
     pub(super) fn of(index: usize) -> Self {
         if index == BAND {
             return LIGHT_BAND;
+        }
+        if index >= PLAIN {
+            return Self::of(index - PLAIN).plain();
+        }
+        if index >= BOLD {
+            return Self {
+                width: 9,
+                ..Self::of(index - BOLD).plain()
+            };
         }
         if index >= OPEN {
             return Self {

@@ -25,7 +25,7 @@ use crate::number::scalar::{Mask, Real};
 /// zero, as P is symmetric (Simó & Tarnow 1992; García Orden & Romero 2012).
 ///
 /// ```
-/// use eem_runtime::kinematics::{Kinematics, Quad4, Strain};
+/// use eem::kinematics::{Kinematics, Quad4, Strain};
 ///
 /// let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 /// let [first, ..] = Quad4::points(&square, 1.0, [Strain::Trace, Strain::Dilatation]).unwrap();

@@ -19,7 +19,7 @@ pub enum Strain {
 /// `#[derive(FreeEnergy)]` implements it where the arguments of the formula have roles of strains.
 ///
 /// ```
-/// use eem_runtime::{Strain, StrainEnergy};
+/// use eem::{Strain, StrainEnergy};
 ///
 /// struct Elastic;
 /// impl StrainEnergy<2> for Elastic {

@@ -22,7 +22,7 @@ use crate::number::scalar::{Mask, Real, Scalar};
 /// `D*λ·(r¹ − r⁰) = (λ¹² − λ⁰²)/(λ⁰ + λ¹) = λ¹ − λ⁰`.
 ///
 /// ```
-/// use eem_runtime::kinematics::{Kinematics, Stretch};
+/// use eem::kinematics::{Kinematics, Stretch};
 ///
 /// let arms = [[3.0, 4.0]];
 /// assert_eq!(Stretch::<2>.measure(&arms), [5.0]);

@@ -11,7 +11,7 @@ use crate::number::scalar::Scalar;
 /// ```
 ///
 /// ```
-/// use eem_runtime::kernel::exp_dd;
+/// use eem::kernel::exp_dd;
 ///
 /// assert!((exp_dd(0.0, 1.0) - (1.0_f64.exp() - 1.0)).abs() < 1e-15);
 /// assert_eq!(exp_dd(0.0, 0.0), 1.0);
@@ -71,7 +71,7 @@ pub fn exp_m1_dd2<S: Scalar>(a: S, b: S) -> S {
 /// this number times that of `h ln g`.
 ///
 /// ```
-/// use eem_runtime::kernel::power_dd;
+/// use eem::kernel::power_dd;
 ///
 /// let (x_a, x_b) = (2.0_f64.ln(), 2.0 * 2.0_f64.ln());
 /// let difference = power_dd(2.0, 4.0, x_a, x_b);

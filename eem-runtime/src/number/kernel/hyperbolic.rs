@@ -13,7 +13,7 @@ use crate::number::scalar::Scalar;
 /// ```
 ///
 /// ```
-/// use eem_runtime::kernel::sinh_dd;
+/// use eem::kernel::sinh_dd;
 ///
 /// assert_eq!(sinh_dd(0.0, 0.0), 1.0);
 /// assert!((sinh_dd(0.0, 1.0) - 1.0_f64.sinh()).abs() < 1e-15);
@@ -58,7 +58,7 @@ pub fn sinh_dd2<S: Scalar>(a: S, b: S) -> S {
 /// and the mirror image for `s < 0`.
 ///
 /// ```
-/// use eem_runtime::kernel::cosh_dd;
+/// use eem::kernel::cosh_dd;
 ///
 /// assert_eq!(cosh_dd(-2.0, 2.0), 0.0);
 /// assert!((cosh_dd(0.0, 1.0) - (1.0_f64.cosh() - 1.0)).abs() < 1e-15);
@@ -96,7 +96,7 @@ pub fn cosh_dd2<S: Scalar>(a: S, b: S) -> S {
 /// with `d = |b − a|`, and `μ = min(|a|, |b|)` for ends of one sign, else 0.
 ///
 /// ```
-/// use eem_runtime::kernel::tanh_dd;
+/// use eem::kernel::tanh_dd;
 ///
 /// assert_eq!(tanh_dd(0.0, 0.0), 1.0);
 /// assert!((tanh_dd(-1.0, 1.0) - 1.0_f64.tanh()).abs() < 1e-15);

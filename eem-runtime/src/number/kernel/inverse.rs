@@ -20,7 +20,7 @@ use crate::number::scalar::Scalar;
 /// with `m < M` the ends in the order in which `m + M ≥ 0`, mirrored if necessary.
 ///
 /// ```
-/// use eem_runtime::kernel::asinh_dd;
+/// use eem::kernel::asinh_dd;
 ///
 /// assert_eq!(asinh_dd(0.0, 0.0), 1.0);
 /// assert!((asinh_dd(0.0, 1.0) - 1.0_f64.asinh()).abs() < 1e-15);
@@ -77,7 +77,7 @@ pub fn asinh_dd2<S: Scalar>(a: S, b: S) -> S {
 /// ```
 ///
 /// ```
-/// use eem_runtime::kernel::atan_dd;
+/// use eem::kernel::atan_dd;
 ///
 /// assert_eq!(atan_dd(2.0, 2.0), 0.2);
 /// assert!((atan_dd(0.0, 1.0) - core::f64::consts::FRAC_PI_4).abs() < 1e-15);
@@ -126,7 +126,7 @@ pub fn atan_dd2<S: Scalar>(a: S, b: S) -> S {
 /// with `m = min(a,b)` and `M = max(a,b)`.
 ///
 /// ```
-/// use eem_runtime::kernel::atanh_dd;
+/// use eem::kernel::atanh_dd;
 ///
 /// assert!((atanh_dd(0.0, 0.5) - 3.0_f64.ln()).abs() < 1e-15);
 /// assert_eq!(atanh_dd(0.5, 0.5), 4.0 / 3.0);

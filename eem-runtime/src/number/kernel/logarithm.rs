@@ -48,7 +48,7 @@ pub fn ln_1p_dds<S: Scalar>(a: S, b: S) -> Differences<S> {
 /// m = min(a,b) and d = |b − a| for larger ratios.
 ///
 /// ```
-/// use eem_runtime::kernel::ln_dd;
+/// use eem::kernel::ln_dd;
 ///
 /// assert!((ln_dd(1.0, 2.0) - 2.0_f64.ln()).abs() < 1e-15);
 /// assert_eq!(ln_dd(4.0, 4.0), 0.25);

@@ -15,7 +15,7 @@ use crate::number::scalar::Scalar;
 /// and `(Mᵖ − mᵖ)/d` for |x| ≥ 1, where the quotient of the two powers exceeds e.
 ///
 /// ```
-/// use eem_runtime::kernel::powf_dd;
+/// use eem::kernel::powf_dd;
 ///
 /// assert_eq!(powf_dd(1.0, 4.0, 1.5), 7.0 / 3.0);
 /// assert_eq!(powf_dd(0.0, 4.0, 0.5), 0.5);
@@ -48,7 +48,7 @@ pub fn powf_dd<S: Scalar>(a: S, b: S, p: S) -> S {
 /// terms would cancel, `xᵖ = x·x^(p−1)` with the Leibniz rule.
 ///
 /// ```
-/// use eem_runtime::kernel::powf_dd2;
+/// use eem::kernel::powf_dd2;
 ///
 /// assert!((powf_dd2(4.0, 4.0, 1.5_f64) - 0.1875).abs() < 1e-15);
 /// assert_eq!(powf_dd2(1.0, 4.0, 2.0), 1.0);

@@ -13,7 +13,7 @@ use crate::number::scalar::Scalar;
 /// ```
 ///
 /// ```
-/// use eem_runtime::kernel::sin_dd;
+/// use eem::kernel::sin_dd;
 ///
 /// assert_eq!(sin_dd(0.0, 0.0), 1.0);
 /// assert!((sin_dd(0.0, 1.0) - 1.0_f64.sin()).abs() < 1e-15);
@@ -48,7 +48,7 @@ pub fn sin_dd2<S: Scalar>(a: S, b: S) -> S {
 /// ```
 ///
 /// ```
-/// use eem_runtime::kernel::cos_dd;
+/// use eem::kernel::cos_dd;
 ///
 /// assert_eq!(cos_dd(-3.0, 3.0), 0.0);
 /// assert!((cos_dd(0.0, 1.0) - (1.0_f64.cos() - 1.0)).abs() < 1e-15);
@@ -83,7 +83,7 @@ pub fn cos_dd2<S: Scalar>(a: S, b: S) -> S {
 /// ```
 ///
 /// ```
-/// use eem_runtime::kernel::tan_dd;
+/// use eem::kernel::tan_dd;
 ///
 /// assert_eq!(tan_dd(0.0, 0.0), 1.0);
 /// assert!((tan_dd(0.0, 1.0) - 1.0_f64.tan()).abs() < 1e-15);

@@ -16,7 +16,7 @@ use crate::number::scalar::{Scalar, natural_power};
 /// positive. The error is at most `½|n| + 1` ulp.
 ///
 /// ```
-/// use eem_runtime::kernel::powi_dd;
+/// use eem::kernel::powi_dd;
 ///
 /// assert_eq!(powi_dd(2.0, 3.0, 3), 19.0);
 /// assert_eq!(powi_dd(-7.0, 7.0, 4), 0.0);
@@ -44,7 +44,7 @@ pub fn powi_dd<S: Scalar>(a: S, b: S, n: i32) -> S {
 /// ```
 ///
 /// ```
-/// use eem_runtime::kernel::powi_dd2;
+/// use eem::kernel::powi_dd2;
 ///
 /// assert_eq!(powi_dd2(2.0, 3.0, 3), 8.0);
 /// assert_eq!(powi_dd2(2.0, 4.0, -1), 0.03125);

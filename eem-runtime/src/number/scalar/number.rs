@@ -10,7 +10,7 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 /// which is the same sequence of multiplications on every platform.
 ///
 /// ```
-/// use eem_runtime::Scalar;
+/// use eem::Scalar;
 ///
 /// fn hill<S: Scalar>(x: S) -> S {
 ///     S::branch(x.less(S::zero()), S::zero, || x * (-x).exp())

@@ -16,7 +16,7 @@ pub struct Discord;
 /// The result of a comparison: `bool`, or one `bool` for each of several numbers that move together.
 ///
 /// ```
-/// use eem_runtime::Mask;
+/// use eem::Mask;
 ///
 /// assert!(true.all() && true.any());
 /// assert!(!bool::none().any());
@@ -100,7 +100,7 @@ pub(crate) mod sealed {
 /// evaluating formulas, as a dual number, implements [`Scalar`].
 ///
 /// ```
-/// use eem_runtime::Real;
+/// use eem::Real;
 ///
 /// assert_eq!(f32::EPSILON.to_f64(), 2.0_f64.powi(-23));
 /// assert!(!Real::is_finite(f64::NAN));

@@ -102,7 +102,7 @@ pub enum RestoreError {
     },
     /// An element cannot be in the state of the checkpoint.
     #[error("in the checkpoint, {0}")]
-    State(#[from] StateError),
+    State(StateError),
     /// The entropy of an element is not that of its temperature.
     #[error(
         "element {element} has the entropy {entropy} J/K in the checkpoint, but {expected} J/K at its temperature of {temperature} K; rounding explains {bound:.1e} J/K",
@@ -210,5 +210,11 @@ impl From<Misfit> for RestoreError {
                 bound,
             },
         }
+    }
+}
+
+impl From<StateError> for RestoreError {
+    fn from(error: StateError) -> Self {
+        Self::State(error)
     }
 }

@@ -14,8 +14,7 @@ use crate::step::error::StepError;
 pub struct MemberError {
     /// The index of its input, from 0.
     pub member: usize,
-    /// Why it has no result.
-    #[source]
+    /// Why it has no result; the message has it, so that it is no `source` of its own.
     pub failure: MemberFailure,
 }
 
@@ -46,7 +45,7 @@ impl MemberFailure {
     /// A failure that this crate does not know, from an error or a text.
     ///
     /// ```
-    /// use eem_runtime::MemberFailure;
+    /// use eem::MemberFailure;
     ///
     /// assert_eq!(MemberFailure::other("too hot").to_string(), "too hot");
     /// ```

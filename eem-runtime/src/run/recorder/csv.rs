@@ -16,7 +16,7 @@ impl<const D: usize, S: Real> Recorder<D, S> {
     /// Those of the writer.
     ///
     /// ```
-    /// use eem_runtime::{Quantity, Recorder, Scene, Scheme, Simulation};
+    /// use eem::{Quantity, Recorder, Scene, Scheme, Simulation};
     ///
     /// let mut scene = Scene::<1>::new();
     /// let pivot = scene.anchor([0.1]);

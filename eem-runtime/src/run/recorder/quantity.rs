@@ -13,7 +13,7 @@ use crate::scene::error::SceneError;
 /// A vector takes a column per component. The angular momentum is a single column in the plane.
 ///
 /// ```
-/// use eem_runtime::{Quantity, Recorder, Scene, Scheme, Simulation};
+/// use eem::{Quantity, Recorder, Scene, Scheme, Simulation};
 ///
 /// let mut scene = Scene::<3>::new();
 /// scene.anchor([0.0; 3]);

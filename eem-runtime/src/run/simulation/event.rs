@@ -36,7 +36,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// ```
     /// use core::ops::ControlFlow;
-    /// use eem_runtime::{RunEnd, Scene, Scheme, Simulation};
+    /// use eem::{RunEnd, Scene, Scheme, Simulation};
     ///
     /// let mut scene = Scene::<2>::new();
     /// scene.anchor([0.0, 0.0]);

@@ -10,7 +10,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// The present state, with all that the next steps depend on.
     ///
     /// ```
-    /// use eem_runtime::{Scene, Scheme, Simulation};
+    /// use eem::{Scene, Scheme, Simulation};
     ///
     /// let mut scene = Scene::<2>::new();
     /// scene.anchor([0.0, 0.0]);

@@ -39,7 +39,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// [`StepFailure::End`] if `end` is not a number or lies before the present time.
     ///
     /// ```
-    /// use eem_runtime::{Scene, Scheme, Simulation};
+    /// use eem::{Scene, Scheme, Simulation};
     ///
     /// let mut scene = Scene::<2>::new();
     /// let mass = scene.mass(1.0, [0.0, 0.0], [3.0, 0.0]);
@@ -65,7 +65,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// ```
     /// use core::ops::ControlFlow;
-    /// use eem_runtime::{RunEnd, Scene, Scheme, Simulation};
+    /// use eem::{RunEnd, Scene, Scheme, Simulation};
     ///
     /// let mut scene = Scene::<2>::new();
     /// scene.anchor([0.0, 0.0]);
@@ -114,7 +114,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// ```
     /// use core::ops::ControlFlow;
-    /// use eem_runtime::{RunEnd, Scene, Scheme, Simulation};
+    /// use eem::{RunEnd, Scene, Scheme, Simulation};
     ///
     /// let mut scene = Scene::<2>::new();
     /// scene.anchor([0.0, 0.0]);

@@ -69,7 +69,7 @@ pub enum StudyError {
         /// The setting that it was built for.
         setting: Setting,
         /// What is wrong with it.
-        source: SceneError,
+        r#source: SceneError,
     },
     /// A reference that is not of this scene.
     #[error(

@@ -62,7 +62,7 @@ pub(super) type PerQuantity = [Option<f64>; 4];
 /// A state in double precision, to be compared with others of the same scene.
 ///
 /// ```
-/// use eem_runtime::{EndState, Scene, Scheme, Simulation, StateQuantity};
+/// use eem::{EndState, Scene, Scheme, Simulation, StateQuantity};
 ///
 /// // A free mass after 1 s at 2 m/s.
 /// let mut scene = Scene::<1>::new();

@@ -29,7 +29,7 @@ pub enum Precision {
 /// One run of a [`Study`](crate::Study).
 ///
 /// ```
-/// use eem_runtime::{Precision, Scheme, Setting};
+/// use eem::{Precision, Scheme, Setting};
 ///
 /// let setting = Setting::fixed(Scheme::EemEntropy, 0.1);
 /// assert_eq!(setting.step(), Some(0.1));
@@ -61,7 +61,7 @@ impl Setting {
     /// The steps `h, h/2, …, h/2ⁿ` of a scheme: `halvings` is n, `largest` is h, s.
     ///
     /// ```
-    /// use eem_runtime::{Scheme, Setting};
+    /// use eem::{Scheme, Setting};
     ///
     /// let steps = Setting::halved(Scheme::Gauss4, 0.2, 2).filter_map(|setting| setting.step());
     /// assert_eq!(steps.collect::<Vec<_>>(), [0.2, 0.1, 0.05]);
@@ -75,7 +75,7 @@ impl Setting {
     /// A scheme with the steps that a relative tolerance needs, in double precision.
     ///
     /// ```
-    /// use eem_runtime::{Scheme, Setting};
+    /// use eem::{Scheme, Setting};
     ///
     /// let setting = Setting::controlled(Scheme::EemTemperature, 1e-4);
     /// assert_eq!((setting.step(), setting.tolerance()), (None, Some(1e-4)));
@@ -93,7 +93,7 @@ impl Setting {
     /// The tolerances `r, r/10, …, r/10ⁿ` of a scheme: `decades` is n, `largest` is r.
     ///
     /// ```
-    /// use eem_runtime::{Scheme, Setting};
+    /// use eem::{Scheme, Setting};
     ///
     /// let settings = Setting::by_decades(Scheme::EemEntropy, 1e-2, 1);
     /// let tolerances: Vec<_> = settings.filter_map(|setting| setting.tolerance()).collect();
@@ -134,7 +134,7 @@ impl Setting {
     /// The name of the scheme, with `-f32` in single precision.
     ///
     /// ```
-    /// use eem_runtime::{Scheme, Setting};
+    /// use eem::{Scheme, Setting};
     ///
     /// let setting = Setting::fixed(Scheme::Midpoint, 0.1).in_single_precision();
     /// assert_eq!(setting.name(), "midpoint-f32");
@@ -151,7 +151,7 @@ impl Setting {
     /// The line of a picture that the setting belongs to: its name, and whether its steps are controlled.
     ///
     /// ```
-    /// use eem_runtime::{Scheme, Setting};
+    /// use eem::{Scheme, Setting};
     ///
     /// assert_eq!(Setting::fixed(Scheme::EemEntropy, 0.1).line(), "eem-entropy");
     /// assert_eq!(Setting::controlled(Scheme::EemEntropy, 0.1).line(), "eem-entropy, controlled");

@@ -36,7 +36,7 @@ impl Statement {
     /// The error, if it is stated.
     ///
     /// ```
-    /// use eem_runtime::Statement;
+    /// use eem::Statement;
     ///
     /// assert_eq!(Statement::Stated(1e-3).stated(), Some(1e-3));
     /// assert_eq!(Statement::Refused { difference: 1e-3, doubt: 1e-4 }.stated(), None);

@@ -30,7 +30,7 @@ const SINGLE: f64 = 1e-12;
 /// small beside all else.
 ///
 /// ```
-/// use eem_runtime::Tolerance;
+/// use eem::Tolerance;
 ///
 /// let tolerance = Tolerance::new(1e-6).with_temperature(1e-3);
 /// assert_eq!((tolerance.relative, tolerance.temperature, tolerance.position), (1e-6, 1e-3, 0.0));

@@ -1,0 +1,159 @@
+//! README, tutorial and guide followed to the letter, from crates outside of the workspace.
+//!
+//! The blocks are copied, built and run, and what they print is compared. Building takes a minute, so that
+//! these tests are ignored in an ordinary run; the gate (`.ci/run`) asks for them.
+
+#![allow(clippy::unwrap_used, reason = "a test: what is missing is a failure")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
+/// A folder in the one that the workspace builds in.
+const TEMPORARY: &str = env!("CARGO_TARGET_TMPDIR");
+
+/// A fenced block: its language, its text, and the prose between the block before and this one.
+struct Block<'a> {
+    language: &'a str,
+    text: &'a str,
+    before: &'a str,
+}
+
+fn blocks(page: &str) -> Vec<Block<'_>> {
+    let parts: Vec<&str> = page.split("```").collect();
+    let pairs = parts.chunks_exact(2);
+    pairs
+        .map(|pair| {
+            let (language, text) = pair[1].split_once('\n').unwrap();
+            Block {
+                language,
+                text,
+                before: pair[0].trim(),
+            }
+        })
+        .collect()
+}
+
+/// A folder outside of the workspace, beside which lies `eem`, as the pages say.
+fn folder(name: &str) -> PathBuf {
+    let base = std::env::temp_dir().join(format!("eem-followed-{name}-{}", std::process::id()));
+    let _ = fs::remove_dir_all(&base);
+    fs::create_dir_all(base.join(name).join("src")).unwrap();
+    #[cfg(unix)]
+    std::os::unix::fs::symlink(ROOT, base.join("eem")).unwrap();
+    base.join(name)
+}
+
+/// A crate with these dependencies and the versions of the workspace.
+fn manifest(krate: &Path, dependencies: &str) {
+    let name = krate.file_name().unwrap().to_string_lossy();
+    let package =
+        format!("[package]\nname = \"{name}\"\nversion = \"0.1.0\"\nedition = \"2024\"\n\n");
+    // Not part of a workspace that happens to lie above.
+    let alone = "\n[workspace]\n";
+    fs::write(krate.join("Cargo.toml"), package + dependencies + alone).unwrap();
+    fs::copy(Path::new(ROOT).join("Cargo.lock"), krate.join("Cargo.lock")).unwrap();
+}
+
+/// What `cargo` with these arguments prints in a crate; its builds share dependencies with the workspace.
+fn cargo(krate: &Path, arguments: &[&str]) -> String {
+    let output = Command::new(env!("CARGO"))
+        .args(arguments)
+        .current_dir(krate)
+        .env("CARGO_TARGET_DIR", Path::new(TEMPORARY).parent().unwrap())
+        // As in the workspace, so that nothing is built twice.
+        .env("CARGO_PROFILE_DEV_DEBUG", "line-tables-only")
+        .output()
+        .unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{arguments:?}: {errors}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+/// Follows a page with one program; gives back the folder of its crate.
+fn follow(name: &str, page: &str) -> PathBuf {
+    let blocks = blocks(page);
+    let of = |language: &str| {
+        let mut found = blocks.iter().filter(|block| block.language == language);
+        found.next().unwrap().text
+    };
+    let program = blocks.iter().find(|block| block.text.contains("fn main()"));
+    let printed = blocks.iter().find(|block| block.before.ends_with("prints"));
+    let krate = folder(name);
+    manifest(&krate, of("toml"));
+    fs::write(krate.join("src/main.rs"), program.unwrap().text).unwrap();
+    let output = cargo(&krate, &["run", "--quiet"]);
+    assert_eq!(output, printed.unwrap().text);
+    krate
+}
+
+#[test]
+#[ignore = "builds a crate; the gate runs it"]
+fn the_readme_can_be_followed() {
+    let krate = follow("pendulum", include_str!("../../README.md"));
+    fs::remove_dir_all(krate.parent().unwrap()).unwrap();
+}
+
+#[test]
+#[ignore = "builds a crate; the gate runs it"]
+fn the_tutorial_can_be_followed_to_its_picture() {
+    let krate = follow("damper", include_str!("../../docs/tutorial.md"));
+    let drawn = fs::read_to_string(krate.join("picture.svg")).unwrap();
+    let shown = include_str!("../../docs/tutorial.svg");
+    assert!(
+        drawn == shown,
+        "docs/tutorial.svg is not what the tutorial draws"
+    );
+    fs::remove_dir_all(krate.parent().unwrap()).unwrap();
+}
+
+#[test]
+#[ignore = "builds a crate; the gate runs it"]
+fn the_programs_of_the_guide_can_be_followed() {
+    let page = include_str!("../../docs/guide.md");
+    let blocks = blocks(page);
+    let krate = folder("chapters");
+    manifest(
+        &krate,
+        "[dependencies]\neem = { path = \"../eem\", features = [\"serde\"] }\nserde_json = { version = \"1\", features = [\"float_roundtrip\"] }\n",
+    );
+    fs::create_dir_all(krate.join("src/bin")).unwrap();
+    let mut programs = Vec::new();
+    for (index, block) in blocks
+        .iter()
+        .enumerate()
+        .filter(|(_, block)| block.language == "rust")
+    {
+        let name = format!("chapter{index:02}");
+        let path = krate.join("src/bin").join(format!("{name}.rs"));
+        fs::write(path, program(block.text)).unwrap();
+        let printed = blocks.get(index + 1).filter(|next| next.before == "prints");
+        programs.push((name, printed.map(|next| next.text)));
+    }
+    assert!(programs.len() > 10);
+    cargo(&krate, &["build", "--quiet", "--bins"]);
+    for (name, printed) in programs {
+        let output = cargo(&krate, &["run", "--quiet", "--bin", &name]);
+        if let Some(printed) = printed {
+            assert_eq!(output, printed, "{name}");
+        }
+    }
+    fs::remove_dir_all(krate.parent().unwrap()).unwrap();
+}
+
+/// What rustdoc makes of a block: hidden lines are shown, and all is the body of `main`.
+fn program(block: &str) -> String {
+    let shown = block
+        .lines()
+        .map(|line| line.strip_prefix("# ").unwrap_or(line));
+    let body: Vec<&str> = shown.filter(|line| *line != "#").collect();
+    let body = body.join("\n");
+    let start = "#![allow(dead_code, unused)]\n";
+    if body.contains("Ok::<()") {
+        let wrapped = "fn main() { fn run() -> Result<(), impl core::fmt::Debug> {\n";
+        format!("{start}{wrapped}{body}\n}} run().unwrap() }}\n")
+    } else {
+        format!("{start}fn main() {{\n{body}\n}}\n")
+    }
+}
