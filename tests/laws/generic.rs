@@ -131,17 +131,73 @@ fn steps_are_discrete_generic_systems() {
 }
 
 #[test]
-fn the_double_pendulum_has_the_published_form() {
+fn the_double_pendulum_conducts_between_entropies() {
     let case = DoublePendulum::KRUEGER;
     let mut run = case.simulation(Scheme::EemTemperature, case.step).run;
     let generic = run.generic();
     assert_structure(&generic);
-    // q and p of two masses in space, two entropies.
+    // q and p of two masses in space, two entropies: κ θ₁θ₂ (1/θ₁², −1/(θ₁θ₂); …).
     assert_eq!(generic.energy_gradient.len(), 14);
-    // Conde Martín, Betsch & García Orden (2016), eq. (23): κ θ₁θ₂ (1/θ₁², −1/(θ₁θ₂); …).
     let (theta1, theta2, kappa) = (380.0, 310.0, 10.0);
     let m = &generic.irreversible;
     approx::assert_relative_eq!(m[(12, 12)], kappa * theta2 / theta1, max_relative = 1e-15);
     approx::assert_relative_eq!(m[(12, 13)], -kappa, max_relative = 1e-15);
     approx::assert_relative_eq!(m[(13, 13)], kappa * theta1 / theta2, max_relative = 1e-15);
+}
+
+#[test]
+fn networks_have_the_form_in_temperatures_too() {
+    let mut run = scene(Scheme::EemTemperature, 0.05);
+    for _ in 0..10 {
+        assert_structure(&run.generic_in_temperature());
+        run.step().unwrap();
+    }
+}
+
+#[test]
+fn the_double_pendulum_has_the_published_form_in_temperatures() {
+    for case in [DoublePendulum::KRUEGER, DoublePendulum::ROMERO] {
+        let mut double = case.simulation(Scheme::EemTemperature, case.step);
+        for _ in 0..5 {
+            let entropies = double.run.generic();
+            let form = double.run.generic_in_temperature();
+            assert_structure(&form);
+            // What moves is the same: ż of q, p and γ does not depend on the other variables.
+            let rates = |form: &Generic<f64>| {
+                &form.reversible * &form.energy_gradient
+                    + &form.irreversible * &form.entropy_gradient
+            };
+            let (by_entropy, by_temperature) = (rates(&entropies), rates(&form));
+            let size = by_entropy.rows(0, 12).norm();
+            let difference = by_entropy.rows(0, 12) - by_temperature.rows(0, 12);
+            assert!(difference.norm() < 1e-13 * size, "{difference}");
+            // Eqs. (22) and (23), with (∂e/∂θ) from the gradient of E and ∂s/∂θ from that of S.
+            let [e1, e2] = [12, 13].map(|place| form.energy_gradient[place]);
+            let theta = [12, 13].map(|place| entropies.energy_gradient[place]);
+            let factor = case.conductance * theta[0] * theta[1];
+            let m = &form.irreversible;
+            for (at, expected) in [
+                ((12, 12), factor / (e1 * e1)),
+                ((12, 13), -factor / (e1 * e2)),
+                ((13, 13), factor / (e2 * e2)),
+            ] {
+                approx::assert_relative_eq!(m[at], expected, max_relative = 1e-13);
+            }
+            for spring in [12, 13] {
+                let slope = form.entropy_gradient[spring];
+                approx::assert_relative_eq!(
+                    theta[spring - 12] * slope,
+                    form.energy_gradient[spring],
+                    max_relative = 1e-13
+                );
+            }
+            double.run.step().unwrap();
+        }
+    }
+    // The paper's case in its first state: κ θ₁θ₂/(∂e₁/∂θ₁)², and (∂s₁/∂θ₁)⁻¹ ∂s₁/∂λ₁ along the first axis.
+    let case = DoublePendulum::KRUEGER;
+    let mut run = case.simulation(Scheme::EemTemperature, case.step).run;
+    let form = run.generic_in_temperature();
+    approx::assert_relative_eq!(form.irreversible[(12, 12)], 1.178, max_relative = 1e-14);
+    approx::assert_relative_eq!(form.reversible[(6, 12)], 0.076, max_relative = 1e-14);
 }

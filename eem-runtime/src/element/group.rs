@@ -50,5 +50,6 @@ pub(crate) use interface::{Elements, ExplicitGroup, Group, Loose};
 pub(crate) use loose::LooseElements;
 pub(crate) use misfit::Misfit;
 pub(crate) use view::{
-    Along, ElementGeneric, ElementTotals, ElementView, NodesOf, Old, Placed, Sites, StepView, Trial,
+    Along, ElementGeneric, ElementTotals, ElementView, EntropySlopes, NodesOf, Old, Placed, Sites,
+    StepView, Trial,
 };

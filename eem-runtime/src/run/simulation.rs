@@ -9,6 +9,7 @@ mod control;
 mod control_memory;
 mod event;
 pub(crate) mod generic;
+mod generic_temperature;
 mod halves;
 mod inspect;
 pub(crate) mod linearize;

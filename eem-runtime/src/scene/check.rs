@@ -221,3 +221,9 @@ fn check_element<S: Real>(
         (None, false) | (Some(_), true) => Ok(()),
     }
 }
+
+impl From<StateError> for SceneError {
+    fn from(error: StateError) -> Self {
+        Self::State(error)
+    }
+}

@@ -347,9 +347,3 @@ pub enum SceneError {
     #[error("at t = 0 s: {0}")]
     State(StateError),
 }
-
-impl From<StateError> for SceneError {
-    fn from(error: StateError) -> Self {
-        Self::State(error)
-    }
-}

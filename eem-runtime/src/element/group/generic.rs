@@ -3,10 +3,11 @@
 use super::arms::{measures_in, spread};
 use super::point::Point;
 use super::pose::Pose;
-use super::view::ElementGeneric;
+use super::view::{ElementGeneric, EntropySlopes};
 use crate::element::conjugates::{ElementScheme, Placement};
 use crate::element::group::element_group::ElementGroup;
 use crate::element::kinematics::{Arms, Kinematics, Measures};
+use crate::element::layout::Slots;
 use crate::element::state::State;
 use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
@@ -26,7 +27,10 @@ where
             for point in member.points.as_mut() {
                 point.take_derivatives(&r, state);
                 let at = (Placement::End, [&r, &r]);
-                elements.push(point.generic(&member.site.nodes, at));
+                elements.push(ElementGeneric {
+                    entropy: point.entropy_slopes(&member.site.nodes, at),
+                    ..point.generic(&member.site.nodes, at)
+                });
             }
         }
         elements
@@ -77,13 +81,8 @@ where
         let measures0 = measures_in::<K, S, D>(&self.start.x0);
         let pose = Pose::between(self.kinematics, at, ends, measures0);
         let on_nodes = |forces: &Measures<K, S, D>| {
-            let by_node = spread::<K, S, D>(&pose.pull(self.kinematics, at, forces));
-            let mut entries = Vec::new();
-            for (&node, force) in nodes.as_ref().iter().zip(by_node.as_ref()) {
-                let axes = force.iter().enumerate();
-                entries.extend(axes.map(|(axis, &entry)| (node as usize * D + axis, entry)));
-            }
-            entries
+            let pulled = pose.pull(self.kinematics, at, forces);
+            by_coordinate::<K, S, D>(nodes, &spread::<K, S, D>(&pulled))
         };
         let drags = (0..Self::DRAGS).map(|a| {
             let mut unit = Measures::<K, S, D>::filled(S::zero());
@@ -99,6 +98,45 @@ where
             dashpots: dashpots.collect(),
             drags: drags.collect(),
             temperature: self.slots().thermal.map(|slot| (slot, self.temperature())),
+            entropy: None,
         }
     }
+
+    /// How the entropy depends on the state in which derivatives have been taken.
+    fn entropy_slopes(
+        &self,
+        nodes: &K::PerNode<u32>,
+        (at, ends): (Placement, [&Arms<K, S, D>; 2]),
+    ) -> Option<EntropySlopes<S>> {
+        let Slots { viscous, thermal } = self.slots();
+        let x = self.start.x0;
+        let (_, hessian) = self.model.hessian(&x);
+        let theta = M::Variables::LEN - 1;
+        let pose = Pose::between(self.kinematics, at, ends, measures_in::<K, S, D>(&x));
+        let mut by_measure = Measures::<K, S, D>::filled(S::zero());
+        for a in 0..M::MEASURES {
+            by_measure[a] = -hessian[theta][a];
+        }
+        let pulled = pose.pull(self.kinematics, at, &by_measure);
+        let dashpots = (0..M::DASHPOTS).map(|k| (viscous + k, -hessian[theta][M::MEASURES + k]));
+        thermal.map(|slot| EntropySlopes {
+            slot,
+            by_position: by_coordinate::<K, S, D>(nodes, &spread::<K, S, D>(&pulled)),
+            by_viscous: dashpots.collect(),
+            by_temperature: -hessian[theta][theta],
+        })
+    }
+}
+
+/// The components of vectors on nodes, with their coordinates.
+fn by_coordinate<K: Kinematics<S, D>, S: Real, const D: usize>(
+    nodes: &K::PerNode<u32>,
+    by_node: &K::PerNode<[S; D]>,
+) -> Vec<(usize, S)> {
+    let mut entries = Vec::new();
+    for (&node, vector) in nodes.as_ref().iter().zip(by_node.as_ref()) {
+        let axes = vector.iter().enumerate();
+        entries.extend(axes.map(|(axis, &entry)| (node as usize * D + axis, entry)));
+    }
+    entries
 }

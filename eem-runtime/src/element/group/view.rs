@@ -164,6 +164,21 @@ pub(crate) struct ElementGeneric<S> {
     pub(crate) drags: Vec<(S, Vec<(usize, S)>)>,
     /// `(slot, θ)`, K, if the element has a temperature.
     pub(crate) temperature: Option<(usize, S)>,
+    /// How its entropy depends on the state; none of a step.
+    pub(crate) entropy: Option<EntropySlopes<S>>,
+}
+
+/// The derivatives of the entropy of an element in a state.
+#[derive(Clone, Debug)]
+pub(crate) struct EntropySlopes<S> {
+    /// Its thermal slot.
+    pub(crate) slot: usize,
+    /// `(coordinate, ∂s/∂q)`, J/(K m).
+    pub(crate) by_position: Vec<(usize, S)>,
+    /// `(slot, ∂s/∂γ)`.
+    pub(crate) by_viscous: Vec<(usize, S)>,
+    /// `∂s/∂θ`, J/K².
+    pub(crate) by_temperature: S,
 }
 
 /// What the old state gives to the nodes.

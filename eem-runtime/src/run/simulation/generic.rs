@@ -18,8 +18,9 @@ use crate::step::scheme::Scheme;
 /// L = −Lᵀ,   M = Mᵀ ≥ 0,   L ∇S = 0,   M ∇E = 0
 /// ```
 ///
-/// in the order of creation (Öttinger 2005; Conde Martín, Betsch & García Orden 2016, eqs. 22–23 and,
-/// for a step, 35–36). With discrete derivatives in the place of ∇, `z¹ − z⁰ = h (L DE + M DS)`. Loads and
+/// in the order of creation (Öttinger 2005; García Orden & Romero 2012). With temperatures in the place of entropies it is
+/// that of Conde Martín, Betsch & García Orden (2016), see
+/// [`generic_in_temperature`](Simulation::generic_in_temperature). With discrete derivatives in the place of ∇, `z¹ − z⁰ = h (L DE + M DS)`. Loads and
 /// thermostats are not part of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Generic<S: Real> {
@@ -182,7 +183,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    fn generic_places(&self) -> Places {
+    pub(super) fn generic_places(&self) -> Places {
         let mut positions = Vec::with_capacity(self.masses.len() * D);
         let mut masses = 0;
         for mass in self.masses.iter() {
@@ -206,12 +207,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 }
 
 /// Where the parts of z begin.
-struct Places {
+pub(super) struct Places {
     /// The place of each coordinate of a mass.
-    positions: Vec<Option<usize>>,
+    pub(super) positions: Vec<Option<usize>>,
     momenta: usize,
-    viscous: usize,
-    entropies: usize,
+    pub(super) viscous: usize,
+    pub(super) entropies: usize,
     reservoirs: usize,
     size: usize,
 }
