@@ -9,6 +9,7 @@ mod expr;
 mod helper;
 mod item;
 mod modifiers;
+mod name;
 mod number;
 mod unsupported;
 

@@ -2,10 +2,11 @@
 
 use proc_macro2::TokenTree;
 use quote::ToTokens as _;
-use syn::{Expr as Syntax, ExprBlock, Local, Pat, PatIdent, Stmt};
+use syn::{Expr as Syntax, ExprBlock, Local, Pat, Stmt};
 
 use super::expr::expr;
 use super::helper;
+use super::name::plain_name;
 use crate::ast::{Binding, Block, Bound, Expr, ExprKind, Helper};
 use crate::ctxt::Ctxt;
 use crate::message::expression::syntax as message;
@@ -118,24 +119,7 @@ fn binding<'a>(cx: &Ctxt, block: &'a Syntax, local: &'a Local) -> Binding<'a> {
         }
         pat => pat,
     };
-    let ident = match pat {
-        Pat::Ident(PatIdent {
-            by_ref: None,
-            mutability,
-            subpat: None,
-            ident,
-            ..
-        }) => {
-            if let Some(token) = mutability {
-                cx.error(token, &message::mutable());
-            }
-            Some(ident)
-        }
-        other => {
-            cx.error(other, &message::let_pattern());
-            None
-        }
-    };
+    let ident = plain_name(cx, pat, message::let_pattern);
     let Some(init) = &local.init else {
         cx.error(local, &message::let_without_value());
         let value = Bound::Value(Expr::hole(block));

@@ -4,10 +4,10 @@ use quote::ToTokens;
 use syn::{ExprClosure, Pat, PatIdent, PatType, ReturnType, Type};
 
 use super::modifiers::check_modifiers;
+use super::name::plain_name;
 use crate::ast::{Argument, Role, Strain};
 use crate::ctxt::Ctxt;
 use crate::message::attribute as message;
-use crate::message::expression::syntax::mutable;
 use crate::nearest::nearest;
 
 /// The arguments whose names can be read; reports the others.
@@ -23,7 +23,7 @@ pub(super) fn arguments<'a>(cx: &Ctxt, closure: &'a ExprClosure) -> Vec<Argument
 fn argument<'a>(cx: &Ctxt, pat: &'a Pat) -> Option<Argument<'a>> {
     match pat {
         Pat::Type(PatType { pat, ty, .. }) => {
-            let ident = plain_name(cx, pat);
+            let ident = plain_name(cx, pat, message::argument_pattern);
             let role = role(cx, ident, ty);
             ident.map(|ident| Argument { ident, role })
         }
@@ -31,28 +31,6 @@ fn argument<'a>(cx: &Ctxt, pat: &'a Pat) -> Option<Argument<'a>> {
             let name = crate::ast::name(ident);
             cx.error(ident, &message::argument_without_role(&name));
             Some(Argument { ident, role: None })
-        }
-        other => {
-            cx.error(other, &message::argument_pattern());
-            None
-        }
-    }
-}
-
-/// The name of a pattern that is nothing but a name.
-fn plain_name<'a>(cx: &Ctxt, pat: &'a Pat) -> Option<&'a syn::Ident> {
-    match pat {
-        Pat::Ident(PatIdent {
-            by_ref: None,
-            mutability,
-            subpat: None,
-            ident,
-            ..
-        }) => {
-            if let Some(token) = mutability {
-                cx.error(token, &mutable());
-            }
-            Some(ident)
         }
         other => {
             cx.error(other, &message::argument_pattern());

@@ -1,11 +1,11 @@
 //! Helpers: `let f = |x, y| …;`.
 
-use syn::{Expr as Syntax, ExprClosure, Pat, PatIdent, ReturnType};
+use syn::{Expr as Syntax, ExprClosure, Pat, ReturnType};
 
 use super::modifiers::check_modifiers;
+use super::name::plain_name;
 use crate::ctxt::Ctxt;
 use crate::message::expression::helper as message;
-use crate::message::expression::syntax::mutable;
 
 /// The closure that a `let` binds, if it binds one.
 pub(super) fn closure(syntax: &Syntax) -> Option<&ExprClosure> {
@@ -34,26 +34,9 @@ fn check(cx: &Ctxt, closure: &ExprClosure) {
 }
 
 fn argument<'a>(cx: &Ctxt, pat: &'a Pat) -> Option<&'a syn::Ident> {
-    match pat {
-        Pat::Type(typed) => {
-            cx.error(&typed.ty, &message::types());
-            argument(cx, &typed.pat)
-        }
-        Pat::Ident(PatIdent {
-            by_ref: None,
-            mutability,
-            subpat: None,
-            ident,
-            ..
-        }) => {
-            if let Some(token) = mutability {
-                cx.error(token, &mutable());
-            }
-            Some(ident)
-        }
-        other => {
-            cx.error(other, &message::pattern());
-            None
-        }
+    if let Pat::Type(typed) = pat {
+        cx.error(&typed.ty, &message::types());
+        return argument(cx, &typed.pat);
     }
+    plain_name(cx, pat, message::pattern)
 }

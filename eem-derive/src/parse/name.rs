@@ -1,0 +1,30 @@
+//! Names that patterns consist of.
+
+use syn::{Ident, Pat, PatIdent};
+
+use crate::ctxt::Ctxt;
+use crate::message::Message;
+use crate::message::expression::syntax::mutable;
+
+/// The name of a pattern that is nothing but a name; what else there is, is reported as `other`.
+pub(super) fn plain_name<'a>(
+    cx: &Ctxt,
+    pat: &'a Pat,
+    other: impl FnOnce() -> Message,
+) -> Option<&'a Ident> {
+    let Pat::Ident(PatIdent {
+        by_ref: None,
+        mutability,
+        subpat: None,
+        ident,
+        ..
+    }) = pat
+    else {
+        cx.error(pat, &other());
+        return None;
+    };
+    if let Some(token) = mutability {
+        cx.error(token, &mutable());
+    }
+    Some(ident)
+}
