@@ -6,8 +6,8 @@
 //!
 //! It acts along the same mean-value gradient as f*, so that its work is `f_d Δλ`, the heat that the element
 //! receives, for any step. `Δλ = D*λ Δr` is found from the motion of the nodes: the difference of lengths would
-//! lose its digits where the dashpot is stiff. The ordinary rules take `η λ̇` where they look at the motion. The response stays that of the free energy; whoever needs the force between the
-//! nodes asks [`Point::pulls`].
+//! lose its digits where the dashpot is stiff. The ordinary rules take `η λ̇` where they look at the motion. The
+//! response stays that of the free energy; whoever needs the force between the nodes asks [`Point::pulls`].
 
 use super::arms::{add_scaled, along, measures_in, scale};
 use super::local::Dissipation;

@@ -61,6 +61,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Gradients and matrices at the present state.
     pub fn generic(&mut self) -> Generic<S> {
+        self.generic_and_elements().0
+    }
+
+    /// The same with what the elements contribute to it.
+    pub(super) fn generic_and_elements(&mut self) -> (Generic<S>, Vec<ElementGeneric<S>>) {
         // The elements look at another configuration than that of their last step.
         self.has_stepped = false;
         let state = &self.state;
@@ -68,7 +73,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let each = |group: &mut dyn Elements<S, D>| elements.extend(group.generic_in(state));
         self.stepper.each_mut(each);
         let velocities = self.velocities_in(&self.state);
-        self.generic_from(&elements, &velocities)
+        (self.generic_from(&elements, &velocities), elements)
     }
 
     /// Discrete gradients and matrices of the last step; `None` before the first, after a failed

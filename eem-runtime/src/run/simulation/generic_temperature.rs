@@ -2,7 +2,7 @@
 
 use super::Simulation;
 use super::generic::{Generic, Places};
-use crate::element::group::{Elements, EntropySlopes};
+use crate::element::group::EntropySlopes;
 use crate::number::scalar::Real;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
@@ -37,11 +37,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn generic_in_temperature(&mut self) -> Generic<S> {
-        let mut form = self.generic();
-        let state = &self.state;
-        let mut elements = Vec::new();
-        let each = |group: &mut dyn Elements<S, D>| elements.extend(group.generic_in(state));
-        self.stepper.each_mut(each);
+        let (mut form, elements) = self.generic_and_elements();
         let places = self.generic_places();
         for slopes in elements
             .iter()
