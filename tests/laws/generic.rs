@@ -96,14 +96,11 @@ fn a_step_that_is_no_longer_known_has_no_discrete_form() {
 
     run.step().unwrap();
     let end = run.time() + 1.0;
-    let no_number = |now: &Simulation<2>| {
-        if now.time() < end - 0.5 {
-            1.0
-        } else {
-            f64::NAN
-        }
-    };
-    let failed = run.run_until_event(end, 0.0, no_number, |_, _| ControlFlow::Continue(()));
+    let no_number = Event::crossing(|now: &Simulation<2>| {
+        let is_early = now.time() < end - 0.5;
+        Ok(if is_early { 1.0 } else { f64::NAN })
+    });
+    let failed = run.run_until_event(end, &mut [no_number]);
     assert!(failed.is_err());
     assert!(run.generic_of_last_step().is_none());
 }

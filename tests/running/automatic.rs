@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use std::ops::ControlFlow;
 
 use eem::prelude::*;
-use eem::{Checkpoint, RestoreError, SceneError, StepFailure, StepReport, Tolerance};
+use eem::{Checkpoint, RestoreError, SceneError, StepFailure, Tolerance};
 
 use crate::support::{DoublePendulum, ThermoViscoElastic, single_pendulum};
 
@@ -45,10 +45,6 @@ fn rotor(
     let mut run = Simulation::new(scene, Scheme::Auto, 1e-3).unwrap();
     run.control_steps(Tolerance::new(tolerance)).unwrap();
     run
-}
-
-fn go_on(_: &Simulation<2>, _: &StepReport<f64>) -> ControlFlow<()> {
-    ControlFlow::Continue(())
 }
 
 #[test]
@@ -235,8 +231,9 @@ fn events_and_output_times_work_in_both_kinds() {
     assert_eq!(times, [0.1, 0.5, 0.7]);
     assert_eq!(run.scheme_in_use(), Scheme::EemTemperature);
     // A quarter of a turn.
-    let height = |run: &Simulation<2>| run.ledger().linear_momentum[1];
-    run.run_until_event(3.0, 1e-6, height, go_on).unwrap();
+    let height = |run: &Simulation<2>| Ok(run.ledger().linear_momentum[1]);
+    let turned = Event::crossing(height).within(1e-6);
+    run.run_until_event(3.0, &mut [turned]).unwrap();
     assert!((run.time() - FRAC_PI_2).abs() < 1e-2, "{}", run.time());
 }
 
@@ -267,8 +264,9 @@ fn samples_are_found_within_steps_at_the_limit_of_stability() {
         .unwrap();
     for time in &times {
         let mut run = build();
-        let clock = |run: &Simulation<2>| run.time() - time - 1e-3;
-        run.run_until_event(0.6, 1e-9, clock, go_on).unwrap();
+        let clock = |run: &Simulation<2>| Ok(run.time() - time - 1e-3);
+        let late = Event::crossing(clock).within(1e-9);
+        run.run_until_event(0.6, &mut [late]).unwrap();
     }
 }
 
@@ -278,12 +276,13 @@ fn calls_that_fail_leave_no_trace() {
     for _ in 0..120 {
         run.step().unwrap();
         let before = bits(&run);
-        let broken = |_: &Simulation<2>| f64::NAN;
-        assert!(run.run_until_event(9.0, 0.0, broken, go_on).is_err());
+        let broken = Event::crossing(|_: &Simulation<2>| Ok(f64::NAN));
+        assert!(run.run_until_event(9.0, &mut [broken]).is_err());
         assert_eq!(bits(&run), before);
         let start = run.time();
-        let later = |run: &Simulation<2>| if run.time() > start { f64::NAN } else { 1.0 };
-        assert!(run.run_until_event(9.0, 0.0, later, go_on).is_err());
+        let later = |run: &Simulation<2>| Ok(if run.time() > start { f64::NAN } else { 1.0 });
+        let later = Event::crossing(later);
+        assert!(run.run_until_event(9.0, &mut [later]).is_err());
         let after = bits(&run);
         // What an explicit scheme foretells has no effect on the steps.
         assert_eq!(after.split("past:").next(), before.split("past:").next());

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicI32, Ordering};
 
 use eem::prelude::*;
-use eem::{EndState, RunEnd, SceneError, StateQuantity, StepFailure, StepReport, Tolerance};
+use eem::{EndState, RunEnd, SceneError, StateQuantity, StepFailure, Tolerance};
 
 use crate::support::{single_pendulum, single_pendulum_scene};
 
@@ -199,9 +199,9 @@ fn events_are_found_within_controlled_steps() {
         let bob = pendulum.bob;
         let first = pendulum.run.ledger();
         let height = |run: &Simulation<2>| run.position(bob).unwrap()[1] - 1.0;
-        let goes_on = |_: &Simulation<2>, _: &StepReport<f64>| ControlFlow::Continue(());
-        let end = pendulum.run.run_until_event(10.0, 1e-12, height, goes_on);
-        assert_eq!(end, Ok(RunEnd::Event));
+        let passes = Event::crossing(|run| Ok(height(run))).within(1e-12);
+        let end = pendulum.run.run_until_event(10.0, &mut [passes]);
+        assert_eq!(end, Ok(RunEnd::Event(0)));
         assert!((0.0..1e-11).contains(&height(&pendulum.run)), "{scheme}");
         let last = pendulum.run.ledger();
         assert!((last.balance - first.balance).abs() <= 4e-15 * first.energy);
@@ -422,8 +422,8 @@ fn a_failed_search_for_an_event_leaves_the_control_as_it_was() {
     let mut run = controlled(Scheme::EemEntropy, 1e-4);
     to(&mut run, 0.5);
     let before = (run.step_statistics(), run.step_size(), run.time());
-    let function = |run: &Simulation<2>| if run.time() > 0.5 { f64::NAN } else { 1.0 };
-    let error = run.run_until_event(2.0, 0.0, function, |_, _| ControlFlow::Continue(()));
+    let function = |run: &Simulation<2>| Ok(if run.time() > 0.5 { f64::NAN } else { 1.0 });
+    let error = run.run_until_event(2.0, &mut [Event::crossing(function)]);
     assert!(error.is_err());
     assert_eq!((run.step_statistics(), run.step_size(), run.time()), before);
 }

@@ -1,11 +1,9 @@
-//! Runs end where they should: at an end time, where an observer stops them, at events, at errors.
+//! Runs end where they should: at an end time, where an observer stops them, at errors.
 
 use eem::StepFailure;
 use eem::prelude::*;
 
 use crate::support::{Pendulum, single_pendulum};
-
-const STEP: f64 = 0.05;
 
 /// An observer that only watches.
 fn watch<const D: usize>(_: &Simulation<D>, _: &StepReport<f64>) -> ControlFlow<()> {
@@ -16,8 +14,6 @@ fn watch<const D: usize>(_: &Simulation<D>, _: &StepReport<f64>) -> ControlFlow<
 fn bits<const D: usize>(run: &Simulation<D>) -> String {
     format!("{:?}", run.checkpoint())
 }
-
-// Runs to an end time.
 
 #[test]
 fn the_end_is_hit_to_the_last_bit_and_the_step_size_stays() {
@@ -85,7 +81,7 @@ fn impossible_ends_are_errors() {
     for end in [f64::NAN, 0.0, -1.0, f64::NEG_INFINITY] {
         let error = run.run_until_with(end, watch).unwrap_err();
         assert!(matches!(error.failure, StepFailure::End { .. }), "{error}");
-        let error = run.run_until_event(end, 0.1, |_| 1.0, watch).unwrap_err();
+        let error = run.run_until_event(end, &mut []).unwrap_err();
         assert!(matches!(error.failure, StepFailure::End { .. }), "{error}");
     }
     assert_eq!(before, bits(&run));
@@ -113,8 +109,14 @@ fn a_run_allocates_nothing() {
     run.step().unwrap();
     let counted = allocation_counter::measure(|| {
         run.run_until_with(1.003, watch).unwrap();
-        let height = |run: &Simulation<2>| run.position(bob).map_or(f64::NAN, |q| q.x);
-        run.run_until_event(9.0, 1e-9, height, watch).unwrap();
+    });
+    assert_eq!(counted.count_total, 0, "{counted:?}");
+    let mut events = [Event::crossing(|run: &Simulation<2>| {
+        Ok(run.position(bob)?[0])
+    })];
+    let counted = allocation_counter::measure(|| {
+        let end = run.run_until_event(9.0, &mut events).unwrap();
+        assert_eq!(end, RunEnd::Event(0));
     });
     assert_eq!(counted.count_total, 0, "{counted:?}");
 }
@@ -131,138 +133,4 @@ fn single_precision_reaches_its_end_too() {
     };
     run.run_until_with(20.0, observer).unwrap();
     assert_eq!((run.time().to_bits(), steps), (20.0_f32.to_bits(), 200));
-}
-
-// Events.
-
-/// The pendulum's bob below its pivot.
-fn below(bob: Node) -> impl Fn(&Simulation<2>) -> f64 {
-    move |run| run.position(bob).unwrap().x
-}
-
-#[test]
-fn events_are_located_to_the_tolerance() {
-    for scheme in Scheme::ALL {
-        let mut exact = single_pendulum(scheme, STEP);
-        let event = below(exact.bob);
-        let end = exact.run.run_until_event(20.0, 0.0, &event, watch).unwrap();
-        assert_eq!(end, RunEnd::Event);
-        let time = exact.run.time();
-        // Times are told apart by 4 ulp, and x moves with a speed of some metres per second.
-        assert!(event(&exact.run).abs() < 1e-13, "{}", event(&exact.run));
-        for tolerance in [1e-3, 1e-6, 1e-9, 1e-12] {
-            let mut pendulum = single_pendulum(scheme, STEP);
-            let calls = std::cell::Cell::new(0);
-            let mut steps = 0;
-            let event = below(pendulum.bob);
-            let counted = |run: &Simulation<2>| {
-                calls.set(calls.get() + 1);
-                event(run)
-            };
-            let watch = |_: &Simulation<2>, _: &StepReport<f64>| {
-                steps += 1;
-                ControlFlow::Continue(())
-            };
-            let start = event(&pendulum.run);
-            let run = &mut pendulum.run;
-            let end = run.run_until_event(20.0, tolerance, counted, watch);
-            assert_eq!(end.unwrap(), RunEnd::Event);
-            let late = run.time() - time;
-            assert!((-1e-14..=tolerance).contains(&late), "{scheme:?}: {late:e}");
-            assert!(event(run) * start <= 0.0);
-            approx::assert_relative_eq!(run.step_size(), STEP);
-            // Once at the start, once per step, and then some trials.
-            let trials = calls.get() - steps - 1;
-            println!("{}: {tolerance:e} s by {trials} trials", scheme.name());
-            assert!(trials <= 8, "{trials}");
-        }
-    }
-}
-
-#[test]
-fn the_laws_hold_at_events_and_no_event_is_found_twice() {
-    let mut pendulum = single_pendulum(Scheme::EemEntropy, STEP);
-    let event = below(pendulum.bob);
-    let mut laws = crate::support::Laws::new(&pendulum.run);
-    let (mut times, mut signs) = (vec![0.0], vec![event(&pendulum.run).signum()]);
-    let watch = |run: &Simulation<2>, _: &StepReport<f64>| {
-        laws.watch(run);
-        ControlFlow::Continue(())
-    };
-    let mut watch = watch;
-    while pendulum
-        .run
-        .run_until_event(20.0, 1e-10, &event, &mut watch)
-        .unwrap()
-        == RunEnd::Event
-    {
-        times.push(pendulum.run.time());
-        signs.push(event(&pendulum.run).signum());
-    }
-    println!("{times:?}, {laws:?}");
-    assert!(times.len() > 5);
-    // Between two passages the bob swings: many steps.
-    assert!(times.windows(2).all(|pair| pair[1] - pair[0] > 4.0 * STEP));
-    assert!(signs.windows(2).all(|pair| pair[0] * pair[1] < 0.0));
-    assert_eq!(pendulum.run.time().to_bits(), 20.0_f64.to_bits());
-    assert!(laws.energy <= 4e-15);
-    assert!(laws.entropy_ulps >= -2.0);
-}
-
-#[test]
-fn an_event_at_the_end_and_one_at_the_start() {
-    // Zero exactly where the run ends.
-    let mut run = single_pendulum(Scheme::EemEntropy, 0.3).run;
-    let clock = |run: &Simulation<2>| run.time() - 1.0;
-    let end = run.run_until_event(1.0, 1e-9, clock, watch).unwrap();
-    assert_eq!(
-        (end, run.time().to_bits()),
-        (RunEnd::Event, 1.0_f64.to_bits())
-    );
-    // From there the function is zero and has no sign yet.
-    let end = run.run_until_event(1.5, 1e-9, clock, watch).unwrap();
-    assert_eq!(
-        (end, run.time().to_bits()),
-        (RunEnd::Reached, 1.5_f64.to_bits())
-    );
-    // A change of sign in the last step, so close to the end that the whole step is taken again.
-    let mut run = single_pendulum(Scheme::EemEntropy, 0.3).run;
-    let clock = |run: &Simulation<2>| run.time() - (1.0 - 1e-7);
-    let end = run.run_until_event(1.0, 1e-3, clock, watch).unwrap();
-    assert_eq!(
-        (end, run.time().to_bits()),
-        (RunEnd::Event, 1.0_f64.to_bits())
-    );
-}
-
-#[test]
-fn events_that_cannot_be_are_errors() {
-    let mut run = single_pendulum(Scheme::EemEntropy, 0.1).run;
-    let start = bits(&run);
-    for (tolerance, printed) in [(f64::NAN, "NaN"), (-1e-9, "-1e-9")] {
-        let error = run
-            .run_until_event(1.0, tolerance, |_| 1.0, watch)
-            .unwrap_err();
-        let text = error.failure.to_string();
-        let expected =
-            format!("the tolerance of the event is {printed} s, it must not be negative");
-        assert_eq!(text, expected);
-    }
-    let error = run
-        .run_until_event(1.0, 0.1, |_| f64::NAN, watch)
-        .unwrap_err();
-    assert_eq!(error.failure, StepFailure::EventFunction);
-    assert_eq!(start, bits(&run));
-
-    // Not a number from 0.35 s on: the step that leads there is undone.
-    let broken = |run: &Simulation<2>| if run.time() < 0.35 { 1.0 } else { f64::NAN };
-    let error = run.run_until_event(1.0, 0.1, broken, watch).unwrap_err();
-    assert_eq!(error.failure, StepFailure::EventFunction);
-    approx::assert_relative_eq!(error.time, 0.3, max_relative = 1e-15);
-    approx::assert_relative_eq!(run.time(), 0.3, max_relative = 1e-15);
-    // The run goes on as if nothing had happened.
-    run.run_until_with(0.8, watch).unwrap();
-    let mut quiet = single_pendulum(Scheme::EemEntropy, 0.1).run;
-    quiet.run_until_with(0.8, watch).unwrap();
-    assert_eq!(bits(&quiet), bits(&run));
 }

@@ -10,6 +10,7 @@ mod automatic;
 mod control;
 mod ends;
 mod ensemble;
+mod events;
 mod lanes;
 mod recording;
 mod resuming;

@@ -7,7 +7,7 @@ mod automatic_memory;
 mod check;
 mod control;
 mod control_memory;
-mod event;
+pub(crate) mod event;
 pub(crate) mod generic;
 mod generic_temperature;
 mod halves;

@@ -215,14 +215,29 @@ pub enum StepFailure {
         end: f64,
     },
     /// An event cannot be located so sharply.
-    #[error("the tolerance of the event is {value} s, it must not be negative", value = Readable(*value))]
+    #[error("the tolerance of event {event} is {value} s, it must not be negative", value = Readable(*value))]
     EventTolerance {
+        /// Its place in the list.
+        event: usize,
         /// The tolerance, s.
         value: f64,
     },
     /// The function whose change of sign is an event has no sign.
-    #[error("the function of the event is not a number, it must be one in every state of the run")]
-    EventFunction,
+    #[error(
+        "the function of event {event} is not a number, it must be one in every state of the run"
+    )]
+    EventFunction {
+        /// Its place in the list.
+        event: usize,
+    },
+    /// The function whose change of sign is an event has failed.
+    #[error("the function of event {event} failed: {reason}")]
+    EventError {
+        /// Its place in the list.
+        event: usize,
+        /// The message of its error.
+        reason: String,
+    },
     /// A trial state has the wrong number of unknowns.
     #[error("{given} unknowns were given, the scene has {expected}")]
     Unknowns {

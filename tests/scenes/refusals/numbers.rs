@@ -178,12 +178,14 @@ fn ends_and_tolerances_of_runs() {
         assert!(is_expected, "{wild:e}: {end:?}");
         assert_finite(&run, "run_until");
         let mut run = SOUND.build(Scheme::EemEntropy).unwrap();
-        let function = |run: &Simulation<2>| run.time() - 0.05;
-        let end = run.run_until_event(0.1, wild, function, go_on);
+        let function = |run: &Simulation<2>| Ok(run.time() - 0.05);
+        let event = Event::crossing(function).within(wild);
+        let end = run.run_until_event_with(0.1, &mut [event], go_on);
         assert_eq!(end.is_ok(), wild >= 0.0, "{wild:e}");
         assert_finite(&run, "run_until_event");
         let mut run = SOUND.build(Scheme::EemEntropy).unwrap();
-        let end = run.run_until_event(0.1, 1e-6, |_| wild, go_on);
+        let event = Event::crossing(|_: &Simulation<2>| Ok(wild)).within(1e-6);
+        let end = run.run_until_event_with(0.1, &mut [event], go_on);
         assert_eq!(end.is_err(), wild.is_nan(), "{wild:e}");
         assert_finite(&run, "the function of an event");
     }

@@ -17,8 +17,8 @@ pub enum RunEnd {
     Reached,
     /// Where the observer stopped it.
     Stopped,
-    /// At an event; only [`Simulation::run_until_event`] looks for one.
-    Event,
+    /// At the event with this place in the list that [`Simulation::run_until_event`] was given.
+    Event(usize),
 }
 
 /// Roundings between the last full step and the end time: half a unit in the last place from the

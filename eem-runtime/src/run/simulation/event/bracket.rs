@@ -1,0 +1,150 @@
+//! Step sizes on both sides of a change of sign, made narrow.
+
+use super::Sense;
+use crate::number::scalar::{Mask, Real};
+
+/// Step sizes on both sides of a change of sign, of a single number.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bracket<S> {
+    low: S,
+    pub(super) high: S,
+    is_rising: bool,
+    /// The function at both sizes; halved where a size has stayed while the other moved twice
+    /// (the Illinois variant of regula falsi; Dowell & Jarratt 1971).
+    values: [S; 2],
+    /// Which of the two moved last.
+    moved: Option<bool>,
+    /// The widths before the last two candidates.
+    widths: [S; 2],
+}
+
+impl<S: Real> Bracket<S> {
+    /// From zero to a whole step, if the sign of the function changes in it in one of the senses that count.
+    pub(super) fn new(sense: Sense, step: S, [before, after]: [S; 2]) -> Option<Self> {
+        let zero = S::zero();
+        let is_rising = before.less(zero);
+        let falls = zero.less(before) & after.at_most(zero);
+        let rises = is_rising & zero.at_most(after);
+        let counts = match sense {
+            Sense::Rising => rises,
+            Sense::Falling => falls,
+            Sense::Either => falls | rises,
+        };
+        let bracket = Self {
+            low: S::select(after.equal(zero), step, zero),
+            high: step,
+            is_rising: is_rising.all(),
+            values: [before, after],
+            moved: None,
+            widths: [S::MAX; 2],
+        };
+        counts.all().then_some(bracket)
+    }
+
+    /// The next size to try; none if the bracket is as narrow as wanted.
+    ///
+    /// It is where the secant meets zero, but half the resolution inside the bracket, so that a good
+    /// guess narrows it from both sides. If two candidates have not halved the width, it is
+    /// the middle.
+    pub(super) fn candidate(&self, resolution: S) -> Option<S> {
+        let half = S::from_f64(0.5);
+        let width = self.high - self.low;
+        if width.at_most(resolution).all() {
+            return None;
+        }
+        let [below, above] = self.values;
+        let secant = self.high - width * (above / (above - below));
+        let margin = half * resolution;
+        let is_short = width.at_most(half * self.widths[0]).all();
+        let guess = if secant.is_finite() && is_short {
+            secant
+                .maximum(self.low + margin)
+                .minimum(self.high - margin)
+        } else {
+            self.low + half * width
+        };
+        let is_inside = self.low.less(guess) & guess.less(self.high);
+        is_inside.all().then_some(guess)
+    }
+
+    /// Takes the value at a size between; whether that size lies behind the event.
+    pub(super) fn narrow(&mut self, size: S, value: S) -> bool {
+        self.widths = [self.widths[1], self.high - self.low];
+        let is_behind = if self.is_rising {
+            S::zero().at_most(value).all()
+        } else {
+            value.at_most(S::zero()).all()
+        };
+        self.values[usize::from(is_behind)] = value;
+        if is_behind {
+            self.high = size;
+        } else {
+            self.low = size;
+        }
+        if value.equal(S::zero()).all() {
+            self.low = size;
+        }
+        if self.moved.replace(is_behind) == Some(is_behind) {
+            self.values[usize::from(!is_behind)] *= S::from_f64(0.5);
+        }
+        is_behind
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Bracket, Sense};
+
+    /// The size found and the number of trials.
+    fn search(function: impl Fn(f64) -> f64, step: f64, resolution: f64) -> (f64, usize) {
+        let mut bracket =
+            Bracket::new(Sense::Either, step, [function(0.0), function(step)]).unwrap();
+        let mut trials = 0;
+        while let Some(size) = bracket.candidate(resolution) {
+            bracket.narrow(size, function(size));
+            trials += 1;
+        }
+        assert!(bracket.high - bracket.low <= resolution);
+        (bracket.high, trials)
+    }
+
+    #[test]
+    fn smooth_functions_take_few_trials() {
+        let root = 0.5_f64.sqrt();
+        for sign in [1.0, -1.0] {
+            let (size, trials) = search(|x| sign * (x * x - 0.5), 1.0, 1e-12);
+            assert!((0.0..=1e-12).contains(&(size - root)), "{size}");
+            assert!(trials <= 10, "{trials}");
+        }
+    }
+
+    #[test]
+    fn jumps_and_flat_functions_take_at_most_three_trials_per_halving() {
+        let jump = |x: f64| if x < 0.3 { -1e9 } else { 1e-9 };
+        let flat = |x: f64| (x - 0.3).powi(9);
+        for (size, trials) in [search(jump, 1.0, 1e-9), search(flat, 1.0, 1e-9)] {
+            assert!((0.0..=1e-9).contains(&(size - 0.3)), "{size}");
+            assert!(trials <= 3 * 30, "{trials}");
+        }
+    }
+
+    #[test]
+    fn a_zero_is_where_the_event_is_and_no_sign_at_the_start() {
+        let (size, _) = search(|x| x - 0.5, 1.0, 1e-300);
+        assert_eq!(size.to_bits(), 0.5_f64.to_bits());
+        let (size, trials) = search(|x| x - 1.0, 1.0, 1e-300);
+        assert_eq!((size.to_bits(), trials), (1.0_f64.to_bits(), 0));
+        assert!(Bracket::new(Sense::Either, 1.0, [0.0, 1.0]).is_none());
+        assert!(Bracket::new(Sense::Either, 1.0, [1.0, 2.0]).is_none());
+        assert!(Bracket::new(Sense::Either, 1.0, [-1.0, -2.0]).is_none());
+    }
+    #[test]
+    fn only_the_sense_that_counts_makes_a_bracket() {
+        let rise = [-1.0, 1.0];
+        let fall = [1.0, -1.0];
+        let found = |sense, values| Bracket::new(sense, 1.0, values).is_some();
+        assert!(found(Sense::Rising, rise) && !found(Sense::Rising, fall));
+        assert!(found(Sense::Falling, fall) && !found(Sense::Falling, rise));
+        assert!(found(Sense::Either, rise) && found(Sense::Either, fall));
+    }
+}

@@ -1,0 +1,241 @@
+//! Events are found by repeating one step.
+//!
+//! The state after a step is a continuous function of the step size, and all laws hold for every
+//! size. So an event within a step is located by repeating the step with other sizes; nothing is
+//! interpolated, and the state at the event obeys the laws like any other.
+
+use core::ops::ControlFlow;
+
+use super::bracket::Bracket;
+use super::{Event, Simulation};
+use crate::number::scalar::{Discord, Mask, Real};
+use crate::run::simulation::run::RunEnd;
+use crate::step::error::{StepError, StepFailure};
+use crate::step::newton::StepReport;
+
+/// The least distance of two times that a search tells apart, in units in the last place.
+const SHARPEST: f64 = 4.0;
+
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// Steps until the time `end`, s, or until the first of some events.
+    ///
+    /// The run stops just behind the event, at most the tolerance of the event after the change of sign, or
+    /// where its function is zero, and gives its place among `events`: the first, if several have happened
+    /// ([`Event::has_happened`]). Going on from there does not find the same event again. A
+    /// function that is zero at the beginning has no sign yet: its first other value gives it.
+    ///
+    /// Signs are compared at the ends of steps, so that a function that changes its sign twice
+    /// within a step is not noticed. Everything else is as in [`run_until`](Self::run_until).
+    ///
+    /// # Errors
+    ///
+    /// As [`run_until`](Self::run_until); [`StepFailure::EventTolerance`] if a tolerance is negative
+    /// or not a number; [`StepFailure::EventFunction`] if a function is not a number, and
+    /// [`StepFailure::EventError`] if it fails, with the simulation as it was before the step that led there.
+    ///
+    /// ```
+    /// use eem::{Event, RunEnd, Scene, Scheme, Simulation};
+    ///
+    /// let mut scene = Scene::<2>::new();
+    /// scene.anchor([0.0, 0.0]);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.5)?;
+    ///
+    /// let noon = Event::falling(|run: &Simulation<2>| Ok(run.time().cos())).within(1e-9);
+    /// assert_eq!(run.run_until_event(9.0, &mut [noon])?, RunEnd::Event(0));
+    /// let late = run.time() - core::f64::consts::FRAC_PI_2;
+    /// assert!((0.0..=1e-9).contains(&late));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn run_until_event(
+        &mut self,
+        end: S,
+        events: &mut [Event<'_, D, S>],
+    ) -> Result<RunEnd, StepError> {
+        self.run_until_event_with(end, events, |_, _| ControlFlow::Continue(()))
+    }
+
+    /// The same, and calls `observer` after every step, as [`run_until_with`](Self::run_until_with) does.
+    ///
+    /// It sees the shortened step that ends at an event, not the trials of the search.
+    ///
+    /// # Errors
+    ///
+    /// As [`run_until_event`](Self::run_until_event).
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let mass = scene.mass(1.0, [-1.0], [2.0]);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.3)?;
+    ///
+    /// let passes = Event::crossing(|run: &Simulation<1>| Ok(run.position(mass)?[0]));
+    /// let mut recorder = Recorder::every(1, &[Quantity::Position(mass)])?;
+    /// recorder.record(&run)?;
+    /// run.run_until_event_with(10.0, &mut [passes], &mut recorder)?;
+    /// let (_, positions) = recorder.columns().nth(1).ok_or("no column")?;
+    /// assert_eq!(positions.len(), 3);
+    /// assert_eq!(positions[2], 0.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn run_until_event_with(
+        &mut self,
+        end: S,
+        events: &mut [Event<'_, D, S>],
+        mut observer: impl FnMut(&Self, &StepReport<S>) -> ControlFlow<()>,
+    ) -> Result<RunEnd, StepError> {
+        if S::LANES > 1 {
+            // Each of the numbers has its events at other times.
+            return Err(self.refused(Discord.into()));
+        }
+        self.check_end(end)?;
+        self.start_looking(events)?;
+        while self.is_before(end)? {
+            let memory = self.memory();
+            let whole = self.step_towards(end)?;
+            let looked = self.look_for(events, whole, end);
+            // After an error as if the step had never been made.
+            let report = looked.inspect_err(|_| self.remember(memory))?;
+            let stopped = observer(self, &report).is_break();
+            if let Some(first) = events.iter().position(Event::has_happened) {
+                return Ok(RunEnd::Event(first));
+            }
+            if stopped {
+                return Ok(RunEnd::Stopped);
+            }
+        }
+        Ok(RunEnd::Reached)
+    }
+
+    /// The functions at the present state.
+    fn start_looking(&self, events: &mut [Event<'_, D, S>]) -> Result<(), StepError> {
+        for (event, place) in events.iter_mut().zip(0..) {
+            let value = event.tolerance.to_f64();
+            if value.is_nan() || value < 0.0 {
+                return Err(self.refused(StepFailure::EventTolerance {
+                    event: place,
+                    value,
+                }));
+            }
+            event.has_happened = false;
+            let before = event.value(place, self);
+            event.before = before.map_err(|failure| self.refused(failure))?;
+        }
+        Ok(())
+    }
+
+    /// Ends the last step at the first event in it, if there is one, and notes what has happened then; the report
+    /// of the step that is kept.
+    fn look_for(
+        &mut self,
+        events: &mut [Event<'_, D, S>],
+        whole: StepReport<S>,
+        end: S,
+    ) -> Result<StepReport<S>, StepError> {
+        let mut report = whole;
+        let mut is_located = false;
+        for place in 0..events.len() {
+            // What an earlier one of the list has left of the step.
+            let event = &mut events[place];
+            event.after = self.value(event, place)?;
+            let Some(bracket) = event.bracket(report.step) else {
+                continue;
+            };
+            is_located = true;
+            match self.locate(bracket, report, end, (event, place)) {
+                Ok(located) => report = located,
+                Err(error) => return self.look_in_half(events, report, end, error),
+            }
+        }
+        for (event, place) in events.iter_mut().zip(0..) {
+            if is_located {
+                event.after = self.value(event, place)?;
+            }
+            event.has_happened = event.bracket(report.step).is_some();
+            event.before = event.after;
+        }
+        Ok(report)
+    }
+
+    /// Where a step of the size that an event needs fails, one of half the size is kept, and events are looked for
+    /// from there on.
+    fn look_in_half(
+        &mut self,
+        events: &mut [Event<'_, D, S>],
+        whole: StepReport<S>,
+        end: S,
+        error: StepError,
+    ) -> Result<StepReport<S>, StepError> {
+        let is_of_event = matches!(
+            error.failure,
+            StepFailure::EventFunction { .. } | StepFailure::EventError { .. }
+        );
+        let middle = self.time() + S::from_f64(0.5) * whole.step;
+        if self.control.is_none() || is_of_event || !self.is_before(middle)? {
+            return Err(error);
+        }
+        let shorter = self.step_in_scheme_towards(middle)?;
+        self.look_for(events, shorter, end)
+    }
+
+    /// Replaces the last step, `whole`, by a shorter one that ends just behind the event.
+    fn locate(
+        &mut self,
+        mut bracket: Bracket<S>,
+        whole: StepReport<S>,
+        end: S,
+        (event, place): (&mut Event<'_, D, S>, usize),
+    ) -> Result<StepReport<S>, StepError> {
+        let scale = whole.time.abs() + whole.step;
+        let sharpest = S::from_f64(SHARPEST) * S::EPSILON * scale;
+        let resolution = event.tolerance.maximum(sharpest);
+        let mut report = whole;
+        let (mut is_behind, mut is_shorter) = (true, false);
+        while let Some(size) = bracket.candidate(resolution) {
+            self.undo();
+            report = self.step_again(size)?;
+            let value = self.value(event, place)?;
+            is_behind = bracket.narrow(size, value);
+            is_shorter |= is_behind;
+        }
+        if is_behind {
+            return Ok(report);
+        }
+        self.undo();
+        if is_shorter {
+            return self.step_again(bracket.high);
+        }
+        let mut report = self.step_again(whole.step)?;
+        if whole.time.equal(end).all() {
+            self.arrive_at(end, &mut report);
+        }
+        Ok(report)
+    }
+
+    /// The function of an event at the present state; if there is none, the last step is undone.
+    fn value(&mut self, event: &mut Event<'_, D, S>, place: usize) -> Result<S, StepError> {
+        event.value(place, self).map_err(|failure| {
+            self.undo();
+            self.failed(failure)
+        })
+    }
+}
+
+impl<const D: usize, S: Real> Event<'_, D, S> {
+    /// Step sizes between which the function changes its sign, if it does so within a step in a sense that counts.
+    fn bracket(&self, step: S) -> Option<Bracket<S>> {
+        Bracket::new(self.sense, step, [self.before, self.after])
+    }
+
+    /// The function in a state, a number.
+    fn value(&mut self, place: usize, run: &Simulation<D, S>) -> Result<S, StepFailure> {
+        let value = (self.function)(run).map_err(|error| StepFailure::EventError {
+            event: place,
+            reason: error.to_string(),
+        })?;
+        if value.to_f64().is_nan() {
+            return Err(StepFailure::EventFunction { event: place });
+        }
+        Ok(value)
+    }
+}
