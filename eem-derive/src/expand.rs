@@ -7,6 +7,7 @@
 pub(crate) mod constants;
 pub(crate) mod description;
 mod docs;
+mod duplicate;
 mod equation;
 mod forms;
 mod header;
@@ -43,7 +44,8 @@ pub(crate) fn expand(
     let equations = equation::equations(checked, &model.formulas());
     let formulas = docs::formulas(checked, &equations, units);
     let description = description::description(checked, model, programs, &equations, units);
-    let body = quote! { #constants #points #forms };
+    let duplicate = duplicate::duplicate(checked.original);
+    let body = quote! { #constants #duplicate #points #forms };
     let implementation = header.implementation(&body);
     let strains = strains::strains(checked.original, checked.strains());
     let all = quote! { #formulas #implementation #strains #description };

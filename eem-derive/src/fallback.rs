@@ -55,7 +55,8 @@ pub(crate) fn expand(
 ) -> TokenStream {
     let errors = error.to_compile_error();
     let header = Header::new(input, Scalar::Any);
-    let implementation = header.implementation(&body(&header.scalar, shape));
+    let name = ast::name(&input.ident);
+    let implementation = header.implementation(&body(&header.scalar, &name, shape));
     let strains = strains::strains(input, shape.strains.iter().copied());
     let description = empty_description(input);
     let stub = wrap(krate, &quote! { #implementation #strains #description });
@@ -72,15 +73,16 @@ fn empty_description(input: &DeriveInput) -> TokenStream {
 }
 
 // Expands to: a model whose functions are never run because the program does not compile.
-fn body(scalar: &TokenStream, shape: &Shape) -> TokenStream {
+fn body(scalar: &TokenStream, name: &str, shape: &Shape) -> TokenStream {
     let mentioned = shape.constants.iter();
     let mentioned = mentioned.map(|path| {
         quote! { let _: __eem::core::primitive::f64 = __eem::core::convert::From::from(#path); }
     });
-    let shape = constants(scalar, shape);
+    let shape = constants(scalar, name, shape);
     let never = quote! { __eem::core::panic!("the free energy has errors") };
     quote! {
         #shape
+        fn duplicate(&self) -> Self { #never }
         fn parameter(&self, _: __eem::core::primitive::usize) -> #scalar {
             #(#mentioned)*
             #never
@@ -110,7 +112,7 @@ fn body(scalar: &TokenStream, shape: &Shape) -> TokenStream {
     }
 }
 
-fn constants(scalar: &TokenStream, shape: &Shape) -> TokenStream {
+fn constants(scalar: &TokenStream, name: &str, shape: &Shape) -> TokenStream {
     let &Shape {
         ref strains,
         dashpots,
@@ -139,6 +141,7 @@ fn constants(scalar: &TokenStream, shape: &Shape) -> TokenStream {
         const DASHPOTS: __eem::core::primitive::usize = #dashpots;
         const THERMAL: __eem::core::primitive::bool = #thermal;
         #per_volume
+        const MODEL: &'static __eem::core::primitive::str = #name;
         const PARAMETERS: &'static [&'static __eem::core::primitive::str] = &[];
 
         type Variables = #state;

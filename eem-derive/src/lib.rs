@@ -110,6 +110,8 @@ use syn::{DeriveInput, parse_macro_input};
 ///   where it stands.
 /// * entries of fields that are arrays: with `stiffness: [f64; 3]` there are `stiffness[0]` to
 ///   `stiffness[2]`. Index and length are written out. Every entry is a parameter of its own.
+/// * fields of other types, which the formulas do not mention. All fields must be `Clone`, since a scene can be
+///   copied.
 /// * constants of the program, whose names are in upper case: `R`, `crate::gas::R`, `Self::R`. Rust finds
 ///   them where the struct stands; their type is `f64`, or one that fits without loss such as `f32` or `i32`.
 ///   `PI` is π without an import, `core::f64::consts::…` and `std::f64::consts::…` are known by their values.

@@ -9,6 +9,7 @@ pub(crate) mod handle;
 pub(crate) mod impulse;
 pub mod kinematics;
 pub(crate) mod layout;
+pub(crate) mod lineage;
 pub(crate) mod loads;
 pub(crate) mod masses;
 pub(crate) mod phase;

@@ -57,6 +57,7 @@ pub use run::study::setting::{Precision, Setting, StepChoice};
 pub use run::study::statement::Statement;
 pub use scene::Scene;
 pub use scene::error::SceneError;
+pub use scene::refused::RefusedScene;
 pub use scene::solid::Section;
 pub use step::control::{StepStatistics, Tolerance};
 pub use step::error::{Law, NewtonIteration, StepError, StepFailure, StepLimit};

@@ -3,21 +3,22 @@
 //! Describing never fails; [`Simulation::new`](crate::Simulation::new) checks all of it and says what is wrong.
 
 mod act;
-pub(crate) mod blueprint;
 mod check;
 pub(crate) mod entry;
 pub(crate) mod error;
 pub(crate) mod loads;
+pub(crate) mod refused;
 pub(crate) mod solid;
 mod start;
 
 use crate::element::conduction::Conductor;
-use crate::element::handle::{Element, HeatPartner, Node, Reservoir, SceneId};
+use crate::element::group::{Loose, LooseElements};
+use crate::element::handle::{Element, Handle, HeatPartner, Kind, Node, Reservoir};
 use crate::element::kinematics::Stretch;
 use crate::element::layout::Layout;
+use crate::element::lineage::{Counts, Lineage};
 use crate::material::free_energy::FreeEnergy;
 use crate::number::scalar::Real;
-use crate::scene::blueprint::{Blueprint, ElementSet};
 use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
 use entry::{ElementEntry, NodeEntry};
@@ -37,14 +38,14 @@ use entry::{ElementEntry, NodeEntry};
 /// ```
 #[derive(Debug)]
 pub struct Scene<const D: usize, S: Real = f64> {
-    pub(crate) id: SceneId,
+    pub(crate) lineage: Lineage,
     pub(crate) nodes: Vec<NodeEntry<S, D>>,
     /// Masses of solids that couple two nodes, kg.
     pub(crate) pairs: Vec<([usize; 2], S)>,
     pub(crate) elements: Vec<ElementEntry<S>>,
     pub(crate) reservoirs: Vec<S>,
     pub(crate) conductors: Vec<Conductor<S>>,
-    pub(crate) groups: Vec<Box<dyn Blueprint<S, D>>>,
+    pub(crate) groups: Vec<Box<dyn Loose<S, D>>>,
     pub(crate) loads: Loads<S, D>,
     /// What was asked for in vain, reported with everything else.
     pub(crate) misuse: Vec<SceneError>,
@@ -64,7 +65,7 @@ impl<const D: usize, S: Real> Default for Scene<D, S> {
             assert!(D >= 1, "a scene has at least one dimension");
         }
         Self {
-            id: SceneId::unique(),
+            lineage: Lineage::new(),
             nodes: Vec::new(),
             pairs: Vec::new(),
             elements: Vec::new(),
@@ -105,10 +106,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             velocity: velocity.into(),
             momentum: None,
         });
-        Node {
-            scene: self.id,
-            index: self.nodes.len() - 1,
-        }
+        self.node_at(self.nodes.len() - 1)
     }
 
     /// A spring between two nodes, made of the material `model`.
@@ -126,16 +124,13 @@ impl<const D: usize, S: Real> Scene<D, S> {
                 "a spring has one measure, its stretch"
             );
         }
-        let element = Element {
-            scene: self.id,
-            index: self.elements.len(),
-        };
+        let element = self.next_element::<M>();
         for node in nodes {
-            self.expect_own(node.scene, &node);
+            self.expect_own(&node);
         }
-        let (group, set) = self.set_of(ElementSet::<S, M, Stretch<D>, D>::new);
-        let place = Blueprint::<S, D>::len(set);
-        set.push(element, [(model, Stretch)]);
+        let (group, set) = self.set_of(LooseElements::<S, M, Stretch<D>, D>::new);
+        let place = set.points();
+        set.elements.push((element, [(model, Stretch)]));
         self.push_element(&nodes, [group, place]);
         element
     }
@@ -150,8 +145,14 @@ impl<const D: usize, S: Real> Scene<D, S> {
         });
     }
 
+    /// The handle of the element of the model `M` that is created next.
+    fn next_element<M: FreeEnergy<S>>(&self) -> Element {
+        let index = self.elements.len();
+        Element::new(self.lineage.giver(Kind::Element, index), index, &M::MODEL)
+    }
+
     /// The elements of one type, new if there are none yet, and their group.
-    fn set_of<B: Blueprint<S, D>>(&mut self, new: impl FnOnce() -> B) -> (usize, &mut B) {
+    fn set_of<B: Loose<S, D>>(&mut self, new: impl FnOnce() -> B) -> (usize, &mut B) {
         let mut groups = self.groups.iter();
         let same = groups.position(|group| group.as_any().is::<B>());
         let group = same.unwrap_or_else(|| {
@@ -165,15 +166,15 @@ impl<const D: usize, S: Real> Scene<D, S> {
 
     /// The initial temperature of an element, K.
     pub fn set_temperature(&mut self, element: Element, temperature: S) {
-        if self.expect_own(element.scene, &element) {
-            self.elements[element.index].temperature = Some(temperature);
+        if self.expect_own(&element) {
+            self.elements[element.index()].temperature = Some(temperature);
         }
     }
 
     /// The initial viscous stretch of a dashpot (from 0) of an element, m; zero unless set.
     pub fn set_viscous_stretch(&mut self, element: Element, dashpot: usize, stretch: S) {
-        if self.expect_own(element.scene, &element) {
-            let given = &mut self.elements[element.index].viscous_stretches;
+        if self.expect_own(&element) {
+            let given = &mut self.elements[element.index()].viscous_stretches;
             given.push((dashpot, stretch));
         }
     }
@@ -181,10 +182,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// A heat reservoir at a constant temperature, K.
     pub fn reservoir(&mut self, temperature: S) -> Reservoir {
         self.reservoirs.push(temperature);
-        Reservoir {
-            scene: self.id,
-            index: self.reservoirs.len() - 1,
-        }
+        self.reservoir_at(self.reservoirs.len() - 1)
     }
 
     /// Fourier conduction with conductance κ (W/K) from an element to another or to a reservoir:
@@ -223,10 +221,10 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// ```
     pub fn conduct(&mut self, element: Element, partner: impl Into<HeatPartner>, conductance: S) {
         let partner = partner.into();
-        let own = self.expect_own(element.scene, &element)
+        let own = self.expect_own(&element)
             & match partner {
-                HeatPartner::Element(other) => self.expect_own(other.scene, &other),
-                HeatPartner::Reservoir(other) => self.expect_own(other.scene, &other),
+                HeatPartner::Element(other) => self.expect_own(&other),
+                HeatPartner::Reservoir(other) => self.expect_own(&other),
             };
         if own {
             self.conductors.push(Conductor {
@@ -238,12 +236,72 @@ impl<const D: usize, S: Real> Scene<D, S> {
     }
 
     /// Whether a handle is of this scene; if not, that is noted as misuse.
-    fn expect_own(&mut self, scene: SceneId, handle: &dyn core::fmt::Display) -> bool {
-        let own = scene == self.id;
+    fn expect_own<H: Handle>(&mut self, handle: &H) -> bool {
+        let own = self.lineage.owns(handle);
         if !own {
             let handle = handle.to_string();
             self.misuse.push(SceneError::ForeignHandle { handle });
         }
         own
+    }
+
+    /// The handle of a node.
+    fn node_at(&self, index: usize) -> Node {
+        let scene = self.lineage.giver(Kind::Node, index);
+        Node { scene, index }
+    }
+
+    /// The handle of a reservoir.
+    fn reservoir_at(&self, index: usize) -> Reservoir {
+        let scene = self.lineage.giver(Kind::Reservoir, index);
+        Reservoir { scene, index }
+    }
+
+    /// The handle of an element that could be made.
+    pub(crate) fn element_at(&self, index: usize) -> Element {
+        let scene = self.lineage.giver(Kind::Element, index);
+        Element::new(scene, index, self.groups[self.elements[index].group].name())
+    }
+}
+
+/// Handles of a scene are also handles of its copies; those of what is added to one of them later are its own. Loads
+/// are shared: a closure that keeps something behind a lock keeps it for all.
+///
+/// ```
+/// use eem::prelude::*;
+///
+/// let mut scene = Scene::<1>::new();
+/// let mass = scene.mass(1.0, [0.0], [2.0]);
+/// let mut pushed = scene.clone();
+/// pushed.dead_load(mass, [3.0]);
+/// let other = pushed.mass(1.0, [0.0], [0.0]);
+///
+/// let mut run = Simulation::new(scene, Scheme::EemEntropy, 1.0)?;
+/// run.step()?;
+/// assert_eq!(run.velocity(mass)?[0], 2.0);
+/// assert!(run.velocity(other).is_err());
+/// let mut run = Simulation::new(pushed, Scheme::EemEntropy, 1.0)?;
+/// run.step()?;
+/// assert_eq!(run.velocity(mass)?[0], 5.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+impl<const D: usize, S: Real> Clone for Scene<D, S> {
+    fn clone(&self) -> Self {
+        let counts = Counts {
+            nodes: self.nodes.len(),
+            elements: self.elements.len(),
+            reservoirs: self.reservoirs.len(),
+        };
+        Self {
+            lineage: self.lineage.copy(counts),
+            nodes: self.nodes.clone(),
+            pairs: self.pairs.clone(),
+            elements: self.elements.clone(),
+            reservoirs: self.reservoirs.clone(),
+            conductors: self.conductors.clone(),
+            groups: self.groups.iter().map(|group| group.duplicate()).collect(),
+            loads: self.loads.clone(),
+            misuse: self.misuse.clone(),
+        }
     }
 }

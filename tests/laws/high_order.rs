@@ -375,7 +375,9 @@ fn a_mean_temperature_that_is_not_positive_is_refused_with_the_reason() {
         let before = run.ledger();
         let error = run.step().unwrap_err().to_string();
         println!("{error}");
-        assert!(error.contains("the mean temperature of element 0 at a stage of the step is -"));
+        assert!(error.contains(
+            "the mean temperature of element 0 (OneDashpot) at a stage of the step is -"
+        ));
         assert_eq!(run.ledger(), before);
         assert_eq!(run.position(bob).unwrap().x.to_bits(), 1.0_f64.to_bits());
     }

@@ -5,7 +5,7 @@ use core::fmt::Debug;
 use eem::prelude::*;
 use eem::{Domain, DomainError, SceneError, StateError, check_domain};
 
-use crate::support::Laws;
+use crate::support::{Laws, only_error};
 
 /// As in `several_dashpots`.
 const ENERGY_TOLERANCE: f64 = 4e-15;
@@ -389,7 +389,7 @@ fn other_schemes_refuse_it() {
             result.unwrap();
             continue;
         }
-        let error = result.err().unwrap();
+        let error = only_error(result);
         let expected = SceneError::NoDrag {
             scheme: scheme.name(),
             element: spring,
@@ -414,9 +414,7 @@ fn a_viscosity_that_is_not_positive_is_refused() {
     let pivot = scene.anchor([0.0, 0.0]);
     let bob = scene.mass(1.0, [1.4, 0.0], [0.3, 1.0]);
     let spring = scene.spring(Isothermal { k: 40.0, eta: 0.0 }, [pivot, bob]);
-    let error = Simulation::new(scene, Scheme::EemEntropy, 0.1)
-        .err()
-        .unwrap();
+    let error = only_error(Simulation::new(scene, Scheme::EemEntropy, 0.1));
     let SceneError::State(StateError::Drag { element, value, .. }) = error else {
         panic!("{error}");
     };

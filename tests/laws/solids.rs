@@ -383,7 +383,7 @@ fn what_is_wrong_with_a_solid_is_said() {
     let clockwise = [SQUARE[0], SQUARE[3], SQUARE[2], SQUARE[1]];
     let message = build(&nothing, SECTION, clockwise);
     assert!(
-        message.starts_with("det dX/dxi of the solid at element 0 is -0.25"),
+        message.starts_with("det dX/dxi of the solid at element 0 (SaintVenant) is -0.25"),
         "{message}"
     );
     let mut nowhere = SQUARE;
@@ -396,7 +396,7 @@ fn what_is_wrong_with_a_solid_is_said() {
     };
     let message = build(&nothing, section, SQUARE);
     assert!(
-        message.starts_with("the density of the solid at element 0 is 0 kg/m^3"),
+        message.starts_with("the density of the solid at element 0 (SaintVenant) is 0 kg/m^3"),
         "{message}"
     );
     let message = build(
@@ -425,7 +425,7 @@ fn what_is_wrong_with_a_solid_is_said() {
         SQUARE,
     );
     assert!(
-        message.contains("det F of the solid at element 0 is -"),
+        message.contains("det F of the solid at element 0 (SaintVenant) is -"),
         "{message}"
     );
     let message = build(

@@ -28,6 +28,7 @@ impl<M: FreeEnergy<f64>> FreeEnergy<f64> for Spoilt<M> {
     const MEASURES: usize = M::MEASURES;
     const DASHPOTS: usize = M::DASHPOTS;
     const THERMAL: bool = M::THERMAL;
+    const MODEL: &'static str = M::MODEL;
     const PARAMETERS: &'static [&'static str] = M::PARAMETERS;
 
     type Variables = M::Variables;
@@ -39,6 +40,13 @@ impl<M: FreeEnergy<f64>> FreeEnergy<f64> for Spoilt<M> {
     type Tangent = M::Tangent;
     type EntropyFormOld = M::EntropyFormOld;
     type TemperatureFormOld = M::TemperatureFormOld;
+
+    fn duplicate(&self) -> Self {
+        Self {
+            material: self.material.duplicate(),
+            error: self.error,
+        }
+    }
 
     forward! {
         parameter(index: usize) -> f64;

@@ -249,11 +249,9 @@ fn a_constant_without_a_value_is_refused_by_name() {
     };
     let spring = scene.spring(model, ends);
     scene.set_temperature(spring, 300.0);
-    let error = Simulation::new(scene, Scheme::EemEntropy, 0.1)
-        .err()
-        .unwrap();
-    let SceneError::Parameter { parameter, .. } = error else {
-        panic!("{error}")
+    let refused = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap_err();
+    let [SceneError::Parameter { parameter, .. }] = refused.errors() else {
+        panic!("{refused}")
     };
-    assert_eq!(parameter, "MOLES");
+    assert_eq!(*parameter, "MOLES");
 }

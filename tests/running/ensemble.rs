@@ -154,7 +154,9 @@ fn a_failure_is_its_members_own() {
                 Err(error) => {
                     assert_eq!(error.member, member);
                     let expected = match member {
-                        2 => "member 2: parameter `k0` of element 0 is NaN, it must be finite",
+                        2 => {
+                            "member 2: parameter `k0` of element 0 (ThermoViscoElastic) is NaN, it must be finite"
+                        }
                         6 => {
                             "member 6: component 1 of the velocity of node 1 is inf m/s, \
                              it must be finite"

@@ -109,7 +109,7 @@ fn recorders_refuse_what_a_simulation_does_not_have() {
     let error = new("gamma", Quantity::ViscousStretch(pendulum.spring, 1));
     assert_eq!(
         error.to_string(),
-        "quantity `gamma`: element 0 has 1 dashpots, there is no dashpot 1"
+        "quantity `gamma`: element 0 (ThermoViscoElastic) has 1 dashpots, there is no dashpot 1"
     );
     let error = new("time", Quantity::TotalEnergy);
     let name = "time".to_owned();

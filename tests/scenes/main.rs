@@ -8,8 +8,10 @@ mod support;
 mod bad_handles;
 mod bad_input;
 mod bad_loads;
+mod copies;
 #[cfg(feature = "sparse")]
 mod memory;
 mod networks;
 mod refusals;
+mod refused;
 mod unknowns;

@@ -6,8 +6,19 @@ pub(crate) mod dashpots;
 pub(crate) mod orders;
 pub(crate) mod solids;
 
-use eem::Real;
 use eem::prelude::*;
+use eem::{Real, RefusedScene};
+
+/// The only thing for which a scene is refused.
+pub(crate) fn only_error<const D: usize>(
+    refused: Result<Simulation<D>, RefusedScene<D>>,
+) -> SceneError {
+    let refused = refused.unwrap_err();
+    let [error] = refused.errors() else {
+        panic!("{refused}")
+    };
+    error.clone()
+}
 
 /// Thermo-visco-elastic element of García Orden & Romero (2012), §4.1.
 #[derive(Clone, Debug, FreeEnergy)]

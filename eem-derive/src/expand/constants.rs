@@ -6,6 +6,7 @@ use quote::quote;
 
 use super::forms::kept;
 use super::inputs::Inputs;
+use crate::ast;
 use crate::checked::Checked;
 
 // Expands to:
@@ -22,6 +23,7 @@ pub(super) fn constants(
     let (dashpots, thermal) = (Literal::usize_unsuffixed(inputs.dashpots), inputs.thermal);
     let measures = Literal::usize_unsuffixed(inputs.measures());
     let per_volume = per_volume(checked.per_volume());
+    let name = ast::name(&checked.original.ident);
     let names = checked.parameters.iter().map(|p| &p.name);
     let (scalar, parameters) = (&inputs.scalar, &inputs.parameters);
     let count = Literal::usize_unsuffixed(parameters.len());
@@ -30,6 +32,7 @@ pub(super) fn constants(
         const DASHPOTS: __eem::core::primitive::usize = #dashpots;
         const THERMAL: __eem::core::primitive::bool = #thermal;
         #per_volume
+        const MODEL: &'static __eem::core::primitive::str = #name;
         const PARAMETERS: &'static [&'static __eem::core::primitive::str] = &[#(#names),*];
 
         #types

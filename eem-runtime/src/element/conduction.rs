@@ -53,11 +53,11 @@ impl<S: Real> Conduction<S> {
         let slot = |index: usize| layout.elements[index].thermal;
         for conductor in conductors {
             let conductance = conductor.conductance;
-            let near = slot(conductor.element.index);
+            let near = slot(conductor.element.index());
             let (partner, back) = match conductor.partner {
                 HeatPartner::Reservoir(far) => (Some(Partner::Reservoir(far.index)), None),
                 HeatPartner::Element(far) => {
-                    let far = slot(far.index);
+                    let far = slot(far.index());
                     (far.map(Partner::Slot), far.zip(near.map(Partner::Slot)))
                 }
             };

@@ -4,18 +4,40 @@
 //! an error and never somebody else's node.
 
 use core::fmt;
-use core::sync::atomic::{AtomicU64, Ordering};
+use core::sync::atomic::{AtomicU32, Ordering};
+
+use crate::number::compact::compact;
 
 /// Which scene a handle belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(crate) struct SceneId(u64);
+pub(crate) struct SceneId(u32);
 
 impl SceneId {
-    /// An identity that no other scene of this process has.
+    /// An identity that none of the last four thousand million scenes of this process has.
     pub(crate) fn unique() -> Self {
-        static NEXT: AtomicU64 = AtomicU64::new(0);
+        static NEXT: AtomicU32 = AtomicU32::new(0);
         Self(NEXT.fetch_add(1, Ordering::Relaxed))
     }
+}
+
+/// What a scene counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Node,
+    Element,
+    Reservoir,
+}
+
+/// A handle of any kind.
+pub(crate) trait Handle: fmt::Display + Copy {
+    /// What it stands for.
+    const KIND: Kind;
+
+    /// The scene that gave it.
+    fn scene(&self) -> SceneId;
+
+    /// Its place, in the order of creation.
+    fn index(&self) -> usize;
 }
 
 macro_rules! handle {
@@ -32,6 +54,18 @@ macro_rules! handle {
                 write!(f, concat!($text, " {}"), self.index)
             }
         }
+
+        impl Handle for $name {
+            const KIND: Kind = Kind::$name;
+
+            fn scene(&self) -> SceneId {
+                self.scene
+            }
+
+            fn index(&self) -> usize {
+                self.index
+            }
+        }
     };
 }
 
@@ -40,12 +74,60 @@ handle! {
     Node, "node"
 }
 handle! {
-    /// A spring of a scene. Shown as `element 0`, counted in the order of creation.
-    Element, "element"
-}
-handle! {
     /// A heat reservoir of a scene. Shown as `reservoir 0`, counted in the order of creation.
     Reservoir, "reservoir"
+}
+
+/// A spring of a scene, or a point of a solid. Shown as `element 0 (Spring)`: counted in the order of creation, and
+/// the name of its model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Element {
+    scene: SceneId,
+    index: u32,
+    model: &'static &'static str,
+}
+
+impl Element {
+    /// The element with this place in the order of creation.
+    pub(crate) fn new(scene: SceneId, index: usize, model: &'static &'static str) -> Self {
+        Self {
+            scene,
+            index: compact(index),
+            model,
+        }
+    }
+
+    /// Its place, in the order of creation.
+    #[inline]
+    pub(crate) const fn index(self) -> usize {
+        self.index as usize
+    }
+
+    /// The one that was created so many places after it, of the same model.
+    pub(crate) fn after(self, places: usize) -> Self {
+        Self {
+            index: compact(self.index() + places),
+            ..self
+        }
+    }
+}
+
+impl fmt::Display for Element {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "element {} ({})", self.index, self.model)
+    }
+}
+
+impl Handle for Element {
+    const KIND: Kind = Kind::Element;
+
+    fn scene(&self) -> SceneId {
+        self.scene
+    }
+
+    fn index(&self) -> usize {
+        Self::index(*self)
+    }
 }
 
 /// What an element can exchange heat with.

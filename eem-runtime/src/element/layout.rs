@@ -74,7 +74,7 @@ impl Layout {
                 continue;
             };
             for element in [element, partner] {
-                let slot = elements[element.index].thermal;
+                let slot = elements[element.index()].thermal;
                 if let Some(unknown @ None) = slot.map(|slot| &mut coupled[slot]) {
                     *unknown = Some(unknowns);
                     unknowns += 1;

@@ -100,6 +100,8 @@ pub trait FreeEnergy<S: Scalar> {
     /// Whether it is one per reference volume, a function of strains: all that stands below in J, N and
     /// J/K is then per m³. See [`StrainEnergy`](crate::StrainEnergy).
     const PER_VOLUME: bool = false;
+    /// The name of the struct.
+    const MODEL: &'static str;
     /// The names of the parameters that the model uses.
     const PARAMETERS: &'static [&'static str];
 
@@ -121,6 +123,12 @@ pub trait FreeEnergy<S: Scalar> {
     type EntropyFormOld: Array<S>;
     /// What the temperature form keeps of the old state; parameters stay in the model.
     type TemperatureFormOld: Array<S>;
+
+    /// The same material once more, for a copy of its scene. The derive clones all fields.
+    #[must_use]
+    fn duplicate(&self) -> Self
+    where
+        Self: Sized;
 
     /// The value of parameter `index` of [`PARAMETERS`](Self::PARAMETERS).
     fn parameter(&self, index: usize) -> S;

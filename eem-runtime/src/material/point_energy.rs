@@ -78,6 +78,7 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
     const MEASURES: usize = M::MEASURES;
     const DASHPOTS: usize = M::DASHPOTS;
     const THERMAL: bool = M::THERMAL;
+    const MODEL: &'static str = M::MODEL;
     const PARAMETERS: &'static [&'static str] = M::PARAMETERS;
 
     type Variables = M::Variables;
@@ -89,6 +90,13 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
     type Tangent = M::Tangent;
     type EntropyFormOld = M::EntropyFormOld;
     type TemperatureFormOld = M::TemperatureFormOld;
+
+    fn duplicate(&self) -> Self {
+        Self {
+            density: self.density.duplicate(),
+            volume: self.volume,
+        }
+    }
 
     fn parameter(&self, index: usize) -> S {
         self.density.parameter(index)

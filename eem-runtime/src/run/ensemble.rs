@@ -12,6 +12,7 @@ use core::ops::ControlFlow;
 use crate::number::scalar::Real;
 use crate::run::simulation::Simulation;
 use crate::scene::Scene;
+use crate::scene::error::SceneError;
 use crate::step::newton::NewtonSettings;
 use crate::step::scheme::Scheme;
 
@@ -158,7 +159,8 @@ impl<S: Real> Ensemble<'_, S> {
     {
         let member = |input: &I| {
             let (scene, handles) = build(input);
-            let mut simulation = Simulation::new(scene, self.scheme, self.step)?;
+            let simulation = Simulation::new(scene, self.scheme, self.step);
+            let mut simulation = simulation.map_err(SceneError::from)?;
             simulation.set_newton_settings(self.newton)?;
             observe(&mut simulation, handles, input)
         };

@@ -10,6 +10,7 @@ mod control_memory;
 pub(crate) mod event;
 pub(crate) mod generic;
 mod generic_temperature;
+mod groups;
 mod halves;
 mod inspect;
 pub(crate) mod linearize;
@@ -24,17 +25,19 @@ mod totals;
 pub(crate) mod values;
 
 use core::fmt;
+use core::mem;
 use core::sync::atomic::{AtomicBool, Ordering};
 
 use crate::element::conduction::Conduction;
-use crate::element::handle::SceneId;
 use crate::element::layout::{Layout, Shape};
+use crate::element::lineage::Lineage;
 use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::number::scalar::Real;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
+use crate::scene::refused::RefusedScene;
 use crate::step::automatic::first;
 use crate::step::control::Tolerance;
 use crate::step::error::{StepError, StepFailure};
@@ -43,17 +46,16 @@ use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
 use automatic_memory::Automatic;
-use check::{check_scheme, check_step, needs_second_order};
+use check::{check_all, needs_second_order};
 use control_memory::Control;
-use start::{initial_state, places_in};
+use start::{begin_groups, initial_state, places_in};
 use stepper::{Parts, Stepper};
-use totals::check_totals;
 
 /// A scene that is stepped through time by one scheme.
 ///
 /// A step either succeeds, or returns an error and leaves everything as it was.
 pub struct Simulation<const D: usize, S: Real = f64> {
-    scene: SceneId,
+    scene: Lineage,
     scheme: Scheme,
     /// The same, unless it is chosen on the way.
     in_use: Scheme,
@@ -112,38 +114,55 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// # Errors
     ///
-    /// The first thing that is wrong with the scene, its initial state or the step.
-    pub fn new(scene: Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, SceneError> {
-        scene.check()?;
-        let is_second = needs_second_order(&scene);
+    /// Everything that is wrong with the scene, its initial state, the scheme or the step, and the scene as it was.
+    pub fn new(
+        mut scene: Scene<D, S>,
+        scheme: Scheme,
+        step: S,
+    ) -> Result<Self, RefusedScene<D, S>> {
+        match Self::begin(&mut scene, scheme, step) {
+            Ok(run) => Ok(run),
+            Err(errors) => Err(RefusedScene::new(scene, errors)),
+        }
+    }
+
+    /// Takes what a scene consists of, unless something is wrong with it.
+    fn begin(scene: &mut Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, Vec<SceneError>> {
+        let is_second = needs_second_order(scene);
         let in_use = first(scheme, is_second);
-        check_scheme(&scene, in_use)?;
-        check_step(step)?;
+        let errors = check_all(scene, in_use, step);
+        if !errors.is_empty() {
+            return Err(errors);
+        }
         let mut layout = scene.layout();
         let conduction = Conduction::new(&scene.conductors, &scene.reservoirs, &layout);
-        let mut state = Box::new(initial_state(&scene, &layout));
-        let places = places_in(&scene);
+        let mut state = Box::new(initial_state(scene, &layout));
+        let places = places_in(scene);
         let shapes = scene.groups.iter().map(|group| group.shape()).collect();
-        let masses = Masses::new(scene.nodes.iter().map(|node| node.mass), scene.pairs);
+        let masses = scene.nodes.iter().map(|node| node.mass);
+        let masses = Masses::new(masses, scene.pairs.clone());
         state.follow_velocities(D, &masses);
-        // Large, and all that it said is in the masses and in the state.
-        drop(scene.nodes);
+        let groups = begin_groups(scene, in_use, (&layout, &masses), &mut state)?;
+        // Large, and all that they said is in the masses and in the state.
+        drop((mem::take(&mut scene.nodes), mem::take(&mut scene.pairs)));
+        let elements = mem::take(&mut scene.elements);
+        let loads = mem::replace(&mut scene.loads, Loads::none());
         let parts = Parts {
             scheme: in_use,
             masses: &masses,
-            elements: &scene.elements,
+            elements: &elements,
             layout: &layout,
             conduction: &conduction,
-            loads: &scene.loads,
+            loads: &loads,
         };
-        let stepper = Stepper::new(scene.groups, parts, &mut state)?;
+        let stepper = Stepper::new(groups, parts, &state);
         let automatic =
-            (scheme == Scheme::Auto).then(|| Box::new(Automatic::new(scene.elements, is_second)));
+            (scheme == Scheme::Auto).then(|| Box::new(Automatic::new(elements, is_second)));
         if automatic.is_none() {
             layout.forget_places();
         }
         let mut run = Self {
-            scene: scene.id,
+            scene: scene.lineage.clone(),
             scheme,
             in_use,
             automatic,
@@ -153,7 +172,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             shapes,
             layout,
             conduction,
-            loads: scene.loads,
+            loads,
             stepper,
             effort: Effort::new(),
             control: None,
@@ -164,9 +183,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             corrections: Corrections::none(),
             has_parted: AtomicBool::new(false),
         };
-        check_totals(&run.ledger())?;
         if run.automatic.is_some() {
-            run.control_steps(Tolerance::default())?;
+            run.go_on_with(Some(run.new_control(Tolerance::default())));
         }
         Ok(run)
     }

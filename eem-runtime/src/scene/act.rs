@@ -1,5 +1,7 @@
 //! What acts on a scene from outside.
 
+use std::sync::Arc;
+
 use nalgebra::SVector;
 
 use super::Scene;
@@ -28,7 +30,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     pub fn force(&mut self, node: Node, force: impl Fn(S) -> [S; D] + Send + Sync + 'static) {
         if self.expect_kind(node, true, "a force") {
             let force = move |time| SVector::from(force(time));
-            self.loads.forces.push((node, Box::new(force)));
+            self.loads.forces.push((node, Arc::new(force)));
         }
     }
 
@@ -45,7 +47,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     ) {
         if self.expect_kind(anchor, false, "a prescribed motion") {
             let position = move |time| SVector::from(position(time));
-            self.loads.motions.push((anchor, Box::new(position)));
+            self.loads.motions.push((anchor, Arc::new(position)));
         }
     }
 
@@ -66,10 +68,10 @@ impl<const D: usize, S: Real> Scene<D, S> {
         element: Element,
         temperature: impl Fn(S) -> S + Send + Sync + 'static,
     ) {
-        if self.expect_own(element.scene, &element) {
+        if self.expect_own(&element) {
             self.loads
                 .temperatures
-                .push((element, Box::new(temperature)));
+                .push((element, Arc::new(temperature)));
         }
     }
 
@@ -102,7 +104,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
 
     /// Whether a node is of this scene and a mass or an anchor; if not, that is noted as misuse.
     fn expect_kind(&mut self, node: Node, mass: bool, quantity: &'static str) -> bool {
-        if !self.expect_own(node.scene, &node) {
+        if !self.expect_own(&node) {
             return false;
         }
         let is_mass = self.nodes[node.index].mass.is_some();

@@ -7,76 +7,79 @@ use crate::element::error::StateError;
 use crate::element::handle::{Element, HeatPartner, Node, Reservoir};
 use crate::element::layout::Shape;
 use crate::number::scalar::{Mask, Real, is_positive};
-use crate::scene::entry::{ElementEntry, NodeEntry};
+use crate::scene::entry::{ElementEntry, NodeEntry, UNMADE};
 use crate::scene::error::SceneError;
 
 impl<const D: usize, S: Real> Scene<D, S> {
-    /// The first thing that is wrong with the description.
-    pub(crate) fn check(&self) -> Result<(), SceneError> {
-        if let Some(misuse) = self.misuse.first() {
-            return Err(misuse.clone());
-        }
+    /// Everything that is wrong with the description; what can only be said of numbers that are right by themselves,
+    /// if they are.
+    pub(crate) fn check(&self) -> Vec<SceneError> {
+        let mut errors = self.misuse.clone();
+        // What follows from a solid that could not be made is nothing of its own.
+        let unmade = self.elements.iter();
+        let unmade = unmade.filter(|entry| entry.group == UNMADE);
+        let unmade: BTreeSet<_> = unmade.flat_map(|entry| &entry.nodes).collect();
         for (index, entry) in self.nodes.iter().enumerate() {
-            let node = Node {
-                scene: self.id,
-                index,
-            };
-            check_node(node, entry)?;
+            if !unmade.contains(&index) {
+                check_node(self.node_at(index), entry, &mut errors);
+            }
         }
-        self.check_solids()?;
+        self.check_solids(&mut errors);
         for (index, &temperature) in self.reservoirs.iter().enumerate() {
-            let reservoir = Reservoir {
-                scene: self.id,
-                index,
-            };
-            check_reservoir(reservoir, temperature)?;
+            let reservoir = self.reservoir_at(index);
+            errors.extend(check_reservoir(reservoir, temperature).err());
         }
         for (index, entry) in self.elements.iter().enumerate() {
-            let element = Element {
-                scene: self.id,
-                index,
+            let Some(group) = self.groups.get(entry.group) else {
+                continue;
             };
-            let group = &self.groups[entry.group];
-            group.check_parameters(entry.place, element)?;
-            check_element(element, entry, group.shape())?;
+            let element = self.element_at(index);
+            if let Some((parameter, value)) = group.infinite_parameter(entry.place) {
+                errors.push(SceneError::Parameter {
+                    element,
+                    parameter,
+                    value: value.to_f64(),
+                });
+            }
+            check_element(element, entry, group.shape(), &mut errors);
         }
-        self.check_loads()?;
-        self.check_conductors()?;
-        self.check_start()
+        self.check_loads(&mut errors);
+        self.check_conductors(&mut errors);
+        if errors.is_empty() {
+            self.check_start(&mut errors);
+        }
+        errors
     }
 
     /// Nodes of solids have velocities, and are not moved.
-    fn check_solids(&self) -> Result<(), SceneError> {
+    fn check_solids(&self, errors: &mut Vec<SceneError>) {
         let coupled: BTreeSet<_> = self.pairs.iter().flat_map(|&(nodes, _)| nodes).collect();
         for &index in &coupled {
-            let node = Node {
-                scene: self.id,
-                index,
-            };
             if self.nodes[index].momentum.is_some() {
-                return Err(SceneError::NodeOfSolid {
-                    node,
+                errors.push(SceneError::NodeOfSolid {
+                    node: self.node_at(index),
                     quantity: "a momentum",
                     instead: "give its velocity",
                 });
             }
         }
-        let mut moved = self.loads.motions.iter().map(|(anchor, _)| *anchor);
-        match moved.find(|anchor| coupled.contains(&anchor.index)) {
-            None => Ok(()),
-            Some(node) => Err(SceneError::NodeOfSolid {
-                node,
-                quantity: "a prescribed motion",
-                instead: "join it to a moved anchor by a stiff spring",
-            }),
+        for &(node, _) in &self.loads.motions {
+            if coupled.contains(&node.index) {
+                errors.push(SceneError::NodeOfSolid {
+                    node,
+                    quantity: "a prescribed motion",
+                    instead: "join it to a moved anchor by a stiff spring",
+                });
+            }
         }
     }
 
-    fn check_loads(&self) -> Result<(), SceneError> {
-        let gravity = &self.loads.gravity;
-        if let Some(axis) = (0..D).find(|&axis| !gravity[axis].is_finite()) {
-            let value = gravity[axis].to_f64();
-            return Err(SceneError::Gravity { axis, value });
+    fn check_loads(&self, errors: &mut Vec<SceneError>) {
+        for (axis, component) in self.loads.gravity.iter().enumerate() {
+            if !component.is_finite() {
+                let value = component.to_f64();
+                errors.push(SceneError::Gravity { axis, value });
+            }
         }
         let elements: Vec<_> = self
             .loads
@@ -85,9 +88,9 @@ impl<const D: usize, S: Real> Scene<D, S> {
             .map(|(element, _)| *element)
             .collect();
         for (at, element) in elements.iter().enumerate() {
-            self.check_thermal(*element)?;
+            errors.extend(self.check_thermal(*element).err());
             if elements[..at].contains(element) {
-                return Err(prescribed_twice(element, "the temperature"));
+                errors.push(prescribed_twice(element, "the temperature"));
             }
         }
         let anchors: Vec<_> = self
@@ -98,37 +101,36 @@ impl<const D: usize, S: Real> Scene<D, S> {
             .collect();
         for (at, anchor) in anchors.iter().enumerate() {
             if anchors[..at].contains(anchor) {
-                return Err(prescribed_twice(anchor, "the motion"));
+                errors.push(prescribed_twice(anchor, "the motion"));
             }
         }
-        Ok(())
     }
 
-    fn check_conductors(&self) -> Result<(), SceneError> {
+    fn check_conductors(&self, errors: &mut Vec<SceneError>) {
         for conductor in &self.conductors {
             let (element, partner) = (conductor.element, conductor.partner);
-            self.check_thermal(element)?;
+            errors.extend(self.check_thermal(element).err());
             if let HeatPartner::Element(other) = partner {
-                self.check_thermal(other)?;
                 if other == element {
-                    return Err(SceneError::SelfConduction { element });
+                    errors.push(SceneError::SelfConduction { element });
+                } else {
+                    errors.extend(self.check_thermal(other).err());
                 }
             }
             let value = conductor.conductance;
             if !value.is_finite() || value.less(S::zero()).any() {
-                return Err(SceneError::Conductance {
+                errors.push(SceneError::Conductance {
                     element,
                     partner,
                     value: value.to_f64(),
                 });
             }
         }
-        Ok(())
     }
 
     fn check_thermal(&self, element: Element) -> Result<(), SceneError> {
-        let group = self.elements[element.index].group;
-        if self.groups[group].shape().thermal {
+        let group = self.groups.get(self.elements[element.index()].group);
+        if group.is_none_or(|group| group.shape().thermal) {
             Ok(())
         } else {
             Err(SceneError::NotThermal { element })
@@ -144,21 +146,18 @@ fn prescribed_twice(handle: &dyn core::fmt::Display, quantity: &'static str) -> 
 fn check_node<S: Real, const D: usize>(
     node: Node,
     entry: &NodeEntry<S, D>,
-) -> Result<(), SceneError> {
-    check_position(node, entry)?;
-    for axis in 0..D {
-        let velocity = entry.velocity[axis];
+    errors: &mut Vec<SceneError>,
+) {
+    errors.extend(check_position(node, entry).err());
+    for (axis, velocity) in entry.velocity.iter().enumerate() {
         if entry.momentum.is_none() && !velocity.is_finite() {
             let value = velocity.to_f64();
-            return Err(SceneError::Velocity { node, axis, value });
+            errors.push(SceneError::Velocity { node, axis, value });
         }
     }
-    match entry.mass {
-        Some(mass) if !is_positive(mass) => Err(SceneError::Mass {
-            node,
-            value: mass.to_f64(),
-        }),
-        _ => Ok(()),
+    if let Some(mass) = entry.mass.filter(|&mass| !is_positive(mass)) {
+        let value = mass.to_f64();
+        errors.push(SceneError::Mass { node, value });
     }
 }
 
@@ -191,34 +190,34 @@ fn check_element<S: Real>(
     element: Element,
     entry: &ElementEntry<S>,
     shape: Shape,
-) -> Result<(), SceneError> {
+    errors: &mut Vec<SceneError>,
+) {
     for &(dashpot, stretch) in &entry.viscous_stretches {
         if dashpot >= shape.dashpots {
-            return Err(SceneError::NoSuchDashpot {
+            errors.push(SceneError::NoSuchDashpot {
                 element,
                 dashpot,
                 dashpots: shape.dashpots,
             });
         }
         if !stretch.is_finite() {
-            let value = stretch.to_f64();
-            return Err(StateError::ViscousStretch {
+            let error = StateError::ViscousStretch {
                 element,
                 dashpot,
-                value,
+                value: stretch.to_f64(),
                 unit: shape.viscous_unit,
-            }
-            .into());
+            };
+            errors.push(error.into());
         }
     }
     match (entry.temperature, shape.thermal) {
-        (None, true) => Err(SceneError::MissingTemperature { element }),
-        (Some(_), false) => Err(SceneError::NotThermal { element }),
+        (None, true) => errors.push(SceneError::MissingTemperature { element }),
+        (Some(_), false) => errors.push(SceneError::NotThermal { element }),
         (Some(temperature), true) if !is_positive(temperature) => {
             let value = temperature.to_f64();
-            Err(StateError::Temperature { element, value }.into())
+            errors.push(StateError::Temperature { element, value }.into());
         }
-        (None, false) | (Some(_), true) => Ok(()),
+        (None, false) | (Some(_), true) => {}
     }
 }
 

@@ -25,6 +25,9 @@ impl<S: Real, const D: usize> NodeEntry<S, D> {
     }
 }
 
+/// No group.
+pub(crate) const UNMADE: usize = usize::MAX;
+
 /// What the scene knows of an element apart from its model.
 #[derive(Clone, Debug)]
 pub(crate) struct ElementEntry<S> {
@@ -32,13 +35,14 @@ pub(crate) struct ElementEntry<S> {
     pub(crate) temperature: Option<S>,
     /// `(dashpot, γ)` as given.
     pub(crate) viscous_stretches: Vec<(usize, S)>,
-    /// The blueprint that holds the model, and its place there.
+    /// The group that holds the model, and its place there; [`UNMADE`] for points of a solid that could not be made,
+    /// which has been noted.
     pub(crate) group: usize,
     pub(crate) place: usize,
 }
 
 impl<S: core::fmt::Debug> NodesOf for Vec<ElementEntry<S>> {
     fn nodes_of(&self, element: Element) -> &[usize] {
-        &self[element.index].nodes
+        &self[element.index()].nodes
     }
 }

@@ -1,5 +1,7 @@
 //! What acts on a scene from outside: forces, moved anchors, prescribed temperatures.
 
+use std::sync::Arc;
+
 use nalgebra::SVector;
 
 use crate::element::handle::{Element, Node};
@@ -22,12 +24,13 @@ pub(crate) fn extent<'a, S: Real>(coordinates: impl Iterator<Item = &'a S>) -> S
 }
 
 /// A vector (force in N, position in m) as a function of time in s.
-pub(crate) type OfTime<S, const D: usize> = Box<dyn Fn(S) -> SVector<S, D> + Send + Sync>;
+pub(crate) type OfTime<S, const D: usize> = Arc<dyn Fn(S) -> SVector<S, D> + Send + Sync>;
 
 /// A temperature in K as a function of time in s.
-pub(crate) type TemperatureOfTime<S> = Box<dyn Fn(S) -> S + Send + Sync>;
+pub(crate) type TemperatureOfTime<S> = Arc<dyn Fn(S) -> S + Send + Sync>;
 
 /// Everything that acts on a scene, as the user gave it.
+#[derive(Clone)]
 pub(crate) struct Loads<S: Real, const D: usize> {
     /// Acceleration of free fall, m/s².
     pub(crate) gravity: SVector<S, D>,

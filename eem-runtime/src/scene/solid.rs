@@ -1,13 +1,14 @@
 //! Solids of a scene.
 
 use super::Scene;
+use crate::element::group::LooseElements;
 use crate::element::handle::{Element, Node};
 use crate::element::kinematics::{Quad4, Strain, StrainEnergy, bilinear};
 use crate::material::free_energy::FreeEnergy;
 use crate::material::point_energy::PointEnergy;
 use crate::number::scalar::{Mask, Real, is_positive};
-use crate::scene::blueprint::{Blueprint, ElementSet};
 use crate::scene::check::check_position;
+use crate::scene::entry::UNMADE;
 use crate::scene::error::SceneError;
 
 /// What a solid in the plane is besides its material and its corners.
@@ -29,7 +30,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// Replaces the initial position of a node, m. Solids keep the shape that they were created with,
     /// so that they start deformed.
     pub fn set_position(&mut self, node: Node, position: [S; D]) {
-        if self.expect_own(node.scene, &node) {
+        if self.expect_own(&node) {
             self.nodes[node.index].position = position.into();
         }
     }
@@ -84,31 +85,28 @@ impl<S: Real> Scene<2, S> {
         section: Section<S>,
     ) -> [Element; 4]
     where
-        M: FreeEnergy<S> + StrainEnergy<N> + Clone + Send + Sync + 'static,
+        M: FreeEnergy<S> + StrainEnergy<N> + Send + Sync + 'static,
     {
-        let scene = self.id;
-        let first = self.elements.len();
-        let points = [0, 1, 2, 3].map(|point| Element {
-            scene,
-            index: first + point,
-        });
+        let first = self.next_element::<M>();
+        let points = [0, 1, 2, 3].map(|point| first.after(point));
         let place = match self.expect_quad::<N>(nodes, (M::STRAINS, section), points) {
             Ok(quad) => {
-                let new = ElementSet::<S, PointEnergy<S, M>, Quad4<S, N>, 2>::new;
+                let new = LooseElements::<S, PointEnergy<S, M>, Quad4<S, N>, 2>::new;
                 let (group, set) = self.set_of(new);
-                let place = Blueprint::<S, 2>::len(set);
-                let energy = |volume| PointEnergy::new(model.clone(), volume);
-                set.push(points[0], quad.map(|point| (energy(point.volume()), point)));
+                let place = set.points();
+                let energy = |volume| PointEnergy::new(model.duplicate(), volume);
+                let points = (first, quad.map(|point| (energy(point.volume()), point)));
+                set.elements.push(points);
                 [group, place]
             }
             // Handles have to mean something until the scene is checked.
             Err(misuse) => {
                 self.misuse.extend(misuse);
-                [usize::MAX; 2]
+                [UNMADE, 0]
             }
         };
         for point in 0..points.len() {
-            self.push_element(&nodes, [place[0], place[1].saturating_add(point)]);
+            self.push_element(&nodes, [place[0], place[1] + point]);
         }
         points
     }
@@ -121,7 +119,7 @@ impl<S: Real> Scene<2, S> {
         points: [Element; 4],
     ) -> Result<[Quad4<S, N>; 4], Option<SceneError>> {
         for node in &nodes {
-            if !self.expect_own(node.scene, node) {
+            if !self.expect_own(node) {
                 return Err(None);
             }
             check_position(*node, &self.nodes[node.index])?;

@@ -9,19 +9,14 @@ use crate::scene::error::SceneError;
 use crate::scene::loads::{MOTION_ROUNDINGS, extent};
 
 impl<const D: usize, S: Real> Scene<D, S> {
-    /// The first product that is not finite, or the first jump at t = 0. All single numbers have
-    /// been checked.
-    pub(super) fn check_start(&self) -> Result<(), SceneError> {
+    /// Products that are not finite, and jumps at t = 0. All single numbers have been checked.
+    pub(super) fn check_start(&self, errors: &mut Vec<SceneError>) {
         for (index, entry) in self.nodes.iter().enumerate() {
-            let node = Node {
-                scene: self.id,
-                index,
-            };
-            self.check_products(node, entry)?;
+            errors.extend(self.check_products(self.node_at(index), entry).err());
         }
-        self.check_heat_flows()?;
-        self.check_motions()?;
-        self.check_thermostats()
+        errors.extend(self.check_heat_flows().err());
+        self.check_motions(errors);
+        self.check_thermostats(errors);
     }
 
     /// Momentum, kinetic energy and weight of a mass.
@@ -60,7 +55,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
 
     /// What flows along each path of heat, and along all paths to an element together.
     fn check_heat_flows(&self) -> Result<(), SceneError> {
-        let temperature = |element: Element| self.elements[element.index].temperature;
+        let temperature = |element: Element| self.elements[element.index()].temperature;
         let mut received = vec![S::zero(); self.elements.len()];
         for conductor in &self.conductors {
             let (element, partner) = (conductor.element, conductor.partner);
@@ -74,8 +69,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
             let flow = conductor.conductance * (there - here);
             let mut largest = flow.abs();
             for end in [Some(element), other].into_iter().flatten() {
-                received[end.index] += flow.abs();
-                largest = largest.maximum(received[end.index]);
+                received[end.index()] += flow.abs();
+                largest = largest.maximum(received[end.index()]);
             }
             // The entropy is that of the colder end, the larger of the two.
             let entropy = flow / here.minimum(there);
@@ -98,7 +93,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     }
 
     /// Moved anchors are where they were created.
-    fn check_motions(&self) -> Result<(), SceneError> {
+    fn check_motions(&self, errors: &mut Vec<SceneError>) {
         let positions = self.nodes.iter().map(|node| &node.position);
         let scale = extent(positions.flat_map(|position| position.iter()));
         for (anchor, motion) in &self.loads.motions {
@@ -106,7 +101,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             let prescribed = motion(S::zero());
             for axis in 0..D {
                 if !is_rounding(prescribed[axis] - created[axis], scale) {
-                    return Err(SceneError::AnchorJump {
+                    errors.push(SceneError::AnchorJump {
                         node: *anchor,
                         axis,
                         created: created[axis].to_f64(),
@@ -115,25 +110,23 @@ impl<const D: usize, S: Real> Scene<D, S> {
                 }
             }
         }
-        Ok(())
     }
 
     /// Thermostats begin at the initial temperature.
-    fn check_thermostats(&self) -> Result<(), SceneError> {
+    fn check_thermostats(&self, errors: &mut Vec<SceneError>) {
         for (element, temperature) in &self.loads.temperatures {
-            let Some(initial) = self.elements[element.index].temperature else {
+            let Some(initial) = self.elements[element.index()].temperature else {
                 continue;
             };
             let prescribed = temperature(S::zero());
             if !is_rounding(prescribed - initial, initial) {
-                return Err(SceneError::TemperatureJump {
+                errors.push(SceneError::TemperatureJump {
                     element: *element,
                     initial: initial.to_f64(),
                     prescribed: prescribed.to_f64(),
                 });
             }
         }
-        Ok(())
     }
 }
 

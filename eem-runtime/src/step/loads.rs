@@ -28,7 +28,7 @@ impl<S: Real> StepLoads<S> {
             layout.thermal
         };
         let temperatures = loads.temperatures.iter();
-        let thermal = temperatures.map(|(element, _)| layout.elements[element.index].thermal);
+        let thermal = temperatures.map(|(element, _)| layout.elements[element.index()].thermal);
         let moved = loads.motions.iter().map(|(node, _)| node.index);
         let moved: BTreeSet<_> = moved.collect();
         Self {

@@ -16,7 +16,7 @@ fn build(
     scene.set_temperature(spring, 310.0);
     scene.move_anchor(support, motion);
     scene.prescribe_temperature(spring, temperature);
-    Simulation::new(scene, Scheme::EemEntropy, 0.1)
+    Ok(Simulation::new(scene, Scheme::EemEntropy, 0.1)?)
 }
 
 #[test]
@@ -44,7 +44,7 @@ fn a_thermostat_that_jumps_at_the_start_is_refused_with_both_temperatures() {
     let error = build(|_| [0.7, 0.0], |t| 330.0 + t).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "the temperature prescribed on element 0 is 330 K at t = 0 s, but its initial temperature is \
+        "the temperature prescribed on element 0 (Warm) is 330 K at t = 0 s, but its initial temperature is \
          310 K: set the temperature with which the thermostat begins"
     );
     for bad in [f64::NAN, f64::INFINITY, -310.0, 0.0, 310.0 + 1e-9] {

@@ -5,6 +5,7 @@ use eem::StateError;
 use eem::prelude::*;
 
 use super::Elastic;
+use crate::support::only_error;
 
 /// The positions of a pendulum of this length, in units of it, after some steps.
 fn trajectory(scheme: Scheme, length: f64) -> Vec<[f64; 2]> {
@@ -58,7 +59,7 @@ fn refusal(first: [f64; 2], second: [f64; 2]) -> StateError {
         length: 1.0,
     };
     scene.spring(spring, ends);
-    match Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap_err() {
+    match only_error(Simulation::new(scene, Scheme::EemEntropy, 0.1)) {
         SceneError::State(error) => error,
         error => panic!("{error}"),
     }
@@ -88,7 +89,7 @@ fn a_stretch_whose_square_underflows_or_overflows_is_refused_with_its_true_lengt
     }
     assert_eq!(
         refusal([0.0, 0.0], [0.0, 1e-170]).to_string(),
-        "the stretch of element 0 is 1e-170 m, it must lie between 1.5e-154 m and 1.3e154 m, so \
+        "the stretch of element 0 (Elastic) is 1e-170 m, it must lie between 1.5e-154 m and 1.3e154 m, so \
          that its square neither underflows nor overflows"
     );
 }

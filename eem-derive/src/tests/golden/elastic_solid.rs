@@ -23,6 +23,7 @@ const _: () = {
         const DASHPOTS: __eem::core::primitive::usize = 0;
         const THERMAL: __eem::core::primitive::bool = false;
         const PER_VOLUME: __eem::core::primitive::bool = true;
+        const MODEL: &'static __eem::core::primitive::str = "ElasticSolid";
         const PARAMETERS: &'static [&'static __eem::core::primitive::str] = &[
             "la",
             "mu",
@@ -42,6 +43,12 @@ const _: () = {
                 <__S as __eem::Scalar>::from_f64(self.mu),
             ];
             __parameters[__index]
+        }
+        fn duplicate(&self) -> Self {
+            Self {
+                la: __eem::core::clone::Clone::clone(&self.la),
+                mu: __eem::core::clone::Clone::clone(&self.mu),
+            }
         }
         /// Free energy ψ.
         ///

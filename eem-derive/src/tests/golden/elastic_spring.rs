@@ -16,6 +16,7 @@ const _: () = {
         const MEASURES: __eem::core::primitive::usize = 1;
         const DASHPOTS: __eem::core::primitive::usize = 0;
         const THERMAL: __eem::core::primitive::bool = false;
+        const MODEL: &'static __eem::core::primitive::str = "ElasticSpring";
         const PARAMETERS: &'static [&'static __eem::core::primitive::str] = &[
             "stiffness",
             "length",
@@ -35,6 +36,12 @@ const _: () = {
                 <__S as __eem::Scalar>::from_f64(self.length),
             ];
             __parameters[__index]
+        }
+        fn duplicate(&self) -> Self {
+            Self {
+                stiffness: __eem::core::clone::Clone::clone(&self.stiffness),
+                length: __eem::core::clone::Clone::clone(&self.length),
+            }
         }
         /// Free energy ψ.
         ///

@@ -25,6 +25,7 @@ const _: () = {
         const MEASURES: __eem::core::primitive::usize = 1;
         const DASHPOTS: __eem::core::primitive::usize = 1;
         const THERMAL: __eem::core::primitive::bool = true;
+        const MODEL: &'static __eem::core::primitive::str = "ThermoViscoElasticSpring";
         const PARAMETERS: &'static [&'static __eem::core::primitive::str] = &[
             "stiffness",
             "branch",
@@ -56,6 +57,18 @@ const _: () = {
                 <__S as __eem::Scalar>::from_f64(self.activation),
             ];
             __parameters[__index]
+        }
+        fn duplicate(&self) -> Self {
+            Self {
+                stiffness: __eem::core::clone::Clone::clone(&self.stiffness),
+                branch: __eem::core::clone::Clone::clone(&self.branch),
+                length: __eem::core::clone::Clone::clone(&self.length),
+                coupling: __eem::core::clone::Clone::clone(&self.coupling),
+                capacity: __eem::core::clone::Clone::clone(&self.capacity),
+                theta_ref: __eem::core::clone::Clone::clone(&self.theta_ref),
+                eta_ref: __eem::core::clone::Clone::clone(&self.eta_ref),
+                activation: __eem::core::clone::Clone::clone(&self.activation),
+            }
         }
         /// Free energy ψ.
         ///

@@ -33,7 +33,7 @@ where
             digest.bytes(&[0]);
         }
         for point in self.points() {
-            digest.count(point.element.index);
+            digest.count(point.element.index());
             for index in 0..M::PARAMETERS.len() {
                 digest.number(point.model.parameter(index));
             }
@@ -123,7 +123,7 @@ where
             return Ok(());
         }
         Err(Misfit::Entropy {
-            element: self.element.index,
+            element: self.element.index(),
             entropy: entropy.to_f64(),
             expected: caloric.entropy.to_f64(),
             temperature: theta.to_f64(),

@@ -1,5 +1,7 @@
 //! What schemes make of loose elements.
 
+use core::any::Any;
+
 use super::element_group::ElementGroup;
 use super::explicit::FreeGroup;
 use super::interface::{ExplicitGroup, Group, Loose};
@@ -11,6 +13,7 @@ use crate::element::conjugates::{
     Trapezoidal, TrapezoidalTemperature, Variational,
 };
 use crate::element::kinematics::Kinematics;
+use crate::element::layout::Shape;
 use crate::element::tableau::Tableau;
 use crate::material::free_energy::FreeEnergy;
 use crate::number::scalar::Real;
@@ -21,6 +24,30 @@ where
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
 {
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+
+    fn as_any_mut(&mut self) -> &mut dyn Any {
+        self
+    }
+
+    fn shape(&self) -> Shape {
+        Self::shape_of_all()
+    }
+
+    fn name(&self) -> &'static &'static str {
+        &M::MODEL
+    }
+
+    fn infinite_parameter(&self, place: usize) -> Option<(&'static str, S)> {
+        self.infinite_parameter_at(place)
+    }
+
+    fn duplicate(&self) -> Box<dyn Loose<S, D>> {
+        Box::new(self.duplicate_all())
+    }
+
     fn build(self: Box<Self>, by: Conjugates, placed: Placed<'_>) -> Box<dyn Group<S, D>> {
         let group = match by {
             Conjugates::EntropyForm => single::<S, M, K, EemEntropy, D>,

@@ -264,7 +264,7 @@ where
     ) -> EnergyChange<S, M> {
         let [r0, r1] = ends.map(|state| arms_in::<K, S, D>(nodes, &state.positions));
         let change = change_between::<K, S, D>(nodes, ends);
-        let at = self.element.index;
+        let at = self.element.index();
         let by_values = ends[1].energies[at].value - ends[0].energies[at].value;
         let x = [
             self.variables_in(&r0, ends[0]),

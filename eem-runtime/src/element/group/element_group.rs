@@ -84,8 +84,8 @@ where
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    fn initialize(&mut self, state: &mut State<S>) -> Result<(), StateError> {
-        self.initialize_all(state)
+    fn initialize(&mut self, state: &mut State<S>, refuse: &mut dyn FnMut(StateError)) {
+        self.initialize_all(state, refuse);
     }
 
     fn add_totals(&self, state: &State<S>, totals: &mut ElementTotals<S>) {

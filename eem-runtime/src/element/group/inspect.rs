@@ -19,14 +19,19 @@ where
     C: ElementScheme<S, M>,
 {
     /// See [`Elements::initialize`](super::Elements::initialize).
-    pub(super) fn initialize_all(&mut self, state: &mut State<S>) -> Result<(), StateError> {
+    pub(super) fn initialize_all(
+        &mut self,
+        state: &mut State<S>,
+        refuse: &mut dyn FnMut(StateError),
+    ) {
         for member in &mut self.members {
             let r = member.arms_in(state);
             for point in member.points.as_mut() {
-                point.initialize(&r, state)?;
+                if let Err(error) = point.initialize(&r, state) {
+                    refuse(error);
+                }
             }
         }
-        Ok(())
     }
 
     /// See [`Elements::find_energies`](super::Elements::find_energies).
@@ -44,7 +49,7 @@ where
                         Energy::new(psi, [theta, entropy], &point.model.caloric(&x))
                     }
                 };
-                state.energies[point.element.index] = energy;
+                state.energies[point.element.index()] = energy;
             }
         }
     }
@@ -95,7 +100,7 @@ where
         let caloric = self.model.caloric(&x);
         let energy = self.energy_at(&x, caloric)?;
         check_gradient::<S, M>(self.element, &self.model.gradient(&x))?;
-        state.energies[self.element.index] = energy;
+        state.energies[self.element.index()] = energy;
         let Some(slot) = slot else {
             return Ok(());
         };

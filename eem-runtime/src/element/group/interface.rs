@@ -1,5 +1,8 @@
 //! What the solvers see of elements: one dynamic call per group and phase.
 
+use core::any::Any;
+use core::fmt::Debug;
+
 use super::explicit::view::{ClosingView, NodeStiffness, PlaceOf, StageRates, StageView};
 use super::view::{Along, ElementTotals, ElementView, Old, Placed, Sites, StepView, Trial};
 use crate::algebra::system::LinearSystem;
@@ -8,7 +11,7 @@ use crate::element::error::StateError;
 use crate::element::group::misfit::Misfit;
 use crate::element::group::view::ElementGeneric;
 use crate::element::impulse::Impulses;
-use crate::element::layout::Slots;
+use crate::element::layout::{Shape, Slots};
 use crate::element::recount::Recount;
 use crate::element::state::State;
 use crate::element::tally::Tally;
@@ -18,7 +21,9 @@ use crate::number::scalar::Real;
 /// Elements of one model in a state, whatever steps them.
 pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
     /// Entropies of an initial state whose temperatures are given.
-    fn initialize(&mut self, state: &mut State<S>) -> Result<(), StateError>;
+    ///
+    /// Names every element that cannot be in it.
+    fn initialize(&mut self, state: &mut State<S>, refuse: &mut dyn FnMut(StateError));
 
     /// Adds energy and entropy, from their definitions.
     fn add_totals(&self, state: &State<S>, totals: &mut ElementTotals<S>);
@@ -160,7 +165,25 @@ pub(crate) trait ExplicitGroup<S: Real, const D: usize>: Send + Sync {
 }
 
 /// Elements of one model, whatever the model is, for which a scheme is chosen.
-pub(crate) trait Loose<S: Real, const D: usize>: Send + Sync {
+pub(crate) trait Loose<S: Real, const D: usize>: Any + Debug + Send + Sync {
+    /// Their type.
+    fn as_any(&self) -> &dyn Any;
+
+    /// The same, to be changed.
+    fn as_any_mut(&mut self) -> &mut dyn Any;
+
+    /// What they have.
+    fn shape(&self) -> Shape;
+
+    /// The name of their model.
+    fn name(&self) -> &'static &'static str;
+
+    /// The first parameter of the point at `place` that is not finite, and its value.
+    fn infinite_parameter(&self, place: usize) -> Option<(&'static str, S)>;
+
+    /// The same elements once more.
+    fn duplicate(&self) -> Box<dyn Loose<S, D>>;
+
     /// The elements, ready to be stepped.
     fn build(self: Box<Self>, by: Conjugates, placed: Placed<'_>) -> Box<dyn Group<S, D>>;
 

@@ -1,7 +1,11 @@
 //! Elements of one model that no scheme steps: of a scene that is still being built, or between two schemes.
 
+use core::fmt;
+
 use crate::element::handle::Element;
-use crate::element::kinematics::Kinematics;
+use crate::element::kinematics::{Kinematics, Points};
+use crate::element::layout::Shape;
+use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
 
 /// What the points of an element consist of.
@@ -15,4 +19,70 @@ where
     K: Kinematics<S, D>,
 {
     pub(crate) elements: Vec<(Element, Parts<S, M, K, D>)>,
+}
+
+impl<S, M, K, const D: usize> LooseElements<S, M, K, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync,
+    K: Kinematics<S, D>,
+{
+    const POINTS: usize = K::PerPoint::<(M, K)>::LEN;
+
+    /// None yet.
+    pub(crate) const fn new() -> Self {
+        Self {
+            elements: Vec::new(),
+        }
+    }
+
+    /// Number of points.
+    pub(crate) fn points(&self) -> usize {
+        Self::POINTS * self.elements.len()
+    }
+
+    /// What they have.
+    pub(super) const fn shape_of_all() -> Shape {
+        Shape {
+            dashpots: M::DASHPOTS,
+            thermal: M::THERMAL,
+            drag: <M::Drag as Array<S>>::LEN > 0,
+            is_spring: K::IS_SPRING,
+            viscous_unit: K::VISCOUS_UNIT,
+        }
+    }
+
+    /// See [`Loose::infinite_parameter`](super::Loose::infinite_parameter).
+    pub(super) fn infinite_parameter_at(&self, place: usize) -> Option<(&'static str, S)> {
+        let (_, points) = &self.elements[place / Self::POINTS];
+        let (model, _) = &points.as_ref()[place % Self::POINTS];
+        let parameters = M::PARAMETERS.iter().enumerate();
+        let mut values = parameters.map(|(index, &name)| (name, model.parameter(index)));
+        values.find(|(_, value)| !value.is_finite())
+    }
+
+    /// The same elements once more.
+    pub(super) fn duplicate_all(&self) -> Self {
+        let elements = self.elements.iter().map(|(first, points)| {
+            let copy = |point: usize| {
+                let (model, kinematics) = &points.as_ref()[point];
+                (model.duplicate(), *kinematics)
+            };
+            (*first, K::PerPoint::from_fn(copy))
+        });
+        Self {
+            elements: elements.collect(),
+        }
+    }
+}
+
+impl<S, M, K, const D: usize> fmt::Debug for LooseElements<S, M, K, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync,
+    K: Kinematics<S, D>,
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} elements of {}", self.elements.len(), M::MODEL)
+    }
 }

@@ -40,9 +40,9 @@ where
             site: Site::unconnected(placed.nodes.nodes_of(first)),
             r0: Arms::<K, S, D>::filled([S::zero(); D]),
             points: K::PerPoint::from_fn(|point| {
-                let index = first.index + point;
-                let slots = placed.layout.elements[index];
-                Point::new(Element { index, ..first }, next_of(&mut parts), slots)
+                let element = first.after(point);
+                let slots = placed.layout.elements[element.index()];
+                Point::new(element, next_of(&mut parts), slots)
             }),
         }
     }

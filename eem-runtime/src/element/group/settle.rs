@@ -40,7 +40,7 @@ where
                     let forces = point.amplitude([&member.r0, &r1], tally.care);
                     tally.force(forces);
                     tally.exchange(view.step * point.largest_pull(&r1));
-                    let magnitude = next.energies[point.element.index].magnitude + forces;
+                    let magnitude = next.energies[point.element.index()].magnitude + forces;
                     point.judge(view, (contact, trial), &r1, (received, magnitude), tally);
                 }
             }
@@ -82,7 +82,7 @@ where
     ) -> Result<Option<S>, StateError> {
         let mut x = self.locate(r, state)?;
         self.check_viscous(&x)?;
-        let at = self.element.index;
+        let at = self.element.index();
         let Some(slot) = self.slots().thermal else {
             let psi = self.model.free_energy(&x);
             self.unless_infinite(psi)?;

@@ -9,6 +9,7 @@ use super::experiment::{Experiment, Members};
 use crate::number::lanes::Lanes;
 use crate::number::scalar::{Discord, Real};
 use crate::run::simulation::Simulation;
+use crate::scene::error::SceneError;
 use crate::step::newton::NewtonSettings;
 use crate::step::scheme::Scheme;
 
@@ -90,7 +91,8 @@ impl Bundles {
     ) -> Result<Vec<E::Output>, MemberFailure> {
         let members = Members::new(inputs);
         let (scene, handles) = experiment.build(members);
-        let mut run = Simulation::new(scene, self.scheme, S::from_f64(self.step))?;
+        let run = Simulation::new(scene, self.scheme, S::from_f64(self.step));
+        let mut run = run.map_err(SceneError::from)?;
         run.set_newton_settings(NewtonSettings {
             max_iterations: self.newton.max_iterations,
             tolerance: S::from_f64(self.newton.tolerance),

@@ -156,7 +156,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 continue;
             };
             let own = state.temperatures[slot];
-            if !follows(temperature, own, (time, S::zero()), own) {
+            if !follows(&**temperature, own, (time, S::zero()), own) {
                 return Err(RestoreError::Thermostat {
                     element: *element,
                     checkpoint: own.to_f64(),

@@ -2,8 +2,10 @@
 
 use super::attempt::explicit_view;
 use super::control_memory::Control;
+use super::groups::Groups;
 use super::stepper::{Parts, Stepper};
 use super::{Simulation, Tried};
+use crate::element::group::Placed;
 use crate::number::scalar::Real;
 use crate::run::checkpoint::{Checkpoint, RestoreError, SavedChoice};
 use crate::step::automatic::{CANDIDATES, Verdict, implicit};
@@ -213,8 +215,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             conduction: &self.conduction,
             loads: &self.loads,
         };
-        let elements = self.stepper.take_elements();
-        self.stepper = Stepper::build(elements, parts, &self.state);
+        let placed = Placed {
+            nodes: &automatic.elements,
+            layout: &self.layout,
+        };
+        let groups = Groups::new(self.stepper.take_elements(), scheme, placed);
+        self.stepper = Stepper::new(groups, parts, &self.state);
         self.stepper.set_motion_first(automatic.is_motion_first);
         // As after a restart: each scheme has its own way to them.
         let state = &mut self.state;

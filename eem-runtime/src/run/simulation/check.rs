@@ -1,6 +1,5 @@
 //! What a step size, the end of a step and the scheme of solids must be.
 
-use crate::element::handle::Element;
 use crate::number::scalar::{Real, is_positive};
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
@@ -24,8 +23,20 @@ pub(super) fn needs_second_order<const D: usize, S: Real>(scene: &Scene<D, S>) -
     shapes.any(|shape| !shape.is_spring || shape.drag)
 }
 
+/// Everything that is wrong with a scene, a scheme for it and a step.
+pub(super) fn check_all<const D: usize, S: Real>(
+    scene: &Scene<D, S>,
+    scheme: Scheme,
+    step: S,
+) -> Vec<SceneError> {
+    let mut errors = scene.check();
+    errors.extend(check_scheme(scene, scheme).err());
+    errors.extend(check_step(step).err());
+    errors
+}
+
 /// The scheme can step what is in the scene.
-pub(super) fn check_scheme<const D: usize, S: Real>(
+fn check_scheme<const D: usize, S: Real>(
     scene: &Scene<D, S>,
     scheme: Scheme,
 ) -> Result<(), SceneError> {
@@ -34,14 +45,17 @@ pub(super) fn check_scheme<const D: usize, S: Real>(
         check_solids(scheme)?;
     }
     let mut entries = scene.elements.iter();
-    let with_drag = entries.position(|entry| scene.groups[entry.group].shape().drag);
+    let has_drag = |group: usize| {
+        scene
+            .groups
+            .get(group)
+            .is_some_and(|group| group.shape().drag)
+    };
+    let with_drag = entries.position(|entry| has_drag(entry.group));
     match with_drag {
         Some(index) if !scheme.takes_drag() => Err(SceneError::NoDrag {
             scheme: scheme.name(),
-            element: Element {
-                scene: scene.id,
-                index,
-            },
+            element: scene.element_at(index),
         }),
         _ => Ok(()),
     }

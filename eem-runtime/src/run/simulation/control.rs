@@ -52,17 +52,22 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn control_steps(&mut self, tolerance: Tolerance<S>) -> Result<(), SceneError> {
-        let memory = SavedControl {
+        let memory = self.new_control(tolerance);
+        self.check_control(Some(memory))?;
+        self.go_on_with(Some(memory));
+        Ok(())
+    }
+
+    /// What control remembers before the first step.
+    pub(super) fn new_control(&self, tolerance: Tolerance<S>) -> SavedControl<S> {
+        SavedControl {
             tolerance,
             controller: Controller::new(),
             statistics: StepStatistics::default(),
             largest_momentum: S::zero(),
             smallest: S::from_f64(SMALLEST) * S::EPSILON * self.step,
             largest: S::MAX,
-        };
-        self.check_control(Some(memory))?;
-        self.go_on_with(Some(memory));
-        Ok(())
+        }
     }
 
     /// An error unless steps can be controlled like this.

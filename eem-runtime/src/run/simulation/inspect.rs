@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use super::Simulation;
 use crate::element::group::ElementView;
-use crate::element::handle::{Element, Node, Reservoir, SceneId};
+use crate::element::handle::{Element, Handle, Node, Reservoir};
 use crate::element::layout::Slots;
 use crate::number::scalar::Real;
 use crate::run::ledger::Ledger;
@@ -37,7 +37,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// For a foreign handle.
     pub fn position(&self, node: Node) -> Result<SVector<S, D>, SceneError> {
-        self.expect_own(node.scene, &node)?;
+        self.expect_own(&node)?;
         Ok(vector(self.state.positions.values(), node.index))
     }
 
@@ -47,7 +47,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// For a foreign handle.
     pub fn momentum(&self, node: Node) -> Result<SVector<S, D>, SceneError> {
-        self.expect_own(node.scene, &node)?;
+        self.expect_own(&node)?;
         Ok(vector(self.state.momenta.values(), node.index))
     }
 
@@ -57,7 +57,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// For a foreign handle.
     pub fn velocity(&self, node: Node) -> Result<SVector<S, D>, SceneError> {
-        self.expect_own(node.scene, &node)?;
+        self.expect_own(&node)?;
         Ok(match self.masses.get(node.index) {
             Some(mass) => SVector::from(self.state.velocity::<D>(node.index, mass)),
             None => SVector::from([S::zero(); D]),
@@ -117,7 +117,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// For a foreign handle; [`SceneError::NoSuchDashpot`].
     pub fn viscous_stretch(&self, element: Element, dashpot: usize) -> Result<S, SceneError> {
-        self.expect_own(element.scene, &element)?;
+        self.expect_own(&element)?;
         let [group, _] = self.place(element);
         let dashpots = self.shapes[group].dashpots;
         if dashpot >= dashpots {
@@ -137,7 +137,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// For a foreign handle.
     pub fn reservoir_entropy(&self, reservoir: Reservoir) -> Result<S, SceneError> {
-        self.expect_own(reservoir.scene, &reservoir)?;
+        self.expect_own(&reservoir)?;
         Ok(self.state.reservoir_entropies.values()[reservoir.index])
     }
 
@@ -165,7 +165,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// An error unless an element is a spring of this scene.
     fn expect_spring(&self, element: Element, quantity: &'static str) -> Result<(), SceneError> {
-        self.expect_own(element.scene, &element)?;
+        self.expect_own(&element)?;
         let [group, _] = self.place(element);
         if self.shapes[group].is_spring {
             return Ok(());
@@ -174,14 +174,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     fn view(&self, element: Element) -> Result<ElementView<S>, SceneError> {
-        self.expect_own(element.scene, &element)?;
+        self.expect_own(&element)?;
         let [group, place] = self.place(element);
         Ok(self.stepper.elements(group).inspect(place, &self.state))
     }
 
     /// The group and the place in it of an own element.
     fn place(&self, element: Element) -> [usize; 2] {
-        self.places[element.index].map(|number| number as usize)
+        self.places[element.index()].map(|number| number as usize)
     }
 
     /// Where an own element keeps its internal variables.
@@ -191,17 +191,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     fn thermal_slot(&self, element: Element) -> Result<usize, SceneError> {
-        self.expect_own(element.scene, &element)?;
+        self.expect_own(&element)?;
         let slot = self.slots(element).thermal;
         slot.ok_or(SceneError::NotThermal { element })
     }
 
-    fn expect_own(
-        &self,
-        scene: SceneId,
-        handle: &dyn core::fmt::Display,
-    ) -> Result<(), SceneError> {
-        if scene == self.scene {
+    fn expect_own<H: Handle>(&self, handle: &H) -> Result<(), SceneError> {
+        if self.scene.owns(handle) {
             return Ok(());
         }
         let handle = handle.to_string();

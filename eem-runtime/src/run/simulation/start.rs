@@ -1,13 +1,22 @@
 //! The state in which a scene begins.
 
+use core::mem;
+
 use nalgebra::SVector;
 
+use super::groups::Groups;
+use super::totals::check_totals;
+use crate::element::group::Placed;
 use crate::element::layout::Layout;
+use crate::element::masses::Masses;
 use crate::element::state::{Energy, State};
 use crate::number::compact::compact;
 use crate::number::compensated::{Compensated, Sum};
 use crate::number::scalar::Real;
+use crate::run::ledger::Ledger;
 use crate::scene::Scene;
+use crate::scene::error::SceneError;
+use crate::step::scheme::Scheme;
 
 /// The group of each element, and its place there.
 pub(super) fn places_in<const D: usize, S: Real>(scene: &Scene<D, S>) -> Vec<[u32; 2]> {
@@ -61,4 +70,32 @@ pub(super) fn initial_state<const D: usize, S: Real>(
         thermostat_entropy: Sum::new(S::zero()),
         dissipated: Sum::new(S::zero()),
     }
+}
+
+/// The elements of a scene, ready for a scheme in the initial state, whose entropies are found; or everything for which
+/// it cannot be one, and the scene as it was.
+pub(super) fn begin_groups<const D: usize, S: Real>(
+    scene: &mut Scene<D, S>,
+    scheme: Scheme,
+    (layout, masses): (&Layout, &Masses<S>),
+    state: &mut State<S>,
+) -> Result<Groups<S, D>, Vec<SceneError>> {
+    let elements = mem::take(&mut scene.groups);
+    let placed = Placed {
+        nodes: &scene.elements,
+        layout,
+    };
+    let mut groups = Groups::new(elements, scheme, placed);
+    let errors = groups.initialize(state).into_iter();
+    let mut errors: Vec<_> = errors.map(SceneError::from).collect();
+    if errors.is_empty() {
+        let all = groups.all().into_iter();
+        let ledger = Ledger::of(state, masses, all, &scene.reservoirs, &scene.loads.gravity);
+        errors.extend(check_totals(&ledger).err());
+    }
+    if errors.is_empty() {
+        return Ok(groups);
+    }
+    scene.groups = groups.into_loose();
+    Err(errors)
 }

@@ -2,22 +2,21 @@
 
 use core::mem;
 
+use super::groups::Groups;
 use crate::algebra::system::MOST_FIXED;
 use crate::element::conduction::Conduction;
-use crate::element::group::{Elements, Group, Loose, Placed};
+use crate::element::group::{Elements, Group, Loose};
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::element::tableau::Tableau;
 use crate::number::scalar::Real;
-use crate::scene::blueprint::Blueprint;
 use crate::scene::entry::ElementEntry;
-use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
 use crate::step::error::StepFailure;
 use crate::step::explicit::{Explicit, SavedExplicit, Site};
-use crate::step::scheme::{Closing, Scheme};
+use crate::step::scheme::Scheme;
 use crate::step::solver::{SavedPast, Solver};
 
 /// What steps a scene.
@@ -52,50 +51,21 @@ pub(super) struct Parts<'a, S: Real, const D: usize> {
 }
 
 impl<S: Real, const D: usize> Stepper<S, D> {
-    /// Finds the entropies of an initial state, and gets ready.
-    pub(super) fn new(
-        blueprints: Vec<Box<dyn Blueprint<S, D>>>,
-        parts: Parts<'_, S, D>,
-        state: &mut State<S>,
-    ) -> Result<Self, SceneError> {
-        let blueprints = blueprints.into_iter();
-        let elements = blueprints.map(Blueprint::into_loose).collect();
-        let mut stepper = Self::build(elements, parts, state);
-        let mut found = Ok(());
-        stepper.each_mut(|group| {
-            if found.is_ok() {
-                found = group.initialize(state);
+    /// For groups in a state whose entropies are known, or still to be found.
+    pub(super) fn new(groups: Groups<S, D>, parts: Parts<'_, S, D>, state: &State<S>) -> Self {
+        match groups {
+            Groups::Newton(groups) => Self::Newton(Box::new(Newton::new(groups, parts, state))),
+            Groups::Explicit(groups) => {
+                let site = Site {
+                    masses: parts.masses,
+                    elements: parts.elements,
+                    layout: parts.layout,
+                    conduction: parts.conduction,
+                    loads: parts.loads,
+                };
+                Self::Explicit(Box::new(Explicit::new(groups, site)))
             }
-        });
-        found?;
-        Ok(stepper)
-    }
-
-    /// For elements in a state whose entropies are known, or still to be found.
-    pub(super) fn build(
-        elements: Vec<Box<dyn Loose<S, D>>>,
-        parts: Parts<'_, S, D>,
-        state: &State<S>,
-    ) -> Self {
-        let placed = Placed {
-            nodes: parts.elements,
-            layout: parts.layout,
-        };
-        let elements = elements.into_iter();
-        if parts.scheme.closing() == Closing::Explicit {
-            let groups = elements.map(|elements| elements.build_explicit(placed));
-            let site = Site {
-                masses: parts.masses,
-                elements: parts.elements,
-                layout: parts.layout,
-                conduction: parts.conduction,
-                loads: parts.loads,
-            };
-            return Self::Explicit(Box::new(Explicit::new(groups.collect(), site)));
         }
-        let by = parts.scheme.conjugates();
-        let groups = elements.map(|elements| elements.build(by, placed));
-        Self::Newton(Box::new(Newton::new(groups.collect(), parts, state)))
     }
 
     /// Gives its elements away; it cannot step any more.

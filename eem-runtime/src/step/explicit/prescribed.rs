@@ -100,7 +100,7 @@ impl<S: Real, const D: usize> Prescribed<S, D> {
         }
         let mut held: Vec<Held<S>> = Vec::new();
         for (temperature, (element, _)) in loads.temperatures.iter().enumerate() {
-            let Some(slot) = layout.elements[element.index].thermal else {
+            let Some(slot) = layout.elements[element.index()].thermal else {
                 continue;
             };
             held.retain(|held| held.slot != slot);

@@ -114,7 +114,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             return None;
         };
         let mut elements = self.components.elements.iter();
-        let slot = elements.position(|&own| own as usize == element.index)?;
+        let slot = elements.position(|&own| own as usize == element.index())?;
         let mut heat_capacity = S::zero();
         for group in &self.groups {
             group.stiffness(view.state, &mut |found| {

@@ -171,7 +171,7 @@ where
         }
         let sum = &mut view.energies[component as usize];
         sum.add(waits, [energy, magnitude]);
-        let stored = &mut view.next.energies[self.element.index];
+        let stored = &mut view.next.energies[self.element.index()];
         stored.value = keep(stored.value, energy);
         stored.magnitude = keep(stored.magnitude, magnitude);
         Ok(())

@@ -71,7 +71,7 @@ where
     fn join(&mut self, component_of: &[u32], places: &dyn PlaceOf) {
         let own = self.components.iter_mut().zip(&mut self.places);
         for (member, (component, own)) in self.elements.members.iter().zip(own) {
-            *component = component_of[member.only().element.index];
+            *component = component_of[member.only().element.index()];
             for (place, &node) in own.as_mut().iter_mut().zip(member.site.nodes.as_ref()) {
                 *place = places.place_of(*component, node);
             }

@@ -299,7 +299,7 @@ where
         if let Some(entropy) = own.settle(r1, view, near, next)? {
             member.book_thermostat(rule, &booked, entropy, next);
         }
-        let energy = next.energies[own.element.index].magnitude;
+        let energy = next.energies[own.element.index()].magnitude;
         member.certify(own, rule, (view, trial), (&booked, energy), tally);
         Ok(())
     }

@@ -1,0 +1,31 @@
+//! The same material once more.
+
+use proc_macro2::TokenStream;
+use quote::{quote, quote_spanned};
+use syn::spanned::Spanned as _;
+use syn::{Data, DeriveInput};
+
+// Expands to:
+//
+//     fn duplicate(&self) -> Self {
+//         Self { stiffness: Clone::clone(&self.stiffness), … }
+//     }
+pub(super) fn duplicate(input: &DeriveInput) -> TokenStream {
+    let Data::Struct(item) = &input.data else {
+        return TokenStream::new();
+    };
+    let copies = item
+        .fields
+        .members()
+        .zip(&item.fields)
+        .map(|(member, field)| {
+            // Where a field cannot be cloned, Rust says so there.
+            let clone = quote_spanned!(field.ty.span()=> __eem::core::clone::Clone::clone);
+            quote! { #member: #clone(&self.#member) }
+        });
+    quote! {
+        fn duplicate(&self) -> Self {
+            Self { #(#copies),* }
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! A scene that cannot be simulated, given back with everything that is wrong with it.
+
+use core::error::Error;
+use core::fmt;
+
+use super::Scene;
+use crate::number::scalar::Real;
+use crate::scene::error::SceneError;
+
+/// The message names so many errors, and how many more there are.
+const MOST_NAMED: usize = 20;
+
+/// A scene that [`Simulation::new`](crate::Simulation::new) refuses, and everything that is wrong with it.
+///
+/// The first error stands for all where a [`SceneError`] is wanted, so that `?` turns one into the other.
+///
+/// ```
+/// use eem::prelude::*;
+///
+/// let mut scene = Scene::<1>::new();
+/// scene.mass(-1.0, [0.0], [0.0]);
+/// scene.mass(2.0, [f64::NAN], [0.0]);
+/// let refused = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap_err();
+/// assert_eq!(
+///     refused.to_string(),
+///     "2 things are wrong with the scene:\n\
+///      - the mass of node 0 is -1 kg, it must be positive and finite\n\
+///      - coordinate 0 of the position of node 1 is NaN m, it must be finite",
+/// );
+/// assert!(matches!(refused.errors()[0], SceneError::Mass { value: -1.0, .. }));
+/// let mut scene = refused.into_scene();
+/// scene.mass(3.0, [0.0], [0.0]);
+/// ```
+pub struct RefusedScene<const D: usize, S: Real = f64> {
+    scene: Box<Scene<D, S>>,
+    /// One at least.
+    errors: Vec<SceneError>,
+}
+
+impl<const D: usize, S: Real> RefusedScene<D, S> {
+    pub(crate) fn new(scene: Scene<D, S>, errors: Vec<SceneError>) -> Self {
+        let scene = Box::new(scene);
+        Self { scene, errors }
+    }
+
+    /// Everything that is wrong, one error at least.
+    #[must_use]
+    pub fn errors(&self) -> &[SceneError] {
+        &self.errors
+    }
+
+    /// The scene as it was given.
+    #[must_use]
+    pub fn into_scene(self) -> Scene<D, S> {
+        *self.scene
+    }
+}
+
+impl<const D: usize, S: Real> fmt::Display for RefusedScene<D, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let count = self.errors.len();
+        if let [only] = &self.errors[..] {
+            return only.fmt(f);
+        }
+        write!(f, "{count} things are wrong with the scene:")?;
+        for error in self.errors.iter().take(MOST_NAMED) {
+            write!(f, "\n- {error}")?;
+        }
+        if count > MOST_NAMED {
+            write!(f, "\n- and {} more", count - MOST_NAMED)?;
+        }
+        Ok(())
+    }
+}
+
+impl<const D: usize, S: Real> fmt::Debug for RefusedScene<D, S> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut all = f.debug_struct("RefusedScene");
+        all.field("errors", &self.errors).finish_non_exhaustive()
+    }
+}
+
+impl<const D: usize, S: Real> Error for RefusedScene<D, S> {}
+
+impl<const D: usize, S: Real> From<RefusedScene<D, S>> for SceneError {
+    fn from(mut refused: RefusedScene<D, S>) -> Self {
+        refused.errors.swap_remove(0)
+    }
+}
