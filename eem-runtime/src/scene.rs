@@ -164,7 +164,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
         (group, set)
     }
 
-    /// The initial temperature of an element, K.
+    /// The initial temperature of an element, K. Every element with a temperature needs one, also where a thermostat
+    /// [keeps it](Self::prescribe_temperature) from there on; the last call counts.
     pub fn set_temperature(&mut self, element: Element, temperature: S) {
         if self.expect_own(&element) {
             self.elements[element.index()].temperature = Some(temperature);

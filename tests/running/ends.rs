@@ -134,3 +134,37 @@ fn single_precision_reaches_its_end_too() {
     run.run_until_with(20.0, observer).unwrap();
     assert_eq!((run.time().to_bits(), steps), (20.0_f32.to_bits(), 200));
 }
+
+#[test]
+fn a_failed_step_says_which_shorter_one_can_be_made() {
+    for (scheme, size) in [
+        (Scheme::EemEntropy, 40.0),
+        (Scheme::EemEntropy4, 40.0),
+        (Scheme::EemExplicit, 3.0),
+    ] {
+        let mut run = single_pendulum(scheme, 0.01).run;
+        run.run_until(0.1).unwrap();
+        run.set_step_size(size).unwrap();
+        let before = (bits(&run), run.worst_step().copied(), *run.corrections());
+        let error = run.step().unwrap_err();
+        assert_eq!(run.run_until(9.0 * size).unwrap_err(), error);
+        assert_eq!(
+            (bits(&run), run.worst_step().copied(), *run.corrections()),
+            before
+        );
+        println!("{error}");
+        let shorter = error.shorter.unwrap();
+        let text = format!("(a step of {shorter} s would do)");
+        assert!(error.to_string().ends_with(&text), "{error}");
+        run.set_step_size(2.0 * shorter).unwrap();
+        assert_eq!(run.step().unwrap_err().shorter, Some(shorter));
+        run.set_step_size(shorter).unwrap();
+        assert_eq!(run.step().unwrap().step.to_bits(), shorter.to_bits());
+    }
+    // Nothing to try where the step is not to blame.
+    let mut scene = Scene::<2>::new();
+    let mass = scene.mass(1.0, [0.0; 2], [0.0; 2]);
+    scene.force(mass, |_| [f64::NAN, 0.0]);
+    let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap();
+    assert_eq!(run.step().unwrap_err().shorter, None);
+}

@@ -149,7 +149,7 @@ fn csv_gives_back_every_bit() {
     let mut lines = text.lines();
     assert_eq!(
         lines.next(),
-        Some("time,q_x,q_y,\"energy, total\",iterations")
+        Some("time (s),q_x (m),q_y (m),\"energy, total (J)\",iterations")
     );
     let first = lines.next().unwrap();
     assert!(first.starts_with("0.0000000000000000e0,3.0000000000000000e0,0.0000000000000000e0,"));
@@ -161,4 +161,35 @@ fn csv_gives_back_every_bit() {
         assert!(values.map(f64::to_bits).eq(expected), "{line}");
     }
     assert_eq!(text.lines().count(), 1 + recorder.rows());
+}
+
+#[cfg(feature = "csv")]
+#[test]
+fn the_file_of_a_resumed_run_is_that_of_an_uninterrupted_one() {
+    let quantities = |bob| {
+        [
+            ("q", Quantity::Position(bob)),
+            ("entropy", Quantity::TotalEntropy),
+            ("iterations", Quantity::NewtonIterations),
+        ]
+    };
+    let Pendulum { mut run, bob, .. } = single_pendulum(Scheme::EemEntropy, 0.1);
+    let mut recorder = Recorder::new(&run, quantities(bob)).unwrap().every(2);
+    run.run_until_with(0.6, |run, report| recorder.observe(run, report))
+        .unwrap();
+    let mut text = Vec::new();
+    recorder.write_csv(&mut text).unwrap();
+    let saved = run.checkpoint();
+    run.run_until_with(1.4, |run, report| recorder.observe(run, report))
+        .unwrap();
+    let mut whole = Vec::new();
+    recorder.write_csv(&mut whole).unwrap();
+
+    let Pendulum { mut run, bob, .. } = single_pendulum(Scheme::EemEntropy, 0.1);
+    run.restore(&saved).unwrap();
+    let mut recorder = Recorder::new(&run, quantities(bob)).unwrap().every(2);
+    run.run_until_with(1.4, |run, report| recorder.observe(run, report))
+        .unwrap();
+    recorder.append_csv(&mut text).unwrap();
+    assert_eq!(String::from_utf8(text), String::from_utf8(whole));
 }

@@ -65,6 +65,7 @@ pub struct Recorder<const D: usize, S: Real = f64> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     name: String,
+    unit: &'static str,
     values: Vec<f64>,
     /// Whether the values are whole numbers.
     is_count: bool,
@@ -75,6 +76,21 @@ impl Column {
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// The unit of the values; empty for numbers without one, and where it is not known.
+    #[must_use]
+    pub const fn unit(&self) -> &'static str {
+        self.unit
+    }
+
+    /// The name with the unit, if there is one: `q_x (m)`.
+    #[must_use]
+    pub fn head(&self) -> String {
+        match self.unit {
+            "" => self.name.clone(),
+            unit => format!("{} ({unit})", self.name),
+        }
     }
 
     /// One value per row.
@@ -122,14 +138,14 @@ impl<const D: usize, S: Real> Recorder<D, S> {
             iterations: 0,
             row: Vec::new(),
         };
-        recorder.add_column(TIME.to_owned(), false)?;
+        recorder.add_column(TIME.to_owned(), "s", false)?;
         for (name, quantity) in quantities {
             let name = name.into();
             if let Err(source) = quantity.check(run) {
                 return Err(RecordError::Quantity { name, source });
             }
             for column in quantity.columns(&name) {
-                recorder.add_column(column, quantity.is_count())?;
+                recorder.add_column(column, quantity.unit(), quantity.is_count())?;
             }
             recorder.quantities.push(quantity);
         }
@@ -141,12 +157,18 @@ impl<const D: usize, S: Real> Recorder<D, S> {
         Ok(recorder)
     }
 
-    fn add_column(&mut self, name: String, is_count: bool) -> Result<(), RecordError> {
+    fn add_column(
+        &mut self,
+        name: String,
+        unit: &'static str,
+        is_count: bool,
+    ) -> Result<(), RecordError> {
         if self.column(&name).is_some() {
             return Err(RecordError::DuplicateColumn { name });
         }
         self.columns.push(Column {
             name,
+            unit,
             values: Vec::new(),
             is_count,
         });

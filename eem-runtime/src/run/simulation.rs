@@ -19,6 +19,7 @@ mod resume;
 pub(crate) mod run;
 mod sampling;
 mod settings;
+mod shorter;
 mod start;
 mod stepper;
 mod totals;
@@ -120,20 +121,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         scheme: Scheme,
         step: S,
     ) -> Result<Self, RefusedScene<D, S>> {
-        match Self::begin(&mut scene, scheme, step) {
-            Ok(run) => Ok(run),
-            Err(errors) => Err(RefusedScene::new(scene, errors)),
+        let errors = check_all(&scene, first(scheme, needs_second_order(&scene)), step);
+        if !errors.is_empty() {
+            return Err(RefusedScene::new(scene, errors));
         }
+        Self::begin(&mut scene, scheme, step).map_err(|errors| RefusedScene::new(scene, errors))
     }
 
-    /// Takes what a scene consists of, unless something is wrong with it.
+    /// Takes what a scene consists of, unless something is wrong with its initial state.
     fn begin(scene: &mut Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, Vec<SceneError>> {
         let is_second = needs_second_order(scene);
         let in_use = first(scheme, is_second);
-        let errors = check_all(scene, in_use, step);
-        if !errors.is_empty() {
-            return Err(errors);
-        }
         let mut layout = scene.layout();
         let conduction = Conduction::new(&scene.conductors, &scene.reservoirs, &layout);
         let mut state = Box::new(initial_state(scene, &layout));
@@ -199,7 +197,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         if self.control.is_some() {
             return self.controlled_step(S::from_f64(f64::INFINITY));
         }
+        let size = self.step;
         self.single_step()
+            .map_err(|error| self.with_shorter(error, size))
     }
 
     /// Whether several numbers in one S have to be run one by one.
@@ -222,6 +222,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             time: self.time().to_f64(),
             step: self.step.to_f64(),
             failure,
+            shorter: None,
             history: self
                 .effort
                 .history

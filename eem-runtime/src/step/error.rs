@@ -255,6 +255,47 @@ pub enum StepFailure {
     State(#[from] StateError),
 }
 
+impl StepFailure {
+    /// Whether a step of another size from the same state may succeed.
+    pub(crate) const fn depends_on_step(&self) -> bool {
+        match self {
+            Self::Unbounded { .. }
+            | Self::NotConverged { .. }
+            | Self::LawNotKept { .. }
+            | Self::Energy { .. }
+            | Self::SingularTangent
+            | Self::Unstable { .. }
+            | Self::TooCold { .. }
+            | Self::Correction { .. }
+            | Self::NotClosed { .. }
+            | Self::State(_) => true,
+            Self::Load { .. }
+            | Self::Motion { .. }
+            | Self::PrescribedTemperature { .. }
+            | Self::Time { .. }
+            | Self::TooSmall { .. }
+            | Self::End { .. }
+            | Self::EventTolerance { .. }
+            | Self::EventFunction { .. }
+            | Self::EventError { .. }
+            | Self::Unknowns { .. }
+            | Self::Discord(_) => false,
+        }
+    }
+}
+
+/// What a shorter step adds to a message.
+struct Shorter(Option<f64>);
+
+impl core::fmt::Display for Shorter {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self.0 {
+            Some(step) => write!(f, " (a step of {} s would do)", Readable(step)),
+            None => Ok(()),
+        }
+    }
+}
+
 /// Why step control has rejected a step.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
@@ -272,7 +313,7 @@ pub enum StepLimit {
 
 /// A step that failed. The simulation is as it was before.
 #[derive(Clone, Debug, PartialEq, Error)]
-#[error("step from t = {time} s by {step} s failed after {} iterations in all attempts: {failure}", history.len(), time = Readable(*time), step = Readable(*step))]
+#[error("step from t = {time} s by {step} s failed after {} iterations in all attempts: {failure}{}", history.len(), Shorter(*shorter), time = Readable(*time), step = Readable(*step))]
 pub struct StepError {
     /// The time at which the step began, s.
     pub time: f64,
@@ -280,6 +321,9 @@ pub struct StepError {
     pub step: f64,
     /// Why it failed; the message has it, so that it is no `source` of its own.
     pub failure: StepFailure,
+    /// A shorter step, s, that can be made instead; none if steps are controlled, if the failure does not depend on the
+    /// step, or if none of its halves down to a thousandth can be made.
+    pub shorter: Option<f64>,
     /// What each iteration of each attempt did; [`NewtonSettings::max_iterations`](crate::NewtonSettings)
     /// is the limit of one attempt.
     pub history: Box<[NewtonIteration]>,

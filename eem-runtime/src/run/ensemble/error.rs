@@ -28,7 +28,7 @@ pub enum MemberFailure {
     Scene(#[from] SceneError),
     /// A step failed.
     #[error(transparent)]
-    Step(#[from] StepError),
+    Step(Box<StepError>),
     /// Members that are stepped together would go on differently. The ensemble then runs them one by one,
     /// so that it is no result of [`Ensemble::run_experiment`](crate::Ensemble::run_experiment).
     #[error(transparent)]
@@ -39,6 +39,12 @@ pub enum MemberFailure {
     /// An error of the caller's own.
     #[error(transparent)]
     Other(Box<dyn Error + Send + Sync>),
+}
+
+impl From<StepError> for MemberFailure {
+    fn from(error: StepError) -> Self {
+        Self::Step(Box::new(error))
+    }
 }
 
 impl MemberFailure {

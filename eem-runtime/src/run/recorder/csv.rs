@@ -6,7 +6,7 @@ use super::{Column, Recorder};
 use crate::number::scalar::Real;
 
 impl<const D: usize, S: Real> Recorder<D, S> {
-    /// Writes a header and a line per row, separated by commas (RFC 4180).
+    /// Writes a head of names and units, and a line per row, separated by commas (RFC 4180).
     ///
     /// Values have 17 significant digits, which identify a double; Newton iterations are whole
     /// numbers.
@@ -24,13 +24,53 @@ impl<const D: usize, S: Real> Recorder<D, S> {
     /// let recorder = Recorder::new(&run, [("q", Quantity::Position(pivot))])?;
     /// let mut text = Vec::new();
     /// recorder.write_csv(&mut text)?;
-    /// assert_eq!(text, b"time,q_x\n0.0000000000000000e0,1.0000000000000001e-1\n");
+    /// assert_eq!(text, b"time (s),q_x (m)\n0.0000000000000000e0,1.0000000000000001e-1\n");
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn write_csv(&self, writer: impl io::Write) -> io::Result<()> {
         let mut writer = csv::Writer::from_writer(writer);
-        writer.write_record(self.columns().iter().map(Column::name))?;
-        for row in 0..self.rows() {
+        writer.write_record(self.columns().iter().map(Column::head))?;
+        self.write_rows(0, writer)
+    }
+
+    /// Writes the lines that follow those of a run that was interrupted: without the head, and without the first row,
+    /// which is the state that this recorder began with and the last line of the earlier run.
+    ///
+    /// The recorder of the earlier run has to [`record`](Self::record) the state of the checkpoint before it writes its
+    /// lines.
+    ///
+    /// # Errors
+    ///
+    /// Those of the writer.
+    ///
+    /// ```
+    /// use eem::{Quantity, Recorder, Scene, Scheme, Simulation};
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let mass = scene.mass(1.0, [0.5], [2.0]);
+    /// let mut run = Simulation::new(scene.clone(), Scheme::EemEntropy, 0.25)?;
+    /// let recorder = |run: &Simulation<1>| Recorder::new(run, [("q", Quantity::Position(mass))]);
+    ///
+    /// let mut text = Vec::new();
+    /// let mut rows = recorder(&run)?;
+    /// run.run_until_with(0.5, |run, report| rows.observe(run, report))?;
+    /// rows.write_csv(&mut text)?;
+    /// let saved = run.checkpoint();
+    ///
+    /// let mut resumed = Simulation::new(scene, Scheme::EemEntropy, 0.25)?;
+    /// resumed.restore(&saved)?;
+    /// let mut rows = recorder(&resumed)?;
+    /// resumed.run_until_with(1.0, |run, report| rows.observe(run, report))?;
+    /// rows.append_csv(&mut text)?;
+    /// assert_eq!(text.iter().filter(|&&byte| byte == b'\n').count(), 1 + 5);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn append_csv(&self, writer: impl io::Write) -> io::Result<()> {
+        self.write_rows(1, csv::Writer::from_writer(writer))
+    }
+
+    fn write_rows(&self, first: usize, mut writer: csv::Writer<impl io::Write>) -> io::Result<()> {
+        for row in first..self.rows() {
             writer.write_record(self.columns().iter().map(|column| column.text(row)))?;
         }
         writer.flush()

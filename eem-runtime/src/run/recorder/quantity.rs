@@ -59,7 +59,8 @@ pub enum Quantity<const D: usize, S: Real = f64> {
     LinearMomentum,
     /// The angular momentum of the ledger, kg m²/s.
     AngularMomentum,
-    /// Any other entry of the ledger.
+    /// Any other entry of the ledger. Its unit is not known: for a column with one take
+    /// [`custom_in`](Self::custom_in).
     Ledger(fn(&Ledger<D, S>) -> S),
     /// Newton iterations since the row before; 0 in the first row.
     NewtonIterations,
@@ -68,7 +69,10 @@ pub enum Quantity<const D: usize, S: Real = f64> {
 }
 
 /// A function of the simulation as a [`Quantity`], made by [`Quantity::custom`].
-pub struct CustomQuantity<const D: usize, S: Real>(Box<Function<D, S>>);
+pub struct CustomQuantity<const D: usize, S: Real> {
+    function: Box<Function<D, S>>,
+    unit: &'static str,
+}
 
 type Function<const D: usize, S> = dyn Fn(&Simulation<D, S>) -> S + Send + Sync;
 
@@ -84,7 +88,46 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 impl<const D: usize, S: Real> Quantity<D, S> {
     /// A function of the simulation.
     pub fn custom(function: impl Fn(&Simulation<D, S>) -> S + Send + Sync + 'static) -> Self {
-        Self::Custom(CustomQuantity(Box::new(function)))
+        Self::custom_in("", function)
+    }
+
+    /// The same with a unit for the head of its column.
+    ///
+    /// ```
+    /// use eem::{Quantity, Recorder, Scene, Scheme, Simulation};
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// scene.mass(2.0, [0.0], [3.0]);
+    /// let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// let kinetic = Quantity::custom_in("J", |run: &Simulation<1>| run.ledger().kinetic_energy);
+    /// let recorder = Recorder::new(&run, [("kinetic", kinetic)])?;
+    /// assert_eq!(recorder.columns()[1].head(), "kinetic (J)");
+    /// assert_eq!(recorder.column("kinetic"), Some([9.0].as_slice()));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn custom_in(
+        unit: &'static str,
+        function: impl Fn(&Simulation<D, S>) -> S + Send + Sync + 'static,
+    ) -> Self {
+        let function = Box::new(function);
+        Self::Custom(CustomQuantity { function, unit })
+    }
+
+    /// The unit of its values; empty for numbers without one, and where it is not known.
+    #[must_use]
+    pub const fn unit(&self) -> &'static str {
+        match self {
+            Self::Position(_) | Self::Stretch(_) | Self::ViscousStretch(..) => "m",
+            Self::Momentum(_) | Self::LinearMomentum => "kg m/s",
+            Self::Velocity(_) => "m/s",
+            Self::Force(_) => "N",
+            Self::InternalEnergy(_) | Self::ReservoirHeat(_) | Self::TotalEnergy => "J",
+            Self::Temperature(_) => "K",
+            Self::Entropy(_) | Self::ReservoirEntropy(_) | Self::TotalEntropy => "J/K",
+            Self::AngularMomentum => "kg m²/s",
+            Self::NewtonIterations | Self::Ledger(_) => "",
+            Self::Custom(custom) => custom.unit,
+        }
     }
 
     /// Whether the values are whole numbers.
@@ -147,7 +190,7 @@ impl<const D: usize, S: Real> Quantity<D, S> {
                 row.push(u32::try_from(iterations).map_or(f64::INFINITY, f64::from));
                 return Ok(());
             }
-            Self::Custom(custom) => (custom.0)(run),
+            Self::Custom(custom) => (custom.function)(run),
         };
         vector(row, &[value])
     }

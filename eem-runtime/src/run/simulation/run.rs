@@ -168,6 +168,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             time: self.time().to_f64(),
             step: self.step_size().to_f64(),
             failure,
+            shorter: None,
             history: Box::default(),
         }
     }
@@ -179,7 +180,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         let full = self.step_size();
         let size = self.size_towards(end, full)?;
-        let mut report = self.step_by(size.unwrap_or(full))?;
+        let made = self.step_by(size.unwrap_or(full));
+        let mut report = made.map_err(|error| self.with_shorter(error, size.unwrap_or(full)))?;
         if size.is_some() {
             self.arrive_at(end, &mut report);
         }

@@ -70,12 +70,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.3)?;
     ///
     /// let passes = Event::crossing(|run: &Simulation<1>| Ok(run.position(mass)?[0]));
-    /// let mut recorder = Recorder::every(1, &[Quantity::Position(mass)])?;
-    /// recorder.record(&run)?;
-    /// run.run_until_event_with(10.0, &mut [passes], &mut recorder)?;
-    /// let (_, positions) = recorder.columns().nth(1).ok_or("no column")?;
-    /// assert_eq!(positions.len(), 3);
-    /// assert_eq!(positions[2], 0.0);
+    /// let mut recorder = Recorder::new(&run, [("q", Quantity::Position(mass))])?;
+    /// run.run_until_event_with(10.0, &mut [passes], |run, report| recorder.observe(run, report))?;
+    /// let times = recorder.column("time").ok_or("no time")?;
+    /// assert_eq!(times.len(), 3);
+    /// assert!((times[2] - 0.5).abs() < 1e-15);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn run_until_event_with(

@@ -1,0 +1,31 @@
+//! What to try where a step of a fixed size fails.
+
+use super::{Simulation, Tried};
+use crate::number::scalar::Real;
+use crate::step::error::StepError;
+use crate::step::explicit::Demand;
+
+/// So often the step is halved to find one that can be made.
+const HALVINGS: usize = 10;
+
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// The error with a shorter step that can be made instead, if one is found by trying; the simulation is as it was.
+    #[cold]
+    pub(super) fn with_shorter(&mut self, mut error: StepError, size: S) -> StepError {
+        if S::LANES > 1 || self.control.is_some() || !error.failure.depends_on_step() {
+            return error;
+        }
+        let (worst, corrections) = (self.worst, self.corrections);
+        let mut shorter = size;
+        for _ in 0..HALVINGS {
+            shorter *= S::from_f64(0.5);
+            if let Ok(Tried::Made(_)) = self.try_step_by(shorter, Demand::None) {
+                self.undo();
+                error.shorter = Some(shorter.to_f64());
+                break;
+            }
+        }
+        (self.worst, self.corrections) = (worst, corrections);
+        error
+    }
+}
