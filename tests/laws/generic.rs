@@ -5,7 +5,7 @@ use eem::prelude::*;
 use nalgebra::{DMatrix, DVector};
 
 use crate::kelvin_voigt::VOIGT;
-use crate::support::{DoublePendulum, Hencky, ThermoViscoElastic};
+use crate::support::{DoublePendulum, Hencky, ThermoViscoElastic, single_pendulum_scene};
 
 /// Roundings of one sum of products, relative to its terms.
 const ROUNDING: f64 = 1e-14;
@@ -197,4 +197,49 @@ fn the_double_pendulum_has_the_published_form_in_temperatures() {
     let form = run.generic_in_temperature();
     approx::assert_relative_eq!(form.irreversible[(12, 12)], 1.178, max_relative = 1e-14);
     approx::assert_relative_eq!(form.reversible[(6, 12)], 0.076, max_relative = 1e-14);
+}
+
+/// A number between two others, the next of a simple sequence (Lehmer 1949, with the multiplier of Knuth).
+fn between(least: f64, most: f64, seed: &mut u64) -> f64 {
+    *seed = seed
+        .wrapping_mul(6_364_136_223_846_793_005)
+        .wrapping_add(1_442_695_040_888_963_407);
+    let unit = f64::from(u32::try_from(*seed >> 32).unwrap()) / f64::from(u32::MAX);
+    least + (most - least) * unit
+}
+
+/// Both forms of a scene, with masses and springs anywhere.
+fn assert_generic_anywhere<const D: usize>(
+    scene: &Scene<D>,
+    (masses, springs): (&[Node], &[Element]),
+    dashpots: usize,
+) {
+    let mut seed = 2016;
+    for _ in 0..50 {
+        let mut scene = scene.clone();
+        for &mass in masses {
+            let mut vector = |size: f64| [(); D].map(|()| between(-size, size, &mut seed));
+            scene.set_position(mass, vector(3.0));
+            scene.set_momentum(mass, vector(20.0));
+        }
+        for &spring in springs {
+            scene.set_temperature(spring, between(250.0, 400.0, &mut seed));
+            for dashpot in 0..dashpots {
+                scene.set_viscous_stretch(spring, dashpot, between(-0.5, 0.5, &mut seed));
+            }
+        }
+        let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.1).unwrap();
+        assert_structure(&run.generic());
+        assert_structure(&run.generic_in_temperature());
+    }
+}
+
+#[test]
+fn both_forms_hold_at_random_states_of_the_published_cases() {
+    let (scene, bob, spring, _) = single_pendulum_scene();
+    assert_generic_anywhere(&scene, (&[bob], &[spring]), 1);
+    for case in DoublePendulum::ALL {
+        let (scene, masses, springs) = case.scene();
+        assert_generic_anywhere(&scene, (&masses, &springs), 0);
+    }
 }
