@@ -49,6 +49,7 @@
 //! `cargo run --release --features parallel,lanes --example ensemble`.
 
 use std::error::Error;
+use std::num::NonZeroUsize;
 use std::process::ExitCode;
 
 use eem::prelude::*;
@@ -74,7 +75,8 @@ const STEP: f64 = 0.05;
 const END: f64 = 20.0;
 
 /// Members; fewer in a build without optimisation, where each takes many times as long.
-const MEMBERS: usize = if cfg!(debug_assertions) { 200 } else { 2_000 };
+const MEMBERS: NonZeroUsize =
+    NonZeroUsize::new(if cfg!(debug_assertions) { 200 } else { 2_000 }).unwrap();
 
 /// What rounding may do to the energy of a member over the run, relative to itself: E and E₀ are
 /// evaluated from the state, each with two dozen roundings of ε/2 of terms no larger than E, among
@@ -92,9 +94,9 @@ const RUN_AGAIN: usize = 20;
 /// Options of this example.
 #[derive(Clone, Debug, clap::Parser)]
 struct Options {
-    /// Members of the ensemble.
+    /// Members of the ensemble, one at least.
     #[arg(long, value_name = "N", default_value_t = MEMBERS)]
-    members: usize,
+    members: NonZeroUsize,
     /// Threads that work, with the feature `parallel`; 0 is one for each core.
     #[arg(long, value_name = "N", default_value_t = 0)]
     threads: usize,
@@ -111,7 +113,7 @@ fn run(options: &Options) -> Result<Claims, Box<dyn Error>> {
     let directory = options.common.out.as_deref();
     directory.map_or(Ok(()), output::prepare)?;
 
-    let springs = Spring::draw(options.members);
+    let springs = Spring::draw(options.members.get());
     let mut samples = Vec::new();
     for scheme in options.common.schemes() {
         samples.push(Sample::run(scheme, grid, options.threads, &springs));

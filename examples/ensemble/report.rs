@@ -28,10 +28,13 @@ pub(crate) fn print(springs: &[Spring], samples: &[Sample], end: f64) {
     }
     terminal::say(format_args!("{table}\n"));
     terminal::say(format_args!(
-        "{} members, {end} s. θ: mean temperature in the last quarter of the time, which so many \
+        "{}, {end} s. θ: mean temperature in the last quarter of the time, which so many \
          members stay below; S − S₀: entropy that half of the members produce at most; energy \
          defect: max |E − E₀|/|E₀|, least ΔS: min Sₙ₊₁ − Sₙ, over all steps of all members.",
-        springs.len()
+        match springs.len() {
+            1 => "1 member".to_owned(),
+            members => format!("{members} members"),
+        }
     ));
     let Some(sample) = samples.first() else {
         return;

@@ -7,6 +7,7 @@
 
 mod circles;
 mod documents;
+mod examples;
 mod followed;
 mod imports;
 mod sizes;
