@@ -55,6 +55,8 @@ pub use run::study::reference::{ReferenceEnd, StudyReference};
 pub use run::study::report::{StudyReport, StudyRow};
 pub use run::study::setting::{Precision, Setting, StepChoice};
 pub use run::study::statement::Statement;
+#[cfg(feature = "vtk")]
+pub use run::vtk::VtkSeries;
 pub use scene::Scene;
 pub use scene::error::SceneError;
 pub use scene::refused::RefusedScene;

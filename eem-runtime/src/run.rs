@@ -6,3 +6,5 @@ pub(crate) mod ledger;
 pub(crate) mod recorder;
 pub(crate) mod simulation;
 pub(crate) mod study;
+#[cfg(feature = "vtk")]
+pub(crate) mod vtk;

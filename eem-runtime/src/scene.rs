@@ -247,7 +247,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     }
 
     /// The handle of a node.
-    fn node_at(&self, index: usize) -> Node {
+    pub(crate) fn node_at(&self, index: usize) -> Node {
         let scene = self.lineage.giver(Kind::Node, index);
         Node { scene, index }
     }

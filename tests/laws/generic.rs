@@ -13,6 +13,11 @@ const ROUNDING: f64 = 1e-14;
 /// Four springs of three models, two of them in contact with each other and with the air, one with a dashpot
 /// beside it.
 fn scene(scheme: Scheme, step: f64) -> Simulation<2> {
+    network(scheme, step).0
+}
+
+/// The same, with the springs that have a temperature.
+fn network(scheme: Scheme, step: f64) -> (Simulation<2>, [Element; 3]) {
     let mut scene = Scene::<2>::new();
     let pivot = scene.anchor([0.0, 0.0]);
     let masses = [
@@ -37,7 +42,8 @@ fn scene(scheme: Scheme, step: f64) -> Simulation<2> {
         scene.conduct(spring, air, 2.0);
     }
     scene.conduct(springs[0], springs[1], 5.0);
-    Simulation::new(scene, scheme, step).unwrap()
+    let run = Simulation::new(scene, scheme, step).unwrap();
+    (run, [springs[0], springs[1], voigt])
 }
 
 /// |A x| against |A| |x|, entry by entry.
@@ -241,5 +247,22 @@ fn both_forms_hold_at_random_states_of_the_published_cases() {
     for case in DoublePendulum::ALL {
         let (scene, masses, springs) = case.scene();
         assert_generic_anywhere(&scene, (&masses, &springs), 0);
+    }
+}
+
+#[test]
+fn elements_produce_what_the_form_says() {
+    let (mut run, springs) = network(Scheme::EemTemperature, 0.05);
+    for _ in 0..20 {
+        let form = run.generic();
+        let expected = form
+            .entropy_gradient
+            .dot(&(&form.irreversible * &form.entropy_gradient));
+        let productions = springs.map(|spring| run.entropy_production(spring).unwrap());
+        assert!(productions.iter().all(|&production| production > 0.0));
+        let sum: f64 = productions.iter().sum();
+        // Terms of the form cancel: sums over all variables with gradients of both ends of a path.
+        approx::assert_relative_eq!(sum, expected, max_relative = 1e-11);
+        run.step().unwrap();
     }
 }

@@ -12,6 +12,8 @@ mod ends;
 mod ensemble;
 mod events;
 mod lanes;
+#[cfg(feature = "vtk")]
+mod paraview;
 mod recording;
 mod resuming;
 mod study;

@@ -36,6 +36,10 @@ where
         Self::shape_of_all()
     }
 
+    fn points_per_element(&self) -> usize {
+        Self::POINTS
+    }
+
     fn name(&self) -> &'static &'static str {
         &M::MODEL
     }

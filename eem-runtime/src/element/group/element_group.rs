@@ -109,6 +109,10 @@ where
         self.inspect_at(place, state)
     }
 
+    fn dissipation(&self, place: usize, state: &State<S>, velocity: &dyn Fn(usize) -> [S; D]) -> S {
+        self.dissipation_at(place, state, velocity)
+    }
+
     fn digest(&self, digest: &mut Digest) {
         self.digest_all(digest);
     }

@@ -1,5 +1,6 @@
 //! What the elements are in a state, from the definitions and not from what a step computed.
 
+use super::arms::measures_in;
 use super::point::Point;
 use crate::element::conjugates::{ElementScheme, Infeasible};
 use crate::element::error::StateError;
@@ -8,7 +9,7 @@ use crate::element::group::view::{ElementTotals, ElementView};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::state::{Energy, State};
-use crate::material::free_energy::FreeEnergy;
+use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
 
 impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
@@ -80,6 +81,40 @@ where
             force: point.model.gradient(&x)[0],
             internal_energy: point.internal_energy(&x, state),
         }
+    }
+
+    /// See [`Elements::dissipation`](super::Elements::dissipation).
+    pub(super) fn dissipation_at(
+        &self,
+        place: usize,
+        state: &State<S>,
+        velocity: &dyn Fn(usize) -> [S; D],
+    ) -> S {
+        let (member, point) = self.at(place);
+        let point = &member.points.as_ref()[point];
+        let r = member.arms_in(state);
+        let x = point.variables_in(&r, state);
+        let (gradient, theta) = (point.model.gradient(&x), x[M::Variables::LEN - 1]);
+        let (viscosities, _) = point.model.viscosity(theta);
+        let mut power = S::zero();
+        for dashpot in 0..M::DASHPOTS {
+            let g = gradient[M::MEASURES + dashpot];
+            power += g * g / viscosities[dashpot];
+        }
+        let (drags, _) = point.model.drag(theta);
+        let nodes = member.site.nodes.as_ref();
+        let first = velocity(nodes[0] as usize);
+        let slopes = K::gradient(&point.kinematics, &r, &measures_in::<K, S, D>(&x));
+        for (a, &drag) in drags.as_ref().iter().enumerate() {
+            let mut rate = S::zero();
+            for (&node, slope) in nodes[1..].iter().zip(slopes[a].as_ref()) {
+                for (axis, speed) in velocity(node as usize).into_iter().enumerate() {
+                    rate += slope[axis] * (speed - first[axis]);
+                }
+            }
+            power += drag * rate * rate;
+        }
+        power
     }
 }
 

@@ -40,6 +40,9 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
     /// The element at `place` in a state.
     fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S>;
 
+    /// The power that the dashpots of the element at `place` turn into heat, W, at these velocities of nodes, m/s.
+    fn dissipation(&self, place: usize, state: &State<S>, velocity: &dyn Fn(usize) -> [S; D]) -> S;
+
     /// Adds the parameters of all elements to a digest.
     fn digest(&self, digest: &mut Digest);
 
@@ -174,6 +177,13 @@ pub(crate) trait Loose<S: Real, const D: usize>: Any + Debug + Send + Sync {
 
     /// What they have.
     fn shape(&self) -> Shape;
+
+    /// Number of points of an element.
+    #[cfg_attr(
+        not(feature = "vtk"),
+        expect(dead_code, reason = "pictures are cell by cell")
+    )]
+    fn points_per_element(&self) -> usize;
 
     /// The name of their model.
     fn name(&self) -> &'static &'static str;

@@ -27,7 +27,7 @@ where
     M: FreeEnergy<S> + Send + Sync,
     K: Kinematics<S, D>,
 {
-    const POINTS: usize = K::PerPoint::<(M, K)>::LEN;
+    pub(super) const POINTS: usize = K::PerPoint::<(M, K)>::LEN;
 
     /// None yet.
     pub(crate) const fn new() -> Self {

@@ -3,6 +3,7 @@
 use nalgebra::SVector;
 
 use super::Simulation;
+use crate::element::conduction::Partner;
 use crate::element::group::ElementView;
 use crate::element::handle::{Element, Handle, Node, Reservoir};
 use crate::element::layout::Slots;
@@ -109,6 +110,55 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// For a foreign handle; [`SceneError::NotThermal`] if the element has none.
     pub fn entropy(&self, element: Element) -> Result<S, SceneError> {
         Ok(self.state.entropies.values()[self.thermal_slot(element)?])
+    }
+
+    /// The entropy that an element produces now, W/K: `g²/(η θ)` of its dashpots, and of the heat that it conducts
+    /// `κ (θ' − θ)²/(θ θ')`, one half of it where θ' is that of another element, which counts the other half.
+    ///
+    /// Anchors that move are taken to rest in the rate of a viscosity of the stretch.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle; [`SceneError::NotThermal`] if the element has no temperature.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    ///
+    /// #[derive(FreeEnergy)]
+    /// #[free_energy(|lambda: Stretch, theta: Temperature| {
+    ///     0.5 * k * (lambda - 1.0).powi(2) + c * (theta - theta * ln(theta / 300.0))
+    /// })]
+    /// struct Warm { k: f64, c: f64 }
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let ends = [scene.anchor([0.0]), scene.anchor([1.0])];
+    /// let spring = scene.spring(Warm { k: 1.0, c: 1.0 }, ends);
+    /// scene.set_temperature(spring, 400.0);
+    /// let air = scene.reservoir(300.0);
+    /// scene.conduct(spring, air, 12.0);
+    /// let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// assert!((run.entropy_production(spring)? - 1.0).abs() < 1e-15);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn entropy_production(&self, element: Element) -> Result<S, SceneError> {
+        let slot = self.thermal_slot(element)?;
+        let theta = self.state.temperatures[slot];
+        let velocity = |node| match self.masses.get(node) {
+            Some(mass) => self.state.velocity(node, mass),
+            None => [S::zero(); D],
+        };
+        let [group, place] = self.place(element);
+        let elements = self.stepper.elements(group);
+        let mut production = elements.dissipation(place, &self.state, &velocity) / theta;
+        for link in self.conduction.links(slot) {
+            let (other, share) = match link.partner {
+                Partner::Slot(far) => (self.state.temperatures[far], S::from_f64(0.5)),
+                Partner::Reservoir(far) => (self.conduction.reservoirs[far], S::one()),
+            };
+            let difference = other - theta;
+            production += share * link.conductance * difference * difference / (theta * other);
+        }
+        Ok(production)
     }
 
     /// The viscous stretch of a dashpot (from 0) of an element, m.

@@ -1,0 +1,214 @@
+//! States of a run as files that ParaView opens.
+
+mod file;
+
+use std::fs;
+use std::io;
+use std::path::PathBuf;
+
+use crate::element::handle::{Element, Node};
+use crate::number::scalar::Real;
+use crate::run::simulation::Simulation;
+use crate::scene::Scene;
+use file::Grid;
+
+/// A series of states of a run in files of the Visualization Toolkit, for ParaView: one `.vtu` per time, and a `.pvd`
+/// that names them with their times. Open the latter.
+///
+/// Points are the nodes where they are now, with `displacement` (m) from where the scene has them and `velocity` (m/s).
+/// Cells are springs and cells of solids, with means over their points: `temperature` (K), `internal_energy` (J, the
+/// sum), `entropy_production` (W/K, the sum), and of springs `stretch` (m) and `force` (N). What an element does not have is
+/// not a number there. Scenes have at most three dimensions; values have all their digits.
+///
+/// ```no_run
+/// use eem::prelude::*;
+/// use eem::VtkSeries;
+///
+/// let mut scene = Scene::<2>::new();
+/// scene.mass(1.0, [0.0, 0.0], [1.0, 0.0]);
+/// let mut series = VtkSeries::new(&scene, "out", "flight");
+/// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+/// series.write(&run)?;
+/// for second in 1..=10 {
+///     run.run_until(f64::from(second))?;
+///     series.write(&run)?;
+/// }
+/// // out/flight.pvd, out/flight_00000.vtu … out/flight_00010.vtu
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug)]
+pub struct VtkSeries<const D: usize> {
+    folder: PathBuf,
+    name: String,
+    nodes: Vec<Node>,
+    /// Where the scene has them, m.
+    reference: Vec<[f64; 3]>,
+    cells: Vec<Cell>,
+    times: Vec<f64>,
+}
+
+/// A spring, or a cell of a solid.
+#[derive(Debug)]
+struct Cell {
+    nodes: Vec<usize>,
+    /// The number that the format has for its shape.
+    kind: u8,
+    /// Its points.
+    elements: Vec<Element>,
+    is_spring: bool,
+    is_thermal: bool,
+}
+
+impl<const D: usize> VtkSeries<D> {
+    /// Files `NAME.pvd` and `NAME_00000.vtu`, … in a folder, which is made if there is none.
+    pub fn new<S: Real>(
+        scene: &Scene<D, S>,
+        folder: impl Into<PathBuf>,
+        name: impl Into<String>,
+    ) -> Self {
+        const {
+            assert!(D <= 3, "ParaView shows at most three dimensions");
+        }
+        let positions = scene.nodes.iter();
+        Self {
+            folder: folder.into(),
+            name: name.into(),
+            nodes: (0..scene.nodes.len()).map(|at| scene.node_at(at)).collect(),
+            reference: positions
+                .map(|node| in_space(node.position.as_slice()))
+                .collect(),
+            cells: cells(scene),
+            times: Vec::new(),
+        }
+    }
+
+    /// Writes the present state, and the list of all times so far.
+    ///
+    /// # Errors
+    ///
+    /// Those of the files; [`io::ErrorKind::InvalidInput`] if `run` is not of the scene.
+    pub fn write<S: Real>(&mut self, run: &Simulation<D, S>) -> io::Result<()> {
+        let foreign = |error| io::Error::new(io::ErrorKind::InvalidInput, error);
+        let grid = self.grid(run).map_err(foreign)?;
+        fs::create_dir_all(&self.folder)?;
+        let file = self.file_of(self.times.len());
+        fs::write(self.folder.join(file), grid.to_xml())?;
+        self.times.push(run.time().to_f64());
+        let steps = self.times.iter().enumerate();
+        let list = file::list(steps.map(|(index, &time)| (time, self.file_of(index))));
+        fs::write(self.folder.join(format!("{}.pvd", self.name)), list)
+    }
+
+    fn file_of(&self, index: usize) -> String {
+        format!("{}_{index:05}.vtu", self.name)
+    }
+
+    /// What is in a state.
+    fn grid<S: Real>(&self, run: &Simulation<D, S>) -> Result<Grid, crate::SceneError> {
+        let mut grid = Grid::new(self.cells.iter().map(|cell| (cell.kind, &cell.nodes[..])));
+        let mut moved = Vec::with_capacity(self.nodes.len());
+        let mut velocities = Vec::with_capacity(self.nodes.len());
+        for (&node, reference) in self.nodes.iter().zip(&self.reference) {
+            let position = in_space(run.position(node)?.as_slice());
+            velocities.push(in_space(run.velocity(node)?.as_slice()));
+            moved.push([0, 1, 2].map(|axis| position[axis] - reference[axis]));
+            grid.points.push(position);
+        }
+        grid.vectors = vec![("displacement", moved), ("velocity", velocities)];
+        let mut columns = [const { Vec::new() }; QUANTITIES.len()];
+        for cell in &self.cells {
+            for (column, value) in columns.iter_mut().zip(cell.values(run)?) {
+                column.push(value);
+            }
+        }
+        grid.scalars = QUANTITIES.into_iter().zip(columns).collect();
+        Ok(grid)
+    }
+}
+
+/// The quantities of cells.
+const QUANTITIES: [&str; 5] = [
+    "temperature",
+    "internal_energy",
+    "entropy_production",
+    "stretch",
+    "force",
+];
+
+impl Cell {
+    /// Its quantities in a state.
+    fn values<const D: usize, S: Real>(
+        &self,
+        run: &Simulation<D, S>,
+    ) -> Result<[f64; QUANTITIES.len()], crate::SceneError> {
+        let [mut heat, mut energy, mut production] = [0.0; 3];
+        for &element in &self.elements {
+            energy += run.internal_energy(element)?.to_f64();
+            if self.is_thermal {
+                heat += run.temperature(element)?.to_f64();
+                production += run.entropy_production(element)?.to_f64();
+            }
+        }
+        let points = f64::from(u32::try_from(self.elements.len()).unwrap_or(u32::MAX));
+        let [temperature, production] = if self.is_thermal {
+            [heat / points, production]
+        } else {
+            [f64::NAN; 2]
+        };
+        let [stretch, force] = match self.elements[..] {
+            [spring] if self.is_spring => {
+                [run.stretch(spring)?, run.force(spring)?].map(Real::to_f64)
+            }
+            _ => [f64::NAN; 2],
+        };
+        Ok([temperature, energy, production, stretch, force])
+    }
+}
+
+/// The cells of a scene, in the order of creation.
+fn cells<const D: usize, S: Real>(scene: &Scene<D, S>) -> Vec<Cell> {
+    let mut cells = Vec::new();
+    let mut next = 0;
+    while let Some(entry) = scene.elements.get(next) {
+        // A solid that could not be made has no group; the scene is refused for it.
+        let Some(group) = scene.groups.get(entry.group) else {
+            next += 1;
+            continue;
+        };
+        let points = group.points_per_element();
+        let shape = group.shape();
+        cells.push(Cell {
+            kind: kind(entry.nodes.len(), D),
+            nodes: entry.nodes.clone(),
+            elements: (next..next + points)
+                .map(|at| scene.element_at(at))
+                .collect(),
+            is_spring: shape.is_spring,
+            is_thermal: shape.thermal,
+        });
+        next += points;
+    }
+    cells
+}
+
+/// The number that the format has for a shape with so many nodes.
+const fn kind(nodes: usize, dimension: usize) -> u8 {
+    match (nodes, dimension) {
+        (2, _) => 3,
+        (4, _) => 9,
+        (8, 2) => 23,
+        (8, _) => 12,
+        (20, _) => 25,
+        // As a set of points.
+        _ => 2,
+    }
+}
+
+/// A vector of a space of at most three dimensions, in three.
+fn in_space<S: Real>(vector: &[S]) -> [f64; 3] {
+    let mut all = [0.0; 3];
+    for (component, value) in all.iter_mut().zip(vector) {
+        *component = value.to_f64();
+    }
+    all
+}

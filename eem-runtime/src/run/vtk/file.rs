@@ -1,0 +1,143 @@
+//! The text of the files: XML of the Visualization Toolkit, version 1.0, with numbers as text.
+
+use core::fmt::{self, Display, Write as _};
+
+/// An unstructured grid with data on points and cells.
+#[derive(Debug)]
+pub(super) struct Grid {
+    /// m.
+    pub(super) points: Vec<[f64; 3]>,
+    kinds: Vec<u8>,
+    connectivity: Vec<usize>,
+    /// Where the nodes of each cell end.
+    offsets: Vec<usize>,
+    /// A vector per point.
+    pub(super) vectors: Vec<(&'static str, Vec<[f64; 3]>)>,
+    /// A number per cell.
+    pub(super) scalars: Vec<(&'static str, Vec<f64>)>,
+}
+
+impl Grid {
+    /// Cells of some kinds with their nodes, without points.
+    pub(super) fn new<'a>(cells: impl Iterator<Item = (u8, &'a [usize])>) -> Self {
+        let mut grid = Self {
+            points: Vec::new(),
+            kinds: Vec::new(),
+            connectivity: Vec::new(),
+            offsets: Vec::new(),
+            vectors: Vec::new(),
+            scalars: Vec::new(),
+        };
+        for (kind, nodes) in cells {
+            grid.kinds.push(kind);
+            grid.connectivity.extend_from_slice(nodes);
+            grid.offsets.push(grid.connectivity.len());
+        }
+        grid
+    }
+
+    /// The text of a `.vtu`.
+    pub(super) fn to_xml(&self) -> String {
+        let mut xml = Xml::new("UnstructuredGrid");
+        let (points, cells) = (self.points.len(), self.kinds.len());
+        xml.line("<UnstructuredGrid>");
+        xml.line(&format!(
+            "<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">"
+        ));
+        xml.line("<PointData>");
+        for (name, vectors) in &self.vectors {
+            xml.vectors(name, vectors);
+        }
+        xml.line("</PointData>\n<CellData>");
+        for (name, values) in &self.scalars {
+            xml.array(
+                "Float64",
+                name,
+                1,
+                values.iter().map(|&value| Number(value)),
+            );
+        }
+        xml.line("</CellData>\n<Points>");
+        xml.vectors("position", &self.points);
+        xml.line("</Points>\n<Cells>");
+        xml.array("Int64", "connectivity", 1, self.connectivity.iter());
+        xml.array("Int64", "offsets", 1, self.offsets.iter());
+        xml.array("UInt8", "types", 1, self.kinds.iter());
+        xml.line("</Cells>\n</Piece>\n</UnstructuredGrid>");
+        xml.end()
+    }
+}
+
+/// The text of a `.pvd`: the file of each time, s.
+pub(super) fn list(files: impl Iterator<Item = (f64, String)>) -> String {
+    let mut xml = Xml::new("Collection");
+    xml.line("<Collection>");
+    for (time, file) in files {
+        let file = escaped(&file);
+        let time = Number(time);
+        xml.line(&format!("<DataSet timestep=\"{time}\" file=\"{file}\"/>"));
+    }
+    xml.line("</Collection>");
+    xml.end()
+}
+
+struct Xml(String);
+
+impl Xml {
+    fn new(kind: &str) -> Self {
+        Self(format!(
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+        ))
+    }
+
+    fn line(&mut self, line: &str) {
+        self.0.push_str(line);
+        self.0.push('\n');
+    }
+
+    fn array<T: Display>(
+        &mut self,
+        kind: &str,
+        name: &str,
+        components: usize,
+        values: impl Iterator<Item = T>,
+    ) {
+        self.line(&format!(
+            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"ascii\">"
+        ));
+        for value in values {
+            // Writing to a string does not fail.
+            let _ = write!(self.0, "{value} ");
+        }
+        self.line("\n</DataArray>");
+    }
+
+    fn vectors(&mut self, name: &str, vectors: &[[f64; 3]]) {
+        let components = vectors.as_flattened().iter();
+        self.array("Float64", name, 3, components.map(|&value| Number(value)));
+    }
+
+    fn end(mut self) -> String {
+        self.line("</VTKFile>");
+        self.0
+    }
+}
+
+/// A number with as many digits as give it back.
+struct Number(f64);
+
+impl Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.0.is_nan() {
+            f.write_str("nan")
+        } else {
+            write!(f, "{:e}", self.0)
+        }
+    }
+}
+
+/// Text within quotes of XML.
+fn escaped(text: &str) -> String {
+    let text = text.replace('&', "&amp;").replace('<', "&lt;");
+    text.replace('"', "&quot;")
+}

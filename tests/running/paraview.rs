@@ -1,0 +1,91 @@
+//! Files for ParaView say what the simulation says. `tests/paraview.py` opens those that this leaves behind.
+
+use std::fs;
+use std::path::Path;
+
+use eem::VtkSeries;
+use eem::prelude::*;
+
+use crate::support::solids::{SECTION, ThermoelasticSolid};
+use crate::support::{Hencky, ThermoViscoElastic};
+
+/// The numbers of an array of a file.
+fn array(text: &str, name: &str) -> Vec<f64> {
+    let (_, rest) = text.split_once(&format!("Name=\"{name}\"")).unwrap();
+    let (_, rest) = rest.split_once('>').unwrap();
+    let (numbers, _) = rest.split_once('<').unwrap();
+    let numbers = numbers.split_whitespace();
+    numbers.map(|number| number.parse().unwrap()).collect()
+}
+
+#[test]
+fn files_have_all_digits_of_every_state() {
+    let mut scene = Scene::<2>::new();
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let nodes = corners.map(|at| scene.node(at, [-at[1], at[0]]));
+    let points = scene.quadrilateral(ThermoelasticSolid::RUBBER, nodes, SECTION);
+    for (at, point) in (0..).zip(points) {
+        scene.set_temperature(point, 300.0 + f64::from(at));
+    }
+    let bob = scene.mass(1.0, [2.0, 1.0], [0.0, 1.0]);
+    let damper = scene.spring(ThermoViscoElastic::PENDULUM, [nodes[2], bob]);
+    scene.set_temperature(damper, 320.0);
+    let hencky = Hencky {
+        stiffness: 10.0,
+        natural_length: 1.0,
+    };
+    let spring = scene.spring(hencky, [nodes[1], bob]);
+    scene.conduct(damper, points[2], 2.0);
+
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("paraview");
+    let mut series = VtkSeries::new(&scene, &folder, "a \"solid\" & springs");
+    let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.05).unwrap();
+    series.write(&run).unwrap();
+    for frame in 1..=3 {
+        run.run_until(0.1 * f64::from(frame)).unwrap();
+        series.write(&run).unwrap();
+    }
+
+    let file = folder.join("a \"solid\" & springs_00003.vtu");
+    let text = fs::read_to_string(file).unwrap();
+    let same = |name: &str, expected: &[f64]| {
+        let found = array(&text, name);
+        let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+        assert_eq!(bits(&found), bits(expected), "{name}: {found:?}");
+    };
+    let in_space = |q: eem::nalgebra::SVector<f64, 2>| [q[0], q[1], 0.0];
+    let all = [nodes[0], nodes[1], nodes[2], nodes[3], bob];
+    let positions = all.map(|node| in_space(run.position(node).unwrap()));
+    same("position", positions.as_flattened());
+    let velocities = all.map(|node| in_space(run.velocity(node).unwrap()));
+    same("velocity", velocities.as_flattened());
+    let theta = |element| run.temperature(element).unwrap();
+    let mean = points.iter().map(|&point| theta(point)).sum::<f64>() / 4.0;
+    same("temperature", &[mean, theta(damper), f64::NAN]);
+    let stretch = |element| run.stretch(element).unwrap();
+    same("stretch", &[f64::NAN, stretch(damper), stretch(spring)]);
+    let produced = |element| run.entropy_production(element).unwrap();
+    let solid = points.iter().map(|&point| produced(point)).sum();
+    same("entropy_production", &[solid, produced(damper), f64::NAN]);
+    same("connectivity", &[0.0, 1.0, 2.0, 3.0, 2.0, 4.0, 1.0, 4.0]);
+    same("offsets", &[4.0, 6.0, 8.0]);
+    same("types", &[9.0, 3.0, 3.0]);
+
+    let list = fs::read_to_string(folder.join("a \"solid\" & springs.pvd")).unwrap();
+    assert_eq!(list.matches("<DataSet").count(), 4);
+    assert!(list.contains("file=\"a &quot;solid&quot; &amp; springs_00003.vtu\""));
+}
+
+#[test]
+fn a_run_of_another_scene_is_refused() {
+    let mut scene = Scene::<1>::new();
+    scene.mass(1.0, [0.0], [0.0]);
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("nothing");
+    let mut series = VtkSeries::new(&scene, &folder, "other");
+    let mut other = Scene::<1>::new();
+    other.mass(1.0, [0.0], [0.0]);
+    let run = Simulation::new(other, Scheme::EemEntropy, 0.1).unwrap();
+    let error = series.write(&run).unwrap_err();
+    assert_eq!(error.to_string(), "node 0 belongs to another scene");
+    assert!(!folder.exists());
+}
