@@ -37,8 +37,12 @@ fn library() -> PathBuf {
     let test = std::env::current_exe().unwrap();
     let beside = fs::read_dir(test.parent().unwrap()).unwrap();
     let libraries = beside.map(|entry| entry.unwrap()).filter(|entry| {
-        let name = entry.file_name().into_string().unwrap();
-        name.starts_with("libeem-") && name.ends_with(".rlib")
+        let file = PathBuf::from(entry.file_name());
+        let of_eem = file.to_str().unwrap().starts_with("libeem-");
+        of_eem
+            && file
+                .extension()
+                .is_some_and(|extension| extension == "rlib")
     });
     let newest = libraries.max_by_key(|library| library.metadata().unwrap().modified().unwrap());
     newest.expect("no library `eem` beside the test").path()
