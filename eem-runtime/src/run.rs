@@ -2,6 +2,8 @@
 
 pub(crate) mod checkpoint;
 pub(crate) mod ensemble;
+#[cfg(debug_assertions)]
+pub(crate) mod instances;
 pub(crate) mod ledger;
 pub(crate) mod recorder;
 pub(crate) mod simulation;

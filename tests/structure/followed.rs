@@ -5,6 +5,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test: what is missing is a failure")]
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -63,7 +64,7 @@ fn cargo(krate: &Path, arguments: &[&str]) -> String {
         .current_dir(krate)
         .env("CARGO_TARGET_DIR", Path::new(TEMPORARY).parent().unwrap())
         // As in the workspace, so that nothing is built twice.
-        .env("CARGO_PROFILE_DEV_DEBUG", "line-tables-only")
+        .env("CARGO_PROFILE_DEV_DEBUG", "false")
         .output()
         .unwrap();
     let errors = String::from_utf8_lossy(&output.stderr);
@@ -118,7 +119,6 @@ fn the_programs_of_the_guide_can_be_followed() {
         &krate,
         "[dependencies]\neem = { path = \"../eem\", features = [\"serde\"] }\nserde_json = { version = \"1\", features = [\"float_roundtrip\"] }\n",
     );
-    fs::create_dir_all(krate.join("src/bin")).unwrap();
     let mut programs = Vec::new();
     for (index, block) in blocks
         .iter()
@@ -126,20 +126,35 @@ fn the_programs_of_the_guide_can_be_followed() {
         .filter(|(_, block)| block.language == "rust")
     {
         let name = format!("chapter{index:02}");
-        let path = krate.join("src/bin").join(format!("{name}.rs"));
+        let path = krate.join("src").join(format!("{name}.rs"));
         fs::write(path, program(block.text)).unwrap();
         let printed = blocks.get(index + 1).filter(|next| next.before == "prints");
         programs.push((name, printed.map(|next| next.text)));
     }
     assert!(programs.len() > 10);
-    cargo(&krate, &["build", "--quiet", "--bins"]);
+    let names = programs.iter().map(|(name, _)| name.as_str());
+    fs::write(krate.join("src/main.rs"), one_of(names)).unwrap();
     for (name, printed) in programs {
-        let output = cargo(&krate, &["run", "--quiet", "--bin", &name]);
+        let output = cargo(&krate, &["run", "--quiet", "--", &name]);
         if let Some(printed) = printed {
             assert_eq!(output, printed, "{name}");
         }
     }
     fs::remove_dir_all(krate.parent().unwrap()).unwrap();
+}
+
+/// A program that runs the one of these modules that its argument names: one binary is compiled for all
+/// chapters, and what they share once.
+fn one_of<'a>(modules: impl Iterator<Item = &'a str>) -> String {
+    let (mut declared, mut arms) = (String::new(), String::new());
+    for module in modules {
+        writeln!(declared, "mod {module};").unwrap();
+        writeln!(arms, "        \"{module}\" => {module}::main(),").unwrap();
+    }
+    format!(
+        "{declared}\nfn main() {{\n    match &*std::env::args().nth(1).unwrap() {{\n{arms}        \
+         other => panic!(\"no chapter {{other}}\"),\n    }}\n}}\n"
+    )
 }
 
 /// What rustdoc makes of a block: hidden lines are shown, and all is the body of `main`.
@@ -151,9 +166,9 @@ fn program(block: &str) -> String {
     let body = body.join("\n");
     let start = "#![allow(dead_code, unused)]\n";
     if body.contains("Ok::<()") {
-        let wrapped = "fn main() { fn run() -> Result<(), impl core::fmt::Debug> {\n";
+        let wrapped = "pub fn main() { fn run() -> Result<(), impl core::fmt::Debug> {\n";
         format!("{start}{wrapped}{body}\n}} run().unwrap() }}\n")
     } else {
-        format!("{start}fn main() {{\n{body}\n}}\n")
+        format!("{start}pub fn main() {{\n{body}\n}}\n")
     }
 }

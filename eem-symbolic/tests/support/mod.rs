@@ -1,5 +1,5 @@
 //! High precision, laws and random expressions for the tests of programs.
-#![allow(dead_code)] // Every test file uses another part.
+#![allow(dead_code)] // Other crates use a part: the random expressions of `eem`, and the benchmark.
 
 pub(crate) mod corners;
 pub(crate) mod laws;

@@ -1,10 +1,8 @@
 //! The `f64` interpreter and its quadrature against high precision.
 
-mod support;
-
+use crate::support::precise::{Precise, error, to_f64};
+use crate::support::random::Random;
 use eem_symbolic::{Arithmetic, Bounded, F64, Function, ProgramKernel, RunningError};
-use support::precise::{Precise, error, to_f64};
-use support::random::Random;
 
 /// Relative error of the quadrature: some hundred positive terms of a few roundings each.
 const QUADRATURE: f64 = 2e-14;
@@ -89,7 +87,7 @@ fn magnitudes_have_a_difference_at_both_sides_of_zero() {
 fn programs_are_within_their_bound() {
     let precise = Precise::new();
     let mut random = Random::new(7);
-    for law in support::all_laws() {
+    for law in crate::support::all_laws() {
         let programs = law.model.programs();
         let mut all = vec![
             &programs.free_energy,

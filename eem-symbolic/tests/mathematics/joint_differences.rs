@@ -1,8 +1,6 @@
 //! Divided differences of one function between the same ends are one operation, which the
 //! interpreter evaluates and `verify` checks.
 
-mod support;
-
 use eem_symbolic::{
     DifferencePart, F64, Function, Graph, Input, Instruction, Operation, Program, ProgramKernel,
     Stage, Value, VerifyError,
@@ -96,7 +94,7 @@ fn functions_without_such_a_call_are_refused() {
 #[test]
 fn no_two_calls_could_be_one() {
     let mut joint = 0;
-    for law in support::all_laws() {
+    for law in crate::support::all_laws() {
         let programs = law.model.programs();
         let forms = [Some(programs.entropy_form), programs.temperature_form];
         for program in forms.into_iter().flatten() {
@@ -125,7 +123,7 @@ fn no_two_calls_could_be_one() {
 
 #[test]
 fn a_restricted_program_says_where_its_values_come_from() {
-    for law in support::all_laws() {
+    for law in crate::support::all_laws() {
         let program = law.model.programs().entropy_form;
         let responses = law.state.len() + usize::from(law.model.temperature.is_some());
         let restriction = program.restricted_to(responses);

@@ -1,8 +1,6 @@
 //! Programs grow with the size of the formula, and not with the number of its paths.
 
-mod growing;
-
-use growing::FAMILIES;
+use crate::growing::FAMILIES;
 
 /// Operations per node may differ by this factor between a formula and one of three times its size:
 /// all of them have what the first nodes lack, neighbours of every kind.
@@ -44,7 +42,7 @@ fn operations_grow_nearly_linearly() {
 #[test]
 fn repeated_derivatives_cost_what_their_formulas_are_worth() {
     let per_node = [2, 6].map(|order| {
-        let model = growing::derivative(order);
+        let model = crate::growing::derivative(order);
         let nodes = model.graph.size(model.psi);
         ratio(
             model.programs().entropy_form.operation_count().new.total(),

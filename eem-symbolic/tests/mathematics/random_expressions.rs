@@ -1,14 +1,12 @@
 //! Divided differences of random expressions: right to their running error bound at any increment.
 
-mod support;
-
+use crate::support::precise::{Precise, error, to_f64};
+use crate::support::random::{Random, expression};
 use astro_float::BigFloat;
 use eem_symbolic::{
     Arithmetic, Bounded, ExprId, F64, Graph, Input, Instruction, Operation, Program, RunningError,
     Stage, Symbol, Value, diff, divided_difference, schedule,
 };
-use support::precise::{Precise, error, to_f64};
-use support::random::{Random, expression};
 
 const EXPRESSIONS: u64 = 2000;
 const DEPTH: usize = 6;
@@ -158,7 +156,7 @@ fn second_differences_are_derivatives_of_first() {
         // The offset 2⁻¹⁰⁰ squared, times third derivatives.
         assert!(error < 1e-40, "expression {seed}: {error:e}");
         let bounded = run(&secant.slope, &RunningError, &ends.map(Bounded::exact));
-        let error = support::precise::error(&precise, bounded.value, &slope);
+        let error = crate::support::precise::error(&precise, bounded.value, &slope);
         assert!(
             error <= bounded.error,
             "expression {seed}: {error:e}, {:e}",

@@ -1,12 +1,10 @@
 //! Programs are schedules: verified, staged, without repetition; broken ones are rejected.
 
-mod support;
-
+use crate::support::laws;
 use eem_symbolic::{
     F64, Function, Graph, Input, Instruction, Model, Number, Operation, Program, ProgramKernel,
     Programs, Stage, Value, VerifyError, schedule,
 };
-use support::laws;
 
 fn each(programs: &Programs) -> Vec<(&'static str, &Program)> {
     let mut all = vec![
@@ -37,7 +35,7 @@ fn each(programs: &Programs) -> Vec<(&'static str, &Program)> {
 
 #[test]
 fn programs_of_laws_are_valid() {
-    for law in support::all_laws() {
+    for law in crate::support::all_laws() {
         for (name, program) in each(&law.model.programs()) {
             assert_eq!(program.verify(), Ok(()), "{} of {}", name, law.name);
         }
@@ -46,7 +44,7 @@ fn programs_of_laws_are_valid() {
 
 #[test]
 fn shapes_are_those_of_the_law() {
-    for law in support::all_laws() {
+    for law in crate::support::all_laws() {
         let model = &law.model;
         let programs = model.programs();
         let (n, thermal) = (law.state.len(), usize::from(model.temperature.is_some()));
@@ -74,7 +72,7 @@ fn shapes_are_those_of_the_law() {
 
 #[test]
 fn old_stage_depends_on_parameters_and_old_state_alone() {
-    for law in support::all_laws() {
+    for law in crate::support::all_laws() {
         let (parameters, n) = (law.parameters.len(), law.state.len());
         let program = law.model.programs().entropy_form;
         for (index, input) in program.inputs.iter().enumerate() {
@@ -131,7 +129,7 @@ fn operation_counts_stay_small() {
 
 #[test]
 fn a_restricted_program_has_the_same_bits() {
-    for law in support::all_laws() {
+    for law in crate::support::all_laws() {
         let program = law.model.programs().entropy_form;
         let responses = law.state.len() + usize::from(law.model.temperature.is_some());
         let restricted = program.restricted_to(responses).program;

@@ -1,15 +1,12 @@
 //! Matrices that the elimination alone does not solve: each is solved within the bound by refinement or
 //! pivoting, or it is an error.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![allow(clippy::float_cmp, reason = "numbers that are compared are exact")]
-
-mod support;
 
 use std::cmp::Ordering;
 
+use crate::support::{Matrix, Random, lattice, pattern, random_graph};
 use eem_sparse::{Error, Operand, Pattern, Report, Solver};
-use support::{Matrix, Random, lattice, pattern, random_graph};
 
 /// For condition numbers below 100.
 const TOLERANCE: f64 = 1e4 * f64::EPSILON;

@@ -7,10 +7,10 @@
 mod oracle;
 mod sample;
 
+use self::oracle::{Function, Oracle, add, cbrt, div, mul, natural_power, sqrt, to_f64, ulps};
+use self::sample::{Domain, Random};
 use astro_float::BigFloat;
 use eem_runtime::kernel::*;
-use oracle::{Function, Oracle, add, cbrt, div, mul, natural_power, sqrt, to_f64, ulps};
-use sample::{Domain, Random};
 
 /// Pairs per kernel.
 const PAIRS: usize = 2000;

@@ -1,13 +1,14 @@
 //! The same law gives the same programs, byte for byte.
 
-mod support;
-
+use crate::support::laws;
 use eem_symbolic::{ExprId, Function, Graph, Model, Number};
-use support::laws;
 
 #[test]
 fn two_builds_are_equal() {
-    for (first, second) in support::all_laws().into_iter().zip(support::all_laws()) {
+    for (first, second) in crate::support::all_laws()
+        .into_iter()
+        .zip(crate::support::all_laws())
+    {
         let [first, second] = [first, second].map(|law| {
             let programs = format!("{:?}", law.model.programs());
             (programs, format!("{:?}", law.model.formulas()))

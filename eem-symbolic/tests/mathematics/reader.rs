@@ -1,7 +1,5 @@
 //! Formulas in tests as text: `+ - * / ^`, parentheses, names, decimal numbers, functions, `sqrt`.
 
-#![allow(dead_code)] // Every test file is a crate of its own and uses a part.
-
 use eem_symbolic::{ExprId, Function, Graph, Number};
 
 /// Reads a formula into the graph; names become symbols.

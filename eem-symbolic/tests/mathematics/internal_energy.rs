@@ -1,14 +1,10 @@
 //! `T = 1 − θ ∂_θ`: what is linear in θ vanishes, and nothing that cancels is left to rounding.
 
-mod oracle;
-mod reader;
-mod support;
-
+use crate::oracle::{assert_agree, value};
+use crate::reader::read;
+use crate::support::laws;
+use crate::support::precise::Precise;
 use eem_symbolic::{Function, Graph, diff, format, internal_energy};
-use oracle::{assert_agree, value};
-use reader::read;
-use support::laws;
-use support::precise::Precise;
 
 /// T of the first formula is the second, as an expression.
 fn energy_is(psi: &str, expected: &str) {
@@ -88,7 +84,7 @@ fn the_energy_of_the_pendulum_has_no_logarithm_of_the_temperature() {
 #[test]
 fn every_law_agrees_with_the_definition() {
     let precise = Precise::new();
-    for mut law in support::all_laws() {
+    for mut law in crate::support::all_laws() {
         let Some(theta) = law.model.temperature else {
             continue;
         };

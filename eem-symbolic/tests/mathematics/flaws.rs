@@ -1,13 +1,9 @@
 //! Flaws of models are found where they are certain, and only there.
 
-mod oracle;
-mod reader;
-mod support;
-
+use crate::oracle::value;
+use crate::reader::read;
+use crate::support::random::{Random, expression};
 use eem_symbolic::{F64, Flaw, Graph, LowerBound, Model, Rational, Sign, range, sign};
-use oracle::value;
-use reader::read;
-use support::random::{Random, expression};
 
 /// The flaws of a model of lambda, gamma and theta, told by the names of the variables.
 fn flaws(psi: &str, viscosity: &str) -> Vec<String> {

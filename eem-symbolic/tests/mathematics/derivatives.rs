@@ -1,13 +1,9 @@
 //! Derivatives: every function against a difference quotient in high precision, known results, and size.
 
-mod oracle;
-mod reader;
-mod support;
-
+use crate::oracle::{assert_agree, value};
+use crate::reader::read;
+use crate::support::precise::Precise;
 use eem_symbolic::{Arithmetic, ExprId, Function, Graph, Kernel, diff, diff_total, format};
-use oracle::{assert_agree, value};
-use reader::read;
-use support::precise::Precise;
 
 /// `∂text/∂x` is `expected`.
 fn derivative_is(text: &str, expected: &str) {

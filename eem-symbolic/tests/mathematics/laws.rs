@@ -1,9 +1,7 @@
 //! The canonical form: which expressions are one, which are not, and that building them is cheap.
 
-mod reader;
-
+use crate::reader::{different, read, same};
 use eem_symbolic::{Function, Graph, Node, Number, Rational, substitute};
-use reader::{different, read, same};
 
 #[test]
 fn opposite_terms_vanish() {

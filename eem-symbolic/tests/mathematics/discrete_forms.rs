@@ -1,14 +1,12 @@
 //! The algorithmic forms are the partitioned discrete derivatives, and their tangents are exact.
 
-mod support;
-
+use crate::support::corners::Evaluated;
+use crate::support::precise::{error, to_f64};
+use crate::support::solids;
 use astro_float::BigFloat;
 use eem_symbolic::{
     Arithmetic, Bounded, F64, Function, Number, Operation, ProgramKernel, RunningError,
 };
-use support::corners::Evaluated;
-use support::precise::{error, to_f64};
-use support::solids;
 
 /// Increments of every variable relative to its size; the last one is negative for a change.
 const INCREMENTS: [f64; 6] = [0.0, 1e-14, 1e-9, 1e-5, 1e-2, -0.1];
@@ -33,7 +31,7 @@ fn moved(state: &[f64], increment: f64) -> Vec<f64> {
 }
 
 fn laws() -> Vec<Evaluated> {
-    support::all_laws()
+    crate::support::all_laws()
         .into_iter()
         .map(Evaluated::new)
         .collect()

@@ -1,11 +1,8 @@
 //! Formulas as text: minimal parentheses, and nothing lost.
 
-mod reader;
-mod support;
-
+use crate::reader::read;
+use crate::support::random::{self, Random};
 use eem_symbolic::{Graph, Kernel, format};
-use reader::read;
-use support::random::{self, Random};
 
 /// The formula is printed as `expected`.
 fn shows(text: &str, expected: &str) {
@@ -116,7 +113,7 @@ fn text_is_read_back_as_the_same_text() {
 
 #[test]
 fn laws_are_read_back() {
-    for mut law in support::all_laws() {
+    for mut law in crate::support::all_laws() {
         let text = format(&law.model.graph, law.model.psi);
         assert_eq!(read(&mut law.model.graph, &text), law.model.psi, "{text}");
     }

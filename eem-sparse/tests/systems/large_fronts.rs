@@ -3,13 +3,10 @@
 //! Refinement would repair an elimination with a small mistake, so every test asserts that there was
 //! none.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![allow(clippy::float_cmp, reason = "numbers that are compared are exact")]
 
-mod support;
-
+use crate::support::{Matrix, Random, lattice, pattern, random_graph, stencil};
 use eem_sparse::{Precision, Report, Solver};
-use support::{Matrix, Random, lattice, pattern, random_graph, stencil};
 
 /// The backward error that the solver grants to rows with at most 255 entries.
 const BACKWARD_ERROR: f64 = 256.0 * f64::EPSILON;

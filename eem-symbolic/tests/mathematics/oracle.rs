@@ -1,7 +1,5 @@
 //! Values of expressions, on any arithmetic.
 
-#![allow(dead_code)] // Every test file is a crate of its own and uses a part.
-
 use astro_float::BigFloat;
 use eem_symbolic::{
     Arithmetic, ExprId, F64, Function, Graph, Input, Number, ProgramKernel, Stage, schedule,

@@ -1,11 +1,7 @@
 //! The order of elimination is a permutation with little fill-in.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
-mod support;
-
+use crate::support::{pattern, random_graph, stencil};
 use eem_sparse::{Pattern, Solver};
-use support::{pattern, random_graph, stencil};
 
 /// The numbers in L and U, after a check that every node is eliminated once.
 fn fill(pattern: &Pattern) -> usize {

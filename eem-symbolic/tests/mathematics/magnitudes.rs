@@ -1,16 +1,13 @@
 //! The magnitude of an expression bounds what rounding has done to its value, and not much more.
 
-mod reader;
-mod support;
-
+use crate::reader::read;
+use crate::support::laws::{self, Law};
+use crate::support::precise::{Precise, error};
+use crate::support::random::{Random, expression};
 use eem_symbolic::{
     Bounded, ExprId, F64, Graph, Input, LowerBound, Program, RunningError, Stage, Symbol,
     magnitude, schedule,
 };
-use reader::read;
-use support::laws::{self, Law};
-use support::precise::{Precise, error};
-use support::random::{Random, expression};
 
 /// A magnitude is worth this many ε.
 const UNITS: f64 = 8.0;
@@ -216,7 +213,7 @@ fn of_law(law: &Law) -> [f64; 2] {
 /// Σ |terms| of ordinary springs, within a factor of ten: logarithms of quotients are what is more.
 #[test]
 fn ordinary_laws_have_ordinary_magnitudes() {
-    for law in support::all_laws() {
+    for law in crate::support::all_laws() {
         let [psi, magnitude] = of_law(&law);
         println!("{}: ψ {psi:.3e}, magnitude {magnitude:.3e}", law.name);
         assert!(magnitude >= psi.abs() * (1.0 - OWN), "{}", law.name);

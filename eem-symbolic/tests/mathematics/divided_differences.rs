@@ -1,18 +1,14 @@
 //! Divided differences: the rules against plain quotients in high precision, and their limits.
 
-mod oracle;
-mod reader;
-mod support;
-
+use crate::oracle::{SymmetricKernels, assert_agree, value};
+use crate::reader::read;
+use crate::support::precise::Precise;
+use crate::support::random::{self, Random};
 use astro_float::BigFloat;
 use eem_symbolic::{
     Arithmetic, ExprId, F64, Function, Graph, Kernel, Node, diff, divided_difference, format,
     substitute,
 };
-use oracle::{SymmetricKernels, assert_agree, value};
-use reader::read;
-use support::precise::Precise;
-use support::random::{self, Random};
 
 /// Formulas that use every rule at least once; x, p > 0.
 const FORMULAS: &[&str] = &[

@@ -1,0 +1,6 @@
+//! The numbers that formulas are evaluated with: kernels against high precision, and inverted entropies.
+
+mod inversion;
+mod kernels_accuracy;
+mod kernels_lanes;
+mod kernels_properties;
