@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use eem::VtkSeries;
+use eem::nalgebra::SVector;
 use eem::prelude::*;
 
 use crate::support::solids::{SECTION, ThermoelasticSolid};
@@ -53,7 +54,7 @@ fn files_have_all_digits_of_every_state() {
         let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&found), bits(expected), "{name}: {found:?}");
     };
-    let in_space = |q: eem::nalgebra::SVector<f64, 2>| [q[0], q[1], 0.0];
+    let in_space = |q: SVector<f64, 2>| [q[0], q[1], 0.0];
     let all = [nodes[0], nodes[1], nodes[2], nodes[3], bob];
     let positions = all.map(|node| in_space(run.position(node).unwrap()));
     same("position", positions.as_flattened());
