@@ -10,6 +10,7 @@ use crate::element::handle::{Element, Node};
 use crate::number::scalar::Real;
 use crate::run::simulation::Simulation;
 use crate::scene::Scene;
+use crate::scene::error::SceneError;
 use file::Grid;
 
 /// A series of states of a run in files of the Visualization Toolkit, for ParaView: one `.vtu` per time, and a `.pvd`
@@ -104,7 +105,7 @@ impl<const D: usize> VtkSeries<D> {
     }
 
     /// What is in a state.
-    fn grid<S: Real>(&self, run: &Simulation<D, S>) -> Result<Grid, crate::SceneError> {
+    fn grid<S: Real>(&self, run: &Simulation<D, S>) -> Result<Grid, SceneError> {
         let mut grid = Grid::new(self.cells.iter().map(|cell| (cell.kind, &cell.nodes[..])));
         let mut moved = Vec::with_capacity(self.nodes.len());
         let mut velocities = Vec::with_capacity(self.nodes.len());
@@ -140,7 +141,7 @@ impl Cell {
     fn values<const D: usize, S: Real>(
         &self,
         run: &Simulation<D, S>,
-    ) -> Result<[f64; QUANTITIES.len()], crate::SceneError> {
+    ) -> Result<[f64; QUANTITIES.len()], SceneError> {
         let [mut heat, mut energy, mut production] = [0.0; 3];
         for &element in &self.elements {
             energy += run.internal_energy(element)?.to_f64();
