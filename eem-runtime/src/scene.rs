@@ -4,11 +4,16 @@
 
 mod act;
 pub(crate) mod blueprint;
+pub(crate) mod body;
+mod body_loads;
+mod cell;
 mod check;
 pub(crate) mod entry;
 pub(crate) mod error;
 pub(crate) mod loads;
+pub(crate) mod mesh;
 pub(crate) mod solid;
+pub(crate) mod solid_error;
 mod start;
 
 use crate::element::conduction::Conductor;
