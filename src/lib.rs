@@ -28,9 +28,9 @@ pub mod prelude {
     pub use core::ops::ControlFlow;
 
     pub use crate::{
-        Checkpoint, Describe, Element, Ensemble, Event, FreeEnergy, Law, Ledger, NewtonSettings,
-        Node, Quantity, Recorder, Reservoir, RunEnd, Scene, SceneError, Scheme, Section,
-        Simulation, StepError, StepFailure, StepReport, Tolerance,
+        Bulk, Checkpoint, Describe, Element, Ensemble, Event, FreeEnergy, Law, Ledger, Mesh,
+        NewtonSettings, Node, Quantity, Recorder, Reservoir, RunEnd, Scene, SceneError, Scheme,
+        Section, Simulation, StepError, StepFailure, StepReport, Tolerance,
     };
 }
 

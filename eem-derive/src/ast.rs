@@ -78,11 +78,13 @@ pub(crate) enum Strain {
     Square,
     /// `J − 1`
     Dilatation,
+    /// `a·E a` along a fibre with the unit vector a
+    Fibre,
 }
 
 impl Strain {
     /// All strains, in the order in which messages list them.
-    pub(crate) const ALL: [Self; 3] = [Self::Trace, Self::Square, Self::Dilatation];
+    pub(crate) const ALL: [Self; 4] = [Self::Trace, Self::Square, Self::Dilatation, Self::Fibre];
 
     /// Its variant of `Strain` in the runtime.
     pub(crate) fn variant(self) -> &'static str {
@@ -90,17 +92,19 @@ impl Strain {
             Self::Trace => "Trace",
             Self::Square => "Square",
             Self::Dilatation => "Dilatation",
+            Self::Fibre => "Fibre",
         }
     }
 }
 
 impl Role {
     /// All roles, in the order in which messages list them.
-    pub(crate) const ALL: [Self; 6] = [
+    pub(crate) const ALL: [Self; 7] = [
         Self::Stretch,
         Self::Strain(Strain::Trace),
         Self::Strain(Strain::Square),
         Self::Strain(Strain::Dilatation),
+        Self::Strain(Strain::Fibre),
         Self::Viscous,
         Self::Temperature,
     ];
@@ -112,6 +116,7 @@ impl Role {
             Self::Strain(Strain::Trace) => "StrainTrace",
             Self::Strain(Strain::Square) => "StrainSquare",
             Self::Strain(Strain::Dilatation) => "Dilatation",
+            Self::Strain(Strain::Fibre) => "FibreStrain",
             Self::Viscous => "Viscous",
             Self::Temperature => "Temperature",
         }
@@ -124,6 +129,7 @@ impl Role {
             "e1" => Some(Self::Strain(Strain::Trace)),
             "e2" => Some(Self::Strain(Strain::Square)),
             "j" => Some(Self::Strain(Strain::Dilatation)),
+            "e4" => Some(Self::Strain(Strain::Fibre)),
             "gamma" | "γ" => Some(Self::Viscous),
             "theta" | "θ" | "temperature" => Some(Self::Temperature),
             _ => None,
@@ -135,6 +141,14 @@ impl Role {
         match self {
             Self::Strain(strain) => Some(strain),
             Self::Stretch | Self::Viscous | Self::Temperature => None,
+        }
+    }
+
+    /// Whether several arguments may have it.
+    pub(crate) fn is_repeatable(self) -> bool {
+        match self {
+            Self::Viscous | Self::Strain(Strain::Fibre) => true,
+            Self::Stretch | Self::Strain(_) | Self::Temperature => false,
         }
     }
 

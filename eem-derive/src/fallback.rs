@@ -31,9 +31,13 @@ impl Shape {
                 .filter(|a| a.role == Some(role))
                 .count()
         };
-        let strain = |&strain: &Strain| count(Role::Strain(strain)) > 0;
+        let strain = |strain: Strain| {
+            let role = Role::Strain(strain);
+            let most = if role.is_repeatable() { usize::MAX } else { 1 };
+            core::iter::repeat_n(strain, count(role).min(most))
+        };
         Self {
-            strains: Strain::ALL.into_iter().filter(strain).collect(),
+            strains: Strain::ALL.into_iter().flat_map(strain).collect(),
             dashpots: count(Role::Viscous),
             thermal: count(Role::Temperature) > 0,
             constants: Vec::new(),

@@ -81,6 +81,7 @@ use syn::{DeriveInput, parse_macro_input};
 /// |---|---|---|
 /// | `Stretch` | one, in a spring | length of the spring, m |
 /// | `StrainTrace`, `StrainSquare`, `Dilatation` | each at most one, in a solid | `tr E`, `E:E`, `J − 1` |
+/// | `FibreStrain` | any number, in a solid | `a·E a` along one fibre, whose direction a every solid has of its own |
 /// | `Viscous` | any number | stretch of one dashpot, m, in a solid a strain; each needs a law in `#[viscosity]` |
 /// | `Temperature` | none or one | absolute temperature, K |
 ///

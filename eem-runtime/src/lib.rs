@@ -61,9 +61,12 @@ pub use run::study::statement::Statement;
 #[cfg(feature = "vtk")]
 pub use run::vtk::VtkSeries;
 pub use scene::Scene;
+pub use scene::body::{Body, Bulk};
 pub use scene::error::SceneError;
+pub use scene::mesh::{Face, Mesh, MeshError};
 pub use scene::refused::RefusedScene;
 pub use scene::solid::Section;
+pub use scene::solid_error::SolidError;
 pub use step::control::{StepStatistics, Tolerance};
 pub use step::error::{Law, NewtonIteration, StepError, StepFailure, StepLimit};
 pub use step::newton::{NewtonSettings, StepReport};

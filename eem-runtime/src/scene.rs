@@ -3,12 +3,17 @@
 //! Describing never fails; [`Simulation::new`](crate::Simulation::new) checks all of it and says what is wrong.
 
 mod act;
+pub(crate) mod body;
+mod body_loads;
+mod cell;
 mod check;
 pub(crate) mod entry;
 pub(crate) mod error;
 pub(crate) mod loads;
+pub(crate) mod mesh;
 pub(crate) mod refused;
 pub(crate) mod solid;
+pub(crate) mod solid_error;
 mod start;
 
 use crate::element::conduction::Conductor;

@@ -5,6 +5,8 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod blocks;
+mod cook;
 mod logarithmic_stiffness;
 mod midpoint_identity;
 mod order;

@@ -5,6 +5,8 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod blocks;
+mod cells;
 mod double_pendulums;
 mod explicit;
 mod free_bodies;

@@ -1,27 +1,16 @@
 //! Solids keep energy, momenta and the growth of entropy, store nothing when they turn, and pass the patch
 //! test.
 
-use eem::kinematics::{Ends, Kinematics, Quad4, Strain};
+use eem::kinematics::{Ends, Kinematics, Measure, Quad4, SolidPoint};
 use eem::prelude::*;
 
+use crate::support::numbers::Numbers;
 use crate::support::solids::{SECTION, SaintVenant, ThermoelasticSolid, Viscous};
 
-const STRAINS: [Strain; 3] = [Strain::Trace, Strain::Square, Strain::Dilatation];
+const MEASURES: [Measure<f64, 2>; 3] = [Measure::Trace, Measure::Square, Measure::Dilatation];
 
-/// Numbers between −1 and 1 from a counter (Knuth's multiplicative hash).
-struct Numbers(u32);
-
-impl Numbers {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(1);
-        let hash = self.0.wrapping_mul(2_654_435_761) ^ (self.0.wrapping_mul(40_503) >> 7);
-        f64::from(hash) / f64::from(u32::MAX) * 2.0 - 1.0
-    }
-
-    fn point(&mut self, size: f64) -> [f64; 2] {
-        [size * self.next(), size * self.next()]
-    }
-}
+/// A point of a quadrilateral.
+type QuadPoint = SolidPoint<Quad4, f64, 3, 2>;
 
 /// A bar of two squares that tumbles in free space, warm at one end and in contact with air, and what its
 /// heat capacity is, J/K.
@@ -229,7 +218,7 @@ fn the_patch_test_is_passed() {
 /// J is known to ε where little is left of a volume, and beside a large shear.
 #[test]
 fn crushed_and_sheared_bodies_have_their_volume() {
-    let [point, ..] = Quad4::points(&SQUARE, 1.0, STRAINS).unwrap();
+    let [point, ..] = QuadPoint::points(&SQUARE, 1.0, MEASURES).unwrap();
     let volume = |f: [[f64; 2]; 2]| {
         let arms = [[1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
         let arms = arms.map(|[x, y]: [f64; 2]| f.map(|row| row[0] * x + row[1] * y));
@@ -244,9 +233,9 @@ fn crushed_and_sheared_bodies_have_their_volume() {
 }
 
 /// Old and new arms of a deformed quadrilateral at one of its points.
-fn ends(numbers: &mut Numbers, step: f64) -> (Quad4<f64, 3>, Ends<Quad4<f64, 3>, f64, 2>) {
+fn ends(numbers: &mut Numbers, step: f64) -> (QuadPoint, Ends<QuadPoint, f64, 2>) {
     let reference = SQUARE.map(|[x, y]| [x + 0.1 * numbers.next(), y + 0.1 * numbers.next()]);
-    let points = Quad4::points(&reference, 1.0, STRAINS).unwrap();
+    let points = QuadPoint::points(&reference, 1.0, MEASURES).unwrap();
     let point = points[numbers.0 as usize % 4];
     let old = reference.map(|[x, y]| [x + 0.2 * numbers.next(), y + 0.2 * numbers.next()]);
     let new = old.map(|[x, y]| [x + step * numbers.next(), y + step * numbers.next()]);
@@ -292,10 +281,10 @@ fn mean_value_gradients_of_strains_are_exact() {
 
 /// The same with other new arms.
 fn moved_to(
-    point: &Quad4<f64, 3>,
-    ends: &Ends<Quad4<f64, 3>, f64, 2>,
+    point: &QuadPoint,
+    ends: &Ends<QuadPoint, f64, 2>,
     r1: [[f64; 2]; 3],
-) -> Ends<Quad4<f64, 3>, f64, 2> {
+) -> Ends<QuadPoint, f64, 2> {
     Ends {
         r1,
         measures1: point.measure(&r1),

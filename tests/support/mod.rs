@@ -3,6 +3,7 @@
 #![allow(dead_code, reason = "every test file uses its own part of this module")]
 
 pub(crate) mod dashpots;
+pub(crate) mod numbers;
 pub(crate) mod orders;
 pub(crate) mod solids;
 

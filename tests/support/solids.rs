@@ -93,3 +93,96 @@ impl Viscous {
         theta_ref: 300.0,
     };
 }
+
+/// A solid with dashpots for the change of volume and for a fibre.
+#[derive(Clone, Debug, FreeEnergy)]
+#[free_energy(|e1: StrainTrace, e2: StrainSquare, e4: FibreStrain, volume: Viscous, fibre: Viscous, theta: Temperature| {
+    let heating = theta - theta_ref;
+    0.5 * lame * e1.powi(2) + shear * e2
+        + 0.5 * kv * (e1 - volume).powi(2) + 0.5 * kf * (e4 - fibre).powi(2)
+        - expansion * heating * e1
+        + capacity * (heating - theta * ln(theta / theta_ref))
+})]
+#[viscosity(volume = eta_v * exp(a / theta - a / theta_ref), fibre = eta_f * exp(a / theta - a / theta_ref))]
+pub(crate) struct Reinforced {
+    #[unit("Pa")]
+    pub(crate) lame: f64,
+    #[unit("Pa")]
+    pub(crate) shear: f64,
+    #[unit("Pa")]
+    pub(crate) kv: f64,
+    #[unit("Pa")]
+    pub(crate) kf: f64,
+    #[unit("Pa/K")]
+    pub(crate) expansion: f64,
+    #[unit("Pa/K")]
+    pub(crate) capacity: f64,
+    #[unit("K")]
+    pub(crate) theta_ref: f64,
+    #[unit("Pa s")]
+    pub(crate) eta_v: f64,
+    #[unit("Pa s")]
+    pub(crate) eta_f: f64,
+    #[unit("K")]
+    pub(crate) a: f64,
+}
+
+impl Reinforced {
+    pub(crate) const RUBBER: Self = Self {
+        lame: 2000.0,
+        shear: 1000.0,
+        kv: 1500.0,
+        kf: 2500.0,
+        expansion: 3.0,
+        capacity: 100.0,
+        theta_ref: 300.0,
+        eta_v: 300.0,
+        eta_f: 500.0,
+        a: 50.0,
+    };
+}
+
+/// Compressible Mooney–Rivlin, free of stress at the reference temperature, that expands when it is warm.
+#[derive(Clone, Debug, FreeEnergy)]
+#[free_energy(|e1: StrainTrace, e2: StrainSquare, j: Dilatation, theta: Temperature| {
+    let isochoric = 2 * a * e1 + b * (4 * e1 + 2 * (e1.powi(2) - e2));
+    let volumetric = 0.5 * c1 * j.powi(2) - d1 * ln_1p(j);
+    let heating = theta - theta_ref;
+    isochoric + volumetric - 3 * beta * heating * (c2 * j - d2 / (1 + j))
+        + capacity * (heating - theta * ln(theta / theta_ref))
+})]
+pub(crate) struct MooneyRivlin {
+    #[unit("Pa")]
+    pub(crate) a: f64,
+    #[unit("Pa")]
+    pub(crate) b: f64,
+    #[unit("Pa")]
+    pub(crate) c1: f64,
+    #[unit("Pa")]
+    pub(crate) d1: f64,
+    #[unit("Pa")]
+    pub(crate) c2: f64,
+    #[unit("Pa")]
+    pub(crate) d2: f64,
+    #[unit("1/K")]
+    pub(crate) beta: f64,
+    #[unit("Pa/K")]
+    pub(crate) capacity: f64,
+    #[unit("K")]
+    pub(crate) theta_ref: f64,
+}
+
+impl MooneyRivlin {
+    /// λ = 5209 Pa, μ = 997.5 Pa.
+    pub(crate) const RUBBER: Self = Self {
+        a: 997.5 / 4.0,
+        b: 997.5 / 4.0,
+        c1: 5209.0 - 997.5,
+        d1: 997.5 * 1.5,
+        c2: 5209.0,
+        d2: 665.0,
+        beta: 2.233e-4,
+        capacity: 100.0,
+        theta_ref: 293.15,
+    };
+}

@@ -44,9 +44,9 @@ pub(super) fn check_measures(cx: &Ctxt, input: &Input<'_>) {
     }
 }
 
-/// There may be many dashpots, but one of everything else.
+/// There may be many dashpots and fibres, but one of everything else.
 pub(super) fn check_counts(cx: &Ctxt, input: &Input<'_>) {
-    for role in Role::ALL.into_iter().filter(|&role| role != Role::Viscous) {
+    for role in Role::ALL.into_iter().filter(|role| !role.is_repeatable()) {
         let mut arguments = of_role(input, role);
         if let Some(first) = arguments.next() {
             for second in arguments {
@@ -62,11 +62,14 @@ pub(super) fn are_sound(input: &Input<'_>) -> bool {
     let count = |role| of_role(input, role).count();
     let names = input.arguments.iter().map(|argument| argument.ident);
     let names: BTreeSet<String> = names.map(ast::name).collect();
-    let strains = Strain::ALL.map(|strain| count(Role::Strain(strain)));
-    let strained = strains.iter().any(|&count| count > 0);
+    let strains = Strain::ALL
+        .map(Role::Strain)
+        .map(|role| (role, count(role)));
+    let strained = strains.iter().any(|&(_, count)| count > 0);
+    let may_be = |&(role, count): &(Role, usize)| count <= 1 || role.is_repeatable();
     input.arguments_complete
         && count(Role::Stretch) == usize::from(!strained)
-        && strains.iter().all(|&count| count <= 1)
+        && strains.iter().all(may_be)
         && count(Role::Temperature) <= 1
         && names.len() == input.arguments.len()
 }

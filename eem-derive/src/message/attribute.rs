@@ -3,7 +3,7 @@
 use proc_macro2::Ident;
 
 use super::{Message, alternatives, list};
-use crate::ast::{self, Role};
+use crate::ast::{self, Role, Strain};
 
 pub(crate) mod physics;
 
@@ -143,7 +143,7 @@ pub(crate) fn unknown_role(role: &str, meant: &[&str]) -> Message {
 pub(crate) fn no_measure() -> Message {
     Message::new(
         "the free energy has neither a `Stretch` nor a strain",
-        "add an argument: `lambda: Stretch` is the length of a spring; `e1: StrainTrace`, `e2: StrainSquare` and `j: Dilatation` are strains of a solid",
+        "add an argument: `lambda: Stretch` is the length of a spring; `e1: StrainTrace`, `e2: StrainSquare`, `j: Dilatation` and `e4: FibreStrain` are strains of a solid",
     )
 }
 
@@ -161,9 +161,9 @@ pub(crate) fn second_role(role: Role, argument: &Ident, first: &Ident) -> Messag
     let (argument, first) = (ast::name(argument), ast::name(first));
     let help = match role {
         Role::Stretch => "a spring has one length; an internal variable is `Viscous`",
+        Role::Strain(Strain::Fibre) | Role::Viscous => unreachable!("there may be many"),
         Role::Strain(_) => "every strain is one argument; remove one of the two",
         Role::Temperature => "an element has one temperature",
-        Role::Viscous => unreachable!("there may be many dashpots"),
     };
     Message::new(
         format!("`{argument}` is a second `{}` after `{first}`", role.name()),

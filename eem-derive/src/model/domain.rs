@@ -163,6 +163,8 @@ impl Lowering<'_> {
                 Strain::Trace => LowerBound::above(symbol, Rational::new(-3, 2)?),
                 Strain::Square => LowerBound::from(symbol, zero),
                 Strain::Dilatation => LowerBound::above(symbol, Rational::MINUS_ONE),
+                // (|F a|² − 1)/2
+                Strain::Fibre => LowerBound::above(symbol, Rational::new(-1, 2)?),
             })
         });
         bounds.collect()

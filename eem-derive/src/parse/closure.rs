@@ -40,7 +40,7 @@ fn argument<'a>(cx: &Ctxt, pat: &'a Pat) -> Option<Argument<'a>> {
 }
 
 /// Other words for the roles.
-const SYNONYMS: [(&[&str], &[Role]); 7] = [
+const SYNONYMS: [(&[&str], &[Role]); 8] = [
     (&["Length", "Elongation", "Lambda"], &[Role::Stretch]),
     (
         &["Strain"],
@@ -49,6 +49,7 @@ const SYNONYMS: [(&[&str], &[Role]); 7] = [
             Role::Strain(Strain::Trace),
             Role::Strain(Strain::Square),
             Role::Strain(Strain::Dilatation),
+            Role::Strain(Strain::Fibre),
         ],
     ),
     (
@@ -70,6 +71,17 @@ const SYNONYMS: [(&[&str], &[Role]); 7] = [
             "J",
         ],
         &[Role::Strain(Strain::Dilatation)],
+    ),
+    (
+        &[
+            "Fibre",
+            "Fiber",
+            "FiberStrain",
+            "FourthInvariant",
+            "I4",
+            "E4",
+        ],
+        &[Role::Strain(Strain::Fibre)],
     ),
     (
         &["Dashpot", "Internal", "Damper", "Gamma"],

@@ -23,14 +23,21 @@
 //! Everything is an array over arms or measures whose length the kinematics knows, so that loops
 //! over an element have no bounds but those of its arrays.
 
-pub(crate) mod bilinear;
+mod between;
+pub(crate) mod integrals;
 mod measures;
 mod plane;
-mod quad4;
+mod shape;
+mod solid;
+mod solid_measures;
+mod space;
 mod strain;
 mod stretch;
+mod tensor;
 
 pub use measures::{Arms, Blocks, Ends, Gradient, Kinematics, Measures, Points, Weights};
-pub use quad4::Quad4;
-pub use strain::{Strain, StrainEnergy};
+pub use shape::{Hex8, Hex20, Quad4, Quad8, Shape};
+pub use solid::SolidPoint;
+pub use strain::{Measure, Strain, StrainEnergy};
 pub use stretch::Stretch;
+pub(crate) use tensor::Symmetric;

@@ -52,7 +52,7 @@ pub struct Description {
 pub struct Argument {
     /// Its name in the formulas.
     pub name: &'static str,
-    /// `Stretch`, `StrainTrace`, `StrainSquare`, `Dilatation`, `Viscous` or `Temperature`.
+    /// `Stretch`, `StrainTrace`, `StrainSquare`, `Dilatation`, `FibreStrain`, `Viscous` or `Temperature`.
     pub role: &'static str,
     /// Its unit.
     pub unit: &'static str,

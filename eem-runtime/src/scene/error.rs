@@ -5,6 +5,7 @@ use thiserror::Error;
 use crate::element::error::StateError;
 use crate::element::handle::{Element, HeatPartner, Node, Reservoir};
 use crate::number::readable::Readable;
+use crate::scene::solid_error::SolidError;
 
 /// Why a scene cannot be simulated.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -42,29 +43,9 @@ pub enum SceneError {
         /// The first such element.
         element: Element,
     },
-    /// A quadrilateral is inside out at a point of its reference configuration, or has no area there.
-    #[error(
-        "det dX/dxi of the solid at {element} is {value} m^2, it must be positive and finite: give its corners against the clock",
-        value = Readable(*value)
-    )]
-    InsideOut {
-        /// The point.
-        element: Element,
-        /// `det ∂X/∂ξ`, m².
-        value: f64,
-    },
-    /// A density or a thickness is not positive and finite.
-    #[error("the {quantity} of the solid at {element} is {value} {unit}, it must be positive and finite", value = Readable(*value))]
-    Section {
-        /// Its first point.
-        element: Element,
-        /// Which one.
-        quantity: &'static str,
-        /// Its value.
-        value: f64,
-        /// Its unit.
-        unit: &'static str,
-    },
+    /// A solid cannot be as it is described.
+    #[error(transparent)]
+    Solid(#[from] SolidError),
     /// Something is asked of a node of a solid that only a point mass has.
     #[error(
         "{node} belongs to a solid, whose mass couples nodes, and cannot have {quantity}; {instead}"

@@ -1,15 +1,11 @@
 //! Solids of a scene.
 
 use super::Scene;
-use crate::element::group::LooseElements;
 use crate::element::handle::{Element, Node};
-use crate::element::kinematics::{Quad4, Strain, StrainEnergy, bilinear};
+use crate::element::kinematics::{Quad4, StrainEnergy};
 use crate::material::free_energy::FreeEnergy;
-use crate::material::point_energy::PointEnergy;
-use crate::number::scalar::{Mask, Real, is_positive};
-use crate::scene::check::check_position;
-use crate::scene::entry::UNMADE;
-use crate::scene::error::SceneError;
+use crate::number::scalar::Real;
+use crate::scene::cell::Stuff;
 
 /// What a solid in the plane is besides its material and its corners.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,91 +83,13 @@ impl<S: Real> Scene<2, S> {
     where
         M: FreeEnergy<S> + StrainEnergy<N> + Send + Sync + 'static,
     {
-        let first = self.next_element::<M>();
-        let points = [0, 1, 2, 3].map(|point| first.after(point));
-        let place = match self.expect_quad::<N>(nodes, (M::STRAINS, section), points) {
-            Ok(quad) => {
-                let new = LooseElements::<S, PointEnergy<S, M>, Quad4<S, N>, 2>::new;
-                let (group, set) = self.set_of(new);
-                let place = set.points();
-                let energy = |volume| PointEnergy::new(model.duplicate(), volume);
-                let points = (first, quad.map(|point| (energy(point.volume()), point)));
-                set.elements.push(points);
-                [group, place]
-            }
-            // Handles have to mean something until the scene is checked.
-            Err(misuse) => {
-                self.misuse.extend(misuse);
-                [UNMADE, 0]
-            }
+        let Section { density, thickness } = section;
+        let stuff = Stuff {
+            density,
+            thickness,
+            fibres: &[],
+            lumped: false,
         };
-        for point in 0..points.len() {
-            self.push_element(&nodes, [place[0], place[1] + point]);
-        }
-        points
-    }
-
-    /// The points of a quadrilateral, whose mass goes to its nodes.
-    fn expect_quad<const N: usize>(
-        &mut self,
-        nodes: [Node; 4],
-        (strains, section): ([Strain; N], Section<S>),
-        points: [Element; 4],
-    ) -> Result<[Quad4<S, N>; 4], Option<SceneError>> {
-        for node in &nodes {
-            if !self.expect_own(node) {
-                return Err(None);
-            }
-            check_position(*node, &self.nodes[node.index])?;
-        }
-        section.check(points[0])?;
-        let corners = nodes.map(|node| self.nodes[node.index].position.into());
-        let quad = Quad4::points(&corners, section.thickness, strains);
-        let quad = quad.map_err(|(point, area)| SceneError::InsideOut {
-            element: points[point],
-            value: area.to_f64(),
-        })?;
-        self.add_masses(nodes, &corners, section);
-        Ok(quad)
-    }
-
-    /// Adds the consistent mass of a quadrilateral.
-    fn add_masses(&mut self, nodes: [Node; 4], corners: &[[S; 2]; 4], section: Section<S>) {
-        let masses = bilinear::masses(corners, section.density * section.thickness);
-        for (a, row) in masses.iter().enumerate() {
-            if let Some(mass) = &mut self.nodes[nodes[a].index].mass {
-                // That of the node itself, if it is not zero, as that of the solids is positive.
-                if mass.less(S::zero()).any() {
-                    let (node, value) = (nodes[a], mass.to_f64());
-                    self.misuse.push(SceneError::Mass { node, value });
-                }
-                *mass += row[a];
-            }
-            for (b, &mass) in row.iter().enumerate().take(a) {
-                let [i, j] = [nodes[a].index, nodes[b].index];
-                self.pairs.push(([i.min(j), i.max(j)], mass));
-            }
-        }
-    }
-}
-
-impl<S: Real> Section<S> {
-    /// An error unless density and thickness are positive.
-    fn check(self, element: Element) -> Result<(), SceneError> {
-        let numbers = [
-            ("density", self.density, "kg/m^3"),
-            ("thickness", self.thickness, "m"),
-        ];
-        for (quantity, value, unit) in numbers {
-            if !is_positive(value) {
-                return Err(SceneError::Section {
-                    element,
-                    quantity,
-                    value: value.to_f64(),
-                    unit,
-                });
-            }
-        }
-        Ok(())
+        self.push_cell::<Quad4, M, N>(&model, &nodes, stuff)
     }
 }

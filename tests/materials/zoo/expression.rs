@@ -81,6 +81,7 @@ fn bound(symbol: Symbol, role: &str) -> Option<LowerBound> {
         "StrainTrace" => LowerBound::above(symbol, Rational::new(-3, 2)?),
         "StrainSquare" => LowerBound::from(symbol, Rational::ZERO),
         "Dilatation" => LowerBound::above(symbol, Rational::MINUS_ONE),
+        "FibreStrain" => LowerBound::above(symbol, Rational::new(-1, 2)?),
         _ => return None,
     })
 }

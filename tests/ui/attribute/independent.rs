@@ -25,4 +25,10 @@ struct Solid {
     k: f64,
 }
 
+#[derive(FreeEnergy)]
+#[free_energy(|warp: FibreStrain, weft: FibreStrain| 0.5 * k * warp.powi(2))]
+struct Cloth {
+    k: f64,
+}
+
 fn main() {}

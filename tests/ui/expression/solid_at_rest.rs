@@ -24,4 +24,13 @@ struct Bounds {
     k: f64,
 }
 
+// A fibre has a stretch where its strain is zero.
+#[derive(FreeEnergy)]
+#[free_energy(|warp: FibreStrain, weft: FibreStrain| {
+    k * (ln(warp) + ln_1p(2 * weft).powi(2) + sqrt(1 + 2 * warp) + ln(1 + 2 * weft) / weft)
+})]
+struct Cloth {
+    k: f64,
+}
+
 fn main() {}

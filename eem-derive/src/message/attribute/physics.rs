@@ -13,6 +13,7 @@ pub(crate) fn independent(variable: &Variable<'_>, measure: &str) -> Message {
                 Strain::Trace => format!("0.5 * la * {name}.powi(2)"),
                 Strain::Square => format!("mu * {name}"),
                 Strain::Dilatation => format!("0.5 * bulk * {name}.powi(2)"),
+                Strain::Fibre => format!("0.5 * stiffness * {name}.powi(2)"),
             };
             format!(
                 "there is no stress; add its term, for example `{term}`, or remove the argument"

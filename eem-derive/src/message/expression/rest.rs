@@ -39,6 +39,9 @@ fn meaning(name: &str, strain: Strain) -> String {
     match strain {
         Strain::Trace => format!("`{name}` is tr E; tr C is `3 + 2 * {name}`"),
         Strain::Square => format!("`{name}` is E:E, which is zero at rest"),
+        Strain::Fibre => format!(
+            "`{name}` is a·E a; the square of the fibre's stretch is `1 + 2 * {name}`, and its logarithm `ln_1p(2 * {name})`"
+        ),
         Strain::Dilatation => {
             format!("`{name}` is J - 1; J is `1 + {name}`, and its logarithm is `ln_1p({name})`")
         }

@@ -1,5 +1,7 @@
 //! Which measures of strain a free energy per volume depends on.
 
+use crate::number::scalar::{Mask, Real};
+
 /// A measure of the strain at a point of a solid: an invariant of the Green–Lagrange strain
 /// `E = ½(FᵀF − 1)` with the deformation gradient F.
 ///
@@ -12,6 +14,61 @@ pub enum Strain {
     Square,
     /// `J − 1`, `J = det F`; role `Dilatation`.
     Dilatation,
+    /// `a·E a` along a fibre with the direction a; role `FibreStrain`.
+    Fibre,
+}
+
+/// A measure of the strain at a point of a solid whose fibres have directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Measure<S, const D: usize> {
+    /// `tr E`.
+    Trace,
+    /// `E:E`.
+    Square,
+    /// `J − 1`.
+    Dilatation,
+    /// `a·E a` with the unit vector a.
+    Fibre([S; D]),
+}
+
+impl<S: Real, const D: usize> Measure<S, D> {
+    /// Gives the fibres among some measures their directions, one after the other; lengths of directions
+    /// mean nothing.
+    ///
+    /// ```
+    /// use eem::kinematics::{Measure, Strain};
+    ///
+    /// let strains = [Strain::Trace, Strain::Fibre];
+    /// let measures = Measure::along(strains, &[[3.0, 4.0]]);
+    /// assert_eq!(measures, Some([Measure::Trace, Measure::Fibre([0.6, 0.8])]));
+    /// assert_eq!(Measure::<f64, 2>::along(strains, &[]), None);
+    /// assert_eq!(Measure::along(strains, &[[0.0, 0.0]]), None);
+    /// ```
+    ///
+    /// `None` unless there are as many directions as fibres, each finite and not zero.
+    #[must_use]
+    pub fn along<const N: usize>(strains: [Strain; N], directions: &[[S; D]]) -> Option<[Self; N]> {
+        let mut directions = directions.iter();
+        let mut measures = [Self::Trace; N];
+        for (measure, strain) in measures.iter_mut().zip(strains) {
+            *measure = match strain {
+                Strain::Trace => Self::Trace,
+                Strain::Square => Self::Square,
+                Strain::Dilatation => Self::Dilatation,
+                Strain::Fibre => Self::Fibre(unit(directions.next()?)?),
+            };
+        }
+        directions.next().is_none().then_some(measures)
+    }
+}
+
+/// `a/|a|`.
+fn unit<S: Real, const D: usize>(direction: &[S; D]) -> Option<[S; D]> {
+    let length = direction
+        .iter()
+        .fold(S::zero(), |length, &component| length.hypot(component));
+    let is_length = S::zero().less(length).all() && length.is_finite();
+    is_length.then(|| direction.map(|component| component / length))
 }
 
 /// A free energy per reference volume, J/m³, that depends on N measures of strain.

@@ -79,6 +79,7 @@ pub(crate) fn all() -> Vec<Box<dyn Specimen>> {
         dashpots::Logarithmic,
         dashpots::ViscousRubber,
         dashpots::AirSpring,
+        solids::FibreReinforced,
         solids::SaintVenantKirchhoff,
         solids::CompressibleMooneyRivlin,
         solids::Compressible,

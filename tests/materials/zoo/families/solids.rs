@@ -96,3 +96,20 @@ specimen! {
     [g1 = eta * exp(activation / theta - activation / tr)]
     [g2 = 2.0 * eta * exp(activation / theta - activation / tr)]
 }
+
+specimen! {
+    /// Two families of fibres.
+    FibreReinforced {
+        la: 2000.0, mu: 1000.0, kv: 1500.0, kf: 2500.0, ks: 800.0, b: 3.0, c: 100.0, tr: 300.0,
+    }
+    (
+        e1: StrainTrace = 0.12 in [-0.1, 0.4], e2: StrainSquare = 0.05 in [0.0, 0.3],
+        warp: FibreStrain = 0.1 in [-0.3, 0.5], weft: FibreStrain = 0.05 in [-0.3, 0.5],
+        theta: Temperature = 310.0 in [250.0, 350.0],
+    )
+    {
+        0.5 * la * e1.powi(2) + mu * e2 + 0.5 * kf * warp.powi(2)
+            + ks * (exp(weft.powi(2)) - 1.0) + 0.5 * kv * ln_1p(2.0 * warp).powi(2)
+            - b * (theta - tr) * (e1 + weft) + c * (theta - tr - theta * ln(theta / tr))
+    }
+}

@@ -1,0 +1,127 @@
+//! Strain: its measures and their mean-value gradients.
+//!
+//! ```text
+//! E = ½(FᵀF − 1),   j = i3/(1 + √(1 + i3)),   i3 = det C − 1
+//! P:ΔE = Δπ exactly:   tr E: 1     E:E: E⁰ + E¹     j: 2 D/(J⁰ + J¹)     a·E a: a ⊗ a
+//! ```
+//!
+//! with `D:ΔC = det C¹ − det C⁰`, `C = 1 + 2E`.
+
+use core::marker::PhantomData;
+
+use crate::element::kinematics::strain::Measure;
+use crate::element::kinematics::tensor::{Symmetric, Tensor, plus, scaled};
+use crate::number::scalar::Real;
+
+/// A deformation gradient with its strain.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Deformed<A, S, const D: usize> {
+    tensor: Tensor<S, D>,
+    strain: A,
+}
+
+/// The square of a strain beyond which j is that of F. Below, j and the other measures have the rounding
+/// of the same E, so that differences like `e1 − ln(1 + j)` keep their digits; above, squares of E would
+/// take digits of a small J, or of one beside a large shear. At the limit both are right to ε.
+const LARGE_SQUARE: f64 = 0.25;
+
+impl<A: Symmetric<S, D>, S: Real, const D: usize> Deformed<A, S, D> {
+    #[inline]
+    pub(super) fn new(tensor: Tensor<S, D>) -> Self {
+        let strain = A::green_lagrange(&tensor);
+        Self { tensor, strain }
+    }
+
+    /// A measure of its strain.
+    #[inline]
+    pub(super) fn measure(&self, of: &Measure<S, D>) -> S {
+        match of {
+            Measure::Trace => self.strain.trace(),
+            Measure::Square => self.strain.contracted(&self.strain),
+            Measure::Dilatation => self.dilatation(),
+            Measure::Fibre(along) => A::symmetrised(along, along).contracted(&self.strain),
+        }
+    }
+
+    /// `J − 1`.
+    #[inline]
+    fn dilatation(&self) -> S {
+        let i3 = self.strain.growth();
+        let of_strain = i3 / (S::one() + (S::one() + i3).sqrt());
+        let of_tensor = A::determinant(&self.tensor) - S::one();
+        let square = self.strain.contracted(&self.strain);
+        let is_small = square.less(S::from_f64(LARGE_SQUARE));
+        S::select(is_small, of_strain, of_tensor)
+    }
+}
+
+/// Two strains, and the sum of their `J = 1 + j`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Between<A, S, const D: usize> {
+    /// `E⁰ + E¹`.
+    sum: A,
+    /// `E¹ − E⁰`.
+    difference: A,
+    /// `J⁰ + J¹`.
+    volumes: S,
+    new: A,
+    new_volume: S,
+    dimension: PhantomData<[(); D]>,
+}
+
+impl<A: Symmetric<S, D>, S: Real, const D: usize> Between<A, S, D> {
+    /// Two deformations.
+    #[inline]
+    pub(super) fn new(ends: [&Tensor<S, D>; 2]) -> Self {
+        let [old, new] = ends.map(|tensor| Deformed::<A, S, D>::new(*tensor));
+        let [old_volume, new_volume] = [&old, &new].map(|end| S::one() + end.dilatation());
+        let (old, new) = (old.strain, new.strain);
+        Self {
+            sum: plus(&old, S::one(), &new),
+            difference: plus(&new, -S::one(), &old),
+            volumes: old_volume + new_volume,
+            new,
+            new_volume,
+            dimension: PhantomData,
+        }
+    }
+
+    /// P with `P:ΔE = Δπ`.
+    #[inline]
+    pub(super) fn slope(&self, measure: &Measure<S, D>) -> A {
+        match measure {
+            Measure::Trace => A::unit(),
+            Measure::Square => self.sum,
+            Measure::Dilatation => {
+                let slope = A::slope_of_determinant(&self.sum, &self.difference);
+                scaled(S::from_f64(2.0) / self.volumes, &slope)
+            }
+            Measure::Fibre(along) => A::symmetrised(along, along),
+        }
+    }
+
+    /// The change of a slope P with the new strain.
+    #[inline]
+    pub(super) fn change_of_slope(&self, measure: &Measure<S, D>, slope: &A, change: &A) -> A {
+        match measure {
+            Measure::Trace | Measure::Fibre(_) => A::filled(S::zero()),
+            Measure::Square => *change,
+            Measure::Dilatation => {
+                let volume = self.new_slope_of_volume().contracted(change);
+                let (two, per_volume) = (S::from_f64(2.0), self.volumes.recip());
+                let mut total = A::change_of_slope(&self.sum, &self.difference, change);
+                for (entry, &slope) in total.as_mut().iter_mut().zip(slope.as_ref()) {
+                    *entry = per_volume * (two * *entry - slope * volume);
+                }
+                total
+            }
+        }
+    }
+
+    /// `∂J/∂E = cof C/J` at the new strain.
+    #[inline]
+    fn new_slope_of_volume(&self) -> A {
+        let twice = scaled(S::from_f64(2.0), &self.new);
+        scaled(self.new_volume.recip(), &twice.cofactor_of_one_plus())
+    }
+}

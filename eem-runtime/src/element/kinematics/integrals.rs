@@ -1,0 +1,84 @@
+//! What is integrated over the reference configuration of a cell, once.
+
+use crate::element::kinematics::shape::Shape;
+use crate::element::kinematics::shape::rule::gauss;
+use crate::element::kinematics::tensor::{Symmetric, Tensor};
+use crate::material::free_energy::Array;
+use crate::number::scalar::Real;
+
+/// `N_a` and `∂N_a/∂ξ` of all nodes.
+pub(crate) type Functions<S, const D: usize> = Vec<(S, [S; D])>;
+
+/// Those at a place of the parent cell.
+pub(crate) fn functions<H: Shape<D>, S: Real, const D: usize>(place: [S; D]) -> Functions<S, D> {
+    let nodes = 0..H::NODES.len();
+    nodes.map(|node| H::function(node, place)).collect()
+}
+
+/// The points and weights of a cell of this shape.
+pub(crate) fn rule<H: Shape<D>, const D: usize>() -> Vec<([f64; D], f64)> {
+    gauss(H::PER_AXIS)
+}
+
+/// `∂X/∂ξ`, m, of the arms of the reference configuration.
+pub(crate) fn jacobian<S: Real, const D: usize>(
+    reference: &[[S; D]],
+    functions: &[(S, [S; D])],
+) -> Tensor<S, D> {
+    let mut jacobian = [[S::zero(); D]; D];
+    for (node, (_, slope)) in reference.iter().zip(functions).skip(1) {
+        for (axis, row) in jacobian.iter_mut().enumerate() {
+            for (entry, &slope) in row.iter_mut().zip(slope) {
+                *entry += (node[axis] - reference[0][axis]) * slope;
+            }
+        }
+    }
+    jacobian
+}
+
+/// A mass per pair of nodes, kg.
+pub(crate) type Pairs<H, S, const D: usize> = <H as Shape<D>>::PerNode<<H as Shape<D>>::PerNode<S>>;
+
+/// The consistent mass `∫ ρ N_a N_b dV` of each pair of nodes, kg, exact for any cell whose edges are straight.
+/// The density is per area in the plane.
+pub(crate) fn masses<H: Shape<D>, S: Real, const D: usize>(
+    reference: &H::PerNode<[S; D]>,
+    density: S,
+) -> Pairs<H, S, D> {
+    let reference = reference.as_ref();
+    let mut masses = Pairs::<H, S, D>::filled(H::PerNode::filled(S::zero()));
+    for (place, weight) in gauss(H::PER_AXIS + 1) {
+        let functions = functions::<H, S, D>(place);
+        let volume = H::Tensor::<S>::determinant(&jacobian(reference, &functions));
+        let mass = density * weight * volume;
+        for (row, (by, _)) in masses.as_mut().iter_mut().zip(&functions) {
+            for (entry, (other, _)) in row.as_mut().iter_mut().zip(&functions) {
+                *entry += mass * *by * *other;
+            }
+        }
+    }
+    masses
+}
+
+/// Puts the mass on the diagonal: the sum of a row, which is exact for linear shape functions, or, as some
+/// of those are negative otherwise, shares of the whole mass like the diagonal (Hinton, Rock & Zienkiewicz
+/// 1976). The pairs stay, without mass.
+pub(crate) fn lump<H: Shape<D>, S: Real, const D: usize>(masses: &mut Pairs<H, S, D>) {
+    let rows = masses.as_ref().iter();
+    let sums: Vec<S> = rows
+        .map(|row| row.as_ref().iter().fold(S::zero(), |sum, &mass| sum + mass))
+        .collect();
+    let total = sums.iter().fold(S::zero(), |total, &sum| total + sum);
+    let diagonal = (0..sums.len()).map(|a| masses[a][a]);
+    let diagonal = diagonal.fold(S::zero(), |sum, mass| sum + mass);
+    let is_linear = H::NODES.iter().all(|node| !node.contains(&0));
+    for (a, row) in masses.as_mut().iter_mut().enumerate() {
+        let own = if is_linear {
+            sums[a]
+        } else {
+            row[a] * total / diagonal
+        };
+        *row = H::PerNode::filled(S::zero());
+        row[a] = own;
+    }
+}

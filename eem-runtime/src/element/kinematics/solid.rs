@@ -1,0 +1,221 @@
+//! The strain at a point of a cell of a solid.
+
+use core::array;
+
+use crate::element::kinematics::between::Between;
+use crate::element::kinematics::integrals::{functions, jacobian};
+use crate::element::kinematics::measures::{Ends, Points};
+use crate::element::kinematics::shape::Shape;
+use crate::element::kinematics::shape::rule::gauss;
+use crate::element::kinematics::strain::Measure;
+use crate::element::kinematics::tensor::{Symmetric, Tensor, add, dot, pushed};
+use crate::material::free_energy::Array;
+use crate::number::scalar::{Mask, Real};
+
+/// N measures of the strain at one of the points of a cell of shape `H`, in plane strain or in space.
+///
+/// ```text
+/// F = Σ r_i ⊗ B_i,   B_i = ∂N_i/∂X,   E = ½(FᵀF − 1)
+/// D*π = F_m P B_i,   P:ΔE = Δπ
+/// ```
+///
+/// with the arms `r_i` and shape functions `N_i`. A turn of the body stores nothing, and the torque of the
+/// forces is zero, as P is symmetric (Simó & Tarnow 1992; García Orden & Romero 2012).
+///
+/// ```
+/// use eem::kinematics::{Kinematics, Measure, Quad4, SolidPoint};
+///
+/// let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+/// let measures = [Measure::Trace, Measure::Dilatation];
+/// let points = SolidPoint::<Quad4, f64, 2, 2>::points(&square, 1.0, measures);
+/// let [first, ..] = points.unwrap();
+///
+/// // Twice as long: E₁₁ = (2² − 1)/2, J = 2.
+/// let arms = [[2.0, 0.0], [2.0, 1.0], [0.0, 1.0]];
+/// let [trace, dilatation] = first.measure(&arms);
+/// assert!((trace - 1.5_f64).abs() < 1e-15 && (dilatation - 1.0).abs() < 1e-15);
+/// assert!((first.volume() - 0.25_f64).abs() < 1e-15);
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct SolidPoint<H: Shape<D>, S: Real, const N: usize, const D: usize> {
+    pub(super) measures: [Measure<S, D>; N],
+    /// `B_i` of the arms, 1/m.
+    pub(super) gradients: H::PerArm<[S; D]>,
+    /// w, m³.
+    pub(super) volume: S,
+    /// The reciprocal of the largest `|B_i|`, m.
+    pub(super) length: S,
+}
+
+/// Vectors per arm.
+pub(super) type PerArm<H, S, const D: usize> = <H as Shape<D>>::PerArm<[S; D]>;
+
+/// A block per pair of arms.
+pub(super) type PerPair<H, S, const D: usize> =
+    <H as Shape<D>>::PerArm<<H as Shape<D>>::PerArm<[[S; D]; D]>>;
+
+impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D> {
+    /// The points of a cell with these nodes (m) in the order of its shape, whose thickness (m) is one in
+    /// space.
+    ///
+    /// # Errors
+    ///
+    /// The index of the first point at which it is inside out, with `det ∂X/∂ξ` there, m² or m³.
+    pub fn points(
+        reference: &H::PerNode<[S; D]>,
+        thickness: S,
+        measures: [Measure<S, D>; N],
+    ) -> Result<H::PerPoint<Self>, (usize, S)> {
+        let mut wrong = None;
+        let rule = gauss(H::PER_AXIS);
+        let points = H::PerPoint::from_fn(|at| {
+            let (place, weight) = rule[at];
+            let functions = functions::<H, S, D>(place);
+            let jacobian = jacobian(reference.as_ref(), &functions);
+            let size = H::Tensor::<S>::determinant(&jacobian);
+            if wrong.is_none() && (!S::zero().less(size).all() || !size.is_finite()) {
+                wrong = Some((at, size));
+            }
+            let mut point = Self {
+                measures,
+                gradients: H::PerArm::filled([S::zero(); D]),
+                volume: weight * size * thickness,
+                length: S::zero(),
+            };
+            let cofactor = H::Tensor::<S>::cofactor(&jacobian);
+            let slopes = functions[1..].iter();
+            for (gradient, (_, slope)) in point.gradients.as_mut().iter_mut().zip(slopes) {
+                *gradient = cofactor.map(|row| dot(&row, slope) / size);
+            }
+            point.length = point.steepest().recip();
+            point
+        });
+        match wrong {
+            Some(wrong) => Err(wrong),
+            None => Ok(points),
+        }
+    }
+
+    /// The largest `|B_i|` of all nodes, 1/m.
+    fn steepest(&self) -> S {
+        let size = |b: &[S; D]| (1..D).fold(b[0], |size, axis| size.hypot(b[axis]));
+        let mut first = [S::zero(); D];
+        let mut largest = S::zero();
+        for gradient in self.gradients.as_ref() {
+            largest = largest.maximum(size(gradient));
+            first = array::from_fn(|axis| first[axis] - gradient[axis]);
+        }
+        largest.maximum(size(&first))
+    }
+
+    /// The volume that the point stands for, m³.
+    #[must_use]
+    pub fn volume(&self) -> S {
+        self.volume
+    }
+
+    /// F.
+    #[inline]
+    pub(super) fn deformation(&self, r: &PerArm<H, S, D>) -> Tensor<S, D> {
+        let mut tensor = [[S::zero(); D]; D];
+        for (arm, gradient) in r.as_ref().iter().zip(self.gradients.as_ref()) {
+            for (row, &component) in tensor.iter_mut().zip(arm) {
+                for (entry, &slope) in row.iter_mut().zip(gradient) {
+                    *entry += component * slope;
+                }
+            }
+        }
+        tensor
+    }
+
+    /// `F A B_i` of all arms.
+    #[inline]
+    pub(super) fn pulled(&self, tensor: &Tensor<S, D>, by: &H::Tensor<S>) -> PerArm<H, S, D> {
+        let mut pulled = self.gradients;
+        for b in pulled.as_mut() {
+            *b = pushed(tensor, &by.applied(b));
+        }
+        pulled
+    }
+
+    /// `F P B_i` of each measure.
+    #[inline]
+    pub(super) fn along(
+        &self,
+        tensor: &Tensor<S, D>,
+        between: &Strains<H, S, D>,
+    ) -> [PerArm<H, S, D>; N] {
+        let slope = |measure| between.slope(measure);
+        self.measures
+            .each_ref()
+            .map(|measure| self.pulled(tensor, &slope(measure)))
+    }
+
+    /// `Σ_a f_a P_a`.
+    #[inline]
+    pub(super) fn stress(&self, between: &Strains<H, S, D>, force: &[S; N]) -> H::Tensor<S> {
+        let mut stress = H::Tensor::<S>::filled(S::zero());
+        for (measure, &force) in self.measures.iter().zip(force) {
+            add(&mut stress, force, &between.slope(measure));
+        }
+        stress
+    }
+
+    /// `Σ_a f_a (share (B_i·P_a B_j) 1 + F ∂P_a B_i)` with the change ∂P by a new deformation.
+    #[inline]
+    pub(super) fn turned(
+        &self,
+        [tensor, new]: [&Tensor<S, D>; 2],
+        between: &Strains<H, S, D>,
+        force: &[S; N],
+        share: S,
+    ) -> PerPair<H, S, D> {
+        let slopes = self
+            .measures
+            .each_ref()
+            .map(|measure| between.slope(measure));
+        let stress = self.stress(between, force);
+        let mut blocks = no_blocks::<H, S, D>();
+        for (j, by) in self.gradients.as_ref().iter().enumerate() {
+            for axis in 0..D {
+                let change = H::Tensor::<S>::symmetrised(&new[axis], by);
+                let mut turn = H::Tensor::<S>::filled(S::zero());
+                for ((measure, slope), &force) in self.measures.iter().zip(&slopes).zip(force) {
+                    let own = between.change_of_slope(measure, slope, &change);
+                    add(&mut turn, force, &own);
+                }
+                let pulled = self.pulled(tensor, &turn);
+                for (blocks, pull) in blocks.as_mut().iter_mut().zip(pulled.as_ref()) {
+                    for (row, &pull) in blocks[j].iter_mut().zip(pull) {
+                        row[axis] += pull;
+                    }
+                }
+            }
+            let pulled = stress.applied(by);
+            for (blocks, b) in blocks.as_mut().iter_mut().zip(self.gradients.as_ref()) {
+                let along = share * dot(b, &pulled);
+                for (axis, row) in blocks[j].iter_mut().enumerate() {
+                    row[axis] += along;
+                }
+            }
+        }
+        blocks
+    }
+
+    /// The deformations at the ends and in the middle, and the strains.
+    #[inline]
+    pub(super) fn between(&self, ends: &Ends<Self, S, D>) -> ([Tensor<S, D>; 2], Strains<H, S, D>) {
+        let [old, new] = [&ends.r0, &ends.r1].map(|r| self.deformation(r));
+        let half = S::from_f64(0.5);
+        let mean = array::from_fn(|i| array::from_fn(|j| half * (old[i][j] + new[i][j])));
+        ([mean, new], Between::new([&old, &new]))
+    }
+}
+
+/// Two strains of a cell.
+pub(super) type Strains<H, S, const D: usize> = Between<<H as Shape<D>>::Tensor<S>, S, D>;
+
+#[inline]
+fn no_blocks<H: Shape<D>, S: Real, const D: usize>() -> PerPair<H, S, D> {
+    H::PerArm::filled(H::PerArm::filled([[S::zero(); D]; D]))
+}

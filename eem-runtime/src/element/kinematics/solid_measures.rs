@@ -1,0 +1,162 @@
+//! The measures at a point of a solid, as the groups of elements ask for them.
+
+use crate::element::error::StateError;
+use crate::element::handle::Element;
+use crate::element::kinematics::between::{Between, Deformed};
+use crate::element::kinematics::measures::{Ends, Kinematics};
+use crate::element::kinematics::shape::Shape;
+use crate::element::kinematics::solid::{PerArm, PerPair, SolidPoint, Strains};
+use crate::element::kinematics::strain::Measure;
+use crate::element::kinematics::tensor::{Symmetric, dot};
+use crate::material::free_energy::{Array, Entry};
+use crate::number::scalar::{Mask, Real};
+
+impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
+    for SolidPoint<H, S, N, D>
+{
+    type PerNode<T: Entry> = H::PerNode<T>;
+    type PerArm<T: Entry> = H::PerArm<T>;
+    type PerMeasure<T: Entry> = [T; N];
+    type PerPoint<T: Send + Sync> = H::PerPoint<T>;
+
+    const IS_SPRING: bool = false;
+    const VISCOUS_UNIT: &'static str = "";
+    const VISCOSITY_UNIT: &'static str = "J s";
+
+    #[inline]
+    fn is_admissible(&self, r: &PerArm<H, S, D>, measures: &[S; N]) -> bool {
+        let volume = H::Tensor::<S>::determinant(&self.deformation(r));
+        S::zero().less(volume).all() && measures.iter().all(|measure| measure.is_finite())
+    }
+
+    #[cold]
+    fn refusal(&self, element: Element, r: &PerArm<H, S, D>) -> StateError {
+        StateError::InsideOut {
+            element,
+            value: H::Tensor::<S>::determinant(&self.deformation(r)).to_f64(),
+        }
+    }
+
+    #[inline]
+    fn unit(&self, _: &[S; N]) -> S {
+        S::one()
+    }
+
+    #[inline]
+    fn length(&self, _: &[S; N]) -> S {
+        self.length
+    }
+
+    // E has the rounding of ½(FᵀF − 1), and π that of P:E.
+    fn sizes(&self, r: &PerArm<H, S, D>, _: &[S; N]) -> [S; N] {
+        let tensor = self.deformation(r);
+        let between = Strains::<H, S, D>::new([&tensor, &tensor]);
+        let squares = tensor.iter().flatten();
+        let square = squares.fold(S::one(), |sum, &entry| sum + entry * entry);
+        let size = S::from_f64(0.5) * square;
+        self.measures.each_ref().map(|measure| {
+            let mut slope = between.slope(measure);
+            slope
+                .as_mut()
+                .iter_mut()
+                .for_each(|entry| *entry = entry.abs());
+            slope.contracted(&H::Tensor::filled(size))
+        })
+    }
+
+    fn slopes(&self, r: &PerArm<H, S, D>, measures: &[S; N]) -> [S; N] {
+        let gradient = self.gradient(r, measures);
+        gradient.map(|arms| {
+            let entries = arms.as_ref().iter().flatten();
+            entries.fold(S::zero(), |sum, entry| sum + entry.abs())
+        })
+    }
+
+    fn numbers(&self, see: &mut dyn FnMut(S)) {
+        see(self.volume);
+        let entries = self.gradients.as_ref().iter().flatten();
+        entries.for_each(|&entry| see(entry));
+        for measure in &self.measures {
+            if let Measure::Fibre(along) = measure {
+                for &entry in along {
+                    see(entry);
+                }
+            }
+        }
+    }
+
+    #[inline]
+    fn measure(&self, r: &PerArm<H, S, D>) -> [S; N] {
+        let deformed = Deformed::<H::Tensor<S>, S, D>::new(self.deformation(r));
+        self.measures.each_ref().map(|of| deformed.measure(of))
+    }
+
+    #[inline]
+    fn gradient(&self, r: &PerArm<H, S, D>, _: &[S; N]) -> [PerArm<H, S, D>; N] {
+        let tensor = self.deformation(r);
+        self.along(&tensor, &Between::new([&tensor, &tensor]))
+    }
+
+    // The change of P with both ends is twice that with the new one.
+    fn curvature(&self, r: &PerArm<H, S, D>, _: &[S; N], force: &[S; N]) -> PerPair<H, S, D> {
+        let two = S::from_f64(2.0);
+        let tensor = self.deformation(r);
+        let between = Strains::<H, S, D>::new([&tensor, &tensor]);
+        let doubled = tensor.map(|row| row.map(|entry| two * entry));
+        self.turned([&doubled, &tensor], &between, force, S::one())
+    }
+
+    #[inline]
+    fn discrete_gradient(&self, ends: &Ends<Self, S, D>) -> [PerArm<H, S, D>; N] {
+        let ([mean, _], between) = self.between(ends);
+        self.along(&mean, &between)
+    }
+
+    #[inline]
+    fn pull(
+        &self,
+        ends: &Ends<Self, S, D>,
+        _: &[PerArm<H, S, D>; N],
+        force: &[S; N],
+    ) -> PerArm<H, S, D> {
+        let ([mean, _], between) = self.between(ends);
+        let stress = self.stress(&between, force);
+        self.pulled(&mean, &stress)
+    }
+
+    fn discrete_tangent(
+        &self,
+        ends: &Ends<Self, S, D>,
+        force: &[S; N],
+        force_by_arm: &[PerArm<H, S, D>; N],
+    ) -> PerPair<H, S, D> {
+        let ([mean, new], between) = self.between(ends);
+        let mut blocks = self.turned([&mean, &new], &between, force, S::from_f64(0.5));
+        for (direction, by_arm) in self.along(&mean, &between).iter().zip(force_by_arm) {
+            for (blocks, along) in blocks.as_mut().iter_mut().zip(direction.as_ref()) {
+                for (block, by) in blocks.as_mut().iter_mut().zip(by_arm.as_ref()) {
+                    for (row, &along) in block.iter_mut().zip(along) {
+                        for (entry, &by) in row.iter_mut().zip(by) {
+                            *entry += along * by;
+                        }
+                    }
+                }
+            }
+        }
+        blocks
+    }
+
+    // Σ f F_m P B_i = Σ_j (B_i·S* B_j) r_m,j
+    fn secant(&self, ends: &Ends<Self, S, D>, force: &[S; N]) -> H::PerArm<H::PerArm<S>> {
+        let (_, between) = self.between(ends);
+        let stress = self.stress(&between, force);
+        let mut weights = H::PerArm::filled(H::PerArm::filled(S::zero()));
+        for (row, b) in weights.as_mut().iter_mut().zip(self.gradients.as_ref()) {
+            let pulled = stress.applied(b);
+            for (weight, by) in row.as_mut().iter_mut().zip(self.gradients.as_ref()) {
+                *weight = dot(by, &pulled);
+            }
+        }
+        weights
+    }
+}

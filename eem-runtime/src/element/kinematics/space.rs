@@ -1,0 +1,159 @@
+//! Symmetric tensors of space: xx, yy, zz, xy, xz, yz.
+//!
+//! ```text
+//! D = cof(C_m) + cof(ΔC)/12,   D:ΔC = det C¹ − det C⁰,   ∂D = ⅓(C⁰ + 2C¹) ⨯ ∂E¹
+//! ```
+//!
+//! with `A ⨯ B` the part of `cof(A + B)` that is linear in both (Bonet, Gil & Ortigosa 2015).
+
+use core::array;
+
+use crate::element::kinematics::tensor::{Symmetric, add, dot, plus};
+use crate::number::scalar::Real;
+
+/// `cof A`.
+#[inline]
+fn cofactor<S: Real>([xx, yy, zz, xy, xz, yz]: [S; 6]) -> [S; 6] {
+    [
+        yy * zz - yz * yz,
+        xx * zz - xz * xz,
+        xx * yy - xy * xy,
+        xz * yz - xy * zz,
+        xy * yz - xz * yy,
+        xy * xz - yz * xx,
+    ]
+}
+
+/// `A ⨯ B`.
+#[inline]
+fn crossed<S: Real>(a: &[S; 6], b: &[S; 6]) -> [S; 6] {
+    // (A ⨯ B)_ij = A_k B_l + B_k A_l − A_m B_n − B_m A_n
+    let of = |[k, l]: [usize; 2], [m, n]: [usize; 2]| {
+        (a[k] * b[l] + b[k] * a[l]) - (a[m] * b[n] + b[m] * a[n])
+    };
+    [
+        of([1, 2], [5, 5]),
+        of([0, 2], [4, 4]),
+        of([0, 1], [3, 3]),
+        of([4, 5], [3, 2]),
+        of([3, 5], [4, 1]),
+        of([3, 4], [5, 0]),
+    ]
+}
+
+/// `1 ⨯ A = tr A 1 − A`.
+#[inline]
+fn crossed_with_unit<S: Real>(&[xx, yy, zz, xy, xz, yz]: &[S; 6]) -> [S; 6] {
+    [yy + zz, xx + zz, xx + yy, -xy, -xz, -yz]
+}
+
+impl<S: Real> Symmetric<S, 3> for [S; 6] {
+    #[inline]
+    fn unit() -> Self {
+        let (one, zero) = (S::one(), S::zero());
+        [one, one, one, zero, zero, zero]
+    }
+
+    #[inline]
+    fn green_lagrange(tensor: &[[S; 3]; 3]) -> Self {
+        let half = S::from_f64(0.5);
+        let columns: [[S; 3]; 3] = array::from_fn(|column| tensor.map(|row| row[column]));
+        let product = |i: usize, j: usize| dot(&columns[i], &columns[j]);
+        let stretched = |i: usize| half * (product(i, i) - S::one());
+        [
+            stretched(0),
+            stretched(1),
+            stretched(2),
+            half * product(0, 1),
+            half * product(0, 2),
+            half * product(1, 2),
+        ]
+    }
+
+    #[inline]
+    fn trace(&self) -> S {
+        self[0] + self[1] + self[2]
+    }
+
+    #[inline]
+    fn contracted(&self, other: &Self) -> S {
+        let of = |k: usize| self[k] * other[k];
+        (of(0) + of(1) + of(2)) + S::from_f64(2.0) * (of(3) + of(4) + of(5))
+    }
+
+    #[inline]
+    fn applied(&self, v: &[S; 3]) -> [S; 3] {
+        let [xx, yy, zz, xy, xz, yz] = *self;
+        [
+            dot(&[xx, xy, xz], v),
+            dot(&[xy, yy, yz], v),
+            dot(&[xz, yz, zz], v),
+        ]
+    }
+
+    #[inline]
+    fn symmetrised(u: &[S; 3], v: &[S; 3]) -> Self {
+        let shear = |i: usize, j: usize| S::from_f64(0.5) * (u[i] * v[j] + u[j] * v[i]);
+        [
+            u[0] * v[0],
+            u[1] * v[1],
+            u[2] * v[2],
+            shear(0, 1),
+            shear(0, 2),
+            shear(1, 2),
+        ]
+    }
+
+    // det C − 1 = 2 tr E + 4 tr cof E + 8 det E
+    #[inline]
+    fn growth(&self) -> S {
+        let number = S::from_f64;
+        let minors = cofactor(*self);
+        let determinant = self[0] * minors[0] + (self[3] * minors[3] + self[4] * minors[4]);
+        let squares = number(4.0) * minors.trace();
+        number(2.0) * self.trace() + (squares + number(8.0) * determinant)
+    }
+
+    // cof(1 + A) = 1 + 1 ⨯ A + cof A
+    #[inline]
+    fn cofactor_of_one_plus(&self) -> Self {
+        let linear = crossed_with_unit(self);
+        let mut sum = plus(&cofactor(*self), S::one(), &linear);
+        add(&mut sum, S::one(), &Self::unit());
+        sum
+    }
+
+    // ΔC = 2ΔE, so that cof(ΔC)/12 = cof(ΔE)/3.
+    #[inline]
+    fn slope_of_determinant(sum: &Self, difference: &Self) -> Self {
+        let third = S::one() / S::from_f64(3.0);
+        plus(&sum.cofactor_of_one_plus(), third, &cofactor(*difference))
+    }
+
+    // ⅓(C⁰ + 2C¹) = 1 + (E⁰ + E¹) + ⅓(E¹ − E⁰)
+    #[inline]
+    fn change_of_slope(sum: &Self, difference: &Self, change: &Self) -> Self {
+        let third = S::one() / S::from_f64(3.0);
+        let strain = plus(sum, third, difference);
+        plus(
+            &crossed_with_unit(change),
+            S::one(),
+            &crossed(&strain, change),
+        )
+    }
+
+    #[inline]
+    fn determinant(tensor: &[[S; 3]; 3]) -> S {
+        dot(&tensor[0], &Self::cofactor(tensor)[0])
+    }
+
+    #[inline]
+    fn cofactor(tensor: &[[S; 3]; 3]) -> [[S; 3]; 3] {
+        let of = |i: usize, j: usize| {
+            let [k, l] = [(i + 1) % 3, (i + 2) % 3];
+            let [m, n] = [(j + 1) % 3, (j + 2) % 3];
+            tensor[k][m] * tensor[l][n] - tensor[k][n] * tensor[l][m]
+        };
+        array::from_fn(|i| array::from_fn(|j| of(i, j)))
+    }
+}

@@ -1,0 +1,147 @@
+//! What acts on solids: tractions, body forces, heat through their surface.
+
+use std::sync::Arc;
+
+use super::Scene;
+use crate::element::handle::{Node, Reservoir};
+use crate::element::kinematics::Shape;
+use crate::number::scalar::Real;
+use crate::scene::body::Body;
+use crate::scene::mesh::Face;
+use crate::scene::solid_error::SolidError;
+
+/// A force per area or volume as a function of time.
+type Density<S, const D: usize> = Arc<dyn Fn(S) -> [S; D] + Send + Sync>;
+
+/// # Loads of solids
+impl<const D: usize, S: Real> Scene<D, S> {
+    /// A traction on some faces of a solid, N/m² of the reference configuration, as a function of time. It
+    /// keeps its direction; its work is booked. On fixed nodes it does nothing.
+    ///
+    /// ```
+    /// use eem::kinematics::Hex8;
+    /// use eem::prelude::*;
+    /// # #[derive(Clone, FreeEnergy)]
+    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * lame * e1.powi(2) + shear * e2)]
+    /// # struct Elastic { lame: f64, shear: f64 }
+    ///
+    /// let mut scene = Scene::<3>::new();
+    /// let steel = Elastic { lame: 2000.0, shear: 1000.0 };
+    /// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
+    /// let beam = scene.solid(steel, &mesh, &Bulk::new(10.0));
+    /// let end = mesh.face(|[x, ..]| x >= 2.0)?;
+    /// scene.traction(&beam, &end, |t| [0.0, 0.0, 5.0 * t]);
+    ///
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// run.step()?;
+    /// // 0.25 N in the middle of the step, on 1 m², for 0.1 s.
+    /// assert!((run.ledger().linear_momentum[2] - 0.025).abs() < 1e-16);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn traction<H: Shape<D>>(
+        &mut self,
+        body: &Body<H, D>,
+        face: &Face,
+        traction: impl Fn(S) -> [S; D] + Send + Sync + 'static,
+    ) {
+        let thickness = body.thickness();
+        let shares = body.mesh().areas(face).into_iter();
+        let shares = shares.map(|(node, area)| (body.nodes()[node], thickness * area));
+        self.distribute(shares.collect(), &(Arc::new(traction) as _));
+    }
+
+    /// A force per volume of the reference configuration, N/m³, as a function of time. Its work is booked. On
+    /// fixed nodes it does nothing. Weights are [`set_gravity`](Self::set_gravity).
+    ///
+    /// ```
+    /// use eem::kinematics::Quad8;
+    /// use eem::prelude::*;
+    /// # #[derive(Clone, FreeEnergy)]
+    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * lame * e1.powi(2) + shear * e2)]
+    /// # struct Elastic { lame: f64, shear: f64 }
+    ///
+    /// let mut scene = Scene::<2>::new();
+    /// let steel = Elastic { lame: 2000.0, shear: 1000.0 };
+    /// let mesh = Mesh::<Quad8, 2>::block([1, 1], [[0.0, 2.0], [0.0, 1.0]])?;
+    /// let plate = scene.solid(steel, &mesh, &Bulk::new(10.0).thickness(0.5));
+    /// scene.body_force(&plate, |_| [3.0, 0.0]);
+    ///
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// run.step()?;
+    /// // 3 N on 1 m³, which has 10 kg.
+    /// assert!((run.velocity(plate.nodes()[0])?[0] - 0.03).abs() < 1e-15);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn body_force<H: Shape<D>>(
+        &mut self,
+        body: &Body<H, D>,
+        force: impl Fn(S) -> [S; D] + Send + Sync + 'static,
+    ) {
+        let thickness = body.thickness();
+        let shares = body.nodes().iter().zip(body.mesh().volumes());
+        let shares = shares.map(|(&node, volume)| (node, thickness * volume));
+        self.distribute(shares.collect(), &(Arc::new(force) as _));
+    }
+
+    fn distribute(&mut self, shares: Vec<(Node, f64)>, density: &Density<S, D>) {
+        for (node, share) in shares {
+            let own = self.expect_own(&node);
+            if own && self.nodes[node.index].mass.is_some() {
+                let (density, share) = (Arc::clone(density), S::from_f64(share));
+                self.force(node, move |time| density(time).map(|force| share * force));
+            }
+        }
+    }
+
+    /// Heat between some faces of a solid and a reservoir through a film with the coefficient α,
+    /// W/(m² K), and the halves of the cells behind it.
+    ///
+    /// ```text
+    /// 1/κ = 1/(α |A|) + 1/t,   t = k |A·d|/d²     per point, d from its centre to the surface
+    /// ```
+    ///
+    /// The solid has to have a conductivity, [`Bulk::conductivity`](crate::Bulk::conductivity).
+    pub fn exchange<H: Shape<D>>(
+        &mut self,
+        body: &Body<H, D>,
+        face: &Face,
+        reservoir: Reservoir,
+        film: S,
+    ) {
+        self.connect(body, face, reservoir, |area, reach| {
+            (film * area * reach) / (film * area + reach)
+        });
+    }
+
+    /// Heat between some faces of a solid and a wall that has the temperature of a reservoir.
+    ///
+    /// ```text
+    /// κ = t = k |A·d|/d²     per point, d from its centre to the surface
+    /// ```
+    ///
+    /// The solid has to have a conductivity, [`Bulk::conductivity`](crate::Bulk::conductivity).
+    pub fn wall<H: Shape<D>>(&mut self, body: &Body<H, D>, face: &Face, reservoir: Reservoir) {
+        self.connect(body, face, reservoir, |_, reach| reach);
+    }
+
+    fn connect<H: Shape<D>>(
+        &mut self,
+        body: &Body<H, D>,
+        face: &Face,
+        reservoir: Reservoir,
+        conductance: impl Fn(S, S) -> S,
+    ) {
+        let element = body.points()[0];
+        let Some(conductivity) = body.conductivity() else {
+            self.misuse
+                .push(SolidError::NoConductivity { element }.into());
+            return;
+        };
+        for face in body.mesh().outside(face) {
+            let [area, reach] = [face.area, face.reach].map(|size| body.thickness() * size);
+            let reach = S::from_f64(conductivity * reach);
+            let conductance = conductance(S::from_f64(area), reach);
+            self.conduct(body.points()[face.point], reservoir, conductance);
+        }
+    }
+}

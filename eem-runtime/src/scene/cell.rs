@@ -1,0 +1,175 @@
+//! Cells of solids of any shape: their points, and the mass that they give to their nodes.
+
+use super::Scene;
+use crate::element::group::LooseElements;
+use crate::element::handle::{Element, Node};
+use crate::element::kinematics::{
+    Measure, Points, Shape, SolidPoint, Strain, StrainEnergy, integrals,
+};
+use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::point_energy::PointEnergy;
+use crate::number::scalar::{Mask, Real, is_positive};
+use crate::scene::check::check_position;
+use crate::scene::entry::UNMADE;
+use crate::scene::error::SceneError;
+use crate::scene::solid_error::SolidError;
+
+/// What a cell is besides its material and its nodes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stuff<'a, S, const D: usize> {
+    /// kg/m³.
+    pub(super) density: S,
+    /// m in the plane, one in space.
+    pub(super) thickness: S,
+    /// The directions of the fibres.
+    pub(super) fibres: &'a [[S; D]],
+    /// Whether each node has a mass of its own.
+    pub(super) lumped: bool,
+}
+
+impl<S: Real, const D: usize> Scene<D, S> {
+    /// Adds a cell, whose nodes are where they are now; its points. What is wrong with it becomes misuse.
+    pub(super) fn push_cell<H, M, const N: usize>(
+        &mut self,
+        model: &M,
+        nodes: &H::PerNode<Node>,
+        stuff: Stuff<'_, S, D>,
+    ) -> H::PerPoint<Element>
+    where
+        H: Shape<D>,
+        M: FreeEnergy<S> + StrainEnergy<N> + Send + Sync + 'static,
+    {
+        let first = self.next_element::<M>();
+        let points = H::PerPoint::from_fn(|point| first.after(point));
+        let place = match self.expect_cell::<H, N>(nodes, (M::STRAINS, stuff), points.as_ref()) {
+            Ok(cell) => {
+                let new = LooseElements::<S, PointEnergy<S, M>, SolidPoint<H, S, N, D>, D>::new;
+                let (group, set) = self.set_of(new);
+                let place = set.points();
+                let mut cell = cell.into_iter();
+                let parts = H::PerPoint::from_fn(|_| {
+                    let point = cell.next();
+                    let point = point.unwrap_or_else(|| unreachable!("as many as points"));
+                    (PointEnergy::new(model.duplicate(), point.volume()), point)
+                });
+                set.elements.push((first, parts));
+                [group, place]
+            }
+            // Handles have to mean something until the scene is checked.
+            Err(misuse) => {
+                self.misuse.extend(misuse);
+                [UNMADE, 0]
+            }
+        };
+        for point in 0..points.as_ref().len() {
+            self.push_element(nodes.as_ref(), [place[0], place[1] + point]);
+        }
+        points
+    }
+
+    /// The points of a cell, whose mass goes to its nodes.
+    fn expect_cell<H: Shape<D>, const N: usize>(
+        &mut self,
+        nodes: &H::PerNode<Node>,
+        (strains, stuff): ([Strain; N], Stuff<'_, S, D>),
+        points: &[Element],
+    ) -> Result<H::PerPoint<SolidPoint<H, S, N, D>>, Option<SceneError>> {
+        for node in nodes.as_ref() {
+            if !self.expect_own(node) {
+                return Err(None);
+            }
+            check_position(*node, &self.nodes[node.index])?;
+        }
+        stuff.check(points[0]).map_err(SceneError::from)?;
+        let measures = stuff.measures(strains, points[0]);
+        let measures = measures.map_err(SceneError::from)?;
+        let mut reference = H::PerNode::filled([S::zero(); D]);
+        for (position, node) in reference.as_mut().iter_mut().zip(nodes.as_ref()) {
+            *position = self.nodes[node.index].position.into();
+        }
+        let cell = SolidPoint::<H, S, N, D>::points(&reference, stuff.thickness, measures);
+        let cell = cell.map_err(|(point, size)| {
+            SceneError::Solid(SolidError::InsideOut {
+                element: points[point],
+                value: size.to_f64(),
+                unit: if D == 2 { "m^2" } else { "m^3" },
+                order: if H::NODES.len() == 4 {
+                    "corners against the clock"
+                } else {
+                    "nodes in the order of VTK"
+                },
+            })
+        })?;
+        self.add_masses::<H>(nodes.as_ref(), &reference, stuff);
+        Ok(cell)
+    }
+
+    /// Adds the mass of a cell.
+    fn add_masses<H: Shape<D>>(
+        &mut self,
+        nodes: &[Node],
+        reference: &H::PerNode<[S; D]>,
+        stuff: Stuff<'_, S, D>,
+    ) {
+        let mut masses = integrals::masses::<H, S, D>(reference, stuff.density * stuff.thickness);
+        if stuff.lumped {
+            integrals::lump::<H, S, D>(&mut masses);
+        }
+        for (a, row) in masses.as_ref().iter().enumerate() {
+            if let Some(mass) = &mut self.nodes[nodes[a].index].mass {
+                // That of the node itself, if it is not zero, as that of the solids is positive.
+                if mass.less(S::zero()).any() {
+                    let (node, value) = (nodes[a], mass.to_f64());
+                    self.misuse.push(SceneError::Mass { node, value });
+                }
+                *mass += row[a];
+            }
+            for (b, &mass) in row.as_ref().iter().enumerate().take(a) {
+                let [i, j] = [nodes[a].index, nodes[b].index];
+                self.pairs.push(([i.min(j), i.max(j)], mass));
+            }
+        }
+    }
+}
+
+impl<S: Real, const D: usize> Stuff<'_, S, D> {
+    /// An error unless density and thickness are positive.
+    fn check(&self, element: Element) -> Result<(), SolidError> {
+        let numbers = [
+            ("density", self.density, "kg/m^3"),
+            ("thickness", self.thickness, "m"),
+        ];
+        for (quantity, value, unit) in numbers {
+            if !is_positive(value) {
+                return Err(SolidError::Section {
+                    element,
+                    quantity,
+                    value: value.to_f64(),
+                    unit,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// The measures of a material along the fibres.
+    fn measures<const N: usize>(
+        &self,
+        strains: [Strain; N],
+        element: Element,
+    ) -> Result<[Measure<S, D>; N], SolidError> {
+        let needed = strains
+            .iter()
+            .filter(|&&strain| strain == Strain::Fibre)
+            .count();
+        let given = self.fibres.len();
+        if needed != given {
+            return Err(SolidError::Fibres {
+                element,
+                needed,
+                given,
+            });
+        }
+        Measure::along(strains, self.fibres).ok_or(SolidError::Fibre { element })
+    }
+}

@@ -1,0 +1,61 @@
+//! The surface of a mesh.
+
+use std::collections::BTreeMap;
+
+use super::Mesh;
+use super::error::MeshError;
+use super::face::Face;
+use crate::element::kinematics::Shape;
+
+impl<H: Shape<D>, const D: usize> Mesh<H, D> {
+    /// The faces of the surface whose nodes all satisfy a condition.
+    ///
+    /// ```
+    /// use eem::kinematics::Hex8;
+    /// use eem::{Mesh, MeshError};
+    ///
+    /// let cube = Mesh::<Hex8, 3>::block([2, 2, 2], [[0.0, 1.0]; 3])?;
+    /// assert_eq!(cube.face(|[x, ..]| x == 1.0)?.nodes().len(), 9);
+    /// // Inside there is no surface.
+    /// assert_eq!(cube.face(|[x, ..]| x == 0.5), Err(MeshError::NoFace));
+    /// # Ok::<(), MeshError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`MeshError::NoFace`] if there are none.
+    pub fn face(&self, condition: impl Fn([f64; D]) -> bool) -> Result<Face, MeshError> {
+        let holds: Vec<bool> = self.nodes.iter().map(|&place| condition(place)).collect();
+        let mut sides = self.surface();
+        sides.retain(|&side| self.nodes_of(side).all(|node| holds[node]));
+        if sides.is_empty() {
+            return Err(MeshError::NoFace);
+        }
+        let mut nodes: Vec<_> = sides.iter().flat_map(|&side| self.nodes_of(side)).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        Ok(Face { sides, nodes })
+    }
+
+    /// The nodes of a face of a cell.
+    pub(crate) fn nodes_of(&self, [cell, face]: [usize; 2]) -> impl Iterator<Item = usize> + '_ {
+        let nodes = self.cells[cell].as_ref();
+        H::FACES[face].iter().map(|&node| nodes[node])
+    }
+
+    /// The faces that belong to one cell.
+    fn surface(&self) -> Vec<[usize; 2]> {
+        let cells = 0..self.cells.len();
+        let sides = cells.flat_map(|cell| (0..H::FACES.len()).map(move |face| [cell, face]));
+        let mut seen: BTreeMap<Vec<usize>, Vec<[usize; 2]>> = BTreeMap::new();
+        for side in sides {
+            let mut nodes: Vec<_> = self.nodes_of(side).collect();
+            nodes.sort_unstable();
+            seen.entry(nodes).or_default().push(side);
+        }
+        let single = seen.into_values().filter(|sides| sides.len() == 1);
+        let mut sides: Vec<_> = single.flatten().collect();
+        sides.sort_unstable();
+        sides
+    }
+}

@@ -1,0 +1,90 @@
+//! What can be wrong with a mesh.
+
+use thiserror::Error;
+
+use crate::number::readable::Readable;
+
+/// Why there is no such mesh, or no such part of it.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum MeshError {
+    /// There are no cells.
+    #[error("the mesh has no cells")]
+    Empty,
+    /// The cuts of a grid do not ascend.
+    #[error("cut {cut} along axis {axis} is {value} m, it must be finite and above the one before", value = Readable(*value))]
+    Cut {
+        /// The axis, from 0.
+        axis: usize,
+        /// The cut, from 0.
+        cut: usize,
+        /// m.
+        value: f64,
+    },
+    /// A cell names a node that does not exist.
+    #[error("cell {cell} has node {node}, but there are {nodes} nodes, counted from 0")]
+    NoSuchNode {
+        /// The cell, from 0.
+        cell: usize,
+        /// The node, from 0.
+        node: usize,
+        /// How many there are.
+        nodes: usize,
+    },
+    /// A cell names a node twice.
+    #[error("cell {cell} has node {node} twice")]
+    Repeated {
+        /// The cell, from 0.
+        cell: usize,
+        /// The node, from 0.
+        node: usize,
+    },
+    /// A node belongs to no cell.
+    #[error("node {node} belongs to no cell")]
+    Orphan {
+        /// The node, from 0.
+        node: usize,
+    },
+    /// Two nodes are in the same place.
+    #[error("nodes {first} and {second} are in the same place", first = nodes[0], second = nodes[1])]
+    Duplicate {
+        /// The nodes, from 0.
+        nodes: [usize; 2],
+    },
+    /// A coordinate is not finite.
+    #[error("coordinate {axis} of node {node} is {value} m, it must be finite", value = Readable(*value))]
+    Place {
+        /// The node, from 0.
+        node: usize,
+        /// The axis, from 0.
+        axis: usize,
+        /// m.
+        value: f64,
+    },
+    /// A cell is inside out at one of its points.
+    #[error(
+        "cell {cell} is inside out: det dX/dxi is {value} {unit} at its point {point}, it must be positive and finite; its nodes come in the order of VTK",
+        value = Readable(*value)
+    )]
+    InsideOut {
+        /// The cell, from 0.
+        cell: usize,
+        /// The point, from 0.
+        point: usize,
+        /// `det ∂X/∂ξ`.
+        value: f64,
+        /// Its unit, m² or m³.
+        unit: &'static str,
+    },
+    /// No node is in a place.
+    #[error("no node is at {place:?} m: the nearest is at {nearest:?} m")]
+    NoNodeAt {
+        /// The place, m.
+        place: Vec<f64>,
+        /// That of the nearest node, m.
+        nearest: Vec<f64>,
+    },
+    /// No face of the surface satisfies a condition.
+    #[error("no face of the surface has all its nodes where the condition holds")]
+    NoFace,
+}

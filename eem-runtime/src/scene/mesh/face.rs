@@ -1,0 +1,18 @@
+//! A part of the surface of a mesh.
+
+/// Some faces of the surface of a mesh, from [`Mesh::face`](crate::Mesh::face).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Face {
+    /// Cells with the number of their face.
+    pub(crate) sides: Vec<[usize; 2]>,
+    /// Their nodes, each once, in ascending order.
+    pub(super) nodes: Vec<usize>,
+}
+
+impl Face {
+    /// The nodes of the mesh that belong to it, in ascending order.
+    #[must_use]
+    pub fn nodes(&self) -> &[usize] {
+        &self.nodes
+    }
+}

@@ -1,0 +1,193 @@
+//! The network of conductances between the points of a mesh, per conductivity.
+//!
+//! The parent cell is cut where Gauss weights add up, so that each point has its own sub-cell. From its centre
+//! c to the centre of a face with the area vector A, and through a face,
+//!
+//! ```text
+//! t = k |A·d|/d²,   d = c_face − c,   κ = t_a t_b/(t_a + t_b)
+//! ```
+
+use std::collections::BTreeMap;
+
+use super::Mesh;
+use super::face::Face;
+use super::geometry::{area_vector, distance, mean};
+use crate::element::kinematics::Shape;
+
+/// A face of a sub-cell: of which point of the mesh it is, and how it lies.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SubFace<const D: usize> {
+    /// Cell by cell.
+    pub(crate) point: usize,
+    /// `|A|`; m², m in the plane.
+    pub(crate) area: f64,
+    /// `t/k`; m, one in the plane.
+    pub(crate) reach: f64,
+    /// m.
+    centre: [f64; D],
+    /// `|A·d|/(|A| |d|)`
+    alignment: f64,
+}
+
+/// Where the parent cell is cut along each axis, from −1 by Gauss weights.
+fn cuts(per_axis: usize) -> &'static [f64] {
+    match per_axis {
+        2 => &[-1.0, 0.0, 1.0],
+        _ => &[-1.0, -4.0 / 9.0, 4.0 / 9.0, 1.0],
+    }
+}
+
+impl<H: Shape<D>, const D: usize> Mesh<H, D> {
+    /// Points per cell.
+    fn per_cell() -> usize {
+        (0..D).fold(1, |points, _| points * H::PER_AXIS)
+    }
+
+    /// Pairs of points with `κ/k`, within and between cells; m, one in the plane.
+    pub(crate) fn network(&self) -> Vec<([usize; 2], f64)> {
+        let pairs = self.pairs_of_faces();
+        let link = |[a, b]: [SubFace<D>; 2]| {
+            let reach = a.reach * b.reach / (a.reach + b.reach);
+            ([a.point, b.point], reach)
+        };
+        pairs.into_iter().map(link).collect()
+    }
+
+    /// How many of the faces that heat passes between points are skew, `|A·d| < 0.95 |A| |d|`, and how many
+    /// there are.
+    ///
+    /// Conduction is that of Fourier's law where the lines between points are normal to the faces; where many
+    /// are skew, it has other directions, however fine the mesh.
+    ///
+    /// ```
+    /// use eem::kinematics::Quad4;
+    /// use eem::Mesh;
+    ///
+    /// let square = Mesh::<Quad4, 2>::block([2, 2], [[0.0, 1.0]; 2])?;
+    /// assert_eq!(square.skew_faces(), (0, 24));
+    /// let sheared = square.mapped(|[x, y]| [x + 0.5 * y, y])?;
+    /// assert_eq!(sheared.skew_faces(), (24, 24));
+    /// # Ok::<(), eem::MeshError>(())
+    /// ```
+    #[must_use]
+    pub fn skew_faces(&self) -> (usize, usize) {
+        let pairs = self.pairs_of_faces();
+        let skew = |pair: &&[SubFace<D>; 2]| pair.iter().any(|face| face.alignment < 0.95);
+        (pairs.iter().filter(skew).count(), pairs.len())
+    }
+
+    /// The sub-faces on the surface.
+    pub(crate) fn outside(&self, face: &Face) -> Vec<SubFace<D>> {
+        let sides = face.sides.iter();
+        sides.flat_map(|&side| self.sub_faces_of(side)).collect()
+    }
+
+    /// Both sides of each face between two points.
+    fn pairs_of_faces(&self) -> Vec<[SubFace<D>; 2]> {
+        let mut pairs = Vec::new();
+        let mut sides: BTreeMap<Vec<usize>, Vec<[usize; 2]>> = BTreeMap::new();
+        for cell in 0..self.cells.len() {
+            for index in sub_cells::<D>(H::PER_AXIS) {
+                for axis in (0..D).filter(|&axis| index[axis] + 1 < H::PER_AXIS) {
+                    let mut next = index;
+                    next[axis] += 1;
+                    let faces = [(index, 1), (next, 0)];
+                    pairs.push(faces.map(|(index, side)| self.sub_face(cell, index, axis, side)));
+                }
+            }
+            for face in 0..H::FACES.len() {
+                let mut nodes: Vec<_> = self.nodes_of([cell, face]).collect();
+                nodes.sort_unstable();
+                sides.entry(nodes).or_default().push([cell, face]);
+            }
+        }
+        for shared in sides.values() {
+            if let [first, second] = shared[..] {
+                let others = self.sub_faces_of(second);
+                for face in self.sub_faces_of(first) {
+                    let far = |other: &SubFace<D>| distance(other.centre, face.centre);
+                    let nearest = others.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
+                    pairs.extend(nearest.map(|other| [face, *other]));
+                }
+            }
+        }
+        pairs
+    }
+
+    /// The sub-faces on a face of a cell. Faces come in pairs per axis.
+    fn sub_faces_of(&self, [cell, face]: [usize; 2]) -> Vec<SubFace<D>> {
+        let (axis, side) = (face / 2, face % 2);
+        let end = side * (H::PER_AXIS - 1);
+        let all = sub_cells::<D>(H::PER_AXIS).into_iter();
+        let outer = all.filter(|index| index[axis] == end);
+        outer
+            .map(|index| self.sub_face(cell, index, axis, side))
+            .collect()
+    }
+
+    /// The lower (0) or upper (1) face of a sub-cell along an axis.
+    fn sub_face(&self, cell: usize, index: [usize; D], axis: usize, side: usize) -> SubFace<D> {
+        let cuts = cuts(H::PER_AXIS);
+        let middle = index.map(|at| f64::midpoint(cuts[at], cuts[at + 1]));
+        // Corners in the order of the bits of their number.
+        let corner = |number: usize| {
+            let mut place = middle;
+            let mut others = 0;
+            for along in 0..D {
+                let end = if along == axis {
+                    side
+                } else {
+                    others += 1;
+                    (number >> (others - 1)) & 1
+                };
+                place[along] = cuts[index[along] + end];
+            }
+            self.image(cell, place)
+        };
+        let corners: Vec<_> = (0..1_usize << (D - 1)).map(corner).collect();
+        let area = area_vector::<H, D>(&corners);
+        let centre = mean(&corners);
+        let own = self.image(cell, middle);
+        let arm: [f64; D] = core::array::from_fn(|axis| centre[axis] - own[axis]);
+        let product = (0..D)
+            .fold(0.0, |sum, axis| sum + area[axis] * arm[axis])
+            .abs();
+        let [size, length] = [area, arm].map(|vector| distance(vector, [0.0; D]));
+        let point = index
+            .iter()
+            .rev()
+            .fold(0, |point, at| point * H::PER_AXIS + at);
+        SubFace {
+            point: cell * Self::per_cell() + point,
+            area: size,
+            reach: product / (length * length),
+            centre,
+            alignment: product / (size * length),
+        }
+    }
+
+    /// Where a place of the parent cell is, m.
+    fn image(&self, cell: usize, place: [f64; D]) -> [f64; D] {
+        let mut image = [0.0; D];
+        for (a, &node) in self.cells[cell].as_ref().iter().enumerate() {
+            let (share, _) = H::function(a, place);
+            for (image, at) in image.iter_mut().zip(self.nodes[node]) {
+                *image += share * at;
+            }
+        }
+        image
+    }
+}
+
+/// Indices of sub-cells, the first coordinate fastest.
+fn sub_cells<const D: usize>(per_axis: usize) -> Vec<[usize; D]> {
+    let count = (0..D).fold(1, |count, _| count * per_axis);
+    let index = |mut rest: usize| {
+        [(); D].map(|()| {
+            let own = rest % per_axis;
+            rest /= per_axis;
+            own
+        })
+    };
+    (0..count).map(index).collect()
+}

@@ -1,0 +1,63 @@
+//! What can be wrong with a solid.
+
+use thiserror::Error;
+
+use crate::element::handle::Element;
+use crate::number::readable::Readable;
+
+/// Why a solid cannot be as it is described.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum SolidError {
+    /// A cell of a solid is inside out at a point of its reference configuration, or has no volume there.
+    #[error(
+        "det dX/dxi of the solid at {element} is {value} {unit}, it must be positive and finite: give its {order}",
+        value = Readable(*value)
+    )]
+    InsideOut {
+        /// The point.
+        element: Element,
+        /// `det ∂X/∂ξ`.
+        value: f64,
+        /// Its unit, m² or m³.
+        unit: &'static str,
+        /// How nodes are ordered.
+        order: &'static str,
+    },
+    /// A solid has more or fewer directions of fibres than its free energy has strains of fibres.
+    #[error(
+        "the free energy of the solid at {element} has {needed} strains of fibres, and {given} directions are given: add the mesh by `Scene::solid` with one `Bulk::fibre` each"
+    )]
+    Fibres {
+        /// Its first point.
+        element: Element,
+        /// How many the free energy has.
+        needed: usize,
+        /// How many are given.
+        given: usize,
+    },
+    /// Heat is to pass the surface of a solid that conducts none.
+    #[error("the solid at {element} has no conductivity: give it one by `Bulk::conductivity`")]
+    NoConductivity {
+        /// Its first point.
+        element: Element,
+    },
+    /// A direction of a fibre has no finite length but zero.
+    #[error("the direction of a fibre of the solid at {element} must be finite and not zero")]
+    Fibre {
+        /// Its first point.
+        element: Element,
+    },
+    /// A density or a thickness is not positive and finite.
+    #[error("the {quantity} of the solid at {element} is {value} {unit}, it must be positive and finite", value = Readable(*value))]
+    Section {
+        /// Its first point.
+        element: Element,
+        /// Which one.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
+}
