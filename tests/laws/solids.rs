@@ -405,7 +405,7 @@ fn what_is_wrong_with_a_solid_is_said() {
         error.to_string()
     };
     assert!(
-        message.starts_with("the mass of node 0 is -1 kg"),
+        message.contains("\n- the mass of node 0 is -1 kg"),
         "{message}"
     );
     let message = build(

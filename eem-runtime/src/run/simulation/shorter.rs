@@ -16,6 +16,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             return error;
         }
         let (worst, corrections) = (self.worst, self.corrections);
+        let (past, explicit) = self.stepper.past(&self.state);
         let mut shorter = size;
         for _ in 0..HALVINGS {
             shorter *= S::from_f64(0.5);
@@ -25,6 +26,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 break;
             }
         }
+        self.stepper.restore(&past, explicit.as_ref());
         (self.worst, self.corrections) = (worst, corrections);
         error
     }
