@@ -35,6 +35,9 @@ pub mod prelude {
 }
 
 /// Guide: how a material is written, in stages, and how it is checked.
+///
+/// [choosing]: crate::choosing
+///
 #[doc = include_str!("../docs/guide.md")]
 pub mod guide {}
 
@@ -44,16 +47,24 @@ pub mod choosing {}
 
 /// Tutorial: from an empty folder to a picture of energy and temperature, in ten minutes.
 ///
+/// [guide]: crate::guide
+/// [choosing]: crate::choosing
 #[doc = include_str!("../docs/tutorial.link.md")]
 ///
 #[doc = include_str!("../docs/tutorial.md")]
 pub mod tutorial {}
 
 /// Accuracy: tables of all schemes, roundings, and a stiffness that is logarithmic in the temperature.
+///
+/// [extremes]: crate::extremes
+///
 #[doc = include_str!("../docs/accuracy.md")]
 pub mod accuracy {}
 
 /// Performance: what a step costs, on which machine.
+///
+/// [choosing]: crate::choosing
+///
 #[doc = include_str!("../docs/performance.md")]
 pub mod performance {}
 

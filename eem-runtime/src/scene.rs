@@ -133,6 +133,10 @@ impl<const D: usize, S: Real> Scene<D, S> {
         for node in nodes {
             self.expect_own(&node);
         }
+        if nodes[0] == nodes[1] {
+            let node = nodes[0];
+            self.misuse.push(SceneError::SelfSpring { element, node });
+        }
         let (group, set) = self.set_of(LooseElements::<S, M, Stretch<D>, D>::new);
         let place = set.points();
         set.elements.push((element, [(model, Stretch)]));

@@ -5,6 +5,7 @@ pub(crate) mod certificate;
 pub(crate) mod control;
 pub(crate) mod error;
 pub(crate) mod explicit;
+pub(crate) mod law;
 pub(crate) mod loads;
 pub(crate) mod newton;
 pub(crate) mod outcome;

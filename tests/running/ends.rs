@@ -81,6 +81,11 @@ fn impossible_ends_are_errors() {
     for end in [f64::NAN, 0.0, -1.0, f64::NEG_INFINITY] {
         let error = run.run_until_with(end, watch).unwrap_err();
         assert!(matches!(error.failure, StepFailure::End { .. }), "{error}");
+        let text = error.to_string();
+        assert!(
+            text.starts_with("the run cannot go on from t = 0.1 s: the end time is "),
+            "{text}"
+        );
         let error = run.run_until_event(end, &mut []).unwrap_err();
         assert!(matches!(error.failure, StepFailure::End { .. }), "{error}");
     }
@@ -161,6 +166,12 @@ fn a_failed_step_says_which_shorter_one_can_be_made() {
         run.set_step_size(shorter).unwrap();
         assert_eq!(run.step().unwrap().step.to_bits(), shorter.to_bits());
     }
+    // A load that is right until 0.3 s.
+    let mut scene = Scene::<2>::new();
+    let mass = scene.mass(1.0, [0.0; 2], [0.0; 2]);
+    scene.force(mass, |t| [if t > 0.3 { f64::NAN } else { 1.0 }, 0.0]);
+    let mut run = Simulation::new(scene, Scheme::EemEntropy, 1.0).unwrap();
+    assert_eq!(run.step().unwrap_err().shorter, Some(0.5));
     // Nothing to try where the step is not to blame.
     let mut scene = Scene::<2>::new();
     let mass = scene.mass(1.0, [0.0; 2], [0.0; 2]);

@@ -260,3 +260,28 @@ fn free(step: f64) -> Simulation<2> {
     scene.mass(1.0, [0.0; 2], [1.0, 0.0]);
     Simulation::new(scene, Scheme::EemEntropy, step).unwrap()
 }
+
+#[test]
+fn an_event_that_fails_in_the_first_step_leaves_no_trace() {
+    for scheme in [Scheme::EemEntropy, Scheme::EemExplicit, Scheme::Auto] {
+        let run = |fails: bool| {
+            let mut run = single_pendulum(scheme, 0.01).run;
+            if scheme == Scheme::Auto {
+                run.control_steps(Tolerance::new(1e-3)).unwrap();
+            }
+            if fails {
+                let before = bits(&run);
+                let later = |run: &Simulation<2>| match run.time() {
+                    time if time > 0.0 => Err("no".into()),
+                    _ => Ok(1.0),
+                };
+                let failed = run.run_until_event(9.0, &mut [Event::crossing(later)]);
+                assert!(failed.is_err());
+                assert_eq!(bits(&run), before);
+            }
+            run.run_until(1.0).unwrap();
+            bits(&run)
+        };
+        assert_eq!(run(true), run(false), "{scheme}");
+    }
+}

@@ -109,7 +109,7 @@ fn recorders_refuse_what_a_simulation_does_not_have() {
     let error = new("gamma", Quantity::ViscousStretch(pendulum.spring, 1));
     assert_eq!(
         error.to_string(),
-        "quantity `gamma`: element 0 (ThermoViscoElastic) has 1 dashpots, there is no dashpot 1"
+        "quantity `gamma`: element 0 (ThermoViscoElastic) has 1 dashpot, there is no dashpot 1"
     );
     let error = new("time", Quantity::TotalEnergy);
     let name = "time".to_owned();
@@ -192,4 +192,17 @@ fn the_file_of_a_resumed_run_is_that_of_an_uninterrupted_one() {
         .unwrap();
     recorder.append_csv(&mut text).unwrap();
     assert_eq!(String::from_utf8(text), String::from_utf8(whole));
+}
+
+#[test]
+fn a_recorder_is_for_one_scene_and_not_for_its_copies() {
+    let mut scene = Scene::<1>::new();
+    let mass = scene.mass(1.0, [0.0], [1.0]);
+    let mut copy = Simulation::new(scene.clone(), Scheme::EemEntropy, 0.1).unwrap();
+    let run = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap();
+    let mut recorder = Recorder::new(&run, [("q", Quantity::Position(mass))]).unwrap();
+    let end = copy.run_until_with(1.0, |run, report| recorder.observe(run, report));
+    assert_eq!((end.unwrap(), recorder.rows()), (RunEnd::Stopped, 1));
+    let error = recorder.record(&copy).unwrap_err();
+    assert_eq!(error.to_string(), "the recorder belongs to another scene");
 }

@@ -62,7 +62,7 @@ fn masses_and_positions() {
     assert_error!(
         |draft| draft.mass = 0.0,
         SceneError::Mass { .. },
-        "the mass of node 1 is 0 kg, it must be positive and finite"
+        "the mass of node 1 is 0 kg, it must be positive and finite, or the node one of a solid"
     );
     assert_error!(
         |draft| draft.mass = -2.0,

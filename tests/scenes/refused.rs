@@ -29,11 +29,18 @@ fn all_errors_of_a_scene_are_named_at_once() {
     scene.set_momentum(anchor, [0.0; 2]);
     scene.move_anchor(anchor, |_| [0.0; 2]);
     scene.move_anchor(anchor, |_| [0.0; 2]);
+    scene.dead_load(mass, [0.0, f64::NAN]);
+    let own = scene.spring(MODEL, [mass, mass]);
+    scene.set_temperature(own, 300.0);
+    // Only one part of each is named.
+    let cold = scene.spring(Cold { k: 1.0 }, [anchor, mass]);
+    scene.set_temperature(cold, 300.0);
+    scene.conduct(cold, air, 1.0);
     let refused = refused(scene, Scheme::EemEntropy, -0.1);
     let text = refused.to_string();
     println!("{text}");
     for part in [
-        "16 things are wrong with the scene:",
+        "18 things are wrong with the scene:",
         "node 0 cannot be given a momentum",
         "coordinate 1 of the position of node 0 is NaN m",
         "coordinate 0 of the position of node 1 is inf m",
@@ -42,18 +49,27 @@ fn all_errors_of_a_scene_are_named_at_once() {
         "the mass of node 1 is -1 kg",
         "the temperature of reservoir 0 is 0 K",
         "parameter `capacity` of element 0 (ThermoViscoElastic) is NaN",
-        "element 0 (ThermoViscoElastic) has 1 dashpots, there is no dashpot 3",
-        "the viscous stretch of dashpot 3 of element 0 (ThermoViscoElastic) is NaN m",
+        "element 0 (ThermoViscoElastic) has 1 dashpot, there is no dashpot 3",
         "element 0 (ThermoViscoElastic) was never given a temperature",
         "component 0 of gravity is NaN m/s²",
         "the motion of node 0 is prescribed twice",
         "the conductance between element 0 (ThermoViscoElastic) and reservoir 0 is -1 W/K",
         "element 0 (ThermoViscoElastic) conducts heat to itself",
+        "component 1 of the constant force on node 1 is NaN N",
+        "element 1 (ThermoViscoElastic) connects node 1 with itself",
+        "element 2 (Cold) has no temperature",
         "the time step is -0.1 s",
     ] {
         assert!(text.contains(part), "{part}");
     }
     assert_eq!(text.lines().count(), refused.errors().len() + 1);
+}
+
+/// A spring without temperature.
+#[derive(FreeEnergy)]
+#[free_energy(|lambda: Stretch| 0.5 * k * lambda.powi(2))]
+struct Cold {
+    k: f64,
 }
 
 #[test]

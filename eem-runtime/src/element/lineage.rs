@@ -37,6 +37,11 @@ impl Lineage {
         }
     }
 
+    /// Whether it is the very scene, and no copy.
+    pub(crate) fn is(&self, other: &Self) -> bool {
+        self.own == other.own
+    }
+
     /// That of a copy of the scene, which has so much now.
     pub(crate) fn copy(&self, counts: Counts) -> Self {
         let mut copied = self.copied.clone();

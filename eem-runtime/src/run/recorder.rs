@@ -8,6 +8,7 @@ use core::ops::ControlFlow;
 
 use thiserror::Error;
 
+use crate::element::lineage::Lineage;
 use crate::number::scalar::Real;
 use crate::run::simulation::Simulation;
 use crate::scene::error::SceneError;
@@ -51,6 +52,7 @@ const TIME: &str = "time";
 /// ```
 #[derive(Debug)]
 pub struct Recorder<const D: usize, S: Real = f64> {
+    scene: Lineage,
     quantities: Vec<Quantity<D, S>>,
     columns: Vec<Column>,
     stride: usize,
@@ -131,6 +133,7 @@ impl<const D: usize, S: Real> Recorder<D, S> {
         quantities: impl IntoIterator<Item = (N, Quantity<D, S>)>,
     ) -> Result<Self, RecordError> {
         let mut recorder = Self {
+            scene: run.lineage().clone(),
             quantities: Vec::new(),
             columns: Vec::new(),
             stride: 1,
@@ -192,8 +195,8 @@ impl<const D: usize, S: Real> Recorder<D, S> {
     /// Sees a step, and keeps it if its turn has come: an observer for
     /// [`run_until`](Simulation::run_until).
     ///
-    /// Goes on unless `run` is not the simulation that the recorder was made for; nothing is kept
-    /// then, and [`record`](Self::record) says why.
+    /// Goes on unless `run` is not of the scene of the simulation that the recorder was made for, but of another one or
+    /// of a copy; nothing is kept then, and [`record`](Self::record) says why.
     pub fn observe(&mut self, run: &Simulation<D, S>, report: &StepReport<S>) -> ControlFlow<()> {
         self.steps += 1;
         self.iterations = self.iterations.saturating_add(report.iterations);
@@ -212,11 +215,15 @@ impl<const D: usize, S: Real> Recorder<D, S> {
     ///
     /// # Errors
     ///
-    /// [`SceneError::ForeignHandle`] if `run` is not the simulation that the recorder was made
+    /// [`SceneError::ForeignHandle`] if `run` is not of the scene of the simulation that the recorder was made
     /// for. Nothing is kept then.
     pub fn record(&mut self, run: &Simulation<D, S>) -> Result<(), SceneError> {
         // A row has one value per quantity.
         run.part();
+        if !run.lineage().is(&self.scene) {
+            let handle = "the recorder".to_owned();
+            return Err(SceneError::ForeignHandle { handle });
+        }
         let mut ledger = None;
         let time = run.time().to_f64();
         let last = self.column(TIME).and_then(<[f64]>::last);

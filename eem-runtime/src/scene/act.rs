@@ -19,6 +19,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
 
     /// A constant force on a mass, N. Its work is booked.
     pub fn dead_load(&mut self, node: Node, force: [S; D]) {
+        if let Some(axis) = force.iter().position(|component| !component.is_finite()) {
+            let value = force[axis].to_f64();
+            self.misuse.push(SceneError::DeadLoad { node, axis, value });
+            return;
+        }
         self.force(node, move |_| force);
     }
 

@@ -88,7 +88,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             .map(|(element, _)| *element)
             .collect();
         for (at, element) in elements.iter().enumerate() {
-            errors.extend(self.check_thermal(*element).err());
+            self.check_thermal(*element, errors);
             if elements[..at].contains(element) {
                 errors.push(prescribed_twice(element, "the temperature"));
             }
@@ -109,12 +109,12 @@ impl<const D: usize, S: Real> Scene<D, S> {
     fn check_conductors(&self, errors: &mut Vec<SceneError>) {
         for conductor in &self.conductors {
             let (element, partner) = (conductor.element, conductor.partner);
-            errors.extend(self.check_thermal(element).err());
+            self.check_thermal(element, errors);
             if let HeatPartner::Element(other) = partner {
                 if other == element {
                     errors.push(SceneError::SelfConduction { element });
                 } else {
-                    errors.extend(self.check_thermal(other).err());
+                    self.check_thermal(other, errors);
                 }
             }
             let value = conductor.conductance;
@@ -128,12 +128,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
     }
 
-    fn check_thermal(&self, element: Element) -> Result<(), SceneError> {
+    fn check_thermal(&self, element: Element, errors: &mut Vec<SceneError>) {
         let group = self.groups.get(self.elements[element.index()].group);
-        if group.is_none_or(|group| group.shape().thermal) {
-            Ok(())
-        } else {
-            Err(SceneError::NotThermal { element })
+        let error = SceneError::NotThermal { element };
+        if group.is_some_and(|group| !group.shape().thermal) && !errors.contains(&error) {
+            errors.push(error);
         }
     }
 }
@@ -200,7 +199,7 @@ fn check_element<S: Real>(
                 dashpots: shape.dashpots,
             });
         }
-        if !stretch.is_finite() {
+        if dashpot < shape.dashpots && !stretch.is_finite() {
             let error = StateError::ViscousStretch {
                 element,
                 dashpot,

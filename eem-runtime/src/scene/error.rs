@@ -105,7 +105,8 @@ pub enum SceneError {
         value: f64,
     },
     /// A mass is not positive and finite.
-    #[error("the mass of {node} is {value} kg, it must be positive and finite", value = Readable(*value))]
+    #[error("the mass of {node} is {value} kg, it must be positive and finite{}",
+        if *value == 0.0 { ", or the node one of a solid" } else { "" }, value = Readable(*value))]
     Mass {
         /// The node.
         node: Node,
@@ -141,6 +142,24 @@ pub enum SceneError {
         /// The conductance, W/K.
         value: f64,
     },
+    /// A spring has no length.
+    #[error("{element} connects {node} with itself")]
+    SelfSpring {
+        /// The spring.
+        element: Element,
+        /// The node.
+        node: Node,
+    },
+    /// A constant force is not finite.
+    #[error("component {axis} of the constant force on {node} is {value} N, it must be finite", value = Readable(*value))]
+    DeadLoad {
+        /// The node.
+        node: Node,
+        /// The axis, from 0.
+        axis: usize,
+        /// The component, N.
+        value: f64,
+    },
     /// An element conducts heat to itself.
     #[error("{element} conducts heat to itself")]
     SelfConduction {
@@ -160,7 +179,7 @@ pub enum SceneError {
         element: Element,
     },
     /// A viscous stretch was given for a dashpot that the model does not have.
-    #[error("{element} has {dashpots} dashpots, there is no dashpot {dashpot}")]
+    #[error("{element} has {dashpots} dashpot{}, there is no dashpot {dashpot}", if *dashpots == 1 { "" } else { "s" })]
     NoSuchDashpot {
         /// The element.
         element: Element,

@@ -10,7 +10,9 @@ use crate::scene::error::SceneError;
 /// The message names so many errors, and how many more there are.
 const MOST_NAMED: usize = 20;
 
-/// A scene that [`Simulation::new`](crate::Simulation::new) refuses, and everything that is wrong with it.
+/// A scene that [`Simulation::new`](crate::Simulation::new) refuses, and what is wrong with it: of every part (the
+/// parameters of an element, its initial state, a section) the first error. Initial states are looked at once all
+/// numbers are right.
 ///
 /// The first error stands for all where a [`SceneError`] is wanted, so that `?` turns one into the other.
 ///
@@ -43,7 +45,7 @@ impl<const D: usize, S: Real> RefusedScene<D, S> {
         Self { scene, errors }
     }
 
-    /// Everything that is wrong, one error at least.
+    /// What is wrong, one error at least.
     #[must_use]
     pub fn errors(&self) -> &[SceneError] {
         &self.errors

@@ -32,7 +32,8 @@ use crate::element::handle::Element;
 use crate::element::recount::Recount;
 use crate::element::tally::{ROUNDINGS, Tally};
 use crate::number::scalar::{Mask, Real};
-use crate::step::error::{Law, StepFailure};
+use crate::step::error::StepFailure;
+use crate::step::law::Law;
 
 pub(crate) use motion::{Kept, Motion, NodeStep, Speeds};
 

@@ -9,47 +9,7 @@ use crate::element::error::StateError;
 use crate::element::handle::{Element, Node};
 use crate::number::readable::Readable;
 use crate::number::scalar::Discord;
-
-/// A law that an exact scheme keeps in every step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Law {
-    /// `ΔE = work + heat`, J.
-    Energy,
-    /// The balance of linear momentum of the scene, kg m/s.
-    LinearMomentum,
-    /// The balance of angular momentum of the scene, kg m²/s.
-    AngularMomentum,
-    /// Every dashpot and every path of heat produces entropy, J/K.
-    Production,
-    /// The entropy that is kept is that of the temperature, `s = s(λ, γ, θ)`, J/K.
-    KeptEntropy,
-}
-
-impl Law {
-    /// The unit of its defect.
-    #[must_use]
-    pub const fn unit(self) -> &'static str {
-        match self {
-            Self::Energy => "J",
-            Self::LinearMomentum => "kg m/s",
-            Self::AngularMomentum => "kg m²/s",
-            Self::Production | Self::KeptEntropy => "J/K",
-        }
-    }
-}
-
-impl core::fmt::Display for Law {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str(match self {
-            Self::Energy => "the energy",
-            Self::LinearMomentum => "the linear momentum",
-            Self::AngularMomentum => "the angular momentum",
-            Self::Production => "the production of entropy",
-            Self::KeptEntropy => "the entropy",
-        })
-    }
-}
+use crate::step::law::Law;
 
 /// Why a step found no new state.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -187,7 +147,9 @@ pub enum StepFailure {
     },
     /// Nothing can move in a way that gives an explicit step its energy.
     #[error(
-        "the explicit step to t = {time} s lacks {defect:.3e} J, and neither heat nor motion can give it; take a shorter step", time = Readable(*time))]
+        "the explicit step to t = {time} s has {:.3e} J {}, and neither heat nor motion can {} it; take a shorter step",
+        defect.abs(), if *defect < 0.0 { "too much" } else { "too little" }, if *defect < 0.0 { "take" } else { "give" },
+        time = Readable(*time))]
     NotClosed {
         /// What is missing, J.
         defect: f64,
@@ -256,6 +218,18 @@ pub enum StepFailure {
 }
 
 impl StepFailure {
+    /// Whether it is a step that failed, and not the run that was asked for.
+    const fn is_of_a_step(&self) -> bool {
+        !matches!(
+            self,
+            Self::End { .. }
+                | Self::EventTolerance { .. }
+                | Self::EventFunction { .. }
+                | Self::EventError { .. }
+                | Self::Unknowns { .. }
+        )
+    }
+
     /// Whether a step of another size from the same state may succeed.
     pub(crate) const fn depends_on_step(&self) -> bool {
         match self {
@@ -268,11 +242,11 @@ impl StepFailure {
             | Self::TooCold { .. }
             | Self::Correction { .. }
             | Self::NotClosed { .. }
-            | Self::State(_) => true,
-            Self::Load { .. }
+            | Self::Load { .. }
             | Self::Motion { .. }
             | Self::PrescribedTemperature { .. }
-            | Self::Time { .. }
+            | Self::State(_) => true,
+            Self::Time { .. }
             | Self::TooSmall { .. }
             | Self::End { .. }
             | Self::EventTolerance { .. }
@@ -284,17 +258,28 @@ impl StepFailure {
     }
 }
 
-/// What a shorter step adds to a message.
-struct Shorter(Option<f64>);
-
-impl core::fmt::Display for Shorter {
+impl core::fmt::Display for StepError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self.0 {
-            Some(step) => write!(f, " (a step of {} s would do)", Readable(step)),
+        let Self {
+            failure, shorter, ..
+        } = self;
+        let time = Readable(self.time);
+        if !failure.is_of_a_step() {
+            return write!(f, "the run cannot go on from t = {time} s: {failure}");
+        }
+        let (step, iterations) = (Readable(self.step), self.history.len());
+        write!(
+            f,
+            "step from t = {time} s by {step} s failed after {iterations} iterations in all attempts: {failure}"
+        )?;
+        match shorter {
+            Some(shorter) => write!(f, " (a step of {} s would do)", Readable(*shorter)),
             None => Ok(()),
         }
     }
 }
+
+impl core::error::Error for StepError {}
 
 /// Why step control has rejected a step.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -312,8 +297,7 @@ pub enum StepLimit {
 }
 
 /// A step that failed. The simulation is as it was before.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[error("step from t = {time} s by {step} s failed after {} iterations in all attempts: {failure}{}", history.len(), Shorter(*shorter), time = Readable(*time), step = Readable(*step))]
+#[derive(Clone, Debug, PartialEq)]
 pub struct StepError {
     /// The time at which the step began, s.
     pub time: f64,
@@ -321,8 +305,8 @@ pub struct StepError {
     pub step: f64,
     /// Why it failed; the message has it, so that it is no `source` of its own.
     pub failure: StepFailure,
-    /// A shorter step, s, that can be made instead; none if steps are controlled, if the failure does not depend on the
-    /// step, or if none of its halves down to a thousandth can be made.
+    /// A shorter step, s, that can be made instead, found by trying; none if steps are controlled, if the failure is
+    /// not one of a step, or if none of its halves down to a thousandth can be made.
     pub shorter: Option<f64>,
     /// What each iteration of each attempt did; [`NewtonSettings::max_iterations`](crate::NewtonSettings)
     /// is the limit of one attempt.

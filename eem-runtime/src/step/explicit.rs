@@ -84,6 +84,8 @@ pub(crate) struct Explicit<S: Real, const D: usize> {
     is_motion_first: bool,
     /// Rates and targets are those of the present state.
     is_ready: bool,
+    /// The same before the last attempt.
+    was_ready: bool,
     /// How often all elements have been evaluated.
     evaluations: u64,
 }
@@ -167,6 +169,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             gravity: site.loads.have_weight().then(|| site.loads.gravity.into()),
             is_motion_first: false,
             is_ready: false,
+            was_ready: false,
             evaluations: 0,
         }
     }

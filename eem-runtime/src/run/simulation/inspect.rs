@@ -7,6 +7,7 @@ use crate::element::conduction::Partner;
 use crate::element::group::ElementView;
 use crate::element::handle::{Element, Handle, Node, Reservoir};
 use crate::element::layout::Slots;
+use crate::element::lineage::Lineage;
 use crate::number::scalar::Real;
 use crate::run::ledger::Ledger;
 use crate::scene::error::SceneError;
@@ -244,6 +245,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.expect_own(&element)?;
         let slot = self.slots(element).thermal;
         slot.ok_or(SceneError::NotThermal { element })
+    }
+
+    /// The scene that it was made from.
+    pub(crate) fn lineage(&self) -> &Lineage {
+        &self.scene
     }
 
     fn expect_own<H: Handle>(&self, handle: &H) -> Result<(), SceneError> {

@@ -7,7 +7,8 @@ use super::tableau::STAGES;
 use super::{Explicit, ExplicitView};
 use crate::element::state::State;
 use crate::number::scalar::{Mask, Real};
-use crate::step::error::{Law, StepFailure};
+use crate::step::error::StepFailure;
+use crate::step::law::Law;
 use crate::step::outcome::{Attempt, Outcome};
 
 /// Roundings of the magnitude of the energy that a step may be off by, as in the certificate.
@@ -38,11 +39,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         demand: Demand<S>,
         next: &mut State<S>,
     ) -> Result<Attempt<S>, StepFailure> {
-        let was_ready = self.is_ready;
+        self.was_ready = self.is_ready;
         let attempt = self.attempt_ready(view, demand, next);
         if attempt.is_err() {
             // As it was before, also if nothing was known of the state.
-            self.is_ready = was_ready;
+            self.is_ready = self.was_ready;
         }
         attempt
     }
@@ -94,6 +95,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// Takes back what has just been accepted.
     pub(crate) fn undo(&mut self) {
         self.accept();
+        self.is_ready = self.was_ready;
     }
 
     /// The next step starts from another state: rates and targets are found anew.

@@ -4,7 +4,8 @@ use super::Solver;
 use super::progress::{Conclusion, Progress, Target};
 use crate::element::group::{Group, StepView};
 use crate::number::scalar::{Mask, Real};
-use crate::step::error::{Law, StepFailure};
+use crate::step::error::StepFailure;
+use crate::step::law::Law;
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// Closes the step at a trial where the elements have been evaluated, and judges it.

@@ -24,8 +24,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// ([`Event::has_happened`]). Going on from there does not find the same event again. A
     /// function that is zero at the beginning has no sign yet: its first other value gives it.
     ///
-    /// Signs are compared at the ends of steps, so that a function that changes its sign twice
-    /// within a step is not noticed. Everything else is as in [`run_until`](Self::run_until).
+    /// Signs are compared at the ends of steps: of three changes within a step one is found, not necessarily the first;
+    /// of two none. Everything else is as in [`run_until`](Self::run_until).
     ///
     /// # Errors
     ///
@@ -87,6 +87,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             // Each of the numbers has its events at other times.
             return Err(self.refused(Discord.into()));
         }
+        for event in &mut *events {
+            event.has_happened = false;
+        }
         self.check_end(end)?;
         self.start_looking(events)?;
         while self.is_before(end)? {
@@ -116,7 +119,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     value,
                 }));
             }
-            event.has_happened = false;
             let before = event.value(place, self);
             event.before = before.map_err(|failure| self.refused(failure))?;
         }
