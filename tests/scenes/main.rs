@@ -10,6 +10,7 @@ mod bad_input;
 mod bad_loads;
 #[cfg(feature = "sparse")]
 mod memory;
+mod meshes;
 mod networks;
 mod refusals;
 mod unknowns;
