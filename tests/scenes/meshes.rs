@@ -131,6 +131,14 @@ fn what_is_wrong_with_a_solid_from_a_mesh_is_said() {
         message.to_string().contains("cannot be given a force"),
         "{message}"
     );
+    let message = refused(ELASTIC, &bulk, |scene, body| {
+        scene.fix(body.nodes()[0]);
+        scene.set_velocity(body.nodes()[0], [1.0, 0.0, 0.0]);
+    });
+    assert!(
+        message.to_string().contains("cannot be given a velocity"),
+        "{message}"
+    );
     let error = {
         let mut scene = Scene::<3>::new();
         let body = scene.solid(ELASTIC, &cube(1), &bulk);
