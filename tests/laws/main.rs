@@ -11,6 +11,7 @@ mod double_pendulums;
 mod explicit;
 mod free_bodies;
 mod generic;
+mod heat_in_solids;
 mod high_order;
 mod invariants_under_loads;
 mod kelvin_voigt;

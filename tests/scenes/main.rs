@@ -11,6 +11,7 @@ mod bad_loads;
 mod copies;
 #[cfg(feature = "sparse")]
 mod memory;
+mod meshes;
 mod networks;
 mod refusals;
 mod refused;

@@ -270,10 +270,20 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
     }
 
-    /// Replaces the initial velocity of a node, m/s.
+    /// Replaces the initial velocity of a node, m/s, or its momentum. Anchors have none.
     pub fn set_velocity(&mut self, node: Node, velocity: [S; D]) {
         if self.expect_own(&node) {
-            self.nodes[node.index].velocity = SVector::from(velocity);
+            let entry = &mut self.nodes[node.index];
+            if entry.mass.is_none() {
+                self.misuse.push(SceneError::WrongKind {
+                    node,
+                    quantity: "a velocity",
+                    kind: "an anchor",
+                });
+                return;
+            }
+            entry.velocity = SVector::from(velocity);
+            entry.momentum = None;
         }
     }
 

@@ -68,8 +68,9 @@ impl<const D: usize, S: Real> Scene<D, S> {
     ///
     /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
     /// run.step()?;
-    /// // 3 N on 1 m³, which has 10 kg.
-    /// assert!((run.velocity(plate.nodes()[0])?[0] - 0.03).abs() < 1e-15);
+    /// // 3 N on 1 m³ for 0.1 s, on all of its 10 kg alike.
+    /// assert!((run.ledger().linear_momentum[0] - 0.3).abs() < 1e-15);
+    /// assert!((run.velocity(plate.nodes()[0])?[0] - 0.03).abs() < 1e-14);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn body_force<H: Shape<D>>(

@@ -1,0 +1,85 @@
+//! Conduction in blocks of hexahedra is of second order, exchanges heat through films and walls as it should,
+//! and keeps energy.
+
+use core::f64::consts::PI;
+
+use eem::Body;
+use eem::kinematics::Hex8;
+use eem::prelude::*;
+
+use crate::support::solids::MooneyRivlin;
+
+/// A cube that cannot move, with the conductivity 10 W/(m K); its points are warm as a function of the place of
+/// their sub-cells.
+fn cube(
+    cells: [usize; 3],
+    warm: impl Fn([f64; 3]) -> f64,
+) -> (Scene<3>, Body<Hex8, 3>, Vec<[f64; 3]>) {
+    let mesh = Mesh::<Hex8, 3>::block(cells, [[0.0, 1.0]; 3]).unwrap();
+    let mut scene = Scene::<3>::new();
+    let bulk = Bulk::new(10.0).conductivity(10.0);
+    let body = scene.solid(MooneyRivlin::RUBBER, &mesh, &bulk);
+    for &node in body.nodes() {
+        scene.fix(node);
+    }
+    let sizes = cells.map(|cells| 1.0 / f64::from(u16::try_from(cells).unwrap()));
+    let mut places = Vec::new();
+    for cell in mesh.cells() {
+        let corner = mesh.nodes()[cell[0]];
+        for point in 0..8_u8 {
+            places.push(std::array::from_fn(|axis| {
+                let upper = f64::from((point >> axis) & 1);
+                corner[axis] + sizes[axis] * (0.25 + 0.5 * upper)
+            }));
+        }
+    }
+    for (&point, &place) in body.points().iter().zip(&places) {
+        scene.set_temperature(point, warm(place));
+    }
+    (scene, body, places)
+}
+
+/// `cos πx cos πy` decays with `2π² k/c`, insulated.
+#[test]
+fn conduction_is_of_second_order() {
+    let shape = |[x, y, _]: [f64; 3]| f64::cos(PI * x) * f64::cos(PI * y);
+    let error = |cells: usize| {
+        let (scene, body, places) = cube([cells, cells, 1], |place| 300.0 + shape(place));
+        let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.01).unwrap();
+        let before = run.ledger();
+        run.run_until(0.2).unwrap();
+        assert!((run.ledger().balance - before.balance).abs() <= 1e-14 * 3e4);
+        let decay = f64::exp(-2.0 * PI * PI * 10.0 / 100.0 * 0.2);
+        let errors = body.points().iter().zip(&places).map(|(&point, &place)| {
+            // Of what is there at the beginning.
+            ((run.temperature(point).unwrap() - 300.0) / shape(place) - decay).abs()
+        });
+        errors.fold(0.0, f64::max)
+    };
+    let errors = [2, 4, 8].map(error);
+    println!("{errors:?}");
+    for pair in errors.windows(2) {
+        let order = (pair[0] / pair[1]).log2();
+        assert!((order - 2.0).abs() < 0.05, "{errors:?}");
+    }
+}
+
+/// Between a wall and a film the flow is that of resistances one after the other, to rounding.
+#[test]
+fn films_and_walls_are_resistances_in_a_row() {
+    let (mut scene, body, _) = cube([2, 1, 1], |_| 300.0);
+    let [cold, warm] = [290.0, 310.0].map(|theta| scene.reservoir(theta));
+    let left = body.mesh().face(|[x, ..]| x <= 0.0).unwrap();
+    let right = body.mesh().face(|[x, ..]| x >= 1.0).unwrap();
+    scene.wall(&body, &left, cold);
+    scene.exchange(&body, &right, warm, 5.0);
+    let mut run = Simulation::new(scene, Scheme::EemTemperature, 1.0).unwrap();
+    // The slowest of its motions decays with 0.4/s.
+    run.run_until(200.0).unwrap();
+    let before = run.reservoir_heat(cold).unwrap();
+    run.step().unwrap();
+    let flow = run.reservoir_heat(cold).unwrap() - before;
+    // 1 m of 10 W/(m K), and a film of 5 W/K.
+    let known = 20.0 / (1.0 / 10.0 + 1.0 / 5.0);
+    assert!((flow - known).abs() <= 1e-10 * known, "{flow} W");
+}

@@ -1,0 +1,182 @@
+//! Meshes and the solids made of them: what is wrong with them is said, and solids are joined.
+
+use eem::kinematics::{Hex8, Hex20, Quad4};
+use eem::prelude::*;
+use eem::{Body, MeshError, SolidError, Strain, StrainEnergy};
+
+use crate::support::solids::{MooneyRivlin, Reinforced, SaintVenant};
+
+const ELASTIC: SaintVenant = SaintVenant {
+    lame: 2000.0,
+    shear: 1000.0,
+};
+
+fn cube(cells: usize) -> Mesh<Hex8, 3> {
+    Mesh::block([cells; 3], [[0.0, 1.0]; 3]).unwrap()
+}
+
+#[test]
+fn what_is_wrong_with_a_mesh_is_said() {
+    let corners = || vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let build = |nodes, cells| Mesh::<Quad4, 2>::new(nodes, cells).unwrap_err().to_string();
+    assert_eq!(build(corners(), vec![]), "the mesh has no cells");
+    assert_eq!(
+        build(corners(), vec![[0, 1, 2, 4]]),
+        "cell 0 has node 4, but there are 4 nodes, counted from 0"
+    );
+    assert_eq!(
+        build(corners(), vec![[0, 1, 2, 2]]),
+        "cell 0 has node 2 twice"
+    );
+    let mut nodes = corners();
+    nodes.push([2.0, 2.0]);
+    assert_eq!(
+        build(nodes, vec![[0, 1, 2, 3]]),
+        "node 4 belongs to no cell"
+    );
+    let mut nodes = corners();
+    nodes.extend([[2.0, 0.0], [2.0, 1.0], [1.0, -0.0]]);
+    assert_eq!(
+        build(nodes, vec![[0, 1, 2, 3], [6, 4, 5, 2]]),
+        "nodes 1 and 6 are in the same place"
+    );
+    let mut nodes = corners();
+    nodes[2][1] = f64::INFINITY;
+    assert!(build(nodes, vec![[0, 1, 2, 3]]).starts_with("coordinate 1 of node 2 is inf"));
+    let message = build(corners(), vec![[0, 1, 3, 2]]);
+    assert!(
+        message.starts_with("cell 0 is inside out: det dX/dxi is"),
+        "{message}"
+    );
+    for (cells, ranges) in [
+        ([0, 1], [[0.0, 1.0]; 2]),
+        ([1, 1], [[0.0, 1.0], [1.0, 1.0]]),
+    ] {
+        assert!(Mesh::<Quad4, 2>::block(cells, ranges).is_err());
+    }
+    assert_eq!(
+        Mesh::<Quad4, 2>::grid([&[0.0, 1.0], &[0.0, 2.0, f64::NAN]])
+            .unwrap_err()
+            .to_string(),
+        "cut 2 along axis 1 is NaN m, it must be finite and above the one before"
+    );
+    assert_eq!(cube(2).kept(|_| false).unwrap_err(), MeshError::Empty);
+}
+
+/// The message of a scene with a body of one cell.
+fn refused<M, const N: usize>(
+    material: M,
+    bulk: &Bulk<3>,
+    change: impl FnOnce(&mut Scene<3>, &Body<Hex8, 3>),
+) -> SceneError
+where
+    M: FreeEnergy<f64> + StrainEnergy<N> + Clone + Send + Sync + 'static,
+{
+    let mut scene = Scene::<3>::new();
+    let body = scene.solid(material, &cube(1), bulk);
+    change(&mut scene, &body);
+    let run = Simulation::new(scene, Scheme::EemEntropy, 0.1);
+    run.unwrap_err().into()
+}
+
+#[test]
+fn what_is_wrong_with_a_solid_from_a_mesh_is_said() {
+    assert_eq!(Reinforced::STRAINS[2], Strain::Fibre);
+    let bulk = Bulk::new(10.0);
+    let nothing = |_: &mut Scene<3>, _: &Body<Hex8, 3>| {};
+    let counts = |error| match error {
+        SceneError::Solid(SolidError::Fibres { needed, given, .. }) => [needed, given],
+        other => panic!("{other}"),
+    };
+    assert_eq!(counts(refused(Reinforced::RUBBER, &bulk, nothing)), [1, 0]);
+    let along = bulk.clone().fibre([1.0, 0.0, 0.0]);
+    assert_eq!(counts(refused(ELASTIC, &along, nothing)), [0, 1]);
+    let nowhere = bulk.clone().fibre([0.0; 3]);
+    let message = refused(Reinforced::RUBBER, &nowhere, nothing).to_string();
+    assert!(
+        message.starts_with("the direction of a fibre of the solid at element 0"),
+        "{message}"
+    );
+    let message = refused(ELASTIC, &Bulk::new(-1.0), nothing).to_string();
+    assert!(
+        message.starts_with("the density of the solid at element 0 is -1 kg/m^3"),
+        "{message}"
+    );
+    let message = refused(MooneyRivlin::RUBBER, &bulk, |scene, body| {
+        let air = scene.reservoir(300.0);
+        let end = body.mesh().face(|[x, ..]| x >= 1.0).unwrap();
+        scene.exchange(body, &end, air, 10.0);
+    });
+    assert!(
+        message.to_string().contains("has no conductivity"),
+        "{message}"
+    );
+    let inverse = bulk.clone().conductivity(-1.0);
+    let message = refused(MooneyRivlin::RUBBER, &inverse, |scene, body| {
+        for &point in body.points() {
+            scene.set_temperature(point, 300.0);
+        }
+    });
+    assert!(
+        message
+            .to_string()
+            .starts_with("the conductance between element 0"),
+        "{message}"
+    );
+    let message = refused(ELASTIC, &bulk, |scene, body| {
+        scene.dead_load(body.nodes()[0], [1.0, 0.0, 0.0]);
+        scene.fix(body.nodes()[0]);
+    });
+    assert!(
+        message.to_string().contains("cannot be given a force"),
+        "{message}"
+    );
+    let message = refused(ELASTIC, &bulk, |scene, body| {
+        scene.fix(body.nodes()[0]);
+        scene.set_velocity(body.nodes()[0], [1.0, 0.0, 0.0]);
+    });
+    assert!(
+        message.to_string().contains("cannot be given a velocity"),
+        "{message}"
+    );
+    let error = {
+        let mut scene = Scene::<3>::new();
+        let body = scene.solid(ELASTIC, &cube(1), &bulk);
+        body.node_at([0.0, 0.0, 0.1], 0.01).unwrap_err()
+    };
+    assert_eq!(
+        error.to_string(),
+        "no node is at [0.0, 0.0, 0.1] m: the nearest is at [0.0, 0.0, 0.0] m"
+    );
+}
+
+/// Two solids share the nodes of a line, about which one turns freely beside the other.
+#[test]
+fn joined_solids_share_nodes() {
+    let mut scene = Scene::<3>::new();
+    let body = scene.solid(ELASTIC, &cube(1), &Bulk::new(10.0));
+    let beside = Mesh::<Hex20, 3>::block([1; 3], [[1.0, 2.0], [0.0, 1.0], [-1.0, 0.0]]).unwrap();
+    let bulk = Bulk::new(10.0).joined_to(&body, 1e-9);
+    let panel = scene.solid(ELASTIC, &beside, &bulk);
+    let shared = panel
+        .nodes()
+        .iter()
+        .filter(|node| body.nodes().contains(node));
+    assert_eq!(shared.count(), 2);
+    for (&node, [x, _, z]) in panel.nodes().iter().zip(beside.nodes()) {
+        // About the line x = 1, z = 0.
+        scene.set_velocity(node, [-z, 0.0, x - 1.0]);
+    }
+    let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.01).unwrap();
+    let before = run.ledger();
+    for _ in 0..20 {
+        run.step().unwrap();
+    }
+    let after = run.ledger();
+    assert!((after.balance - before.balance).abs() <= 1e-14 * before.energy);
+    let turned = (after.angular_momentum - before.angular_momentum).norm();
+    assert!(
+        turned <= 1e-13 * before.angular_momentum.norm(),
+        "{turned:e}"
+    );
+}
