@@ -99,7 +99,7 @@ fn what_is_wrong_with_a_solid_from_a_mesh_is_said() {
     );
     let message = refused(ELASTIC, &Bulk::new(-1.0), nothing).to_string();
     assert!(
-        message.starts_with("the density of the solid at element 0 is -1 kg/m^3"),
+        message.starts_with("the density of the solid at element 0 (SaintVenant) is -1 kg/m^3"),
         "{message}"
     );
     let message = refused(MooneyRivlin::RUBBER, &bulk, |scene, body| {

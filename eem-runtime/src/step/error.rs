@@ -265,7 +265,7 @@ impl core::fmt::Display for StepError {
         } = self;
         let time = Readable(self.time);
         if !failure.is_of_a_step() {
-            return write!(f, "the run cannot go on from t = {time} s: {failure}");
+            return write!(f, "at t = {time} s: {failure}");
         }
         let (step, iterations) = (Readable(self.step), self.history.len());
         write!(
