@@ -30,7 +30,7 @@ mod step;
 pub use element::error::StateError;
 pub use element::handle::{Element, HeatPartner, Node, Reservoir};
 pub use element::kinematics;
-pub use element::kinematics::{Strain, StrainEnergy};
+pub use element::kinematics::{SolidState, Strain, StrainEnergy};
 pub use material::describe;
 pub use material::describe::{Describe, Description};
 pub use material::domain::{Domain, DomainError, DomainPoint, DomainReport, Least, check_domain};

@@ -329,3 +329,57 @@ fn lumped_masses_are_as_said() {
         assert!((spin - factor).abs() < 1e-14, "{cells}: {spin}");
     }
 }
+
+/// A cube and a square that are stretched along the first axis and turned.
+#[test]
+fn stress_is_that_of_the_formula_and_turns_with_the_body() {
+    let (a, angle) = (1.3, 0.7_f64);
+    let (lame, shear) = (2000.0, 1000.0);
+    let along = 0.5 * (a * a - 1.0);
+    // S₁₁ = (Λ + 2μ) E₁₁, S₂₂ = S₃₃ = Λ E₁₁; σ = F S Fᵀ/J with J = a.
+    let expected = [a * (lame + 2.0 * shear) * along, lame * along / a];
+    let material = || SaintVenant { lame, shear };
+    let (sin, cos) = angle.sin_cos();
+    let place = |[x, y]: [f64; 2]| [cos * a * x - sin * y, sin * a * x + cos * y];
+    let mut scene = Scene::<3>::new();
+    let mesh = Mesh::<Hex8, 3>::block([1; 3], [[0.0, 1.0]; 3]).unwrap();
+    let cube = scene.solid(material(), &mesh, &Bulk::new(10.0));
+    for (&node, &[x, y, z]) in cube.nodes().iter().zip(mesh.nodes()) {
+        let [x, y] = place([x, y]);
+        scene.set_position(node, [x, y, z]);
+    }
+    let in_space = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap();
+    let mut scene = Scene::<2>::new();
+    let mesh = Mesh::<Quad4, 2>::block([1; 2], [[0.0, 1.0]; 2]).unwrap();
+    let square = scene.solid(material(), &mesh, &Bulk::new(10.0).thickness(0.3));
+    for (&node, &corner) in square.nodes().iter().zip(mesh.nodes()) {
+        scene.set_position(node, place(corner));
+    }
+    let in_plane = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap();
+    let points = cube
+        .points()
+        .iter()
+        .map(|&point| in_space.solid_state(point));
+    let points = points.chain(
+        square
+            .points()
+            .iter()
+            .map(|&point| in_plane.solid_state(point)),
+    );
+    for state in points.map(Result::unwrap) {
+        let [first, second] = expected;
+        let turned = [
+            first * cos * cos + second * sin * sin,
+            first * sin * sin + second * cos * cos,
+            (first - second) * sin * cos,
+        ];
+        let near = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12 * first);
+        near(state.stress[(0, 0)], turned[0]);
+        near(state.stress[(1, 1)], turned[1]);
+        near(state.stress[(0, 1)], turned[2]);
+        near(state.stress[(2, 2)], second);
+        near(state.von_mises(), first - second);
+        near(first * state.strain[(0, 0)], first * along);
+        near(first * state.dilatation, first * (a - 1.0));
+    }
+}

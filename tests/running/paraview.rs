@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use eem::VtkSeries;
 use eem::nalgebra::SVector;
 use eem::prelude::*;
+use eem::{SolidState, VtkSeries};
 
 use crate::support::solids::{SECTION, ThermoelasticSolid};
 use crate::support::{Hencky, ThermoViscoElastic};
@@ -68,6 +68,11 @@ fn files_have_all_digits_of_every_state() {
     let produced = |element| run.entropy_production(element).unwrap();
     let solid = points.iter().map(|&point| produced(point)).sum();
     same("entropy_production", &[solid, produced(damper), f64::NAN]);
+    let states = points.map(|point| run.solid_state(point).unwrap());
+    let stress = states.iter().map(SolidState::von_mises).sum::<f64>() / 4.0;
+    same("von_mises", &[stress, f64::NAN, f64::NAN]);
+    let growth = states.iter().map(|state| state.dilatation).sum::<f64>() / 4.0;
+    same("dilatation", &[growth, f64::NAN, f64::NAN]);
     same("connectivity", &[0.0, 1.0, 2.0, 3.0, 2.0, 4.0, 1.0, 4.0]);
     same("offsets", &[4.0, 6.0, 8.0]);
     same("types", &[9.0, 3.0, 3.0]);

@@ -18,7 +18,8 @@ use file::Grid;
 ///
 /// Points are the nodes where they are now, with `displacement` (m) from where the scene has them and `velocity` (m/s).
 /// Cells are springs and cells of solids, with means over their points: `temperature` (K), `internal_energy` (J, the
-/// sum), `entropy_production` (W/K, the sum), and of springs `stretch` (m) and `force` (N). What an element does not have is
+/// sum), `entropy_production` (W/K, the sum), of springs `stretch` (m) and `force` (N), of solids `strain_trace` (tr E), `dilatation` (J − 1) and `von_mises` (Pa).
+/// What an element does not have is
 /// not a number there. Scenes have at most three dimensions; values have all their digits.
 ///
 /// ```no_run
@@ -128,12 +129,15 @@ impl<const D: usize> VtkSeries<D> {
 }
 
 /// The quantities of cells.
-const QUANTITIES: [&str; 5] = [
+const QUANTITIES: [&str; 8] = [
     "temperature",
     "internal_energy",
     "entropy_production",
     "stretch",
     "force",
+    "strain_trace",
+    "dilatation",
+    "von_mises",
 ];
 
 impl Cell {
@@ -143,11 +147,21 @@ impl Cell {
         run: &Simulation<D, S>,
     ) -> Result<[f64; QUANTITIES.len()], SceneError> {
         let [mut heat, mut energy, mut production] = [0.0; 3];
+        let mut solid = [0.0; 3];
         for &element in &self.elements {
             energy += run.internal_energy(element)?.to_f64();
             if self.is_thermal {
                 heat += run.temperature(element)?.to_f64();
                 production += run.entropy_production(element)?.to_f64();
+            }
+            if !self.is_spring {
+                let state = run.solid_state(element)?;
+                let e = |axis| state.strain[(axis, axis)];
+                let trace = e(0) + e(1) + e(2);
+                let at_point = [trace, state.dilatation, state.von_mises()];
+                for (sum, value) in solid.iter_mut().zip(at_point) {
+                    *sum += value.to_f64();
+                }
             }
         }
         let points = f64::from(u32::try_from(self.elements.len()).unwrap_or(u32::MAX));
@@ -162,7 +176,21 @@ impl Cell {
             }
             _ => [f64::NAN; 2],
         };
-        Ok([temperature, energy, production, stretch, force])
+        let [trace, dilatation, stress] = if self.is_spring {
+            [f64::NAN; 3]
+        } else {
+            solid.map(|sum| sum / points)
+        };
+        Ok([
+            temperature,
+            energy,
+            production,
+            stretch,
+            force,
+            trace,
+            dilatation,
+            stress,
+        ])
     }
 }
 

@@ -9,6 +9,14 @@ use crate::number::readable::Readable;
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SolidError {
+    /// A spring has neither stress nor strain.
+    #[error(
+        "{element} is a spring, which has neither stress nor strain; ask for `stretch` and `force`"
+    )]
+    NotASolid {
+        /// The spring.
+        element: Element,
+    },
     /// A cell of a solid is inside out at a point of its reference configuration, or has no volume there.
     #[error(
         "det dX/dxi of the solid at {element} is {value} {unit}, it must be positive and finite: give its {order}",

@@ -12,7 +12,7 @@ use crate::element::error::StateError;
 use crate::element::group::misfit::Misfit;
 use crate::element::group::view::ElementGeneric;
 use crate::element::impulse::Impulses;
-use crate::element::kinematics::{Kinematics, Points};
+use crate::element::kinematics::{Kinematics, Points, SolidState};
 use crate::element::layout::Slots;
 use crate::element::recount::Recount;
 use crate::element::state::State;
@@ -107,6 +107,10 @@ where
 
     fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S> {
         self.inspect_at(place, state)
+    }
+
+    fn solid_state(&self, place: usize, state: &State<S>) -> Option<SolidState<S>> {
+        self.solid_state_at(place, state)
     }
 
     fn dissipation(&self, place: usize, state: &State<S>, velocity: &dyn Fn(usize) -> [S; D]) -> S {

@@ -7,7 +7,7 @@ use crate::element::error::StateError;
 use crate::element::group::element_group::{ElementGroup, variables};
 use crate::element::group::view::{ElementTotals, ElementView};
 use crate::element::handle::Element;
-use crate::element::kinematics::{Arms, Kinematics};
+use crate::element::kinematics::{Arms, Kinematics, SolidState};
 use crate::element::state::{Energy, State};
 use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
@@ -81,6 +81,16 @@ where
             force: point.model.gradient(&x)[0],
             internal_energy: point.internal_energy(&x, state),
         }
+    }
+
+    /// See [`Elements::solid_state`](super::Elements::solid_state).
+    pub(super) fn solid_state_at(&self, place: usize, state: &State<S>) -> Option<SolidState<S>> {
+        let (member, point) = self.at(place);
+        let point = &member.points.as_ref()[point];
+        let r = member.arms_in(state);
+        let gradient = point.model.gradient(&point.variables_in(&r, state));
+        let force = measures_in::<K, S, D>(&gradient);
+        point.kinematics.solid_state(&r, &force)
     }
 
     /// See [`Elements::dissipation`](super::Elements::dissipation).

@@ -11,6 +11,7 @@ use crate::element::error::StateError;
 use crate::element::group::misfit::Misfit;
 use crate::element::group::view::ElementGeneric;
 use crate::element::impulse::Impulses;
+use crate::element::kinematics::SolidState;
 use crate::element::layout::{Shape, Slots};
 use crate::element::recount::Recount;
 use crate::element::state::State;
@@ -39,6 +40,9 @@ pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {
 
     /// The element at `place` in a state.
     fn inspect(&self, place: usize, state: &State<S>) -> ElementView<S>;
+
+    /// Stress and strain of the element at `place`, none of a spring.
+    fn solid_state(&self, place: usize, state: &State<S>) -> Option<SolidState<S>>;
 
     /// The power that the dashpots of the element at `place` turn into heat, W, at these velocities of nodes, m/s.
     fn dissipation(&self, place: usize, state: &State<S>, velocity: &dyn Fn(usize) -> [S; D]) -> S;

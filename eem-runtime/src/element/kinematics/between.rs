@@ -32,6 +32,11 @@ impl<A: Symmetric<S, D>, S: Real, const D: usize> Deformed<A, S, D> {
         Self { tensor, strain }
     }
 
+    /// E.
+    pub(super) fn strain(&self) -> &A {
+        &self.strain
+    }
+
     /// A measure of its strain.
     #[inline]
     pub(super) fn measure(&self, of: &Measure<S, D>) -> S {

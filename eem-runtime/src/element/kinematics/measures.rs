@@ -2,6 +2,7 @@
 
 use crate::element::error::StateError;
 use crate::element::handle::Element;
+use crate::element::kinematics::solid_state::SolidState;
 use crate::material::free_energy::{Array, Entry};
 use crate::number::scalar::Real;
 
@@ -75,6 +76,11 @@ pub trait Kinematics<S: Real, const D: usize>:
     /// The largest `|∂π/∂r|` of each measure.
     fn slopes(&self, r: &Arms<Self, S, D>, measures: &Measures<Self, S, D>)
     -> Measures<Self, S, D>;
+
+    /// Stress and strain with these arms under conjugates of the measures; none of a spring.
+    fn solid_state(&self, _: &Arms<Self, S, D>, _: &Measures<Self, S, D>) -> Option<SolidState<S>> {
+        None
+    }
 
     /// Names the numbers of the reference configuration, which tell one element from another.
     fn numbers(&self, see: &mut dyn FnMut(S));

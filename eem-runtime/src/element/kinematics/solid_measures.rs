@@ -6,6 +6,7 @@ use crate::element::kinematics::between::{Between, Deformed};
 use crate::element::kinematics::measures::{Ends, Kinematics};
 use crate::element::kinematics::shape::Shape;
 use crate::element::kinematics::solid::{PerArm, PerPair, SolidPoint, Strains};
+use crate::element::kinematics::solid_state::SolidState;
 use crate::element::kinematics::strain::Measure;
 use crate::element::kinematics::tensor::{Symmetric, dot};
 use crate::material::free_energy::{Array, Entry};
@@ -70,6 +71,10 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
             let entries = arms.as_ref().iter().flatten();
             entries.fold(S::zero(), |sum, entry| sum + entry.abs())
         })
+    }
+
+    fn solid_state(&self, r: &PerArm<H, S, D>, force: &[S; N]) -> Option<SolidState<S>> {
+        Some(self.state(r, force))
     }
 
     fn numbers(&self, see: &mut dyn FnMut(S)) {

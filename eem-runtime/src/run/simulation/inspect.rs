@@ -6,11 +6,13 @@ use super::Simulation;
 use crate::element::conduction::Partner;
 use crate::element::group::ElementView;
 use crate::element::handle::{Element, Handle, Node, Reservoir};
+use crate::element::kinematics::SolidState;
 use crate::element::layout::Slots;
 use crate::element::lineage::Lineage;
 use crate::number::scalar::Real;
 use crate::run::ledger::Ledger;
 use crate::scene::error::SceneError;
+use crate::scene::solid_error::SolidError;
 use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
 
@@ -84,6 +86,41 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub fn force(&self, element: Element) -> Result<S, SceneError> {
         self.expect_spring(element, "force")?;
         Ok(self.view(element)?.force)
+    }
+
+    /// Stress and strain at a point of a solid.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle; [`SolidError::NotASolid`] for a spring.
+    ///
+    /// ```
+    /// use eem::kinematics::Quad4;
+    /// use eem::prelude::*;
+    ///
+    /// #[derive(FreeEnergy)]
+    /// #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * lame * e1.powi(2) + shear * e2)]
+    /// struct Elastic { lame: f64, shear: f64 }
+    ///
+    /// let mut scene = Scene::<2>::new();
+    /// let mesh = Mesh::<Quad4, 2>::block([1, 1], [[0.0, 1.0], [0.0, 1.0]])?;
+    /// let plate = scene.solid(Elastic { lame: 2000.0, shear: 1000.0 }, &mesh, &Bulk::new(10.0));
+    /// // Twice as long: E₁₁ = 3/2, S₁₁ = (λ + 2μ) E₁₁, σ₁₁ = F₁₁ S₁₁ F₁₁/J = 2 S₁₁.
+    /// for (&node, [x, y]) in plate.nodes().iter().zip(mesh.nodes()) {
+    ///     scene.set_position(node, [2.0 * x, *y]);
+    /// }
+    /// let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// let state = run.solid_state(plate.points()[0])?;
+    /// assert!((state.strain[(0, 0)] - 1.5).abs() < 1e-14);
+    /// assert!((state.stress[(0, 0)] - 12_000.0).abs() < 1e-10);
+    /// assert!((state.stress[(2, 2)] - 1_500.0).abs() < 1e-10);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn solid_state(&self, point: Element) -> Result<SolidState<S>, SceneError> {
+        self.expect_own(&point)?;
+        let [group, place] = self.place(point);
+        let state = self.stepper.elements(group).solid_state(place, &self.state);
+        state.ok_or(SolidError::NotASolid { element: point }.into())
     }
 
     /// The internal energy of an element, `ψ + θ s`, J; ψ if it has no temperature.
