@@ -33,6 +33,7 @@ mod solid_measures;
 mod solid_state;
 mod space;
 mod strain;
+mod stress;
 mod stretch;
 mod tensor;
 
