@@ -1,0 +1,143 @@
+//! The balance sheet: what the tractions gave and what became of it, and the laws that it must keep.
+
+use comfy_table::{Table, presets};
+
+use super::scene::{LOADED, RUBBER, VOLUME};
+use super::support::claims::Claims;
+use super::support::record::{Outcome, Record};
+use super::support::statistics::{Statistics, TIME_TOLERANCE};
+use super::support::terminal;
+
+/// What rounding may do to E − W, relative to the heat c θ of the block, the largest term in it. The state
+/// is kept to twice the working precision and energy is closed in every step, so that the defect does not
+/// grow with their number. Evaluating E from θ costs a dozen roundings of ε/2 at each of the 32 points,
+/// whose signs differ: half an ε of the whole, for each of two states.
+const ENERGY_DEFECT: f64 = f64::EPSILON;
+
+/// What rounding may do to J, kg m²/s: evaluating it from the state costs some dozen ε/2 of its terms, less
+/// than 1e4 kg m²/s; Newton's method leaves less than the second number in a step, seen after 1000 steps.
+const MOMENTUM_DEFECT: f64 = 1e-10;
+const MOMENTUM_DRIFT: f64 = 1e-13;
+
+/// What rounding may take from S in a step, in units in its last place.
+const ENTROPY_LOSS: f64 = 2.0;
+
+/// What was given and what became of it, a row per scheme.
+pub(crate) fn print(runs: &[Record]) {
+    let mut table = Table::new();
+    table.load_style(presets::ASCII_MARKDOWN).set_header([
+        "scheme",
+        "outcome",
+        "W (J)",
+        "kinetic (J)",
+        "off by (J)",
+        "least ΔS (J/K)",
+        "ΔJ (kg m²/s)",
+        "θ (K)",
+        "Newton/step",
+        "ms/step",
+    ]);
+    for run in runs {
+        table.add_row(row(run));
+    }
+    terminal::say(format_args!("{table}\n"));
+    for run in runs {
+        if let Outcome::Failed { time, reason } = &run.outcome {
+            let scheme = &run.scheme;
+            terminal::say(format_args!(
+                "{scheme} failed after t = {time:.6} s: {reason}"
+            ));
+        }
+    }
+    terminal::say(format_args!(
+        "W: work of the tractions; W, kinetic energy and least and largest temperature at the end.\n\
+         Off by: the energy, max |E − E₀ − W| over the run. ΔJ: max |J − J(t₀)| after t₀ = {LOADED} s,\n\
+         when the tractions have ended."
+    ));
+}
+
+fn row(run: &Record) -> [String; 10] {
+    let figures = Statistics::of(run);
+    let last = |name| run.column(name).and_then(|values| values.last().copied());
+    let cell = |value: Option<f64>, format: fn(f64) -> String| value.map_or("–".into(), format);
+    let outcome = match run.outcome {
+        Outcome::Completed => "completed".to_owned(),
+        Outcome::Failed { time, .. } => format!("failed at {time:.1} s"),
+    };
+    let range = [last("temperature_min"), last("temperature_max")];
+    let [least, most] = range.map(|theta| cell(theta, |theta| format!("{theta:.2}")));
+    let time = figures.time_per_step.map(|time| time.as_secs_f64());
+    [
+        run.scheme.clone(),
+        outcome,
+        cell(last("work"), |work| format!("{work:.3}")),
+        cell(last("kinetic"), |kinetic| format!("{kinetic:.3}")),
+        cell(largest(energy_defects(run)), |defect| {
+            format!("{defect:.1e}")
+        }),
+        cell(figures.entropy_increment, |least| format!("{least:.1e}")),
+        cell(momentum_defect(run), |defect| format!("{defect:.1e}")),
+        format!("{least} … {most}"),
+        cell(figures.newton_iterations, |mean| format!("{mean:.2}")),
+        cell(time, |time| format!("{:.2}", 1e3 * time)),
+    ]
+}
+
+/// |E − E₀ − W| over time, J.
+pub(crate) fn energy_defects(run: &Record) -> impl Iterator<Item = f64> + use<'_> {
+    let work = run.column("work").unwrap_or_default();
+    let changes = run.energy_changes().into_iter().zip(work);
+    changes.map(|((_, change), work)| (change - work).abs())
+}
+
+/// max |J − J(t₀)| from the first state t₀ on at which the tractions have ended, kg m²/s; `None` when no
+/// step was made since.
+fn momentum_defect(run: &Record) -> Option<f64> {
+    let start = run
+        .times()
+        .partition_point(|&time| time < LOADED - TIME_TOLERANCE);
+    let all = run.vectors(|name| name.starts_with("angular_momentum_"));
+    let (first, later) = all.get(start..)?.split_first()?;
+    let distance = |own: &Vec<f64>| {
+        let squares = own.iter().zip(first).map(|(a, b)| (a - b) * (a - b));
+        squares.sum::<f64>().sqrt()
+    };
+    largest(later.iter().map(distance))
+}
+
+/// The largest value; not a number when one of them is not.
+fn largest(values: impl Iterator<Item = f64>) -> Option<f64> {
+    values.reduce(|a, b| if a.is_nan() || a > b { a } else { b })
+}
+
+/// The laws, for the schemes that promise them.
+pub(crate) fn check(run: &Record, claims: &mut Claims) {
+    let scheme = &run.scheme;
+    if !scheme.starts_with("eem-") {
+        return;
+    }
+    claims.holds(
+        run.completed(),
+        format!("{scheme} does not reach the end time"),
+    );
+    let warmest = run.column("temperature_max").unwrap_or_default();
+    let warmest = warmest.iter().copied().fold(0.0, f64::max);
+    claims.at_most(
+        &format!("{scheme}: the defect of the energy (J)"),
+        largest(energy_defects(run)),
+        ENERGY_DEFECT * RUBBER.capacity * VOLUME * warmest,
+    );
+    claims.at_least(
+        &format!("{scheme}: the smallest entropy increment (units in the last place)"),
+        Statistics::of(run).entropy_increment_ulps,
+        -ENTROPY_LOSS,
+    );
+    if let Some(defect) = momentum_defect(run) {
+        let steps = u32::try_from(run.steps()).map_or(f64::INFINITY, f64::from);
+        claims.at_most(
+            &format!("{scheme}: the change of angular momentum after {LOADED} s (kg m²/s)"),
+            Some(defect),
+            MOMENTUM_DEFECT.max(MOMENTUM_DRIFT * steps),
+        );
+    }
+}
