@@ -1,5 +1,4 @@
-//! What is known of the motion from another program: solutions of the equations of the steps of
-//! `eem-temperature`, computed with 64-bit mantissas.
+//! What is known of the motion from another program, which solved the equations of the steps of `eem-temperature`.
 
 use super::scene::STEP;
 use super::support::claims::Claims;
