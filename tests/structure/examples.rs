@@ -53,6 +53,7 @@ fn pictures_hold_their_texts_and_tables_their_numbers() {
         ("double_pendulum", &[]),
         ("log_stiffness", &[]),
         ("shock_absorber", &[]),
+        ("l_block", &[]),
     ] {
         let folder = folder(name);
         let out = folder.to_str().unwrap();
