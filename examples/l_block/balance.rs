@@ -5,12 +5,12 @@ use comfy_table::{Table, presets};
 use super::scene::{LOADED, RUBBER, VOLUME};
 use super::support::claims::Claims;
 use super::support::record::{Outcome, Record};
-use super::support::statistics::{Statistics, TIME_TOLERANCE};
+use super::support::statistics::{Statistics, TIME_TOLERANCE, distance, largest};
 use super::support::terminal;
 
 /// What rounding may do to E − W, relative to the heat c θ of the block, the largest term in it. The state
-/// is kept to twice the working precision and energy is closed in every step, so that the defect does not
-/// grow with their number. Evaluating E from θ costs a dozen roundings of ε/2 at each of the 32 points,
+/// is kept to twice the working precision and Newton's method goes on to the rounding of its residual, so that
+/// the defect hardly grows with their number. Evaluating E from θ costs a dozen roundings of ε/2 at each of the 32 points,
 /// whose signs differ: half an ε of the whole, for each of two states.
 const ENERGY_DEFECT: f64 = f64::EPSILON;
 
@@ -98,16 +98,7 @@ fn momentum_defect(run: &Record) -> Option<f64> {
         .partition_point(|&time| time < LOADED - TIME_TOLERANCE);
     let all = run.vectors(|name| name.starts_with("angular_momentum_"));
     let (first, later) = all.get(start..)?.split_first()?;
-    let distance = |own: &Vec<f64>| {
-        let squares = own.iter().zip(first).map(|(a, b)| (a - b) * (a - b));
-        squares.sum::<f64>().sqrt()
-    };
-    largest(later.iter().map(distance))
-}
-
-/// The largest value; not a number when one of them is not.
-fn largest(values: impl Iterator<Item = f64>) -> Option<f64> {
-    values.reduce(|a, b| if a.is_nan() || a > b { a } else { b })
+    largest(later.iter().map(|own| distance(own, first)))
 }
 
 /// The laws, for the schemes that promise them.

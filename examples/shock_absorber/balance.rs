@@ -5,7 +5,7 @@ use comfy_table::{Table, presets};
 use super::car::{DAMPER, TRACK, TYRE};
 use super::support::claims::Claims;
 use super::support::record::{Outcome, Record};
-use super::support::statistics::Statistics;
+use super::support::statistics::{Statistics, largest};
 use super::support::terminal;
 
 /// What rounding may do to E − work − heat, relative to the largest term in it, c θ. The state is
@@ -64,8 +64,7 @@ pub(crate) fn print(runs: &[Record]) {
 /// max |B − B₀|, J.
 fn balance_defect(run: &Record) -> Option<f64> {
     let balance = run.column("balance")?;
-    let defects = balance.iter().map(|value| (value - balance[0]).abs());
-    defects.reduce(|a, b| if a.is_nan() || a > b { a } else { b })
+    largest(balance.iter().map(|value| (value - balance[0]).abs()))
 }
 
 /// The two laws of thermodynamics, for the schemes that promise them.

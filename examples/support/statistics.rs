@@ -122,7 +122,7 @@ fn defects(vectors: &[Vec<f64>]) -> impl Iterator<Item = f64> {
 }
 
 /// The largest value; not a number when one of them is not.
-fn largest(values: impl Iterator<Item = f64>) -> Option<f64> {
+pub(crate) fn largest(values: impl Iterator<Item = f64>) -> Option<f64> {
     let larger = |a: f64, b: f64| if a.is_nan() || a > b { a } else { b };
     values.reduce(larger)
 }
@@ -148,7 +148,8 @@ fn norm(vector: &[f64]) -> f64 {
     vector.iter().map(|value| value * value).sum::<f64>().sqrt()
 }
 
-fn distance(a: &[f64], b: &[f64]) -> f64 {
+/// |a − b|.
+pub(crate) fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter()
         .zip(b)
         .map(|(a, b)| (a - b) * (a - b))

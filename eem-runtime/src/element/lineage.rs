@@ -37,9 +37,9 @@ impl Lineage {
         }
     }
 
-    /// Whether it is the very scene, and no copy.
-    pub(crate) fn is(&self, other: &Self) -> bool {
-        self.own == other.own
+    /// The scene itself, which no copy is.
+    pub(crate) const fn scene(&self) -> SceneId {
+        self.own
     }
 
     /// That of a copy of the scene, which has so much now.

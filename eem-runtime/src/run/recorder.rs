@@ -8,7 +8,7 @@ use core::ops::ControlFlow;
 
 use thiserror::Error;
 
-use crate::element::lineage::Lineage;
+use crate::element::handle::SceneId;
 use crate::number::scalar::Real;
 use crate::run::simulation::Simulation;
 use crate::scene::error::SceneError;
@@ -52,7 +52,7 @@ const TIME: &str = "time";
 /// ```
 #[derive(Debug)]
 pub struct Recorder<const D: usize, S: Real = f64> {
-    scene: Lineage,
+    scene: SceneId,
     quantities: Vec<Quantity<D, S>>,
     columns: Vec<Column>,
     stride: usize,
@@ -133,7 +133,7 @@ impl<const D: usize, S: Real> Recorder<D, S> {
         quantities: impl IntoIterator<Item = (N, Quantity<D, S>)>,
     ) -> Result<Self, RecordError> {
         let mut recorder = Self {
-            scene: run.lineage().clone(),
+            scene: run.scene(),
             quantities: Vec::new(),
             columns: Vec::new(),
             stride: 1,
@@ -220,7 +220,7 @@ impl<const D: usize, S: Real> Recorder<D, S> {
     pub fn record(&mut self, run: &Simulation<D, S>) -> Result<(), SceneError> {
         // A row has one value per quantity.
         run.part();
-        if !run.lineage().is(&self.scene) {
+        if run.scene() != self.scene {
             let handle = "the recorder".to_owned();
             return Err(SceneError::ForeignHandle { handle });
         }

@@ -46,10 +46,8 @@ impl<S: Real, const D: usize> Scene<D, S> {
                 let new = LooseElements::<S, PointEnergy<S, M>, SolidPoint<H, S, N, D>, D>::new;
                 let (group, set) = self.set_of(new);
                 let place = set.points();
-                let mut cell = cell.into_iter();
-                let parts = H::PerPoint::from_fn(|_| {
-                    let point = cell.next();
-                    let point = point.unwrap_or_else(|| unreachable!("as many as points"));
+                let parts = H::PerPoint::from_fn(|at| {
+                    let point = cell.as_ref()[at];
                     (PointEnergy::new(model.duplicate(), point.volume()), point)
                 });
                 set.elements.push((first, parts));

@@ -114,8 +114,8 @@ where
         let (drags, _) = point.model.drag(theta);
         let nodes = member.site.nodes.as_ref();
         let first = velocity(nodes[0] as usize);
-        let slopes = K::gradient(&point.kinematics, &r, &measures_in::<K, S, D>(&x));
         for (a, &drag) in drags.as_ref().iter().enumerate() {
+            let slopes = K::gradient(&point.kinematics, &r, &measures_in::<K, S, D>(&x));
             let mut rate = S::zero();
             for (&node, slope) in nodes[1..].iter().zip(slopes[a].as_ref()) {
                 for (axis, speed) in velocity(node as usize).into_iter().enumerate() {

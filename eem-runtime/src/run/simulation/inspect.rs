@@ -5,10 +5,9 @@ use nalgebra::SVector;
 use super::Simulation;
 use crate::element::conduction::Partner;
 use crate::element::group::ElementView;
-use crate::element::handle::{Element, Handle, Node, Reservoir};
+use crate::element::handle::{Element, Handle, Node, Reservoir, SceneId};
 use crate::element::kinematics::SolidState;
 use crate::element::layout::Slots;
-use crate::element::lineage::Lineage;
 use crate::number::scalar::Real;
 use crate::run::ledger::Ledger;
 use crate::scene::error::SceneError;
@@ -285,8 +284,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// The scene that it was made from.
-    pub(crate) fn lineage(&self) -> &Lineage {
-        &self.scene
+    pub(crate) const fn scene(&self) -> SceneId {
+        self.scene.scene()
     }
 
     fn expect_own<H: Handle>(&self, handle: &H) -> Result<(), SceneError> {

@@ -179,10 +179,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             return self.controlled_step(end);
         }
         let full = self.step_size();
-        let size = self.size_towards(end, full)?;
-        let made = self.step_by(size.unwrap_or(full));
-        let mut report = made.map_err(|error| self.with_shorter(error, size.unwrap_or(full)))?;
-        if size.is_some() {
+        let last = self.size_towards(end, full)?;
+        let size = last.unwrap_or(full);
+        let made = self.step_by(size);
+        let mut report = made.map_err(|error| self.with_shorter(error, size))?;
+        if last.is_some() {
             self.arrive_at(end, &mut report);
         }
         Ok(report)

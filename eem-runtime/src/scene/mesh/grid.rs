@@ -109,7 +109,7 @@ fn check_cuts<const D: usize>(cuts: [&[f64]; D]) -> Result<(), MeshError> {
 }
 
 /// All indices below these, the first coordinate fastest.
-fn indices<const D: usize>(counts: [usize; D]) -> Vec<[usize; D]> {
+pub(super) fn indices<const D: usize>(counts: [usize; D]) -> Vec<[usize; D]> {
     let number = counts.iter().product();
     let index = |mut rest: usize| {
         counts.map(|count| {

@@ -12,7 +12,8 @@ use std::collections::BTreeMap;
 use super::Mesh;
 use super::face::Face;
 use super::geometry::{area_vector, distance, mean};
-use crate::element::kinematics::Shape;
+use super::grid::indices;
+use crate::element::kinematics::{Points, Shape};
 
 /// A face of a sub-cell: of which point of the mesh it is, and how it lies.
 #[derive(Clone, Copy, Debug)]
@@ -38,11 +39,6 @@ fn cuts(per_axis: usize) -> &'static [f64] {
 }
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
-    /// Points per cell.
-    fn per_cell() -> usize {
-        (0..D).fold(1, |points, _| points * H::PER_AXIS)
-    }
-
     /// Pairs of points with `κ/k`, within and between cells; m, one in the plane.
     pub(crate) fn network(&self) -> Vec<([usize; 2], f64)> {
         let pairs = self.pairs_of_faces();
@@ -87,7 +83,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         let mut pairs = Vec::new();
         let mut sides: BTreeMap<Vec<usize>, Vec<[usize; 2]>> = BTreeMap::new();
         for cell in 0..self.cells.len() {
-            for index in sub_cells::<D>(H::PER_AXIS) {
+            for index in indices([H::PER_AXIS; D]) {
                 for axis in (0..D).filter(|&axis| index[axis] + 1 < H::PER_AXIS) {
                     let mut next = index;
                     next[axis] += 1;
@@ -118,7 +114,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     fn sub_faces_of(&self, [cell, face]: [usize; 2]) -> Vec<SubFace<D>> {
         let (axis, side) = (face / 2, face % 2);
         let end = side * (H::PER_AXIS - 1);
-        let all = sub_cells::<D>(H::PER_AXIS).into_iter();
+        let all = indices([H::PER_AXIS; D]).into_iter();
         let outer = all.filter(|index| index[axis] == end);
         outer
             .map(|index| self.sub_face(cell, index, axis, side))
@@ -158,7 +154,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
             .rev()
             .fold(0, |point, at| point * H::PER_AXIS + at);
         SubFace {
-            point: cell * Self::per_cell() + point,
+            point: cell * H::PerPoint::<()>::LEN + point,
             area: size,
             reach: product / (length * length),
             centre,
@@ -177,17 +173,4 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         }
         image
     }
-}
-
-/// Indices of sub-cells, the first coordinate fastest.
-fn sub_cells<const D: usize>(per_axis: usize) -> Vec<[usize; D]> {
-    let count = (0..D).fold(1, |count, _| count * per_axis);
-    let index = |mut rest: usize| {
-        [(); D].map(|()| {
-            let own = rest % per_axis;
-            rest /= per_axis;
-            own
-        })
-    };
-    (0..count).map(index).collect()
 }
