@@ -11,7 +11,7 @@ const VISCOELASTIC: &str = include_str!("../data/viscoelastic_block_eem-temperat
 const L_BLOCK: &str = include_str!("../data/l_block_eem-temperature_h0.025.csv");
 
 /// What is known of one quantity at one step: a row per node, point or reservoir.
-fn values(states: &str, step: usize, what: &str) -> Vec<Vec<f64>> {
+pub(super) fn values(states: &str, step: usize, what: &str) -> Vec<Vec<f64>> {
     let rows = states
         .lines()
         .map(|line| line.split(',').collect::<Vec<_>>());
@@ -26,7 +26,7 @@ fn values(states: &str, step: usize, what: &str) -> Vec<Vec<f64>> {
 }
 
 /// The largest difference from what is known.
-fn error(known: &[Vec<f64>], found: impl Fn(usize) -> Vec<f64>) -> f64 {
+pub(super) fn error(known: &[Vec<f64>], found: impl Fn(usize) -> Vec<f64>) -> f64 {
     let rows = known.iter().enumerate();
     let errors = rows.flat_map(|(at, known)| {
         let found = found(at);

@@ -13,5 +13,6 @@ mod order;
 mod plate;
 mod reference_trajectory;
 mod same_bits;
+mod satellite;
 mod step_tangent;
 mod variational_4_equations;

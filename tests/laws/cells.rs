@@ -116,7 +116,7 @@ fn pulled<A: AsRef<[[f64; D]]>, const D: usize>(gradients: &[A], force: &[f64; 4
 
 /// The derivative at zero by the difference formula of eighth order. With a width w of 0.02 of the length
 /// over which gradients change, `w⁸` is below the error `ε/w` of rounding.
-fn derivative(length: f64, of: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
+pub(super) fn derivative(length: f64, of: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
     let width = 0.02 * length;
     let weights = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
     let mut sum = vec![0.0; of(0.0).len()];

@@ -16,6 +16,7 @@ mod high_order;
 mod invariants_under_loads;
 mod kelvin_voigt;
 mod loads;
+mod rockets;
 mod several_dashpots;
 mod single_pendulum;
 mod solids;

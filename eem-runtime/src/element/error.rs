@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::element::handle::Element;
+use crate::element::handle::{Element, Node};
 use crate::material::inversion::InversionError;
 use crate::number::readable::Readable;
 
@@ -35,6 +35,22 @@ pub enum StateError {
         /// The point.
         element: Element,
         /// `det F`.
+        value: f64,
+    },
+    /// The line along which a rocket pushes has no direction: its ends coincide, or are so near or far that
+    /// the square of their distance underflows or overflows.
+    #[error(
+        "the rocket at {node} has no direction: {tail} and {head} are {value} m apart in the mean of the step, a smaller step may help",
+        value = Readable(*value)
+    )]
+    NoDirection {
+        /// The node that it pushes.
+        node: Node,
+        /// Where the line begins.
+        tail: Node,
+        /// Where it ends.
+        head: Node,
+        /// The distance, m.
         value: f64,
     },
     /// A viscous stretch is not finite.

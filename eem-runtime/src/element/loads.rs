@@ -1,5 +1,6 @@
 //! What acts during one step: forces, moved anchors, prescribed temperatures.
 
+use crate::element::handle::Node;
 use crate::number::scalar::Real;
 
 /// A prescribed temperature during one step.
@@ -11,6 +12,22 @@ pub(crate) struct Prescribed<S> {
     pub(crate) end: S,
 }
 
+/// Where a rocket pushes, and along which line.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PushLine {
+    pub(crate) node: Node,
+    pub(crate) tail: Node,
+    pub(crate) head: Node,
+}
+
+/// A rocket during one step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Push<S> {
+    pub(crate) line: PushLine,
+    /// In the middle of the step, N.
+    pub(crate) thrust: S,
+}
+
 /// What acts during one step. There is no memory for kinds of loads that the scene does not have.
 #[derive(Clone, Debug)]
 pub(crate) struct StepLoads<S> {
@@ -18,6 +35,8 @@ pub(crate) struct StepLoads<S> {
     pub(crate) force: Vec<S>,
     /// Loads and weight, per coordinate, N.
     pub(crate) total_force: Vec<S>,
+    /// Rockets.
+    pub(crate) pushes: Vec<Push<S>>,
     /// Displacements of moved anchors, per coordinate, m.
     pub(crate) motion: Vec<S>,
     /// The nodes that are moved.

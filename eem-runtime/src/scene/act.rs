@@ -6,8 +6,10 @@ use nalgebra::SVector;
 
 use super::Scene;
 use crate::element::handle::{Element, Node};
+use crate::element::loads::PushLine;
 use crate::number::scalar::Real;
 use crate::scene::error::SceneError;
+use crate::scene::loads::Rocket;
 
 /// # Loads and prescribed quantities
 impl<const D: usize, S: Real> Scene<D, S> {
@@ -30,12 +32,64 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// A force on a mass as a function of time, N of s. Its work is booked.
     ///
     /// Several forces on one mass add up. Over a step the force is that in the middle of the
-    /// step; the trapezoidal rule takes the mean of both ends, the variational integrator of fourth
-    /// order all three of them.
+    /// step; the variational integrator of fourth order takes it at both ends too, and other schemes with
+    /// stages at those.
     pub fn force(&mut self, node: Node, force: impl Fn(S) -> [S; D] + Send + Sync + 'static) {
         if self.expect_kind(node, true, "a force") {
             let force = move |time| SVector::from(force(time));
             self.loads.forces.push((node, Arc::new(force)));
+        }
+    }
+
+    /// A rocket: a force on a mass or a node of a solid, of a size in N as a function of time in s, along the line
+    /// from one node to another, which it follows. Its work is booked.
+    ///
+    /// ```text
+    /// f = F(t_m) n,   n = r_m/|r_m|,   r_m = mean of q_head − q_tail over the step
+    /// ```
+    ///
+    /// Over a step the thrust is that in its middle. Momenta change by what rockets and other loads give.
+    /// It is for schemes with one stage, [`EemEntropy`](crate::Scheme::EemEntropy),
+    /// [`EemTemperature`](crate::Scheme::EemTemperature), [`Staggered`](crate::Scheme::Staggered) and the midpoint
+    /// and trapezoidal rules.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    ///
+    /// #[derive(FreeEnergy)]
+    /// #[free_energy(|lambda: Stretch| 0.5 * k * (lambda - 2.0).powi(2))]
+    /// struct Rod { k: f64 }
+    ///
+    /// // A rod of 2 m that is pushed at its end, along itself.
+    /// let mut scene = Scene::<2>::new();
+    /// let tail = scene.mass(1.0, [0.0, 0.0], [0.0, 0.0]);
+    /// let head = scene.mass(1.0, [0.0, 2.0], [0.0, 0.0]);
+    /// scene.spring(Rod { k: 1e4 }, [tail, head]);
+    /// scene.rocket(tail, [tail, head], |_| 3.0);
+    ///
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// run.run_until(1.0)?;
+    /// let ledger = run.ledger();
+    /// assert!((ledger.linear_momentum[1] - 3.0).abs() < 1e-14);
+    /// assert!((ledger.energy - ledger.work).abs() < 1e-13 * ledger.work);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn rocket(
+        &mut self,
+        node: Node,
+        [tail, head]: [Node; 2],
+        thrust: impl Fn(S) -> S + Send + Sync + 'static,
+    ) {
+        let own = self.expect_kind(node, true, "a rocket")
+            & self.expect_own(&tail)
+            & self.expect_own(&head);
+        if own && tail == head {
+            self.misuse
+                .push(SceneError::RocketWithoutLine { node, tail });
+        } else if own {
+            let line = PushLine { node, tail, head };
+            let thrust = Arc::new(thrust);
+            self.loads.rockets.push(Rocket { line, thrust });
         }
     }
 

@@ -290,7 +290,9 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// Makes a node an anchor, which stays where it is and has neither mass nor velocity.
     pub fn fix(&mut self, node: Node) {
         if self.expect_own(&node) {
-            if self.loads.forces.iter().any(|(loaded, _)| *loaded == node) {
+            let mut rockets = self.loads.rockets.iter();
+            let is_pushed = rockets.any(|rocket| rocket.line.node == node);
+            if is_pushed || self.loads.forces.iter().any(|(loaded, _)| *loaded == node) {
                 self.misuse.push(SceneError::WrongKind {
                     node,
                     quantity: "a force",

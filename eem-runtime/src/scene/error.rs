@@ -33,6 +33,26 @@ pub enum SceneError {
         /// The name of the scheme.
         scheme: &'static str,
     },
+    /// A rocket pushes, and the scheme has no force that turns within a step.
+    #[error(
+        "{scheme} does not step the rocket at {node}, whose force turns within a step; use eem-entropy or eem-temperature"
+    )]
+    NoRockets {
+        /// The name of the scheme.
+        scheme: &'static str,
+        /// The node that the first of them pushes.
+        node: Node,
+    },
+    /// A rocket pushes along a line from a node to itself.
+    #[error(
+        "the rocket at {node} pushes along a line from {tail} to itself, which has no direction"
+    )]
+    RocketWithoutLine {
+        /// The node that it pushes.
+        node: Node,
+        /// The only node of the line.
+        tail: Node,
+    },
     /// A dashpot stands beside a spring, and the scheme has no force for it.
     #[error(
         "{scheme} does not step the viscosity of the stretch that {element} has; use eem-entropy or eem-temperature"

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use nalgebra::SVector;
 
 use crate::element::handle::{Element, Node};
+use crate::element::loads::PushLine;
 use crate::number::scalar::{Mask, Real};
 
 /// By how many ε of its size a prescribed function may differ from a state that follows it: a
@@ -29,12 +30,20 @@ pub(crate) type OfTime<S, const D: usize> = Arc<dyn Fn(S) -> SVector<S, D> + Sen
 /// A temperature in K as a function of time in s.
 pub(crate) type TemperatureOfTime<S> = Arc<dyn Fn(S) -> S + Send + Sync>;
 
+/// A force of a given size in N as a function of time in s, along a line that turns with two nodes.
+#[derive(Clone)]
+pub(crate) struct Rocket<S> {
+    pub(crate) line: PushLine,
+    pub(crate) thrust: Arc<dyn Fn(S) -> S + Send + Sync>,
+}
+
 /// Everything that acts on a scene, as the user gave it.
 #[derive(Clone)]
 pub(crate) struct Loads<S: Real, const D: usize> {
     /// Acceleration of free fall, m/s².
     pub(crate) gravity: SVector<S, D>,
     pub(crate) forces: Vec<(Node, OfTime<S, D>)>,
+    pub(crate) rockets: Vec<Rocket<S>>,
     pub(crate) motions: Vec<(Node, OfTime<S, D>)>,
     pub(crate) temperatures: Vec<(Element, TemperatureOfTime<S>)>,
 }
@@ -45,13 +54,14 @@ impl<S: Real, const D: usize> Loads<S, D> {
         Self {
             gravity: SVector::from_element(S::zero()),
             forces: Vec::new(),
+            rockets: Vec::new(),
             motions: Vec::new(),
             temperatures: Vec::new(),
         }
     }
 
     pub(crate) fn are_none(&self) -> bool {
-        let has_force = self.have_weight() || !self.forces.is_empty();
+        let has_force = self.have_weight() || !self.forces.is_empty() || !self.rockets.is_empty();
         !has_force && self.motions.is_empty() && self.temperatures.is_empty()
     }
 
@@ -77,6 +87,7 @@ impl<S: Real, const D: usize> core::fmt::Debug for Loads<S, D> {
         f.debug_struct("Loads")
             .field("gravity", &self.gravity)
             .field("forces", &self.forces.len())
+            .field("rockets", &self.rockets.len())
             .field("motions", &self.motions.len())
             .field("temperatures", &self.temperatures.len())
             .finish()

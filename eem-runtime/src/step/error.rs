@@ -78,6 +78,17 @@ pub enum StepFailure {
         /// The time, s.
         time: f64,
     },
+    /// The thrust of a rocket is not finite.
+    #[error(
+        "the thrust of the rocket at {node} is {value} N at t = {time} s, it must be finite", value = Readable(*value), time = Readable(*time))]
+    Thrust {
+        /// The node that it pushes.
+        node: Node,
+        /// The thrust, N.
+        value: f64,
+        /// The time, s.
+        time: f64,
+    },
     /// The prescribed position of an anchor is not finite.
     #[error(
         "coordinate {axis} of the motion of {node} is {value} m at t = {time} s, it must be finite", value = Readable(*value), time = Readable(*time))]
@@ -243,6 +254,7 @@ impl StepFailure {
             | Self::Correction { .. }
             | Self::NotClosed { .. }
             | Self::Load { .. }
+            | Self::Thrust { .. }
             | Self::Motion { .. }
             | Self::PrescribedTemperature { .. }
             | Self::State(_) => true,

@@ -7,12 +7,11 @@
 use std::collections::BTreeSet;
 
 use crate::element::layout::Layout;
-use crate::element::loads::{Prescribed, StepLoads, point};
+use crate::element::loads::{Prescribed, Push, StepLoads, point};
 use crate::element::masses::Masses;
 use crate::number::scalar::{Real, is_positive};
 use crate::scene::loads::Loads;
 use crate::step::error::StepFailure;
-use crate::step::scheme::Scheme;
 
 impl<S: Real> StepLoads<S> {
     /// Memory for a scene.
@@ -31,10 +30,13 @@ impl<S: Real> StepLoads<S> {
         let thermal = temperatures.map(|(element, _)| layout.elements[element.index()].thermal);
         let moved = loads.motions.iter().map(|(node, _)| node.index);
         let moved: BTreeSet<_> = moved.collect();
+        let lines = loads.rockets.iter().map(|rocket| rocket.line);
+        let thrust = S::zero();
         Self {
             moved: moved.into_iter().collect(),
             force: zeros(!loads.forces.is_empty()),
             total_force: zeros(!loads.forces.is_empty() || loads.have_weight()),
+            pushes: lines.map(|line| Push { line, thrust }).collect(),
             motion: zeros(!loads.motions.is_empty()),
             prescribed: vec![None; slots],
             slots: thermal.collect(),
@@ -43,19 +45,20 @@ impl<S: Real> StepLoads<S> {
 
     /// Evaluates the loads of the step from `time` by `step` at the positions `q0`.
     ///
-    /// A force of time is taken in the middle of the step; the trapezoidal rule takes the mean of both ends.
+    /// A force of time is taken in the middle of the step, by the trapezoidal rule too: forces at both ends
+    /// would give half an impulse to what is switched on between two steps.
     /// A step of no length evaluates everything at one time.
     pub(crate) fn evaluate<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,
         masses: &Masses<S>,
-        scheme: Scheme,
         [time, step]: [S; 2],
         q0: &[S],
     ) -> Result<(), StepFailure> {
         let half = S::from_f64(0.5);
         let (middle, end) = (time + half * step, time + step);
-        self.evaluate_forces(loads, scheme, [time, middle, end])?;
+        self.evaluate_forces(loads, middle)?;
+        self.evaluate_rockets(loads, middle)?;
         self.add_weights(loads, masses);
         self.evaluate_motions(loads, end, q0)?;
         self.evaluate_temperatures(loads, [middle, end])
@@ -79,10 +82,9 @@ impl<S: Real> StepLoads<S> {
         &mut self,
         loads: &Loads<S, D>,
         masses: &Masses<S>,
-        scheme: Scheme,
         time: S,
     ) -> Result<(), StepFailure> {
-        self.evaluate_forces(loads, scheme, [time; 3])?;
+        self.evaluate_forces(loads, time)?;
         self.add_weights(loads, masses);
         Ok(())
     }
@@ -90,18 +92,11 @@ impl<S: Real> StepLoads<S> {
     fn evaluate_forces<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,
-        scheme: Scheme,
-        [start, middle, end]: [S; 3],
+        time: S,
     ) -> Result<(), StepFailure> {
-        let half = S::from_f64(0.5);
         self.force.fill(S::zero());
         for (node, force) in &loads.forces {
-            let value = if scheme.has_old_forces() {
-                let [start, end] = [start, end].map(|time| force(time).map(|f| half * f));
-                start + end
-            } else {
-                force(middle)
-            };
+            let value = force(time);
             for axis in 0..D {
                 // The sum of all loads on the node, which may overflow where none of them does.
                 let sum = &mut self.force[node.index * D + axis];
@@ -111,9 +106,27 @@ impl<S: Real> StepLoads<S> {
                         node: *node,
                         axis,
                         value: sum.to_f64(),
-                        time: middle.to_f64(),
+                        time: time.to_f64(),
                     });
                 }
+            }
+        }
+        Ok(())
+    }
+
+    fn evaluate_rockets<const D: usize>(
+        &mut self,
+        loads: &Loads<S, D>,
+        time: S,
+    ) -> Result<(), StepFailure> {
+        for (push, rocket) in self.pushes.iter_mut().zip(&loads.rockets) {
+            push.thrust = (rocket.thrust)(time);
+            if !push.thrust.is_finite() {
+                return Err(StepFailure::Thrust {
+                    node: push.line.node,
+                    value: push.thrust.to_f64(),
+                    time: time.to_f64(),
+                });
             }
         }
         Ok(())

@@ -11,6 +11,7 @@
 use crate::algebra::pattern::Pattern;
 use crate::element::conduction::{Conduction, Partner};
 use crate::element::layout::Layout;
+use crate::element::loads::{Push, PushLine};
 use crate::number::scalar::Real;
 use crate::scene::entry::ElementEntry;
 
@@ -22,14 +23,19 @@ pub(crate) fn of_tangent<S: Real>(
     elements: &[ElementEntry<S>],
     layout: &Layout,
     conduction: &Conduction<S>,
+    pushes: &[Push<S>],
     dimension: usize,
 ) -> Pattern {
     if layout.coupled.iter().all(Option::is_none)
-        && let Ok(blocks) = of_secant(elements, layout, dimension).in_blocks(dimension)
+        && let Ok(blocks) = of_masses(elements, layout, pushes, dimension).in_blocks(dimension)
     {
         return blocks;
     }
     Pattern::new(layout.unknowns, |pair| {
+        for push in pushes {
+            let positions = || nodes_of(push, layout).flat_map(|first| first..first + dimension);
+            pair_all(positions, pair);
+        }
         for (entry, slots) in elements.iter().zip(&layout.elements) {
             let slot = slots.thermal;
             let own = || {
@@ -58,6 +64,16 @@ pub(crate) fn of_secant<S>(
     layout: &Layout,
     dimension: usize,
 ) -> Pattern {
+    of_masses(elements, layout, &[], dimension)
+}
+
+/// The graph of the masses, by elements and rockets.
+fn of_masses<S>(
+    elements: &[ElementEntry<S>],
+    layout: &Layout,
+    pushes: &[Push<S>],
+    dimension: usize,
+) -> Pattern {
     let masses = layout.nodes.iter().flatten().count();
     Pattern::new(masses, |pair| {
         for entry in elements {
@@ -67,7 +83,20 @@ pub(crate) fn of_secant<S>(
             };
             pair_all(masses, pair);
         }
+        for push in pushes {
+            pair_all(
+                || nodes_of(push, layout).map(|first| first / dimension),
+                pair,
+            );
+        }
     })
+}
+
+/// The first unknowns of the nodes that a rocket sees.
+fn nodes_of<'a, S>(push: &Push<S>, layout: &'a Layout) -> impl Iterator<Item = usize> + 'a {
+    let PushLine { node, tail, head } = push.line;
+    let nodes = [node, tail, head].into_iter();
+    nodes.filter_map(|node| layout.nodes[node.index])
 }
 
 /// Names every pair of some unknowns.

@@ -13,6 +13,7 @@ mod linearize;
 mod past;
 mod places;
 mod progress;
+mod rockets;
 mod stages;
 mod starts;
 
@@ -37,6 +38,7 @@ use kept_factors::KeptFactors;
 use past::Past;
 pub(crate) use past::SavedPast;
 use places::{Seen, moving, seen};
+use rockets::Rockets;
 use stages::Stages;
 
 /// Working memory of a step; nothing in it outlives the step but the forces of the last ones.
@@ -49,6 +51,7 @@ pub(crate) struct Solver<S: Real, const D: usize> {
     nodes: Vec<Balance<S, D>>,
     /// The masses that couple them.
     coupling: Coupling<S, D>,
+    rockets: Rockets<S, D>,
     /// The temperatures that neighbours see, set after set.
     seen: Vec<Seen>,
     /// The system of an iteration.
@@ -96,7 +99,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         loads: &StepLoads<S>,
     ) -> Self {
         let sets = scheme.sets();
-        let mut pattern = pattern::of_tangent(elements, layout, conduction, D);
+        let mut pattern = pattern::of_tangent(elements, layout, conduction, &loads.pushes, D);
         if sets.len() > 1 {
             pattern = pattern.repeated(sets.len());
         }
@@ -121,6 +124,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             all_seen.extend(seen(&sites));
         }
         let coupling = Coupling::new(masses, &sites);
+        let rockets = Rockets::new(loads, masses.len(), &sites);
         // Without conduction between elements no temperature is seen.
         let slots = layout.thermal * usize::from(!all_seen.is_empty());
         Self {
@@ -128,6 +132,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             past: Past::none(masses.len()),
             nodes,
             coupling,
+            rockets,
             seen: all_seen,
             factors: KeptFactors::new(&tangent),
             tangent,

@@ -17,10 +17,10 @@ pub(super) fn check_end<S: Real>(time: S) -> Result<(), StepFailure> {
 }
 
 /// Whether there is something in the scene that only schemes of second order step: solids, and dashpots beside
-/// springs.
+/// springs, rockets.
 pub(super) fn needs_second_order<const D: usize, S: Real>(scene: &Scene<D, S>) -> bool {
     let mut shapes = scene.groups.iter().map(|group| group.shape());
-    shapes.any(|shape| !shape.is_spring || shape.drag)
+    !scene.loads.rockets.is_empty() || shapes.any(|shape| !shape.is_spring || shape.drag)
 }
 
 /// Everything that is wrong with a scene, a scheme for it and a step.
@@ -43,6 +43,13 @@ fn check_scheme<const D: usize, S: Real>(
     let mut shapes = scene.groups.iter().map(|group| group.shape());
     if shapes.any(|shape| !shape.is_spring) {
         check_solids(scheme)?;
+    }
+    if let Some(rocket) = scene.loads.rockets.first()
+        && scheme.closing() != Closing::Increments
+    {
+        let scheme = scheme.name();
+        let node = rocket.line.node;
+        return Err(SceneError::NoRockets { scheme, node });
     }
     let mut entries = scene.elements.iter();
     let has_drag = |group: usize| {

@@ -226,12 +226,12 @@ impl<S: Real, const D: usize> Newton<S, D> {
     ) -> Result<(), StepFailure> {
         let span = [time, step];
         let Some(rule) = scheme.tableau() else {
-            return self.loads.evaluate(loads, masses, scheme, span, q0);
+            return self.loads.evaluate(loads, masses, span, q0);
         };
         self.loads.evaluate_supports(loads, span, q0)?;
         for (stage, &share) in self.stages.iter_mut().zip(rule.times) {
             let at = [time + S::from_f64(share) * step, S::zero()];
-            stage.evaluate(loads, masses, scheme, at, q0)?;
+            stage.evaluate(loads, masses, at, q0)?;
         }
         // The path of an element looks at what is prescribed at times of its own.
         let supports = rule.path.iter().flat_map(|path| path.supports.times);

@@ -10,7 +10,6 @@ use crate::element::error::StateError;
 use crate::element::group::{Offsets, StageRates, StageView, points};
 use crate::number::scalar::Real;
 use crate::step::error::StepFailure;
-use crate::step::scheme::Scheme;
 
 /// The row of the rates of each stage: those of stages 1 and 2 are needed by the next two stages only, and
 /// leave their rows to the last ones.
@@ -117,9 +116,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         if !self.loads.has_total_force() {
             return Ok(());
         }
-        let scheme = Scheme::EemExplicit;
         self.loads
-            .evaluate_forces_at(view.loads, view.masses, scheme, time)?;
+            .evaluate_forces_at(view.loads, view.masses, time)?;
         self.end.loads.copy_from_slice(&self.loads.total_force);
         if self.loads.has_force() {
             self.end.forces.copy_from_slice(&self.loads.force);

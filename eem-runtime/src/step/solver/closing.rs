@@ -179,6 +179,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let magnitudes = &mut self.magnitudes;
             group.add_impulse(view, &self.trial, along, &mut impulses, magnitudes);
         }
+        self.rockets
+            .add_impulses(view.step, &mut impulses, &mut self.magnitudes);
     }
 
     /// `Δq = (h/m)(p⁰ − ½h F⁰)`, `Δp = −½h (F⁰ + F¹)`, where F¹ acts along the gradient at q¹.

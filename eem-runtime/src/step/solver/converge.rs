@@ -192,7 +192,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let system = goes_on.then_some(&mut self.tangent);
             group.evaluate(view, trial, system)?;
         }
-        Ok(())
+        let system = goes_on.then_some(&mut self.tangent);
+        self.rockets.evaluate(view, trial, system)
     }
 }
 

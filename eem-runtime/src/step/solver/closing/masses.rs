@@ -1,5 +1,7 @@
 //! The nodes at the end of a step: new positions and momenta.
 
+use core::array;
+
 use crate::element::group::{StepView, points};
 use crate::element::state::State;
 use crate::element::tally::Tally;
@@ -20,11 +22,11 @@ impl<S: Real, const D: usize> Solver<S, D> {
         motion: &mut Motion<S, D>,
         tally: &mut Tally<S>,
     ) -> Result<(), StepFailure> {
-        if view.loads.has_force() {
+        if view.loads.has_force() || !self.rockets.are_none() {
             self.book_work(view, next);
         }
         let [twice_per_step, ..] = self.inertias(view);
-        let has_load = view.loads.has_total_force();
+        let has_load = view.loads.has_total_force() || !self.rockets.are_none();
         let is_exact = self.scheme.is_exact();
         let takes_increments = self.scheme.closing() == Closing::Increments;
         let mut largest = Largest::none();
@@ -58,7 +60,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 displacement,
                 impulse,
             };
-            let load = has_load.then(|| view.loads.total_force(at));
+            let load = has_load.then(|| {
+                let (load, thrust) = (view.loads.total_force::<D>(at), self.rockets.force(at));
+                array::from_fn(|axis| load[axis] + thrust[axis])
+            });
             motion.see(&moved, load.as_ref(), view.step);
             move_node(at, [displacement, rest, impulse], view.state, next)?;
             if let Speeds::Given { change, .. } = &moved.speeds {
@@ -76,10 +81,11 @@ impl<S: Real, const D: usize> Solver<S, D> {
     fn book_work(&self, view: &StepView<'_, S>, next: &mut State<S>) {
         for node in &self.nodes {
             let at = node.place.node();
-            let force = view.loads.force::<D>(at);
-            for (&force, &displacement) in force.iter().zip(&self.trial.displacements[at]) {
+            let (load, thrust) = (view.loads.force::<D>(at), self.rockets.force(at));
+            for axis in 0..D {
+                let force = load[axis] + thrust[axis];
                 if !force.equal(S::zero()).all() {
-                    next.work.add(force * displacement);
+                    next.work.add(force * self.trial.displacements[at][axis]);
                 }
             }
         }
