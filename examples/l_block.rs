@@ -115,7 +115,7 @@ fn run(command_line: &CommandLine) -> Result<Claims, Box<dyn Error>> {
     match directory {
         Some(directory) => {
             for run in &runs {
-                output::write_texts(directory, &run.scheme, &COLUMNS, &rows(run))?;
+                output::write_columns(directory, run, &COLUMNS)?;
             }
             pictures::write(directory, &runs)?;
             terminal::say(format_args!("States and pictures: {}", directory.display()));
@@ -163,18 +163,4 @@ fn over(points: &[Element], choose: fn(f64, f64) -> f64) -> Quantity<3> {
         let temperatures = points.iter().map(temperature);
         temperatures.reduce(choose).unwrap_or(f64::NAN)
     })
-}
-
-/// The cells of a CSV file: 17 significant digits, which identify a double; iterations are whole numbers.
-fn rows(run: &Record) -> Vec<Vec<String>> {
-    let cell = |name: &str, row: usize| {
-        let value = run.column(name).map_or(f64::NAN, |values| values[row]);
-        if name == "newton_iterations" {
-            format!("{value}")
-        } else {
-            format!("{value:.16e}")
-        }
-    };
-    let row = |row| COLUMNS.iter().map(|name| cell(name, row)).collect();
-    (0..run.times().len()).map(row).collect()
 }

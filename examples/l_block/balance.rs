@@ -4,8 +4,9 @@ use comfy_table::{Table, presets};
 
 use super::scene::{LOADED, RUBBER, VOLUME};
 use super::support::claims::Claims;
+use super::support::first_law;
 use super::support::record::{Outcome, Record};
-use super::support::statistics::{Statistics, TIME_TOLERANCE, distance, largest};
+use super::support::statistics::{Statistics, largest, momentum_change};
 use super::support::terminal;
 
 /// What rounding may do to E − W, relative to the heat c θ of the block, the largest term in it. The state
@@ -72,33 +73,17 @@ fn row(run: &Record) -> [String; 10] {
         outcome,
         cell(last("work"), |work| format!("{work:.3}")),
         cell(last("kinetic"), |kinetic| format!("{kinetic:.3}")),
-        cell(largest(energy_defects(run)), |defect| {
+        cell(largest(first_law::defects(run)), |defect| {
             format!("{defect:.1e}")
         }),
         cell(figures.entropy_increment, |least| format!("{least:.1e}")),
-        cell(momentum_defect(run), |defect| format!("{defect:.1e}")),
+        cell(momentum_change(run, LOADED), |defect| {
+            format!("{defect:.1e}")
+        }),
         format!("{least} … {most}"),
         cell(figures.newton_iterations, |mean| format!("{mean:.2}")),
         cell(time, |time| format!("{:.2}", 1e3 * time)),
     ]
-}
-
-/// |E − E₀ − W| over time, J.
-pub(crate) fn energy_defects(run: &Record) -> impl Iterator<Item = f64> + use<'_> {
-    let work = run.column("work").unwrap_or_default();
-    let changes = run.energy_changes().into_iter().zip(work);
-    changes.map(|((_, change), work)| (change - work).abs())
-}
-
-/// max |J − J(t₀)| from the first state t₀ on at which the tractions have ended, kg m²/s; `None` when no
-/// step was made since.
-fn momentum_defect(run: &Record) -> Option<f64> {
-    let start = run
-        .times()
-        .partition_point(|&time| time < LOADED - TIME_TOLERANCE);
-    let all = run.vectors(|name| name.starts_with("angular_momentum_"));
-    let (first, later) = all.get(start..)?.split_first()?;
-    largest(later.iter().map(|own| distance(own, first)))
 }
 
 /// The laws, for the schemes that promise them.
@@ -115,7 +100,7 @@ pub(crate) fn check(run: &Record, claims: &mut Claims) {
     let warmest = warmest.iter().copied().fold(0.0, f64::max);
     claims.at_most(
         &format!("{scheme}: the defect of the energy (J)"),
-        largest(energy_defects(run)),
+        largest(first_law::defects(run)),
         ENERGY_DEFECT * RUBBER.capacity * VOLUME * warmest,
     );
     claims.at_least(
@@ -123,7 +108,7 @@ pub(crate) fn check(run: &Record, claims: &mut Claims) {
         Statistics::of(run).entropy_increment_ulps,
         -ENTROPY_LOSS,
     );
-    if let Some(defect) = momentum_defect(run) {
+    if let Some(defect) = momentum_change(run, LOADED) {
         let steps = u32::try_from(run.steps()).map_or(f64::INFINITY, f64::from);
         claims.at_most(
             &format!("{scheme}: the change of angular momentum after {LOADED} s (kg m²/s)"),

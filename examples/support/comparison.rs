@@ -119,6 +119,29 @@ impl Comparison<'_> {
     }
 }
 
+/// A curve per scheme over time, without a reference.
+pub(crate) fn over_time(
+    title: &str,
+    y_label: &str,
+    runs: &[Record],
+    points: impl Fn(&Record) -> Vec<(f64, f64)>,
+) -> Figure {
+    let curve = |run: &Record| Curve {
+        label: run.scheme.clone(),
+        points: points(run),
+        look: look(&run.scheme),
+        trusted: run.completed(),
+        decisive: usize::MAX,
+    };
+    Figure {
+        title: title.to_owned(),
+        x_label: "time (s)".to_owned(),
+        y_label: y_label.to_owned(),
+        curves: runs.iter().map(curve).collect(),
+        axes: Axes::Even,
+    }
+}
+
 /// A title with its case.
 pub(crate) fn titled(case: &str, title: &str) -> String {
     if case.is_empty() {

@@ -19,6 +19,20 @@ pub(crate) fn write_csv(directory: &Path, record: &Record) -> io::Result<PathBuf
     Ok(path)
 }
 
+/// Writes `SCHEME.csv` with some of the record's columns under their names, in the order in which they are named.
+pub(crate) fn write_columns(
+    directory: &Path,
+    record: &Record,
+    names: &[&str],
+) -> io::Result<PathBuf> {
+    let named = |name: &&str| record.columns().iter().find(|column| column.name == **name);
+    let columns: Vec<&Column> = names.iter().filter_map(named).collect();
+    let heads: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
+    let cells = |row| columns.iter().map(|column| column.text(row)).collect();
+    let rows: Vec<Vec<String>> = (0..record.times().len()).map(cells).collect();
+    write_texts(directory, &record.scheme, &heads, &rows)
+}
+
 /// Writes `NAME.csv` with these column heads and rows of numbers, not a number where one is missing.
 pub(crate) fn write_numbers(
     directory: &Path,

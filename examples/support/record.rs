@@ -102,6 +102,14 @@ impl Record {
         early
     }
 
+    /// Changes the values of a column, if there is one of that name.
+    pub(crate) fn change(&mut self, name: &str, change: impl FnOnce(&mut [f64])) {
+        let column = self.columns.iter_mut().find(|column| column.name == name);
+        if let Some(column) = column {
+            change(&mut column.values);
+        }
+    }
+
     /// The values of one column; `None` when the scene has no such quantity.
     pub(crate) fn column(&self, name: &str) -> Option<&[f64]> {
         let mut columns = self.columns.iter();

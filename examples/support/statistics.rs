@@ -100,6 +100,19 @@ pub(crate) fn angular_momentum_defects(record: &Record) -> Vec<(f64, f64)> {
     largest_so_far(record, &record.vectors(is_angular_momentum))
 }
 
+/// max |J − J(t₀)| from the first state at or after a time t₀ (s) on; `None` when no step was made since.
+pub(crate) fn momentum_change(record: &Record, since: f64) -> Option<f64> {
+    let all = record.vectors(is_angular_momentum);
+    let (first, later) = all.get(first_row(record, since)..)?.split_first()?;
+    largest(later.iter().map(|own| distance(own, first)))
+}
+
+/// The first row at or after a time (s).
+pub(crate) fn first_row(record: &Record, time: f64) -> usize {
+    let times = record.times();
+    times.partition_point(|&own| own < time - TIME_TOLERANCE)
+}
+
 fn largest_so_far(record: &Record, vectors: &[Vec<f64>]) -> Vec<(f64, f64)> {
     let so_far = defects(vectors).scan(0.0_f64, |largest, defect| {
         *largest = largest.max(defect);
