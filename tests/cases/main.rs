@@ -10,6 +10,8 @@ mod cook;
 mod logarithmic_stiffness;
 mod midpoint_identity;
 mod order;
+mod order_of_solids;
+mod panel;
 mod plate;
 mod reference_trajectory;
 mod same_bits;

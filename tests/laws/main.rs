@@ -17,6 +17,7 @@ mod invariants_under_loads;
 mod kelvin_voigt;
 mod loads;
 mod rockets;
+mod same_motion;
 mod several_dashpots;
 mod single_pendulum;
 mod solids;
