@@ -16,6 +16,7 @@ mod high_order;
 mod invariants_under_loads;
 mod kelvin_voigt;
 mod loads;
+mod moved_solids;
 mod rockets;
 mod same_motion;
 mod several_dashpots;

@@ -51,7 +51,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         errors
     }
 
-    /// Nodes of solids have velocities, and are not moved.
+    /// Nodes of solids have velocities, and are moved only where masses couple no nodes.
     fn check_solids(&self, errors: &mut Vec<SceneError>) {
         let coupled: BTreeSet<_> = self.pairs.iter().flat_map(|&(nodes, _)| nodes).collect();
         for &index in &coupled {
@@ -63,12 +63,17 @@ impl<const D: usize, S: Real> Scene<D, S> {
                 });
             }
         }
+        let with_mass = self
+            .pairs
+            .iter()
+            .filter(|(_, mass)| !mass.equal(S::zero()).all());
+        let with_mass: BTreeSet<_> = with_mass.flat_map(|&(nodes, _)| nodes).collect();
         for &(node, _) in &self.loads.motions {
-            if coupled.contains(&node.index) {
+            if with_mass.contains(&node.index) {
                 errors.push(SceneError::NodeOfSolid {
                     node,
                     quantity: "a prescribed motion",
-                    instead: "join it to a moved anchor by a stiff spring",
+                    instead: "make its solid lumped (`Bulk::lumped`), so that masses couple no nodes",
                 });
             }
         }
