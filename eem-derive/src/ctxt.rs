@@ -1,4 +1,4 @@
-//! Collects the errors of all phases, so that a user sees them at once.
+//! Collects the errors and warnings of all phases, so that a user sees them at once.
 
 use std::cell::{Cell, RefCell};
 
@@ -14,6 +14,8 @@ use crate::message::Message;
 #[derive(Debug, Default)]
 pub(crate) struct Ctxt {
     reports: RefCell<Vec<Report>>,
+    /// What is no error, with its place.
+    warnings: RefCell<Vec<(Span, String)>>,
     /// The calls of helpers that are looked into, outermost first, as quoted.
     calls: RefCell<Vec<String>>,
     /// Counts who wants to hear nothing because all has been reported before.
@@ -42,6 +44,26 @@ impl Ctxt {
     pub(crate) fn error(&self, tokens: impl ToTokens, message: &Message) {
         let tokens = tokens.into_token_stream();
         self.push(syn::Error::new_spanned(&tokens, message), tokens, message);
+    }
+
+    /// Warns at the first of the given tokens; once, if it is about the body of a helper.
+    pub(crate) fn warn(&self, tokens: impl ToTokens, message: &Message) {
+        if self.is_muted() {
+            return;
+        }
+        let warning = (syn::spanned::Spanned::span(&tokens), message.to_string());
+        let mut warnings = self.warnings.borrow_mut();
+        let place = format!("{:?}", warning.0);
+        let is_same =
+            |(span, text): &(Span, String)| *text == warning.1 && format!("{span:?}") == place;
+        if !warnings.iter().any(is_same) {
+            warnings.push(warning);
+        }
+    }
+
+    /// All warnings.
+    pub(crate) fn take_warnings(&self) -> Vec<(Span, String)> {
+        self.warnings.take()
     }
 
     /// Reports `message` at a single span, for delimiters and other places without tokens.

@@ -1,13 +1,14 @@
 //! Runs the phases one after the other, with one barrier before the code is written.
 
 use proc_macro2::TokenStream;
+use quote::quote;
 use syn::DeriveInput;
 
 use crate::attr::Attributes;
 use crate::checked::Checked;
 use crate::ctxt::Ctxt;
 use crate::fallback::Shape;
-use crate::{check, expand, fallback, model, parse, physics, units};
+use crate::{check, expand, fallback, model, parse, physics, units, warnings};
 
 /// The implementation of the trait, or the errors of all phases together with an implementation
 /// that does nothing.
@@ -28,12 +29,15 @@ pub(crate) fn derive(input: &DeriveInput) -> TokenStream {
         }
         Some((model, units))
     });
-    cx.barrier(checked.as_ref().zip(model))
+    let warnings = warnings::warnings(&cx.take_warnings());
+    let implementation = cx
+        .barrier(checked.as_ref().zip(model))
         .and_then(|(checked, (model, units))| {
             let programs = model.programs();
             physics::check_programs(&cx, checked, &programs);
             cx.barrier(Some(()))?;
             Ok(expand::expand(checked, &model, &programs, &units))
         })
-        .unwrap_or_else(|error| fallback::expand(input, &attributes.krate, &shape, &error))
+        .unwrap_or_else(|error| fallback::expand(input, &attributes.krate, &shape, &error));
+    quote! { #warnings #implementation }
 }

@@ -36,6 +36,7 @@ mod physics;
 mod tests;
 mod unit;
 mod units;
+mod warnings;
 
 use proc_macro::TokenStream;
 use syn::{DeriveInput, parse_macro_input};

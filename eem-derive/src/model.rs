@@ -3,6 +3,7 @@
 //! A fold that calls one constructor of the graph per node. What can be wrong here shows only once
 //! the expressions exist: exponents, dependences and domains.
 
+mod digits;
 mod domain;
 mod rest;
 mod smooth;
@@ -102,7 +103,9 @@ impl Lowering<'_> {
                 let inner = self.expr(inner)?;
                 self.graph.neg(inner)
             }
-            ExprKind::Binary(operator, left, right) => self.binary(*operator, left, right)?,
+            ExprKind::Binary(operator, left, right) => {
+                self.binary(*operator, expr, [left, right])?
+            }
             ExprKind::Sqrt(inner) => {
                 let value = self.expr(inner)?;
                 self.check_root(inner, value)?;
@@ -119,6 +122,7 @@ impl Lowering<'_> {
             ExprKind::Apply(function, inner) => {
                 let value = self.expr(inner)?;
                 self.check_argument(*function, inner, value)?;
+                self.warn_of_function(*function, expr, value);
                 self.graph.apply(*function, value)
             }
             ExprKind::Powi(base, exponent) => self.powi(base, exponent)?,
@@ -154,13 +158,19 @@ impl Lowering<'_> {
         value
     }
 
-    fn binary(&mut self, operator: Operator, left: &Expr<'_>, right: &Expr<'_>) -> Option<ExprId> {
-        let divisor = right;
-        let (left, right) = (self.expr(left), self.expr(right));
+    fn binary(
+        &mut self,
+        operator: Operator,
+        expr: &Expr<'_>,
+        operands: [&Expr<'_>; 2],
+    ) -> Option<ExprId> {
+        let [_, divisor] = operands;
+        let [left, right] = operands.map(|operand| self.expr(operand));
         if let (Operator::Divide, Some(right)) = (operator, right) {
             self.check_divisor(divisor, right)?;
         }
         let (left, right) = (left?, right?);
+        self.warn_of_difference(operator, expr, operands, [left, right]);
         Some(match operator {
             Operator::Add => self.graph.add(left, right),
             Operator::Subtract => self.graph.sub(left, right),

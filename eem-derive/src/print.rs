@@ -29,6 +29,7 @@ mod parse;
 mod physics;
 mod unit;
 mod units;
+mod warnings;
 
 const USAGE: &str = "usage: expand FILE [STRUCT]…";
 

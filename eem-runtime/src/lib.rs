@@ -65,6 +65,7 @@ pub use scene::body::{Body, Bulk};
 pub use scene::error::SceneError;
 pub use scene::mesh::{Face, Mesh, MeshError};
 pub use scene::refused::RefusedScene;
+pub use scene::rocket_error::RocketError;
 pub use scene::solid::Section;
 pub use scene::solid_error::SolidError;
 pub use step::control::{StepStatistics, Tolerance};

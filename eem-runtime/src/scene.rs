@@ -12,6 +12,7 @@ pub(crate) mod error;
 pub(crate) mod loads;
 pub(crate) mod mesh;
 pub(crate) mod refused;
+pub(crate) mod rocket_error;
 pub(crate) mod solid;
 pub(crate) mod solid_error;
 mod start;

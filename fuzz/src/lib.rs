@@ -31,11 +31,12 @@ mod front_end {
     pub(crate) mod physics;
     pub(crate) mod unit;
     pub(crate) mod units;
+    pub(crate) mod warnings;
 }
 // Its files name each other from the root of their crate.
 use front_end::{
     ast, attr, check, checked, ctxt, derive, expand, fallback, message, model, nearest, parse,
-    physics, unit, units,
+    physics, unit, units, warnings,
 };
 
 #[path = "expression.rs"]

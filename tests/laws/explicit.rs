@@ -672,7 +672,7 @@ fn solids_are_refused_with_the_reason() {
     }
     let error = only_error(Simulation::new(scene, SCHEME, 0.01));
     println!("{error}");
-    assert!(matches!(error, SceneError::ExplicitSolids { .. }));
+    assert!(matches!(error, SceneError::NotForSolids { .. }));
 }
 
 #[test]

@@ -5,6 +5,7 @@ use proc_macro2::Ident;
 use super::{Message, list};
 use crate::ast::{self, Role};
 
+pub(crate) mod digits;
 pub(crate) mod helper;
 pub(crate) mod rest;
 pub(crate) mod syntax;

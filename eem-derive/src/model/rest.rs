@@ -67,7 +67,7 @@ impl Lowering<'_> {
 
     /// The first strain in an expression, and what is left of the expression without strains if that is
     /// a number.
-    fn at_rest(&mut self, e: ExprId) -> Option<(String, Strain, f64)> {
+    pub(super) fn at_rest(&mut self, e: ExprId) -> Option<(String, Strain, f64)> {
         let pairs = self.checked.variables.iter().zip(&self.variables);
         let strains = pairs.filter(|(variable, _)| variable.role.strain().is_some());
         let strains: Vec<_> = strains

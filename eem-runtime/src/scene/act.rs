@@ -10,6 +10,7 @@ use crate::element::loads::PushLine;
 use crate::number::scalar::Real;
 use crate::scene::error::SceneError;
 use crate::scene::loads::Rocket;
+use crate::scene::rocket_error::RocketError;
 
 /// # Loads and prescribed quantities
 impl<const D: usize, S: Real> Scene<D, S> {
@@ -84,8 +85,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
             & self.expect_own(&tail)
             & self.expect_own(&head);
         if own && tail == head {
-            self.misuse
-                .push(SceneError::RocketWithoutLine { node, tail });
+            let misuse = RocketError::NoLine { node, end: tail };
+            self.misuse.push(misuse.into());
         } else if own {
             let line = PushLine { node, tail, head };
             let thrust = Arc::new(thrust);

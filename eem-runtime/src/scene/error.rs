@@ -5,6 +5,7 @@ use thiserror::Error;
 use crate::element::error::StateError;
 use crate::element::handle::{Element, HeatPartner, Node, Reservoir};
 use crate::number::readable::Readable;
+use crate::scene::rocket_error::RocketError;
 use crate::scene::solid_error::SolidError;
 
 /// Why a scene cannot be simulated.
@@ -19,40 +20,17 @@ pub enum SceneError {
     },
     /// A solid is stepped by a scheme that is not for solids.
     #[error(
-        "{scheme} is not for solids: their masses couple nodes, and only schemes that take the end of a step from its increments allow that; use eem-entropy or eem-temperature"
+        "{scheme} is not for solids: their masses couple nodes, {why}; use eem-entropy or eem-temperature"
     )]
     NotForSolids {
         /// The name of the scheme.
         scheme: &'static str,
+        /// What is in the way.
+        why: &'static str,
     },
-    /// The scheme is explicit and the scene has solids.
-    #[error(
-        "{scheme} is not for solids: their masses couple nodes, so that every stage would solve a large linear system, and their small stiff elements allow only tiny steps; use eem-entropy or eem-temperature"
-    )]
-    ExplicitSolids {
-        /// The name of the scheme.
-        scheme: &'static str,
-    },
-    /// A rocket pushes, and the scheme has no force that turns within a step.
-    #[error(
-        "{scheme} does not step the rocket at {node}, whose force turns within a step; use eem-entropy or eem-temperature"
-    )]
-    NoRockets {
-        /// The name of the scheme.
-        scheme: &'static str,
-        /// The node that the first of them pushes.
-        node: Node,
-    },
-    /// A rocket pushes along a line from a node to itself.
-    #[error(
-        "the rocket at {node} pushes along a line from {tail} to itself, which has no direction"
-    )]
-    RocketWithoutLine {
-        /// The node that it pushes.
-        node: Node,
-        /// The only node of the line.
-        tail: Node,
-    },
+    /// A rocket pushes in a way that makes no sense, or by a scheme that is not for rockets.
+    #[error(transparent)]
+    Rocket(#[from] RocketError),
     /// A dashpot stands beside a spring, and the scheme has no force for it.
     #[error(
         "{scheme} does not step the viscosity of the stretch that {element} has; use eem-entropy or eem-temperature"

@@ -3,6 +3,7 @@
 use crate::number::scalar::{Real, is_positive};
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
+use crate::scene::rocket_error::RocketError;
 use crate::step::error::StepFailure;
 use crate::step::scheme::{Closing, Scheme};
 
@@ -49,7 +50,7 @@ fn check_scheme<const D: usize, S: Real>(
     {
         let scheme = scheme.name();
         let node = rocket.line.node;
-        return Err(SceneError::NoRockets { scheme, node });
+        return Err(RocketError::Scheme { scheme, node }.into());
     }
     let mut entries = scene.elements.iter();
     let has_drag = |group: usize| {
@@ -70,12 +71,17 @@ fn check_scheme<const D: usize, S: Real>(
 
 /// The scheme can step solids, whose masses couple nodes.
 fn check_solids(scheme: Scheme) -> Result<(), SceneError> {
-    let name = scheme.name();
-    match scheme.closing() {
-        Closing::Increments => Ok(()),
-        Closing::Explicit => Err(SceneError::ExplicitSolids { scheme: name }),
-        Closing::Start | Closing::Stages => Err(SceneError::NotForSolids { scheme: name }),
-    }
+    let why = match scheme.closing() {
+        Closing::Increments => return Ok(()),
+        Closing::Explicit => {
+            "so that every stage would solve a large linear system, and their small stiff elements allow only tiny steps"
+        }
+        Closing::Start | Closing::Stages => {
+            "and only schemes that take the end of a step from its increments allow that"
+        }
+    };
+    let scheme = scheme.name();
+    Err(SceneError::NotForSolids { scheme, why })
 }
 
 /// A step is positive and finite.

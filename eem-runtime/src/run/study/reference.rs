@@ -14,6 +14,7 @@ use super::measure::end_state;
 use super::quantity::{EndState, PerQuantity, StateQuantity};
 use super::statement::DOUBT;
 use crate::scene::error::SceneError;
+use crate::scene::rocket_error::RocketError;
 use crate::step::error::StepError;
 use crate::step::scheme::Scheme;
 
@@ -152,7 +153,10 @@ impl Search<'_> {
             let planned = 2 * u64::from(grid.steps);
             note(planned, 0);
             let next = match solve(build, (pair, self.end_time), grid) {
-                Err(SceneError::NotForSolids { .. }) if pair.first == FOURTH_ORDER.first => {
+                Err(
+                    SceneError::NotForSolids { .. }
+                    | SceneError::Rocket(RocketError::Scheme { .. }),
+                ) if pair.first == FOURTH_ORDER.first => {
                     pair = SECOND_ORDER;
                     factor = pair.first;
                     note(0, planned);

@@ -73,9 +73,11 @@ impl<S: Real, const D: usize> Rockets<S, D> {
         self.all.is_empty()
     }
 
-    /// The force that was last found on a node, N.
-    pub(super) fn force(&self, node: usize) -> [S; D] {
-        point(&self.forces, node)
+    /// A load on a node with the force that was last found there, N.
+    #[inline]
+    pub(super) fn add_to(&self, load: [S; D], node: usize) -> [S; D] {
+        let force = point::<S, D>(&self.forces, node);
+        array::from_fn(|axis| load[axis] + force[axis])
     }
 
     /// Finds the forces at a trial, and adds them to the system of an iteration if there is one.

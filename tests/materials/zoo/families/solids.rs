@@ -109,7 +109,7 @@ specimen! {
     )
     {
         0.5 * la * e1.powi(2) + mu * e2 + 0.5 * kf * warp.powi(2)
-            + ks * (exp(weft.powi(2)) - 1.0) + 0.5 * kv * ln_1p(2.0 * warp).powi(2)
+            + ks * exp_m1(weft.powi(2)) + 0.5 * kv * ln_1p(2.0 * warp).powi(2)
             - b * (theta - tr) * (e1 + weft) + c * (theta - tr - theta * ln(theta / tr))
     }
 }

@@ -1,7 +1,5 @@
 //! The nodes at the end of a step: new positions and momenta.
 
-use core::array;
-
 use crate::element::group::{StepView, points};
 use crate::element::state::State;
 use crate::element::tally::Tally;
@@ -60,10 +58,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 displacement,
                 impulse,
             };
-            let load = has_load.then(|| {
-                let (load, thrust) = (view.loads.total_force::<D>(at), self.rockets.force(at));
-                array::from_fn(|axis| load[axis] + thrust[axis])
-            });
+            let load = has_load.then(|| self.rockets.add_to(view.loads.total_force(at), at));
             motion.see(&moved, load.as_ref(), view.step);
             move_node(at, [displacement, rest, impulse], view.state, next)?;
             if let Speeds::Given { change, .. } = &moved.speeds {
@@ -81,11 +76,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
     fn book_work(&self, view: &StepView<'_, S>, next: &mut State<S>) {
         for node in &self.nodes {
             let at = node.place.node();
-            let (load, thrust) = (view.loads.force::<D>(at), self.rockets.force(at));
-            for axis in 0..D {
-                let force = load[axis] + thrust[axis];
+            let force = self.rockets.add_to(view.loads.force(at), at);
+            for (force, &displacement) in force.into_iter().zip(&self.trial.displacements[at]) {
                 if !force.equal(S::zero()).all() {
-                    next.work.add(force * self.trial.displacements[at][axis]);
+                    next.work.add(force * displacement);
                 }
             }
         }
