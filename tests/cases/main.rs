@@ -11,10 +11,13 @@ mod logarithmic_stiffness;
 mod midpoint_identity;
 mod order;
 mod order_of_solids;
+// Dense elimination would take minutes.
+#[cfg(feature = "sparse")]
 mod panel;
 mod plate;
 mod reference_trajectory;
 mod same_bits;
+#[cfg(feature = "sparse")]
 mod satellite;
 mod step_tangent;
 mod variational_4_equations;

@@ -54,6 +54,7 @@ fn pictures_hold_their_texts_and_tables_their_numbers() {
         ("log_stiffness", &[]),
         ("shock_absorber", &[]),
         ("l_block", &[]),
+        ("satellite", &["--scheme", "eem-entropy"]),
     ] {
         let folder = folder(name);
         let out = folder.to_str().unwrap();
