@@ -81,7 +81,7 @@ pub mod extremes {}
 pub mod __private {
     pub use core;
     pub use eem_runtime::{
-        Array, Caloric, Describe, Description, FreeEnergy, Rates, Scalar, Strain, StrainEnergy,
-        describe, kernel,
+        Array, Caloric, ComponentEnergy, Describe, Description, FreeEnergy, Joint, JointEnergy,
+        Material, Rates, Real, Scalar, Strain, StrainEnergy, describe, kernel,
     };
 }

@@ -63,6 +63,8 @@ pub(crate) enum Role {
     Stretch,
     /// A kinematic measure of a point of a solid.
     Strain(Strain),
+    /// An invariant of the viscous strain Γ of a point of a solid, or of it and E.
+    Joint(Joint),
     /// An internal variable with a viscosity.
     Viscous,
     /// The absolute temperature.
@@ -97,14 +99,42 @@ impl Strain {
     }
 }
 
+/// An invariant of the viscous strain Γ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Joint {
+    /// `tr Γ`
+    Trace,
+    /// `Γ:Γ`
+    Square,
+    /// `E:Γ`
+    Strain,
+}
+
+impl Joint {
+    /// All invariants, in the order in which messages list them.
+    pub(crate) const ALL: [Self; 3] = [Self::Strain, Self::Square, Self::Trace];
+
+    /// Its variant of `Joint` in the runtime.
+    pub(crate) fn variant(self) -> &'static str {
+        match self {
+            Self::Trace => "Trace",
+            Self::Square => "Square",
+            Self::Strain => "Strain",
+        }
+    }
+}
+
 impl Role {
     /// All roles, in the order in which messages list them.
-    pub(crate) const ALL: [Self; 7] = [
+    pub(crate) const ALL: [Self; 10] = [
         Self::Stretch,
         Self::Strain(Strain::Trace),
         Self::Strain(Strain::Square),
         Self::Strain(Strain::Dilatation),
         Self::Strain(Strain::Fibre),
+        Self::Joint(Joint::Strain),
+        Self::Joint(Joint::Square),
+        Self::Joint(Joint::Trace),
         Self::Viscous,
         Self::Temperature,
     ];
@@ -117,6 +147,9 @@ impl Role {
             Self::Strain(Strain::Square) => "StrainSquare",
             Self::Strain(Strain::Dilatation) => "Dilatation",
             Self::Strain(Strain::Fibre) => "FibreStrain",
+            Self::Joint(Joint::Strain) => "ViscousStrain",
+            Self::Joint(Joint::Square) => "ViscousSquare",
+            Self::Joint(Joint::Trace) => "ViscousTrace",
             Self::Viscous => "Viscous",
             Self::Temperature => "Temperature",
         }
@@ -140,7 +173,30 @@ impl Role {
     pub(crate) fn strain(self) -> Option<Strain> {
         match self {
             Self::Strain(strain) => Some(strain),
-            Self::Stretch | Self::Viscous | Self::Temperature => None,
+            Self::Stretch | Self::Joint(_) | Self::Viscous | Self::Temperature => None,
+        }
+    }
+
+    /// The invariant of the viscous strain that it is.
+    pub(crate) fn joint(self) -> Option<Joint> {
+        match self {
+            Self::Joint(joint) => Some(joint),
+            Self::Stretch | Self::Strain(_) | Self::Viscous | Self::Temperature => None,
+        }
+    }
+
+    /// Whether only a solid has it.
+    pub(crate) fn is_of_solid(self) -> bool {
+        self.strain().is_some() || self.joint().is_some()
+    }
+
+    /// Whether it needs a viscosity.
+    pub(crate) fn flows(self) -> bool {
+        match self {
+            Self::Viscous | Self::Joint(Joint::Strain | Joint::Trace) => true,
+            Self::Stretch | Self::Strain(_) | Self::Joint(Joint::Square) | Self::Temperature => {
+                false
+            }
         }
     }
 
@@ -148,14 +204,14 @@ impl Role {
     pub(crate) fn is_repeatable(self) -> bool {
         match self {
             Self::Viscous | Self::Strain(Strain::Fibre) => true,
-            Self::Stretch | Self::Strain(_) | Self::Temperature => false,
+            Self::Stretch | Self::Strain(_) | Self::Joint(_) | Self::Temperature => false,
         }
     }
 
-    /// Whether it is a function of the places of nodes.
+    /// Whether it is a function of the places of nodes, and of the viscous strain.
     pub(crate) fn is_measure(self) -> bool {
         match self {
-            Self::Stretch | Self::Strain(_) => true,
+            Self::Stretch | Self::Strain(_) | Self::Joint(_) => true,
             Self::Viscous | Self::Temperature => false,
         }
     }

@@ -25,6 +25,7 @@ use crate::ctxt::Ctxt;
 pub(crate) fn check<'a>(cx: &Ctxt, input: &'a Input<'a>) -> Checked<'a> {
     let variables = roles::variables(input);
     roles::check_measures(cx, input);
+    roles::check_flow(cx, input);
     roles::check_counts(cx, input);
     names::check_arguments(cx, input);
     let mut used = parameters::Used::none(input);

@@ -7,7 +7,7 @@
 use eem_symbolic::{Function, Number};
 use proc_macro2::{Ident, TokenStream};
 
-use crate::ast::{Operator, Role, Strain};
+use crate::ast::{Joint, Operator, Role, Strain};
 
 /// A checked model.
 pub(crate) struct Checked<'a> {
@@ -24,7 +24,8 @@ pub(crate) struct Checked<'a> {
     pub(crate) variables: Vec<Variable<'a>>,
     /// The free energy.
     pub(crate) energy: Body<'a>,
-    /// One viscosity per dashpot, in the order of the dashpots; nothing where it is missing.
+    /// One viscosity per dashpot, in the order of the dashpots, then those of the viscous strain; nothing where
+    /// it is missing.
     pub(crate) viscosities: Vec<Option<Body<'a>>>,
     /// The viscosity of the stretch, if a dashpot stands beside the spring.
     pub(crate) drag: Option<Body<'a>>,
@@ -36,6 +37,11 @@ impl Checked<'_> {
     /// The measures of strain in the order of the state; none in a spring.
     pub(crate) fn strains(&self) -> impl Iterator<Item = Strain> {
         self.variables.iter().filter_map(|v| v.role.strain())
+    }
+
+    /// The invariants of the viscous strain in the order of the state.
+    pub(crate) fn joints(&self) -> impl Iterator<Item = Joint> {
+        self.variables.iter().filter_map(|v| v.role.joint())
     }
 
     /// The paths of the constants of the program, in order of appearance.

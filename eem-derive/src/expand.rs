@@ -1,5 +1,5 @@
 //! Expand phase: the programs of a model → one `impl FreeEnergy` and one `impl Describe`, with one
-//! `impl StrainEnergy` for a solid.
+//! `impl StrainEnergy` for a solid, and one `impl JointEnergy` if it has a viscous strain.
 //!
 //! Prints and decides nothing: which values exist, in which order and at which stage they are
 //! computed, is the business of [`eem_symbolic::Program`].
@@ -47,7 +47,7 @@ pub(crate) fn expand(
     let duplicate = duplicate::duplicate(checked.original);
     let body = quote! { #constants #duplicate #points #forms };
     let implementation = header.implementation(&body);
-    let strains = strains::strains(checked.original, checked.strains());
+    let strains = strains::strains(checked, programs, &inputs);
     let all = quote! { #formulas #implementation #strains #description };
     wrap(checked.krate, &all)
 }

@@ -61,7 +61,7 @@ pub(crate) fn expand(
     let header = Header::new(input, Scalar::Any);
     let name = ast::name(&input.ident);
     let implementation = header.implementation(&body(&header.scalar, &name, shape));
-    let strains = strains::strains(input, shape.strains.iter().copied());
+    let strains = strains::stub(input, shape.strains.iter().copied());
     let description = empty_description(input);
     let stub = wrap(krate, &quote! { #implementation #strains #description });
     quote! { #errors #stub }

@@ -83,6 +83,7 @@ use syn::{DeriveInput, parse_macro_input};
 /// | `Stretch` | one, in a spring | length of the spring, m |
 /// | `StrainTrace`, `StrainSquare`, `Dilatation` | each at most one, in a solid | `tr E`, `E:E`, `J − 1` |
 /// | `FibreStrain` | any number, in a solid | `a·E a` along one fibre, whose direction a every solid has of its own |
+/// | `ViscousStrain`, `ViscousSquare`, `ViscousTrace` | each at most one, in a solid | `E:Γ`, `Γ:Γ`, `tr Γ` of a viscous strain Γ, a tensor; the first and the last need a law in `#[viscosity]` |
 /// | `Viscous` | any number | stretch of one dashpot, m, in a solid a strain; each needs a law in `#[viscosity]` |
 /// | `Temperature` | none or one | absolute temperature, K |
 ///
@@ -104,6 +105,36 @@ use syn::{DeriveInput, parse_macro_input};
 /// `4 * e1 + 2 * (e1.powi(2) - e2)` for `tr cof C − 3`. The strains that are named are those that exist.
 /// Their order is the order of the discrete derivatives, and part of the model. Such a model
 /// implements `StrainEnergy`, too.
+///
+/// # Solids whose shape flows
+///
+/// A scalar `Viscous` relaxes one measure. Shear relaxes with a tensor Γ of its own at every point, of which the
+/// free energy sees invariants:
+///
+/// ```ignore
+/// #[derive(FreeEnergy)]
+/// #[free_energy(|e2: StrainSquare, m3: ViscousStrain, m2: ViscousSquare| {
+///     mu * e2 + branch * (e2 - 2 * m3 + m2)
+/// })]
+/// #[viscosity(m3 = eta)]
+/// pub struct Relaxing {
+///     pub mu: f64,
+///     pub branch: f64,
+///     pub eta: f64,
+/// }
+/// ```
+///
+/// Here `e2 - 2 * m3 + m2` is `(E − Γ):(E − Γ)`. Γ flows as
+///
+/// ```text
+/// Γ̇ = dev G/η + vol G/η_v,   G = −∂ψ/∂Γ = −(∂ψ/∂m1 1 + 2 ∂ψ/∂m2 Γ + ∂ψ/∂m3 E)
+/// ```
+///
+/// and heats the point by `G:Γ̇`. The viscosity of the `ViscousStrain` is η; that of the `ViscousTrace` is `η_v`.
+/// Without a `ViscousTrace` there is no volumetric flow, and Γ has no trace; with one there is, also if the
+/// free energy does not mention it. Above, `G = 2 branch (E − Γ)`, and shear relaxes in the time
+/// `eta/(2 * branch)`. In plane strain Γ flows across the plane, too. The material implements `JointEnergy`
+/// as well.
 ///
 /// # Expressions
 ///

@@ -4,7 +4,7 @@
 
 use eem_symbolic::{Flaw, Model, Programs};
 
-use crate::ast::{self, Role};
+use crate::ast::{self, Joint, Role};
 use crate::checked::{Checked, Variable};
 use crate::ctxt::Ctxt;
 use crate::message::{Message, attribute::physics as message};
@@ -46,6 +46,10 @@ pub(crate) fn check_programs(cx: &Ctxt, checked: &Checked<'_>, programs: &Progra
 fn report_independent(cx: &Ctxt, checked: &Checked<'_>, name: &str) {
     let mut variables = checked.variables.iter();
     if let Some(variable) = variables.find(|variable| ast::name(variable.ident) == name) {
+        // E:Γ and Γ:Γ contain the trace, too; with its viscosity it flows.
+        if variable.role == Role::Joint(Joint::Trace) {
+            return;
+        }
         let measure = checked
             .variables
             .first()

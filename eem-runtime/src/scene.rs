@@ -16,6 +16,7 @@ pub(crate) mod rocket_error;
 pub(crate) mod solid;
 pub(crate) mod solid_error;
 mod start;
+mod viscous_strain;
 
 use crate::element::conduction::Conductor;
 use crate::element::group::{Loose, LooseElements};
@@ -182,7 +183,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
     }
 
-    /// The initial viscous stretch of a dashpot (from 0) of an element, m; zero unless set.
+    /// The initial viscous stretch of a dashpot (from 0) of an element, m; zero unless set. A viscous strain that
+    /// is a tensor has [a function of its own](Self::set_viscous_strain).
     pub fn set_viscous_stretch(&mut self, element: Element, dashpot: usize, stretch: S) {
         if self.expect_own(&element) {
             let given = &mut self.elements[element.index()].viscous_stretches;

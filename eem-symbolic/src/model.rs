@@ -14,7 +14,8 @@ pub struct Model {
     pub graph: Graph,
     /// Kinematic measures `λ_a`, a = 1 … M.
     pub measures: Vec<Symbol>,
-    /// The measures that are strains, and from where on they are; all others are positive.
+    /// From where on strains are, of a solid; a measure without an entry may have any sign. None of a spring,
+    /// whose measures are positive.
     pub strains: Vec<LowerBound>,
     /// Viscous stretches `γ_k`, k = 1 … K.
     pub dashpots: Vec<Symbol>,
@@ -24,7 +25,8 @@ pub struct Model {
     pub parameters: Vec<Symbol>,
     /// Free energy ψ.
     pub psi: ExprId,
-    /// One viscosity `η_k` per dashpot, a function of the parameters and θ.
+    /// One viscosity `η_k` per dashpot, then those of flows that are not among the variables; functions of the
+    /// parameters and θ.
     pub viscosities: Vec<ExprId>,
     /// The viscosity of the first measure, a function of the parameters and θ, if a dashpot stands beside
     /// the spring (Kelvin–Voigt).
@@ -59,9 +61,12 @@ impl Model {
         let bound = |&symbol: &Symbol| {
             let mut strains = self.strains.iter();
             let strain = strains.find(|strain| strain.symbol == symbol);
-            strain.map_or_else(|| LowerBound::positive(symbol), |&strain| strain)
+            let is_positive = self.strains.is_empty() || self.temperature == Some(symbol);
+            strain
+                .copied()
+                .or_else(|| is_positive.then(|| LowerBound::positive(symbol)))
         };
-        positive.map(bound).collect()
+        positive.filter_map(bound).collect()
     }
 }
 

@@ -97,7 +97,7 @@ impl Model {
             caloric: self.temperature.map(|theta| point.caloric(theta)),
             caloric_at: self.temperature.map(|theta| point.caloric_at(theta)),
             entropy_hessian: self.temperature.map(|theta| point.entropy_hessian(theta)),
-            viscosity: (!self.dashpots.is_empty()).then(|| point.viscosity(&self.viscosities)),
+            viscosity: (!self.viscosities.is_empty()).then(|| point.viscosity(&self.viscosities)),
             drag: self.drag.map(|law| point.viscosity(&[law])),
             entropy_form: self.entropy_form(),
             temperature_form: self.temperature.map(|_| self.temperature_form()),

@@ -4,7 +4,7 @@ use eem::kinematics::Hex8;
 use eem::prelude::*;
 use eem::{Body, StrainEnergy};
 
-use crate::support::solids::{MooneyRivlin, Reinforced, ThermoelasticSolid};
+use crate::support::solids::{Flowing, MooneyRivlin, Reinforced, Relaxing, ThermoelasticSolid};
 
 /// A bar of two cubes, warm at one end and in contact with air, and what its points hold, J.
 fn tumbling<M, const N: usize>(
@@ -84,4 +84,12 @@ fn tumbling_hexahedra_keep_the_laws() {
     keep_the_laws("Mooney-Rivlin", (&MooneyRivlin::RUBBER, &bulk), 293.15);
     let bulk = bulk.fibre([0.6, 0.8, 0.0]);
     keep_the_laws("viscoelastic", (&Reinforced::RUBBER, &bulk), 300.0);
+}
+
+#[test]
+fn tumbling_hexahedra_whose_shape_flows_keep_the_laws() {
+    let bulk = Bulk::new(10.0).conductivity(20.0);
+    keep_the_laws("relaxing", (&Relaxing::RUBBER, &bulk), 300.0);
+    let bulk = bulk.fibre([0.6, 0.8, 0.0]);
+    keep_the_laws("flowing", (&Flowing::RUBBER, &bulk), 300.0);
 }

@@ -9,7 +9,9 @@ use crate::support::numbers::Numbers;
 use crate::support::solids::{SaintVenant, ThermoelasticSolid};
 
 /// A point of a cell with all measures.
-type CellPoint<H, const D: usize> = SolidPoint<H, f64, 4, D>;
+type CellPoint<H, const D: usize> = SolidPoint<H, f64, COUNT, D>;
+
+const COUNT: usize = 7;
 
 type Arms<H, const D: usize> = <H as Shape<D>>::PerArm<[f64; D]>;
 
@@ -26,6 +28,9 @@ fn point<H: Shape<D>, const D: usize>(numbers: &mut Numbers) -> (Vec<[f64; D]>, 
         Measure::Square,
         Measure::Dilatation,
         Measure::Fibre(fibre),
+        Measure::Component(1),
+        Measure::Component(2),
+        Measure::Component(5),
     ];
     let points = CellPoint::<H, D>::points(&reference, 1.0, measures).unwrap();
     let all = points.as_ref();
@@ -104,7 +109,7 @@ fn mean_value_gradients_of_all_shapes_are_exact() {
 }
 
 /// `Σ f_a gradient_a`, flat.
-fn pulled<A: AsRef<[[f64; D]]>, const D: usize>(gradients: &[A], force: &[f64; 4]) -> Vec<f64> {
+fn pulled<A: AsRef<[[f64; D]]>, const D: usize>(gradients: &[A], force: &[f64; COUNT]) -> Vec<f64> {
     let mut sum = vec![0.0; gradients[0].as_ref().len() * D];
     for (gradient, force) in gradients.iter().zip(force) {
         for (sum, entry) in sum.iter_mut().zip(gradient.as_ref().as_flattened()) {
@@ -139,15 +144,15 @@ fn tangents_are_derivatives<H: Shape<D>, const D: usize>() {
         let old = shifted(&reference, &mut numbers, 0.05);
         let new = shifted(&old, &mut numbers, 0.05);
         let both = ends(&point, [&old, &new].map(|places| arms::<H, D>(places)));
-        let slopes = [(); 4].map(|()| numbers.next());
-        let force_of = |measures: [f64; 4]| -> [f64; 4] {
-            std::array::from_fn(|a| 0.5 + slopes[a] * measures[(a + 1) % 4])
+        let slopes = [(); COUNT].map(|()| numbers.next());
+        let force_of = |measures: [f64; COUNT]| -> [f64; COUNT] {
+            std::array::from_fn(|a| 0.5 + slopes[a] * measures[(a + 1) % COUNT])
         };
         let force = force_of(both.measures1);
         let by_measure = point.gradient(&both.r1, &both.measures1);
         let mut by_arm = by_measure;
         for (a, row) in by_arm.iter_mut().enumerate() {
-            *row = by_measure[(a + 1) % 4];
+            *row = by_measure[(a + 1) % COUNT];
             let entries = row.as_mut().as_flattened_mut().iter_mut();
             entries.for_each(|entry| *entry *= slopes[a]);
         }

@@ -5,6 +5,7 @@ use eem::prelude::*;
 use nalgebra::{DMatrix, DVector};
 
 use crate::kelvin_voigt::VOIGT;
+use crate::support::solids::{Relaxing, SECTION};
 use crate::support::{DoublePendulum, Hencky, ThermoViscoElastic, single_pendulum_scene};
 
 /// Roundings of one sum of products, relative to its terms.
@@ -126,6 +127,35 @@ fn steps_are_discrete_generic_systems() {
             let size = z0.abs() + run.generic_state().abs();
             for ((found, exact), size) in change.iter().zip(expected.iter()).zip(size.iter()) {
                 // Discrete forces are those of the state before closing, off by rounding.
+                let tolerance = 1e-13 * (1.0 + size + exact.abs());
+                assert!((found - exact).abs() <= tolerance, "{found} {exact}");
+            }
+        }
+    }
+}
+
+/// A square whose viscous strain is a tensor, while it flows.
+#[test]
+fn steps_of_a_flowing_solid_are_discrete_generic_systems() {
+    for scheme in [Scheme::EemEntropy, Scheme::EemTemperature] {
+        let mut scene = Scene::<2>::new();
+        let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let nodes = corners.map(|[x, y]| scene.node([x, y], [0.5 - y + x, 2.0 * x - y]));
+        for point in scene.quadrilateral(Relaxing::RUBBER, nodes, SECTION) {
+            scene.set_temperature(point, 310.0);
+            scene.set_viscous_strain(point, [[0.1, 0.1, 0.0], [0.1, 0.0, 0.0], [0.0; 3]]);
+        }
+        let mut run = Simulation::new(scene, scheme, 0.02).unwrap();
+        assert_structure(&run.generic());
+        for _ in 0..20 {
+            let z0 = run.generic_state();
+            run.step().unwrap();
+            let generic = run.generic_of_last_step().unwrap();
+            assert_structure(&generic);
+            let change = run.generic_state() - &z0;
+            let expected = rate(&generic) * 0.02;
+            let size = z0.abs() + run.generic_state().abs();
+            for ((found, exact), size) in change.iter().zip(expected.iter()).zip(size.iter()) {
                 let tolerance = 1e-13 * (1.0 + size + exact.abs());
                 assert!((found - exact).abs() <= tolerance, "{found} {exact}");
             }

@@ -24,3 +24,4 @@ mod single_pendulum;
 mod solids;
 mod spoilt_force;
 mod variational_4;
+mod viscous_strain;

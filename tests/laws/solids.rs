@@ -5,7 +5,7 @@ use eem::kinematics::{Ends, Kinematics, Measure, Quad4, SolidPoint};
 use eem::prelude::*;
 
 use crate::support::numbers::Numbers;
-use crate::support::solids::{SECTION, SaintVenant, ThermoelasticSolid, Viscous};
+use crate::support::solids::{Relaxing, SECTION, SaintVenant, ThermoelasticSolid, Viscous};
 
 const MEASURES: [Measure<f64, 2>; 3] = [Measure::Trace, Measure::Square, Measure::Dilatation];
 
@@ -107,6 +107,7 @@ fn solids_keep_the_laws() {
     keeps_the_laws("elastic", &elastic, false);
     keeps_the_laws("softening", &ThermoelasticSolid::RUBBER, true);
     keeps_the_laws("viscous", &Viscous::RUBBER, true);
+    keeps_the_laws("relaxing", &Relaxing::RUBBER, true);
 }
 
 #[test]

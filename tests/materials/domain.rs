@@ -286,6 +286,37 @@ fn solids_are_checked_per_volume() {
     assert!(said.contains(" J/(K m³) at strain 0 "), "{said}");
 }
 
+/// Everything flows; the free energy does not mention the trace.
+#[derive(FreeEnergy)]
+#[free_energy(|e2: StrainSquare, m3: ViscousStrain, m2: ViscousSquare, _m1: ViscousTrace| k * (e2 - 2 * m3 + m2))]
+#[viscosity(m3 = eta, _m1 = volumetric)]
+struct Flowing {
+    k: f64,
+    eta: f64,
+    volumetric: f64,
+}
+
+#[test]
+fn viscosities_of_a_viscous_strain_are_checked() {
+    let mut solid = Flowing {
+        k: 2000.0,
+        eta: 5.0,
+        volumetric: 7.0,
+    };
+    let domain = Domain::of_strains([[0.0, 0.1], [-0.1, 0.1], [0.0, 0.1], [-0.1, 0.1]]);
+    let report = check_domain(&solid, &domain, 50).expect("a sound material");
+    let values: Vec<f64> = report.viscosities.iter().map(|least| least.value).collect();
+    assert_eq!(values, [5.0, 7.0]);
+    assert!(report.drag.is_none());
+    solid.volumetric = 0.0;
+    let error = check_domain(&solid, &domain, 50).expect_err("no viscosity");
+    let said = error.to_string();
+    assert!(
+        said.starts_with("the viscosity of dashpot 1 is 0 Pa s"),
+        "{said}"
+    );
+}
+
 #[test]
 fn a_solid_is_no_spring() {
     let spring = LogarithmicStiffness::SOFT;

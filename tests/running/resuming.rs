@@ -165,7 +165,7 @@ fn a_scene_of_another_shape_is_refused_with_what_differs() {
 #[cfg(feature = "serde")]
 mod files {
     use super::*;
-    use crate::support::solids::{SECTION, ThermoelasticSolid};
+    use crate::support::solids::{Relaxing, SECTION, ThermoelasticSolid};
 
     fn through_text<const D: usize>(run: &Simulation<D>) -> Checkpoint {
         let text = serde_json::to_string(&run.checkpoint()).unwrap();
@@ -218,6 +218,30 @@ mod files {
             "{error}"
         );
         assert_eq!(before, bits(&run));
+    }
+
+    #[test]
+    fn viscous_strains_are_resumed() {
+        let flowing = || {
+            let mut scene = Scene::<2>::new();
+            let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+            let nodes = corners.map(|[x, y]| scene.node([x, y], [0.5 - y, 2.0 * x]));
+            let points = scene.quadrilateral(Relaxing::RUBBER, nodes, SECTION);
+            for point in points {
+                scene.set_temperature(point, 310.0);
+            }
+            let run = Simulation::new(scene, Scheme::EemEntropy, 0.05).unwrap();
+            (run, points[2])
+        };
+        let (mut run, point) = flowing();
+        trace(&mut run, 5);
+        let read = through_text(&run);
+        let (mut resumed, same) = flowing();
+        resumed.restore(&read).unwrap();
+        let strain = run.viscous_strain(point).unwrap();
+        assert!(strain.norm() > 1e-3);
+        assert_eq!(strain, resumed.viscous_strain(same).unwrap());
+        assert_eq!(trace(&mut run, 20), trace(&mut resumed, 20));
     }
 
     /// Energy and momenta of an explicit run are those of the state that somebody has edited.

@@ -186,3 +186,109 @@ impl MooneyRivlin {
         theta_ref: 293.15,
     };
 }
+
+/// A solid whose shear stress relaxes, with a branch that softens when it is warm: strains, viscous strain and
+/// temperature do not separate.
+#[derive(Clone, Debug, FreeEnergy)]
+#[free_energy(|e1: StrainTrace, e2: StrainSquare, m3: ViscousStrain, m2: ViscousSquare, theta: Temperature| {
+    let heating = theta - theta_ref;
+    0.5 * lame * e1.powi(2) + shear * e2
+        + (branch - softening * heating) * (e2 - 2 * m3 + m2)
+        - expansion * heating * e1
+        + capacity * (heating - theta * ln(theta / theta_ref))
+})]
+#[viscosity(m3 = eta * exp(a / theta - a / theta_ref))]
+pub(crate) struct Relaxing {
+    #[unit("Pa")]
+    pub(crate) lame: f64,
+    #[unit("Pa")]
+    pub(crate) shear: f64,
+    #[unit("Pa")]
+    pub(crate) branch: f64,
+    #[unit("Pa/K")]
+    pub(crate) softening: f64,
+    #[unit("Pa/K")]
+    pub(crate) expansion: f64,
+    #[unit("Pa/K")]
+    pub(crate) capacity: f64,
+    #[unit("Pa s")]
+    pub(crate) eta: f64,
+    #[unit("K")]
+    pub(crate) a: f64,
+    #[unit("K")]
+    pub(crate) theta_ref: f64,
+}
+
+impl Relaxing {
+    pub(crate) const RUBBER: Self = Self {
+        lame: 2000.0,
+        shear: 1000.0,
+        branch: 1500.0,
+        softening: 2.0,
+        expansion: 3.0,
+        capacity: 100.0,
+        eta: 300.0,
+        a: 50.0,
+        theta_ref: 300.0,
+    };
+}
+
+/// A solid in which everything flows: shape and volume by a tensor, and a fibre by a dashpot of its own.
+#[derive(Clone, Debug, FreeEnergy)]
+#[free_energy(|e1: StrainTrace, fibre: Viscous, m1: ViscousTrace, e4: FibreStrain, m3: ViscousStrain,
+    j: Dilatation, e2: StrainSquare, theta: Temperature, m2: ViscousSquare| {
+    let heating = theta - theta_ref;
+    let difference = e2 - 2 * m3 + m2;
+    shear * e2 + 0.5 * lame * ln_1p(j).powi(2) + kf * (e4 - fibre).powi(2)
+        + (branch - softening * heating) * difference * (1 + difference)
+        + 0.5 * bulk * (e1 - m1).powi(2)
+        - expansion * heating * ln_1p(j)
+        + capacity * (heating - theta * ln(theta / theta_ref))
+})]
+#[viscosity(m1 = eta_v, m3 = eta * exp(a / theta - a / theta_ref), fibre = eta_f)]
+pub(crate) struct Flowing {
+    #[unit("Pa")]
+    pub(crate) lame: f64,
+    #[unit("Pa")]
+    pub(crate) shear: f64,
+    #[unit("Pa")]
+    pub(crate) branch: f64,
+    #[unit("Pa/K")]
+    pub(crate) softening: f64,
+    #[unit("Pa")]
+    pub(crate) bulk: f64,
+    #[unit("Pa")]
+    pub(crate) kf: f64,
+    #[unit("Pa/K")]
+    pub(crate) expansion: f64,
+    #[unit("Pa/K")]
+    pub(crate) capacity: f64,
+    #[unit("Pa s")]
+    pub(crate) eta: f64,
+    #[unit("Pa s")]
+    pub(crate) eta_v: f64,
+    #[unit("Pa s")]
+    pub(crate) eta_f: f64,
+    #[unit("K")]
+    pub(crate) a: f64,
+    #[unit("K")]
+    pub(crate) theta_ref: f64,
+}
+
+impl Flowing {
+    pub(crate) const RUBBER: Self = Self {
+        lame: 2000.0,
+        shear: 1000.0,
+        branch: 1500.0,
+        softening: 2.0,
+        bulk: 800.0,
+        kf: 2500.0,
+        expansion: 3.0,
+        capacity: 100.0,
+        eta: 300.0,
+        eta_v: 200.0,
+        eta_f: 500.0,
+        a: 50.0,
+        theta_ref: 300.0,
+    };
+}

@@ -4,7 +4,7 @@ use super::parameters::Used;
 use super::resolve;
 use super::resolver::Resolver;
 use super::scope::{Meaning, Scope};
-use crate::ast::{self, Argument, Block, Bound, Expr, ExprKind, Input, Law, Role};
+use crate::ast::{self, Argument, Block, Bound, Expr, ExprKind, Input, Joint, Law, Role};
 use crate::checked::{Body, Variable};
 use crate::ctxt::Ctxt;
 use crate::message::attribute as message;
@@ -13,7 +13,8 @@ use crate::units::Quantities;
 
 /// The laws with their names resolved.
 pub(super) struct Laws<'a> {
-    /// In the order of the dashpots; nothing where one is missing.
+    /// In the order of the dashpots, then those of the viscous strain, without and with its trace; nothing where
+    /// one is missing.
     pub(super) viscosities: Vec<Option<Body<'a>>>,
     /// That of the stretch, if there is one.
     pub(super) drag: Option<Body<'a>>,
@@ -39,8 +40,13 @@ pub(super) fn laws<'a>(
     };
     let stretch = variables.iter().find(|v| v.role == Role::Stretch);
     let drag = stretch.and_then(&mut take);
-    let dashpots = variables.iter().filter(|v| v.role == Role::Viscous);
-    let viscosities: Vec<_> = dashpots.map(take).collect();
+    let flows = [
+        Role::Viscous,
+        Role::Joint(Joint::Strain),
+        Role::Joint(Joint::Trace),
+    ];
+    let of_role = |role| variables.iter().filter(move |v| v.role == role);
+    let viscosities: Vec<_> = flows.into_iter().flat_map(of_role).map(take).collect();
     if viscosities.iter().any(Option::is_none) {
         used.give_up();
     }
@@ -105,18 +111,14 @@ pub(super) fn check_names(cx: &Ctxt, input: &Input<'_>) {
         let name = ast::name(dashpot);
         let same = |ident| ast::name(ident) == name;
         match input.arguments.iter().find(|a| same(a.ident)) {
-            Some(Argument {
-                role: Some(Role::Viscous | Role::Stretch) | None,
-                ..
-            }) => {}
             Some(&Argument {
                 role: Some(role), ..
-            }) => {
+            }) if !role.flows() && role != Role::Stretch => {
                 let message = message::viscosity_of_another_role(dashpot, role);
                 cx.error(dashpot, &message);
             }
             None if input.arguments_complete => report_unknown(cx, input, dashpot),
-            None => {}
+            Some(_) | None => {}
         }
         if input.laws[..i].iter().any(|law| same(law.dashpot)) {
             cx.error(dashpot, &message::second_viscosity(dashpot));
@@ -126,7 +128,7 @@ pub(super) fn check_names(cx: &Ctxt, input: &Input<'_>) {
 
 fn report_unknown(cx: &Ctxt, input: &Input<'_>, name: &syn::Ident) {
     let viscous = input.arguments.iter();
-    let viscous = viscous.filter(|a| a.role == Some(Role::Viscous));
+    let viscous = viscous.filter(|a| a.role.is_some_and(Role::flows));
     let dashpots: Vec<String> = viscous.map(|a| ast::name(a.ident)).collect();
     let dashpots = || dashpots.iter().map(String::as_str);
     let nearest = nearest(&ast::name(name), dashpots());
@@ -146,9 +148,9 @@ pub(super) fn check_complete(cx: &Ctxt, input: &Input<'_>) {
     for argument in &input.arguments {
         let name = ast::name(argument.ident);
         let has_law = input.laws.iter().any(|law| ast::name(law.dashpot) == name);
-        if argument.role == Some(Role::Viscous) && !has_law {
+        if let Some(role) = argument.role.filter(|role| role.flows() && !has_law) {
             let unit = Quantities::of(input.per_volume()).viscosity;
-            let message = message::missing_viscosity(argument.ident, unit);
+            let message = message::missing_viscosity(argument.ident, role, unit);
             cx.error(argument.ident, &message);
         }
     }

@@ -112,8 +112,8 @@ impl<'r, 'a> Resolver<'r, 'a> {
         };
         let taken = role != Role::Viscous && has(|one, other| one == other);
         let other_kind = has(|one, other| {
-            let is_strain = |role: Role| role.strain().is_some();
-            one.is_measure() && other.is_measure() && is_strain(one) != is_strain(other)
+            let are_measures = one.is_measure() && other.is_measure();
+            are_measures && one.is_of_solid() != other.is_of_solid()
         });
         (!taken && !other_kind).then_some(role)
     }

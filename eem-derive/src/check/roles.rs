@@ -4,12 +4,13 @@ use std::collections::BTreeSet;
 
 use proc_macro2::Ident;
 
-use crate::ast::{self, Argument, Input, Role, Strain};
+use crate::ast::{self, Argument, Input, Joint, Role, Strain};
 use crate::checked::Variable;
 use crate::ctxt::Ctxt;
 use crate::message::attribute as message;
 
-/// The arguments in the order of the state: measures, dashpots, temperature, each as in the closure.
+/// The arguments in the order of the state: measures, of which the strains are first, dashpots,
+/// temperature, each as in the closure.
 pub(super) fn variables<'a>(input: &Input<'a>) -> Vec<Variable<'a>> {
     let arguments = input.arguments.iter();
     let mut variables: Vec<Variable<'a>> = arguments
@@ -17,8 +18,9 @@ pub(super) fn variables<'a>(input: &Input<'a>) -> Vec<Variable<'a>> {
         .collect();
     variables.sort_by_key(|variable| match variable.role {
         Role::Stretch | Role::Strain(_) => 0,
-        Role::Viscous => 1,
-        Role::Temperature => 2,
+        Role::Joint(_) => 1,
+        Role::Viscous => 2,
+        Role::Temperature => 3,
     });
     variables
 }
@@ -26,11 +28,11 @@ pub(super) fn variables<'a>(input: &Input<'a>) -> Vec<Variable<'a>> {
 /// Without a measure there is neither a spring nor a solid, and nothing is both.
 pub(super) fn check_measures(cx: &Ctxt, input: &Input<'_>) {
     let closure = input.closure;
-    let mut measures = measures(input);
+    let is_deformed = measures(input).any(|(_, role)| role.joint().is_none());
+    let mut measures = measures(input).filter(|_| is_deformed);
     match measures.next() {
         Some((first, role)) => {
-            let others =
-                measures.filter(|(_, other)| other.strain().is_some() != role.strain().is_some());
+            let others = measures.filter(|(_, other)| other.is_of_solid() != role.is_of_solid());
             for (other, its_role) in others {
                 let message = message::spring_and_solid([other, first], [its_role, role]);
                 cx.error(other, &message);
@@ -41,6 +43,17 @@ pub(super) fn check_measures(cx: &Ctxt, input: &Input<'_>) {
             cx.error(closure.inputs_begin, &message::no_measure());
         }
         None => cx.error(&closure.inputs, &message::no_measure()),
+    }
+}
+
+/// What a viscous strain is made of needs what drives it.
+pub(super) fn check_flow(cx: &Ctxt, input: &Input<'_>) {
+    let driven = of_role(input, Role::Joint(Joint::Strain)).count() > 0;
+    if driven || !input.arguments_complete {
+        return;
+    }
+    for (ident, role) in measures(input).filter(|(_, role)| role.joint().is_some()) {
+        cx.error(ident, &message::flow_without_strain(ident, role));
     }
 }
 
@@ -67,9 +80,13 @@ pub(super) fn are_sound(input: &Input<'_>) -> bool {
         .map(|role| (role, count(role)));
     let strained = strains.iter().any(|&(_, count)| count > 0);
     let may_be = |&(role, count): &(Role, usize)| count <= 1 || role.is_repeatable();
+    let joints = Joint::ALL.map(Role::Joint).map(|role| (role, count(role)));
+    let flows = joints.iter().any(|&(_, count)| count > 0);
+    let driven = strained && count(Role::Joint(Joint::Strain)) > 0;
     input.arguments_complete
         && count(Role::Stretch) == usize::from(!strained)
-        && strains.iter().all(may_be)
+        && strains.iter().chain(&joints).all(may_be)
+        && (!flows || driven)
         && count(Role::Temperature) <= 1
         && names.len() == input.arguments.len()
 }

@@ -60,7 +60,7 @@ fn types(programs: &Programs, inputs: &Inputs) -> TokenStream {
         quote!([#row; #rows])
     };
     let (variables, hessian) = (array(inputs.variables), matrix(inputs.variables));
-    let (viscosities, drag) = (array(inputs.dashpots), array(inputs.drags));
+    let (viscosities, drag) = (array(inputs.viscosities), array(inputs.drags));
     let corners = array(inputs.corners());
     let (response, tangent) = (array(inputs.responses()), matrix(inputs.responses()));
     let entropy = array(kept(&programs.entropy_form, inputs).len());

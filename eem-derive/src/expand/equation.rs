@@ -72,7 +72,7 @@ pub(super) fn equations(checked: &Checked<'_>, formulas: &Formulas) -> Vec<Equat
     }
     for (k, viscosity) in formulas.viscosities.iter().enumerate() {
         equations.push(Equation::new(
-            &subscript("η", k, dashpots),
+            &subscript("η", k, formulas.viscosities.len()),
             "",
             viscosity,
             units.viscosity,

@@ -55,7 +55,7 @@ impl<'a> Header<'a> {
 }
 
 /// A name for the scalar that the struct has not given to a parameter of its own.
-fn unused(generics: &Generics) -> Ident {
+pub(super) fn unused(generics: &Generics) -> Ident {
     let mut scalar = Ident::new("__S", Span::call_site());
     while generics.params.iter().any(|parameter| match parameter {
         GenericParam::Type(parameter) => parameter.ident == scalar,

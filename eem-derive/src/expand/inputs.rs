@@ -16,6 +16,8 @@ pub(super) struct Inputs {
     pub(super) variables: usize,
     /// Number of dashpots, K.
     pub(super) dashpots: usize,
+    /// Number of viscosities: of dashpots and of the viscous strain.
+    pub(super) viscosities: usize,
     /// Number of measures with a viscosity.
     pub(super) drags: usize,
     /// There is a temperature.
@@ -32,6 +34,7 @@ impl Inputs {
             parameters: parameters.map(|p| parameter(p, scalar)).collect(),
             variables: checked.variables.len(),
             dashpots: of_role(Role::Viscous).count(),
+            viscosities: checked.viscosities.len(),
             drags: usize::from(checked.drag.is_some()),
             thermal: of_role(Role::Temperature).count() == 1,
         }

@@ -1,32 +1,131 @@
-//! The measures of a free energy per volume: the implementation of `StrainEnergy`.
+//! The measures of a free energy per volume: the implementation of `StrainEnergy`, and that of `JointEnergy` if
+//! there is a viscous strain.
 
-use proc_macro2::{Literal, Span, TokenStream};
+use eem_symbolic::Programs;
+use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
-use syn::{DeriveInput, Ident};
+use syn::DeriveInput;
 
-use crate::ast::Strain;
+use super::forms::kept;
+use super::header;
+use super::inputs::Inputs;
+use crate::ast::{Joint, Strain};
+use crate::checked::Checked;
+
+/// Components of a tensor without a trace; there is one more if the trace flows as well.
+const DEVIATORIC: usize = 5;
+
+/// The implementations for a model.
+pub(super) fn strains(
+    checked: &Checked<'_>,
+    programs: &Programs,
+    inputs: &Inputs,
+) -> Option<TokenStream> {
+    let joints: Vec<Joint> = checked.joints().collect();
+    let mut strains: Vec<TokenStream> = checked.strains().map(variant).collect();
+    if joints.is_empty() {
+        return implementation(checked.original, &strains, None);
+    }
+    let components = DEVIATORIC + usize::from(joints.contains(&Joint::Trace));
+    strains.extend((0..components).map(|k| {
+        let k = Literal::usize_unsuffixed(k);
+        quote!(Component(#k))
+    }));
+    let energy = component_energy(&joints, components, programs, inputs);
+    let joint = joint_energy(checked.original, &joints);
+    let strains = implementation(checked.original, &strains, Some(&energy));
+    Some(quote! { #joint #strains })
+}
+
+/// Those for a model with errors, whose strains are these.
+pub(crate) fn stub(
+    input: &DeriveInput,
+    strains: impl Iterator<Item = Strain>,
+) -> Option<TokenStream> {
+    let strains: Vec<TokenStream> = strains.map(variant).collect();
+    implementation(input, &strains, None)
+}
+
+fn variant(strain: Strain) -> TokenStream {
+    let variant = Ident::new(strain.variant(), Span::call_site());
+    quote!(#variant)
+}
 
 // Expands to: nothing for a spring, else
 //
 //     impl StrainEnergy<2> for Rubber {
 //         const STRAINS: [Strain; 2] = [Strain::Trace, Strain::Square];
+//         type AtPoint<__S: Real> = Self where Self: Material<__S>;
+//         fn at_point<__S: Real>(&self) -> Self::AtPoint<__S> where Self: Material<__S> {
+//             FreeEnergy::<__S>::duplicate(self)
+//         }
 //     }
-pub(crate) fn strains(
+//
+// and with a viscous strain `ComponentEnergy<Self, …>` instead of `Self`.
+fn implementation(
     input: &DeriveInput,
-    strains: impl Iterator<Item = Strain>,
+    strains: &[TokenStream],
+    energy: Option<&TokenStream>,
 ) -> Option<TokenStream> {
-    let variants = strains.map(|strain| Ident::new(strain.variant(), Span::call_site()));
-    let variants: Vec<Ident> = variants.collect();
-    if variants.is_empty() {
+    if strains.is_empty() {
         return None;
     }
-    let count = Literal::usize_unsuffixed(variants.len());
+    let count = Literal::usize_unsuffixed(strains.len());
     let ident = &input.ident;
+    let scalar = header::unused(&input.generics);
     let (impl_generics, ty_generics, where_clause) = input.generics.split_for_impl();
+    let copy = quote!(__eem::FreeEnergy::<#scalar>::duplicate(self));
+    let (energy, copy) = match energy {
+        Some(energy) => (quote!(#energy), quote!(__eem::ComponentEnergy::new(#copy))),
+        None => (quote!(Self), copy),
+    };
     Some(quote! {
         #[automatically_derived]
         impl #impl_generics __eem::StrainEnergy<#count> for #ident #ty_generics #where_clause {
-            const STRAINS: [__eem::Strain; #count] = [#(__eem::Strain::#variants),*];
+            const STRAINS: [__eem::Strain; #count] = [#(__eem::Strain::#strains),*];
+            type AtPoint<#scalar: __eem::Real> = #energy where Self: __eem::Material<#scalar>;
+            fn at_point<#scalar: __eem::Real>(&self) -> Self::AtPoint<#scalar>
+            where
+                Self: __eem::Material<#scalar>,
+            {
+                #copy
+            }
         }
     })
+}
+
+// Expands to: `ComponentEnergy<Self, 13, 5, 14, 27, 25>`, with the numbers of variables, dashpots, algorithmic
+// quantities, and values that the two forms keep of the old state.
+fn component_energy(
+    joints: &[Joint],
+    components: usize,
+    programs: &Programs,
+    inputs: &Inputs,
+) -> TokenStream {
+    let temperature = programs.temperature_form.as_ref();
+    let temperature = temperature.unwrap_or(&programs.entropy_form);
+    let variables = inputs.variables - joints.len() + 2 * components;
+    let numbers = [
+        variables,
+        inputs.dashpots + components,
+        variables + usize::from(inputs.thermal),
+        kept(&programs.entropy_form, inputs).len() + 2 * components,
+        kept(temperature, inputs).len() + 2 * components,
+    ];
+    let numbers = numbers.map(Literal::usize_unsuffixed);
+    quote!(__eem::ComponentEnergy<Self, #(#numbers),*>)
+}
+
+// Expands to: `impl JointEnergy for Rubber { const JOINT: &'static [Joint] = &[Joint::Strain, …]; }`.
+fn joint_energy(input: &DeriveInput, joints: &[Joint]) -> TokenStream {
+    let variants = joints.iter().map(|joint| joint.variant());
+    let variants = variants.map(|variant| Ident::new(variant, Span::call_site()));
+    let ident = &input.ident;
+    let (impl_generics, ty_generics, where_clause) = input.generics.split_for_impl();
+    quote! {
+        #[automatically_derived]
+        impl #impl_generics __eem::JointEnergy for #ident #ty_generics #where_clause {
+            const JOINT: &'static [__eem::Joint] = &[#(__eem::Joint::#variants),*];
+        }
+    }
 }

@@ -29,7 +29,7 @@ fn viscosity(program: Option<&Program>, inputs: &Inputs) -> TokenStream {
         };
     };
     let docs = docs::function("Viscosities η and dη/dθ.", program);
-    let (theta, body) = body(program, inputs, inputs.dashpots);
+    let (theta, body) = body(program, inputs, inputs.viscosities);
     quote! {
         #docs
         fn viscosity(&self, #theta: #scalar) -> (Self::Viscosities, Self::Viscosities) { #body }

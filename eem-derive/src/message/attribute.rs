@@ -3,7 +3,7 @@
 use proc_macro2::Ident;
 
 use super::{Message, alternatives, list};
-use crate::ast::{self, Role, Strain};
+use crate::ast::{self, Joint, Role, Strain};
 
 pub(crate) mod physics;
 
@@ -157,12 +157,27 @@ pub(crate) fn spring_and_solid([later, first]: [&Ident; 2], roles: [Role; 2]) ->
     )
 }
 
+/// `role` is one of a viscous strain that nothing drives.
+pub(crate) fn flow_without_strain(argument: &Ident, role: Role) -> Message {
+    let name = ast::name(argument);
+    Message::new(
+        format!(
+            "`{name}` is a `{}` without a `ViscousStrain`: nothing drives the viscous strain Γ",
+            role.name()
+        ),
+        "add E:Γ as an argument, `m3: ViscousStrain`, and the viscosity of the flow, `#[viscosity(m3 = …)]`",
+    )
+}
+
 pub(crate) fn second_role(role: Role, argument: &Ident, first: &Ident) -> Message {
     let (argument, first) = (ast::name(argument), ast::name(first));
     let help = match role {
         Role::Stretch => "a spring has one length; an internal variable is `Viscous`",
         Role::Strain(Strain::Fibre) | Role::Viscous => unreachable!("there may be many"),
         Role::Strain(_) => "every strain is one argument; remove one of the two",
+        Role::Joint(_) => {
+            "a solid has one viscous strain; remove one of the two, or make it `Viscous`"
+        }
         Role::Temperature => "an element has one temperature",
     };
     Message::new(
@@ -201,10 +216,19 @@ pub(crate) fn unreadable_viscosity(error: &syn::Error) -> Message {
     )
 }
 
-pub(crate) fn missing_viscosity(dashpot: &Ident, unit: &str) -> Message {
+pub(crate) fn missing_viscosity(dashpot: &Ident, role: Role, unit: &str) -> Message {
     let name = ast::name(dashpot);
+    let what = match role {
+        Role::Joint(Joint::Strain) => "the deviatoric flow of",
+        Role::Joint(Joint::Trace) => "the volumetric flow of",
+        Role::Stretch
+        | Role::Strain(_)
+        | Role::Joint(Joint::Square)
+        | Role::Viscous
+        | Role::Temperature => "the dashpot",
+    };
     Message::new(
-        format!("the dashpot `{name}` has no viscosity law"),
+        format!("{what} `{name}` has no viscosity law"),
         format!("write `#[viscosity({name} = …)]` on top of the struct, in {unit}"),
     )
 }
@@ -238,6 +262,6 @@ pub(crate) fn viscosity_of_another_role(name: &Ident, role: Role) -> Message {
     let name = ast::name(name);
     Message::new(
         format!("`{name}` has no viscosity: it is a `{}`", role.name()),
-        "only arguments of role `Viscous` and `Stretch` have one",
+        "only arguments of role `Viscous`, `ViscousStrain`, `ViscousTrace` and `Stretch` have one",
     )
 }

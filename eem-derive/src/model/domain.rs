@@ -7,7 +7,7 @@
 use eem_symbolic::{ExprId, F64, Function, LowerBound, Rational, Sign, range, schedule, sign};
 
 use super::Lowering;
-use crate::ast::{Role, Strain};
+use crate::ast::{Joint, Role, Strain};
 use crate::checked::Expr;
 use crate::message::expression as message;
 
@@ -51,7 +51,12 @@ impl Lowering<'_> {
         let sign = self.sign(base);
         let outside = !integer && !sign.zero && !sign.positive;
         self.unless(outside, expr, &message::negative_base)?;
-        let any = self.symbols(|role| role == Role::Viscous);
+        let any = self.symbols(|role| match role {
+            Role::Viscous | Role::Joint(Joint::Trace | Joint::Strain) => true,
+            Role::Stretch | Role::Strain(_) | Role::Joint(Joint::Square) | Role::Temperature => {
+                false
+            }
+        });
         let negative = range(&self.graph, base, &self.bounds(), &any).lower < 0.0;
         let Some(name) = self.argument_in(base) else {
             return Some(());
@@ -158,6 +163,9 @@ impl Lowering<'_> {
         let pairs = self.checked.variables.iter().zip(&self.variables);
         let bounds = pairs.filter_map(|(variable, &symbol)| {
             let zero = Rational::ZERO;
+            if variable.role == Role::Joint(Joint::Square) {
+                return Some(LowerBound::from(symbol, zero));
+            }
             Some(match variable.role.strain()? {
                 // (tr C − 3)/2 and det F − 1, where tr C and det F are positive.
                 Strain::Trace => LowerBound::above(symbol, Rational::new(-3, 2)?),

@@ -1,9 +1,9 @@
-//! The solid at rest, where all strains are zero: a free energy has a value and a stress there.
+//! The solid at rest, where all strains, also viscous ones, are zero: a free energy has a value and a stress there.
 
 use eem_symbolic::{ExprId, Function, substitute};
 
 use super::Lowering;
-use crate::ast::{self, Strain};
+use crate::ast::{self, Role};
 use crate::checked::Expr;
 use crate::message::expression::rest as message;
 
@@ -67,14 +67,14 @@ impl Lowering<'_> {
 
     /// The first strain in an expression, and what is left of the expression without strains if that is
     /// a number.
-    pub(super) fn at_rest(&mut self, e: ExprId) -> Option<(String, Strain, f64)> {
+    pub(super) fn at_rest(&mut self, e: ExprId) -> Option<(String, Role, f64)> {
         let pairs = self.checked.variables.iter().zip(&self.variables);
-        let strains = pairs.filter(|(variable, _)| variable.role.strain().is_some());
+        let strains = pairs.filter(|(variable, _)| variable.role.is_of_solid());
         let strains: Vec<_> = strains
             .filter(|&(_, &symbol)| self.graph.depends_on(e, symbol))
             .collect();
         let (first, _) = strains.first()?;
-        let (name, strain) = (ast::name(first.ident), first.role.strain()?);
+        let (name, strain) = (ast::name(first.ident), first.role);
         let zero = self.graph.integer(0);
         let zeros: Vec<_> = strains.iter().map(|&(_, &symbol)| (symbol, zero)).collect();
         let rest = substitute(&mut self.graph, e, &zeros);

@@ -5,7 +5,7 @@ use syn::{ExprClosure, Pat, PatIdent, PatType, ReturnType, Type};
 
 use super::modifiers::check_modifiers;
 use super::name::plain_name;
-use crate::ast::{Argument, Role, Strain};
+use crate::ast::{Argument, Joint, Role, Strain};
 use crate::ctxt::Ctxt;
 use crate::message::attribute as message;
 use crate::nearest::nearest;
@@ -40,7 +40,7 @@ fn argument<'a>(cx: &Ctxt, pat: &'a Pat) -> Option<Argument<'a>> {
 }
 
 /// Other words for the roles.
-const SYNONYMS: [(&[&str], &[Role]); 8] = [
+const SYNONYMS: [(&[&str], &[Role]); 9] = [
     (&["Length", "Elongation", "Lambda"], &[Role::Stretch]),
     (
         &["Strain"],
@@ -82,6 +82,10 @@ const SYNONYMS: [(&[&str], &[Role]); 8] = [
             "E4",
         ],
         &[Role::Strain(Strain::Fibre)],
+    ),
+    (
+        &["ViscousTensor", "InternalStrain", "InelasticStrain", "M3"],
+        &[Role::Joint(Joint::Strain)],
     ),
     (
         &["Dashpot", "Internal", "Damper", "Gamma"],

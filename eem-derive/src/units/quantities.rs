@@ -60,7 +60,7 @@ impl Quantities {
         match role {
             Role::Viscous if !self.lengths => Unit::one(),
             Role::Stretch | Role::Viscous => Unit::metre(),
-            Role::Strain(_) => Unit::one(),
+            Role::Strain(_) | Role::Joint(_) => Unit::one(),
             Role::Temperature => Unit::kelvin(),
         }
     }

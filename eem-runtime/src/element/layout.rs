@@ -15,6 +15,8 @@ pub(crate) struct Shape {
     pub(crate) drag: bool,
     /// Whether it has a length and a force.
     pub(crate) is_spring: bool,
+    /// How many of the dashpots, the last ones, are components of a viscous strain.
+    pub(crate) viscous_strain: usize,
     /// The unit of a viscous stretch.
     pub(crate) viscous_unit: &'static str,
 }

@@ -52,7 +52,8 @@ pub struct Description {
 pub struct Argument {
     /// Its name in the formulas.
     pub name: &'static str,
-    /// `Stretch`, `StrainTrace`, `StrainSquare`, `Dilatation`, `FibreStrain`, `Viscous` or `Temperature`.
+    /// `Stretch`, `StrainTrace`, `StrainSquare`, `Dilatation`, `FibreStrain`, `ViscousStrain`, `ViscousSquare`,
+    /// `ViscousTrace`, `Viscous` or `Temperature`.
     pub role: &'static str,
     /// Its unit.
     pub unit: &'static str,

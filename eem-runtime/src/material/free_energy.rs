@@ -100,6 +100,8 @@ pub trait FreeEnergy<S: Scalar> {
     /// Whether it is one per reference volume, a function of strains: all that stands below in J, N and
     /// J/K is then per m³. See [`StrainEnergy`](crate::StrainEnergy).
     const PER_VOLUME: bool = false;
+    /// How many of its dashpots, the last ones, are components of a viscous strain that is a tensor.
+    const VISCOUS_STRAIN: usize = 0;
     /// The name of the struct.
     const MODEL: &'static str;
     /// The names of the parameters that the model uses.
@@ -173,6 +175,19 @@ pub trait FreeEnergy<S: Scalar> {
             }
             (self.caloric(&x), self.free_energy(&x))
         }
+    }
+
+    /// [`caloric_at`](Self::caloric_at) of the mixed state with the first `new` measures and viscous variables
+    /// of `x1` and the others of `x0`, one of the [`Corners`](Self::Corners).
+    fn caloric_between(
+        &self,
+        x0: &Self::Variables,
+        x1: &Self::Variables,
+        new: usize,
+    ) -> impl Fn(S) -> (Caloric<S>, S) {
+        let mut x = *x0;
+        x.as_mut()[..new].copy_from_slice(&x1.as_ref()[..new]);
+        self.caloric_at(x)
     }
 
     /// Forces, heat capacity and the slopes of the entropy, of which the rates of a state consist.
@@ -270,3 +285,8 @@ pub trait FreeEnergy<S: Scalar> {
         self.temperature_form(old, x1).0
     }
 }
+
+/// A free energy that elements can keep. Implemented for everything that qualifies.
+pub trait Material<S: Scalar>: FreeEnergy<S> + Send + Sync + 'static {}
+
+impl<S: Scalar, M: FreeEnergy<S> + Send + Sync + 'static> Material<S> for M {}

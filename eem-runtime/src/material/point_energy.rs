@@ -78,6 +78,7 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
     const MEASURES: usize = M::MEASURES;
     const DASHPOTS: usize = M::DASHPOTS;
     const THERMAL: bool = M::THERMAL;
+    const VISCOUS_STRAIN: usize = M::VISCOUS_STRAIN;
     const MODEL: &'static str = M::MODEL;
     const PARAMETERS: &'static [&'static str] = M::PARAMETERS;
 
@@ -129,6 +130,19 @@ impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
 
     fn caloric_at(&self, x: M::Variables) -> impl Fn(S) -> (Caloric<S>, S) {
         let density = self.density.caloric_at(x);
+        move |theta| {
+            let (caloric, psi) = density(theta);
+            (self.scaled_caloric(caloric), self.volume * psi)
+        }
+    }
+
+    fn caloric_between(
+        &self,
+        x0: &M::Variables,
+        x1: &M::Variables,
+        new: usize,
+    ) -> impl Fn(S) -> (Caloric<S>, S) {
+        let density = self.density.caloric_between(x0, x1, new);
         move |theta| {
             let (caloric, psi) = density(theta);
             (self.scaled_caloric(caloric), self.volume * psi)

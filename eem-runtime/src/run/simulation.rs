@@ -24,6 +24,7 @@ mod start;
 mod stepper;
 mod totals;
 pub(crate) mod values;
+mod viscous_strain;
 
 use core::fmt;
 use core::mem;

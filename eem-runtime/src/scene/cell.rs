@@ -43,12 +43,20 @@ impl<S: Real, const D: usize> Scene<D, S> {
         let points = H::PerPoint::from_fn(|point| first.after(point));
         let place = match self.expect_cell::<H, N>(nodes, (M::STRAINS, stuff), points.as_ref()) {
             Ok(cell) => {
-                let new = LooseElements::<S, PointEnergy<S, M>, SolidPoint<H, S, N, D>, D>::new;
+                let new = LooseElements::<
+                    S,
+                    PointEnergy<S, M::AtPoint<S>>,
+                    SolidPoint<H, S, N, D>,
+                    D,
+                >::new;
                 let (group, set) = self.set_of(new);
                 let place = set.points();
                 let parts = H::PerPoint::from_fn(|at| {
                     let point = cell.as_ref()[at];
-                    (PointEnergy::new(model.duplicate(), point.volume()), point)
+                    (
+                        PointEnergy::new(model.at_point::<S>(), point.volume()),
+                        point,
+                    )
                 });
                 set.elements.push((first, parts));
                 [group, place]

@@ -17,6 +17,12 @@ pub enum SolidError {
         /// The spring.
         element: Element,
     },
+    /// The free energy of an element has no argument with the role `ViscousStrain`.
+    #[error("{element} has no viscous strain: its free energy has no `ViscousStrain`")]
+    NoViscousStrain {
+        /// The element.
+        element: Element,
+    },
     /// A cell of a solid is inside out at a point of its reference configuration, or has no volume there.
     #[error(
         "det dX/dxi of the solid at {element} is {value} {unit}, it must be positive and finite: give its {order}",

@@ -1,7 +1,7 @@
 //! Messages about free energies and viscosities that no material can have.
 
 use super::Message;
-use crate::ast::{self, Role, Strain};
+use crate::ast::{self, Joint, Role, Strain};
 use crate::checked::Variable;
 
 /// `measure` is the name of one of the model.
@@ -17,6 +17,16 @@ pub(crate) fn independent(variable: &Variable<'_>, measure: &str) -> Message {
             };
             format!(
                 "there is no stress; add its term, for example `{term}`, or remove the argument"
+            )
+        }
+        Role::Joint(joint) => {
+            let term = match joint {
+                Joint::Trace => format!("0.5 * bulk * {name}.powi(2)"),
+                Joint::Square => format!("branch * {name}"),
+                Joint::Strain => format!("- 2 * branch * {name}"),
+            };
+            format!(
+                "the viscous strain does not act by it; add its term, for example `{term}`, or remove the argument"
             )
         }
         Role::Stretch => format!(

@@ -1,18 +1,18 @@
 //! Messages about solids at rest.
 
-use crate::ast::Strain;
+use crate::ast::{Joint, Role, Strain};
 use crate::message::Message;
 
 const AT_REST: &str = "where the solid is at rest and all strains are zero";
 
-pub(crate) fn divisor(name: &str, strain: Strain) -> Message {
+pub(crate) fn divisor(name: &str, strain: Role) -> Message {
     Message::new(
         format!("this divisor is zero {AT_REST}"),
         meaning(name, strain),
     )
 }
 
-pub(crate) fn value(function: &str, domain: &str, name: &str, strain: Strain) -> Message {
+pub(crate) fn value(function: &str, domain: &str, name: &str, strain: Role) -> Message {
     Message::new(
         format!("`{function}` has no value {AT_REST}: it is defined for `{domain}`"),
         meaning(name, strain),
@@ -35,7 +35,19 @@ pub(crate) fn negative(function: &str) -> Message {
 }
 
 /// What the strain is, and what may have been meant.
-fn meaning(name: &str, strain: Strain) -> String {
+fn meaning(name: &str, strain: Role) -> String {
+    let strain = match strain {
+        Role::Strain(strain) => strain,
+        Role::Joint(joint) => {
+            let what = match joint {
+                Joint::Trace => "tr Γ",
+                Joint::Square => "Γ:Γ",
+                Joint::Strain => "E:Γ",
+            };
+            return format!("`{name}` is {what} of the viscous strain Γ, which is zero at first");
+        }
+        Role::Stretch | Role::Viscous | Role::Temperature => unreachable!("it is a strain"),
+    };
     match strain {
         Strain::Trace => format!("`{name}` is tr E; tr C is `3 + 2 * {name}`"),
         Strain::Square => format!("`{name}` is E:E, which is zero at rest"),

@@ -265,6 +265,13 @@ const _: () = {
             __eem::Strain::Trace,
             __eem::Strain::Square,
         ];
+        type AtPoint<__S: __eem::Real> = Self where Self: __eem::Material<__S>;
+        fn at_point<__S: __eem::Real>(&self) -> Self::AtPoint<__S>
+        where
+            Self: __eem::Material<__S>,
+        {
+            __eem::FreeEnergy::<__S>::duplicate(self)
+        }
     }
     #[automatically_derived]
     impl __eem::Describe for ElasticSolid {

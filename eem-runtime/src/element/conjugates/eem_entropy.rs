@@ -12,7 +12,7 @@
 //! old to new come from the Legendre inversion θ̂, by Newton's method, for any free energy.
 
 use crate::element::conjugates::element::{ElementScheme, Form, Infeasible, Placement, Start};
-use crate::element::conjugates::temperature::temperature_at;
+use crate::element::conjugates::temperature::temperature_of;
 use crate::material::free_energy::{Array, Entry, FreeEnergy};
 use crate::number::scalar::Real;
 
@@ -97,17 +97,15 @@ fn find_corners<S: Real, M: FreeEnergy<S>>(
     x1: &M::Variables,
     corners: &mut M::Corners,
 ) -> Result<(), Infeasible> {
-    let steps = M::Variables::LEN - 1;
+    let steps = M::Corners::LEN / 2;
     let (ascending, descending) = corners.as_mut().split_at_mut(steps);
     let caloric1 = model.caloric(x1);
-    Infeasible::unless_stable(caloric1.heat_capacity, x1[steps])?;
+    Infeasible::unless_stable(caloric1.heat_capacity, x1[M::Variables::LEN - 1])?;
     for k in 1..=steps {
-        let mut x = start.x0;
-        x.as_mut()[..k].copy_from_slice(&x1.as_ref()[..k]);
-        ascending[k - 1] = temperature_at(model, x, start.old.1, ascending[k - 1])?;
-        let mut x = *x1;
-        x.as_mut()[..k].copy_from_slice(&start.x0.as_ref()[..k]);
-        descending[k - 1] = temperature_at(model, x, caloric1.entropy, descending[k - 1])?;
+        let mixed = model.caloric_between(&start.x0, x1, k);
+        ascending[k - 1] = temperature_of(mixed, start.old.1, ascending[k - 1])?;
+        let mixed = model.caloric_between(x1, &start.x0, k);
+        descending[k - 1] = temperature_of(mixed, caloric1.entropy, descending[k - 1])?;
     }
     Ok(())
 }

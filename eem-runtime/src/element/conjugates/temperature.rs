@@ -22,7 +22,16 @@ pub(crate) fn temperature_at<S: Real, M: FreeEnergy<S>>(
     entropy: S,
     guess: S,
 ) -> Result<S, Infeasible> {
-    let caloric_at = model.caloric_at(x);
+    temperature_of(model.caloric_at(x), entropy, guess)
+}
+
+/// θ̂ where the caloric quantities are these functions of the temperature; stable.
+#[inline]
+pub(crate) fn temperature_of<S: Real>(
+    caloric_at: impl Fn(S) -> (Caloric<S>, S),
+    entropy: S,
+    guess: S,
+) -> Result<S, Infeasible> {
     let enough = S::from_f64(LAST_CORRECTION) * S::EPSILON.sqrt();
     let found = near(|theta| (caloric_at(theta).0, []), entropy, guess, enough)?;
     Ok(found.0)

@@ -48,6 +48,7 @@ where
             thermal: M::THERMAL,
             drag: <M::Drag as Array<S>>::LEN > 0,
             is_spring: K::IS_SPRING,
+            viscous_strain: M::VISCOUS_STRAIN,
             viscous_unit: K::VISCOUS_UNIT,
         }
     }

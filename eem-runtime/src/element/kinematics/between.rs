@@ -45,6 +45,7 @@ impl<A: Symmetric<S, D>, S: Real, const D: usize> Deformed<A, S, D> {
             Measure::Square => self.strain.contracted(&self.strain),
             Measure::Dilatation => self.dilatation(),
             Measure::Fibre(along) => A::symmetrised(along, along).contracted(&self.strain),
+            Measure::Component(k) => A::basis(*k).contracted(&self.strain),
         }
     }
 
@@ -102,6 +103,7 @@ impl<A: Symmetric<S, D>, S: Real, const D: usize> Between<A, S, D> {
                 scaled(S::from_f64(2.0) / self.volumes, &slope)
             }
             Measure::Fibre(along) => A::symmetrised(along, along),
+            Measure::Component(k) => A::basis(*k),
         }
     }
 
@@ -109,7 +111,7 @@ impl<A: Symmetric<S, D>, S: Real, const D: usize> Between<A, S, D> {
     #[inline]
     pub(super) fn change_of_slope(&self, measure: &Measure<S, D>, slope: &A, change: &A) -> A {
         match measure {
-            Measure::Trace | Measure::Fibre(_) => A::filled(S::zero()),
+            Measure::Trace | Measure::Fibre(_) | Measure::Component(_) => A::filled(S::zero()),
             Measure::Square => *change,
             Measure::Dilatation => {
                 let volume = self.new_slope_of_volume().contracted(change);

@@ -3,12 +3,19 @@
 //! There the determinant is quadratic in C and its mean-value gradient the cofactor of the mean.
 
 use crate::element::kinematics::tensor::Symmetric;
+use crate::material::joint::basis;
 use crate::number::scalar::Real;
 
 impl<S: Real> Symmetric<S, 2> for [S; 3] {
     #[inline]
     fn unit() -> Self {
         [S::one(), S::one(), S::zero()]
+    }
+
+    #[inline]
+    fn basis(k: usize) -> Self {
+        let [xx, yy, _, xy, ..] = basis(k);
+        [xx, yy, xy]
     }
 
     #[inline]

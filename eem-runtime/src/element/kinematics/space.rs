@@ -9,6 +9,7 @@
 use core::array;
 
 use crate::element::kinematics::tensor::{Symmetric, add, dot, plus};
+use crate::material::joint::basis;
 use crate::number::scalar::Real;
 
 /// `cof A`.
@@ -52,6 +53,11 @@ impl<S: Real> Symmetric<S, 3> for [S; 6] {
     fn unit() -> Self {
         let (one, zero) = (S::one(), S::zero());
         [one, one, one, zero, zero, zero]
+    }
+
+    #[inline]
+    fn basis(k: usize) -> Self {
+        basis(k)
     }
 
     #[inline]

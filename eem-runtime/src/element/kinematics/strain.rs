@@ -1,5 +1,6 @@
 //! Which measures of strain a free energy per volume depends on.
 
+use crate::material::free_energy::{FreeEnergy, Material};
 use crate::number::scalar::{Mask, Real};
 
 /// A measure of the strain at a point of a solid: an invariant of the Green–Lagrange strain
@@ -16,6 +17,15 @@ pub enum Strain {
     Dilatation,
     /// `a·E a` along a fibre with the direction a; role `FibreStrain`.
     Fibre,
+    /// `E:b_k` with the k-th of six tensors of length one at right angles to each other,
+    ///
+    /// ```text
+    /// b_0 = (xx − yy)/√2,   b_1 = (xx + yy − 2zz)/√6,   b_2, b_3, b_4 = √2 sym(xy), √2 sym(xz), √2 sym(yz),
+    /// b_5 = (xx + yy + zz)/√3
+    /// ```
+    ///
+    /// of which free energies with the role `ViscousStrain` have all, or the first five.
+    Component(usize),
 }
 
 /// A measure of the strain at a point of a solid whose fibres have directions.
@@ -29,6 +39,8 @@ pub enum Measure<S, const D: usize> {
     Dilatation,
     /// `a·E a` with the unit vector a.
     Fibre([S; D]),
+    /// `E:b_k`, see [`Strain::Component`].
+    Component(usize),
 }
 
 impl<S: Real, const D: usize> Measure<S, D> {
@@ -56,6 +68,7 @@ impl<S: Real, const D: usize> Measure<S, D> {
                 Strain::Square => Self::Square,
                 Strain::Dilatation => Self::Dilatation,
                 Strain::Fibre => Self::Fibre(unit(directions.next()?)?),
+                Strain::Component(k) => Self::Component(k),
             };
         }
         directions.next().is_none().then_some(measures)
@@ -78,11 +91,11 @@ fn unit<S: Real, const D: usize>(direction: &[S; D]) -> Option<[S; D]> {
 /// ```
 /// use eem::{Strain, StrainEnergy};
 ///
+/// #[derive(eem::FreeEnergy)]
+/// #[free_energy(|e1: StrainTrace, e2: StrainSquare| 500.0 * e1.powi(2) + 1000.0 * e2)]
 /// struct Elastic;
-/// impl StrainEnergy<2> for Elastic {
-///     const STRAINS: [Strain; 2] = [Strain::Trace, Strain::Square];
-/// }
-/// assert_eq!(Elastic::STRAINS[1], Strain::Square);
+///
+/// assert_eq!(<Elastic as StrainEnergy<2>>::STRAINS[1], Strain::Square);
 /// ```
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no free energy of strains",
@@ -90,6 +103,18 @@ fn unit<S: Real, const D: usize>(direction: &[S; D]) -> Option<[S; D]> {
     note = "a solid needs arguments like `e1: StrainTrace` and `e2: StrainSquare` in `#[free_energy(…)]`"
 )]
 pub trait StrainEnergy<const N: usize> {
-    /// The measures, in the order of the arguments.
+    /// The measures at a point, in the order of the arguments; then the components of the strain, if a viscous
+    /// strain has some.
     const STRAINS: [Strain; N];
+
+    /// The free energy as a function of these measures: the material itself, or one of components in place of
+    /// joint invariants of strain and viscous strain.
+    type AtPoint<S: Real>: FreeEnergy<S> + Send + Sync + 'static
+    where
+        Self: Material<S>;
+
+    /// The material at a point.
+    fn at_point<S: Real>(&self) -> Self::AtPoint<S>
+    where
+        Self: Material<S>;
 }

@@ -8,6 +8,7 @@ use crate::element::kinematics::solid::{PerArm, SolidPoint, Strains};
 use crate::element::kinematics::solid_state::SolidState;
 use crate::element::kinematics::strain::Measure;
 use crate::element::kinematics::tensor::{Symmetric, pushed, scaled};
+use crate::material::joint::basis;
 use crate::number::scalar::Real;
 
 impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D> {
@@ -37,6 +38,7 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
                 Measure::Trace => S::one(),
                 Measure::Dilatation => volume,
                 Measure::Square | Measure::Fibre(_) => S::zero(),
+                Measure::Component(k) => basis(*k)[2],
             });
             let across = slopes.iter().zip(force);
             let across = across.fold(S::zero(), |sum, (&slope, &force)| sum + slope * force);

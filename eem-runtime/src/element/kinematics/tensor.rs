@@ -11,6 +11,9 @@ pub trait Symmetric<S: Real, const D: usize>: Array<S> {
     /// The unit tensor.
     fn unit() -> Self;
 
+    /// The tensor `b_k` of [`Strain::Component`](super::Strain::Component), as far as it is in these dimensions.
+    fn basis(k: usize) -> Self;
+
     /// `½(FᵀF − 1)`.
     fn green_lagrange(tensor: &[[S; D]; D]) -> Self;
 

@@ -135,9 +135,10 @@ impl Space {
         self.shape.thermal
     }
 
-    /// Number of dashpots.
-    pub(super) fn dashpots(&self) -> usize {
-        self.shape.dashpots
+    /// Whether the last of so many viscosities is that of a dashpot beside a spring. Those of a solid are of its
+    /// dashpots, and of the flow of a viscous strain.
+    pub(super) fn is_last_drag(&self, viscosities: usize) -> bool {
+        self.shape.kind == Kind::Spring && viscosities > self.shape.dashpots
     }
 
     /// Whether variable `index` is a length or a temperature, and neither viscous nor a strain.

@@ -96,11 +96,13 @@ pub(super) fn search(
         });
     }
     let mut viscosities = leasts.split_off(usize::from(space.is_thermal()));
-    let drag = viscosities.split_off(space.dashpots()).pop();
+    let drag = space
+        .is_last_drag(viscosities.len())
+        .then(|| viscosities.pop());
     Ok(DomainReport {
         evaluations: examiner.evaluations,
         heat_capacity: leasts.pop(),
         viscosities,
-        drag,
+        drag: drag.flatten(),
     })
 }

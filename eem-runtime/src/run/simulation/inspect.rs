@@ -198,7 +198,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(production)
     }
 
-    /// The viscous stretch of a dashpot (from 0) of an element, m.
+    /// The viscous stretch of a dashpot (from 0) of an element, m. Components of a
+    /// [viscous strain](Self::viscous_strain) follow after the dashpots.
     ///
     /// # Errors
     ///
@@ -267,7 +268,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// The group and the place in it of an own element.
-    fn place(&self, element: Element) -> [usize; 2] {
+    pub(super) fn place(&self, element: Element) -> [usize; 2] {
         self.places[element.index()].map(|number| number as usize)
     }
 
@@ -288,7 +289,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.scene.scene()
     }
 
-    fn expect_own<H: Handle>(&self, handle: &H) -> Result<(), SceneError> {
+    pub(super) fn expect_own<H: Handle>(&self, handle: &H) -> Result<(), SceneError> {
         if self.scene.owns(handle) {
             return Ok(());
         }

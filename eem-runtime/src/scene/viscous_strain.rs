@@ -1,0 +1,57 @@
+//! The viscous strain with which a solid starts.
+
+use super::Scene;
+use crate::element::handle::Element;
+use crate::material::joint::components;
+use crate::number::scalar::Real;
+use crate::scene::solid_error::SolidError;
+
+/// # Solids whose shape flows
+impl<const D: usize, S: Real> Scene<D, S> {
+    /// The initial viscous strain Γ at a point of a solid; zero unless set. Only its symmetric part counts and,
+    /// without a volumetric viscosity, only its deviator, as Γ has no trace then.
+    ///
+    /// The free energy needs an argument with the role `ViscousStrain`; otherwise the scene is refused with
+    /// [`SolidError::NoViscousStrain`].
+    ///
+    /// ```
+    /// use eem::kinematics::Hex8;
+    /// use eem::prelude::*;
+    ///
+    /// #[derive(Clone, FreeEnergy)]
+    /// #[free_energy(|e2: StrainSquare, m3: ViscousStrain, m2: ViscousSquare| 3.0 * (e2 - 2 * m3 + m2))]
+    /// #[viscosity(m3 = 5.0)]
+    /// struct Fluid;
+    ///
+    /// let mut scene = Scene::<3>::new();
+    /// let mesh = Mesh::<Hex8, 3>::block([1; 3], [[0.0, 1.0]; 3])?;
+    /// let block = scene.solid(Fluid, &mesh, &Bulk::new(10.0));
+    /// let point = block.points()[0];
+    /// scene.set_viscous_strain(point, [[0.4, 0.1, 0.0], [0.1, 0.2, 0.0], [0.0, 0.0, 0.0]]);
+    /// let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// let strain = run.viscous_strain(point)?;
+    /// assert!((strain[(0, 0)] - 0.2_f64).abs() < 1e-15 && (strain[(2, 2)] + 0.2).abs() < 1e-15);
+    /// assert!((strain[(1, 0)] - 0.1).abs() < 1e-15);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn set_viscous_strain(&mut self, point: Element, strain: [[S; 3]; 3]) {
+        if !self.expect_own(&point) {
+            return;
+        }
+        let entry = &mut self.elements[point.index()];
+        // What could not be made has been noted.
+        let Some(group) = self.groups.get(entry.group) else {
+            return;
+        };
+        let shape = group.shape();
+        let first = shape.dashpots - shape.viscous_strain;
+        if shape.viscous_strain == 0 {
+            let error = SolidError::NoViscousStrain { element: point };
+            self.misuse.push(error.into());
+        }
+        let components = components(&strain);
+        let components = components.iter().take(shape.viscous_strain);
+        let slots = (first..).zip(components.copied());
+        entry.viscous_stretches.extend(slots);
+    }
+}
