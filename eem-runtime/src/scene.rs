@@ -4,6 +4,7 @@
 
 mod act;
 pub(crate) mod body;
+mod body_heat;
 mod body_loads;
 mod cell;
 mod check;

@@ -150,6 +150,41 @@ fn what_is_wrong_with_a_solid_from_a_mesh_is_said() {
     );
 }
 
+/// Heat passes between solids that conduct and share a whole face.
+#[test]
+fn heat_between_solids_needs_a_shared_face_and_conductivities() {
+    let refused = |conductivities: [Option<f64>; 2], within: f64, twice: bool| {
+        let bulk = |conductivity| match conductivity {
+            Some(conductivity) => Bulk::new(10.0).conductivity(conductivity),
+            None => Bulk::<3>::new(10.0),
+        };
+        let mut scene = Scene::<3>::new();
+        let first = scene.solid(MooneyRivlin::RUBBER, &cube(1), &bulk(conductivities[0]));
+        let beside = cube(1).translated([1.0, 0.0, 0.0]).unwrap();
+        let joined = bulk(conductivities[1]).joined_to(&first, within);
+        let second = scene.solid(MooneyRivlin::RUBBER, &beside, &joined);
+        for &point in first.points().iter().chain(second.points()) {
+            scene.set_temperature(point, 300.0);
+        }
+        scene.conduct_between(&first, if twice { &first } else { &second });
+        let run = Simulation::new(scene, Scheme::EemEntropy, 0.1);
+        run.unwrap_err().to_string()
+    };
+    let both = [Some(1.0); 2];
+    let message = refused(both, -1.0, false);
+    assert!(
+        message.starts_with("the solids at element 0 (MooneyRivlin) and element 8 (MooneyRivlin) share no whole face"),
+        "{message}"
+    );
+    let message = refused([Some(1.0), None], 1e-9, false);
+    assert!(
+        message.starts_with("the solid at element 8 (MooneyRivlin) has no conductivity"),
+        "{message}"
+    );
+    let message = refused(both, 1e-9, true);
+    assert!(message.contains("itself"), "{message}");
+}
+
 /// Two solids share the nodes of a line, about which one turns freely beside the other.
 #[test]
 fn joined_solids_share_nodes() {

@@ -258,18 +258,6 @@ impl<const D: usize, S: Real> Scene<D, S> {
         body
     }
 
-    /// Paths of heat between the points of a solid.
-    fn conduct_in<H: Shape<D>>(&mut self, body: &Body<H, D>) {
-        let Some(conductivity) = body.conductivity else {
-            return;
-        };
-        for (pair, reach) in body.mesh.network() {
-            let [first, second] = pair.map(|point| body.points[point]);
-            let conductance = S::from_f64(conductivity * body.thickness * reach);
-            self.conduct(first, second, conductance);
-        }
-    }
-
     /// Replaces the initial velocity of a node, m/s, or its momentum. Anchors have none.
     pub fn set_velocity(&mut self, node: Node, velocity: [S; D]) {
         if self.expect_own(&node) {

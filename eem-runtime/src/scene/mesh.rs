@@ -12,6 +12,7 @@ mod shares;
 pub use error::MeshError;
 pub use face::Face;
 pub(crate) use geometry::distance;
+pub(crate) use network::facing;
 
 use nalgebra::{Rotation, SVector};
 

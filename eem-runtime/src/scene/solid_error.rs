@@ -50,6 +50,15 @@ pub enum SolidError {
         /// Its first point.
         element: Element,
     },
+    /// Heat is to pass between two solids that share no whole face.
+    #[error(
+        "the solids at {first} and {second} share no whole face that heat could pass: join all nodes of a face by `Bulk::joined_to`, and give both the same cells there",
+        first = elements[0], second = elements[1]
+    )]
+    NoSharedFace {
+        /// Their first points.
+        elements: [Element; 2],
+    },
     /// A direction of a fibre has no finite length but zero.
     #[error("the direction of a fibre of the solid at {element} must be finite and not zero")]
     Fibre {

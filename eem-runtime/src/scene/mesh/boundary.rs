@@ -44,7 +44,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     }
 
     /// The faces that belong to one cell.
-    fn surface(&self) -> Vec<[usize; 2]> {
+    pub(crate) fn surface(&self) -> Vec<[usize; 2]> {
         let cells = 0..self.cells.len();
         let sides = cells.flat_map(|cell| (0..H::FACES.len()).map(move |face| [cell, face]));
         let mut seen: BTreeMap<Vec<usize>, Vec<[usize; 2]>> = BTreeMap::new();

@@ -38,6 +38,19 @@ fn cuts(per_axis: usize) -> &'static [f64] {
     }
 }
 
+/// Each of the sub-faces on one side of a face with that on the other side which is nearest.
+pub(crate) fn facing<const D: usize>(
+    first: Vec<SubFace<D>>,
+    second: &[SubFace<D>],
+) -> Vec<[SubFace<D>; 2]> {
+    let pair = |face: SubFace<D>| {
+        let far = |other: &SubFace<D>| distance(other.centre, face.centre);
+        let nearest = second.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
+        nearest.map(|other| [face, *other])
+    };
+    first.into_iter().filter_map(pair).collect()
+}
+
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     /// Pairs of points with `κ/k`, within and between cells; m, one in the plane.
     pub(crate) fn network(&self) -> Vec<([usize; 2], f64)> {
@@ -99,19 +112,15 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         }
         for shared in sides.values() {
             if let [first, second] = shared[..] {
-                let others = self.sub_faces_of(second);
-                for face in self.sub_faces_of(first) {
-                    let far = |other: &SubFace<D>| distance(other.centre, face.centre);
-                    let nearest = others.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
-                    pairs.extend(nearest.map(|other| [face, *other]));
-                }
+                let [first, second] = [first, second].map(|side| self.sub_faces_of(side));
+                pairs.extend(facing(first, &second));
             }
         }
         pairs
     }
 
     /// The sub-faces on a face of a cell. Faces come in pairs per axis.
-    fn sub_faces_of(&self, [cell, face]: [usize; 2]) -> Vec<SubFace<D>> {
+    pub(crate) fn sub_faces_of(&self, [cell, face]: [usize; 2]) -> Vec<SubFace<D>> {
         let (axis, side) = (face / 2, face % 2);
         let end = side * (H::PER_AXIS - 1);
         let all = indices([H::PER_AXIS; D]).into_iter();
