@@ -4,7 +4,7 @@ use eem::kinematics::{Hex8, Hex20, Quad4};
 use eem::prelude::*;
 use eem::{Body, MeshError, SolidError, Strain, StrainEnergy};
 
-use crate::support::solids::{MooneyRivlin, Reinforced, SaintVenant};
+use crate::support::solids::{MooneyRivlin, Reinforced, SaintVenant, ThermoelasticSolid};
 
 const ELASTIC: SaintVenant = SaintVenant {
     lame: 2000.0,
@@ -147,6 +147,42 @@ fn what_is_wrong_with_a_solid_from_a_mesh_is_said() {
     assert_eq!(
         error.to_string(),
         "no node is at [0.0, 0.0, 0.1] m: the nearest is at [0.0, 0.0, 0.0] m"
+    );
+}
+
+/// A few skew faces are no error: the rim of a mesh may have some.
+#[test]
+fn conduction_through_skew_cells_has_to_be_allowed() {
+    let squares = Mesh::<Quad4, 2>::block([20, 22], [[0.0, 1.0]; 2]).unwrap();
+    let build = |by: f64, from: f64, allow: bool| {
+        let mesh = squares
+            .mapped(|[x, y]| [x + by * (y - from).max(0.0), y])
+            .unwrap();
+        let bulk = Bulk::new(10.0).conductivity(1.0);
+        let bulk = if allow { bulk.allow_skew_cells() } else { bulk };
+        let mut scene = Scene::<2>::new();
+        let body = scene.solid(ThermoelasticSolid::RUBBER, &mesh, &bulk);
+        for &point in body.points() {
+            scene.set_temperature(point, 300.0);
+        }
+        let run = Simulation::new(scene, Scheme::EemEntropy, 0.1);
+        (mesh.skew_faces(), run.err().map(SceneError::from))
+    };
+    // A shear of 0.3 has the cosine 0.958, one of 0.35 0.944.
+    assert!(matches!(build(0.3, 0.0, false), ((0, 3436), None)));
+    let ((skew, faces), error) = build(0.35, 0.0, false);
+    assert_eq!((skew, faces), (3436, 3436));
+    let message = error.unwrap().to_string();
+    assert!(
+        message.contains("heat crosses 3436 of 3436 faces") && message.contains("at 0.944"),
+        "{message}"
+    );
+    assert!(build(0.35, 0.0, true).1.is_none());
+    // One layer of 22 is skew, with the faces to its neighbour.
+    let ((skew, _), error) = build(0.35, 21.0 / 22.0, false);
+    assert!(
+        skew > 0 && skew <= 171 && error.is_none(),
+        "{skew} {error:?}"
     );
 }
 

@@ -26,6 +26,7 @@ pub struct Bulk<const D: usize, S = f64> {
     thickness: f64,
     /// W/(m K).
     conductivity: Option<f64>,
+    allow_skew_cells: bool,
     fibres: Vec<[S; D]>,
     lumped: bool,
     joints: Vec<Joint<D>>,
@@ -48,6 +49,7 @@ impl<const D: usize, S: Real> Bulk<D, S> {
             density,
             thickness: 1.0,
             conductivity: None,
+            allow_skew_cells: false,
             fibres: Vec::new(),
             lumped: false,
             joints: Vec::new(),
@@ -57,10 +59,53 @@ impl<const D: usize, S: Real> Bulk<D, S> {
     /// Fourier's law with a conductivity, W/(m K): paths of heat between all neighbouring points, in the
     /// reference configuration. Without it points are insulated from each other.
     ///
-    /// Cells have to be nearly orthogonal, see [`Mesh::skew_faces`].
+    /// Cells have to be nearly rectangular, see [`Mesh::skew_faces`]; if they are not, the scene is refused with
+    /// [`SolidError::SkewCells`](crate::SolidError::SkewCells).
     #[must_use]
     pub fn conductivity(mut self, conductivity: f64) -> Self {
         self.conductivity = Some(conductivity);
+        self
+    }
+
+    /// Conducts also where cells are skew. Heat then flows along the lines of the mesh and not against the gradient
+    /// of the temperature, however fine the mesh is:
+    ///
+    /// ```text
+    /// Q = −K ∇θ,   K = k Σ d̂ ⊗ d̂     d̂ the unit vectors along the lines of the mesh
+    /// ```
+    ///
+    /// In cells sheared by 0.3, K has 0.28 k off its diagonal. Energy is kept and entropy grows as they should.
+    ///
+    /// ```
+    /// use eem::kinematics::Quad4;
+    /// use eem::prelude::*;
+    /// use eem::SolidError;
+    /// # #[derive(Clone, FreeEnergy)]
+    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare, theta: Temperature| {
+    /// #     0.5 * lame * e1.powi(2) + shear * e2 + c * (theta - theta * ln(theta / 300.0))
+    /// # })]
+    /// # struct Solid { lame: f64, shear: f64, c: f64 }
+    ///
+    /// let square = Mesh::<Quad4, 2>::block([2, 2], [[0.0, 1.0]; 2])?;
+    /// let sheared = square.mapped(|[x, y]| [x + 0.5 * y, y])?;
+    /// let build = |bulk: Bulk<2>| {
+    ///     let mut scene = Scene::<2>::new();
+    ///     let body = scene.solid(Solid { lame: 2000.0, shear: 1000.0, c: 100.0 }, &sheared, &bulk);
+    ///     body.points().iter().for_each(|&point| scene.set_temperature(point, 300.0));
+    ///     Simulation::new(scene, Scheme::EemTemperature, 0.1)
+    /// };
+    /// let bulk = Bulk::new(10.0).conductivity(20.0);
+    /// let error = build(bulk.clone()).unwrap_err().into();
+    /// assert!(matches!(
+    ///     error,
+    ///     SceneError::Solid(SolidError::SkewCells { skew: 24, faces: 24, .. })
+    /// ));
+    /// assert!(build(bulk.allow_skew_cells()).is_ok());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn allow_skew_cells(mut self) -> Self {
+        self.allow_skew_cells = true;
         self
     }
 
@@ -254,7 +299,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             thickness: bulk.thickness,
             conductivity: bulk.conductivity,
         };
-        self.conduct_in(&body);
+        self.conduct_in(&body, bulk.allow_skew_cells);
         body
     }
 

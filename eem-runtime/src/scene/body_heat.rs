@@ -150,12 +150,23 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
     }
 
-    /// Paths of heat between the points of a solid.
-    pub(super) fn conduct_in<H: Shape<D>>(&mut self, body: &Body<H, D>) {
+    /// Paths of heat between the points of a solid, unless its cells are too skew for them.
+    pub(super) fn conduct_in<H: Shape<D>>(&mut self, body: &Body<H, D>, allow_skew_cells: bool) {
         let Some(conductivity) = body.conductivity() else {
             return;
         };
-        for (pair, reach) in body.mesh().network() {
+        let (links, skewness) = body.mesh().network();
+        if skewness.is_too_much() && !allow_skew_cells {
+            let skew = SolidError::SkewCells {
+                element: body.points()[0],
+                skew: skewness.skew,
+                faces: skewness.faces,
+                cosine: skewness.cosine,
+                cell: skewness.cell,
+            };
+            self.misuse.push(skew.into());
+        }
+        for (pair, reach) in links {
             let [first, second] = pair.map(|point| body.points()[point]);
             let conductance = S::from_f64(conductivity * body.thickness() * reach);
             self.conduct(first, second, conductance);

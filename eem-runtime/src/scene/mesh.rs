@@ -8,6 +8,8 @@ mod geometry;
 mod grid;
 mod network;
 mod shares;
+mod skewness;
+mod sub_face;
 
 pub use error::MeshError;
 pub use face::Face;

@@ -50,6 +50,22 @@ pub enum SolidError {
         /// Its first point.
         element: Element,
     },
+    /// Cells of a solid that conducts are so skew that heat would flow in wrong directions.
+    #[error(
+        "the cells of the solid at {element} are too skew for its conductivity: heat crosses {skew} of {faces} faces between points at a cosine |A·d|/(|A||d|) below 0.95, the worst in cell {cell} at {cosine:.3}, and one in twenty may; use cells that are nearly rectangular, or accept wrong directions of heat by `Bulk::allow_skew_cells`"
+    )]
+    SkewCells {
+        /// Its first point.
+        element: Element,
+        /// How many faces between points are skew.
+        skew: usize,
+        /// How many there are.
+        faces: usize,
+        /// The cosine between the worst one's normal and its path of heat.
+        cosine: f64,
+        /// The cell, from 0, of the worst one.
+        cell: usize,
+    },
     /// Heat is to pass between two solids that share no whole face.
     #[error(
         "the solids at {first} and {second} share no whole face that heat could pass: join all nodes of a face by `Bulk::joined_to`, and give both the same cells there",
