@@ -63,6 +63,8 @@ pub use run::vtk::VtkSeries;
 pub use scene::Scene;
 pub use scene::body::{Body, Bulk};
 pub use scene::error::SceneError;
+#[cfg(feature = "gmsh")]
+pub use scene::gmsh::{Msh, MshError};
 pub use scene::mesh::{Face, Mesh, MeshError};
 pub use scene::refused::RefusedScene;
 pub use scene::solid::Section;

@@ -10,6 +10,8 @@ mod cell;
 mod check;
 pub(crate) mod entry;
 pub(crate) mod error;
+#[cfg(feature = "gmsh")]
+pub(crate) mod gmsh;
 pub(crate) mod loads;
 pub(crate) mod mesh;
 pub(crate) mod refused;

@@ -9,6 +9,8 @@ mod bad_handles;
 mod bad_input;
 mod bad_loads;
 mod copies;
+#[cfg(feature = "gmsh")]
+mod gmsh;
 #[cfg(feature = "sparse")]
 mod memory;
 mod meshes;

@@ -28,6 +28,11 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         let holds: Vec<bool> = self.nodes.iter().map(|&place| condition(place)).collect();
         let mut sides = self.surface();
         sides.retain(|&side| self.nodes_of(side).all(|node| holds[node]));
+        self.face_of(sides)
+    }
+
+    /// These faces of cells, in ascending order.
+    pub(crate) fn face_of(&self, sides: Vec<[usize; 2]>) -> Result<Face, MeshError> {
         if sides.is_empty() {
             return Err(MeshError::NoFace);
         }
