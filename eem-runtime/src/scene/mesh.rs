@@ -3,10 +3,12 @@
 mod boundary;
 mod check;
 mod error;
+mod extruded;
 mod face;
 mod geometry;
 mod grid;
 mod network;
+mod polygon;
 mod shares;
 mod skewness;
 mod sub_face;
