@@ -16,7 +16,7 @@ mod sub_face;
 pub use error::MeshError;
 pub use face::Face;
 pub(crate) use geometry::distance;
-pub(crate) use network::facing;
+pub(crate) use sub_face::facing;
 
 use nalgebra::{Rotation, SVector};
 

@@ -14,7 +14,7 @@ use super::face::Face;
 use super::geometry::{area_vector, distance, mean};
 use super::grid::indices;
 use super::skewness::Skewness;
-use super::sub_face::SubFace;
+use super::sub_face::{SubFace, facing};
 use crate::element::kinematics::{Points, Shape};
 
 /// Where the parent cell is cut along each axis, from −1 by Gauss weights.
@@ -23,19 +23,6 @@ fn cuts(per_axis: usize) -> &'static [f64] {
         2 => &[-1.0, 0.0, 1.0],
         _ => &[-1.0, -4.0 / 9.0, 4.0 / 9.0, 1.0],
     }
-}
-
-/// Each of the sub-faces on one side of a face with that on the other side which is nearest.
-pub(crate) fn facing<const D: usize>(
-    first: Vec<SubFace<D>>,
-    second: &[SubFace<D>],
-) -> Vec<[SubFace<D>; 2]> {
-    let pair = |face: SubFace<D>| {
-        let far = |other: &SubFace<D>| distance(other.centre, face.centre);
-        let nearest = second.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
-        nearest.map(|other| [face, *other])
-    };
-    first.into_iter().filter_map(pair).collect()
 }
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
