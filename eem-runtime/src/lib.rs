@@ -61,7 +61,8 @@ pub use run::study::statement::Statement;
 #[cfg(feature = "vtk")]
 pub use run::vtk::VtkSeries;
 pub use scene::Scene;
-pub use scene::body::{Body, Bulk};
+pub use scene::body::Body;
+pub use scene::bulk::Bulk;
 pub use scene::error::SceneError;
 #[cfg(feature = "gmsh")]
 pub use scene::gmsh::{Msh, MshError};

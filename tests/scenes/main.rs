@@ -15,6 +15,7 @@ mod gmsh;
 mod memory;
 mod meshes;
 mod networks;
+mod polygons;
 mod refusals;
 mod refused;
 mod unknowns;

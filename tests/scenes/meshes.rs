@@ -1,6 +1,6 @@
 //! Meshes and the solids made of them: what is wrong with them is said, and solids are joined.
 
-use eem::kinematics::{Hex8, Hex20, Quad4, Quad8};
+use eem::kinematics::{Hex8, Hex20, Quad4};
 use eem::prelude::*;
 use eem::{Body, MeshError, SolidError, Strain, StrainEnergy};
 
@@ -111,18 +111,6 @@ fn what_is_wrong_with_a_solid_from_a_mesh_is_said() {
         message.to_string().contains("has no conductivity"),
         "{message}"
     );
-    let inverse = bulk.clone().conductivity(-1.0);
-    let message = refused(MooneyRivlin::RUBBER, &inverse, |scene, body| {
-        for &point in body.points() {
-            scene.set_temperature(point, 300.0);
-        }
-    });
-    assert!(
-        message
-            .to_string()
-            .starts_with("the conductance between element 0"),
-        "{message}"
-    );
     let message = refused(ELASTIC, &bulk, |scene, body| {
         scene.dead_load(body.nodes()[0], [1.0, 0.0, 0.0]);
         scene.fix(body.nodes()[0]);
@@ -148,6 +136,65 @@ fn what_is_wrong_with_a_solid_from_a_mesh_is_said() {
         error.to_string(),
         "no node is at [0.0, 0.0, 0.1] m: the nearest is at [0.0, 0.0, 0.0] m"
     );
+}
+
+#[test]
+fn what_is_not_positive_in_a_solid_is_said_and_faces_of_other_meshes_are_refused() {
+    let bulk = Bulk::new(10.0);
+    let nothing = |_: &mut Scene<3>, _: &Body<Hex8, 3>| {};
+    for value in [-1.0, 0.0, f64::NAN] {
+        let bulk = bulk.clone().conductivity(value);
+        let message = refused(MooneyRivlin::RUBBER, &bulk, nothing).to_string();
+        let value = if value.is_nan() {
+            "NaN".to_owned()
+        } else {
+            value.to_string()
+        };
+        let said = format!("element 0 (MooneyRivlin) is {value} W/(m K), it must be positive");
+        assert!(
+            message.starts_with("the conductivity of the solid") && message.contains(&said),
+            "{message}"
+        );
+    }
+    let conducting = bulk.clone().conductivity(1.0);
+    // So negative that the conductance would be positive again.
+    for film in [-100.0, 0.0] {
+        let message = refused(MooneyRivlin::RUBBER, &conducting, |scene, body| {
+            let air = scene.reservoir(300.0);
+            let end = body.mesh().face(|[x, ..]| x >= 1.0).unwrap();
+            scene.exchange(body, &end, air, film);
+        });
+        let message = message.to_string();
+        assert!(
+            message.starts_with("the film coefficient of the solid at element 0"),
+            "{message}"
+        );
+    }
+    let larger = cube(2).face(|[x, ..]| x >= 1.0).unwrap();
+    for load in [true, false] {
+        let message = refused(MooneyRivlin::RUBBER, &conducting, |scene, body| {
+            if load {
+                scene.traction(body, &larger, |_| [1.0; 3]);
+            } else {
+                let air = scene.reservoir(300.0);
+                scene.wall(body, &larger, air);
+            }
+        });
+        let message = message.to_string();
+        assert!(
+            message.starts_with("the face is not of the mesh of the solid at element 0"),
+            "{message}"
+        );
+    }
+    let plate = |thickness| {
+        let mesh = Mesh::<Quad4, 2>::block([1; 2], [[0.0, 1.0]; 2]).unwrap();
+        let mut scene = Scene::<2>::new();
+        scene.solid(ELASTIC, &mesh, &Bulk::new(10.0).thickness(thickness));
+        let run = Simulation::new(scene, Scheme::EemEntropy, 0.1);
+        run.unwrap_err().to_string()
+    };
+    assert!(plate(0.0).starts_with("the thickness of the solid at element 0 (SaintVenant) is 0 m"));
+    assert_eq!(cube(1).face(|[x, ..]| x > 1.0), Err(MeshError::NoFace));
 }
 
 /// A few skew faces are no error: the rim of a mesh may have some.
@@ -250,124 +297,4 @@ fn joined_solids_share_nodes() {
         turned <= 1e-13 * before.angular_momentum.norm(),
         "{turned:e}"
     );
-}
-
-#[test]
-fn an_extruded_block_is_a_block() {
-    let cuts: [&[f64]; 3] = [&[0.0, 1.0, 3.0], &[-1.0, 1.0], &[0.0, 0.25, 2.0]];
-    let block = Mesh::<Hex8, 3>::grid(cuts).unwrap();
-    let profile = Mesh::<Quad4, 2>::grid([cuts[0], cuts[1]]).unwrap();
-    let extruded = Mesh::<Hex8, 3>::extruded(&profile, cuts[2]).unwrap();
-    assert_eq!(extruded.cells(), block.cells());
-    let block_of_20 = Mesh::<Hex20, 3>::grid(cuts).unwrap();
-    let profile_of_8 = Mesh::<Quad8, 2>::grid([cuts[0], cuts[1]]).unwrap();
-    let of_20 = Mesh::<Hex20, 3>::extruded(&profile_of_8, cuts[2]).unwrap();
-    assert_eq!(of_20.cells(), block_of_20.cells());
-    let bits = |nodes: &[[f64; 3]]| {
-        nodes
-            .iter()
-            .map(|place| place.map(f64::to_bits))
-            .collect::<Vec<_>>()
-    };
-    assert_eq!(bits(extruded.nodes()), bits(block.nodes()));
-    assert_eq!(bits(of_20.nodes()), bits(block_of_20.nodes()));
-
-    let heights = |heights: &[f64]| Mesh::<Hex8, 3>::extruded(&profile, heights).unwrap_err();
-    assert_eq!(heights(&[1.0]), MeshError::Empty);
-    let message = heights(&[1.0, 0.5]).to_string();
-    assert!(
-        message.starts_with("cut 1 along axis 2 is 0.5 m"),
-        "{message}"
-    );
-}
-
-/// The area of a mesh, m².
-fn area(mesh: &Mesh<Quad4, 2>) -> f64 {
-    let cross =
-        |[a, b, c, d]: [[f64; 2]; 4]| (c[0] - a[0]) * (d[1] - b[1]) - (c[1] - a[1]) * (d[0] - b[0]);
-    let cells = mesh.cells().iter();
-    cells
-        .map(|cell| 0.5 * cross(cell.map(|node| mesh.nodes()[node])))
-        .sum()
-}
-
-#[test]
-fn polygons_are_filled() {
-    // A star with re-entrant corners, a comb, a square with corners in the middles of its sides; in both senses.
-    let star: Vec<[f64; 2]> = (0..12_u8)
-        .map(|at| {
-            let (angle, radius) = (f64::from(at) * 0.523, if at % 2 == 0 { 2.0 } else { 0.7 });
-            [radius * f64::cos(angle), radius * f64::sin(angle)]
-        })
-        .collect();
-    let comb = vec![
-        [0.0, 0.0],
-        [5.0, 0.0],
-        [5.0, 3.0],
-        [4.0, 3.0],
-        [4.0, 1.0],
-        [3.0, 1.0],
-        [3.0, 3.0],
-        [2.0, 3.0],
-        [2.0, 1.0],
-        [1.0, 1.0],
-        [1.0, 3.0],
-        [0.0, 3.0],
-    ];
-    let square = vec![
-        [0.0, 0.0],
-        [1.0, 0.0],
-        [2.0, 0.0],
-        [2.0, 1.0],
-        [2.0, 2.0],
-        [1.0, 2.0],
-        [0.0, 2.0],
-        [0.0, 1.0],
-    ];
-    for mut corners in [star, comb, square] {
-        let mut twice = 0.0;
-        for (at, [x, y]) in corners.iter().enumerate() {
-            let [u, v] = corners[(at + 1) % corners.len()];
-            twice += x * v - y * u;
-        }
-        for _ in 0..2 {
-            let mesh = Mesh::<Quad4, 2>::polygon(&corners).unwrap();
-            assert_eq!(mesh.cells().len(), 3 * (corners.len() - 2));
-            assert!((area(&mesh) - 0.5 * twice).abs() <= 1e-14 * twice);
-            let finer = mesh.refined().unwrap();
-            assert_eq!(finer.cells().len(), 4 * mesh.cells().len());
-            assert!((area(&finer) - 0.5 * twice).abs() <= 1e-14 * twice);
-            corners.reverse();
-        }
-    }
-}
-
-#[test]
-fn what_is_wrong_with_a_polygon_is_said() {
-    let polygon = |corners: &[[f64; 2]]| Mesh::<Quad4, 2>::polygon(corners).unwrap_err();
-    assert_eq!(polygon(&[[0.0, 0.0], [1.0, 0.0]]), MeshError::Empty);
-    assert!(matches!(
-        polygon(&[[0.0, 0.0], [1.0, f64::NAN], [0.0, 1.0]]),
-        MeshError::Place {
-            node: 1,
-            axis: 1,
-            ..
-        }
-    ));
-    // On a line; with a corner twice; going back; touching itself at a corner.
-    let crossing = |corners: &[[f64; 2]]| match polygon(corners) {
-        MeshError::Crossing { sides } => sides,
-        other => panic!("{other}"),
-    };
-    assert_eq!(crossing(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]), [0, 2]);
-    assert_eq!(
-        crossing(&[[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [0.0, 1.0]]),
-        [0, 1]
-    );
-    assert_eq!(
-        crossing(&[[0.0, 0.0], [2.0, 0.0], [1.0, 0.0], [0.0, 1.0]]),
-        [0, 1]
-    );
-    let touching = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [1.0, 0.0], [0.0, 2.0]];
-    assert_eq!(crossing(&touching), [0, 2]);
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::Scene;
 use crate::element::handle::Reservoir;
 use crate::element::kinematics::Shape;
-use crate::number::scalar::Real;
+use crate::number::scalar::{Real, is_positive};
 use crate::scene::body::Body;
 use crate::scene::error::SceneError;
 use crate::scene::mesh::{Face, facing};
@@ -106,6 +106,40 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// ```
     ///
     /// The solid has to have a conductivity, [`Bulk::conductivity`](crate::Bulk::conductivity).
+    ///
+    /// ```
+    /// use eem::kinematics::Hex8;
+    /// use eem::prelude::*;
+    /// # #[derive(Clone, FreeEnergy)]
+    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare, theta: Temperature| {
+    /// #     0.5 * lame * e1.powi(2) + shear * e2 + c * (theta - theta * ln(theta / 300.0))
+    /// # })]
+    /// # struct Solid { lame: f64, shear: f64, c: f64 }
+    ///
+    /// let solid = Solid { lame: 2000.0, shear: 1000.0, c: 100.0 };
+    /// let mut scene = Scene::<3>::new();
+    /// let mesh = Mesh::<Hex8, 3>::block([1; 3], [[0.0, 1.0]; 3])?;
+    /// let body = scene.solid(solid, &mesh, &Bulk::new(10.0).conductivity(10.0));
+    /// for &point in body.points() {
+    ///     scene.set_temperature(point, 300.0);
+    /// }
+    /// let end = mesh.face(|[x, ..]| x >= 1.0)?;
+    /// let air = scene.reservoir(320.0);
+    /// scene.exchange(&body, &end, air, 5.0);
+    ///
+    /// let mut run = Simulation::new(scene, Scheme::EemTemperature, 1e-5)?;
+    /// run.step()?;
+    /// // Four points, each with t = 10 W/K behind a film of 5 · 0.25 W/K, and 20 K.
+    /// let flow = -run.reservoir_heat(air)? / 1e-5;
+    /// let known = 4.0 * 20.0 / (1.0 / 1.25 + 1.0 / 10.0);
+    /// assert!((flow - known).abs() < 1e-4 * known);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`Simulation::new`](crate::Simulation::new) returns [`SolidError::NoConductivity`],
+    /// [`SolidError::ForeignFace`], or [`SolidError::Section`] if α is not positive.
     pub fn exchange<H: Shape<D>>(
         &mut self,
         body: &Body<H, D>,
@@ -113,6 +147,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
         reservoir: Reservoir,
         film: S,
     ) {
+        if !is_positive(film) {
+            let quantity = ("film coefficient", film.to_f64(), "W/(m^2 K)");
+            self.misuse.push(not_positive(body, quantity).into());
+            return;
+        }
         self.connect(body, face, reservoir, |area, reach| {
             (film * area * reach) / (film * area + reach)
         });
@@ -125,6 +164,39 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// ```
     ///
     /// The solid has to have a conductivity, [`Bulk::conductivity`](crate::Bulk::conductivity).
+    ///
+    /// ```
+    /// use eem::kinematics::Hex8;
+    /// use eem::prelude::*;
+    /// # #[derive(Clone, FreeEnergy)]
+    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare, theta: Temperature| {
+    /// #     0.5 * lame * e1.powi(2) + shear * e2 + c * (theta - theta * ln(theta / 300.0))
+    /// # })]
+    /// # struct Solid { lame: f64, shear: f64, c: f64 }
+    ///
+    /// let solid = Solid { lame: 2000.0, shear: 1000.0, c: 100.0 };
+    /// let mut scene = Scene::<3>::new();
+    /// let mesh = Mesh::<Hex8, 3>::block([1; 3], [[0.0, 1.0]; 3])?;
+    /// let body = scene.solid(solid, &mesh, &Bulk::new(10.0).conductivity(10.0));
+    /// for &point in body.points() {
+    ///     scene.set_temperature(point, 300.0);
+    /// }
+    /// let end = mesh.face(|[x, ..]| x >= 1.0)?;
+    /// let air = scene.reservoir(320.0);
+    /// scene.wall(&body, &end, air);
+    ///
+    /// let mut run = Simulation::new(scene, Scheme::EemTemperature, 1e-5)?;
+    /// run.step()?;
+    /// // Four points, each with t = 10 W/(m K) · 0.25 m²/0.25 m, and 20 K.
+    /// let flow = -run.reservoir_heat(air)? / 1e-5;
+    /// assert!((flow - 800.0).abs() < 1e-4 * 800.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`Simulation::new`](crate::Simulation::new) returns [`SolidError::NoConductivity`],
+    /// [`SolidError::ForeignFace`].
     pub fn wall<H: Shape<D>>(&mut self, body: &Body<H, D>, face: &Face, reservoir: Reservoir) {
         self.connect(body, face, reservoir, |_, reach| reach);
     }
@@ -142,6 +214,10 @@ impl<const D: usize, S: Real> Scene<D, S> {
                 .push(SolidError::NoConductivity { element }.into());
             return;
         };
+        if !body.mesh().has(face) {
+            self.misuse.push(SolidError::ForeignFace { element }.into());
+            return;
+        }
         for face in body.mesh().outside(face) {
             let [area, reach] = [face.area, face.reach].map(|size| body.thickness() * size);
             let reach = S::from_f64(conductivity * reach);
@@ -155,6 +231,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
         let Some(conductivity) = body.conductivity() else {
             return;
         };
+        if !(conductivity > 0.0 && conductivity.is_finite()) {
+            let quantity = ("conductivity", conductivity, "W/(m K)");
+            self.misuse.push(not_positive(body, quantity).into());
+            return;
+        }
         let (links, skewness) = body.mesh().network();
         if skewness.is_too_much() && !allow_skew_cells {
             let skew = SolidError::SkewCells {
@@ -171,6 +252,19 @@ impl<const D: usize, S: Real> Scene<D, S> {
             let conductance = S::from_f64(conductivity * body.thickness() * reach);
             self.conduct(first, second, conductance);
         }
+    }
+}
+
+/// What to say of a quantity of a solid, its value and its unit.
+fn not_positive<H: Shape<D>, const D: usize>(
+    body: &Body<H, D>,
+    (quantity, value, unit): (&'static str, f64, &'static str),
+) -> SolidError {
+    SolidError::Section {
+        element: body.points()[0],
+        quantity,
+        value,
+        unit,
     }
 }
 

@@ -8,6 +8,7 @@ use crate::element::kinematics::Shape;
 use crate::number::scalar::Real;
 use crate::scene::body::Body;
 use crate::scene::mesh::Face;
+use crate::scene::solid_error::SolidError;
 
 /// A force per area or volume as a function of time.
 type Density<S, const D: usize> = Arc<dyn Fn(S) -> [S; D] + Send + Sync>;
@@ -43,6 +44,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
         face: &Face,
         traction: impl Fn(S) -> [S; D] + Send + Sync + 'static,
     ) {
+        if !body.mesh().has(face) {
+            let element = body.points()[0];
+            self.misuse.push(SolidError::ForeignFace { element }.into());
+            return;
+        }
         let thickness = body.thickness();
         let shares = body.mesh().areas(face).into_iter();
         let shares = shares.map(|(node, area)| (body.nodes()[node], thickness * area));

@@ -75,13 +75,21 @@ pub enum SolidError {
         /// Their first points.
         elements: [Element; 2],
     },
+    /// A face is not of the mesh of a solid.
+    #[error(
+        "the face is not of the mesh of the solid at {element}: take it from its own mesh, by `Body::mesh` and `Mesh::face`"
+    )]
+    ForeignFace {
+        /// Its first point.
+        element: Element,
+    },
     /// A direction of a fibre has no finite length but zero.
     #[error("the direction of a fibre of the solid at {element} must be finite and not zero")]
     Fibre {
         /// Its first point.
         element: Element,
     },
-    /// A density or a thickness is not positive and finite.
+    /// A density, a thickness, a conductivity or the coefficient of a film is not positive and finite.
     #[error("the {quantity} of the solid at {element} is {value} {unit}, it must be positive and finite", value = Readable(*value))]
     Section {
         /// Its first point.

@@ -42,6 +42,13 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         Ok(Face { sides, nodes })
     }
 
+    /// Whether some faces are faces of this mesh, or of one that is numbered alike.
+    pub(crate) fn has(&self, face: &Face) -> bool {
+        let exists = |&[cell, side]: &[usize; 2]| cell < self.cells.len() && side < H::FACES.len();
+        let mut sides = face.sides.iter();
+        sides.all(exists) && self.face_of(face.sides.clone()).as_ref() == Ok(face)
+    }
+
     /// The nodes of a face of a cell.
     pub(crate) fn nodes_of(&self, [cell, face]: [usize; 2]) -> impl Iterator<Item = usize> + '_ {
         let nodes = self.cells[cell].as_ref();
