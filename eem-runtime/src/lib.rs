@@ -66,7 +66,7 @@ pub use scene::bulk::Bulk;
 pub use scene::error::SceneError;
 #[cfg(feature = "gmsh")]
 pub use scene::gmsh::{Msh, MshError};
-pub use scene::mesh::{Face, Mesh, MeshError};
+pub use scene::mesh::{Face, Mesh, MeshError, Outline};
 pub use scene::refused::RefusedScene;
 pub use scene::solid::Section;
 pub use scene::solid_error::SolidError;

@@ -8,13 +8,14 @@ mod face;
 mod geometry;
 mod grid;
 mod network;
+mod outline;
 mod polygon;
 mod shares;
 mod skewness;
 mod sub_face;
 
 pub use error::MeshError;
-pub use face::Face;
+pub use face::{Face, Outline};
 pub(crate) use geometry::distance;
 pub(crate) use sub_face::facing;
 
