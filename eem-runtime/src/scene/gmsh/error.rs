@@ -35,7 +35,7 @@ pub enum MshError {
     },
     /// A line is not what it has to be.
     #[error(
-        "line {line} of the mesh, in `${section}`, is `{found}`: fewer or more numbers than there have to be"
+        "line {line} of the mesh, in `${section}`, is `{found}`: these are not the numbers that have to be there"
     )]
     Line {
         /// The section.
@@ -113,7 +113,7 @@ pub enum MshError {
         nodes: [u64; 2],
     },
     /// Something is wrong with an element.
-    #[error("of element {element} of the file, in the numbering of the mesh: {error}")]
+    #[error("element {element} of the file: {error}")]
     Element {
         /// The element.
         element: u64,
