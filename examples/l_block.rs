@@ -57,6 +57,8 @@ mod known;
 mod pictures;
 #[path = "l_block/scene.rs"]
 mod scene;
+#[path = "l_block/shapes.rs"]
+mod shapes;
 mod support;
 
 use scene::{Block, block};
@@ -118,6 +120,7 @@ fn run(command_line: &CommandLine) -> Result<Claims, Box<dyn Error>> {
                 output::write_columns(directory, run, &COLUMNS)?;
             }
             pictures::write(directory, &runs)?;
+            shapes::write(directory, grid)?;
             terminal::say(format_args!("States and pictures: {}", directory.display()));
         }
         None => terminal::say(HINT),

@@ -63,9 +63,12 @@ pub use run::study::statement::Statement;
 #[cfg(feature = "vtk")]
 pub use run::vtk::VtkSeries;
 pub use scene::Scene;
-pub use scene::body::{Body, Bulk};
+pub use scene::body::Body;
+pub use scene::bulk::Bulk;
 pub use scene::error::SceneError;
-pub use scene::mesh::{Face, Mesh, MeshError};
+#[cfg(feature = "gmsh")]
+pub use scene::gmsh::{Msh, MshError};
+pub use scene::mesh::{Face, Mesh, MeshError, Outline};
 pub use scene::refused::RefusedScene;
 pub use scene::rocket_error::RocketError;
 pub use scene::solid::Section;

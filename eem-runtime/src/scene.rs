@@ -4,13 +4,18 @@
 
 mod act;
 pub(crate) mod body;
+mod body_heat;
 mod body_loads;
+pub(crate) mod bulk;
 mod cell;
 mod check;
 pub(crate) mod entry;
 pub(crate) mod error;
+#[cfg(feature = "gmsh")]
+pub(crate) mod gmsh;
 pub(crate) mod loads;
 pub(crate) mod mesh;
+mod meshed_solid;
 pub(crate) mod refused;
 pub(crate) mod rocket_error;
 pub(crate) mod solid;

@@ -6,6 +6,7 @@
 pub(crate) mod claims;
 pub(crate) mod command_line;
 pub(crate) mod comparison;
+pub(crate) mod deformed;
 pub(crate) mod figures;
 pub(crate) mod first_law;
 pub(crate) mod output;

@@ -4,7 +4,7 @@
 use core::f64::consts::PI;
 
 use eem::Body;
-use eem::kinematics::Hex8;
+use eem::kinematics::{Hex8, Hex20, Shape};
 use eem::prelude::*;
 
 use crate::support::solids::MooneyRivlin;
@@ -82,4 +82,93 @@ fn films_and_walls_are_resistances_in_a_row() {
     // 1 m of 10 W/(m K), and a film of 5 W/K.
     let known = 20.0 / (1.0 / 10.0 + 1.0 / 5.0);
     assert!((flow - known).abs() <= 1e-10 * known, "{flow} W");
+}
+
+/// The first node of each cell, m, and the temperatures of its points, K, in the order of these nodes.
+type ByCell = Vec<([f64; 3], Vec<f64>)>;
+
+fn first_nodes<H: Shape<3>>(mesh: &Mesh<H, 3>) -> Vec<[f64; 3]> {
+    let first = |cell: &H::PerNode<usize>| mesh.nodes()[cell.as_ref()[0]];
+    mesh.cells().iter().map(first).collect()
+}
+
+/// Sets bodies in motion, warm as a function of the place of their cells, and lets them go for five steps, which keep
+/// the laws.
+fn walk<H: Shape<3>>(mut scene: Scene<3>, bodies: &[&Body<H, 3>]) -> ByCell {
+    let points = |body: &Body<H, 3>| {
+        let per_cell = body.points().len() / body.mesh().cells().len();
+        let points = body.points().chunks(per_cell).map(<[Element]>::to_vec);
+        let places = first_nodes(body.mesh()).into_iter();
+        places.zip(points).collect::<Vec<_>>()
+    };
+    for body in bodies {
+        for ([x, y, _], points) in points(body) {
+            for point in points {
+                scene.set_temperature(point, 293.0 + 10.0 * x + 7.0 * y);
+            }
+        }
+        for (&node, [x, y, z]) in body.nodes().iter().zip(body.mesh().nodes()) {
+            scene.set_velocity(node, [0.1 * y, -0.2 * x, 0.05 * x * z]);
+        }
+    }
+    let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.05).unwrap();
+    let before = run.ledger();
+    let mut entropy = before.entropy;
+    for _ in 0..5 {
+        run.step().unwrap();
+        let ledger = run.ledger();
+        // 2 m³ with 100 J/(K m³) at some 300 K.
+        assert!((ledger.balance - before.balance).abs() <= 1e-15 * 6e4);
+        assert!(ledger.entropy >= entropy);
+        entropy = ledger.entropy;
+    }
+    let temperature = |point: &Element| run.temperature(*point).unwrap();
+    let all = bodies.iter().flat_map(|body| points(body));
+    let all = all.map(|(place, points)| (place, points.iter().map(temperature).collect()));
+    let mut all: ByCell = all.collect();
+    all.sort_by(|a, b| a.partial_cmp(b).unwrap());
+    all
+}
+
+/// The largest difference of temperatures, K, between a bar of one mesh and the same bar as two solids that share
+/// a face.
+fn between_one_and_two<H: Shape<3>>(cells: [usize; 3], conduct: bool) -> f64 {
+    let bulk = Bulk::new(10.0).conductivity(10.0);
+    let mesh = Mesh::<H, 3>::block(cells, [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]]).unwrap();
+    let half = |left: bool| mesh.kept(|[x, ..]| (x < 1.0) == left).unwrap();
+
+    let mut scene = Scene::<3>::new();
+    let whole = scene.solid(MooneyRivlin::RUBBER, &mesh, &bulk);
+    let known = walk(scene, &[&whole]);
+
+    let mut scene = Scene::<3>::new();
+    let left = scene.solid(MooneyRivlin::RUBBER, &half(true), &bulk);
+    let joined = bulk.joined_to(&left, 1e-9);
+    let right = scene.solid(MooneyRivlin::RUBBER, &half(false), &joined);
+    if conduct {
+        scene.conduct_between(&right, &left);
+    }
+    let found = walk(scene, &[&left, &right]);
+
+    let pairs = known.iter().zip(&found);
+    let errors = pairs.flat_map(|((place, known), (same, found))| {
+        assert_eq!(place.map(f64::to_bits), same.map(f64::to_bits));
+        let pairs = known.iter().zip(found);
+        pairs.map(|(known, found)| (known - found).abs())
+    });
+    errors.fold(0.0, f64::max)
+}
+
+#[test]
+fn heat_passes_between_joined_solids_as_within_one() {
+    let linear = between_one_and_two::<Hex8>([4, 2, 1], true);
+    let quadratic = between_one_and_two::<Hex20>([2, 1, 1], true);
+    let insulated = between_one_and_two::<Hex8>([4, 2, 1], false);
+    println!("{linear:e} K, {quadratic:e} K, insulated {insulated:e} K");
+    // Some 1e-13 K is the rounding of a temperature, of which five steps add up.
+    assert!(
+        linear <= 5e-12 && quadratic <= 5e-12,
+        "{linear:e} {quadratic:e}"
+    );
+    assert!(insulated > 0.1);
 }

@@ -9,10 +9,13 @@ mod bad_handles;
 mod bad_input;
 mod bad_loads;
 mod copies;
+#[cfg(feature = "gmsh")]
+mod gmsh;
 #[cfg(feature = "sparse")]
 mod memory;
 mod meshes;
 mod networks;
+mod polygons;
 mod refusals;
 mod refused;
 mod unknowns;

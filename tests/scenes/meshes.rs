@@ -4,7 +4,7 @@ use eem::kinematics::{Hex8, Hex20, Quad4};
 use eem::prelude::*;
 use eem::{Body, MeshError, SolidError, Strain, StrainEnergy};
 
-use crate::support::solids::{MooneyRivlin, Reinforced, SaintVenant};
+use crate::support::solids::{MooneyRivlin, Reinforced, SaintVenant, ThermoelasticSolid};
 
 const ELASTIC: SaintVenant = SaintVenant {
     lame: 2000.0,
@@ -111,18 +111,6 @@ fn what_is_wrong_with_a_solid_from_a_mesh_is_said() {
         message.to_string().contains("has no conductivity"),
         "{message}"
     );
-    let inverse = bulk.clone().conductivity(-1.0);
-    let message = refused(MooneyRivlin::RUBBER, &inverse, |scene, body| {
-        for &point in body.points() {
-            scene.set_temperature(point, 300.0);
-        }
-    });
-    assert!(
-        message
-            .to_string()
-            .starts_with("the conductance between element 0"),
-        "{message}"
-    );
     let message = refused(ELASTIC, &bulk, |scene, body| {
         scene.dead_load(body.nodes()[0], [1.0, 0.0, 0.0]);
         scene.fix(body.nodes()[0]);
@@ -148,6 +136,136 @@ fn what_is_wrong_with_a_solid_from_a_mesh_is_said() {
         error.to_string(),
         "no node is at [0.0, 0.0, 0.1] m: the nearest is at [0.0, 0.0, 0.0] m"
     );
+}
+
+#[test]
+fn what_is_not_positive_in_a_solid_is_said_and_faces_of_other_meshes_are_refused() {
+    let bulk = Bulk::new(10.0);
+    let nothing = |_: &mut Scene<3>, _: &Body<Hex8, 3>| {};
+    for value in [-1.0, 0.0, f64::NAN] {
+        let bulk = bulk.clone().conductivity(value);
+        let message = refused(MooneyRivlin::RUBBER, &bulk, nothing).to_string();
+        let value = if value.is_nan() {
+            "NaN".to_owned()
+        } else {
+            value.to_string()
+        };
+        let said = format!("element 0 (MooneyRivlin) is {value} W/(m K), it must be positive");
+        assert!(
+            message.starts_with("the conductivity of the solid") && message.contains(&said),
+            "{message}"
+        );
+    }
+    let conducting = bulk.clone().conductivity(1.0);
+    // So negative that the conductance would be positive again.
+    for film in [-100.0, 0.0] {
+        let message = refused(MooneyRivlin::RUBBER, &conducting, |scene, body| {
+            let air = scene.reservoir(300.0);
+            let end = body.mesh().face(|[x, ..]| x >= 1.0).unwrap();
+            scene.exchange(body, &end, air, film);
+        });
+        let message = message.to_string();
+        assert!(
+            message.starts_with("the film coefficient of the solid at element 0"),
+            "{message}"
+        );
+    }
+    let larger = cube(2).face(|[x, ..]| x >= 1.0).unwrap();
+    for load in [true, false] {
+        let message = refused(MooneyRivlin::RUBBER, &conducting, |scene, body| {
+            if load {
+                scene.traction(body, &larger, |_| [1.0; 3]);
+            } else {
+                let air = scene.reservoir(300.0);
+                scene.wall(body, &larger, air);
+            }
+        });
+        let message = message.to_string();
+        assert!(
+            message.starts_with("the face is not of the mesh of the solid at element 0"),
+            "{message}"
+        );
+    }
+    let plate = |thickness| {
+        let mesh = Mesh::<Quad4, 2>::block([1; 2], [[0.0, 1.0]; 2]).unwrap();
+        let mut scene = Scene::<2>::new();
+        scene.solid(ELASTIC, &mesh, &Bulk::new(10.0).thickness(thickness));
+        let run = Simulation::new(scene, Scheme::EemEntropy, 0.1);
+        run.unwrap_err().to_string()
+    };
+    assert!(plate(0.0).starts_with("the thickness of the solid at element 0 (SaintVenant) is 0 m"));
+    assert_eq!(cube(1).face(|[x, ..]| x > 1.0), Err(MeshError::NoFace));
+}
+
+/// A few skew faces are no error: the rim of a mesh may have some.
+#[test]
+fn conduction_through_skew_cells_has_to_be_allowed() {
+    let squares = Mesh::<Quad4, 2>::block([20, 22], [[0.0, 1.0]; 2]).unwrap();
+    let build = |by: f64, from: f64, allow: bool| {
+        let mesh = squares
+            .mapped(|[x, y]| [x + by * (y - from).max(0.0), y])
+            .unwrap();
+        let bulk = Bulk::new(10.0).conductivity(1.0);
+        let bulk = if allow { bulk.allow_skew_cells() } else { bulk };
+        let mut scene = Scene::<2>::new();
+        let body = scene.solid(ThermoelasticSolid::RUBBER, &mesh, &bulk);
+        for &point in body.points() {
+            scene.set_temperature(point, 300.0);
+        }
+        let run = Simulation::new(scene, Scheme::EemEntropy, 0.1);
+        (mesh.skew_faces(), run.err().map(SceneError::from))
+    };
+    // A shear of 0.3 has the cosine 0.958, one of 0.35 0.944.
+    assert!(matches!(build(0.3, 0.0, false), ((0, 3436), None)));
+    let ((skew, faces), error) = build(0.35, 0.0, false);
+    assert_eq!((skew, faces), (3436, 3436));
+    let message = error.unwrap().to_string();
+    assert!(
+        message.contains("heat crosses 3436 of 3436 faces") && message.contains("at 0.944"),
+        "{message}"
+    );
+    assert!(build(0.35, 0.0, true).1.is_none());
+    // One layer of 22 is skew, with the faces to its neighbour.
+    let ((skew, _), error) = build(0.35, 21.0 / 22.0, false);
+    assert!(
+        skew > 0 && skew <= 171 && error.is_none(),
+        "{skew} {error:?}"
+    );
+}
+
+/// Heat passes between solids that conduct and share a whole face.
+#[test]
+fn heat_between_solids_needs_a_shared_face_and_conductivities() {
+    let refused = |conductivities: [Option<f64>; 2], within: f64, twice: bool| {
+        let bulk = |conductivity| match conductivity {
+            Some(conductivity) => Bulk::new(10.0).conductivity(conductivity),
+            None => Bulk::<3>::new(10.0),
+        };
+        let mut scene = Scene::<3>::new();
+        let first = scene.solid(MooneyRivlin::RUBBER, &cube(1), &bulk(conductivities[0]));
+        let beside = cube(1).translated([1.0, 0.0, 0.0]).unwrap();
+        let joined = bulk(conductivities[1]).joined_to(&first, within);
+        let second = scene.solid(MooneyRivlin::RUBBER, &beside, &joined);
+        for &point in first.points().iter().chain(second.points()) {
+            scene.set_temperature(point, 300.0);
+        }
+        scene.conduct_between(&first, if twice { &first } else { &second });
+        let run = Simulation::new(scene, Scheme::EemEntropy, 0.1);
+        run.unwrap_err().to_string()
+    };
+    let both = [Some(1.0); 2];
+    let message = refused(both, -1.0, false);
+    assert!(
+        message.starts_with("the solids at element 0 (MooneyRivlin) and element 8 (MooneyRivlin) share no whole face"),
+        "{message}"
+    );
+    let message = refused([Some(1.0), None], 1e-9, false);
+    assert!(
+        message.starts_with("the solid at element 8 (MooneyRivlin) has no conductivity"),
+        "{message}"
+    );
+    let message = refused(both, 1e-9, true);
+    assert!(message.contains("itself"), "{message}");
 }
 
 /// Two solids share the nodes of a line, about which one turns freely beside the other.

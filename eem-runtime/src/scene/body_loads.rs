@@ -1,9 +1,9 @@
-//! What acts on solids: tractions, body forces, heat through their surface.
+//! What acts on solids: tractions and body forces.
 
 use std::sync::Arc;
 
 use super::Scene;
-use crate::element::handle::{Node, Reservoir};
+use crate::element::handle::Node;
 use crate::element::kinematics::Shape;
 use crate::number::scalar::Real;
 use crate::scene::body::Body;
@@ -44,6 +44,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
         face: &Face,
         traction: impl Fn(S) -> [S; D] + Send + Sync + 'static,
     ) {
+        if !body.mesh().has(face) {
+            let element = body.points()[0];
+            self.misuse.push(SolidError::ForeignFace { element }.into());
+            return;
+        }
         let thickness = body.thickness();
         let shares = body.mesh().areas(face).into_iter();
         let shares = shares.map(|(node, area)| (body.nodes()[node], thickness * area));
@@ -91,58 +96,6 @@ impl<const D: usize, S: Real> Scene<D, S> {
                 let (density, share) = (Arc::clone(density), S::from_f64(share));
                 self.force(node, move |time| density(time).map(|force| share * force));
             }
-        }
-    }
-
-    /// Heat between some faces of a solid and a reservoir through a film with the coefficient α,
-    /// W/(m² K), and the halves of the cells behind it.
-    ///
-    /// ```text
-    /// 1/κ = 1/(α |A|) + 1/t,   t = k |A·d|/d²     per point, d from its centre to the surface
-    /// ```
-    ///
-    /// The solid has to have a conductivity, [`Bulk::conductivity`](crate::Bulk::conductivity).
-    pub fn exchange<H: Shape<D>>(
-        &mut self,
-        body: &Body<H, D>,
-        face: &Face,
-        reservoir: Reservoir,
-        film: S,
-    ) {
-        self.connect(body, face, reservoir, |area, reach| {
-            (film * area * reach) / (film * area + reach)
-        });
-    }
-
-    /// Heat between some faces of a solid and a wall that has the temperature of a reservoir.
-    ///
-    /// ```text
-    /// κ = t = k |A·d|/d²     per point, d from its centre to the surface
-    /// ```
-    ///
-    /// The solid has to have a conductivity, [`Bulk::conductivity`](crate::Bulk::conductivity).
-    pub fn wall<H: Shape<D>>(&mut self, body: &Body<H, D>, face: &Face, reservoir: Reservoir) {
-        self.connect(body, face, reservoir, |_, reach| reach);
-    }
-
-    fn connect<H: Shape<D>>(
-        &mut self,
-        body: &Body<H, D>,
-        face: &Face,
-        reservoir: Reservoir,
-        conductance: impl Fn(S, S) -> S,
-    ) {
-        let element = body.points()[0];
-        let Some(conductivity) = body.conductivity() else {
-            self.misuse
-                .push(SolidError::NoConductivity { element }.into());
-            return;
-        };
-        for face in body.mesh().outside(face) {
-            let [area, reach] = [face.area, face.reach].map(|size| body.thickness() * size);
-            let reach = S::from_f64(conductivity * reach);
-            let conductance = conductance(S::from_f64(area), reach);
-            self.conduct(body.points()[face.point], reservoir, conductance);
         }
     }
 }

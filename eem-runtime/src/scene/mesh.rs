@@ -3,15 +3,21 @@
 mod boundary;
 mod check;
 mod error;
+mod extruded;
 mod face;
 mod geometry;
 mod grid;
 mod network;
+mod outline;
+mod polygon;
 mod shares;
+mod skewness;
+mod sub_face;
 
 pub use error::MeshError;
-pub use face::Face;
+pub use face::{Face, Outline};
 pub(crate) use geometry::distance;
+pub(crate) use sub_face::facing;
 
 use nalgebra::{Rotation, SVector};
 

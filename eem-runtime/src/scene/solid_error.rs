@@ -56,13 +56,46 @@ pub enum SolidError {
         /// Its first point.
         element: Element,
     },
+    /// Cells of a solid that conducts are so skew that heat would flow in wrong directions.
+    #[error(
+        "the cells of the solid at {element} are too skew for its conductivity: heat crosses {skew} of {faces} faces between points at a cosine |A·d|/(|A||d|) below 0.95, the worst in cell {cell} at {cosine:.3}, and one in twenty may; use cells that are nearly rectangular, or accept wrong directions of heat by `Bulk::allow_skew_cells`"
+    )]
+    SkewCells {
+        /// Its first point.
+        element: Element,
+        /// How many faces between points are skew.
+        skew: usize,
+        /// How many there are.
+        faces: usize,
+        /// The cosine between the worst one's normal and its path of heat.
+        cosine: f64,
+        /// The cell, from 0, of the worst one.
+        cell: usize,
+    },
+    /// Heat is to pass between two solids that share no whole face.
+    #[error(
+        "the solids at {first} and {second} share no whole face that heat could pass: join all nodes of a face by `Bulk::joined_to`, and give both the same cells there",
+        first = elements[0], second = elements[1]
+    )]
+    NoSharedFace {
+        /// Their first points.
+        elements: [Element; 2],
+    },
+    /// A face is not of the mesh of a solid.
+    #[error(
+        "the face is not of the mesh of the solid at {element}: take it from its own mesh, by `Body::mesh` and `Mesh::face`"
+    )]
+    ForeignFace {
+        /// Its first point.
+        element: Element,
+    },
     /// A direction of a fibre has no finite length but zero.
     #[error("the direction of a fibre of the solid at {element} must be finite and not zero")]
     Fibre {
         /// Its first point.
         element: Element,
     },
-    /// A density or a thickness is not positive and finite.
+    /// A density, a thickness, a conductivity or the coefficient of a film is not positive and finite.
     #[error("the {quantity} of the solid at {element} is {value} {unit}, it must be positive and finite", value = Readable(*value))]
     Section {
         /// Its first point.

@@ -28,6 +28,11 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         let holds: Vec<bool> = self.nodes.iter().map(|&place| condition(place)).collect();
         let mut sides = self.surface();
         sides.retain(|&side| self.nodes_of(side).all(|node| holds[node]));
+        self.face_of(sides)
+    }
+
+    /// These faces of cells, in ascending order.
+    pub(crate) fn face_of(&self, sides: Vec<[usize; 2]>) -> Result<Face, MeshError> {
         if sides.is_empty() {
             return Err(MeshError::NoFace);
         }
@@ -37,6 +42,13 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         Ok(Face { sides, nodes })
     }
 
+    /// Whether some faces are faces of this mesh, or of one that is numbered alike.
+    pub(crate) fn has(&self, face: &Face) -> bool {
+        let exists = |&[cell, side]: &[usize; 2]| cell < self.cells.len() && side < H::FACES.len();
+        let mut sides = face.sides.iter();
+        sides.all(exists) && self.face_of(face.sides.clone()).as_ref() == Ok(face)
+    }
+
     /// The nodes of a face of a cell.
     pub(crate) fn nodes_of(&self, [cell, face]: [usize; 2]) -> impl Iterator<Item = usize> + '_ {
         let nodes = self.cells[cell].as_ref();
@@ -44,7 +56,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     }
 
     /// The faces that belong to one cell.
-    fn surface(&self) -> Vec<[usize; 2]> {
+    pub(crate) fn surface(&self) -> Vec<[usize; 2]> {
         let cells = 0..self.cells.len();
         let sides = cells.flat_map(|cell| (0..H::FACES.len()).map(move |face| [cell, face]));
         let mut seen: BTreeMap<Vec<usize>, Vec<[usize; 2]>> = BTreeMap::new();

@@ -11,7 +11,7 @@ pub enum MeshError {
     /// There are no cells.
     #[error("the mesh has no cells")]
     Empty,
-    /// The cuts of a grid do not ascend.
+    /// The cuts of a grid, or the heights of an extrusion, do not ascend.
     #[error("cut {cut} along axis {axis} is {value} m, it must be finite and above the one before", value = Readable(*value))]
     Cut {
         /// The axis, from 0.
@@ -20,6 +20,12 @@ pub enum MeshError {
         cut: usize,
         /// m.
         value: f64,
+    },
+    /// Two sides of a polygon cross or touch.
+    #[error("sides {first} and {second} of the polygon cross or touch, counted from 0: side n leads from corner n to the next", first = sides[0], second = sides[1])]
+    Crossing {
+        /// The sides, from 0.
+        sides: [usize; 2],
     },
     /// A cell names a node that does not exist.
     #[error("cell {cell} has node {node}, but there are {nodes} nodes, counted from 0")]

@@ -1,4 +1,4 @@
-//! A part of the surface of a mesh.
+//! Parts of the surface of a mesh.
 
 /// Some faces of the surface of a mesh, from [`Mesh::face`](crate::Mesh::face).
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -15,4 +15,13 @@ impl Face {
     pub fn nodes(&self) -> &[usize] {
         &self.nodes
     }
+}
+
+/// A line of nodes around a part of a mesh, from [`Mesh::outlines`](crate::Mesh::outlines).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Outline {
+    /// The cell, from 0.
+    pub cell: usize,
+    /// Its nodes, from 0, one after the other around it; the first follows the last.
+    pub nodes: Vec<usize>,
 }

@@ -93,17 +93,21 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
 
 /// At least two cuts along each axis, which ascend.
 fn check_cuts<const D: usize>(cuts: [&[f64]; D]) -> Result<(), MeshError> {
-    for (axis, cuts) in cuts.iter().enumerate() {
-        let mut before = f64::NEG_INFINITY;
-        for (cut, &value) in cuts.iter().enumerate() {
-            if !(value > before && value.is_finite()) {
-                return Err(MeshError::Cut { axis, cut, value });
-            }
-            before = value;
+    let mut axes = cuts.iter().enumerate();
+    axes.try_for_each(|(axis, cuts)| check_axis(axis, cuts))
+}
+
+/// At least two cuts, which ascend.
+pub(super) fn check_axis(axis: usize, cuts: &[f64]) -> Result<(), MeshError> {
+    let mut before = f64::NEG_INFINITY;
+    for (cut, &value) in cuts.iter().enumerate() {
+        if !(value > before && value.is_finite()) {
+            return Err(MeshError::Cut { axis, cut, value });
         }
-        if cuts.len() < 2 {
-            return Err(MeshError::Empty);
-        }
+        before = value;
+    }
+    if cuts.len() < 2 {
+        return Err(MeshError::Empty);
     }
     Ok(())
 }

@@ -13,22 +13,9 @@ use super::Mesh;
 use super::face::Face;
 use super::geometry::{area_vector, distance, mean};
 use super::grid::indices;
+use super::skewness::Skewness;
+use super::sub_face::{SubFace, facing};
 use crate::element::kinematics::{Points, Shape};
-
-/// A face of a sub-cell: of which point of the mesh it is, and how it lies.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct SubFace<const D: usize> {
-    /// Cell by cell.
-    pub(crate) point: usize,
-    /// `|A|`; m², m in the plane.
-    pub(crate) area: f64,
-    /// `t/k`; m, one in the plane.
-    pub(crate) reach: f64,
-    /// m.
-    centre: [f64; D],
-    /// `|A·d|/(|A| |d|)`
-    alignment: f64,
-}
 
 /// Where the parent cell is cut along each axis, from −1 by Gauss weights.
 fn cuts(per_axis: usize) -> &'static [f64] {
@@ -39,21 +26,29 @@ fn cuts(per_axis: usize) -> &'static [f64] {
 }
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
-    /// Pairs of points with `κ/k`, within and between cells; m, one in the plane.
-    pub(crate) fn network(&self) -> Vec<([usize; 2], f64)> {
+    /// Pairs of points with `κ/k`, within and between cells; m, one in the plane. And how skew they are.
+    pub(crate) fn network(&self) -> (Vec<([usize; 2], f64)>, Skewness) {
         let pairs = self.pairs_of_faces();
+        let skewness = Skewness::of(&pairs, H::PerPoint::<()>::LEN);
         let link = |[a, b]: [SubFace<D>; 2]| {
             let reach = a.reach * b.reach / (a.reach + b.reach);
             ([a.point, b.point], reach)
         };
-        pairs.into_iter().map(link).collect()
+        (pairs.into_iter().map(link).collect(), skewness)
     }
 
     /// How many of the faces that heat passes between points are skew, `|A·d| < 0.95 |A| |d|`, and how many
     /// there are.
     ///
-    /// Conduction is that of Fourier's law where the lines between points are normal to the faces; where many
-    /// are skew, it has other directions, however fine the mesh.
+    /// Conduction is that of Fourier's law where the lines between points are normal to the faces. Where they are
+    /// not, heat flows along them all the same, however fine the mesh: with the tensor of conductivity
+    ///
+    /// ```text
+    /// K = k Σ d̂ ⊗ d̂     d̂ the unit vectors along the lines of the mesh
+    /// ```
+    ///
+    /// in the place of k 1. Where more than one face in twenty is skew, a solid with a conductivity is refused,
+    /// unless [`Bulk::allow_skew_cells`](crate::Bulk::allow_skew_cells) is called.
     ///
     /// ```
     /// use eem::kinematics::Quad4;
@@ -67,9 +62,8 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     /// ```
     #[must_use]
     pub fn skew_faces(&self) -> (usize, usize) {
-        let pairs = self.pairs_of_faces();
-        let skew = |pair: &&[SubFace<D>; 2]| pair.iter().any(|face| face.alignment < 0.95);
-        (pairs.iter().filter(skew).count(), pairs.len())
+        let skewness = Skewness::of(&self.pairs_of_faces(), H::PerPoint::<()>::LEN);
+        (skewness.skew, skewness.faces)
     }
 
     /// The sub-faces on the surface.
@@ -99,19 +93,15 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         }
         for shared in sides.values() {
             if let [first, second] = shared[..] {
-                let others = self.sub_faces_of(second);
-                for face in self.sub_faces_of(first) {
-                    let far = |other: &SubFace<D>| distance(other.centre, face.centre);
-                    let nearest = others.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
-                    pairs.extend(nearest.map(|other| [face, *other]));
-                }
+                let [first, second] = [first, second].map(|side| self.sub_faces_of(side));
+                pairs.extend(facing(first, &second));
             }
         }
         pairs
     }
 
     /// The sub-faces on a face of a cell. Faces come in pairs per axis.
-    fn sub_faces_of(&self, [cell, face]: [usize; 2]) -> Vec<SubFace<D>> {
+    pub(crate) fn sub_faces_of(&self, [cell, face]: [usize; 2]) -> Vec<SubFace<D>> {
         let (axis, side) = (face / 2, face % 2);
         let end = side * (H::PER_AXIS - 1);
         let all = indices([H::PER_AXIS; D]).into_iter();

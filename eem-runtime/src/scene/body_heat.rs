@@ -1,0 +1,287 @@
+//! Heat in solids, between them, and through their surface.
+
+use std::collections::BTreeMap;
+
+use super::Scene;
+use crate::element::handle::Reservoir;
+use crate::element::kinematics::Shape;
+use crate::number::scalar::{Real, is_positive};
+use crate::scene::body::Body;
+use crate::scene::error::SceneError;
+use crate::scene::mesh::{Face, facing};
+use crate::scene::solid_error::SolidError;
+
+/// # Heat of solids
+impl<const D: usize, S: Real> Scene<D, S> {
+    /// Conducts heat between two solids, across all faces of cells that they share: whose nodes are all the
+    /// same, as [`Bulk::joined_to`](crate::Bulk::joined_to) makes them. Contact is perfect: there is no
+    /// resistance between the solids.
+    ///
+    /// ```text
+    /// κ = t_a t_b/(t_a + t_b),   t = k |A·d|/d²     per pair of points, d from a point's centre to the face
+    /// ```
+    ///
+    /// Both solids need a conductivity, W/(m K). Solids of different shapes of cells share no whole face.
+    /// Every call adds paths of heat: a second one for the same two solids doubles the conductance.
+    ///
+    /// ```
+    /// use eem::kinematics::Hex8;
+    /// use eem::prelude::*;
+    /// # #[derive(Clone, FreeEnergy)]
+    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare, theta: Temperature| {
+    /// #     0.5 * lame * e1.powi(2) + shear * e2 + c * (theta - theta * ln(theta / 300.0))
+    /// # })]
+    /// # struct Solid { lame: f64, shear: f64, c: f64 }
+    ///
+    /// let solid = Solid { lame: 2000.0, shear: 1000.0, c: 100.0 };
+    /// let mut scene = Scene::<3>::new();
+    /// let warm = Mesh::<Hex8, 3>::block([1; 3], [[0.0, 1.0]; 3])?;
+    /// let cold = warm.translated([1.0, 0.0, 0.0])?;
+    /// let warm = scene.solid(solid.clone(), &warm, &Bulk::new(10.0).conductivity(30.0));
+    /// let bulk = Bulk::new(10.0).conductivity(10.0).joined_to(&warm, 1e-9);
+    /// let cold = scene.solid(solid, &cold, &bulk);
+    /// scene.conduct_between(&warm, &cold);
+    /// for (body, theta) in [(&warm, 310.0), (&cold, 290.0)] {
+    ///     body.points().iter().for_each(|&point| scene.set_temperature(point, theta));
+    /// }
+    ///
+    /// let mut run = Simulation::new(scene, Scheme::EemTemperature, 1e-5)?;
+    /// run.step()?;
+    /// // Each quarter of the face has 0.25 m², and its points are 0.25 m away: t = k · 1 m, and
+    /// // κ = 30 · 10/(30 + 10) W/K = 7.5 W/K. It passes 7.5 · 20 W, from 12.5 J/K each.
+    /// let fall = 310.0 - run.temperature(warm.points()[1])?;
+    /// assert!((fall - 150.0 * 1e-5 / 12.5).abs() < 1e-8);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`Simulation::new`](crate::Simulation::new) returns [`SolidError::NoSharedFace`] or
+    /// [`SolidError::NoConductivity`].
+    pub fn conduct_between<H: Shape<D>>(&mut self, first: &Body<H, D>, second: &Body<H, D>) {
+        let elements = [first, second].map(|body| body.points()[0]);
+        if !elements.iter().all(|element| self.expect_own(element)) {
+            return;
+        }
+        if elements[0] == elements[1] {
+            let [element, _] = elements;
+            self.misuse.push(SceneError::SelfConduction { element });
+            return;
+        }
+        let [Some(one), Some(other)] = [first, second].map(Body::conductivity) else {
+            for (body, element) in [first, second].into_iter().zip(elements) {
+                if body.conductivity().is_none() {
+                    self.misuse
+                        .push(SolidError::NoConductivity { element }.into());
+                }
+            }
+            return;
+        };
+        let sides = shared_sides(first, second);
+        if sides.is_empty() {
+            self.misuse
+                .push(SolidError::NoSharedFace { elements }.into());
+        }
+        for [near, far] in sides {
+            let pairs = facing(
+                first.mesh().sub_faces_of(near),
+                &second.mesh().sub_faces_of(far),
+            );
+            for [a, b] in pairs {
+                let [t_a, t_b] = [
+                    one * first.thickness() * a.reach,
+                    other * second.thickness() * b.reach,
+                ];
+                let [a, b] = [first.points()[a.point], second.points()[b.point]];
+                self.conduct(a, b, S::from_f64(t_a * t_b / (t_a + t_b)));
+            }
+        }
+    }
+
+    /// Heat between some faces of a solid and a reservoir through a film with the coefficient α,
+    /// W/(m² K), and the halves of the cells behind it.
+    ///
+    /// ```text
+    /// 1/κ = 1/(α |A|) + 1/t,   t = k |A·d|/d²     per point, d from its centre to the surface
+    /// ```
+    ///
+    /// The solid has to have a conductivity, [`Bulk::conductivity`](crate::Bulk::conductivity).
+    ///
+    /// ```
+    /// use eem::kinematics::Hex8;
+    /// use eem::prelude::*;
+    /// # #[derive(Clone, FreeEnergy)]
+    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare, theta: Temperature| {
+    /// #     0.5 * lame * e1.powi(2) + shear * e2 + c * (theta - theta * ln(theta / 300.0))
+    /// # })]
+    /// # struct Solid { lame: f64, shear: f64, c: f64 }
+    ///
+    /// let solid = Solid { lame: 2000.0, shear: 1000.0, c: 100.0 };
+    /// let mut scene = Scene::<3>::new();
+    /// let mesh = Mesh::<Hex8, 3>::block([1; 3], [[0.0, 1.0]; 3])?;
+    /// let body = scene.solid(solid, &mesh, &Bulk::new(10.0).conductivity(10.0));
+    /// for &point in body.points() {
+    ///     scene.set_temperature(point, 300.0);
+    /// }
+    /// let end = mesh.face(|[x, ..]| x >= 1.0)?;
+    /// let air = scene.reservoir(320.0);
+    /// scene.exchange(&body, &end, air, 5.0);
+    ///
+    /// let mut run = Simulation::new(scene, Scheme::EemTemperature, 1e-5)?;
+    /// run.step()?;
+    /// // Four points, each with t = 10 W/K behind a film of 5 · 0.25 W/K, and 20 K.
+    /// let flow = -run.reservoir_heat(air)? / 1e-5;
+    /// let known = 4.0 * 20.0 / (1.0 / 1.25 + 1.0 / 10.0);
+    /// assert!((flow - known).abs() < 1e-4 * known);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`Simulation::new`](crate::Simulation::new) returns [`SolidError::NoConductivity`],
+    /// [`SolidError::ForeignFace`], or [`SolidError::Section`] if α is not positive.
+    pub fn exchange<H: Shape<D>>(
+        &mut self,
+        body: &Body<H, D>,
+        face: &Face,
+        reservoir: Reservoir,
+        film: S,
+    ) {
+        if !is_positive(film) {
+            let quantity = ("film coefficient", film.to_f64(), "W/(m^2 K)");
+            self.misuse.push(not_positive(body, quantity).into());
+            return;
+        }
+        self.connect(body, face, reservoir, |area, reach| {
+            (film * area * reach) / (film * area + reach)
+        });
+    }
+
+    /// Heat between some faces of a solid and a wall that has the temperature of a reservoir.
+    ///
+    /// ```text
+    /// κ = t = k |A·d|/d²     per point, d from its centre to the surface
+    /// ```
+    ///
+    /// The solid has to have a conductivity, [`Bulk::conductivity`](crate::Bulk::conductivity).
+    ///
+    /// ```
+    /// use eem::kinematics::Hex8;
+    /// use eem::prelude::*;
+    /// # #[derive(Clone, FreeEnergy)]
+    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare, theta: Temperature| {
+    /// #     0.5 * lame * e1.powi(2) + shear * e2 + c * (theta - theta * ln(theta / 300.0))
+    /// # })]
+    /// # struct Solid { lame: f64, shear: f64, c: f64 }
+    ///
+    /// let solid = Solid { lame: 2000.0, shear: 1000.0, c: 100.0 };
+    /// let mut scene = Scene::<3>::new();
+    /// let mesh = Mesh::<Hex8, 3>::block([1; 3], [[0.0, 1.0]; 3])?;
+    /// let body = scene.solid(solid, &mesh, &Bulk::new(10.0).conductivity(10.0));
+    /// for &point in body.points() {
+    ///     scene.set_temperature(point, 300.0);
+    /// }
+    /// let end = mesh.face(|[x, ..]| x >= 1.0)?;
+    /// let air = scene.reservoir(320.0);
+    /// scene.wall(&body, &end, air);
+    ///
+    /// let mut run = Simulation::new(scene, Scheme::EemTemperature, 1e-5)?;
+    /// run.step()?;
+    /// // Four points, each with t = 10 W/(m K) · 0.25 m²/0.25 m, and 20 K.
+    /// let flow = -run.reservoir_heat(air)? / 1e-5;
+    /// assert!((flow - 800.0).abs() < 1e-4 * 800.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`Simulation::new`](crate::Simulation::new) returns [`SolidError::NoConductivity`],
+    /// [`SolidError::ForeignFace`].
+    pub fn wall<H: Shape<D>>(&mut self, body: &Body<H, D>, face: &Face, reservoir: Reservoir) {
+        self.connect(body, face, reservoir, |_, reach| reach);
+    }
+
+    fn connect<H: Shape<D>>(
+        &mut self,
+        body: &Body<H, D>,
+        face: &Face,
+        reservoir: Reservoir,
+        conductance: impl Fn(S, S) -> S,
+    ) {
+        let element = body.points()[0];
+        let Some(conductivity) = body.conductivity() else {
+            self.misuse
+                .push(SolidError::NoConductivity { element }.into());
+            return;
+        };
+        if !body.mesh().has(face) {
+            self.misuse.push(SolidError::ForeignFace { element }.into());
+            return;
+        }
+        for face in body.mesh().outside(face) {
+            let [area, reach] = [face.area, face.reach].map(|size| body.thickness() * size);
+            let reach = S::from_f64(conductivity * reach);
+            let conductance = conductance(S::from_f64(area), reach);
+            self.conduct(body.points()[face.point], reservoir, conductance);
+        }
+    }
+
+    /// Paths of heat between the points of a solid, unless its cells are too skew for them.
+    pub(super) fn conduct_in<H: Shape<D>>(&mut self, body: &Body<H, D>, allow_skew_cells: bool) {
+        let Some(conductivity) = body.conductivity() else {
+            return;
+        };
+        if !(conductivity > 0.0 && conductivity.is_finite()) {
+            let quantity = ("conductivity", conductivity, "W/(m K)");
+            self.misuse.push(not_positive(body, quantity).into());
+            return;
+        }
+        let (links, skewness) = body.mesh().network();
+        if skewness.is_too_much() && !allow_skew_cells {
+            let skew = SolidError::SkewCells {
+                element: body.points()[0],
+                skew: skewness.skew,
+                faces: skewness.faces,
+                cosine: skewness.cosine,
+                cell: skewness.cell,
+            };
+            self.misuse.push(skew.into());
+        }
+        for (pair, reach) in links {
+            let [first, second] = pair.map(|point| body.points()[point]);
+            let conductance = S::from_f64(conductivity * body.thickness() * reach);
+            self.conduct(first, second, conductance);
+        }
+    }
+}
+
+/// What to say of a quantity of a solid, its value and its unit.
+fn not_positive<H: Shape<D>, const D: usize>(
+    body: &Body<H, D>,
+    (quantity, value, unit): (&'static str, f64, &'static str),
+) -> SolidError {
+    SolidError::Section {
+        element: body.points()[0],
+        quantity,
+        value,
+        unit,
+    }
+}
+
+/// The faces of the surfaces of two solids that have the same nodes.
+fn shared_sides<H: Shape<D>, const D: usize>(
+    first: &Body<H, D>,
+    second: &Body<H, D>,
+) -> Vec<[[usize; 2]; 2]> {
+    let key = |body: &Body<H, D>, side| {
+        let nodes = body.mesh().nodes_of(side);
+        let mut nodes: Vec<_> = nodes.map(|node| body.nodes()[node].index).collect();
+        nodes.sort_unstable();
+        nodes
+    };
+    let far = second.mesh().surface().into_iter();
+    let far: BTreeMap<Vec<usize>, [usize; 2]> = far.map(|side| (key(second, side), side)).collect();
+    let near = first.mesh().surface().into_iter();
+    near.filter_map(|side| Some([side, *far.get(&key(first, side))?]))
+        .collect()
+}

@@ -1,0 +1,107 @@
+//! Meshes in space from meshes in the plane.
+
+use std::collections::BTreeMap;
+
+use super::Mesh;
+use super::error::MeshError;
+use super::grid::check_axis;
+use crate::element::kinematics::{Hex8, Hex20, Quad4, Quad8, Shape};
+use crate::material::free_energy::Array;
+
+impl Mesh<Hex8, 3> {
+    /// A mesh in the plane, extruded along z through these heights, m: a layer of hexahedra between each two.
+    ///
+    /// ```
+    /// use eem::Mesh;
+    /// use eem::kinematics::{Hex8, Quad4};
+    ///
+    /// let profile = Mesh::<Quad4, 2>::polygon(&[[0.0, 0.0], [2.0, 0.0], [0.0, 1.0]])?;
+    /// let wedge = Mesh::<Hex8, 3>::extruded(&profile, &[0.0, 0.5, 2.0])?;
+    /// assert_eq!((profile.cells().len(), wedge.cells().len()), (3, 6));
+    /// assert_eq!(wedge.nodes().len(), 3 * profile.nodes().len());
+    /// # Ok::<(), eem::MeshError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`MeshError::Cut`] if heights do not ascend, [`MeshError::Empty`] if there are fewer than two.
+    pub fn extruded(profile: &Mesh<Quad4, 2>, heights: &[f64]) -> Result<Self, MeshError> {
+        extruded(profile, heights)
+    }
+}
+
+impl Mesh<Hex20, 3> {
+    /// A mesh in the plane, extruded along z through these heights, m: a layer of hexahedra between each two.
+    ///
+    /// ```
+    /// use eem::Mesh;
+    /// use eem::kinematics::{Hex20, Quad8};
+    ///
+    /// let strip = Mesh::<Quad8, 2>::block([4, 1], [[0.0, 1.0], [1.0, 2.0]])?;
+    /// // A quarter of a ring, whose edges bend.
+    /// let quarter = strip.mapped(|[turn, radius]| {
+    ///     let angle = std::f64::consts::FRAC_PI_2 * (1.0 - turn);
+    ///     [radius * angle.cos(), radius * angle.sin()]
+    /// })?;
+    /// let ring = Mesh::<Hex20, 3>::extruded(&quarter, &[0.0, 0.5])?;
+    /// assert_eq!((ring.cells().len(), ring.nodes().len()), (4, 56));
+    /// # Ok::<(), eem::MeshError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`MeshError::Cut`] if heights do not ascend, [`MeshError::Empty`] if there are fewer than two.
+    pub fn extruded(profile: &Mesh<Quad8, 2>, heights: &[f64]) -> Result<Self, MeshError> {
+        extruded(profile, heights)
+    }
+}
+
+/// The nodes of a hexahedron lie over those of its quadrilateral: at two heights all of them, half-way between
+/// at most the corners.
+fn extruded<P: Shape<2>, H: Shape<3>>(
+    profile: &Mesh<P, 2>,
+    heights: &[f64],
+) -> Result<Mesh<H, 3>, MeshError> {
+    check_axis(2, heights)?;
+    // Twice the index of a height, which sorts first, and the node of the profile.
+    let key = |layer: usize, cell: &P::PerNode<usize>, [x, y, z]: [i8; 3]| {
+        let below = P::NODES.iter().position(|&node| node == [x, y]);
+        let below = below.unwrap_or_else(|| unreachable!("hexahedra stand on quadrilaterals"));
+        let level = (2 * layer + 1).saturating_add_signed(isize::from(z));
+        [level, cell.as_ref()[below]]
+    };
+    let layers = 0..heights.len() - 1;
+    let all = layers.flat_map(|layer| profile.cells.iter().map(move |cell| (layer, cell)));
+    let keys: Vec<Vec<[usize; 2]>> = all
+        .map(|(layer, cell)| {
+            H::NODES
+                .iter()
+                .map(|&node| key(layer, cell, node))
+                .collect()
+        })
+        .collect();
+    let mut nodes: BTreeMap<[usize; 2], usize> =
+        keys.iter().flatten().map(|&key| (key, 0)).collect();
+    let counted = nodes.values_mut().enumerate();
+    counted.for_each(|(index, node)| *node = index);
+    let place = |&[level, node]: &[usize; 2]| {
+        let [x, y] = profile.nodes[node];
+        let below = heights[level / 2];
+        let height = match level % 2 {
+            0 => below,
+            _ => f64::midpoint(below, heights[level / 2 + 1]),
+        };
+        [x, y, height]
+    };
+    let cell = |keys: &Vec<[usize; 2]>| {
+        let mut cell = H::PerNode::filled(0);
+        for (node, key) in cell.as_mut().iter_mut().zip(keys) {
+            *node = nodes[key];
+        }
+        cell
+    };
+    Mesh::new(
+        nodes.keys().map(place).collect(),
+        keys.iter().map(cell).collect(),
+    )
+}

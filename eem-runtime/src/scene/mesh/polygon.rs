@@ -1,0 +1,211 @@
+//! Quadrilaterals that fill a polygon.
+
+use std::collections::BTreeMap;
+
+use super::Mesh;
+use super::error::MeshError;
+use super::geometry::mean;
+use crate::element::kinematics::Quad4;
+
+impl Mesh<Quad4, 2> {
+    /// A polygon with these corners, m, one after the other in either sense. It may have re-entrant corners, but no
+    /// holes.
+    ///
+    /// It is cut into triangles between its corners, and each of them into three quadrilaterals between a corner,
+    /// the middles of two sides and its centre: three cells per corner, less six. They are far from rectangular;
+    /// [`refined`](Self::refined) makes them smaller. For conduction a mesh of rectangles is better, where there is
+    /// one.
+    ///
+    /// ```
+    /// use eem::kinematics::Quad4;
+    /// use eem::{Mesh, MeshError};
+    ///
+    /// let angle = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+    /// let mesh = Mesh::<Quad4, 2>::polygon(&angle)?;
+    /// assert_eq!(mesh.cells().len(), 12);
+    ///
+    /// let bow = [[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]];
+    /// let error = Mesh::<Quad4, 2>::polygon(&bow).unwrap_err();
+    /// assert_eq!(error, MeshError::Crossing { sides: [0, 2] });
+    /// # Ok::<(), MeshError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`MeshError::Place`] if a corner is nowhere, [`MeshError::Crossing`] if two sides cross or touch,
+    /// [`MeshError::Empty`] if there are fewer than three corners or all are on a line.
+    pub fn polygon(corners: &[[f64; 2]]) -> Result<Self, MeshError> {
+        check_polygon(corners)?;
+        let mut order: Vec<usize> = (0..corners.len()).collect();
+        if twice_area(corners, &order) < 0.0 {
+            order.reverse();
+        }
+        let triangles = triangles(corners, order)?;
+        let mut nodes = corners.to_vec();
+        let mut middles = Middles::default();
+        let mut cells = Vec::new();
+        for triangle in triangles {
+            let centre = nodes.len();
+            nodes.push(mean(&triangle.map(|corner| corners[corner])));
+            for [before, at, after] in turns(triangle) {
+                let [into, out] =
+                    [[before, at], [at, after]].map(|edge| middles.of(edge, &mut nodes));
+                cells.push([at, out, centre, into]);
+            }
+        }
+        Self::new(nodes, cells)
+    }
+
+    /// The same with each cell cut into four, at the middles of its edges.
+    ///
+    /// ```
+    /// use eem::Mesh;
+    /// use eem::kinematics::Quad4;
+    ///
+    /// let triangle = Mesh::<Quad4, 2>::polygon(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])?;
+    /// let finer = triangle.refined()?;
+    /// assert_eq!((triangle.cells().len(), triangle.nodes().len()), (3, 7));
+    /// assert_eq!((finer.cells().len(), finer.nodes().len()), (12, 19));
+    /// # Ok::<(), eem::MeshError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// If two places become one by rounding.
+    pub fn refined(&self) -> Result<Self, MeshError> {
+        let mut nodes = self.nodes.clone();
+        let mut middles = Middles::default();
+        let mut cells = Vec::new();
+        for &[a, b, c, d] in &self.cells {
+            let centre = nodes.len();
+            nodes.push(mean(&[a, b, c, d].map(|node| self.nodes[node])));
+            for [before, at, after] in [[d, a, b], [a, b, c], [b, c, d], [c, d, a]] {
+                let [into, out] =
+                    [[before, at], [at, after]].map(|edge| middles.of(edge, &mut nodes));
+                cells.push([at, out, centre, into]);
+            }
+        }
+        Self::new(nodes, cells)
+    }
+}
+
+/// The nodes in the middles of edges.
+#[derive(Debug, Default)]
+struct Middles(BTreeMap<[usize; 2], usize>);
+
+impl Middles {
+    /// That of an edge, new if there is none yet.
+    fn of(&mut self, [a, b]: [usize; 2], nodes: &mut Vec<[f64; 2]>) -> usize {
+        *self.0.entry([a.min(b), a.max(b)]).or_insert_with(|| {
+            nodes.push(mean(&[nodes[a], nodes[b]]));
+            nodes.len() - 1
+        })
+    }
+}
+
+/// Each corner of a triangle between those before and after it.
+fn turns([a, b, c]: [usize; 3]) -> [[usize; 3]; 3] {
+    [[c, a, b], [a, b, c], [b, c, a]]
+}
+
+/// Twice the area of a triangle, m²; positive against the clock.
+fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+/// Twice the area of a polygon, m²; positive against the clock.
+fn twice_area(corners: &[[f64; 2]], order: &[usize]) -> f64 {
+    let from = corners[order[0]];
+    let pairs = order.windows(2);
+    pairs.fold(0.0, |sum, pair| {
+        sum + cross(from, corners[pair[0]], corners[pair[1]])
+    })
+}
+
+/// Corners are somewhere, at least three, and no two sides meet but at their common corner.
+fn check_polygon(corners: &[[f64; 2]]) -> Result<(), MeshError> {
+    for (node, corner) in corners.iter().enumerate() {
+        if let Some(axis) = corner.iter().position(|coordinate| !coordinate.is_finite()) {
+            let value = corner[axis];
+            return Err(MeshError::Place { node, axis, value });
+        }
+    }
+    let count = corners.len();
+    if count < 3 {
+        return Err(MeshError::Empty);
+    }
+    let side = |at: usize| [corners[at], corners[(at + 1) % count]];
+    for first in 0..count {
+        for second in first + 1..count {
+            let meet = if second == first + 1 {
+                folds_back(side(first), side(second)[1])
+            } else if (second + 1) % count == first {
+                folds_back(side(second), side(first)[1])
+            } else {
+                touch(side(first), side(second))
+            };
+            if meet {
+                let sides = [first, second];
+                return Err(MeshError::Crossing { sides });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Whether the next side goes back along a side.
+fn folds_back([a, b]: [[f64; 2]; 2], c: [f64; 2]) -> bool {
+    let along = (b[0] - a[0]) * (c[0] - b[0]) + (b[1] - a[1]) * (c[1] - b[1]);
+    cross(a, b, c) == 0.0 && along <= 0.0
+}
+
+/// Whether two sides have a point in common.
+fn touch([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
+    let apart = |p: f64, q: f64| (p > 0.0 && q > 0.0) || (p < 0.0 && q < 0.0);
+    let boxes_meet = (0..2).all(|axis| {
+        a[axis].min(b[axis]) <= c[axis].max(d[axis]) && c[axis].min(d[axis]) <= a[axis].max(b[axis])
+    });
+    boxes_meet && !apart(cross(a, b, c), cross(a, b, d)) && !apart(cross(c, d, a), cross(c, d, b))
+}
+
+/// Cuts off corners, that with the largest least angle first, until a triangle is left.
+fn triangles(corners: &[[f64; 2]], mut order: Vec<usize>) -> Result<Vec<[usize; 3]>, MeshError> {
+    let mut triangles = Vec::new();
+    while order.len() >= 3 {
+        let count = order.len();
+        let around = |at: usize| {
+            [
+                order[(at + count - 1) % count],
+                order[at],
+                order[(at + 1) % count],
+            ]
+        };
+        let is_free = |triangle: [usize; 3]| {
+            let mut others = order.iter().filter(|other| !triangle.contains(other));
+            others.all(|&other| !holds(triangle.map(|at| corners[at]), corners[other]))
+        };
+        let ears = (0..count).map(|at| (at, roundness(around(at).map(|at| corners[at]))));
+        let ears = ears.filter(|&(at, roundness)| roundness > 0.0 && is_free(around(at)));
+        let best = ears.max_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((at, _)) = best else {
+            // What is left has no area.
+            return Err(MeshError::Empty);
+        };
+        triangles.push(around(at));
+        order.remove(at);
+    }
+    Ok(triangles)
+}
+
+/// The area of a triangle in parts of the square of its longest side; negative for clockwise ones.
+fn roundness([a, b, c]: [[f64; 2]; 3]) -> f64 {
+    let square = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2);
+    cross(a, b, c) / square(a, b).max(square(b, c)).max(square(c, a))
+}
+
+/// Whether a place is in a triangle or on its edges.
+fn holds([a, b, c]: [[f64; 2]; 3], place: [f64; 2]) -> bool {
+    [[a, b], [b, c], [c, a]]
+        .iter()
+        .all(|&[from, to]| cross(from, to, place) >= 0.0)
+}

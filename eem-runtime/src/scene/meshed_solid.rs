@@ -1,0 +1,178 @@
+//! Solids from meshes.
+
+use nalgebra::SVector;
+
+use super::Scene;
+use crate::element::handle::{Element, Node};
+use crate::element::kinematics::{Points, Shape, StrainEnergy};
+use crate::material::free_energy::{Array, FreeEnergy};
+use crate::number::scalar::Real;
+use crate::scene::body::Body;
+use crate::scene::bulk::Bulk;
+use crate::scene::cell::Stuff;
+use crate::scene::error::SceneError;
+use crate::scene::mesh::Mesh;
+
+/// # Solids from meshes
+impl<const D: usize, S: Real> Scene<D, S> {
+    /// A solid at rest, free of strain where its mesh is: in space, or in plane strain.
+    ///
+    /// Every point has a temperature and viscous strains of its own; handles of points are what
+    /// [`conduct`](Self::conduct) and [`set_temperature`](Self::set_temperature) take. Schemes are those of
+    /// a [`quadrilateral`](Scene::quadrilateral).
+    ///
+    /// ```
+    /// use eem::kinematics::Hex8;
+    /// use eem::prelude::*;
+    ///
+    /// /// Saint-Venant and Kirchhoff, with a fibre.
+    /// #[derive(Clone, FreeEnergy)]
+    /// #[free_energy(|e1: StrainTrace, e2: StrainSquare, e4: FibreStrain| {
+    ///     0.5 * lame * e1.powi(2) + shear * e2 + 0.5 * fibre * e4.powi(2)
+    /// })]
+    /// struct Reinforced {
+    ///     lame: f64,
+    ///     shear: f64,
+    ///     fibre: f64,
+    /// }
+    ///
+    /// let mut scene = Scene::<3>::new();
+    /// let rubber = Reinforced { lame: 2000.0, shear: 1000.0, fibre: 500.0 };
+    /// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
+    /// let beam = scene.solid(rubber, &mesh, &Bulk::new(10.0).fibre([1.0, 0.0, 0.0]));
+    /// for (&node, [x, ..]) in beam.nodes().iter().zip(mesh.nodes()) {
+    ///     scene.set_velocity(node, [0.0, *x, 0.0]);
+    /// }
+    /// scene.fix(beam.node_at([0.0, 0.0, 0.0], 0.0)?);
+    ///
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.05)?;
+    /// let before = run.ledger();
+    /// run.step()?;
+    /// let change = run.ledger().balance - before.balance;
+    /// assert!(change.abs() < 1e-14 * before.energy);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[expect(clippy::needless_pass_by_value, reason = "as for a spring")]
+    pub fn solid<H, M, const N: usize>(
+        &mut self,
+        model: M,
+        mesh: &Mesh<H, D>,
+        bulk: &Bulk<D, S>,
+    ) -> Body<H, D>
+    where
+        H: Shape<D>,
+        M: FreeEnergy<S> + StrainEnergy<N> + Send + Sync + 'static,
+    {
+        let places = mesh.nodes().iter();
+        let nodes: Vec<Node> = places
+            .map(|&place| match bulk.joint(place) {
+                Some(node) => node,
+                None => self.node(place.map(S::from_f64), [S::zero(); D]),
+            })
+            .collect();
+        let stuff = Stuff {
+            density: bulk.density,
+            thickness: S::from_f64(bulk.thickness),
+            fibres: &bulk.fibres,
+            lumped: bulk.lumped,
+        };
+        let mut points = Vec::with_capacity(mesh.cells().len() * H::PerPoint::<Element>::LEN);
+        for cell in mesh.cells() {
+            let mut named = H::PerNode::filled(nodes[0]);
+            for (handle, &node) in named.as_mut().iter_mut().zip(cell.as_ref()) {
+                *handle = nodes[node];
+            }
+            points.extend(self.push_cell::<H, M, N>(&model, &named, stuff));
+        }
+        let body = Body {
+            mesh: mesh.clone(),
+            nodes,
+            points,
+            thickness: bulk.thickness,
+            conductivity: bulk.conductivity,
+        };
+        self.conduct_in(&body, bulk.allow_skew_cells);
+        body
+    }
+
+    /// Replaces the initial velocity of a node, m/s, or its momentum. Anchors have none.
+    ///
+    /// ```
+    /// use eem::kinematics::Hex8;
+    /// use eem::prelude::*;
+    /// # #[derive(Clone, FreeEnergy)]
+    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * lame * e1.powi(2) + shear * e2)]
+    /// # struct Elastic { lame: f64, shear: f64 }
+    ///
+    /// let mut scene = Scene::<3>::new();
+    /// let steel = Elastic { lame: 2000.0, shear: 1000.0 };
+    /// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
+    /// let body = scene.solid(steel, &mesh, &Bulk::new(10.0));
+    /// for &node in body.nodes() {
+    ///     scene.set_velocity(node, [3.0, 0.0, 0.0]);
+    /// }
+    ///
+    /// let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// // 20 kg.
+    /// assert!((run.ledger().linear_momentum[0] - 60.0).abs() < 1e-13);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn set_velocity(&mut self, node: Node, velocity: [S; D]) {
+        if self.expect_own(&node) {
+            let entry = &mut self.nodes[node.index];
+            if entry.mass.is_none() {
+                self.misuse.push(SceneError::WrongKind {
+                    node,
+                    quantity: "a velocity",
+                    kind: "an anchor",
+                });
+                return;
+            }
+            entry.velocity = SVector::from(velocity);
+            entry.momentum = None;
+        }
+    }
+
+    /// Makes a node an anchor, which stays where it is and has neither mass nor velocity.
+    ///
+    /// ```
+    /// use eem::kinematics::Hex8;
+    /// use eem::prelude::*;
+    /// # #[derive(Clone, FreeEnergy)]
+    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * lame * e1.powi(2) + shear * e2)]
+    /// # struct Elastic { lame: f64, shear: f64 }
+    ///
+    /// let mut scene = Scene::<3>::new();
+    /// let steel = Elastic { lame: 2000.0, shear: 1000.0 };
+    /// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
+    /// let body = scene.solid(steel, &mesh, &Bulk::new(10.0));
+    /// for node in body.nodes_where(|[x, ..]| x <= 0.0) {
+    ///     scene.fix(node);
+    /// }
+    /// scene.set_gravity([0.0, 0.0, -9.81]);
+    ///
+    /// let corner = body.node_at([0.0, 1.0, 1.0], 0.0)?;
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// run.step()?;
+    /// assert_eq!(run.position(corner)?[2], 1.0);
+    /// assert!(run.position(body.node_at([2.0, 1.0, 1.0], 0.0)?)?[2] < 1.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn fix(&mut self, node: Node) {
+        if self.expect_own(&node) {
+            let mut rockets = self.loads.rockets.iter();
+            let is_pushed = rockets.any(|rocket| rocket.line.node == node);
+            if is_pushed || self.loads.forces.iter().any(|(loaded, _)| *loaded == node) {
+                self.misuse.push(SceneError::WrongKind {
+                    node,
+                    quantity: "a force",
+                    kind: "fixed",
+                });
+            }
+            let entry = &mut self.nodes[node.index];
+            entry.mass = None;
+            entry.momentum = None;
+            entry.velocity = SVector::from([S::zero(); D]);
+        }
+    }
+}
