@@ -13,7 +13,8 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     /// use eem::kinematics::{Hex8, Quad8};
     ///
     /// let square = Mesh::<Quad8, 2>::block([1, 1], [[0.0, 2.0]; 2])?;
-    /// let around = square.outlines()[0].nodes.iter().map(|&node| square.nodes()[node]);
+    /// let outlines = square.outlines();
+    /// let around = outlines[0].nodes.iter().map(|&node| square.nodes()[node]);
     /// assert_eq!(around.take(3).collect::<Vec<_>>(), [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]);
     ///
     /// // The faces between cells are not to be seen.
