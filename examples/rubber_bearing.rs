@@ -49,6 +49,8 @@ mod cycles;
 mod pictures;
 #[path = "rubber_bearing/scene.rs"]
 mod scene;
+#[path = "rubber_bearing/shapes.rs"]
+mod shapes;
 mod support;
 
 use scene::{Bearing, HEIGHT, bearing};
@@ -102,6 +104,7 @@ fn run(command_line: &CommandLine) -> Result<Claims, Box<dyn Error>> {
                 output::write_columns(directory, run, &COLUMNS)?;
             }
             pictures::write(directory, &runs)?;
+            shapes::write(directory, grid)?;
             terminal::say(format_args!("States and pictures: {}", directory.display()));
         }
         None => terminal::say(HINT),

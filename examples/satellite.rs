@@ -51,6 +51,8 @@ mod known;
 mod pictures;
 #[path = "satellite/scene.rs"]
 mod scene;
+#[path = "satellite/shapes.rs"]
+mod shapes;
 #[path = "single_pendulum/scene.rs"]
 mod single_pendulum;
 mod support;
@@ -149,6 +151,7 @@ fn run(options: &Options) -> Result<Claims, Box<dyn Error>> {
                 output::write_columns(directory, run, &COLUMNS)?;
             }
             pictures::write(directory, &runs)?;
+            shapes::write(directory, case, grid)?;
             terminal::say(format_args!("States and pictures: {}", directory.display()));
         }
         None => terminal::say(HINT),
