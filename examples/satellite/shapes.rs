@@ -32,7 +32,7 @@ pub(crate) fn write(directory: &Path, case: Case, grid: TimeGrid) -> Result<(), 
     }
     let picture = Picture {
         title: "A satellite: its shape, and the mean strain of each cell".to_owned(),
-        quantity: "strain (G : G)^½".to_owned(),
+        quantity: "strain √(G : G)".to_owned(),
         view: View::Oblique(2),
         states,
     };

@@ -224,7 +224,7 @@ fn legend(
     ] {
         text(
             canvas,
-            (&short(value), FONT),
+            (&short(value, range[1] - range[0]), FONT),
             [at, top + 62.0],
             HPos::Center,
         )?;
@@ -237,10 +237,12 @@ fn legend(
     )
 }
 
-/// Four digits.
-fn short(value: f64) -> String {
+/// Four digits; what cannot be told from zero on a scale of this width is zero.
+fn short(value: f64, width: f64) -> String {
     let size = value.abs();
-    if size >= 100.0 {
+    if size < 1e-4 * width {
+        "0".to_owned()
+    } else if size >= 100.0 {
         format!("{value:.1}")
     } else if size >= 0.01 || size <= 0.0 {
         format!("{value:.3}")
