@@ -56,6 +56,7 @@ where
             // 20 kg, the fastest of which move at about 1 m/s.
             let momenta = 20.0 * f64::min(1.0, 0.2 / step);
             let mut entropy = first.entropy;
+            let mut worst = [0.0_f64; 3];
             for _ in 0..40 {
                 run.step().unwrap();
                 let ledger = run.ledger();
@@ -66,6 +67,7 @@ where
                         / first.angular_momentum.norm(),
                 ];
                 let [energy, linear, angular] = errors;
+                worst = std::array::from_fn(|law| worst[law].max(errors[law]));
                 assert!(
                     energy <= 1e-15 && linear <= 2e-14 && angular <= 5e-14,
                     "{name} {scheme} {step}: {errors:?}"
@@ -73,6 +75,7 @@ where
                 assert!(ledger.entropy >= entropy, "{name} {scheme} {step}");
                 entropy = ledger.entropy;
             }
+            println!("{name} {scheme} {step}: {worst:?}");
         }
     }
 }

@@ -22,7 +22,26 @@ use crate::number::scalar::Real;
 /// x = (strains, components of E, γ of scalar dashpots, components of Γ, θ),
 /// ```
 ///
-/// R algorithmic quantities, and room for A and B numbers of the old state in the two forms.
+/// R algorithmic quantities, and room for A and B numbers of the old state in the two forms. Units are those of the
+/// material, per volume.
+///
+/// ```
+/// use eem::{FreeEnergy, StrainEnergy};
+///
+/// #[derive(Clone, FreeEnergy)]
+/// #[free_energy(|e2: StrainSquare, m3: ViscousStrain, m2: ViscousSquare| 3.0 * (e2 - 2 * m3 + m2))]
+/// #[viscosity(m3 = 5.0)]
+/// struct Fluid;
+///
+/// // E:E, five components of E and five of Γ, for E = 0.1 b_0 and Γ = 0.04 b_0.
+/// let energy = Fluid.at_point::<f64>();
+/// let mut x = [0.0; 11];
+/// (x[0], x[1], x[6]) = (0.01, 0.1, 0.04);
+/// assert!((energy.free_energy(&x) - 3.0_f64 * 0.06 * 0.06).abs() < 1e-15);
+/// // ∂ψ/∂Γ = −6 (E − Γ)
+/// assert!((energy.gradient(&x)[6] + 6.0_f64 * 0.06).abs() < 1e-15);
+/// assert_eq!(energy.viscosity(300.0).0, [5.0; 5]);
+/// ```
 #[derive(Clone, Debug)]
 pub struct ComponentEnergy<
     M,

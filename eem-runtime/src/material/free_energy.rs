@@ -111,7 +111,7 @@ pub trait FreeEnergy<S: Scalar> {
     type Variables: Array<S>;
     /// `[[S; N]; N]`.
     type Hessian: Array<Self::Variables>;
-    /// `[S; K]`.
+    /// `[S; K]`; one or two more for the flows of a viscous strain, see [`JointEnergy`](crate::JointEnergy).
     type Viscosities: Array<S>;
     /// `[S; 1]` if a dashpot stands beside the spring (Kelvin–Voigt), else `[S; 0]`.
     type Drag: Array<S>;
@@ -287,6 +287,19 @@ pub trait FreeEnergy<S: Scalar> {
 }
 
 /// A free energy that elements can keep. Implemented for everything that qualifies.
+///
+/// ```
+/// use eem::{FreeEnergy, Material};
+///
+/// #[derive(FreeEnergy)]
+/// #[free_energy(|lambda: Stretch| 3.0 * lambda.powi(2))]
+/// struct Spring;
+///
+/// fn measures<M: Material<f64>>(_: &M) -> usize {
+///     M::MEASURES
+/// }
+/// assert_eq!(measures(&Spring), 1);
+/// ```
 pub trait Material<S: Scalar>: FreeEnergy<S> + Send + Sync + 'static {}
 
 impl<S: Scalar, M: FreeEnergy<S> + Send + Sync + 'static> Material<S> for M {}

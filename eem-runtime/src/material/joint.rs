@@ -35,6 +35,18 @@ pub enum Joint {
 /// the deviatoric flow and, where there is a trace, that of the volumetric one.
 ///
 /// `#[derive(FreeEnergy)]` implements it where an argument of the formula has the role `ViscousStrain`.
+///
+/// ```
+/// use eem::{FreeEnergy, Joint, JointEnergy};
+///
+/// #[derive(Clone, FreeEnergy)]
+/// #[free_energy(|e2: StrainSquare, m3: ViscousStrain, m2: ViscousSquare| 3.0 * (e2 - 2 * m3 + m2))]
+/// #[viscosity(m3 = 5.0)]
+/// struct Fluid;
+///
+/// assert_eq!(Fluid::JOINT, [Joint::Strain, Joint::Square]);
+/// assert_eq!(<Fluid as FreeEnergy<f64>>::MEASURES, 3);
+/// ```
 pub trait JointEnergy {
     /// The invariants, in the order of the arguments.
     const JOINT: &'static [Joint];

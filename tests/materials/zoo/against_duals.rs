@@ -32,9 +32,8 @@ fn expected(specimen: &dyn Specimen, function: &str, i: usize, x: &[f64]) -> Opt
         ("caloric", 1) => -x[last] * psi(last, last).eps1eps2,
         ("viscosity", i) => {
             let eta = specimen.viscosities_of_duals(&seeded(x, last, last));
-            let dashpots = specimen.dashpots();
-            let [value, slope] = [eta[i % dashpots].0.re, eta[i % dashpots].0.eps1];
-            if i < dashpots { value } else { slope }
+            let [value, slope] = [eta[i % eta.len()].0.re, eta[i % eta.len()].0.eps1];
+            if i < eta.len() { value } else { slope }
         }
         _ => return None,
     })

@@ -79,7 +79,7 @@ pub(crate) struct Written {
 fn bound(symbol: Symbol, role: &str) -> Option<LowerBound> {
     Some(match role {
         "StrainTrace" => LowerBound::above(symbol, Rational::new(-3, 2)?),
-        "StrainSquare" => LowerBound::from(symbol, Rational::ZERO),
+        "StrainSquare" | "ViscousSquare" => LowerBound::from(symbol, Rational::ZERO),
         "Dilatation" => LowerBound::above(symbol, Rational::MINUS_ONE),
         "FibreStrain" => LowerBound::above(symbol, Rational::new(-1, 2)?),
         _ => return None,
@@ -112,10 +112,10 @@ pub(crate) fn model(
     let pairs = x.iter().zip(roles);
     let strains = pairs.filter_map(|(&symbol, role)| bound(symbol, role));
     let strains: Vec<_> = strains.collect();
-    let mut measures = of_role("Stretch");
-    measures.extend(strains.iter().map(|strain| strain.symbol));
+    let pairs = x.iter().zip(roles);
+    let measures = pairs.filter(|(_, role)| !["Viscous", "Temperature"].contains(role));
     Model {
-        measures,
+        measures: measures.map(|(&symbol, _)| symbol).collect(),
         strains,
         dashpots: of_role("Viscous"),
         temperature: of_role("Temperature").pop(),

@@ -52,6 +52,15 @@ impl<M: JointEnergy, const N: usize, const K: usize, const R: usize, const A: us
         }
     }
 
+    /// The invariant at an index of the variables of the material.
+    fn joint<S: Real>(index: usize) -> Option<Joint>
+    where
+        M: FreeEnergy<S>,
+    {
+        let joint = index.checked_sub(Self::strains::<S>())?;
+        M::JOINT.get(joint).copied()
+    }
+
     /// The index of an invariant among the variables of the material.
     pub(super) fn invariants<S: Real>() -> impl Iterator<Item = (usize, Joint)>
     where
@@ -81,9 +90,9 @@ impl<M: JointEnergy, const N: usize, const K: usize, const R: usize, const A: us
         let tensors = Self::tensors(x);
         let mut variables = M::Variables::filled(S::zero());
         for (index, variable) in variables.as_mut().iter_mut().enumerate() {
-            *variable = match index.checked_sub(Self::strains::<S>()) {
-                Some(joint) if joint < M::JOINT.len() => tensors.value(M::JOINT[joint]),
-                _ => x[Self::place::<S>(index)],
+            *variable = match Self::joint::<S>(index) {
+                Some(joint) => tensors.value(joint),
+                None => x[Self::place::<S>(index)],
             };
         }
         variables
@@ -97,15 +106,14 @@ impl<M: JointEnergy, const N: usize, const K: usize, const R: usize, const A: us
         let [strain, viscous] = Self::places::<S>();
         let mut chained = [S::zero(); N];
         for (index, &by) in by.iter().enumerate() {
-            match index.checked_sub(Self::strains::<S>()) {
-                Some(joint) if joint < M::JOINT.len() => {
-                    let joint = M::JOINT[joint];
+            match Self::joint::<S>(index) {
+                Some(joint) => {
                     for k in 0..Self::components::<S>() {
                         chained[strain + k] += by * tensors.by_strain(joint, k);
                         chained[viscous + k] += by * tensors.by_viscous(joint, k);
                     }
                 }
-                _ => chained[Self::place::<S>(index)] = by,
+                None => chained[Self::place::<S>(index)] = by,
             }
         }
         chained
@@ -123,16 +131,14 @@ impl<M: JointEnergy, const N: usize, const K: usize, const R: usize, const A: us
     {
         let [strain, viscous] = Self::places::<S>();
         let mut conjugates = [S::zero(); W];
-        let invariants = Self::strains::<S>()..M::MEASURES;
         for (index, &value) in response.iter().enumerate() {
-            if !invariants.contains(&index) {
+            let Some(joint) = Self::joint::<S>(index) else {
                 conjugates[Self::place::<S>(index)] = value;
-            }
-        }
-        for (index, joint) in Self::invariants::<S>() {
+                continue;
+            };
             for k in 0..Self::components::<S>() {
-                conjugates[strain + k] += response[index] * along.by_strain(joint, k);
-                conjugates[viscous + k] += sign * (response[index] * along.by_viscous(joint, k));
+                conjugates[strain + k] += value * along.by_strain(joint, k);
+                conjugates[viscous + k] += sign * (value * along.by_viscous(joint, k));
             }
         }
         conjugates
@@ -150,11 +156,9 @@ impl<M: JointEnergy, const N: usize, const K: usize, const R: usize, const A: us
     {
         let [strain, viscous] = Self::places::<S>();
         let mut slopes = [[S::zero(); N]; W];
-        let strains = Self::strains::<S>();
         for (index, row) in tangent.iter().enumerate() {
             let row = Self::chained(new, row.as_ref());
-            let joint = index.checked_sub(strains);
-            let Some(&joint) = joint.and_then(|joint| M::JOINT.get(joint)) else {
+            let Some(joint) = Self::joint::<S>(index) else {
                 slopes[Self::place::<S>(index)] = row;
                 continue;
             };

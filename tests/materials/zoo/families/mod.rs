@@ -86,5 +86,6 @@ pub(crate) fn all() -> Vec<Box<dyn Specimen>> {
         solids::ThermoelasticSolid,
         solids::Coupled,
         solids::Viscoelastic,
+        solids::Flowing,
     ]
 }

@@ -113,3 +113,27 @@ specimen! {
             - b * (theta - tr) * (e1 + weft) + c * (theta - tr - theta * ln(theta / tr))
     }
 }
+
+specimen! {
+    /// Shape and volume flow by a tensor, beside a dashpot; the branch softens with the temperature.
+    Flowing {
+        la: 2000.0, mu: 1000.0, kv: 1500.0, ks: 800.0, ks1: 2.0, kf: 500.0, b: 3.0, c: 100.0, tr: 300.0,
+        eta: 300.0, activation: 50.0,
+    }
+    (
+        e1: StrainTrace = 0.12 in [-0.1, 0.4], e2: StrainSquare = 0.05 in [0.0, 0.3],
+        m3: ViscousStrain = 0.02 in [-0.1, 0.2], m2: ViscousSquare = 0.03 in [0.0, 0.2],
+        m1: ViscousTrace = 0.04 in [-0.1, 0.2], g: Viscous = 0.03 in [-0.1, 0.2],
+        theta: Temperature = 310.0 in [250.0, 350.0],
+    )
+    {
+        0.5 * la * e1.powi(2) + mu * e2 + 0.5 * kv * (e1 - m1).powi(2)
+            + (ks - ks1 * (theta - tr)) * (e2 - 2.0 * m3 + m2) * (1.0 + m2)
+            + 0.5 * kf * (e1 - g).powi(2)
+            - b * (theta - tr) * e1
+            + c * (theta - tr - theta * ln(theta / tr))
+    }
+    [g = 2.0 * eta]
+    [m3 = eta * exp(activation / theta - activation / tr)]
+    [m1 = 3.0 * eta * exp(activation / theta - activation / tr)]
+}
