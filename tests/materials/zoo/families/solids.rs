@@ -1,6 +1,6 @@
 //! Solids: free energies per volume of `e1 = tr E`, `e2 = E:E` and `j = J − 1`.
 
-use crate::zoo::number::{exp, ln, ln_1p};
+use crate::zoo::number::{exp, exp_m1, ln, ln_1p};
 use crate::zoo::specimen::specimen;
 
 specimen! {
