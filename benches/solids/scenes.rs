@@ -1,8 +1,8 @@
 //! Solids whose steps are timed.
 
+use eem::Body;
 use eem::kinematics::Hex8;
 use eem::prelude::*;
-use eem::Body;
 
 use crate::support::ThermoViscoElastic;
 use crate::support::solids::SaintVenant;

@@ -73,8 +73,8 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
             let mut direction = [S::zero(); D];
             direction[l] = S::one();
             let turned = stress.applied(&direction);
-            for b in 0..D {
-                let strain = H::Tensor::<S>::symmetrised(&new[b], &direction);
+            for (b, row) in new.iter().enumerate() {
+                let strain = H::Tensor::<S>::symmetrised(row, &direction);
                 let mut change = nothing;
                 for ((measure, slope), &force) in self.measures.iter().zip(slopes).zip(force) {
                     let own = between.change_of_slope(measure, slope, &strain);

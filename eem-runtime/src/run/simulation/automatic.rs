@@ -5,6 +5,7 @@ use super::control_memory::Control;
 use super::groups::Groups;
 use super::stepper::{Parts, Stepper};
 use super::{Simulation, Tried};
+use crate::algebra::memory::MemoryLimit;
 use crate::element::group::Placed;
 use crate::number::scalar::Real;
 use crate::run::checkpoint::{Checkpoint, RestoreError, SavedChoice};
@@ -12,6 +13,7 @@ use crate::step::automatic::{CANDIDATES, Verdict, implicit};
 use crate::step::error::{StepError, StepFailure};
 use crate::step::newton::StepReport;
 use crate::step::scheme::{Closing, Scheme};
+use crate::step::systems::Systems;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// An accurate step of a scheme that is likely to take least; the state is what it was if there is none.
@@ -206,6 +208,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let Some(automatic) = &mut self.automatic else {
             return;
         };
+        let elements = (&automatic.elements[..], &self.layout);
+        let systems = Systems::new(scheme, elements, &self.conduction, MemoryLimit::NONE);
+        // Without the memory for another scheme it stays with the present one.
+        let Ok(systems) = systems else {
+            return;
+        };
         automatic.evaluations += self.stepper.evaluations();
         let parts = Parts {
             scheme,
@@ -220,7 +228,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             layout: &self.layout,
         };
         let groups = Groups::new(self.stepper.take_elements(), scheme, placed);
-        self.stepper = Stepper::new(groups, parts, &self.state);
+        self.stepper = Stepper::new(groups, systems, parts, &self.state);
         self.stepper.set_motion_first(automatic.is_motion_first);
         // As after a restart: each scheme has its own way to them.
         let state = &mut self.state;
