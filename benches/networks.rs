@@ -2,13 +2,15 @@
 
 #![allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 
+#[path = "networks/scenes.rs"]
+mod scenes;
 #[path = "../tests/support/mod.rs"]
 mod support;
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use eem::prelude::*;
-use support::{Hencky, LogarithmicStiffness, ThermoViscoElastic};
+use scenes::{SOFTENING, lattice, node, number, wave};
 
 /// Springs of the chains.
 const CHAINS: [usize; 6] = [10, 100, 1_000, 10_000, 100_000, 1_000_000];
@@ -17,41 +19,11 @@ const LATTICES: [usize; 4] = [10, 32, 100, 316];
 
 /// A time in which neighbours move by a hundredth of their distance, s.
 const STEP: f64 = 0.01;
-/// Of a node, kg.
-const MASS: f64 = 1.0;
 /// Between springs that share a node, W/K.
 const CONDUCTANCE: f64 = 10.0;
 
-const SOFTENING: LogarithmicStiffness = LogarithmicStiffness {
-    natural_length: 1.0,
-    ..LogarithmicStiffness::FIRST
-};
-const ELASTIC: Hencky = Hencky {
-    stiffness: 5000.0,
-    natural_length: 1.0,
-};
-
 fn main() {
     divan::main();
-}
-
-/// A wave in which neighbours move differently, of the order of one.
-fn wave(index: usize, phase: f64) -> f64 {
-    let index = f64::from(u32::try_from(index).unwrap());
-    (0.7 * index + phase).sin()
-}
-
-/// Adds a node near a site of a unit lattice, in motion.
-fn node(scene: &mut Scene<2>, index: usize, site: [f64; 2]) -> Node {
-    let position = [
-        site[0] + 0.02 * wave(index, 0.0),
-        site[1] + 0.02 * wave(index, 1.0),
-    ];
-    scene.mass(MASS, position, [wave(index, 2.0), wave(index, 3.0)])
-}
-
-fn number(index: usize) -> f64 {
-    f64::from(u32::try_from(index).unwrap())
 }
 
 /// A thermoelastic chain that hangs on one end.
@@ -67,46 +39,6 @@ fn chain(springs: usize, conductance: Option<f64>) -> Scene<2> {
             scene.conduct(before, spring, conductance);
         }
         last = next;
-    }
-    scene
-}
-
-/// A square lattice of thermoelastic rows, elastic and thermo-visco-elastic columns.
-fn lattice(side: usize, conductance: Option<f64>) -> Scene<2> {
-    let mut scene = Scene::new();
-    let mut nodes = Vec::with_capacity(side * side);
-    for row in 0..side {
-        for column in 0..side {
-            let site = [number(column), number(row)];
-            nodes.push(node(&mut scene, row * side + column, site));
-        }
-    }
-    // The last thermal spring at each node, to which the next one conducts heat.
-    let mut warm: Vec<Option<Element>> = vec![None; nodes.len()];
-    let mut heat = |scene: &mut Scene<2>, spring: Element, ends: [usize; 2]| {
-        scene.set_temperature(spring, 300.0 + 10.0 * wave(ends[0] + ends[1], 4.0));
-        for end in ends {
-            if let Some((before, conductance)) = warm[end].replace(spring).zip(conductance) {
-                scene.conduct(before, spring, conductance);
-            }
-        }
-    };
-    for at in 0..nodes.len() {
-        let (right, below) = (at + 1, at + side);
-        if right % side != 0 {
-            let spring = scene.spring(SOFTENING, [nodes[at], nodes[right]]);
-            heat(&mut scene, spring, [at, right]);
-        }
-        if below >= nodes.len() {
-            continue;
-        }
-        let ends = [nodes[at], nodes[below]];
-        if at % 2 == 0 {
-            scene.spring(ELASTIC, ends);
-        } else {
-            let spring = scene.spring(ThermoViscoElastic::PENDULUM, ends);
-            heat(&mut scene, spring, [at, below]);
-        }
     }
     scene
 }

@@ -1,5 +1,8 @@
 //! Linear systems: small ones by dense elimination, large ones by `eem-sparse`.
 
 pub(crate) mod lu;
+pub(crate) mod memory;
 pub(crate) mod pattern;
+#[cfg(feature = "sparse")]
+mod stored;
 pub(crate) mod system;

@@ -27,6 +27,7 @@ mod run;
 mod scene;
 mod step;
 
+pub use algebra::memory::TooLarge;
 pub use element::error::StateError;
 pub use element::handle::{Element, HeatPartner, Node, Reservoir};
 pub use element::kinematics;

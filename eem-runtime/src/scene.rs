@@ -14,6 +14,7 @@ pub(crate) mod error;
 #[cfg(feature = "gmsh")]
 pub(crate) mod gmsh;
 pub(crate) mod loads;
+mod memory;
 pub(crate) mod mesh;
 mod meshed_solid;
 pub(crate) mod refused;
@@ -23,6 +24,7 @@ pub(crate) mod solid_error;
 mod start;
 mod viscous_strain;
 
+use crate::algebra::memory::MemoryLimit;
 use crate::element::conduction::Conductor;
 use crate::element::group::{Loose, LooseElements};
 use crate::element::handle::{Element, Handle, HeatPartner, Kind, Node, Reservoir};
@@ -59,6 +61,7 @@ pub struct Scene<const D: usize, S: Real = f64> {
     pub(crate) conductors: Vec<Conductor<S>>,
     pub(crate) groups: Vec<Box<dyn Loose<S, D>>>,
     pub(crate) loads: Loads<S, D>,
+    pub(crate) memory_limit: MemoryLimit,
     /// What was asked for in vain, reported with everything else.
     pub(crate) misuse: Vec<SceneError>,
 }
@@ -85,6 +88,7 @@ impl<const D: usize, S: Real> Default for Scene<D, S> {
             conductors: Vec::new(),
             groups: Vec::new(),
             loads: Loads::none(),
+            memory_limit: MemoryLimit::NONE,
             misuse: Vec::new(),
         }
     }
@@ -319,6 +323,7 @@ impl<const D: usize, S: Real> Clone for Scene<D, S> {
             conductors: self.conductors.clone(),
             groups: self.groups.iter().map(|group| group.duplicate()).collect(),
             loads: self.loads.clone(),
+            memory_limit: self.memory_limit,
             misuse: self.misuse.clone(),
         }
     }

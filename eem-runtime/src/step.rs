@@ -15,3 +15,4 @@ pub(crate) mod scheme;
 pub(crate) mod scheme_name;
 mod scheme_needs;
 pub(crate) mod solver;
+pub(crate) mod systems;

@@ -133,6 +133,13 @@ impl Branch {
         })
     }
 
+    /// The most numbers on all stacks of a division, with blocks of this many rows.
+    pub(crate) fn stacks(fronts: &Fronts, division: &Division, length: usize) -> usize {
+        let own = fronts.extent(division.own.clone(), length).left;
+        let parts = division.parts.iter();
+        parts.fold(own, |sum, part| sum + Self::stacks(fronts, part, length))
+    }
+
     /// Factors its parts, then its own fronts.
     pub(crate) fn factor<P: Precision, const L: usize>(
         &mut self,

@@ -62,12 +62,15 @@ mod gathering;
 mod branch;
 mod factors;
 
+mod analysis;
+
 mod pivoting;
 mod refinement;
 
 mod fallback;
 mod solver;
 
+pub use analysis::Analysis;
 pub use error::{Error, Operand};
 pub use pattern::{LARGEST_BLOCK, Pattern};
 pub use precision::Precision;

@@ -2,6 +2,7 @@
 
 use core::array;
 
+use crate::analysis::Analysis;
 use crate::columns::store;
 use crate::error::Error;
 use crate::factors::Factors;
@@ -66,14 +67,24 @@ impl Solver {
     ///
     /// [`Error::OutOfMemory`].
     pub fn new(pattern: &Pattern) -> Result<Self, Error> {
-        let fronts = Fronts::new(pattern).ok_or(Error::OutOfMemory)?;
+        Self::reserve(Analysis::new(pattern)?)
+    }
+
+    /// Reserves the memory for the factors of a pattern that has been analysed.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::OutOfMemory`]. A system that promises more memory than it has, as Linux does, may end the program
+    /// later instead: compare [`Analysis::bytes`] with what it has before.
+    pub fn reserve(analysis: Analysis) -> Result<Self, Error> {
+        let Analysis { pattern, fronts } = analysis;
         let factors = Factors::new(&fronts, pattern.block_length());
         Ok(Self {
-            pattern: pattern.clone(),
             factors: factors.ok_or(Error::OutOfMemory)?,
+            solution: vec![0.0; pattern.unknowns()],
+            pattern,
             fronts,
             pivoting: None,
-            solution: vec![0.0; pattern.unknowns()],
             residual: Vec::new(),
         })
     }

@@ -14,15 +14,16 @@
 //! one is another variant there, with its answers to `new` (from the pattern), `entries`, `position`
 //! and `solve`. One and two unknowns do not ask it.
 
-#[cfg(feature = "sparse")]
-use core::marker::PhantomData;
 use core::mem;
 
 #[cfg(feature = "sparse")]
-use eem_sparse::{Precision, Solver};
+use eem_sparse::{Analysis, Solver};
 
 use crate::algebra::lu::{self, Singular};
+use crate::algebra::memory::{MemoryLimit, TooLarge, bytes};
 use crate::algebra::pattern::Pattern;
+#[cfg(feature = "sparse")]
+use crate::algebra::stored::Stored;
 use crate::number::scalar::Real;
 
 /// The most unknowns for which the elimination is compiled with their number.
@@ -72,21 +73,33 @@ enum Storage {
 }
 
 impl Storage {
-    /// What suits the pattern.
-    fn new(pattern: &Pattern) -> Self {
+    /// What suits the pattern, unless it is too large.
+    fn new<S>(pattern: &Pattern, limit: MemoryLimit) -> Result<Self, TooLarge> {
         let unknowns = pattern.unknowns();
         if unknowns <= MOST_FIXED {
-            return Self::Fixed { unknowns };
+            return Ok(Self::Fixed { unknowns });
         }
         #[cfg(feature = "sparse")]
         if unknowns > MOST_DENSE
             && pattern.entries() < unknowns * unknowns / SPARSITY
-            && let Ok(sparse) = Solver::new(pattern)
+            && let Ok(analysis) = Analysis::new(pattern)
         {
-            return Self::Sparse(Box::new(sparse));
+            let entries = bytes::<S>([pattern.entries(), 1]);
+            let needed = analysis.bytes().saturating_add(entries);
+            limit.check(unknowns, needed)?;
+            let sparse = Solver::reserve(analysis);
+            return match sparse {
+                Ok(sparse) => Ok(Self::Sparse(Box::new(sparse))),
+                Err(_) => Err(TooLarge {
+                    unknowns,
+                    needed,
+                    available: None,
+                }),
+            };
         }
+        limit.check(unknowns, bytes::<S>([unknowns, unknowns]))?;
         let pivots = vec![0; unknowns];
-        Self::Dense { pivots }
+        Ok(Self::Dense { pivots })
     }
 
     /// How many values are stored.
@@ -147,26 +160,6 @@ fn solve_dense<S: Real, const W: usize>(
     Ok(())
 }
 
-/// The numbers of a scene, as the sparse elimination reads and writes them.
-#[cfg(feature = "sparse")]
-#[derive(Clone, Copy)]
-struct Stored<S>(PhantomData<S>);
-
-#[cfg(feature = "sparse")]
-impl<S: Real> Precision for Stored<S> {
-    type Number = S;
-
-    #[inline]
-    fn widen(number: S) -> f64 {
-        number.to_f64()
-    }
-
-    #[inline]
-    fn narrow(value: f64) -> S {
-        S::from_f64(value)
-    }
-}
-
 /// The elimination by the pattern, apart for the same reason.
 #[cfg(feature = "sparse")]
 #[inline(never)]
@@ -209,17 +202,17 @@ fn solve_fixed<S: Real, const W: usize>(
 }
 
 impl<S: Real, const W: usize> LinearSystem<S, W> {
-    /// A system in which what belongs to an anchor has so many rows.
-    pub(crate) fn new(pattern: &Pattern, run: usize) -> Self {
-        let storage = Storage::new(pattern);
-        Self {
+    /// A system in which what belongs to an anchor has so many rows, unless it takes more memory than it may.
+    pub(crate) fn new(pattern: &Pattern, run: usize, limit: MemoryLimit) -> Result<Self, TooLarge> {
+        let storage = Storage::new::<S>(pattern, limit)?;
+        Ok(Self {
             unknowns: pattern.unknowns(),
             is_clear: true,
             values: vec![S::zero(); storage.entries() + run],
             right: vec![[S::zero(); W]; pattern.unknowns() + run],
             solution: vec![[S::zero(); W]; pattern.unknowns() + run],
             storage,
-        }
+        })
     }
 
     /// Number of unknowns.
@@ -360,7 +353,7 @@ mod tests {
                     .for_each(|column| pair(row, column));
             }
         });
-        let mut system = LinearSystem::<f64, 2>::new(&pattern, 1);
+        let mut system = LinearSystem::<f64, 2>::new(&pattern, 1, MemoryLimit::NONE).unwrap();
         let entry = |row: usize, column: usize| {
             let off = f64::from(u8::try_from((3 * row + 5 * column) % 7).unwrap()) - 3.0;
             if row == column { 50.0 } else { off }
@@ -400,7 +393,8 @@ mod tests {
 
     #[test]
     fn what_belongs_to_an_anchor_is_read_by_nobody() {
-        let mut system = LinearSystem::<f64, 1>::new(&Pattern::new(1, |_| {}), 1);
+        let mut system =
+            LinearSystem::<f64, 1>::new(&Pattern::new(1, |_| {}), 1, MemoryLimit::NONE).unwrap();
         let (own, nobody) = (system.place(Some(0), Some(0)), system.place(Some(0), None));
         let (values, right) = system.parts();
         (values[own], values[nobody]) = (2.0, 9.0);

@@ -32,11 +32,13 @@ mod solid;
 mod solid_measures;
 mod solid_state;
 mod space;
+mod stiffness;
 mod strain;
 mod stress;
 mod stretch;
 mod tensor;
 
+pub(crate) use measures::add_blocks;
 pub use measures::{Arms, Blocks, Ends, Gradient, Kinematics, Measures, Points, Weights};
 pub use shape::{Hex8, Hex20, Quad4, Quad8, Shape};
 pub use solid::SolidPoint;

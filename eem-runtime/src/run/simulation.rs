@@ -47,6 +47,7 @@ use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
+use crate::step::systems::Systems;
 use automatic_memory::Automatic;
 use check::{check_all, needs_second_order};
 use control_memory::Control;
@@ -141,6 +142,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let masses = scene.nodes.iter().map(|node| node.mass);
         let masses = Masses::new(masses, scene.pairs.clone());
         state.follow_velocities(D, &masses);
+        let parts = (&scene.elements[..], &layout);
+        let rockets = scene.loads.rocket_lines();
+        let limit = scene.memory_limit;
+        let systems = Systems::new(in_use, parts, &conduction, &rockets, limit);
+        let systems = systems.map_err(|error| vec![error.into()])?;
         let groups = begin_groups(scene, in_use, (&layout, &masses), &mut state)?;
         // Large, and all that they said is in the masses and in the state.
         drop((mem::take(&mut scene.nodes), mem::take(&mut scene.pairs)));
@@ -154,9 +160,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             conduction: &conduction,
             loads: &loads,
         };
-        let stepper = Stepper::new(groups, parts, &state);
+        let stepper = Stepper::new(groups, systems, parts, &state);
         let automatic =
-            (scheme == Scheme::Auto).then(|| Box::new(Automatic::new(elements, is_second)));
+            (scheme == Scheme::Auto).then(|| Box::new(Automatic::new(elements, is_second, limit)));
         if automatic.is_none() {
             layout.forget_places();
         }

@@ -1,12 +1,11 @@
 //! What can be wrong with a scene.
 
-use thiserror::Error;
-
 use crate::element::error::StateError;
 use crate::element::handle::{Element, HeatPartner, Node, Reservoir};
 use crate::number::readable::Readable;
 use crate::scene::rocket_error::RocketError;
 use crate::scene::solid_error::SolidError;
+use thiserror::Error;
 
 /// Why a scene cannot be simulated.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -41,6 +40,9 @@ pub enum SceneError {
         /// The first such element.
         element: Element,
     },
+    /// The matrix of Newton's method and its factors do not fit in memory.
+    #[error(transparent)]
+    TooLarge(#[from] crate::algebra::memory::TooLarge),
     /// A solid cannot be as it is described.
     #[error(transparent)]
     Solid(#[from] SolidError),
@@ -274,8 +276,7 @@ pub enum SceneError {
         /// The component, N.
         value: f64,
     },
-    /// An initial flow of heat or of its entropy is not finite, or that of all paths to an element
-    /// together.
+    /// An initial flow of heat or of its entropy, or that of all paths to an element together, is not finite.
     #[error(
         "the {quantity} from {partner} to {element} at t = 0 s is {value} {unit}, it must be finite, and so must the sum of all flows to an element",
         value = Readable(*value)

@@ -65,6 +65,11 @@ impl<S: Real, const D: usize> Loads<S, D> {
         !has_force && self.motions.is_empty() && self.temperatures.is_empty()
     }
 
+    /// Where rockets push.
+    pub(crate) fn rocket_lines(&self) -> Vec<PushLine> {
+        self.rockets.iter().map(|rocket| rocket.line).collect()
+    }
+
     pub(crate) fn have_weight(&self) -> bool {
         self.has_weight().any()
     }

@@ -11,7 +11,7 @@
 use crate::algebra::pattern::Pattern;
 use crate::element::conduction::{Conduction, Partner};
 use crate::element::layout::Layout;
-use crate::element::loads::{Push, PushLine};
+use crate::element::loads::PushLine;
 use crate::number::scalar::Real;
 use crate::scene::entry::ElementEntry;
 
@@ -23,17 +23,17 @@ pub(crate) fn of_tangent<S: Real>(
     elements: &[ElementEntry<S>],
     layout: &Layout,
     conduction: &Conduction<S>,
-    pushes: &[Push<S>],
+    rockets: &[PushLine],
     dimension: usize,
 ) -> Pattern {
     if layout.coupled.iter().all(Option::is_none)
-        && let Ok(blocks) = of_masses(elements, layout, pushes, dimension).in_blocks(dimension)
+        && let Ok(blocks) = of_masses(elements, layout, rockets, dimension).in_blocks(dimension)
     {
         return blocks;
     }
     Pattern::new(layout.unknowns, |pair| {
-        for push in pushes {
-            let positions = || nodes_of(push, layout).flat_map(|first| first..first + dimension);
+        for rocket in rockets {
+            let positions = || nodes_of(rocket, layout).flat_map(|first| first..first + dimension);
             pair_all(positions, pair);
         }
         for (entry, slots) in elements.iter().zip(&layout.elements) {
@@ -71,7 +71,7 @@ pub(crate) fn of_secant<S>(
 fn of_masses<S>(
     elements: &[ElementEntry<S>],
     layout: &Layout,
-    pushes: &[Push<S>],
+    rockets: &[PushLine],
     dimension: usize,
 ) -> Pattern {
     let masses = layout.nodes.iter().flatten().count();
@@ -83,9 +83,9 @@ fn of_masses<S>(
             };
             pair_all(masses, pair);
         }
-        for push in pushes {
+        for rocket in rockets {
             pair_all(
-                || nodes_of(push, layout).map(|first| first / dimension),
+                || nodes_of(rocket, layout).map(|first| first / dimension),
                 pair,
             );
         }
@@ -93,8 +93,8 @@ fn of_masses<S>(
 }
 
 /// The first unknowns of the nodes that a rocket sees.
-fn nodes_of<'a, S>(push: &Push<S>, layout: &'a Layout) -> impl Iterator<Item = usize> + 'a {
-    let PushLine { node, tail, head } = push.line;
+fn nodes_of<'a>(rocket: &PushLine, layout: &'a Layout) -> impl Iterator<Item = usize> + 'a {
+    let &PushLine { node, tail, head } = rocket;
     let nodes = [node, tail, head].into_iter();
     nodes.filter_map(|node| layout.nodes[node.index])
 }

@@ -25,11 +25,10 @@ use crate::element::handle::Element;
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
-use crate::element::tableau::{Ending, UnknownSet};
+use crate::element::tableau::UnknownSet;
 use crate::number::scalar::Real;
-use crate::scene::entry::ElementEntry;
-use crate::step::pattern;
 use crate::step::scheme::Scheme;
+use crate::step::systems::Systems;
 use balance::Balance;
 use coupling::Coupling;
 
@@ -92,23 +91,17 @@ fn has_old_forces<S: Real>(scheme: Scheme, loads: &StepLoads<S>) -> bool {
 impl<S: Real, const D: usize> Solver<S, D> {
     pub(crate) fn new(
         scheme: Scheme,
+        systems: Systems<S, D>,
         masses: &Masses<S>,
-        elements: &[ElementEntry<S>],
         layout: &Layout,
         conduction: &Conduction<S>,
         loads: &StepLoads<S>,
     ) -> Self {
         let sets = scheme.sets();
-        let mut pattern = pattern::of_tangent(elements, layout, conduction, &loads.pushes, D);
-        if sets.len() > 1 {
-            pattern = pattern.repeated(sets.len());
-        }
-        let tangent = LinearSystem::new(&pattern, D);
-        let stages = scheme.tableau().map(|rule| {
-            let secant = matches!(rule.ending, Ending::StageByStage)
-                .then(|| LinearSystem::new(&pattern::of_secant(elements, layout, D), 1));
-            Stages::new(rule, secant, masses.len())
-        });
+        let Systems { tangent, secant } = systems;
+        let stages = scheme
+            .tableau()
+            .map(|rule| Stages::new(rule, secant, masses.len()));
         let sites = Sites {
             layout,
             conduction,

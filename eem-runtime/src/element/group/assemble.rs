@@ -26,26 +26,6 @@ pub(super) struct Momentum<K: Kinematics<S, D>, S: Real, const D: usize> {
     pub(super) blocks: Blocks<K, S, D>,
 }
 
-/// Adds the share of a point to that of the points before it.
-#[inline]
-pub(super) fn gather<K: Kinematics<S, D>, S: Real, const D: usize>(
-    sum: &mut Option<Momentum<K, S, D>>,
-    own: Momentum<K, S, D>,
-) {
-    let Some(sum) = sum else {
-        *sum = Some(own);
-        return;
-    };
-    add_scaled::<K, S, D>(&mut sum.pull, S::one(), &own.pull);
-    for (sum, own) in sum.blocks.as_mut().iter_mut().zip(own.blocks.as_ref()) {
-        for (sum, own) in sum.as_mut().iter_mut().zip(own.as_ref()) {
-            for (sum, own) in sum.as_flattened_mut().iter_mut().zip(own.as_flattened()) {
-                *sum += *own;
-            }
-        }
-    }
-}
-
 /// A response with the internal variables eliminated: `value + Σ_a by_measure_a δπ_a − by_heat δr_s`.
 struct CondensedRow<K: Kinematics<S, D>, S: Real, const D: usize> {
     value: S,
@@ -106,16 +86,17 @@ where
         sum
     }
 
-    /// The impulse `h w Gᵀ f*` on the nodes and its derivatives by them; those by seen temperatures go to
-    /// their places.
+    /// Adds the impulse `h w Gᵀ f*` on the nodes and its derivatives by them to those of the points before;
+    /// the derivatives by seen temperatures go to their places.
     #[inline]
-    pub(super) fn momentum(
+    pub(super) fn add_momentum(
         &self,
         step: S,
         pose: &Pose<K, S, D>,
         (form, by_rate): (&Form<S, M>, Option<&Gradient<K, S, D>>),
         target: &mut Target<'_, K, S, D>,
-    ) -> Momentum<K, S, D> {
+        sum: &mut Option<Momentum<K, S, D>>,
+    ) {
         let impulse = step * S::from_f64(C::IMPLICIT);
         let mut forces = Measures::<K, S, D>::filled(S::zero());
         let mut forces_by_arm = pose.direction;
@@ -140,9 +121,21 @@ where
                 contact.add_partners(target.site, &heat, target.values);
             }
         }
-        Momentum {
-            pull: pose.pull(self.kinematics, C::PLACEMENT, &values),
-            blocks: pose.tangent(self.kinematics, C::PLACEMENT, &forces, &forces_by_arm),
+        let (kinematics, at) = (&self.kinematics, C::PLACEMENT);
+        let pull = pose.pull(kinematics, at, &values);
+        match sum {
+            // Springs have one point, and no sum.
+            None => {
+                *sum = Some(Momentum {
+                    pull,
+                    blocks: pose.tangent(kinematics, at, &forces, &forces_by_arm),
+                });
+            }
+            Some(sum) => {
+                add_scaled::<K, S, D>(&mut sum.pull, S::one(), &pull);
+                let blocks = &mut sum.blocks;
+                pose.add_tangent(kinematics, at, (&forces, &forces_by_arm), blocks);
+            }
         }
     }
 

@@ -75,7 +75,7 @@ where
             let gradient = point.take_old_share(view, &self.r0, &velocities)?;
             let measures0 = measures_in::<K, S, D>(&point.start.x0);
             let ends = [&self.r0, &self.r0];
-            let pose = Pose::between(point.kinematics, C::PLACEMENT, ends, measures0);
+            let pose = Pose::between(&point.kinematics, C::PLACEMENT, ends, measures0);
             for (a, row) in pose.direction.as_ref().iter().enumerate() {
                 let by_node = spread::<K, S, D>(row);
                 for (entry, &node) in by_node.as_ref().iter().zip(self.site.nodes.as_ref()) {
@@ -152,7 +152,7 @@ where
         }
         if M::THERMAL && C::IN_TEMPERATURE {
             let measures0 = measures_in::<K, S, D>(&x0);
-            let at_rest = Pose::between(self.kinematics, Placement::End, [r0, r0], measures0);
+            let at_rest = Pose::between(&self.kinematics, Placement::End, [r0, r0], measures0);
             self.find_old_heating(&at_rest, heat / theta, velocities);
         }
         Ok(gradient)

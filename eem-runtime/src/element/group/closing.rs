@@ -188,8 +188,8 @@ where
     /// The nodal forces of the found response along the gradient between two configurations, N.
     pub(super) fn force(&self, at: Placement, ends: [&Arms<K, S, D>; 2]) -> K::PerNode<[S; D]> {
         let measures0 = measures_in::<K, S, D>(&self.start.x0);
-        let pose = Pose::between(self.kinematics, at, ends, measures0);
-        spread::<K, S, D>(&pose.pull(self.kinematics, at, &self.pulls()))
+        let pose = Pose::between(&self.kinematics, at, ends, measures0);
+        spread::<K, S, D>(&pose.pull(&self.kinematics, at, &self.pulls()))
     }
 
     /// Books the increments of the internal variables and of the reservoirs' entropies; returns the

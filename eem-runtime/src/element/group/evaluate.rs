@@ -1,6 +1,6 @@
 //! Evaluation of a trial state: responses, condensed local systems, contributions.
 
-use super::assemble::{Target, gather};
+use super::assemble::Target;
 use crate::algebra::system::LinearSystem;
 use crate::element::conjugates::ElementScheme;
 use crate::element::error::StateError;
@@ -75,8 +75,7 @@ where
                 };
                 if view.phase.moves() {
                     let form = (&form, by_rate.as_ref());
-                    let own = point.momentum(view.step, &pose, form, &mut target);
-                    gather(&mut share, own);
+                    point.add_momentum(view.step, &pose, form, &mut target, &mut share);
                 }
                 point.assemble_temperature(trial, &form, &mut target);
                 point.keep(&form);

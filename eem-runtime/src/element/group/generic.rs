@@ -79,9 +79,9 @@ where
         (at, ends): (Placement, [&Arms<K, S, D>; 2]),
     ) -> ElementGeneric<S> {
         let measures0 = measures_in::<K, S, D>(&self.start.x0);
-        let pose = Pose::between(self.kinematics, at, ends, measures0);
+        let pose = Pose::between(&self.kinematics, at, ends, measures0);
         let on_nodes = |forces: &Measures<K, S, D>| {
-            let pulled = pose.pull(self.kinematics, at, forces);
+            let pulled = pose.pull(&self.kinematics, at, forces);
             by_coordinate::<K, S, D>(nodes, &spread::<K, S, D>(&pulled))
         };
         let drags = (0..Self::DRAGS).map(|a| {
@@ -112,12 +112,12 @@ where
         let x = self.start.x0;
         let (_, hessian) = self.model.hessian(&x);
         let theta = M::Variables::LEN - 1;
-        let pose = Pose::between(self.kinematics, at, ends, measures_in::<K, S, D>(&x));
+        let pose = Pose::between(&self.kinematics, at, ends, measures_in::<K, S, D>(&x));
         let mut by_measure = Measures::<K, S, D>::filled(S::zero());
         for a in 0..M::MEASURES {
             by_measure[a] = -hessian[theta][a];
         }
-        let pulled = pose.pull(self.kinematics, at, &by_measure);
+        let pulled = pose.pull(&self.kinematics, at, &by_measure);
         let dashpots = (0..M::DASHPOTS).map(|k| (viscous + k, -hessian[theta][M::MEASURES + k]));
         thermal.map(|slot| EntropySlopes {
             slot,

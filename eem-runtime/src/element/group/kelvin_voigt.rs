@@ -44,7 +44,7 @@ where
         motion: &Arms<K, S, D>,
     ) -> Option<Gradient<K, S, D>> {
         if Self::HAS_RATES {
-            let (own, by_arm) = pose.increase(self.kinematics, C::PLACEMENT, motion);
+            let (own, by_arm) = pose.increase(&self.kinematics, C::PLACEMENT, motion);
             for a in 0..Self::DRAGS {
                 self.drag.extension[a] = own[a];
             }

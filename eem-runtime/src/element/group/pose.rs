@@ -2,7 +2,7 @@
 
 use super::arms::{along, dot, mean};
 use crate::element::conjugates::Placement;
-use crate::element::kinematics::{Arms, Blocks, Ends, Gradient, Kinematics, Measures};
+use crate::element::kinematics::{Arms, Blocks, Ends, Gradient, Kinematics, Measures, add_blocks};
 use crate::material::free_energy::Array;
 use crate::number::scalar::Real;
 
@@ -50,7 +50,7 @@ pub(super) fn seen_measures<K: Kinematics<S, D>, S: Real, const D: usize>(
 impl<K: Kinematics<S, D>, S: Real, const D: usize> Pose<K, S, D> {
     /// Between the old arms and those of the configuration that the scheme looks at.
     #[inline]
-    pub(super) fn new(kinematics: K, at: Placement, ends: Ends<K, S, D>) -> Self {
+    pub(super) fn new(kinematics: &K, at: Placement, ends: Ends<K, S, D>) -> Self {
         let gradient = kinematics.gradient(&ends.r1, &ends.measures1);
         let (direction, sensitivity) = match at {
             Placement::Ends => (kinematics.discrete_gradient(&ends), gradient),
@@ -70,7 +70,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Pose<K, S, D> {
 
     /// The same of arms alone.
     pub(super) fn between(
-        kinematics: K,
+        kinematics: &K,
         at: Placement,
         [r0, r1]: [&Arms<K, S, D>; 2],
         measures0: Measures<K, S, D>,
@@ -89,10 +89,13 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Pose<K, S, D> {
     #[inline]
     pub(super) fn pull(
         &self,
-        kinematics: K,
+        kinematics: &K,
         at: Placement,
         force: &Measures<K, S, D>,
     ) -> Arms<K, S, D> {
+        if at == Placement::Ends {
+            return kinematics.pull(&self.ends, &self.direction, force);
+        }
         let mut ends = self.ends;
         match at {
             Placement::Ends => {}
@@ -108,7 +111,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Pose<K, S, D> {
     #[inline]
     pub(super) fn tangent(
         &self,
-        kinematics: K,
+        kinematics: &K,
         at: Placement,
         force: &Measures<K, S, D>,
         force_by_arm: &Gradient<K, S, D>,
@@ -132,11 +135,27 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Pose<K, S, D> {
         blocks
     }
 
+    /// Adds [`tangent`](Self::tangent) to a sum.
+    #[inline]
+    pub(super) fn add_tangent(
+        &self,
+        kinematics: &K,
+        at: Placement,
+        (force, force_by_arm): (&Measures<K, S, D>, &Gradient<K, S, D>),
+        sum: &mut Blocks<K, S, D>,
+    ) {
+        if at == Placement::Ends {
+            return kinematics.add_discrete_tangent(&self.ends, force, force_by_arm, sum);
+        }
+        let own = self.tangent(kinematics, at, force, force_by_arm);
+        add_blocks::<K, S, D>(sum, &own);
+    }
+
     /// `Σ_a f_a ∂(direction_a)/∂r¹`.
     #[inline]
     fn curvature(
         &self,
-        kinematics: K,
+        kinematics: &K,
         at: Placement,
         force: &Measures<K, S, D>,
     ) -> Blocks<K, S, D> {
@@ -164,7 +183,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Pose<K, S, D> {
     #[inline]
     pub(super) fn increase(
         &self,
-        kinematics: K,
+        kinematics: &K,
         at: Placement,
         motion: &Arms<K, S, D>,
     ) -> (Measures<K, S, D>, Gradient<K, S, D>) {

@@ -45,7 +45,7 @@ where
         [r0, r1]: [&Arms<K, S, D>; 2],
         trial: &Trial<S, D>,
     ) -> Result<Seen<K, S, D>, StateError> {
-        let kinematics = self.kinematics;
+        let kinematics = &self.kinematics;
         let r1 = seen_arms::<K, S, D>(C::PLACEMENT, r0, *r1);
         let measures1 = kinematics.measure(&r1);
         let measures0 = measures_in::<K, S, D>(&self.start.x0);
@@ -78,7 +78,7 @@ where
             measures0: measures_in::<K, S, D>(&self.start.x0),
             measures1: seen.1,
         };
-        Pose::new(self.kinematics, C::PLACEMENT, ends)
+        Pose::new(&self.kinematics, C::PLACEMENT, ends)
     }
 
     /// The response and its tangent at the trial that has been located.
@@ -148,7 +148,7 @@ where
         motion: &Arms<K, S, D>,
         form: &mut Form<S, M>,
     ) {
-        let (own, by_arm) = pose.increase(self.kinematics, C::PLACEMENT, motion);
+        let (own, by_arm) = pose.increase(&self.kinematics, C::PLACEMENT, motion);
         let increments = self.increments(&own, step);
         let (model, start) = (&self.model, &self.start);
         let slopes = C::change_entropy_at_rates(model, start, &self.x, &increments, form);
@@ -198,7 +198,7 @@ fn combined<K: Kinematics<S, D>, S: Real, M: FreeEnergy<S>, const D: usize>(
 /// The deformation of an element with these arms is one that it can have.
 #[inline]
 pub(super) fn check_measures<K: Kinematics<S, D>, S: Real, const D: usize>(
-    kinematics: K,
+    kinematics: &K,
     element: Element,
     measures: &Measures<K, S, D>,
     r: &Arms<K, S, D>,

@@ -64,7 +64,7 @@ where
         state: &State<S>,
     ) -> Result<M::Variables, StateError> {
         let measures = self.kinematics.measure(r);
-        check_measures::<K, S, D>(self.kinematics, self.element, &measures, r)?;
+        check_measures::<K, S, D>(&self.kinematics, self.element, &measures, r)?;
         Ok(variables::<S, M>(measures.as_ref(), self.slots(), state))
     }
 

@@ -140,8 +140,36 @@ pub trait Kinematics<S: Real, const D: usize>:
         force_by_arm: &Gradient<Self, S, D>,
     ) -> Blocks<Self, S, D>;
 
+    /// Adds [`discrete_tangent`](Self::discrete_tangent) to a sum.
+    #[inline]
+    fn add_discrete_tangent(
+        &self,
+        ends: &Ends<Self, S, D>,
+        force: &Measures<Self, S, D>,
+        force_by_arm: &Gradient<Self, S, D>,
+        sum: &mut Blocks<Self, S, D>,
+    ) {
+        let own = self.discrete_tangent(ends, force, force_by_arm);
+        add_blocks::<Self, S, D>(sum, &own);
+    }
+
     /// A of `Σ_a f_a D*π_a = A r_m`, with the measures held.
     fn secant(&self, ends: &Ends<Self, S, D>, force: &Measures<Self, S, D>) -> Weights<Self, S, D>;
+}
+
+/// Adds blocks to a sum.
+#[inline]
+pub(crate) fn add_blocks<K: Kinematics<S, D>, S: Real, const D: usize>(
+    sum: &mut Blocks<K, S, D>,
+    own: &Blocks<K, S, D>,
+) {
+    for (sum, own) in sum.as_mut().iter_mut().zip(own.as_ref()) {
+        for (sum, own) in sum.as_mut().iter_mut().zip(own.as_ref()) {
+            for (sum, own) in sum.as_flattened_mut().iter_mut().zip(own.as_flattened()) {
+                *sum += *own;
+            }
+        }
+    }
 }
 
 /// What an element has at each of its points. Implemented for arrays.

@@ -161,47 +161,6 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
         stress
     }
 
-    /// `Σ_a f_a (share (B_i·P_a B_j) 1 + F ∂P_a B_i)` with the change ∂P by a new deformation.
-    #[inline]
-    pub(super) fn turned(
-        &self,
-        [tensor, new]: [&Tensor<S, D>; 2],
-        between: &Strains<H, S, D>,
-        force: &[S; N],
-        share: S,
-    ) -> PerPair<H, S, D> {
-        let slopes = self
-            .measures
-            .each_ref()
-            .map(|measure| between.slope(measure));
-        let stress = self.stress(between, force);
-        let mut blocks = no_blocks::<H, S, D>();
-        for (j, by) in self.gradients.as_ref().iter().enumerate() {
-            for axis in 0..D {
-                let change = H::Tensor::<S>::symmetrised(&new[axis], by);
-                let mut turn = H::Tensor::<S>::filled(S::zero());
-                for ((measure, slope), &force) in self.measures.iter().zip(&slopes).zip(force) {
-                    let own = between.change_of_slope(measure, slope, &change);
-                    add(&mut turn, force, &own);
-                }
-                let pulled = self.pulled(tensor, &turn);
-                for (blocks, pull) in blocks.as_mut().iter_mut().zip(pulled.as_ref()) {
-                    for (row, &pull) in blocks[j].iter_mut().zip(pull) {
-                        row[axis] += pull;
-                    }
-                }
-            }
-            let pulled = stress.applied(by);
-            for (blocks, b) in blocks.as_mut().iter_mut().zip(self.gradients.as_ref()) {
-                let along = share * dot(b, &pulled);
-                for (axis, row) in blocks[j].iter_mut().enumerate() {
-                    row[axis] += along;
-                }
-            }
-        }
-        blocks
-    }
-
     /// The deformations at the ends and in the middle, and the strains.
     #[inline]
     pub(super) fn between(&self, ends: &Ends<Self, S, D>) -> ([Tensor<S, D>; 2], Strains<H, S, D>) {
@@ -214,8 +173,3 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
 
 /// Two strains of a cell.
 pub(super) type Strains<H, S, const D: usize> = Between<<H as Shape<D>>::Tensor<S>, S, D>;
-
-#[inline]
-fn no_blocks<H: Shape<D>, S: Real, const D: usize>() -> PerPair<H, S, D> {
-    H::PerArm::filled(H::PerArm::filled([[S::zero(); D]; D]))
-}

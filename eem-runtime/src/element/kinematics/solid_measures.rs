@@ -108,7 +108,10 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
         let tensor = self.deformation(r);
         let between = Strains::<H, S, D>::new([&tensor, &tensor]);
         let doubled = tensor.map(|row| row.map(|entry| two * entry));
-        self.turned([&doubled, &tensor], &between, force, S::one())
+        let mut blocks = no_blocks::<H, S, D>();
+        let ends = [&doubled, &tensor];
+        self.add_stiffness(ends, &between, (force, &[]), S::one(), &mut blocks);
+        blocks
     }
 
     #[inline]
@@ -135,20 +138,21 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
         force: &[S; N],
         force_by_arm: &[PerArm<H, S, D>; N],
     ) -> PerPair<H, S, D> {
-        let ([mean, new], between) = self.between(ends);
-        let mut blocks = self.turned([&mean, &new], &between, force, S::from_f64(0.5));
-        for (direction, by_arm) in self.along(&mean, &between).iter().zip(force_by_arm) {
-            for (blocks, along) in blocks.as_mut().iter_mut().zip(direction.as_ref()) {
-                for (block, by) in blocks.as_mut().iter_mut().zip(by_arm.as_ref()) {
-                    for (row, &along) in block.iter_mut().zip(along) {
-                        for (entry, &by) in row.iter_mut().zip(by) {
-                            *entry += along * by;
-                        }
-                    }
-                }
-            }
-        }
+        let mut blocks = no_blocks::<H, S, D>();
+        self.add_discrete_tangent(ends, force, force_by_arm, &mut blocks);
         blocks
+    }
+
+    fn add_discrete_tangent(
+        &self,
+        ends: &Ends<Self, S, D>,
+        force: &[S; N],
+        force_by_arm: &[PerArm<H, S, D>; N],
+        sum: &mut PerPair<H, S, D>,
+    ) {
+        let ([mean, new], between) = self.between(ends);
+        let (forces, half) = ((force, &force_by_arm[..]), S::from_f64(0.5));
+        self.add_stiffness([&mean, &new], &between, forces, half, sum);
     }
 
     // Σ f F_m P B_i = Σ_j (B_i·S* B_j) r_m,j
@@ -164,4 +168,9 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
         }
         weights
     }
+}
+
+#[inline]
+fn no_blocks<H: Shape<D>, S: Real, const D: usize>() -> PerPair<H, S, D> {
+    H::PerArm::filled(H::PerArm::filled([[S::zero(); D]; D]))
 }

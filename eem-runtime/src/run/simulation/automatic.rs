@@ -12,6 +12,7 @@ use crate::step::automatic::{CANDIDATES, Verdict, implicit};
 use crate::step::error::{StepError, StepFailure};
 use crate::step::newton::StepReport;
 use crate::step::scheme::{Closing, Scheme};
+use crate::step::systems::Systems;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// An accurate step of a scheme that is likely to take least; the state is what it was if there is none.
@@ -206,6 +207,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let Some(automatic) = &mut self.automatic else {
             return;
         };
+        let elements = (&automatic.elements[..], &self.layout);
+        let (rockets, limit) = (self.loads.rocket_lines(), automatic.memory_limit);
+        let systems = Systems::new(scheme, elements, &self.conduction, &rockets, limit);
+        // Without the memory for another scheme it stays with the present one.
+        let Ok(systems) = systems else {
+            return;
+        };
         automatic.evaluations += self.stepper.evaluations();
         let parts = Parts {
             scheme,
@@ -220,7 +228,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             layout: &self.layout,
         };
         let groups = Groups::new(self.stepper.take_elements(), scheme, placed);
-        self.stepper = Stepper::new(groups, parts, &self.state);
+        self.stepper = Stepper::new(groups, systems, parts, &self.state);
         self.stepper.set_motion_first(automatic.is_motion_first);
         // As after a restart: each scheme has its own way to them.
         let state = &mut self.state;

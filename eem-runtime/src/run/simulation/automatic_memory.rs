@@ -1,5 +1,6 @@
 //! What a run keeps that chooses its scheme.
 
+use crate::algebra::memory::MemoryLimit;
 use crate::scene::entry::ElementEntry;
 use crate::step::automatic::Choice;
 use crate::step::scheme::Scheme;
@@ -17,10 +18,16 @@ pub(super) struct Automatic<S> {
     pub(super) evaluations: u64,
     /// For when the scheme is the explicit one.
     pub(super) is_motion_first: bool,
+    /// What the systems of the next scheme may take.
+    pub(super) memory_limit: MemoryLimit,
 }
 
 impl<S> Automatic<S> {
-    pub(super) const fn new(elements: Vec<ElementEntry<S>>, is_second: bool) -> Self {
+    pub(super) const fn new(
+        elements: Vec<ElementEntry<S>>,
+        is_second: bool,
+        memory_limit: MemoryLimit,
+    ) -> Self {
         Self {
             choice: Choice::new(),
             is_second,
@@ -28,6 +35,7 @@ impl<S> Automatic<S> {
             elements,
             evaluations: 0,
             is_motion_first: false,
+            memory_limit,
         }
     }
 }

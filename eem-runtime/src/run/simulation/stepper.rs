@@ -18,6 +18,7 @@ use crate::step::error::StepFailure;
 use crate::step::explicit::{Explicit, SavedExplicit, Site};
 use crate::step::scheme::Scheme;
 use crate::step::solver::{SavedPast, Solver};
+use crate::step::systems::Systems;
 
 /// What steps a scene.
 pub(super) enum Stepper<S: Real, const D: usize> {
@@ -51,10 +52,17 @@ pub(super) struct Parts<'a, S: Real, const D: usize> {
 }
 
 impl<S: Real, const D: usize> Stepper<S, D> {
-    /// For groups in a state whose entropies are known, or still to be found.
-    pub(super) fn new(groups: Groups<S, D>, parts: Parts<'_, S, D>, state: &State<S>) -> Self {
+    /// For groups in a state whose entropies are known, or still to be found, with the systems of the scheme.
+    pub(super) fn new(
+        groups: Groups<S, D>,
+        systems: Systems<S, D>,
+        parts: Parts<'_, S, D>,
+        state: &State<S>,
+    ) -> Self {
         match groups {
-            Groups::Newton(groups) => Self::Newton(Box::new(Newton::new(groups, parts, state))),
+            Groups::Newton(groups) => {
+                Self::Newton(Box::new(Newton::new(groups, systems, parts, state)))
+            }
             Groups::Explicit(groups) => {
                 let site = Site {
                     masses: parts.masses,
@@ -188,21 +196,22 @@ impl<S: Real, const D: usize> Stepper<S, D> {
 impl<S: Real, const D: usize> Newton<S, D> {
     fn new(
         mut groups: Vec<Box<dyn Group<S, D>>>,
+        systems: Systems<S, D>,
         parts: Parts<'_, S, D>,
         state: &State<S>,
     ) -> Self {
         let Parts {
             scheme,
             masses,
-            elements,
             layout,
             conduction,
             loads,
+            ..
         } = parts;
         let memory = || StepLoads::new(masses.len() * D, layout, loads);
         let stages = scheme.tableau().map_or(0, Tableau::stages);
         let whole = memory();
-        let solver = Solver::new(scheme, masses, elements, layout, conduction, &whole);
+        let solver = Solver::new(scheme, systems, masses, layout, conduction, &whole);
         for group in &mut groups {
             group.connect(&solver.sites(layout, conduction));
         }

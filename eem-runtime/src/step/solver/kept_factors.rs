@@ -30,7 +30,11 @@ impl KeptFactors {
     }
 
     /// Solves the system of an iteration.
-    #[inline]
+    #[expect(
+        clippy::inline_always,
+        reason = "two unknowns are solved in fewer instructions than the call takes"
+    )]
+    #[inline(always)]
     pub(super) fn solve<S: Real>(
         &mut self,
         tangent: &mut LinearSystem<S, 1>,

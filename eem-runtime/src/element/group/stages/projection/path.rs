@@ -35,7 +35,7 @@ where
             let mut r = changes[stage];
             add_scaled::<K, S, D>(&mut r, S::one(), &self.r0);
             let measures = self.kinematics.measure(&r);
-            check_measures::<K, S, D>(self.kinematics, point.element, &measures, &r)?;
+            check_measures::<K, S, D>(&self.kinematics, point.element, &measures, &r)?;
             scale::<K, S, D>(&mut r, S::from_f64(2.0));
             let mut motion = Arms::<K, S, D>::filled([S::zero(); D]);
             for (change, &share) in changes.iter().zip(*row) {

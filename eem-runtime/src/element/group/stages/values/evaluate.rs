@@ -50,7 +50,7 @@ where
         r: &Arms<K, S, D>,
     ) -> Result<(), StateError> {
         let measures = self.kinematics.measure(r);
-        check_measures::<K, S, D>(self.kinematics, element, &measures, r)?;
+        check_measures::<K, S, D>(&self.kinematics, element, &measures, r)?;
         self.own.gradients[stage] = self.kinematics.gradient(r, &measures);
         for (a, &measure) in measures.as_ref().iter().enumerate() {
             self.own.x[stage][a] = measure;

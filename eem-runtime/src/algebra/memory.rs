@@ -1,0 +1,114 @@
+//! Whether linear systems fit in the memory there is, asked before it is reserved.
+//!
+//! A system that promises memory until it is written to (Linux does) reserves anything, and ends the program later. So
+//! what the factors take, which is known from the pattern, is compared with what the machine has available.
+
+/// The most memory that a linear system may take.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct MemoryLimit(Option<u64>);
+
+/// A linear system that takes more memory than it may.
+///
+/// ```
+/// let refused = eem::TooLarge {
+///     unknowns: 300,
+///     needed: 720_000,
+///     available: Some(500_000),
+/// };
+/// assert!(refused.to_string().contains("720000 bytes, and 500000 are available"));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the tangent of {unknowns} unknowns and its factors take {needed} bytes, {}: use fewer cells, cells with fewer nodes, a larger limit (`Scene::limit_memory`) or a machine with more memory",
+    available.map_or_else(|| "which the system refuses".to_owned(), |most| format!("and {most} are available"))
+)]
+pub struct TooLarge {
+    /// Rows of the matrix.
+    pub unknowns: usize,
+    /// What it and its factors take, bytes.
+    pub needed: u64,
+    /// What there is, or the [limit](crate::Scene::limit_memory), bytes; `None` where the machine had it available and
+    /// refused it all the same.
+    pub available: Option<u64>,
+}
+
+/// What takes no more than this, bytes, is reserved without asking the machine, which takes longer than a small scene.
+const SMALL: u64 = 1 << 28;
+
+impl MemoryLimit {
+    /// What the machine has available.
+    pub(crate) const NONE: Self = Self(None);
+
+    /// So many bytes, whatever the machine has; without a number, what it has available.
+    pub(crate) const fn new(bytes: Option<u64>) -> Self {
+        Self(bytes)
+    }
+
+    /// An error if a system of so many unknowns needs more bytes than it may have.
+    pub(crate) fn check(self, unknowns: usize, needed: u64) -> Result<(), TooLarge> {
+        let available = match self.0 {
+            Some(limit) => Some(limit),
+            None if needed <= SMALL => None,
+            None => available(),
+        };
+        match available {
+            Some(most) if needed > most => Err(TooLarge {
+                unknowns,
+                needed,
+                available,
+            }),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The bytes of rows times columns of numbers.
+pub(crate) fn bytes<S>([rows, columns]: [usize; 2]) -> u64 {
+    let numbers = rows.saturating_mul(columns);
+    u64::try_from(numbers.saturating_mul(size_of::<S>())).unwrap_or(u64::MAX)
+}
+
+/// The memory that the machine, or the group of processes that this one belongs to, has available, bytes; `None` where
+/// that cannot be found out.
+#[cfg(feature = "sparse")]
+fn available() -> Option<u64> {
+    let mut system = sysinfo::System::new().ok()?;
+    system.refresh_memory();
+    let of_machine = system.available_memory();
+    // What a group of processes has free does not count what it could give back, as copies of files.
+    let limits = system.cgroup_limits();
+    let of_group = limits.map(|limits| limits.total_memory.saturating_sub(limits.rss));
+    let available = of_group.map_or(of_machine, |most| most.min(of_machine));
+    (available > 0).then_some(available)
+}
+
+#[cfg(not(feature = "sparse"))]
+fn available() -> Option<u64> {
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_limit_is_the_most_that_is_taken() {
+        let limit = MemoryLimit::new(Some(800));
+        assert_eq!(bytes::<f64>([10, 10]), 800);
+        assert_eq!(limit.check(10, 800), Ok(()));
+        let refused = TooLarge {
+            unknowns: 10,
+            needed: 801,
+            available: Some(800),
+        };
+        assert_eq!(limit.check(10, 801), Err(refused));
+    }
+
+    // More than any machine has.
+    #[test]
+    #[cfg(feature = "sparse")]
+    fn the_machine_is_asked_for_what_is_large() {
+        assert_eq!(MemoryLimit::NONE.check(1, SMALL), Ok(()));
+        assert!(MemoryLimit::NONE.check(1, u64::MAX).is_err());
+    }
+}

@@ -1,0 +1,41 @@
+//! How much memory the linear systems of a scene may take.
+
+use crate::algebra::memory::MemoryLimit;
+use crate::number::scalar::Real;
+use crate::scene::Scene;
+
+impl<const D: usize, S: Real> Scene<D, S> {
+    /// The most memory, bytes, that the matrix of Newton's method and its factors may take each time they are needed;
+    /// without a limit, what the machine has available when the simulation begins.
+    ///
+    /// Factors of solids in space take by far the most of all: about 10 GB for a block of 50³ cells of eight nodes.
+    /// What does not fit is refused before it is reserved, as [`SceneError::TooLarge`](crate::SceneError::TooLarge).
+    ///
+    /// ```
+    /// use eem::TooLarge;
+    /// use eem::prelude::*;
+    /// # #[derive(Clone, Debug, FreeEnergy)]
+    /// # #[free_energy(|lambda: Stretch| 0.5 * k * lambda.powi(2))]
+    /// # struct Spring {
+    /// #     #[unit("N/m")]
+    /// #     k: f64,
+    /// # }
+    ///
+    /// let mut scene = Scene::<2>::new();
+    /// let mut last = scene.anchor([0.0, 0.0]);
+    /// for index in 1..=100 {
+    ///     let next = scene.mass(1.0, [f64::from(index), 0.0], [0.0, 0.0]);
+    ///     scene.spring(Spring { k: 1.0 }, [last, next]);
+    ///     last = next;
+    /// }
+    /// scene.limit_memory(1_000);
+    /// let refused = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap_err();
+    /// assert!(matches!(
+    ///     refused.errors(),
+    ///     [SceneError::TooLarge(TooLarge { unknowns: 200, available: Some(1_000), .. })]
+    /// ));
+    /// ```
+    pub fn limit_memory(&mut self, bytes: u64) {
+        self.memory_limit = MemoryLimit::new(Some(bytes));
+    }
+}

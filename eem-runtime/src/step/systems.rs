@@ -1,0 +1,51 @@
+//! The linear systems of a scheme: their memory is reserved before a scene is taken apart, or the scene refused.
+
+use crate::algebra::memory::{MemoryLimit, TooLarge};
+use crate::algebra::pattern::Pattern;
+use crate::algebra::system::LinearSystem;
+use crate::element::conduction::Conduction;
+use crate::element::layout::Layout;
+use crate::element::loads::PushLine;
+use crate::element::tableau::Ending;
+use crate::number::scalar::Real;
+use crate::scene::entry::ElementEntry;
+use crate::step::pattern;
+use crate::step::scheme::{Closing, Scheme};
+
+/// The linear systems that a scheme solves in a step.
+#[derive(Debug)]
+pub(crate) struct Systems<S, const D: usize> {
+    /// That of an iteration.
+    pub(crate) tangent: LinearSystem<S, 1>,
+    /// That of a stage, where a scheme ends its steps stage by stage.
+    pub(crate) secant: Option<LinearSystem<S, D>>,
+}
+
+impl<S: Real, const D: usize> Systems<S, D> {
+    /// Those of a scheme, unless one takes more memory than it may.
+    pub(crate) fn new(
+        scheme: Scheme,
+        (elements, layout): (&[ElementEntry<S>], &Layout),
+        conduction: &Conduction<S>,
+        rockets: &[PushLine],
+        limit: MemoryLimit,
+    ) -> Result<Self, TooLarge> {
+        let mut pattern = if scheme.closing() == Closing::Explicit {
+            Pattern::new(0, |_| {})
+        } else {
+            pattern::of_tangent(elements, layout, conduction, rockets, D)
+        };
+        let sets = scheme.sets().len();
+        if sets > 1 {
+            pattern = pattern.repeated(sets);
+        }
+        let ending = scheme.tableau().map(|rule| &rule.ending);
+        let has_secant = matches!(ending, Some(Ending::StageByStage));
+        Ok(Self {
+            tangent: LinearSystem::new(&pattern, D, limit)?,
+            secant: has_secant
+                .then(|| LinearSystem::new(&pattern::of_secant(elements, layout, D), 1, limit))
+                .transpose()?,
+        })
+    }
+}
