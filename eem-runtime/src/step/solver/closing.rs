@@ -122,10 +122,15 @@ impl<S: Real, const D: usize> Solver<S, D> {
     ) {
         self.forget_magnitudes(care);
         match self.scheme.closing() {
-            Closing::Increments if self.scheme.has_old_forces() => {
-                self.find_impulse(groups, view, Along::Scheme);
+            Closing::Increments => {
+                let is_along_scheme = self.scheme.has_old_forces();
+                let along = if is_along_scheme {
+                    Along::Scheme
+                } else {
+                    Along::Secant
+                };
+                self.find_impulse(groups, view, along);
             }
-            Closing::Increments => self.find_impulse(groups, view, Along::Secant),
             Closing::Start => {
                 self.find_impulse(groups, view, Along::Scheme);
                 self.move_from_start(groups, view);

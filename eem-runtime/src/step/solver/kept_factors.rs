@@ -39,11 +39,22 @@ impl KeptFactors {
         &mut self,
         tangent: &mut LinearSystem<S, 1>,
     ) -> Result<(), Singular> {
+        if self.is_worthwhile {
+            self.solve_with_kept(tangent)
+        } else {
+            tangent.solve()
+        }
+    }
+
+    fn solve_with_kept<S: Real>(
+        &mut self,
+        tangent: &mut LinearSystem<S, 1>,
+    ) -> Result<(), Singular> {
         self.have_served = self.are_near && tangent.solve_with_last_factors();
         if !self.have_served {
             tangent.solve()?;
         }
-        self.are_near = self.is_worthwhile;
+        self.are_near = true;
         Ok(())
     }
 
@@ -54,6 +65,7 @@ impl KeptFactors {
 
     /// What the last update must not exceed, where `tolerance` does for one by factors of its own: ε^¾, of which
     /// a tenth is left.
+    #[inline]
     pub(super) fn tolerance<S: Real>(self, tolerance: S) -> S {
         if self.have_served {
             tolerance.minimum(S::EPSILON.powf(S::from_f64(0.75)))

@@ -81,15 +81,25 @@ impl<S: Real, const D: usize> Rockets<S, D> {
     }
 
     /// Finds the forces at a trial, and adds them to the system of an iteration if there is one.
+    #[inline]
     pub(super) fn evaluate(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        system: Option<&mut LinearSystem<S, 1>>,
+    ) -> Result<(), StateError> {
+        if self.are_none() || !view.phase.moves() {
+            return Ok(());
+        }
+        self.evaluate_all(view, trial, system)
+    }
+
+    fn evaluate_all(
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
         mut system: Option<&mut LinearSystem<S, 1>>,
     ) -> Result<(), StateError> {
-        if !view.phase.moves() {
-            return Ok(());
-        }
         self.forces.fill(S::zero());
         let forces = self.forces.as_chunks_mut::<D>().0;
         for (rocket, &Push { thrust, .. }) in self.all.iter().zip(&view.loads.pushes) {
@@ -107,6 +117,7 @@ impl<S: Real, const D: usize> Rockets<S, D> {
     }
 
     /// Adds `h f` to the impulses, and the magnitude of what it is computed from.
+    #[inline]
     pub(super) fn add_impulses(
         &self,
         step: S,
