@@ -47,11 +47,10 @@ use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
-use crate::step::systems::Systems;
 use automatic_memory::Automatic;
 use check::{check_all, needs_second_order};
 use control_memory::Control;
-use start::{begin_groups, initial_state, places_in};
+use start::{begin_groups, initial_state, places_in, systems_of};
 use stepper::{Parts, Stepper};
 
 /// A scene that is stepped through time by one scheme.
@@ -139,14 +138,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let mut state = Box::new(initial_state(scene, &layout));
         let places = places_in(scene);
         let shapes = scene.groups.iter().map(|group| group.shape()).collect();
-        let masses = scene.nodes.iter().map(|node| node.mass);
-        let masses = Masses::new(masses, scene.pairs.clone());
+        let masses = Masses::new(
+            scene.nodes.iter().map(|node| node.mass),
+            scene.pairs.clone(),
+        );
         state.follow_velocities(D, &masses);
-        let parts = (&scene.elements[..], &layout);
-        let rockets = scene.loads.rocket_lines();
-        let limit = scene.memory_limit;
-        let systems = Systems::new(in_use, parts, &conduction, &rockets, limit);
-        let systems = systems.map_err(|error| vec![error.into()])?;
+        let systems = systems_of(scene, in_use, &layout, &conduction)?;
         let groups = begin_groups(scene, in_use, (&layout, &masses), &mut state)?;
         // Large, and all that they said is in the masses and in the state.
         drop((mem::take(&mut scene.nodes), mem::take(&mut scene.pairs)));
@@ -161,8 +158,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             loads: &loads,
         };
         let stepper = Stepper::new(groups, systems, parts, &state);
-        let automatic =
-            (scheme == Scheme::Auto).then(|| Box::new(Automatic::new(elements, is_second, limit)));
+        let automatic = (scheme == Scheme::Auto)
+            .then(|| Box::new(Automatic::new(elements, is_second, scene.memory_limit)));
         if automatic.is_none() {
             layout.forget_places();
         }

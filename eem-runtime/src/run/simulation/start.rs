@@ -6,6 +6,7 @@ use nalgebra::SVector;
 
 use super::groups::Groups;
 use super::totals::check_totals;
+use crate::element::conduction::Conduction;
 use crate::element::group::Placed;
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
@@ -17,12 +18,26 @@ use crate::run::ledger::Ledger;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::step::scheme::Scheme;
+use crate::step::systems::Systems;
 
 /// The group of each element, and its place there.
 pub(super) fn places_in<const D: usize, S: Real>(scene: &Scene<D, S>) -> Vec<[u32; 2]> {
     let elements = scene.elements.iter();
     let places = elements.map(|entry| [entry.group, entry.place].map(compact));
     places.collect()
+}
+
+/// The linear systems of a scheme, unless they take more memory than they may.
+pub(super) fn systems_of<const D: usize, S: Real>(
+    scene: &Scene<D, S>,
+    scheme: Scheme,
+    layout: &Layout,
+    conduction: &Conduction<S>,
+) -> Result<Systems<S, D>, Vec<SceneError>> {
+    let elements = (&scene.elements[..], layout);
+    let rockets = scene.loads.rocket_lines();
+    Systems::new(scheme, elements, conduction, &rockets, scene.memory_limit)
+        .map_err(|error| vec![error.into()])
 }
 
 /// The state that the scene describes; its entropies are still to be found.
