@@ -1,5 +1,7 @@
 //! Points of the unit cube: its corners, and a sequence that fills it evenly.
 
+use crate::number::scalar::Scalar;
+
 /// Corners are taken in the first variables only, beyond which there would be too many of them.
 const CORNERED: usize = 10;
 /// Iterations to the root φ of `φ^(d+1) = φ + 1`: each gains more than a bit.
@@ -27,7 +29,7 @@ pub(super) fn corners(dimension: usize) -> impl Iterator<Item = Vec<f64>> {
 pub(super) fn even(dimension: usize, count: usize) -> impl Iterator<Item = Vec<f64>> {
     #[expect(clippy::cast_precision_loss, reason = "a number of variables")]
     let power = 1.0 / (dimension as f64 + 1.0);
-    let golden = (0..ITERATIONS).fold(2.0_f64, |ratio, _| (1.0 + ratio).powf(power));
+    let golden = (0..ITERATIONS).fold(2.0_f64, |ratio, _| Scalar::powf(1.0 + ratio, power));
     let mut unit = vec![0.5; dimension];
     (0..count).map(move |_| {
         let mut step = 1.0;

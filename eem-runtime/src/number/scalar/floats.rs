@@ -5,7 +5,7 @@ use super::real::Real;
 
 /// Forwards to inherent methods of the same name.
 macro_rules! forward {
-    ($float:ident: $($method:ident($($argument:ident),*)),* $(,)?) => {
+    ($float:tt: $($method:ident($($argument:ident),*)),* $(,)?) => {
         $(
             #[inline]
             fn $method(self $(, $argument: Self)*) -> Self {
@@ -15,9 +15,50 @@ macro_rules! forward {
     };
 }
 
+/// Elementary functions: those of the platform's library, which differ between platforms in their last bits.
+#[cfg(not(feature = "portable"))]
+macro_rules! elementary {
+    ($float:tt) => {
+        forward!($float:
+            cbrt(), exp(), exp_m1(), ln(), ln_1p(), log2(), log10(),
+            sin(), cos(), tan(), sinh(), cosh(), tanh(), asinh(), atan(), atanh(),
+            atan2(x), hypot(other), powf(exponent),
+        );
+    };
+}
+
+/// Elementary functions: those of `libm`, which have the same bits on every platform.
+#[cfg(feature = "portable")]
+macro_rules! elementary {
+    (f64) => {
+        elementary!(f64:
+            cbrt() cbrt, exp() exp, exp_m1() expm1, ln() log, ln_1p() log1p, log2() log2, log10() log10,
+            sin() sin, cos() cos, tan() tan, sinh() sinh, cosh() cosh, tanh() tanh,
+            asinh() asinh, atan() atan, atanh() atanh,
+            atan2(x) atan2, hypot(other) hypot, powf(exponent) pow,
+        );
+    };
+    (f32) => {
+        elementary!(f32:
+            cbrt() cbrtf, exp() expf, exp_m1() expm1f, ln() logf, ln_1p() log1pf, log2() log2f, log10() log10f,
+            sin() sinf, cos() cosf, tan() tanf, sinh() sinhf, cosh() coshf, tanh() tanhf,
+            asinh() asinhf, atan() atanf, atanh() atanhf,
+            atan2(x) atan2f, hypot(other) hypotf, powf(exponent) powf,
+        );
+    };
+    ($float:tt: $($method:ident($($argument:ident)?) $function:ident),* $(,)?) => {
+        $(
+            #[inline]
+            fn $method(self $(, $argument: Self)?) -> Self {
+                libm::$function(self $(, $argument)?)
+            }
+        )*
+    };
+}
+
 /// Implements both traits for a floating-point type.
 macro_rules! implement {
-    ($float:ident, $from_f64:expr) => {
+    ($float:tt, $from_f64:expr) => {
         impl Scalar for $float {
             type Mask = bool;
 
@@ -64,11 +105,8 @@ macro_rules! implement {
                 }
             }
 
-            forward!($float:
-                abs(), sqrt(), cbrt(), exp(), exp_m1(), ln(), ln_1p(), log2(), log10(),
-                sin(), cos(), tan(), sinh(), cosh(), tanh(), asinh(), atan(), atanh(),
-                atan2(x), hypot(other), powf(exponent),
-            );
+            forward!($float: abs(), sqrt());
+            elementary!($float);
         }
 
         impl Real for $float {

@@ -1,6 +1,7 @@
 //! Places, distances and areas.
 
 use crate::element::kinematics::{Shape, Symmetric};
+use crate::number::scalar::Scalar;
 
 /// Of an edge in the plane, of a quadrilateral in space (half the product of its diagonals).
 pub(super) fn area_vector<H: Shape<D>, const D: usize>(corners: &[[f64; D]]) -> [f64; D] {
@@ -32,5 +33,7 @@ pub(super) fn mean<const D: usize>(places: &[[f64; D]]) -> [f64; D] {
 
 /// Of two places, m.
 pub(crate) fn distance<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
-    (0..D).fold(0.0, |distance: f64, axis| distance.hypot(a[axis] - b[axis]))
+    (0..D).fold(0.0, |distance: f64, axis| {
+        Scalar::hypot(distance, a[axis] - b[axis])
+    })
 }

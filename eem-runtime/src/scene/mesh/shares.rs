@@ -3,6 +3,7 @@
 use super::Mesh;
 use super::face::Face;
 use crate::element::kinematics::{Shape, Symmetric, integrals};
+use crate::number::scalar::Scalar;
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     /// The area that belongs to each node of a face; m², m in the plane.
@@ -17,7 +18,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
                 let cofactor = H::Tensor::<f64>::cofactor(&jacobian);
                 let size = cofactor
                     .iter()
-                    .fold(0.0, |size: f64, row| size.hypot(row[axis]));
+                    .fold(0.0, |size: f64, row| Scalar::hypot(size, row[axis]));
                 for (&node, (share, _)) in self.cells[cell].as_ref().iter().zip(&functions) {
                     areas[node] += share * (0.5 * weight * size);
                 }

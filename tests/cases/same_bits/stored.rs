@@ -1,0 +1,111 @@
+//! The bits in which the published cases end.
+
+use eem::prelude::*;
+
+/// [`hash`](super::hash)es of the state after [`STEPS`](super::STEPS) published steps.
+#[derive(Debug, PartialEq)]
+pub(super) struct Stored {
+    pub(super) scheme: Scheme,
+    /// Of q, p, θ, γ and the entropy of the air.
+    pub(super) single: u64,
+    /// Of q, p and θ, in the order of [`DoublePendulum::ALL`](crate::support::DoublePendulum::ALL).
+    pub(super) double: [u64; 3],
+}
+
+/// With the functions of glibc 2.36 on `x86_64` with FMA.
+pub(super) const GLIBC: [Stored; 5] = [
+    Stored {
+        scheme: Scheme::EemEntropy,
+        single: 0xa60b_b76c_668d_200b,
+        double: [
+            0x1c14_7f78_becd_c082,
+            0x3530_2515_4580_db19,
+            0x2c6d_b8e8_648b_36cf,
+        ],
+    },
+    Stored {
+        scheme: Scheme::EemTemperature,
+        single: 0xd77d_14c0_05e2_ac1e,
+        double: [
+            0x6116_2e99_a4ed_1369,
+            0xfc9e_b37b_ec6c_08a3,
+            0x1ee1_8c6e_a7d7_6f2e,
+        ],
+    },
+    Stored {
+        scheme: Scheme::Variational,
+        single: 0x0568_db72_3370_1181,
+        double: [
+            0x7043_930e_1314_9015,
+            0x5867_4ebe_c047_d81e,
+            0x9872_74f3_65d6_3c6d,
+        ],
+    },
+    Stored {
+        scheme: Scheme::Variational4,
+        single: 0x88c5_f128_5bea_af80,
+        double: [
+            0x999c_f404_0181_aef9,
+            0x8237_1296_469f_9538,
+            0x14d2_76ce_cf5b_6b44,
+        ],
+    },
+    Stored {
+        scheme: Scheme::Staggered,
+        single: 0x9258_d2f2_d6e2_0896,
+        double: [
+            0x26d9_4e73_85b3_9c05,
+            0x8c25_6d88_16c4_0e35,
+            0xd542_b621_97a6_92ba,
+        ],
+    },
+];
+
+/// With the feature `portable`, on every platform.
+pub(super) const PORTABLE: [Stored; 5] = [
+    Stored {
+        scheme: Scheme::EemEntropy,
+        single: 0x2126_3262_54cb_e204,
+        double: [
+            0x5de8_88c6_c2b3_61c7,
+            0x3530_2515_4580_db19,
+            0xb076_f033_6e2d_6f34,
+        ],
+    },
+    Stored {
+        scheme: Scheme::EemTemperature,
+        single: 0x412d_c319_6103_f9f1,
+        double: [
+            0x7dcb_508d_7221_b044,
+            0xfc9e_b37b_ec6c_08a3,
+            0x54c9_e23e_5f9b_10b4,
+        ],
+    },
+    Stored {
+        scheme: Scheme::Variational,
+        single: 0xae73_f2a4_a7d3_4aaf,
+        double: [
+            0x641c_4bab_0a26_6d60,
+            0x5867_4ebe_c047_d81e,
+            0x86dc_6c48_3c86_6ff0,
+        ],
+    },
+    Stored {
+        scheme: Scheme::Variational4,
+        single: 0x5a7e_ea34_8d73_b33d,
+        double: [
+            0x999c_f404_0181_aef9,
+            0x6ade_4ebd_c191_d27c,
+            0x92f2_aca9_4f74_2f3c,
+        ],
+    },
+    Stored {
+        scheme: Scheme::Staggered,
+        single: 0xf084_08a0_54f0_0e49,
+        double: [
+            0x26d9_4e73_85b3_9c05,
+            0x7e7e_a8fd_3811_29a7,
+            0xb24a_e00e_d5cb_fcc2,
+        ],
+    },
+];
