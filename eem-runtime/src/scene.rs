@@ -196,8 +196,18 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// is a tensor has [a function of its own](Self::set_viscous_strain).
     pub fn set_viscous_stretch(&mut self, element: Element, dashpot: usize, stretch: S) {
         if self.expect_own(&element) {
-            let given = &mut self.elements[element.index()].viscous_stretches;
-            given.push((dashpot, stretch));
+            let entry = &mut self.elements[element.index()];
+            let shape = self.groups.get(entry.group).map(|group| group.shape());
+            match shape
+                .filter(|shape| shape.viscous_strain > 0 && dashpot >= shape.scalar_dashpots())
+            {
+                Some(shape) => self.misuse.push(SceneError::NoSuchDashpot {
+                    element,
+                    dashpot,
+                    dashpots: shape.scalar_dashpots(),
+                }),
+                None => entry.viscous_stretches.push((dashpot, stretch)),
+            }
         }
     }
 

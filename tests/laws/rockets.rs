@@ -158,6 +158,8 @@ fn rockets_that_make_no_sense_are_refused() {
     scene.rocket(wall, [a, b], |_| 1.0);
     scene.rocket(a, [b, b], |_| 1.0);
     scene.rocket(Scene::<2>::new().anchor([0.0, 0.0]), [a, b], |_| 1.0);
+    let post = scene.anchor([0.0, 1.0]);
+    scene.rocket(a, [wall, post], |_| 1.0);
     let refused = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap_err();
     let texts: Vec<_> = refused.errors().iter().map(ToString::to_string).collect();
     assert_eq!(
@@ -166,6 +168,7 @@ fn rockets_that_make_no_sense_are_refused() {
             "node 2 cannot be given a rocket: it is an anchor",
             "the rocket at node 0 pushes along a line from node 1 to itself, which has no direction",
             "node 0 belongs to another scene",
+            "the rocket at node 0 pushes along a line from node 2 to node 3, which are anchors in the same place, so that it has no direction; put one of them elsewhere",
         ]
     );
 

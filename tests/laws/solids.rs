@@ -1,7 +1,7 @@
 //! Solids keep energy, momenta and the growth of entropy, store nothing when they turn, and pass the patch
 //! test.
 
-use eem::kinematics::{Ends, Kinematics, Measure, Quad4, SolidPoint};
+use eem::kinematics::{Ends, Kinematics, Measure, Quad4, Quad8, SolidPoint};
 use eem::prelude::*;
 
 use crate::support::numbers::Numbers;
@@ -429,4 +429,21 @@ fn what_is_wrong_with_a_solid_is_said() {
         message.starts_with("the mass of node 4 is 0 kg"),
         "{message}"
     );
+}
+
+/// Masses between corners and middles of edges are negative in places, and the shortest steps are judged by them.
+#[test]
+fn the_shortest_steps_of_consistent_masses_are_taken() {
+    for step in [1e-3, 1e-5, 1e-7, 1e-9] {
+        let mesh = Mesh::<Quad8, 2>::block([1, 1], [[0.0, 0.1]; 2]).unwrap();
+        let mut scene = Scene::<2>::new();
+        let body = scene.solid(stiff(), &mesh, &Bulk::new(1100.0));
+        for &node in body.nodes() {
+            scene.set_velocity(node, [10.0, 3.0]);
+        }
+        let mut run = Simulation::new(scene, Scheme::EemEntropy, step).unwrap();
+        for _ in 0..3 {
+            assert_eq!(run.step().unwrap().iterations, 1, "with h = {step} s");
+        }
+    }
 }

@@ -3,7 +3,7 @@
 mod element;
 mod relaxation;
 
-use eem::kinematics::Hex8;
+use eem::kinematics::{Hex8, Quad4};
 use eem::nalgebra::{Matrix3, Rotation3, Vector3};
 use eem::prelude::*;
 use eem::{Body, SolidError};
@@ -171,6 +171,47 @@ fn a_solid_without_viscous_strain_says_so() {
     let text =
         "element 0 (SaintVenant) has no viscous strain: its free energy has no `ViscousStrain`";
     assert!(refused.to_string().contains(text), "{refused}");
+}
+
+#[test]
+fn what_is_no_viscous_strain_is_refused() {
+    let slanted = [[0.0, 0.4, 0.0], [0.0; 3], [0.0; 3]];
+    let out_of_plane = [[0.0, 0.0, 0.1], [0.0; 3], [0.1, 0.0, 0.0]];
+    let mut scene = Scene::<2>::new();
+    let mesh = Mesh::<Quad4, 2>::block([1; 2], [[0.0, 1.0]; 2]).unwrap();
+    let points = scene
+        .solid(
+            Generic {
+                shear: 1.0,
+                branch: 1.0,
+                eta: 1.0,
+            },
+            &mesh,
+            &Bulk::new(10.0),
+        )
+        .points()
+        .to_vec();
+    scene.set_viscous_strain(points[0], slanted);
+    scene.set_viscous_strain(points[1], out_of_plane);
+    scene.set_viscous_stretch(points[2], 0, 0.1);
+    let refused = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap_err();
+    let texts: Vec<_> = refused.errors().iter().map(ToString::to_string).collect();
+    let plane = "in plane strain with zeros between the plane and its normal";
+    let name = |point| format!("element {point} (Generic)");
+    assert_eq!(
+        texts,
+        [
+            format!(
+                "the viscous strain of {} has 0.4 in row 0, column 1 and 0 across the diagonal: it must be symmetric, {plane}",
+                name(0)
+            ),
+            format!(
+                "the viscous strain of {} has 0.1 in row 0, column 2 and 0.1 across the diagonal: it must be symmetric, {plane}",
+                name(1)
+            ),
+            format!("{} has 0 dashpots, there is no dashpot 0", name(2)),
+        ]
+    );
 }
 
 #[test]

@@ -21,6 +21,13 @@ pub(crate) struct Shape {
     pub(crate) viscous_unit: &'static str,
 }
 
+impl Shape {
+    /// How many dashpots have a stretch each.
+    pub(crate) const fn scalar_dashpots(&self) -> usize {
+        self.dashpots - self.viscous_strain
+    }
+}
+
 /// Where an element keeps its internal variables in the [`State`](crate::element::state::State).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slots {

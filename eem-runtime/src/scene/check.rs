@@ -6,9 +6,11 @@ use super::Scene;
 use crate::element::error::StateError;
 use crate::element::handle::{Element, HeatPartner, Node, Reservoir};
 use crate::element::layout::Shape;
+use crate::element::loads::PushLine;
 use crate::number::scalar::{Mask, Real, is_positive};
 use crate::scene::entry::{ElementEntry, NodeEntry, UNMADE};
 use crate::scene::error::SceneError;
+use crate::scene::rocket_error::RocketError;
 
 impl<const D: usize, S: Real> Scene<D, S> {
     /// Everything that is wrong with the description; what can only be said of numbers that are right by themselves,
@@ -44,6 +46,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             check_element(element, entry, group.shape(), &mut errors);
         }
         self.check_loads(&mut errors);
+        self.check_rockets(&mut errors);
         self.check_conductors(&mut errors);
         if errors.is_empty() {
             self.check_start(&mut errors);
@@ -107,6 +110,19 @@ impl<const D: usize, S: Real> Scene<D, S> {
         for (at, anchor) in anchors.iter().enumerate() {
             if anchors[..at].contains(anchor) {
                 errors.push(prescribed_twice(anchor, "the motion"));
+            }
+        }
+    }
+
+    fn check_rockets(&self, errors: &mut Vec<SceneError>) {
+        let moves = |node: Node| {
+            let mut motions = self.loads.motions.iter();
+            self.nodes[node.index].mass.is_some() || motions.any(|&(moved, _)| moved == node)
+        };
+        for PushLine { node, tail, head } in self.loads.rocket_lines() {
+            let [from, to] = [tail, head].map(|end| self.nodes[end.index].position);
+            if from == to && !moves(tail) && !moves(head) {
+                errors.push(RocketError::NoLength { node, tail, head }.into());
             }
         }
     }

@@ -160,13 +160,15 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// ```
     pub fn fix(&mut self, node: Node) {
         if self.expect_own(&node) {
-            let mut rockets = self.loads.rockets.iter();
-            let is_pushed = rockets.any(|rocket| rocket.line.node == node);
-            if is_pushed || self.loads.forces.iter().any(|(loaded, _)| *loaded == node) {
+            let loads = &self.loads;
+            let is_pushed = loads.rockets.iter().any(|rocket| rocket.line.node == node);
+            let is_loaded = loads.forces.iter().any(|&(loaded, _)| loaded == node);
+            let given = [(is_pushed, "a rocket"), (is_loaded, "a force")];
+            for (_, quantity) in given.into_iter().filter(|&(is_given, _)| is_given) {
                 self.misuse.push(SceneError::WrongKind {
                     node,
-                    quantity: "a force",
-                    kind: "fixed",
+                    quantity,
+                    kind: "fixed later; fix nodes before faces and bodies are loaded, which leaves them out",
                 });
             }
             let entry = &mut self.nodes[node.index];

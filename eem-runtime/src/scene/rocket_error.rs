@@ -28,4 +28,16 @@ pub enum RocketError {
         /// The only node of the line.
         end: Node,
     },
+    /// It pushes along a line between two anchors in one place.
+    #[error(
+        "the rocket at {node} pushes along a line from {tail} to {head}, which are anchors in the same place, so that it has no direction; put one of them elsewhere"
+    )]
+    NoLength {
+        /// The node that it pushes.
+        node: Node,
+        /// Where the line begins.
+        tail: Node,
+        /// Where it ends.
+        head: Node,
+    },
 }

@@ -107,4 +107,20 @@ pub enum SolidError {
         /// Its unit.
         unit: &'static str,
     },
+    /// A viscous strain is not symmetric, or in plane strain leaves the plane.
+    #[error(
+        "the viscous strain of {element} has {first} in row {row}, column {column} and {second} across the diagonal: it must be symmetric{plane}",
+        row = place[0], column = place[1], first = Readable(values[0]), second = Readable(values[1]),
+        plane = if *is_plane { ", in plane strain with zeros between the plane and its normal" } else { "" }
+    )]
+    ViscousShear {
+        /// The point.
+        element: Element,
+        /// Row and column, from 0.
+        place: [usize; 2],
+        /// There and across the diagonal.
+        values: [f64; 2],
+        /// Whether the strain is plane.
+        is_plane: bool,
+    },
 }

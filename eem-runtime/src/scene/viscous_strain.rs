@@ -3,7 +3,7 @@
 use super::Scene;
 use crate::element::handle::Element;
 use crate::material::joint::components;
-use crate::number::scalar::Real;
+use crate::number::scalar::{Mask, Real};
 use crate::scene::solid_error::SolidError;
 
 /// # Solids whose shape flows
@@ -44,14 +44,38 @@ impl<const D: usize, S: Real> Scene<D, S> {
             return;
         };
         let shape = group.shape();
-        let first = shape.dashpots - shape.viscous_strain;
+        let first = shape.scalar_dashpots();
         if shape.viscous_strain == 0 {
             let error = SolidError::NoViscousStrain { element: point };
             self.misuse.push(error.into());
+        }
+        if let Some(error) = misplaced(point, &strain, D == 2) {
+            self.misuse.push(error.into());
+            return;
         }
         let components = components(&strain);
         let components = components.iter().take(shape.viscous_strain);
         let slots = (first..).zip(components.copied());
         entry.viscous_stretches.extend(slots);
     }
+}
+
+/// What keeps a tensor from being a viscous strain: both numbers of a shear are the same, and in plane strain none is
+/// between the plane and its normal.
+fn misplaced<S: Real>(
+    element: Element,
+    strain: &[[S; 3]; 3],
+    is_plane: bool,
+) -> Option<SolidError> {
+    [[0, 1], [0, 2], [1, 2]].into_iter().find_map(|[i, j]| {
+        let values = [strain[i][j], strain[j][i]];
+        let is_symmetric = values[0].equal(values[1]).all();
+        let is_out_of_plane = is_plane && j == 2 && !values[0].equal(S::zero()).all();
+        (!is_symmetric || is_out_of_plane).then(|| SolidError::ViscousShear {
+            element,
+            place: [i, j],
+            values: values.map(Real::to_f64),
+            is_plane,
+        })
+    })
 }

@@ -61,6 +61,11 @@ pub struct StepReport<S> {
     /// What rounding may do to [`defect`](Self::defect): `64 ε` times the magnitudes of all terms of
     /// the balance and of their arguments, J. A step of an exact scheme beyond it is an error,
     /// [`StepFailure::LawNotKept`](crate::StepFailure::LawNotKept).
+    ///
+    /// It says what the proof is worth: a length is known to `ε` of the coordinates, so that a body of the
+    /// stiffness k far stiffer than its energies need has them to `ε k q²` only. Where the bound is no smaller than
+    /// the energies of interest, the step proves nothing about them; coordinates nearer to zero, or softer bodies,
+    /// do.
     pub bound: S,
     /// The entropy that dashpots and conduction produced, J/K.
     pub production: S,

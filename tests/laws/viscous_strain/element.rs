@@ -2,6 +2,7 @@
 
 use eem::StrainEnergy;
 use eem::kinematics::{Hex8, Quad4, Shape};
+use eem::nalgebra::Matrix3;
 use eem::prelude::*;
 
 use crate::support::numbers::Numbers;
@@ -84,8 +85,14 @@ where
     }
     for &point in body.points() {
         scene.set_temperature(point, 300.0 + 10.0 * numbers.next());
-        let strain = [(); 3].map(|()| [(); 3].map(|()| 0.1 * numbers.next()));
-        scene.set_viscous_strain(point, strain);
+        let mut strain = Matrix3::from_fn(|_, _| 0.1 * numbers.next());
+        if D == 2 {
+            strain.fill_row(2, 0.0);
+            strain[(2, 2)] = 0.1 * numbers.next();
+            strain.column_mut(2).rows_mut(0, 2).fill(0.0);
+        }
+        let symmetric = strain + strain.transpose();
+        scene.set_viscous_strain(point, symmetric.into());
     }
     Simulation::new(scene, scheme, 0.3).unwrap()
 }

@@ -207,7 +207,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub fn viscous_stretch(&self, element: Element, dashpot: usize) -> Result<S, SceneError> {
         self.expect_own(&element)?;
         let [group, _] = self.place(element);
-        let dashpots = self.shapes[group].dashpots;
+        let dashpots = self.shapes[group].scalar_dashpots();
         if dashpot >= dashpots {
             return Err(SceneError::NoSuchDashpot {
                 element,

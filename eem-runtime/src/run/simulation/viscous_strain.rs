@@ -55,7 +55,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         if shape.viscous_strain == 0 {
             return Err(SolidError::NoViscousStrain { element: point }.into());
         }
-        let first = self.slots(point).viscous + shape.dashpots - shape.viscous_strain;
+        let first = self.slots(point).viscous + shape.scalar_dashpots();
         let values = &self.state.viscous.values()[first..];
         let components: [S; COMPONENTS] = array::from_fn(|k| {
             if k < shape.viscous_strain {

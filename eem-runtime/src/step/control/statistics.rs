@@ -3,6 +3,8 @@
 use crate::step::error::StepFailure;
 
 /// Steps of a run with [`control_steps`](crate::Simulation::control_steps), and why others were not taken.
+///
+/// Those that were tried on the way to an error are counted too; they are all that a failed step leaves behind.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",

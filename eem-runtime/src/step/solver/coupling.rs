@@ -126,7 +126,8 @@ impl<S: Real, const D: usize> Coupling<S, D> {
                 let [impulse, terms] = &mut self.impulses[own];
                 for axis in 0..D {
                     impulse[axis] += inertia * change[axis];
-                    terms[axis] += inertia * moved[axis].abs();
+                    // Masses between corners and middles of edges are negative.
+                    terms[axis] += (inertia * moved[axis]).abs();
                 }
             }
         }
