@@ -76,6 +76,13 @@ pub mod performance {}
 )]
 pub mod extremes {}
 
+/// Reproducible: which bits depend on the machine, and the feature `portable`.
+///
+/// [sweeps]: crate::sweeps
+///
+#[doc = include_str!("../docs/reproducible.md")]
+pub mod reproducible {}
+
 /// What generated code names. Not part of the public interface.
 #[doc(hidden)]
 pub mod __private {

@@ -4,8 +4,8 @@
 //! One ulp is a relative error of 2⁻⁵². First differences are relative to their value, second
 //! differences to `∫₀¹ t|f″| dt`, which is their value unless `f″` changes sign.
 
-mod oracle;
-mod sample;
+pub(crate) mod oracle;
+pub(crate) mod sample;
 
 use self::oracle::{Function, Oracle, add, cbrt, div, mul, natural_power, sqrt, to_f64, ulps};
 use self::sample::{Domain, Random};

@@ -1,5 +1,6 @@
 //! The numbers that formulas are evaluated with: kernels against high precision, and inverted entropies.
 
+mod elementary;
 mod inversion;
 mod kernels_accuracy;
 mod kernels_lanes;

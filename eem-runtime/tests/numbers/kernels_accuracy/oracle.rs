@@ -133,7 +133,7 @@ pub(crate) fn add(a: &BigFloat, b: &BigFloat) -> BigFloat {
     a.add(b, PRECISION, MODE)
 }
 
-fn sub(a: &BigFloat, b: &BigFloat) -> BigFloat {
+pub(crate) fn sub(a: &BigFloat, b: &BigFloat) -> BigFloat {
     a.sub(b, PRECISION, MODE)
 }
 

@@ -36,7 +36,7 @@ pub(crate) struct Domain {
 }
 
 impl Domain {
-    fn point(&self, random: &mut Random) -> f64 {
+    pub(crate) fn point(&self, random: &mut Random) -> f64 {
         let size = 10.0_f64.powf(random.within(self.exponents.0, self.exponents.1));
         if self.signed && random.unit() < 0.5 {
             -size
