@@ -6,6 +6,7 @@
 //! [accuracy]: crate::accuracy
 //! [performance]: crate::performance
 //! [extremes]: crate::extremes
+//! [reproducible]: crate::reproducible
 #![doc = include_str!("../docs/energy.link.md")]
 //!
 #![doc = include_str!("../README.md")]

@@ -8,7 +8,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// The most memory, bytes, that the matrix of Newton's method and its factors may take each time they are needed;
     /// without a limit, what the machine has available when the simulation begins.
     ///
-    /// Factors of solids in space take by far the most of all: about 10 GB for a block of 50³ cells of eight nodes.
+    /// Factors of solids in space take by far the most of all: about 16 GB for a block of 50³ cells of eight nodes.
     /// What does not fit is refused before it is reserved, as [`SceneError::TooLarge`](crate::SceneError::TooLarge).
     ///
     /// ```
