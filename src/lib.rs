@@ -12,6 +12,8 @@
 
 pub use eem_derive::FreeEnergy;
 pub use eem_runtime::*;
+#[cfg(feature = "sweep")]
+pub use eem_sweep as sweep;
 /// Vectors and matrices of positions, momenta and of [`Generic`].
 pub use nalgebra;
 
