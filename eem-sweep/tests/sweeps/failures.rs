@@ -100,7 +100,7 @@ fn a_step_that_fails_says_when() {
             let mut scene = Scene::<1>::new();
             let stone = scene.mass(1.0, [0.0], [0.0]);
             let force = move |time: f64| [if time > limit { f64::NAN } else { 1.0 }];
-            scene.load(stone, force);
+            scene.force(stone, force);
             (scene, ())
         },
         |run, (), _| {
