@@ -55,7 +55,8 @@ impl<W: Write> Writer<W> {
     }
 }
 
-/// Adds a line. `{:e}` writes the shortest digits that give back the bits of a number.
+/// Adds a line, with the shortest digits that give back the bits of a number. `{:e}` of the standard library takes
+/// 0.7 µs per number, most of the time of a record.
 fn push_line(
     line: &mut String,
     id: u64,
@@ -63,14 +64,17 @@ fn push_line(
     outputs: &[f64],
     failure: Option<&Failure>,
 ) -> Result<(), std::fmt::Error> {
+    let mut digits = zmij::Buffer::new();
     write!(line, "{id},{}", failure.map_or("", |f| f.kind.name()))?;
     for input in inputs {
-        write!(line, ",{input:e}")?;
+        line.push(',');
+        line.push_str(digits.format(*input));
     }
     match failure {
         None => {
             for output in outputs {
-                write!(line, ",{output:e}")?;
+                line.push(',');
+                line.push_str(digits.format(*output));
             }
             line.push_str(",,\n");
         }
@@ -78,7 +82,7 @@ fn push_line(
             line.extend(outputs.iter().map(|_| ','));
             line.push(',');
             if let Some(time) = failure.time {
-                write!(line, "{time:e}")?;
+                line.push_str(digits.format(time));
             }
             writeln!(line, ",{}", quoted(&failure.message))?;
         }
