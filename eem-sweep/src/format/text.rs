@@ -55,8 +55,7 @@ impl<W: Write> Writer<W> {
     }
 }
 
-/// Adds a line, with the shortest digits that give back the bits of a number. `{:e}` of the standard library takes
-/// 0.7 µs per number, most of the time of a record.
+/// Adds a line, with the shortest digits that give back the bits of a number.
 fn push_line(
     line: &mut String,
     id: u64,
