@@ -15,6 +15,7 @@ use eem::prelude::*;
 use eem_sweep::{Inputs, Plan, Record, Sweep, execute};
 
 #[path = "../examples/ensemble/pendulum.rs"]
+#[allow(dead_code, reason = "members are drawn in another way")]
 mod pendulum;
 
 use pendulum::{End, Pendulum, Spring};

@@ -21,6 +21,7 @@ use eem::prelude::*;
 use eem_sweep::{Command, Inputs, Plan, Record, execute};
 
 #[path = "ensemble/pendulum.rs"]
+#[allow(dead_code, reason = "labels are for pictures")]
 mod pendulum;
 
 use pendulum::{End, Pendulum, Spring};

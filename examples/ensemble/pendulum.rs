@@ -43,7 +43,6 @@ const SURROUNDINGS: f64 = 300.0;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Unknown {
     pub(crate) name: &'static str,
-    #[allow(dead_code, reason = "the example `sweep` draws no picture")]
     pub(crate) label: &'static str,
     mean: f64,
     spread: f64,
