@@ -35,9 +35,9 @@ sweep() {
     "$PROGRAM" "${OPTIONS[@]}" "$@"
 }
 
-# How many members of a directory have been reported.
+# How many members of a directory have been reported; the exit code of `status` says whether that is all.
 reported() {
-    sweep status --dir "$1" 2>/dev/null | sed -n '1s/ of .*//p'
+    { sweep status --dir "$1" 2>/dev/null || true; } | sed -n '1s/ of .*//p'
 }
 
 # The processes that are at work, from the progress that they tell.
@@ -49,7 +49,7 @@ processes() {
 kill_half_way() {
     local directory="$1" now process
     for _ in $(seq 1200); do
-        now="$(reported "$directory" || true)"
+        now="$(reported "$directory")"
         now="${now:-0}"
         [ "$now" -lt "$MEMBERS" ] || break
         for process in $(processes "$directory"); do

@@ -93,7 +93,7 @@ fn killed_processes_lose_tear_and_double_nothing() {
 }
 
 #[test]
-#[ignore = "takes a minute"]
+#[ignore = "takes ten seconds and more"]
 fn two_hundred_kills() {
     survive("two-hundred-kills", 200, 2);
 }
