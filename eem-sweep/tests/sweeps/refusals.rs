@@ -159,7 +159,7 @@ fn parts_that_are_foreign_damaged_or_contradict_are_found() {
     // A member with other bits in another part.
     let text = String::from_utf8([lines[0], lines[1]].concat()).unwrap();
     let single = path.with_file_name(format!("0000000005-0000000005.1.g0.{digest}.csv"));
-    fs::write(&single, text.replace("e-1", "e-2")).unwrap();
+    fs::write(&single, text.replace(",-1.", ",-2.")).unwrap();
     found("member 5 has other bits");
     fs::remove_file(single).unwrap();
     // Other files are nobody's business.
