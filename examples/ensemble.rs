@@ -56,13 +56,16 @@ use eem::prelude::*;
 
 #[path = "ensemble/members.rs"]
 mod members;
+#[path = "ensemble/pendulum.rs"]
+mod pendulum;
 #[path = "ensemble/pictures.rs"]
 mod pictures;
 #[path = "ensemble/report.rs"]
 mod report;
 mod support;
 
-use members::{Sample, Spring};
+use members::Sample;
+use pendulum::Spring;
 use support::claims::{self, Claims};
 use support::command_line::{self, CommandLine};
 use support::{output, terminal};

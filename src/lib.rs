@@ -7,12 +7,16 @@
 //! [performance]: crate::performance
 //! [extremes]: crate::extremes
 //! [reproducible]: crate::reproducible
+//! [sweeps]: crate::sweeps
 #![doc = include_str!("../docs/energy.link.md")]
 //!
 #![doc = include_str!("../README.md")]
 
 pub use eem_derive::FreeEnergy;
 pub use eem_runtime::*;
+/// Parameter sweeps in many processes; see also [`sweeps`].
+#[cfg(feature = "sweep")]
+pub use eem_sweep as sweep;
 /// Vectors and matrices of positions, momenta and of [`Generic`].
 pub use nalgebra;
 
@@ -68,6 +72,10 @@ pub mod accuracy {}
 ///
 #[doc = include_str!("../docs/performance.md")]
 pub mod performance {}
+
+/// Sweeps: thousands of members in many processes, on engines that users have.
+#[doc = include_str!("../docs/sweeps.md")]
+pub mod sweeps {}
 
 /// Extremes: what was tried to break the laws, what completes and what is refused.
 #[doc = include_str!("../docs/extremes.md")]

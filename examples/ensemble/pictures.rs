@@ -4,7 +4,8 @@
 use std::error::Error;
 use std::path::Path;
 
-use super::members::{Sample, Spring};
+use super::members::Sample;
+use super::pendulum::Spring;
 use super::report::{QUANTILES, quantile, real};
 use super::support::comparison;
 use super::support::figures::look::PLAIN;

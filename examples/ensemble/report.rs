@@ -2,7 +2,8 @@
 
 use comfy_table::{Table, presets};
 
-use super::members::{End, Sample, Spring};
+use super::members::Sample;
+use super::pendulum::{End, Spring};
 use super::support::terminal;
 
 /// Five of a hundred members lie below the first of these, five above the last.

@@ -35,13 +35,17 @@ struct Crate {
 }
 
 /// The crates that are held to this.
-const CRATES: [Crate; 4] = [
+const CRATES: [Crate; 5] = [
     Crate {
         name: "eem-sparse",
         allowed: &[],
     },
     Crate {
         name: "eem-runtime",
+        allowed: &[],
+    },
+    Crate {
+        name: "eem-sweep",
         allowed: &[],
     },
     Crate {

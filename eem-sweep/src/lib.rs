@@ -1,0 +1,65 @@
+//! Parameter sweeps over many processes, of one machine or of a cluster.
+//!
+//! [`Ensemble`](eem_runtime::Ensemble) fills one machine. Beyond it there are engines: Slurm, PBS, HyperQueue, GNU
+//! parallel, MPI. Members do not talk to each other, so that this crate brings no engine and fits all of them: every
+//! process is the same program with another `--shard`, and all that they share is a directory.
+//!
+//! | what | where |
+//! |---|---|
+//! | what members differ in | [`Inputs`], [`Row`] |
+//! | what is kept of them | [`Record`], [`Failure`] |
+//! | the sweep | [`Plan`], [`Sweep`] |
+//! | the command line | [`main`](fn@main), [`Command`] |
+//!
+//! Files of a sweep:
+//!
+//! | file in the directory | what it has |
+//! |---|---|
+//! | `sweep.json` | what all processes agree on: digests of program and inputs, settings, columns; written by the first |
+//! | `parts/FIRST-LAST.MEMBERS.gGENERATION.DIGEST.csv` | records that a process has reported, a second of work each |
+//! | `progress/SHARD.json` | how far a process is |
+//! | `merged.csv`, `merged.csv.json` | the table of all members, and what `merge` has found |
+//!
+//! A file is written under a temporary name, brought to disk, and only then given its name by a hard link, which
+//! fails where the name is taken: it is there whole or not at all, and nothing is overwritten. A member is *reported*
+//! when its part has its name. There are no locks that a killed process could leave behind.
+#![warn(missing_docs)]
+#![allow(
+    clippy::cast_precision_loss,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "counts of members, which are below 2³²"
+)]
+
+mod command;
+mod digest;
+mod engine;
+mod error;
+mod files;
+mod format;
+mod inputs;
+mod job;
+mod manifest;
+mod merge;
+mod part;
+mod places;
+mod progress;
+mod record;
+mod run;
+mod selection;
+mod status;
+mod sweep;
+mod walk;
+
+pub use command::{Again, Command, Join, Look, Work, execute, main};
+pub use engine::EngineError;
+pub use error::{Difference, SweepError};
+pub use format::Format;
+pub use inputs::{InputError, Inputs, Row};
+pub use merge::Merged;
+pub use progress::ShardProgress;
+pub use record::{Failure, FailureKind, Record};
+pub use run::{RunOptions, RunReport};
+pub use selection::Selection;
+pub use status::Status;
+pub use sweep::{Plan, Sweep};

@@ -1,0 +1,166 @@
+//! What all processes of a sweep agree on: written by the first, compared by all others.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io::ErrorKind;
+use std::path::Path;
+
+use serde::{Deserialize, Serialize};
+
+use crate::digest::Digest;
+use crate::error::{Difference, SweepError};
+use crate::files::{failed, publish};
+use crate::format::Format;
+
+/// The file in the directory of a sweep.
+const NAME: &str = "sweep.json";
+
+/// The layout of files that this version of the crate writes.
+const LAYOUT: u32 = 1;
+
+/// What decides the bits of a sweep, and how its files are written.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct Manifest {
+    layout: u32,
+    pub(crate) name: String,
+    program: String,
+    pub(crate) members: usize,
+    /// A digest.
+    inputs: String,
+    input_columns: Vec<String>,
+    output_columns: Vec<String>,
+    settings: BTreeMap<String, String>,
+    pub(crate) format: Format,
+    /// Of all the above.
+    pub(crate) digest: String,
+}
+
+/// What a process knows before it has seen the directory.
+#[derive(Clone, Debug)]
+pub(crate) struct Identity {
+    pub(crate) name: String,
+    pub(crate) program: String,
+    pub(crate) members: usize,
+    pub(crate) inputs: String,
+    pub(crate) input_columns: Vec<String>,
+    pub(crate) output_columns: Vec<String>,
+    pub(crate) settings: BTreeMap<String, String>,
+}
+
+impl Manifest {
+    fn new(identity: Identity, format: Format) -> Self {
+        let mut manifest = Self {
+            layout: LAYOUT,
+            name: identity.name,
+            program: identity.program,
+            members: identity.members,
+            inputs: identity.inputs,
+            input_columns: identity.input_columns,
+            output_columns: identity.output_columns,
+            settings: identity.settings,
+            format,
+            digest: String::new(),
+        };
+        manifest.digest = manifest.digest();
+        manifest
+    }
+
+    fn digest(&self) -> String {
+        let mut digest = Digest::new();
+        for (what, value) in self.items() {
+            digest.text(&what);
+            digest.text(&value);
+        }
+        digest.hex()
+    }
+
+    /// What manifests are compared by.
+    fn items(&self) -> Vec<(String, String)> {
+        let mut items = vec![
+            ("layout of files".to_owned(), self.layout.to_string()),
+            ("name".to_owned(), self.name.clone()),
+            ("program".to_owned(), self.program.clone()),
+            ("number of members".to_owned(), self.members.to_string()),
+            ("digest of inputs".to_owned(), self.inputs.clone()),
+            ("input columns".to_owned(), self.input_columns.join(", ")),
+            ("output columns".to_owned(), self.output_columns.join(", ")),
+            ("format".to_owned(), self.format.to_string()),
+        ];
+        let settings = self.settings.iter();
+        items.extend(settings.map(|(name, value)| (format!("setting `{name}`"), value.clone())));
+        items
+    }
+
+    fn differences(&self, here: &Self) -> Vec<Difference> {
+        let (there, here) = (self.items(), here.items());
+        let value = |items: &[(String, String)], what: &str| {
+            let mut found = items.iter().filter(|(other, _)| other == what);
+            found.next().map_or("absent".to_owned(), |(_, v)| v.clone())
+        };
+        let mut names: Vec<&String> = there.iter().chain(&here).map(|(what, _)| what).collect();
+        names.sort();
+        names.dedup();
+        let pairs = names.into_iter().map(|what| Difference {
+            what: what.clone(),
+            there: value(&there, what),
+            here: value(&here, what),
+        });
+        pairs.filter(|pair| pair.there != pair.here).collect()
+    }
+
+    /// The manifest of a directory, which `identity` and the format asked for must match; written if there is none
+    /// and `begin` says so.
+    pub(crate) fn agree(
+        directory: &Path,
+        identity: Identity,
+        format: Option<Format>,
+        begin: bool,
+    ) -> Result<Self, SweepError> {
+        let path = directory.join(NAME);
+        let read = || match fs::read(&path) {
+            Ok(bytes) => Ok(Some(bytes)),
+            Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(failed("read", &path)(error)),
+        };
+        let mut bytes = read()?;
+        if bytes.is_none() && begin {
+            let manifest = Self::new(identity.clone(), format.unwrap_or_default());
+            if !manifest.format.is_available() {
+                return Err(SweepError::NoArrow);
+            }
+            let text = serde_json::to_vec_pretty(&manifest).unwrap_or_default();
+            if publish(&path, |file| {
+                file.write_all(&text)?;
+                file.write_all(b"\n")
+            })? {
+                return Ok(manifest);
+            }
+            // Another process came first.
+            bytes = read()?;
+        }
+        let Some(bytes) = bytes else {
+            let directory = directory.to_owned();
+            return Err(SweepError::NoSweep { directory });
+        };
+        let damaged = |reason: String| SweepError::Damaged {
+            path: path.clone(),
+            reason,
+        };
+        let there: Self = serde_json::from_slice(&bytes).map_err(|e| damaged(e.to_string()))?;
+        if there.digest != there.digest() {
+            return Err(damaged("its digest is not that of its contents".to_owned()));
+        }
+        let here = Self::new(identity, format.unwrap_or(there.format));
+        let differences = there.differences(&here);
+        if !differences.is_empty() {
+            return Err(SweepError::Different {
+                directory: directory.to_owned(),
+                differences,
+            });
+        }
+        if !there.format.is_available() {
+            return Err(SweepError::NoArrow);
+        }
+        Ok(there)
+    }
+}

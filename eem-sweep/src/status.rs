@@ -1,0 +1,134 @@
+//! How much of a sweep has been reported, and who is at work.
+
+use std::fmt;
+use std::path::Path;
+
+use serde::Serialize;
+
+use crate::error::SweepError;
+use crate::inputs::Inputs;
+use crate::places::Places;
+use crate::progress::{ShardProgress, told};
+use crate::sweep::Sweep;
+use crate::walk::walk;
+
+/// Ranges that a message names; the others are counted.
+const NAMED: usize = 8;
+
+/// How much of a sweep has been reported.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Status {
+    /// Members of the sweep.
+    pub members: usize,
+    /// Members with a record.
+    pub reported: usize,
+    /// Members whose last record is a failure.
+    pub failed: usize,
+    /// Records that a later run has superseded.
+    pub superseded: usize,
+    /// Records that are there more than once, with the same bits.
+    pub repeated: usize,
+    /// The ids without a record, the first ones of many; empty if there are none.
+    pub missing: String,
+    /// What processes have told last.
+    pub processes: Vec<ShardProgress>,
+}
+
+impl Sweep<'_> {
+    /// Counts what has been reported, while others may be running.
+    ///
+    /// # Errors
+    ///
+    /// [`SweepError`] if there is no sweep or another one in the directory, or a file of it cannot be read.
+    pub fn status(&self, directory: &Path) -> Result<Status, SweepError> {
+        let opened = self.open(directory, None, false)?;
+        let shelf = opened.shelf();
+        let mut status = Status {
+            members: self.inputs().members(),
+            reported: 0,
+            failed: 0,
+            superseded: 0,
+            repeated: 0,
+            missing: String::new(),
+            processes: told(directory),
+        };
+        let mut found = Vec::new();
+        walk(&shelf, &shelf.parts()?, |record| {
+            status.reported += 1;
+            status.failed += usize::from(record.reader.has_failed());
+            status.superseded += record.superseded;
+            status.repeated += record.repeated;
+            extend(&mut found, record.place);
+            Ok(())
+        })?;
+        let missing = Places::one(0..status.members).without(&Places::new(found));
+        status.missing = named(&missing, self.inputs());
+        Ok(status)
+    }
+}
+
+/// Adds a place to ranges in ascending order.
+fn extend(ranges: &mut Vec<std::ops::Range<usize>>, place: usize) {
+    match ranges.last_mut() {
+        Some(last) if last.end == place => last.end += 1,
+        _ => ranges.push(place..place + 1),
+    }
+}
+
+/// The ids of members for people, the first ranges of many.
+pub(crate) fn named(places: &Places, inputs: &Inputs) -> String {
+    let ranges = places.ranges();
+    let name = |range: &std::ops::Range<usize>| match (inputs.id(range.start), range.len()) {
+        (first, 1) => first.to_string(),
+        (first, _) => format!("{first}-{}", inputs.id(range.end - 1)),
+    };
+    let mut texts: Vec<String> = ranges.iter().take(NAMED).map(name).collect();
+    if ranges.len() > NAMED {
+        texts.push(format!("and {} more ranges", ranges.len() - NAMED));
+    }
+    texts.join(",")
+}
+
+impl fmt::Display for Status {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            members,
+            reported,
+            failed,
+            superseded,
+            repeated,
+            missing,
+            processes,
+        } = self;
+        write!(
+            f,
+            "{reported} of {members} members reported, {failed} failed"
+        )?;
+        if superseded + repeated > 0 {
+            write!(
+                f,
+                "; {superseded} records superseded, {repeated} repeated with the same bits"
+            )?;
+        }
+        if !missing.is_empty() {
+            write!(f, "\nmissing: {missing}")?;
+        }
+        for process in processes {
+            let ShardProgress {
+                selection,
+                members,
+                reported,
+                failed,
+                seconds,
+                host,
+                process,
+                ..
+            } = process;
+            write!(
+                f,
+                "\n{selection}: {reported} of {members} reported, {failed} failed, in {seconds:.1} s by process {process} on {host}"
+            )?;
+        }
+        Ok(())
+    }
+}

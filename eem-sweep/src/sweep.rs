@@ -1,0 +1,266 @@
+//! A sweep as data, and what is run for it.
+
+use std::collections::BTreeMap;
+use std::env;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use eem_runtime::{Experiment, MemberFailure, NewtonSettings, Scene, Scheme, Simulation};
+
+use crate::digest;
+use crate::error::SweepError;
+use crate::files;
+use crate::format::{Format, Heads};
+use crate::inputs::{InputError, Inputs, Row};
+use crate::job::{self, Job, Stepping};
+use crate::manifest::{Identity, Manifest};
+use crate::part::Shelf;
+use crate::record::Record;
+
+/// A sweep as data: inputs, scheme, step and settings. With an experiment it is a [`Sweep`].
+///
+/// Pendulums on springs of different stiffness, whose bits do not depend on who has run them:
+///
+/// ```
+/// use eem::prelude::*;
+/// use eem::sweep::{Inputs, Plan, RunOptions};
+/// use eem::Scene;
+///
+/// let inputs = Inputs::grid([("speed", vec![5.0, 10.0, f64::NAN, 20.0])])?;
+/// let sweep = Plan::new("stones", inputs, Scheme::EemEntropy, 0.1)
+///     .setting("steps", 10)
+///     .closures(
+///         |row| row.number("speed"),
+///         |&speed| {
+///             let mut scene = Scene::<2>::new();
+///             let stone = scene.mass(0.5, [0.0, 0.0], [0.0, speed]);
+///             scene.set_gravity([0.0, -10.0]);
+///             (scene, stone)
+///         },
+///         |run, stone, _| {
+///             for _ in 0..10 {
+///                 run.step()?;
+///             }
+///             Ok(run.position(stone)?.y)
+///         },
+///     );
+///
+/// # let directory = std::env::temp_dir().join(format!("eem-stones-{}", std::process::id()));
+/// # let _ = std::fs::remove_dir_all(&directory);
+/// let report = sweep.run(&directory, &RunOptions::default())?;
+/// assert_eq!((report.ran, report.failed), (4, 1));
+/// // Nothing is run twice.
+/// assert_eq!(sweep.run(&directory, &RunOptions::default())?.ran, 0);
+///
+/// let merged = sweep.merge(&directory, None)?;
+/// let table = std::fs::read_to_string(&merged.path)?;
+/// let rows: Vec<&str> = table.lines().collect();
+/// assert_eq!(rows[0], "id,failure,speed,value,failed_at (s),message");
+/// // y = v t − g t²/2 at t = 1 s.
+/// let height: f64 = rows[2].split(',').nth(3).unwrap().parse()?;
+/// assert!((height - 5.0).abs() < 1e-14);
+/// assert!(rows[3].starts_with("2,scene,NaN,,,"));
+/// # std::fs::remove_dir_all(&directory)?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Plan {
+    name: String,
+    program: Option<String>,
+    inputs: Inputs,
+    stepping: Stepping,
+    settings: BTreeMap<String, String>,
+}
+
+impl Plan {
+    /// A sweep over `inputs` whose members are stepped by `scheme` with the time step `step`, s.
+    pub fn new(name: impl Into<String>, inputs: Inputs, scheme: Scheme, step: f64) -> Self {
+        Self {
+            name: name.into(),
+            program: None,
+            inputs,
+            stepping: Stepping {
+                scheme,
+                step,
+                newton: NewtonSettings::default(),
+            },
+            settings: BTreeMap::new(),
+        }
+    }
+
+    /// How hard the steps of all members try.
+    #[must_use]
+    pub fn newton(mut self, settings: NewtonSettings<f64>) -> Self {
+        self.stepping.newton = settings;
+        self
+    }
+
+    /// Something else on which results depend, such as the end time: shards with another value are refused.
+    #[must_use]
+    pub fn setting(mut self, name: impl Into<String>, value: impl fmt::Display) -> Self {
+        self.settings.insert(name.into(), value.to_string());
+        self
+    }
+
+    /// What identifies the program, in place of a digest of the executable: the caller promises that programs of
+    /// the same version compute the same bits.
+    #[must_use]
+    pub fn program(mut self, version: impl Into<String>) -> Self {
+        self.program = Some(version.into());
+        self
+    }
+
+    /// The sweep that runs an experiment, whose inputs `input` makes from rows. With the feature `lanes` four
+    /// members move together, see [`Ensemble::run_experiment`](eem_runtime::Ensemble::run_experiment).
+    pub fn experiment<'a, const D: usize, E>(
+        self,
+        experiment: E,
+        input: impl Fn(Row<'_>) -> Result<E::Input, InputError> + Send + Sync + 'a,
+    ) -> Sweep<'a>
+    where
+        E: Experiment<D> + 'a,
+        E::Output: Record,
+    {
+        let job = job::of_experiment(self.stepping, experiment, input);
+        self.with(job, E::Output::COLUMNS)
+    }
+
+    /// The sweep that runs a pair of closures, as [`Ensemble::run`](eem_runtime::Ensemble::run) does; `input`
+    /// makes their inputs from rows.
+    pub fn closures<'a, const D: usize, I, H, T>(
+        self,
+        input: impl Fn(Row<'_>) -> Result<I, InputError> + Send + Sync + 'a,
+        build: impl Fn(&I) -> (Scene<D>, H) + Sync + 'a,
+        observe: impl Fn(&mut Simulation<D>, H, &I) -> Result<T, MemberFailure> + Sync + 'a,
+    ) -> Sweep<'a>
+    where
+        I: Sync + 'a,
+        H: 'a,
+        T: Record + Send + 'a,
+    {
+        let job = job::of_closures(self.stepping, input, build, observe);
+        self.with(job, T::COLUMNS)
+    }
+
+    fn with<'a>(self, job: Job<'a>, outputs: &'static [&'static str]) -> Sweep<'a> {
+        Sweep {
+            plan: self,
+            outputs,
+            job,
+        }
+    }
+}
+
+/// A sweep that can be run, in as many processes as one likes: each takes some members, and what they leave in
+/// one directory is merged.
+///
+/// See [`Plan`] for an example, and [`main`](fn@crate::main) for the command line.
+pub struct Sweep<'a> {
+    pub(crate) plan: Plan,
+    outputs: &'static [&'static str],
+    pub(crate) job: Job<'a>,
+}
+
+impl fmt::Debug for Sweep<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Sweep")
+            .field("plan", &self.plan)
+            .field("outputs", &self.outputs)
+            .finish_non_exhaustive()
+    }
+}
+
+/// A directory that was found to be of this sweep.
+pub(crate) struct Opened<'a> {
+    pub(crate) manifest: Manifest,
+    heads: Heads,
+    inputs: &'a Inputs,
+    folder: PathBuf,
+}
+
+impl Opened<'_> {
+    pub(crate) fn shelf(&self) -> Shelf<'_> {
+        Shelf {
+            folder: &self.folder,
+            digest: &self.manifest.digest,
+            format: self.manifest.format,
+            heads: &self.heads,
+            inputs: self.inputs,
+        }
+    }
+
+    /// The columns of the table.
+    pub(crate) fn heads(&self) -> &Heads {
+        &self.heads
+    }
+}
+
+impl Sweep<'_> {
+    /// The inputs of all members.
+    #[must_use]
+    pub fn inputs(&self) -> &Inputs {
+        &self.plan.inputs
+    }
+
+    /// Whose directory it is; `begin` makes it a directory of this sweep if there is none.
+    pub(crate) fn open(
+        &self,
+        directory: &Path,
+        format: Option<Format>,
+        begin: bool,
+    ) -> Result<Opened<'_>, SweepError> {
+        let heads = Heads::new(self.plan.inputs.columns(), self.outputs)?;
+        let folder = directory.join("parts");
+        if begin {
+            files::directory(&folder)?;
+        }
+        let manifest = Manifest::agree(directory, self.identity()?, format, begin)?;
+        Ok(Opened {
+            manifest,
+            heads,
+            inputs: &self.plan.inputs,
+            folder,
+        })
+    }
+
+    fn identity(&self) -> Result<Identity, SweepError> {
+        let plan = &self.plan;
+        let mut settings: BTreeMap<String, String> = BTreeMap::new();
+        let own = plan.settings.iter();
+        settings.extend(own.map(|(name, value)| (name.clone(), value.clone())));
+        let Stepping {
+            scheme,
+            step,
+            newton,
+        } = plan.stepping;
+        settings.insert("scheme".to_owned(), scheme.to_string());
+        settings.insert("step (s)".to_owned(), step.to_string());
+        settings.insert(
+            "Newton's method".to_owned(),
+            format!(
+                "{} iterations, {:e}",
+                newton.max_iterations, newton.tolerance
+            ),
+        );
+        Ok(Identity {
+            name: plan.name.clone(),
+            program: self.program()?,
+            members: plan.inputs.members(),
+            inputs: plan.inputs.digest(),
+            input_columns: plan.inputs.columns().to_vec(),
+            output_columns: self.outputs.iter().map(|&head| head.to_owned()).collect(),
+            settings,
+        })
+    }
+
+    /// The version that the caller gives, or a digest of the executable.
+    fn program(&self) -> Result<String, SweepError> {
+        if let Some(version) = &self.plan.program {
+            return Ok(version.clone());
+        }
+        let unknown = || files::failed("find the executable of", Path::new("this process"));
+        let path = env::current_exe().map_err(unknown())?;
+        let digest = digest::of_file(&path).map_err(files::failed("read the executable", &path))?;
+        Ok(format!("an executable with digest {digest}"))
+    }
+}

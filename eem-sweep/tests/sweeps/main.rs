@@ -1,0 +1,11 @@
+//! Sweeps keep what they promise: the same bits however members are divided, nothing lost, torn or double whatever
+//! is killed, and nothing overwritten when something is wrong.
+
+#![allow(clippy::unwrap_used, reason = "a test: what is missing is a failure")]
+
+mod bits;
+mod failures;
+mod inputs;
+mod kills;
+mod program;
+mod refusals;

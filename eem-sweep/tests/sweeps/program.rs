@@ -1,0 +1,161 @@
+//! The program under test: stones on springs, in this process or in others that this test starts.
+
+use std::env;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+
+use clap::Parser;
+use eem::prelude::*;
+use eem::sweep::{Inputs, Plan, Record, Sweep, execute};
+use eem::{Experiment, MemberFailure, Members, Outputs, Real};
+
+#[derive(FreeEnergy)]
+#[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - length).powi(2))]
+pub(crate) struct Spring<S> {
+    pub(crate) stiffness: S,
+    pub(crate) length: S,
+}
+
+/// Where a stone is after some steps, and how fast.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct End {
+    pub(crate) height: f64,
+    pub(crate) energy: f64,
+}
+
+impl Record for End {
+    const COLUMNS: &'static [&'static str] = &["height (m)", "energy (J)"];
+
+    fn write(&self, row: &mut [f64]) {
+        row.copy_from_slice(&[self.height, self.energy]);
+    }
+}
+
+/// A stone that hangs on a spring; its inputs are stiffness and speed.
+pub(crate) struct Stone {
+    pub(crate) steps: usize,
+}
+
+impl Experiment<1> for Stone {
+    type Input = [f64; 2];
+    type Handles = Node;
+    type Output = End;
+
+    fn build<S: Real>(&self, members: Members<'_, [f64; 2], S>) -> (Scene<1, S>, Node) {
+        let number = S::from_f64;
+        let mut scene = Scene::default();
+        let hook = scene.anchor([number(0.0)]);
+        let speed = members.number(|[_, speed]| *speed);
+        let stone = scene.mass(number(1.0), [number(-1.0)], [speed]);
+        let stiffness = members.number(|[stiffness, _]| *stiffness);
+        let length = number(1.0);
+        scene.spring(Spring { stiffness, length }, [hook, stone]);
+        scene.set_gravity([number(-10.0)]);
+        (scene, stone)
+    }
+
+    fn observe<S: Real>(
+        &self,
+        run: &mut Simulation<1, S>,
+        stone: Node,
+        members: Members<'_, [f64; 2], S>,
+    ) -> Result<Outputs<End>, MemberFailure> {
+        for _ in 0..self.steps {
+            run.step()?;
+        }
+        let (height, energy) = (run.position(stone)?.x, run.ledger().energy);
+        Ok(members.outputs(|_, of| End {
+            height: of(height),
+            energy: of(energy),
+        }))
+    }
+}
+
+pub(crate) const STEP: f64 = 1e-2;
+
+/// Some stiffness and speed for each member.
+pub(crate) fn inputs(members: usize) -> Inputs {
+    let columns = [("stiffness", 100.0..900.0), ("speed", -1.0..1.0)];
+    Inputs::latin_hypercube(members, 7, columns).unwrap()
+}
+
+/// The plan of so many members and steps.
+pub(crate) fn plan(members: usize, steps: usize) -> Plan {
+    Plan::new("stones", inputs(members), Scheme::EemEntropy, STEP)
+        .setting("steps", steps)
+        .program("1")
+}
+
+/// The sweep of so many members and steps.
+pub(crate) fn stones(members: usize, steps: usize) -> Sweep<'static> {
+    plan(members, steps).experiment(Stone { steps }, |row| {
+        Ok([row.number("stiffness")?, row.number("speed")?])
+    })
+}
+
+/// An empty directory, and the sweep in it.
+pub(crate) fn directory(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("sweep-{name}"));
+    let _absent = fs::remove_dir_all(&folder);
+    folder
+}
+
+/// The files below a folder with their contents, but for the progress.
+pub(crate) fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let mut files = Vec::new();
+    let Ok(entries) = fs::read_dir(folder) else {
+        return files;
+    };
+    for entry in entries {
+        let path = entry.unwrap().path();
+        if path.is_dir() && !path.ends_with("progress") {
+            files.extend(contents(&path));
+        } else if let Ok(bytes) = fs::read(&path) {
+            files.push((path, bytes));
+        }
+    }
+    files.sort();
+    files
+}
+
+/// What the other process reads.
+const LINE: &str = "EEM_SWEEP_LINE";
+
+/// A process of the program with this command line: members, steps, and what [`eem::sweep::Command`] understands.
+pub(crate) fn start(line: &[&str]) -> Child {
+    let mut command = Command::new(env::current_exe().unwrap());
+    command.args(["program::process", "--exact", "--ignored", "--nocapture"]);
+    command.env(LINE, line.join("\n")).stdin(Stdio::null());
+    command.stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.spawn().unwrap()
+}
+
+/// The same, and waits for its end: the exit code, and what it said.
+pub(crate) fn finish(line: &[&str]) -> (i32, String) {
+    let output = start(line).wait_with_output().unwrap();
+    let said = [output.stdout, output.stderr].concat();
+    (
+        output.status.code().unwrap(),
+        String::from_utf8(said).unwrap(),
+    )
+}
+
+#[derive(Parser)]
+struct Line {
+    members: usize,
+    steps: usize,
+    #[command(subcommand)]
+    command: eem::sweep::Command,
+}
+
+/// No test, but what the other process does.
+#[test]
+#[ignore = "the program that other tests start"]
+fn process() {
+    if let Ok(line) = env::var(LINE) {
+        let line = Line::parse_from(["stones"].into_iter().chain(line.split('\n')));
+        let code = execute(&line.command, &stones(line.members, line.steps));
+        std::process::exit(code.into());
+    }
+}
