@@ -74,8 +74,18 @@ pub mod accuracy {}
 pub mod performance {}
 
 /// Sweeps: thousands of members in many processes, on engines that users have.
+///
+/// [scale]: crate::scale
+///
 #[doc = include_str!("../docs/sweeps.md")]
 pub mod sweeps {}
+
+/// Scale: what a million and a billion members cost, and which limit comes first.
+///
+/// [sweeps]: crate::sweeps
+///
+#[doc = include_str!("../docs/scale.md")]
+pub mod scale {}
 
 /// Extremes: what was tried to break the laws, what completes and what is refused.
 #[doc = include_str!("../docs/extremes.md")]
