@@ -8,6 +8,7 @@
 //! [extremes]: crate::extremes
 //! [reproducible]: crate::reproducible
 //! [sweeps]: crate::sweeps
+//! [scale]: crate::scale
 #![doc = include_str!("../docs/energy.link.md")]
 //!
 #![doc = include_str!("../README.md")]
