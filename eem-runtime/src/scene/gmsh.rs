@@ -2,8 +2,10 @@
 
 mod error;
 mod file;
+mod kind;
+mod lines;
 
-pub use error::MshError;
+pub use error::{LineFault, MshError};
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -51,7 +53,9 @@ impl Msh {
     /// # Errors
     ///
     /// [`MshError::Read`] if there is none; [`MshError::Format`] if it is not of format 4.1 in ASCII;
-    /// [`MshError::Section`] or [`MshError::Line`] if it is damaged.
+    /// [`MshError::Section`], [`MshError::SecondSection`], [`MshError::Unended`] or [`MshError::Outside`] if its
+    /// sections are damaged; [`MshError::Line`] for a line that is not what it has to be, also where sections hold
+    /// something else than they say of themselves.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, MshError> {
         let path = path.as_ref();
         let bytes = std::fs::read(path).map_err(|error| MshError::Read {
@@ -161,10 +165,10 @@ impl Msh {
         let mut cells = Vec::new();
         let blocks = self.blocks.iter();
         for block in blocks.filter(|block| block.dimension == D && wanted(block.entity)) {
-            if block.name() != shape {
+            if block.kind.name != shape {
                 return Err(MshError::WrongElement {
                     entity: block.entity,
-                    found: block.name(),
+                    found: block.kind.name,
                     shape,
                 });
             }
