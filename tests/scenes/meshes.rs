@@ -1,6 +1,6 @@
 //! Meshes and the solids made of them: what is wrong with them is said, and solids are joined.
 
-use eem::kinematics::{Hex8, Hex20, Quad4};
+use eem::kinematics::{Hex8, Hex20, Quad4, Quad8, Shape};
 use eem::prelude::*;
 use eem::{Body, MeshError, SolidError, Strain, StrainEnergy};
 
@@ -54,6 +54,12 @@ fn what_is_wrong_with_a_mesh_is_said() {
     ] {
         assert!(Mesh::<Quad4, 2>::block(cells, ranges).is_err());
     }
+    let endless = [[0.0, 1.0], [f64::NEG_INFINITY, f64::INFINITY]];
+    let error = Mesh::<Quad4, 2>::block([1, 1], endless).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "the block reaches from -inf m to inf m along axis 1: both ends must be finite, and the second above the first"
+    );
     assert_eq!(
         Mesh::<Quad4, 2>::grid([&[0.0, 1.0], &[0.0, 2.0, f64::NAN]])
             .unwrap_err()
@@ -61,6 +67,44 @@ fn what_is_wrong_with_a_mesh_is_said() {
         "cut 2 along axis 1 is NaN m, it must be finite and above the one before"
     );
     assert_eq!(cube(2).kept(|_| false).unwrap_err(), MeshError::Empty);
+}
+
+/// Counts of which no mesh can be made are refused before anything is reserved.
+#[test]
+fn blocks_that_are_too_large_are_refused_at_once() {
+    let ends = [[0.0, 1.0]; 3];
+    for cells in [
+        [usize::MAX, 1, 1],
+        [1 << 32, 1 << 32, 1],
+        [1 << 14; 3],
+        [usize::MAX; 3],
+    ] {
+        let error = Mesh::<Hex8, 3>::block(cells, ends).unwrap_err();
+        assert!(matches!(error, MeshError::TooMany { .. }), "{error}");
+        assert!(Mesh::<Hex20, 3>::block(cells, ends).is_err());
+    }
+    let error = Mesh::<Hex8, 3>::block([1 << 14; 3], ends).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "4398046511104 cells have 4398851866625 nodes, which take 668543874367536 bytes, and no more than 4294967295 \
+         nodes can be numbered: use fewer cells"
+    );
+}
+
+/// Numbers ascend with z, then y, then x: corners, and middles of edges.
+#[test]
+fn nodes_of_blocks_are_numbered_along_x_then_y_then_z() {
+    fn check<H: Shape<D>, const D: usize>(cells: [usize; D], count: usize) {
+        let mesh = Mesh::<H, D>::block(cells, [[0.0, 1.0]; D]).unwrap();
+        assert_eq!(mesh.nodes().len(), count, "{}", H::NAME);
+        let backwards = |place: &[f64; D]| place.iter().rev().copied().collect::<Vec<_>>();
+        let places: Vec<_> = mesh.nodes().iter().map(backwards).collect();
+        assert!(places.is_sorted_by(|a, b| a < b), "{}", H::NAME);
+    }
+    check::<Quad4, 2>([3, 4], 20);
+    check::<Quad8, 2>([3, 4], 20 + 3 * 5 + 4 * 4);
+    check::<Hex8, 3>([3, 4, 2], 60);
+    check::<Hex20, 3>([3, 4, 2], 60 + 3 * 15 + 4 * 12 + 2 * 20);
 }
 
 /// The message of a scene with a body of one cell.

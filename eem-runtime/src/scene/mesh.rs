@@ -7,6 +7,7 @@ mod extruded;
 mod face;
 mod geometry;
 mod grid;
+mod lattice;
 mod network;
 mod outline;
 mod polygon;

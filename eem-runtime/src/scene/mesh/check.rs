@@ -1,7 +1,7 @@
 //! The rules that a mesh must satisfy.
 
 use super::error::MeshError;
-use crate::element::kinematics::{Shape, SolidPoint};
+use crate::element::kinematics::{Shape, Symmetric, integrals};
 use crate::material::free_energy::Array;
 
 /// The first thing that is wrong.
@@ -14,18 +14,27 @@ pub(super) fn check<H: Shape<D>, const D: usize>(
     }
     check_names::<H, D>(nodes.len(), cells)?;
     check_places(nodes)?;
+    let rule = integrals::rule::<H, D>().into_iter();
+    let points: Vec<_> = rule
+        .map(|(place, _)| integrals::functions::<H, f64, D>(place))
+        .collect();
+    let mut reference = H::PerNode::filled([0.0; D]);
     for (index, cell) in cells.iter().enumerate() {
-        let mut reference = H::PerNode::filled([0.0; D]);
         for (place, &node) in reference.as_mut().iter_mut().zip(cell.as_ref()) {
             *place = nodes[node];
         }
-        let points = SolidPoint::<H, f64, 0, D>::points(&reference, 1.0, []);
-        points.map_err(|(point, value)| MeshError::InsideOut {
-            cell: index,
-            point,
-            value,
-            unit: if D == 2 { "m^2" } else { "m^3" },
-        })?;
+        for (point, functions) in points.iter().enumerate() {
+            let jacobian = integrals::jacobian(reference.as_ref(), functions);
+            let value = H::Tensor::<f64>::determinant(&jacobian);
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(MeshError::InsideOut {
+                    cell: index,
+                    point,
+                    value,
+                    unit: if D == 2 { "m^2" } else { "m^3" },
+                });
+            }
+        }
     }
     Ok(())
 }

@@ -21,6 +21,46 @@ pub enum MeshError {
         /// m.
         value: f64,
     },
+    /// The ends of a block along an axis do not ascend.
+    #[error(
+        "the block reaches from {from} m to {to} m along axis {axis}: both ends must be finite, and the second above the first",
+        from = Readable(*from), to = Readable(*to)
+    )]
+    Range {
+        /// The axis, from 0.
+        axis: usize,
+        /// m.
+        from: f64,
+        /// m.
+        to: f64,
+    },
+    /// Nodes cannot be numbered.
+    #[error(
+        "{cells} cells have {nodes} nodes, which take {bytes} bytes, and no more than 4294967295 nodes can be numbered: use fewer cells"
+    )]
+    TooMany {
+        /// Cells; [`u128::MAX`] stands for that or more, here and below.
+        cells: u128,
+        /// Their nodes.
+        nodes: u128,
+        /// What both take while the mesh is made and checked.
+        bytes: u128,
+    },
+    /// A mesh takes more memory than there is.
+    #[error(
+        "{cells} cells with {nodes} nodes take {bytes} bytes, {}: use fewer cells, or a machine with more memory",
+        available.map_or_else(|| "which the system refuses".to_owned(), |most| format!("and {most} are available"))
+    )]
+    TooLarge {
+        /// Cells.
+        cells: u128,
+        /// Their nodes.
+        nodes: u128,
+        /// What both take while the mesh is made and checked.
+        bytes: u128,
+        /// What there is, bytes; `None` where the machine had it available, or does not say, and refused it.
+        available: Option<u64>,
+    },
     /// Two sides of a polygon cross or touch.
     #[error("sides {first} and {second} of the polygon cross or touch, counted from 0: side n leads from corner n to the next", first = sides[0], second = sides[1])]
     Crossing {

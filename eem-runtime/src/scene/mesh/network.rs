@@ -104,7 +104,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     pub(crate) fn sub_faces_of(&self, [cell, face]: [usize; 2]) -> Vec<SubFace<D>> {
         let (axis, side) = (face / 2, face % 2);
         let end = side * (H::PER_AXIS - 1);
-        let all = indices([H::PER_AXIS; D]).into_iter();
+        let all = indices([H::PER_AXIS; D]);
         let outer = all.filter(|index| index[axis] == end);
         outer
             .map(|index| self.sub_face(cell, index, axis, side))
