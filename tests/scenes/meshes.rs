@@ -4,6 +4,7 @@ use eem::kinematics::{Hex8, Hex20, Quad4, Quad8, Shape};
 use eem::prelude::*;
 use eem::{Body, MeshError, SolidError, Strain, StrainEnergy};
 
+use crate::support::only_error;
 use crate::support::solids::{MooneyRivlin, Reinforced, SaintVenant, ThermoelasticSolid};
 
 const ELASTIC: SaintVenant = SaintVenant {
@@ -280,7 +281,7 @@ fn conduction_through_skew_cells_has_to_be_allowed() {
 /// Heat passes between solids that conduct and share a whole face.
 #[test]
 fn heat_between_solids_needs_a_shared_face_and_conductivities() {
-    let refused = |conductivities: [Option<f64>; 2], within: f64, twice: bool| {
+    let refused = |conductivities: [Option<f64>; 2], is_joined: bool, twice: bool| {
         let bulk = |conductivity| match conductivity {
             Some(conductivity) => Bulk::new(10.0).conductivity(conductivity),
             None => Bulk::<3>::new(10.0),
@@ -288,7 +289,10 @@ fn heat_between_solids_needs_a_shared_face_and_conductivities() {
         let mut scene = Scene::<3>::new();
         let first = scene.solid(MooneyRivlin::RUBBER, &cube(1), &bulk(conductivities[0]));
         let beside = cube(1).translated([1.0, 0.0, 0.0]).unwrap();
-        let joined = bulk(conductivities[1]).joined_to(&first, within);
+        let mut joined = bulk(conductivities[1]);
+        if is_joined {
+            joined = joined.joined_to(&first, 1e-9);
+        }
         let second = scene.solid(MooneyRivlin::RUBBER, &beside, &joined);
         for &point in first.points().iter().chain(second.points()) {
             scene.set_temperature(point, 300.0);
@@ -298,18 +302,65 @@ fn heat_between_solids_needs_a_shared_face_and_conductivities() {
         run.unwrap_err().to_string()
     };
     let both = [Some(1.0); 2];
-    let message = refused(both, -1.0, false);
+    let message = refused(both, false, false);
     assert!(
         message.starts_with("the solids at element 0 (MooneyRivlin) and element 8 (MooneyRivlin) share no whole face"),
         "{message}"
     );
-    let message = refused([Some(1.0), None], 1e-9, false);
+    let message = refused([Some(1.0), None], true, false);
     assert!(
         message.starts_with("the solid at element 8 (MooneyRivlin) has no conductivity"),
         "{message}"
     );
-    let message = refused(both, 1e-9, true);
+    let message = refused(both, true, true);
     assert!(message.contains("itself"), "{message}");
+}
+
+/// What joins nothing, or the wrong nodes, is said with the solids and the distances.
+#[test]
+fn joints_that_cannot_be_are_refused() {
+    let squares = |cells| Mesh::<Quad4, 2>::block(cells, [[0.0, 1.0]; 2]).unwrap();
+    let refused = |cells: [usize; 2], by: f64, within: f64| {
+        let mut scene = Scene::<2>::new();
+        let first = scene.solid(ELASTIC, &squares([2, 2]), &Bulk::new(10.0));
+        let beside = squares(cells).translated([by, 0.0]).unwrap();
+        scene.solid(ELASTIC, &beside, &Bulk::new(10.0).joined_to(&first, within));
+        let run = Simulation::new(scene, Scheme::EemEntropy, 0.1);
+        run.is_err().then(|| only_error(run).to_string())
+    };
+    assert_eq!(refused([2, 2], 1.0, 1e-9), None);
+    assert_eq!(refused([2, 2], 1.0 + 1e-12, 1e-9), None);
+    let solids = "the solid at element 16 (SaintVenant)";
+    for within in [f64::NAN, -1.0, f64::INFINITY] {
+        let message = refused([2, 2], 1.0, within).unwrap();
+        let said =
+            format!("{solids} is joined to that at element 0 (SaintVenant) within {within} m");
+        assert!(message.starts_with(&said), "{message}");
+    }
+    assert_eq!(
+        refused([2, 2], 1.75, 0.25).unwrap(),
+        "no node of the solid at element 16 (SaintVenant) is within 0.25 m of one of the solid at element 0 \
+         (SaintVenant), to which it is joined (`Bulk::joined_to`): the nearest are 0.75 m apart; move its mesh, or join \
+         within a larger distance"
+    );
+    // Nodes of a finer mesh become the same ones.
+    let message = refused([2, 4], 1.0, 0.3).unwrap();
+    let said =
+        format!("{solids} is joined within 0.3 m (`Bulk::joined_to`), and with its nodes where");
+    assert!(
+        message.starts_with(&said) && message.contains("in the same place: join within a smaller"),
+        "{message}"
+    );
+    let message = refused([2, 2], 0.0, 0.0).unwrap();
+    let said = format!(
+        "cell 0 of {solids} is joined (`Bulk::joined_to`) to all nodes of the cell at element 0"
+    );
+    assert!(message.starts_with(&said), "{message}");
+    let message = refused([2, 2], 0.5, 1e-9).unwrap();
+    assert!(
+        message.contains("to all nodes of the cell at element 4"),
+        "{message}"
+    );
 }
 
 /// Two solids share the nodes of a line, about which one turns freely beside the other.

@@ -1,5 +1,7 @@
 //! Solids from meshes.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use nalgebra::SVector;
 
 use super::Scene;
@@ -10,8 +12,11 @@ use crate::number::scalar::Real;
 use crate::scene::body::Body;
 use crate::scene::bulk::Bulk;
 use crate::scene::cell::Stuff;
+use crate::scene::entry::UNMADE;
 use crate::scene::error::SceneError;
+use crate::scene::joints::{Shared, joined};
 use crate::scene::mesh::Mesh;
+use crate::scene::solid_error::SolidError;
 
 /// # Solids from meshes
 impl<const D: usize, S: Real> Scene<D, S> {
@@ -63,13 +68,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         H: Shape<D>,
         M: FreeEnergy<S> + StrainEnergy<N> + Send + Sync + 'static,
     {
-        let places = mesh.nodes().iter();
-        let nodes: Vec<Node> = places
-            .map(|&place| match bulk.joint(place) {
-                Some(node) => node,
-                None => self.node(place.map(S::from_f64), [S::zero(); D]),
-            })
-            .collect();
+        let nodes = self.nodes_of_mesh(mesh, bulk, self.next_element::<M>());
         let stuff = Stuff {
             density: bulk.density,
             thickness: S::from_f64(bulk.thickness),
@@ -93,6 +92,60 @@ impl<const D: usize, S: Real> Scene<D, S> {
         };
         self.conduct_in(&body, bulk.allow_skew_cells);
         body
+    }
+
+    /// The nodes of a mesh whose first point is `element`: new ones, and those of solids to which it is joined. What is
+    /// wrong with those becomes misuse, and they are new as well.
+    fn nodes_of_mesh<H: Shape<D>>(
+        &mut self,
+        mesh: &Mesh<H, D>,
+        bulk: &Bulk<D, S>,
+        element: Element,
+    ) -> Vec<Node> {
+        let shared = joined(&bulk.joints, mesh, element);
+        let shared = shared.and_then(|shared| {
+            self.check_joined_cells(mesh, &shared, element)?;
+            Ok(shared)
+        });
+        let shared = shared.unwrap_or_else(|error| {
+            self.misuse.push(error.into());
+            vec![None; mesh.nodes().len()]
+        });
+        let places = mesh.nodes().iter().zip(shared);
+        let nodes = places.map(|(place, shared)| match shared {
+            Some(shared) => shared.node,
+            None => self.node(place.map(S::from_f64), [S::zero(); D]),
+        });
+        nodes.collect()
+    }
+
+    /// An error if a cell has all its nodes in common with one that there is.
+    fn check_joined_cells<H: Shape<D>>(
+        &self,
+        mesh: &Mesh<H, D>,
+        shared: &[Option<Shared<D>>],
+        element: Element,
+    ) -> Result<(), SolidError> {
+        let mut joined = BTreeMap::new();
+        for (cell, nodes) in mesh.cells().iter().enumerate() {
+            let nodes = nodes.as_ref().iter();
+            let nodes: Option<BTreeSet<usize>> = nodes
+                .map(|&node| shared[node].map(|shared| shared.node.index))
+                .collect();
+            joined.extend(nodes.map(|nodes| (nodes, cell)));
+        }
+        if joined.is_empty() {
+            return Ok(());
+        }
+        for (index, entry) in self.elements.iter().enumerate() {
+            let nodes = entry.nodes.iter().copied().collect();
+            let cell = joined.get(&nodes).filter(|_| entry.group != UNMADE);
+            if let Some(&cell) = cell {
+                let elements = [element, self.element_at(index)];
+                return Err(SolidError::JoinedCell { cell, elements });
+            }
+        }
+        Ok(())
     }
 
     /// Replaces the initial velocity of a node, m/s, or its momentum. Anchors have none.

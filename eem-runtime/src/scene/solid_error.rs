@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use crate::element::handle::Element;
 use crate::number::readable::Readable;
+use crate::scene::mesh::MeshError;
 
 /// Why a solid cannot be as it is described.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -79,6 +80,54 @@ pub enum SolidError {
     )]
     NoSharedFace {
         /// Their first points.
+        elements: [Element; 2],
+    },
+    /// Nodes of a solid are to be joined within what is no distance.
+    #[error(
+        "the solid at {first} is joined to that at {second} within {within} m (`Bulk::joined_to`), which must be finite and not negative",
+        first = elements[0], second = elements[1], within = Readable(*within)
+    )]
+    JointDistance {
+        /// The first points of the solid and of the other one.
+        elements: [Element; 2],
+        /// m.
+        within: f64,
+    },
+    /// No node of a solid is near enough to another one to be joined to it.
+    #[error(
+        "no node of the solid at {first} is within {within} m of one of the solid at {second}, to which it is joined (`Bulk::joined_to`): the nearest are {nearest} m apart; move its mesh, or join within a larger distance",
+        first = elements[0], second = elements[1], within = Readable(*within), nearest = Readable(*nearest)
+    )]
+    NotJoined {
+        /// The first points of the solid and of the other one.
+        elements: [Element; 2],
+        /// m.
+        within: f64,
+        /// The least distance of two of their nodes, m.
+        nearest: f64,
+    },
+    /// Cells of a solid are damaged where its nodes become those of others.
+    #[error(
+        "the solid at {element} is joined within {within} m (`Bulk::joined_to`), and with its nodes where those are that they become, {error}: join within a smaller distance, or move its mesh",
+        within = Readable(*within)
+    )]
+    JoinedNodes {
+        /// Its first point.
+        element: Element,
+        /// m, the largest if there are several.
+        within: f64,
+        /// What is wrong with its mesh then.
+        error: MeshError,
+    },
+    /// A cell of a solid is on one of a solid that it is joined to.
+    #[error(
+        "cell {cell} of the solid at {first} is joined (`Bulk::joined_to`) to all nodes of the cell at {second}, and would be in its place: move its mesh",
+        first = elements[0], second = elements[1]
+    )]
+    JoinedCell {
+        /// The cell, from 0.
+        cell: usize,
+        /// The first points of the solid, and of the other cell.
         elements: [Element; 2],
     },
     /// A face is not of the mesh of a solid.
