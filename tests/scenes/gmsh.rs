@@ -212,6 +212,20 @@ fn sections_hold_what_they_say_of_themselves() {
     );
 }
 
+/// What is wrong between elements names them by their tags.
+#[test]
+fn an_element_is_in_a_file_once() {
+    let twice = "3 4 1 4\n1 5 1 1\n1 3 6\n2 7 3 1\n2 1 2 5 4\n2 8 3 2\n4 5 2 3 6\n3 2 3 6 5\n$";
+    let once = "3 3 1 3\n1 5 1 1\n1 3 6\n2 7 3 1\n2 1 2 5 4\n2 8 3 1\n3 2 3 6 5\n$";
+    let file = changed(once, twice).unwrap();
+    let error = file.mesh::<Quad4, 2>().unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "elements [4, 3] of the file: cells 1 and 2 have the same nodes: leave one of them"
+    );
+    assert!(file.mesh_of::<Quad4, 2>(&[7]).is_ok());
+}
+
 #[test]
 fn sections_begin_and_end_and_are_there_once() {
     let said = |from, to| changed(from, to).unwrap_err().to_string();

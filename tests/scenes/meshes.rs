@@ -70,6 +70,98 @@ fn what_is_wrong_with_a_mesh_is_said() {
     assert_eq!(cube(2).kept(|_| false).unwrap_err(), MeshError::Empty);
 }
 
+/// The cells next to each other and on each other.
+#[test]
+fn cells_lie_beside_each_other() {
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let build = |more: &[[f64; 2]], cells: &[[usize; 4]]| {
+        let nodes = [&corners, more].concat();
+        Mesh::<Quad4, 2>::new(nodes, cells.to_vec())
+    };
+    let cells = [0, 1];
+    assert_eq!(
+        build(&[], &[[0, 1, 2, 3], [1, 2, 3, 0]]).unwrap_err(),
+        MeshError::SameNodes { cells }
+    );
+    let right = [[2.0, 0.0], [2.0, 1.0]];
+    assert!(build(&right, &[[0, 1, 2, 3], [1, 4, 5, 2]]).is_ok());
+    let twice = [right[0], right[1], [3.0, 0.0], [3.0, 1.0]];
+    let three = build(&twice, &[[0, 1, 2, 3], [1, 4, 5, 2], [1, 6, 7, 2]]);
+    assert_eq!(
+        three.unwrap_err().to_string(),
+        "cells 0, 1 and 2 all have a face with the corners [1, 2], which two can have in common"
+    );
+    let inside = build(&[[0.9, 0.5], [0.1, 0.5]], &[[0, 1, 2, 3], [0, 1, 4, 5]]);
+    let nodes = vec![0, 1];
+    assert_eq!(inside.unwrap_err(), MeshError::SameSide { cells, nodes });
+
+    let cube = cube(1);
+    let build = |shifts: &[f64]| {
+        let (mut nodes, mut cells) = (cube.nodes().to_vec(), cube.cells().to_vec());
+        for &shift in shifts {
+            let last = nodes.len();
+            // On the face z = 1 of the cube, which has the nodes 4 to 7.
+            nodes.extend(
+                cube.nodes()[..4]
+                    .iter()
+                    .map(|[x, y, _]| [*x, *y, 1.0 + shift]),
+            );
+            let above = [4, 5, 7, 6];
+            let far = [last, last + 1, last + 3, last + 2];
+            let [lower, upper] = if shift > 0.0 {
+                [above, far]
+            } else {
+                [far, above]
+            };
+            cells.push([lower, upper].concat().try_into().unwrap());
+        }
+        Mesh::<Hex8, 3>::new(nodes, cells)
+    };
+    assert!(build(&[1.0]).is_ok());
+    assert!(matches!(
+        build(&[1.0, 2.0]),
+        Err(MeshError::CrowdedFace {
+            cells: [0, 1, 2],
+            ..
+        })
+    ));
+    let nodes = vec![4, 5, 7, 6];
+    assert_eq!(
+        build(&[-0.5]).unwrap_err(),
+        MeshError::SameSide { cells, nodes }
+    );
+}
+
+/// A cell may be inside out at a corner only, where it has no point.
+#[test]
+fn cells_are_inside_out_at_no_node() {
+    let concave = vec![[0.0, 0.0], [1.0, 0.0], [0.45, 0.45], [0.0, 1.0]];
+    let error = Mesh::<Quad4, 2>::new(concave, vec![[0, 1, 2, 3]]).unwrap_err();
+    assert!(
+        matches!(error, MeshError::InsideOutAtNode { cell: 0, node: 2, value, .. } if value < 0.0),
+        "{error}"
+    );
+    let message = error.to_string();
+    assert!(
+        message.starts_with("cell 0 is inside out, or flat, at its node 2: det dX/dxi is -0.02"),
+        "{message}"
+    );
+    // The middle of an edge at a part of it: at a quarter, det is zero at the corner.
+    let quad = |part: f64| {
+        let mut nodes = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        nodes.extend([[part, 0.0], [1.0, 0.5], [0.5, 1.0], [0.0, 0.5]]);
+        Mesh::<Quad8, 2>::new(nodes, vec![[0, 1, 2, 3, 4, 5, 6, 7]])
+    };
+    assert!(quad(0.5).is_ok() && quad(0.26).is_ok() && quad(0.74).is_ok());
+    for (part, at) in [(0.25, 0), (0.24, 0), (0.75, 1)] {
+        let error = quad(part).unwrap_err();
+        assert!(
+            matches!(error, MeshError::InsideOutAtNode { node, .. } if node == at),
+            "{error}"
+        );
+    }
+}
+
 /// Counts of which no mesh can be made are refused before anything is reserved.
 #[test]
 fn blocks_that_are_too_large_are_refused_at_once() {

@@ -83,7 +83,7 @@ impl Msh {
     /// [`MshError::WrongElement`] if some elements of its dimension have another shape, [`MshError::NoElements`] if
     /// there are none; [`MshError::NoNode`] and [`MshError::Orphan`] for nodes without place or element;
     /// [`MshError::Plane`] for a mesh in the plane that is not in one of constant z; what is wrong with a
-    /// [`Mesh`] as [`MshError::Element`], [`MshError::Duplicate`] or [`MshError::Mesh`].
+    /// [`Mesh`] as [`MshError::Element`], [`MshError::Elements`], [`MshError::Duplicate`] or [`MshError::Mesh`].
     pub fn mesh<H: Shape<D>, const D: usize>(&self) -> Result<Mesh<H, D>, MshError> {
         self.check_orphans()?;
         self.mesh_from(|_| true, None)
@@ -196,9 +196,19 @@ impl Msh {
         }
         let elements: Vec<u64> = cells.iter().map(|(element, _)| *element).collect();
         Mesh::new(places, named).map_err(|error| match error {
-            MeshError::InsideOut { cell, .. } | MeshError::Repeated { cell, .. } => {
+            MeshError::InsideOut { cell, .. }
+            | MeshError::InsideOutAtNode { cell, .. }
+            | MeshError::Repeated { cell, .. } => {
                 let element = elements[cell];
                 MshError::Element { element, error }
+            }
+            MeshError::SameNodes { cells } | MeshError::SameSide { cells, .. } => {
+                let elements = cells.map(|cell| elements[cell]).to_vec();
+                MshError::Elements { elements, error }
+            }
+            MeshError::CrowdedFace { cells, .. } => {
+                let elements = cells.map(|cell| elements[cell]).to_vec();
+                MshError::Elements { elements, error }
             }
             MeshError::Duplicate { nodes } => MshError::Duplicate {
                 nodes: nodes.map(|node| tags[node]),

@@ -146,6 +146,14 @@ pub enum MshError {
         /// What is wrong, in the numbering of the mesh.
         error: MeshError,
     },
+    /// Something is wrong between elements.
+    #[error("elements {elements:?} of the file: {error}")]
+    Elements {
+        /// The elements.
+        elements: Vec<u64>,
+        /// What is wrong, in the numbering of the mesh.
+        error: MeshError,
+    },
     /// Something else is wrong with the mesh, in its own numbering.
     #[error(transparent)]
     Mesh(#[from] MeshError),

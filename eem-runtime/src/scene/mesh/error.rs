@@ -122,6 +122,49 @@ pub enum MeshError {
         /// Its unit, m² or m³.
         unit: &'static str,
     },
+    /// A cell is inside out at one of its nodes, or its edges go on in one line there.
+    #[error(
+        "cell {cell} is inside out, or flat, at its node {node}: det dX/dxi is {value} {unit} there, it must be positive and finite; at a corner less than half a turn lies between its edges",
+        value = Readable(*value)
+    )]
+    InsideOutAtNode {
+        /// The cell, from 0.
+        cell: usize,
+        /// The node, from 0.
+        node: usize,
+        /// `det ∂X/∂ξ`.
+        value: f64,
+        /// Its unit, m² or m³.
+        unit: &'static str,
+    },
+    /// Two cells have the same nodes.
+    #[error("cells {first} and {second} have the same nodes: leave one of them", first = cells[0], second = cells[1])]
+    SameNodes {
+        /// The cells, from 0.
+        cells: [usize; 2],
+    },
+    /// More than two cells have a face in common.
+    #[error(
+        "cells {first}, {second} and {third} all have a face with the corners {nodes:?}, which two can have in common",
+        first = cells[0], second = cells[1], third = cells[2]
+    )]
+    CrowdedFace {
+        /// Three of the cells, from 0.
+        cells: [usize; 3],
+        /// The corners of the face, from 0.
+        nodes: Vec<usize>,
+    },
+    /// Two cells lie on the same side of the face that they have in common.
+    #[error(
+        "cells {first} and {second} are on the same side of their face with the corners {nodes:?}, one in the other",
+        first = cells[0], second = cells[1]
+    )]
+    SameSide {
+        /// The cells, from 0.
+        cells: [usize; 2],
+        /// The corners of the face, from 0.
+        nodes: Vec<usize>,
+    },
     /// No node is in a place.
     #[error("no node is at {place:?} m: the nearest is at {nearest:?} m")]
     NoNodeAt {
