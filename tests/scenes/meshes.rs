@@ -2,7 +2,7 @@
 
 use eem::kinematics::{Hex8, Hex20, Quad4, Quad8, Shape};
 use eem::prelude::*;
-use eem::{Body, MeshError, SolidError, Strain, StrainEnergy};
+use eem::{Body, Face, MeshError, SolidError, Strain, StrainEnergy};
 
 use crate::support::only_error;
 use crate::support::solids::{MooneyRivlin, Reinforced, SaintVenant, ThermoelasticSolid};
@@ -332,6 +332,31 @@ fn what_is_not_positive_in_a_solid_is_said_and_faces_of_other_meshes_are_refused
     };
     assert!(plate(0.0).starts_with("the thickness of the solid at element 0 (SaintVenant) is 0 m"));
     assert_eq!(cube(1).face(|[x, ..]| x > 1.0), Err(MeshError::NoFace));
+}
+
+/// Faces that are numbered alike are not the same.
+#[test]
+fn a_face_is_of_the_mesh_that_it_was_taken_from() {
+    let mesh = |length| Mesh::<Quad4, 2>::block([2, 2], [[0.0, length]; 2]).unwrap();
+    let end = |mesh: &Mesh<Quad4, 2>, x: f64| mesh.face(|place| place[0] >= x).unwrap();
+    let pushed = |face: &Face| {
+        let mut scene = Scene::<2>::new();
+        let body = scene.solid(ELASTIC, &mesh(1.0), &Bulk::new(10.0));
+        scene.traction(&body, face, |_| [1.0, 0.0]);
+        Simulation::new(scene, Scheme::EemEntropy, 0.1)
+    };
+    // Of one that is equal, and of its copy.
+    assert!(pushed(&end(&mesh(1.0), 1.0)).is_ok());
+    assert!(pushed(&end(&mesh(1.0).clone(), 1.0)).is_ok());
+    let larger = end(&mesh(7.0), 7.0);
+    let moved = mesh(1.0).translated([7.0, 0.0]).unwrap();
+    for face in [larger, end(&moved, 8.0)] {
+        let error = only_error(pushed(&face));
+        assert!(
+            matches!(error, SceneError::Solid(SolidError::ForeignFace { .. })),
+            "{error}"
+        );
+    }
 }
 
 /// A few skew faces are no error: the rim of a mesh may have some.

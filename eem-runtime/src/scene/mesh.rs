@@ -2,6 +2,7 @@
 
 mod boundary;
 mod check;
+mod digest;
 mod error;
 mod extruded;
 mod face;
@@ -21,6 +22,7 @@ pub use face::{Face, Outline};
 pub(crate) use geometry::distance;
 pub(crate) use sub_face::facing;
 
+use digest::Digest;
 use nalgebra::{Rotation, SVector};
 
 use crate::element::kinematics::Shape;
@@ -50,6 +52,7 @@ use crate::element::kinematics::Shape;
 pub struct Mesh<H: Shape<D>, const D: usize> {
     nodes: Vec<[f64; D]>,
     cells: Vec<H::PerNode<usize>>,
+    digest: Digest,
 }
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
@@ -72,7 +75,12 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     /// [`MeshError`] names the first node or cell that is wrong.
     pub fn new(nodes: Vec<[f64; D]>, cells: Vec<H::PerNode<usize>>) -> Result<Self, MeshError> {
         check::check::<H, D>(&nodes, &cells)?;
-        Ok(Self { nodes, cells })
+        let digest = Digest::of(&nodes, &cells);
+        Ok(Self {
+            nodes,
+            cells,
+            digest,
+        })
     }
 
     /// Where the nodes are, m.

@@ -132,7 +132,7 @@ pub enum SolidError {
     },
     /// A face is not of the mesh of a solid.
     #[error(
-        "the face is not of the mesh of the solid at {element}: take it from its own mesh, by `Body::mesh` and `Mesh::face`"
+        "the face is not of the mesh of the solid at {element}: take it from its own mesh, by `Body::mesh` and `Mesh::face`; a mesh that has been moved or refined has faces of its own"
     )]
     ForeignFace {
         /// Its first point.

@@ -40,14 +40,13 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         let mut nodes: Vec<_> = sides.iter().flat_map(|&side| self.nodes_of(side)).collect();
         nodes.sort_unstable();
         nodes.dedup();
-        Ok(Face { sides, nodes })
+        let mesh = self.digest;
+        Ok(Face { mesh, sides, nodes })
     }
 
-    /// Whether some faces are faces of this mesh, or of one that is numbered alike.
+    /// Whether some faces are faces of this mesh, or of one that is equal to it.
     pub(crate) fn has(&self, face: &Face) -> bool {
-        let exists = |&[cell, side]: &[usize; 2]| cell < self.cells.len() && side < H::FACES.len();
-        let mut sides = face.sides.iter();
-        sides.all(exists) && self.face_of(face.sides.clone()).as_ref() == Ok(face)
+        face.mesh == self.digest
     }
 
     /// The nodes of a face of a cell.
