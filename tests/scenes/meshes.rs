@@ -359,6 +359,60 @@ fn a_face_is_of_the_mesh_that_it_was_taken_from() {
     }
 }
 
+/// What is wrong with a solid is said once, and not for each of its cells.
+#[test]
+fn what_is_wrong_with_all_cells_is_said_once() {
+    let squares = Mesh::<Quad4, 2>::block([3, 3], [[0.0, 1.0]; 2]).unwrap();
+    let refused = |bulk: Bulk<2>| {
+        let mut scene = Scene::<2>::new();
+        scene.solid(ELASTIC, &squares, &bulk);
+        only_error(Simulation::new(scene, Scheme::EemEntropy, 0.1)).to_string()
+    };
+    assert_eq!(
+        refused(Bulk::new(0.0)),
+        "the density of the solid at element 0 (SaintVenant) is 0 kg/m^3, it must be positive and finite"
+    );
+    let message = refused(Bulk::new(1.0).fibre([1.0, 0.0]));
+    assert!(
+        message.contains("has 0 strains of fibres, and 1 directions"),
+        "{message}"
+    );
+    assert_eq!(
+        refused(Bulk::new(1.0).conductivity(2.0)),
+        "the solid at element 0 (SaintVenant) has a conductivity, but no temperature: leave `Bulk::conductivity` out, or \
+         take a free energy with an argument `Temperature`"
+    );
+}
+
+/// Lengths that are far from any body's are no other mistake.
+#[test]
+fn cells_whose_size_is_no_number_are_said_to_be_so() {
+    let square = |length: f64| [[0.0, 0.0], [length, 0.0], [length, length], [0.0, length]];
+    for (length, said) in [(1e200, "inf"), (1e-170, "0")] {
+        let said = format!("cell 0 is too large or too small: det dX/dxi is {said} m^2, outside");
+        let nodes = square(length).to_vec();
+        let mesh = Mesh::<Quad4, 2>::new(nodes, vec![[0, 1, 2, 3]]);
+        let polygon = Mesh::<Quad4, 2>::polygon(&square(length));
+        for error in [mesh.unwrap_err(), polygon.unwrap_err()] {
+            assert!(error.to_string().starts_with(&said), "{error}");
+        }
+        let nodes = square(length).to_vec();
+        let error = Mesh::<Quad4, 2>::new(nodes, vec![[3, 2, 1, 0]]).unwrap_err();
+        assert!(matches!(error, MeshError::InsideOut { .. }), "{error}");
+    }
+    let all = [-f64::MAX, f64::MAX];
+    let ends = Mesh::<Quad4, 2>::block([2, 1], [all, [0.0, 1.0]]).unwrap();
+    assert_eq!(ends.nodes()[1], [0.0, 0.0]);
+    let mut scene = Scene::<3>::new();
+    let body = scene.solid(ELASTIC, &cube(1), &Bulk::new(1.0));
+    for within in [f64::NAN, -1.0] {
+        let error = body.node_at([0.0; 3], within).unwrap_err().to_string();
+        let said =
+            format!("a node is looked for within {within} m, which must be zero or positive");
+        assert_eq!(error, said);
+    }
+}
+
 /// A few skew faces are no error: the rim of a mesh may have some.
 #[test]
 fn conduction_through_skew_cells_has_to_be_allowed() {

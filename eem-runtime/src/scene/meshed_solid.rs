@@ -68,13 +68,27 @@ impl<const D: usize, S: Real> Scene<D, S> {
         H: Shape<D>,
         M: FreeEnergy<S> + StrainEnergy<N> + Send + Sync + 'static,
     {
-        let nodes = self.nodes_of_mesh(mesh, bulk, self.next_element::<M>());
-        let stuff = Stuff {
+        let first = self.next_element::<M>();
+        let nodes = self.nodes_of_mesh(mesh, bulk, first);
+        let mut stuff = Stuff {
             density: bulk.density,
             thickness: S::from_f64(bulk.thickness),
             fibres: &bulk.fibres,
             lumped: bulk.lumped,
+            is_refused: false,
         };
+        // Once, and not for every cell.
+        if let Err(error) = stuff.measures(M::STRAINS, first) {
+            self.misuse.push(error.into());
+            stuff.is_refused = true;
+        }
+        let mut conductivity = bulk.conductivity;
+        if conductivity.is_some() && !M::THERMAL {
+            let element = first;
+            self.misuse
+                .push(SolidError::NoTemperature { element }.into());
+            conductivity = None;
+        }
         let mut points = Vec::with_capacity(mesh.cells().len() * H::PerPoint::<Element>::LEN);
         for cell in mesh.cells() {
             let mut named = H::PerNode::filled(nodes[0]);
@@ -88,7 +102,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             nodes,
             points,
             thickness: bulk.thickness,
-            conductivity: bulk.conductivity,
+            conductivity,
         };
         self.conduct_in(&body, bulk.allow_skew_cells);
         body

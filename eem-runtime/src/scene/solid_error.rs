@@ -57,6 +57,14 @@ pub enum SolidError {
         /// Its first point.
         element: Element,
     },
+    /// A solid has a conductivity and no temperature.
+    #[error(
+        "the solid at {element} has a conductivity, but no temperature: leave `Bulk::conductivity` out, or take a free energy with an argument `Temperature`"
+    )]
+    NoTemperature {
+        /// Its first point.
+        element: Element,
+    },
     /// Cells of a solid that conducts are so skew that heat would flow in wrong directions.
     #[error(
         "the cells of the solid at {element} are too skew for its conductivity: heat crosses {skew} of {faces} faces between points at a cosine |A·d|/(|A||d|) below 0.95, the worst in cell {cell} at {cosine:.3}, and one in twenty may; use cells that are nearly rectangular, or accept wrong directions of heat by `Bulk::allow_skew_cells`"

@@ -1,6 +1,7 @@
 //! The rules that a mesh must satisfy.
 
 use super::error::MeshError;
+use super::geometry::power_of_two;
 use super::sides;
 use crate::element::kinematics::{Shape, Symmetric, integrals};
 use crate::material::free_energy::Array;
@@ -41,26 +42,50 @@ fn check_sizes<H: Shape<D>, const D: usize>(
             let jacobian = integrals::jacobian(reference.as_ref(), functions);
             H::Tensor::<f64>::determinant(&jacobian)
         };
+        let scale = |functions, value| {
+            let is_there = is_size(scaled_size::<H, D>(reference.as_ref(), functions));
+            is_there.then_some(MeshError::Scale { cell, value, unit })
+        };
         let sizes = points.iter().map(size);
         if let Some((point, value)) = sizes.enumerate().find(|&(_, value)| !is_size(value)) {
-            return Err(MeshError::InsideOut {
+            let inside_out = MeshError::InsideOut {
                 cell,
                 point,
                 value,
                 unit,
-            });
+            };
+            return Err(scale(&points[point], value).unwrap_or(inside_out));
         }
-        let sizes = its_nodes.as_ref().iter().zip(at_nodes.iter().map(size));
-        if let Some((&node, value)) = sizes.into_iter().find(|&(_, value)| !is_size(value)) {
-            return Err(MeshError::InsideOutAtNode {
+        let sizes = at_nodes.iter().map(size);
+        if let Some((at, value)) = sizes.enumerate().find(|&(_, value)| !is_size(value)) {
+            let inside_out = MeshError::InsideOutAtNode {
                 cell,
-                node,
+                node: its_nodes.as_ref()[at],
                 value,
                 unit,
-            });
+            };
+            return Err(scale(&at_nodes[at], value).unwrap_or(inside_out));
         }
     }
     Ok(())
+}
+
+/// `det ∂X/∂ξ` of a cell that is of about the size one, by powers of two.
+fn scaled_size<H: Shape<D>, const D: usize>(
+    reference: &[[f64; D]],
+    functions: &integrals::Functions<f64, D>,
+) -> f64 {
+    let power = power_of_two(reference.as_flattened().iter());
+    let first = reference[0];
+    let arms = reference
+        .iter()
+        .map(|place| core::array::from_fn(|axis| power * place[axis] - power * first[axis]));
+    let mut arms: Vec<[f64; D]> = arms.collect();
+    let power = power_of_two(arms.as_flattened().iter());
+    for coordinate in arms.as_flattened_mut() {
+        *coordinate *= power;
+    }
+    H::Tensor::<f64>::determinant(&integrals::jacobian(&arms, functions))
 }
 
 /// Of faces of cells with the same nodes there are at most two, one of which is seen from either side.

@@ -137,6 +137,19 @@ pub enum MeshError {
         /// Its unit, m² or m³.
         unit: &'static str,
     },
+    /// A cell is not inside out, but too large or too small for its volume to be a number.
+    #[error(
+        "cell {cell} is too large or too small: det dX/dxi is {value} {unit}, outside of what a number holds; give lengths in m",
+        value = Readable(*value)
+    )]
+    Scale {
+        /// The cell, from 0.
+        cell: usize,
+        /// What is computed for `det ∂X/∂ξ`.
+        value: f64,
+        /// Its unit, m² or m³.
+        unit: &'static str,
+    },
     /// Two cells have the same nodes.
     #[error("cells {first} and {second} have the same nodes: leave one of them", first = cells[0], second = cells[1])]
     SameNodes {
@@ -164,6 +177,12 @@ pub enum MeshError {
         cells: [usize; 2],
         /// The corners of the face, from 0.
         nodes: Vec<usize>,
+    },
+    /// A node is looked for within what is no distance.
+    #[error("a node is looked for within {within} m, which must be zero or positive", within = Readable(*within))]
+    Distance {
+        /// m.
+        within: f64,
     },
     /// No node is in a place.
     #[error("no node is at {place:?} m: the nearest is at {nearest:?} m")]
