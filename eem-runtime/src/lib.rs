@@ -68,7 +68,7 @@ pub use scene::body::Body;
 pub use scene::bulk::Bulk;
 pub use scene::error::SceneError;
 #[cfg(feature = "gmsh")]
-pub use scene::gmsh::{Msh, MshError};
+pub use scene::gmsh::{LineFault, Msh, MshError};
 pub use scene::mesh::{Face, Mesh, MeshError, Outline};
 pub use scene::refused::RefusedScene;
 pub use scene::rocket_error::RocketError;

@@ -13,6 +13,7 @@ pub(crate) mod entry;
 pub(crate) mod error;
 #[cfg(feature = "gmsh")]
 pub(crate) mod gmsh;
+mod joints;
 pub(crate) mod loads;
 mod memory;
 pub(crate) mod mesh;

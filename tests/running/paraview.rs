@@ -95,3 +95,55 @@ fn a_run_of_another_scene_is_refused() {
     assert_eq!(error.to_string(), "node 0 belongs to another scene");
     assert!(!folder.exists());
 }
+
+/// What is wrong with a series is said before anything is written.
+#[test]
+fn names_are_of_files_and_scenes_are_complete() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("refused series");
+    let written = |folder: &Path, name: &str, more: bool| {
+        let mut scene = Scene::<1>::new();
+        scene.mass(1.0, [0.0], [0.0]);
+        let mut series = VtkSeries::new(&scene, folder, name);
+        if more {
+            scene.mass(1.0, [1.0], [0.0]);
+        }
+        let run = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap();
+        series.write(&run)?;
+        series.write(&run)
+    };
+    for name in ["", "../name", "a/b", "a\\b"] {
+        let error = written(&folder, name, false).unwrap_err().to_string();
+        assert!(
+            error.starts_with(&format!("`{name}` is no name of a series")),
+            "{error}"
+        );
+    }
+    assert_eq!(
+        written(&folder, "late", true).unwrap_err().to_string(),
+        "the series has 1 nodes and 0 elements, and the simulation 2 and 0: make the series when everything is in the \
+         scene"
+    );
+    assert!(!folder.exists());
+    // A file is no folder; what is wrong with it names it.
+    let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join("no folder");
+    fs::write(&file, "").unwrap();
+    let inside = file.join("inside");
+    let error = written(&inside, "name", false).unwrap_err().to_string();
+    assert!(
+        error.starts_with(&format!("`{}`: ", inside.display())),
+        "{error}"
+    );
+    let error = written(Path::new(env!("CARGO_TARGET_TMPDIR")), "nul\0", false).unwrap_err();
+    assert!(error.to_string().contains("nul\0_00000.vtu`: "), "{error}");
+
+    assert!(written(&folder, "once", false).is_ok());
+    let error = written(&folder.join("../refused series"), "once", false).unwrap_err();
+    assert!(
+        error
+            .to_string()
+            .contains("already that of another series of this program"),
+        "{error}"
+    );
+    assert!(written(&folder, "twice", false).is_ok());
+    fs::remove_dir_all(folder).unwrap();
+}

@@ -1,9 +1,10 @@
 //! Meshes and the solids made of them: what is wrong with them is said, and solids are joined.
 
-use eem::kinematics::{Hex8, Hex20, Quad4};
+use eem::kinematics::{Hex8, Hex20, Quad4, Quad8, Shape};
 use eem::prelude::*;
-use eem::{Body, MeshError, SolidError, Strain, StrainEnergy};
+use eem::{Body, Face, MeshError, SolidError, Strain, StrainEnergy};
 
+use crate::support::only_error;
 use crate::support::solids::{MooneyRivlin, Reinforced, SaintVenant, ThermoelasticSolid};
 
 const ELASTIC: SaintVenant = SaintVenant {
@@ -54,6 +55,12 @@ fn what_is_wrong_with_a_mesh_is_said() {
     ] {
         assert!(Mesh::<Quad4, 2>::block(cells, ranges).is_err());
     }
+    let endless = [[0.0, 1.0], [f64::NEG_INFINITY, f64::INFINITY]];
+    let error = Mesh::<Quad4, 2>::block([1, 1], endless).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "the block reaches from -inf m to inf m along axis 1: both ends must be finite, and the second above the first"
+    );
     assert_eq!(
         Mesh::<Quad4, 2>::grid([&[0.0, 1.0], &[0.0, 2.0, f64::NAN]])
             .unwrap_err()
@@ -61,6 +68,136 @@ fn what_is_wrong_with_a_mesh_is_said() {
         "cut 2 along axis 1 is NaN m, it must be finite and above the one before"
     );
     assert_eq!(cube(2).kept(|_| false).unwrap_err(), MeshError::Empty);
+}
+
+/// The cells next to each other and on each other.
+#[test]
+fn cells_lie_beside_each_other() {
+    let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+    let build = |more: &[[f64; 2]], cells: &[[usize; 4]]| {
+        let nodes = [&corners, more].concat();
+        Mesh::<Quad4, 2>::new(nodes, cells.to_vec())
+    };
+    let cells = [0, 1];
+    assert_eq!(
+        build(&[], &[[0, 1, 2, 3], [1, 2, 3, 0]]).unwrap_err(),
+        MeshError::SameNodes { cells }
+    );
+    let right = [[2.0, 0.0], [2.0, 1.0]];
+    assert!(build(&right, &[[0, 1, 2, 3], [1, 4, 5, 2]]).is_ok());
+    let twice = [right[0], right[1], [3.0, 0.0], [3.0, 1.0]];
+    let three = build(&twice, &[[0, 1, 2, 3], [1, 4, 5, 2], [1, 6, 7, 2]]);
+    assert_eq!(
+        three.unwrap_err().to_string(),
+        "cells 0, 1 and 2 all have a face with the corners [1, 2], which two can have in common"
+    );
+    let inside = build(&[[0.9, 0.5], [0.1, 0.5]], &[[0, 1, 2, 3], [0, 1, 4, 5]]);
+    let nodes = vec![0, 1];
+    assert_eq!(inside.unwrap_err(), MeshError::SameSide { cells, nodes });
+
+    let cube = cube(1);
+    let build = |shifts: &[f64]| {
+        let (mut nodes, mut cells) = (cube.nodes().to_vec(), cube.cells().to_vec());
+        for &shift in shifts {
+            let last = nodes.len();
+            // On the face z = 1 of the cube, which has the nodes 4 to 7.
+            nodes.extend(
+                cube.nodes()[..4]
+                    .iter()
+                    .map(|[x, y, _]| [*x, *y, 1.0 + shift]),
+            );
+            let above = [4, 5, 7, 6];
+            let far = [last, last + 1, last + 3, last + 2];
+            let [lower, upper] = if shift > 0.0 {
+                [above, far]
+            } else {
+                [far, above]
+            };
+            cells.push([lower, upper].concat().try_into().unwrap());
+        }
+        Mesh::<Hex8, 3>::new(nodes, cells)
+    };
+    assert!(build(&[1.0]).is_ok());
+    assert!(matches!(
+        build(&[1.0, 2.0]),
+        Err(MeshError::CrowdedFace {
+            cells: [0, 1, 2],
+            ..
+        })
+    ));
+    let nodes = vec![4, 5, 7, 6];
+    assert_eq!(
+        build(&[-0.5]).unwrap_err(),
+        MeshError::SameSide { cells, nodes }
+    );
+}
+
+/// A cell may be inside out at a corner only, where it has no point.
+#[test]
+fn cells_are_inside_out_at_no_node() {
+    let concave = vec![[0.0, 0.0], [1.0, 0.0], [0.45, 0.45], [0.0, 1.0]];
+    let error = Mesh::<Quad4, 2>::new(concave, vec![[0, 1, 2, 3]]).unwrap_err();
+    assert!(
+        matches!(error, MeshError::InsideOutAtNode { cell: 0, node: 2, value, .. } if value < 0.0),
+        "{error}"
+    );
+    let message = error.to_string();
+    assert!(
+        message.starts_with("cell 0 is inside out, or flat, at its node 2: det dX/dxi is -0.02"),
+        "{message}"
+    );
+    // The middle of an edge at a part of it: at a quarter, det is zero at the corner.
+    let quad = |part: f64| {
+        let mut nodes = vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        nodes.extend([[part, 0.0], [1.0, 0.5], [0.5, 1.0], [0.0, 0.5]]);
+        Mesh::<Quad8, 2>::new(nodes, vec![[0, 1, 2, 3, 4, 5, 6, 7]])
+    };
+    assert!(quad(0.5).is_ok() && quad(0.26).is_ok() && quad(0.74).is_ok());
+    for (part, at) in [(0.25, 0), (0.24, 0), (0.75, 1)] {
+        let error = quad(part).unwrap_err();
+        assert!(
+            matches!(error, MeshError::InsideOutAtNode { node, .. } if node == at),
+            "{error}"
+        );
+    }
+}
+
+/// Counts of which no mesh can be made are refused before anything is reserved.
+#[test]
+fn blocks_that_are_too_large_are_refused_at_once() {
+    let ends = [[0.0, 1.0]; 3];
+    for cells in [
+        [usize::MAX, 1, 1],
+        [1 << 32, 1 << 32, 1],
+        [1 << 14; 3],
+        [usize::MAX; 3],
+    ] {
+        let error = Mesh::<Hex8, 3>::block(cells, ends).unwrap_err();
+        assert!(matches!(error, MeshError::TooMany { .. }), "{error}");
+        assert!(Mesh::<Hex20, 3>::block(cells, ends).is_err());
+    }
+    let error = Mesh::<Hex8, 3>::block([1 << 14; 3], ends).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "4398046511104 cells have 4398851866625 nodes, which take 668543874367536 bytes, and no more than 4294967295 \
+         nodes can be numbered: use fewer cells"
+    );
+}
+
+/// Numbers ascend with z, then y, then x: corners, and middles of edges.
+#[test]
+fn nodes_of_blocks_are_numbered_along_x_then_y_then_z() {
+    fn check<H: Shape<D>, const D: usize>(cells: [usize; D], count: usize) {
+        let mesh = Mesh::<H, D>::block(cells, [[0.0, 1.0]; D]).unwrap();
+        assert_eq!(mesh.nodes().len(), count, "{}", H::NAME);
+        let backwards = |place: &[f64; D]| place.iter().rev().copied().collect::<Vec<_>>();
+        let places: Vec<_> = mesh.nodes().iter().map(backwards).collect();
+        assert!(places.is_sorted_by(|a, b| a < b), "{}", H::NAME);
+    }
+    check::<Quad4, 2>([3, 4], 20);
+    check::<Quad8, 2>([3, 4], 20 + 3 * 5 + 4 * 4);
+    check::<Hex8, 3>([3, 4, 2], 60);
+    check::<Hex20, 3>([3, 4, 2], 60 + 3 * 15 + 4 * 12 + 2 * 20);
 }
 
 /// The message of a scene with a body of one cell.
@@ -197,6 +334,85 @@ fn what_is_not_positive_in_a_solid_is_said_and_faces_of_other_meshes_are_refused
     assert_eq!(cube(1).face(|[x, ..]| x > 1.0), Err(MeshError::NoFace));
 }
 
+/// Faces that are numbered alike are not the same.
+#[test]
+fn a_face_is_of_the_mesh_that_it_was_taken_from() {
+    let mesh = |length| Mesh::<Quad4, 2>::block([2, 2], [[0.0, length]; 2]).unwrap();
+    let end = |mesh: &Mesh<Quad4, 2>, x: f64| mesh.face(|place| place[0] >= x).unwrap();
+    let pushed = |face: &Face| {
+        let mut scene = Scene::<2>::new();
+        let body = scene.solid(ELASTIC, &mesh(1.0), &Bulk::new(10.0));
+        scene.traction(&body, face, |_| [1.0, 0.0]);
+        Simulation::new(scene, Scheme::EemEntropy, 0.1)
+    };
+    // Of one that is equal, and of its copy.
+    assert!(pushed(&end(&mesh(1.0), 1.0)).is_ok());
+    assert!(pushed(&end(&mesh(1.0).clone(), 1.0)).is_ok());
+    let larger = end(&mesh(7.0), 7.0);
+    let moved = mesh(1.0).translated([7.0, 0.0]).unwrap();
+    for face in [larger, end(&moved, 8.0)] {
+        let error = only_error(pushed(&face));
+        assert!(
+            matches!(error, SceneError::Solid(SolidError::ForeignFace { .. })),
+            "{error}"
+        );
+    }
+}
+
+/// What is wrong with a solid is said once, and not for each of its cells.
+#[test]
+fn what_is_wrong_with_all_cells_is_said_once() {
+    let squares = Mesh::<Quad4, 2>::block([3, 3], [[0.0, 1.0]; 2]).unwrap();
+    let refused = |bulk: Bulk<2>| {
+        let mut scene = Scene::<2>::new();
+        scene.solid(ELASTIC, &squares, &bulk);
+        only_error(Simulation::new(scene, Scheme::EemEntropy, 0.1)).to_string()
+    };
+    assert_eq!(
+        refused(Bulk::new(0.0)),
+        "the density of the solid at element 0 (SaintVenant) is 0 kg/m^3, it must be positive and finite"
+    );
+    let message = refused(Bulk::new(1.0).fibre([1.0, 0.0]));
+    assert!(
+        message.contains("has 0 strains of fibres, and 1 directions"),
+        "{message}"
+    );
+    assert_eq!(
+        refused(Bulk::new(1.0).conductivity(2.0)),
+        "the solid at element 0 (SaintVenant) has a conductivity, but no temperature: leave `Bulk::conductivity` out, or \
+         take a free energy with an argument `Temperature`"
+    );
+}
+
+/// Lengths that are far from any body's are no other mistake.
+#[test]
+fn cells_whose_size_is_no_number_are_said_to_be_so() {
+    let square = |length: f64| [[0.0, 0.0], [length, 0.0], [length, length], [0.0, length]];
+    for (length, said) in [(1e200, "inf"), (1e-170, "0")] {
+        let said = format!("cell 0 is too large or too small: det dX/dxi is {said} m^2, outside");
+        let nodes = square(length).to_vec();
+        let mesh = Mesh::<Quad4, 2>::new(nodes, vec![[0, 1, 2, 3]]);
+        let polygon = Mesh::<Quad4, 2>::polygon(&square(length));
+        for error in [mesh.unwrap_err(), polygon.unwrap_err()] {
+            assert!(error.to_string().starts_with(&said), "{error}");
+        }
+        let nodes = square(length).to_vec();
+        let error = Mesh::<Quad4, 2>::new(nodes, vec![[3, 2, 1, 0]]).unwrap_err();
+        assert!(matches!(error, MeshError::InsideOut { .. }), "{error}");
+    }
+    let all = [-f64::MAX, f64::MAX];
+    let ends = Mesh::<Quad4, 2>::block([2, 1], [all, [0.0, 1.0]]).unwrap();
+    assert_eq!(ends.nodes()[1], [0.0, 0.0]);
+    let mut scene = Scene::<3>::new();
+    let body = scene.solid(ELASTIC, &cube(1), &Bulk::new(1.0));
+    for within in [f64::NAN, -1.0] {
+        let error = body.node_at([0.0; 3], within).unwrap_err().to_string();
+        let said =
+            format!("a node is looked for within {within} m, which must be zero or positive");
+        assert_eq!(error, said);
+    }
+}
+
 /// A few skew faces are no error: the rim of a mesh may have some.
 #[test]
 fn conduction_through_skew_cells_has_to_be_allowed() {
@@ -236,7 +452,7 @@ fn conduction_through_skew_cells_has_to_be_allowed() {
 /// Heat passes between solids that conduct and share a whole face.
 #[test]
 fn heat_between_solids_needs_a_shared_face_and_conductivities() {
-    let refused = |conductivities: [Option<f64>; 2], within: f64, twice: bool| {
+    let refused = |conductivities: [Option<f64>; 2], is_joined: bool, twice: bool| {
         let bulk = |conductivity| match conductivity {
             Some(conductivity) => Bulk::new(10.0).conductivity(conductivity),
             None => Bulk::<3>::new(10.0),
@@ -244,7 +460,10 @@ fn heat_between_solids_needs_a_shared_face_and_conductivities() {
         let mut scene = Scene::<3>::new();
         let first = scene.solid(MooneyRivlin::RUBBER, &cube(1), &bulk(conductivities[0]));
         let beside = cube(1).translated([1.0, 0.0, 0.0]).unwrap();
-        let joined = bulk(conductivities[1]).joined_to(&first, within);
+        let mut joined = bulk(conductivities[1]);
+        if is_joined {
+            joined = joined.joined_to(&first, 1e-9);
+        }
         let second = scene.solid(MooneyRivlin::RUBBER, &beside, &joined);
         for &point in first.points().iter().chain(second.points()) {
             scene.set_temperature(point, 300.0);
@@ -254,18 +473,65 @@ fn heat_between_solids_needs_a_shared_face_and_conductivities() {
         run.unwrap_err().to_string()
     };
     let both = [Some(1.0); 2];
-    let message = refused(both, -1.0, false);
+    let message = refused(both, false, false);
     assert!(
         message.starts_with("the solids at element 0 (MooneyRivlin) and element 8 (MooneyRivlin) share no whole face"),
         "{message}"
     );
-    let message = refused([Some(1.0), None], 1e-9, false);
+    let message = refused([Some(1.0), None], true, false);
     assert!(
         message.starts_with("the solid at element 8 (MooneyRivlin) has no conductivity"),
         "{message}"
     );
-    let message = refused(both, 1e-9, true);
+    let message = refused(both, true, true);
     assert!(message.contains("itself"), "{message}");
+}
+
+/// What joins nothing, or the wrong nodes, is said with the solids and the distances.
+#[test]
+fn joints_that_cannot_be_are_refused() {
+    let squares = |cells| Mesh::<Quad4, 2>::block(cells, [[0.0, 1.0]; 2]).unwrap();
+    let refused = |cells: [usize; 2], by: f64, within: f64| {
+        let mut scene = Scene::<2>::new();
+        let first = scene.solid(ELASTIC, &squares([2, 2]), &Bulk::new(10.0));
+        let beside = squares(cells).translated([by, 0.0]).unwrap();
+        scene.solid(ELASTIC, &beside, &Bulk::new(10.0).joined_to(&first, within));
+        let run = Simulation::new(scene, Scheme::EemEntropy, 0.1);
+        run.is_err().then(|| only_error(run).to_string())
+    };
+    assert_eq!(refused([2, 2], 1.0, 1e-9), None);
+    assert_eq!(refused([2, 2], 1.0 + 1e-12, 1e-9), None);
+    let solids = "the solid at element 16 (SaintVenant)";
+    for within in [f64::NAN, -1.0, f64::INFINITY] {
+        let message = refused([2, 2], 1.0, within).unwrap();
+        let said =
+            format!("{solids} is joined to that at element 0 (SaintVenant) within {within} m");
+        assert!(message.starts_with(&said), "{message}");
+    }
+    assert_eq!(
+        refused([2, 2], 1.75, 0.25).unwrap(),
+        "no node of the solid at element 16 (SaintVenant) is within 0.25 m of one of the solid at element 0 \
+         (SaintVenant), to which it is joined (`Bulk::joined_to`): the nearest are 0.75 m apart; move its mesh, or join \
+         within a larger distance"
+    );
+    // Nodes of a finer mesh become the same ones.
+    let message = refused([2, 4], 1.0, 0.3).unwrap();
+    let said =
+        format!("{solids} is joined within 0.3 m (`Bulk::joined_to`), and with its nodes where");
+    assert!(
+        message.starts_with(&said) && message.contains("in the same place: join within a smaller"),
+        "{message}"
+    );
+    let message = refused([2, 2], 0.0, 0.0).unwrap();
+    let said = format!(
+        "cell 0 of {solids} is joined (`Bulk::joined_to`) to all nodes of the cell at element 0"
+    );
+    assert!(message.starts_with(&said), "{message}");
+    let message = refused([2, 2], 0.5, 1e-9).unwrap();
+    assert!(
+        message.contains("to all nodes of the cell at element 4"),
+        "{message}"
+    );
 }
 
 /// Two solids share the nodes of a line, about which one turns freely beside the other.

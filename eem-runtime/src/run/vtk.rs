@@ -1,16 +1,20 @@
 //! States of a run as files that ParaView opens.
 
+mod error;
 mod file;
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io;
 use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
 
 use crate::element::handle::{Element, Node};
 use crate::number::scalar::Real;
 use crate::run::simulation::Simulation;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
+use error::{SeriesError, at};
 use file::Grid;
 
 /// A series of states of a run in files of the Visualization Toolkit, for ParaView: one `.vtu` per time, and a `.pvd`
@@ -47,6 +51,8 @@ pub struct VtkSeries<const D: usize> {
     reference: Vec<[f64; 3]>,
     cells: Vec<Cell>,
     times: Vec<f64>,
+    /// Whether it is known that no other series has the files.
+    has_claimed: bool,
 }
 
 /// A spring, or a cell of a solid.
@@ -62,7 +68,8 @@ struct Cell {
 }
 
 impl<const D: usize> VtkSeries<D> {
-    /// Files `NAME.pvd` and `NAME_00000.vtu`, … in a folder, which is made if there is none.
+    /// Files `NAME.pvd` and `NAME_00000.vtu`, … in a folder, which is made if there is none. Those of an earlier run of
+    /// the program are replaced. The scene has to have all nodes, springs and solids already.
     pub fn new<S: Real>(
         scene: &Scene<D, S>,
         folder: impl Into<PathBuf>,
@@ -81,24 +88,79 @@ impl<const D: usize> VtkSeries<D> {
                 .collect(),
             cells: cells(scene),
             times: Vec::new(),
+            has_claimed: false,
         }
     }
 
     /// Writes the present state, and the list of all times so far.
     ///
+    /// ```
+    /// use eem::prelude::*;
+    /// use eem::VtkSeries;
+    ///
+    /// let folder = std::env::temp_dir().join("eem of two series");
+    /// let mut scene = Scene::<2>::new();
+    /// scene.mass(1.0, [0.0, 0.0], [1.0, 0.0]);
+    /// let mut series = [(); 2].map(|()| VtkSeries::new(&scene, &folder, "flight"));
+    /// let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// series[0].write(&run)?;
+    /// // It would write over the files of the first.
+    /// let error = series[1].write(&run).unwrap_err();
+    /// assert!(error.to_string().contains("already that of another series"));
+    /// # std::fs::remove_dir_all(folder)?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     ///
-    /// Those of the files; [`io::ErrorKind::InvalidInput`] if `run` is not of the scene.
+    /// Those of the files, with their paths. [`io::ErrorKind::InvalidInput`] if `run` is not of the scene, or has nodes
+    /// or elements that the scene did not have when the series was made; if the name is empty or has a `/` or a `\`; if
+    /// another series of the program, also an earlier one, has written files of this name to the folder.
     pub fn write<S: Real>(&mut self, run: &Simulation<D, S>) -> io::Result<()> {
-        let foreign = |error| io::Error::new(io::ErrorKind::InvalidInput, error);
-        let grid = self.grid(run).map_err(foreign)?;
-        fs::create_dir_all(&self.folder)?;
-        let file = self.file_of(self.times.len());
-        fs::write(self.folder.join(file), grid.to_xml())?;
+        self.check(run)?;
+        let grid = self.grid(run).map_err(SeriesError::from)?;
+        fs::create_dir_all(&self.folder).map_err(at(&self.folder))?;
+        self.claim()?;
+        let file = self.folder.join(self.file_of(self.times.len()));
+        fs::write(&file, grid.to_xml()).map_err(at(&file))?;
         self.times.push(run.time().to_f64());
         let steps = self.times.iter().enumerate();
         let list = file::list(steps.map(|(index, &time)| (time, self.file_of(index))));
-        fs::write(self.folder.join(format!("{}.pvd", self.name)), list)
+        let file = self.list_file();
+        fs::write(&file, list).map_err(at(&file))
+    }
+
+    /// An error unless files can have the name, and a simulation has what the scene had.
+    fn check<S: Real>(&self, run: &Simulation<D, S>) -> Result<(), SeriesError> {
+        if self.name.is_empty() || self.name.contains(['/', '\\']) {
+            return Err(SeriesError::Name(self.name.clone()));
+        }
+        let elements = self.cells.iter().map(|cell| cell.elements.len());
+        let series = [self.nodes.len(), elements.sum()];
+        let run = run.counts();
+        if series != run {
+            return Err(SeriesError::OtherCounts { series, run });
+        }
+        Ok(())
+    }
+
+    /// Notes that the files are those of this series, unless they are those of another one.
+    fn claim(&mut self) -> io::Result<()> {
+        static TAKEN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+        if self.has_claimed {
+            return Ok(());
+        }
+        let folder = fs::canonicalize(&self.folder).map_err(at(&self.folder))?;
+        let mut taken = TAKEN.lock().unwrap_or_else(PoisonError::into_inner);
+        if !taken.insert(folder.join(&self.name)) {
+            return Err(SeriesError::Taken(self.list_file()).into());
+        }
+        self.has_claimed = true;
+        Ok(())
+    }
+
+    fn list_file(&self) -> PathBuf {
+        self.folder.join(format!("{}.pvd", self.name))
     }
 
     fn file_of(&self, index: usize) -> String {

@@ -139,8 +139,11 @@ impl<H: Shape<D>, const D: usize> Body<H, D> {
     ///
     /// # Errors
     ///
-    /// [`MeshError::NoNodeAt`] says where the nearest node is.
+    /// [`MeshError::NoNodeAt`] says where the nearest node is; [`MeshError::Distance`] if `within` is no distance.
     pub fn node_at(&self, place: [f64; D], within: f64) -> Result<Node, MeshError> {
+        if within.is_nan() || within < 0.0 {
+            return Err(MeshError::Distance { within });
+        }
         let all = self.mesh.nodes().iter().zip(&self.nodes);
         let distances = all.map(|(other, &node)| (distance(place, *other), other, node));
         let nearest = distances.min_by(|a, b| a.0.total_cmp(&b.0));

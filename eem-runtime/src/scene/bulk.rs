@@ -1,10 +1,9 @@
 //! What a solid is besides its material and its mesh.
 
-use crate::element::handle::Node;
 use crate::element::kinematics::Shape;
 use crate::number::scalar::Real;
 use crate::scene::body::Body;
-use crate::scene::mesh::distance;
+use crate::scene::joints::Joint;
 
 /// What a solid is besides its material and its mesh.
 ///
@@ -24,16 +23,7 @@ pub struct Bulk<const D: usize, S = f64> {
     pub(super) allow_skew_cells: bool,
     pub(super) fibres: Vec<[S; D]>,
     pub(super) lumped: bool,
-    joints: Vec<Joint<D>>,
-}
-
-/// A node of another solid, of which nodes in its place, m, and not farther away than a distance, m, become
-/// part.
-#[derive(Clone, Copy, Debug)]
-struct Joint<const D: usize> {
-    node: Node,
-    place: [f64; D],
-    within: f64,
+    pub(super) joints: Vec<Joint<D>>,
 }
 
 impl<const D: usize, S: Real> Bulk<D, S> {
@@ -121,23 +111,47 @@ impl<const D: usize, S: Real> Bulk<D, S> {
         self
     }
 
-    /// Makes nodes that are at most a distance, m, away from a node of another solid that node: joints that
-    /// transmit forces and no torques.
+    /// Makes nodes that are at most a distance, m, away from a node of another solid that node, the nearest: joints
+    /// that transmit forces and no torques.
+    ///
+    /// ```
+    /// use eem::kinematics::Quad4;
+    /// use eem::prelude::*;
+    /// use eem::SolidError;
+    /// # #[derive(Clone, FreeEnergy)]
+    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * lame * e1.powi(2) + shear * e2)]
+    /// # struct Elastic { lame: f64, shear: f64 }
+    ///
+    /// let mut scene = Scene::<2>::new();
+    /// let steel = Elastic { lame: 2000.0, shear: 1000.0 };
+    /// let mesh = Mesh::<Quad4, 2>::block([1, 1], [[0.0, 1.0]; 2])?;
+    /// let first = scene.solid(steel.clone(), &mesh, &Bulk::new(10.0));
+    /// let beside = mesh.translated([1.0, 0.0])?;
+    /// let joined = Bulk::new(10.0).joined_to(&first, 1e-9);
+    /// let second = scene.solid(steel.clone(), &beside, &joined);
+    /// assert_eq!(second.nodes()[0], first.nodes()[1]);
+    ///
+    /// // Half a metre is in between.
+    /// let mut apart = scene.clone();
+    /// apart.solid(steel, &mesh.translated([1.5, 0.0])?, &joined);
+    /// let error = Simulation::new(apart, Scheme::EemEntropy, 0.1).unwrap_err().into();
+    /// assert!(matches!(
+    ///     error,
+    ///     SceneError::Solid(SolidError::NotJoined { nearest: 0.5, .. })
+    /// ));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`Simulation::new`](crate::Simulation::new) returns [`SolidError::JointDistance`](crate::SolidError::JointDistance)
+    /// if the distance is none; [`SolidError::NotJoined`](crate::SolidError::NotJoined) if no node is near enough;
+    /// [`SolidError::JoinedNodes`](crate::SolidError::JoinedNodes) if cells are damaged, as two of their nodes become
+    /// one; [`SolidError::JoinedCell`](crate::SolidError::JoinedCell) if a cell would be on one of the other solid.
     #[must_use]
     pub fn joined_to<H: Shape<D>>(mut self, other: &Body<H, D>, within: f64) -> Self {
-        let nodes = other.nodes.iter().zip(other.mesh.nodes());
-        self.joints.extend(nodes.map(|(&node, &place)| Joint {
-            node,
-            place,
-            within,
-        }));
+        self.joints.push(Joint::new(other, within));
         self
-    }
-
-    /// The first node of another solid in a place.
-    pub(super) fn joint(&self, place: [f64; D]) -> Option<Node> {
-        let is_near = |joint: &&Joint<D>| distance(place, joint.place) <= joint.within;
-        self.joints.iter().find(is_near).map(|joint| joint.node)
     }
 }
 

@@ -25,6 +25,8 @@ pub(super) struct Stuff<'a, S, const D: usize> {
     pub(super) fibres: &'a [[S; D]],
     /// Whether each node has a mass of its own.
     pub(super) lumped: bool,
+    /// Whether it has been noted that something is wrong with it.
+    pub(super) is_refused: bool,
 }
 
 impl<S: Real, const D: usize> Scene<D, S> {
@@ -86,7 +88,9 @@ impl<S: Real, const D: usize> Scene<D, S> {
             }
             check_position(*node, &self.nodes[node.index])?;
         }
-        stuff.check(points[0]).map_err(SceneError::from)?;
+        if stuff.is_refused {
+            return Err(None);
+        }
         let measures = stuff.measures(strains, points[0]);
         let measures = measures.map_err(SceneError::from)?;
         let mut reference = H::PerNode::filled([S::zero(); D]);
@@ -158,12 +162,14 @@ impl<S: Real, const D: usize> Stuff<'_, S, D> {
         Ok(())
     }
 
-    /// The measures of a material along the fibres.
-    fn measures<const N: usize>(
+    /// The measures of a material along the fibres; an error if something is wrong with the solid whose first point
+    /// the element is.
+    pub(super) fn measures<const N: usize>(
         &self,
         strains: [Strain; N],
         element: Element,
     ) -> Result<[Measure<S, D>; N], SolidError> {
+        self.check(element)?;
         let needed = strains
             .iter()
             .filter(|&&strain| strain == Strain::Fibre)

@@ -2,8 +2,10 @@
 
 mod error;
 mod file;
+mod kind;
+mod lines;
 
-pub use error::MshError;
+pub use error::{LineFault, MshError};
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -51,7 +53,9 @@ impl Msh {
     /// # Errors
     ///
     /// [`MshError::Read`] if there is none; [`MshError::Format`] if it is not of format 4.1 in ASCII;
-    /// [`MshError::Section`] or [`MshError::Line`] if it is damaged.
+    /// [`MshError::Section`], [`MshError::SecondSection`], [`MshError::Unended`] or [`MshError::Outside`] if its
+    /// sections are damaged; [`MshError::Line`] for a line that is not what it has to be, also where sections hold
+    /// something else than they say of themselves.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, MshError> {
         let path = path.as_ref();
         let bytes = std::fs::read(path).map_err(|error| MshError::Read {
@@ -79,7 +83,7 @@ impl Msh {
     /// [`MshError::WrongElement`] if some elements of its dimension have another shape, [`MshError::NoElements`] if
     /// there are none; [`MshError::NoNode`] and [`MshError::Orphan`] for nodes without place or element;
     /// [`MshError::Plane`] for a mesh in the plane that is not in one of constant z; what is wrong with a
-    /// [`Mesh`] as [`MshError::Element`], [`MshError::Duplicate`] or [`MshError::Mesh`].
+    /// [`Mesh`] as [`MshError::Element`], [`MshError::Elements`], [`MshError::Duplicate`] or [`MshError::Mesh`].
     pub fn mesh<H: Shape<D>, const D: usize>(&self) -> Result<Mesh<H, D>, MshError> {
         self.check_orphans()?;
         self.mesh_from(|_| true, None)
@@ -161,10 +165,10 @@ impl Msh {
         let mut cells = Vec::new();
         let blocks = self.blocks.iter();
         for block in blocks.filter(|block| block.dimension == D && wanted(block.entity)) {
-            if block.name() != shape {
+            if block.kind.name != shape {
                 return Err(MshError::WrongElement {
                     entity: block.entity,
-                    found: block.name(),
+                    found: block.kind.name,
                     shape,
                 });
             }
@@ -192,9 +196,19 @@ impl Msh {
         }
         let elements: Vec<u64> = cells.iter().map(|(element, _)| *element).collect();
         Mesh::new(places, named).map_err(|error| match error {
-            MeshError::InsideOut { cell, .. } | MeshError::Repeated { cell, .. } => {
+            MeshError::InsideOut { cell, .. }
+            | MeshError::InsideOutAtNode { cell, .. }
+            | MeshError::Repeated { cell, .. } => {
                 let element = elements[cell];
                 MshError::Element { element, error }
+            }
+            MeshError::SameNodes { cells } | MeshError::SameSide { cells, .. } => {
+                let elements = cells.map(|cell| elements[cell]).to_vec();
+                MshError::Elements { elements, error }
+            }
+            MeshError::CrowdedFace { cells, .. } => {
+                let elements = cells.map(|cell| elements[cell]).to_vec();
+                MshError::Elements { elements, error }
             }
             MeshError::Duplicate { nodes } => MshError::Duplicate {
                 nodes: nodes.map(|node| tags[node]),

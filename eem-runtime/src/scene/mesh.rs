@@ -2,15 +2,18 @@
 
 mod boundary;
 mod check;
+mod digest;
 mod error;
 mod extruded;
 mod face;
 mod geometry;
 mod grid;
+mod lattice;
 mod network;
 mod outline;
 mod polygon;
 mod shares;
+mod sides;
 mod skewness;
 mod sub_face;
 
@@ -19,14 +22,20 @@ pub use face::{Face, Outline};
 pub(crate) use geometry::distance;
 pub(crate) use sub_face::facing;
 
+use digest::Digest;
 use nalgebra::{Rotation, SVector};
 
 use crate::element::kinematics::Shape;
 
 /// Cells of the shape `H` in `D` dimensions: [`Quad4`](crate::kinematics::Quad4),
 /// [`Quad8`](crate::kinematics::Quad8), [`Hex8`](crate::kinematics::Hex8) or
-/// [`Hex20`](crate::kinematics::Hex20). It is sound: no cell is inside out, every node belongs to a cell, no two
-/// are in one place.
+/// [`Hex20`](crate::kinematics::Hex20). It is sound: `det ∂X/∂ξ` of every cell is positive at its points and its
+/// nodes, every node belongs to a cell, no two are in one place, no two cells have the same nodes, and at most two,
+/// from either side, share a face (in the plane an edge).
+///
+/// Middles of edges may be off the centre, as long as `det ∂X/∂ξ` stays positive at the nodes, up to a quarter of the
+/// edge on one that is straight. *At* a quarter it is zero at the corner: such cells, which have singular strain
+/// there, are refused, as are corners where two edges go on in one line.
 ///
 /// ```
 /// use eem::kinematics::Hex20;
@@ -43,6 +52,7 @@ use crate::element::kinematics::Shape;
 pub struct Mesh<H: Shape<D>, const D: usize> {
     nodes: Vec<[f64; D]>,
     cells: Vec<H::PerNode<usize>>,
+    digest: Digest,
 }
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
@@ -65,7 +75,12 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     /// [`MeshError`] names the first node or cell that is wrong.
     pub fn new(nodes: Vec<[f64; D]>, cells: Vec<H::PerNode<usize>>) -> Result<Self, MeshError> {
         check::check::<H, D>(&nodes, &cells)?;
-        Ok(Self { nodes, cells })
+        let digest = Digest::of(&nodes, &cells);
+        Ok(Self {
+            nodes,
+            cells,
+            digest,
+        })
     }
 
     /// Where the nodes are, m.

@@ -1,5 +1,7 @@
 //! Solids from meshes.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use nalgebra::SVector;
 
 use super::Scene;
@@ -10,8 +12,11 @@ use crate::number::scalar::Real;
 use crate::scene::body::Body;
 use crate::scene::bulk::Bulk;
 use crate::scene::cell::Stuff;
+use crate::scene::entry::UNMADE;
 use crate::scene::error::SceneError;
+use crate::scene::joints::{Shared, joined};
 use crate::scene::mesh::Mesh;
+use crate::scene::solid_error::SolidError;
 
 /// # Solids from meshes
 impl<const D: usize, S: Real> Scene<D, S> {
@@ -63,19 +68,27 @@ impl<const D: usize, S: Real> Scene<D, S> {
         H: Shape<D>,
         M: FreeEnergy<S> + StrainEnergy<N> + Send + Sync + 'static,
     {
-        let places = mesh.nodes().iter();
-        let nodes: Vec<Node> = places
-            .map(|&place| match bulk.joint(place) {
-                Some(node) => node,
-                None => self.node(place.map(S::from_f64), [S::zero(); D]),
-            })
-            .collect();
-        let stuff = Stuff {
+        let first = self.next_element::<M>();
+        let nodes = self.nodes_of_mesh(mesh, bulk, first);
+        let mut stuff = Stuff {
             density: bulk.density,
             thickness: S::from_f64(bulk.thickness),
             fibres: &bulk.fibres,
             lumped: bulk.lumped,
+            is_refused: false,
         };
+        // Once, and not for every cell.
+        if let Err(error) = stuff.measures(M::STRAINS, first) {
+            self.misuse.push(error.into());
+            stuff.is_refused = true;
+        }
+        let mut conductivity = bulk.conductivity;
+        if conductivity.is_some() && !M::THERMAL {
+            let element = first;
+            self.misuse
+                .push(SolidError::NoTemperature { element }.into());
+            conductivity = None;
+        }
         let mut points = Vec::with_capacity(mesh.cells().len() * H::PerPoint::<Element>::LEN);
         for cell in mesh.cells() {
             let mut named = H::PerNode::filled(nodes[0]);
@@ -89,10 +102,64 @@ impl<const D: usize, S: Real> Scene<D, S> {
             nodes,
             points,
             thickness: bulk.thickness,
-            conductivity: bulk.conductivity,
+            conductivity,
         };
         self.conduct_in(&body, bulk.allow_skew_cells);
         body
+    }
+
+    /// The nodes of a mesh whose first point is `element`: new ones, and those of solids to which it is joined. What is
+    /// wrong with those becomes misuse, and they are new as well.
+    fn nodes_of_mesh<H: Shape<D>>(
+        &mut self,
+        mesh: &Mesh<H, D>,
+        bulk: &Bulk<D, S>,
+        element: Element,
+    ) -> Vec<Node> {
+        let shared = joined(&bulk.joints, mesh, element);
+        let shared = shared.and_then(|shared| {
+            self.check_joined_cells(mesh, &shared, element)?;
+            Ok(shared)
+        });
+        let shared = shared.unwrap_or_else(|error| {
+            self.misuse.push(error.into());
+            vec![None; mesh.nodes().len()]
+        });
+        let places = mesh.nodes().iter().zip(shared);
+        let nodes = places.map(|(place, shared)| match shared {
+            Some(shared) => shared.node,
+            None => self.node(place.map(S::from_f64), [S::zero(); D]),
+        });
+        nodes.collect()
+    }
+
+    /// An error if a cell has all its nodes in common with one that there is.
+    fn check_joined_cells<H: Shape<D>>(
+        &self,
+        mesh: &Mesh<H, D>,
+        shared: &[Option<Shared<D>>],
+        element: Element,
+    ) -> Result<(), SolidError> {
+        let mut joined = BTreeMap::new();
+        for (cell, nodes) in mesh.cells().iter().enumerate() {
+            let nodes = nodes.as_ref().iter();
+            let nodes: Option<BTreeSet<usize>> = nodes
+                .map(|&node| shared[node].map(|shared| shared.node.index))
+                .collect();
+            joined.extend(nodes.map(|nodes| (nodes, cell)));
+        }
+        if joined.is_empty() {
+            return Ok(());
+        }
+        for (index, entry) in self.elements.iter().enumerate() {
+            let nodes = entry.nodes.iter().copied().collect();
+            let cell = joined.get(&nodes).filter(|_| entry.group != UNMADE);
+            if let Some(&cell) = cell {
+                let elements = [element, self.element_at(index)];
+                return Err(SolidError::JoinedCell { cell, elements });
+            }
+        }
+        Ok(())
     }
 
     /// Replaces the initial velocity of a node, m/s, or its momentum. Anchors have none.

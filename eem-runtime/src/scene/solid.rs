@@ -89,6 +89,7 @@ impl<S: Real> Scene<2, S> {
             thickness,
             fibres: &[],
             lumped: false,
+            is_refused: false,
         };
         self.push_cell::<Quad4, M, N>(&model, &nodes, stuff)
     }

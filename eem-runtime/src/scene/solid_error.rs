@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use crate::element::handle::Element;
 use crate::number::readable::Readable;
+use crate::scene::mesh::MeshError;
 
 /// Why a solid cannot be as it is described.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -56,6 +57,14 @@ pub enum SolidError {
         /// Its first point.
         element: Element,
     },
+    /// A solid has a conductivity and no temperature.
+    #[error(
+        "the solid at {element} has a conductivity, but no temperature: leave `Bulk::conductivity` out, or take a free energy with an argument `Temperature`"
+    )]
+    NoTemperature {
+        /// Its first point.
+        element: Element,
+    },
     /// Cells of a solid that conducts are so skew that heat would flow in wrong directions.
     #[error(
         "the cells of the solid at {element} are too skew for its conductivity: heat crosses {skew} of {faces} faces between points at a cosine |A·d|/(|A||d|) below 0.95, the worst in cell {cell} at {cosine:.3}, and one in twenty may; use cells that are nearly rectangular, or accept wrong directions of heat by `Bulk::allow_skew_cells`"
@@ -81,9 +90,57 @@ pub enum SolidError {
         /// Their first points.
         elements: [Element; 2],
     },
+    /// Nodes of a solid are to be joined within what is no distance.
+    #[error(
+        "the solid at {first} is joined to that at {second} within {within} m (`Bulk::joined_to`), which must be finite and not negative",
+        first = elements[0], second = elements[1], within = Readable(*within)
+    )]
+    JointDistance {
+        /// The first points of the solid and of the other one.
+        elements: [Element; 2],
+        /// m.
+        within: f64,
+    },
+    /// No node of a solid is near enough to another one to be joined to it.
+    #[error(
+        "no node of the solid at {first} is within {within} m of one of the solid at {second}, to which it is joined (`Bulk::joined_to`): the nearest are {nearest} m apart; move its mesh, or join within a larger distance",
+        first = elements[0], second = elements[1], within = Readable(*within), nearest = Readable(*nearest)
+    )]
+    NotJoined {
+        /// The first points of the solid and of the other one.
+        elements: [Element; 2],
+        /// m.
+        within: f64,
+        /// The least distance of two of their nodes, m.
+        nearest: f64,
+    },
+    /// Cells of a solid are damaged where its nodes become those of others.
+    #[error(
+        "the solid at {element} is joined within {within} m (`Bulk::joined_to`), and with its nodes where those are that they become, {error}: join within a smaller distance, or move its mesh",
+        within = Readable(*within)
+    )]
+    JoinedNodes {
+        /// Its first point.
+        element: Element,
+        /// m, the largest if there are several.
+        within: f64,
+        /// What is wrong with its mesh then.
+        error: MeshError,
+    },
+    /// A cell of a solid is on one of a solid that it is joined to.
+    #[error(
+        "cell {cell} of the solid at {first} is joined (`Bulk::joined_to`) to all nodes of the cell at {second}, and would be in its place: move its mesh",
+        first = elements[0], second = elements[1]
+    )]
+    JoinedCell {
+        /// The cell, from 0.
+        cell: usize,
+        /// The first points of the solid, and of the other cell.
+        elements: [Element; 2],
+    },
     /// A face is not of the mesh of a solid.
     #[error(
-        "the face is not of the mesh of the solid at {element}: take it from its own mesh, by `Body::mesh` and `Mesh::face`"
+        "the face is not of the mesh of the solid at {element}: take it from its own mesh, by `Body::mesh` and `Mesh::face`; a mesh that has been moved or refined has faces of its own"
     )]
     ForeignFace {
         /// Its first point.

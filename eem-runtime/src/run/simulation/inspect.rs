@@ -267,6 +267,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(self.stepper.elements(group).inspect(place, &self.state))
     }
 
+    /// How many nodes and elements there are.
+    #[cfg(feature = "vtk")]
+    pub(crate) fn counts(&self) -> [usize; 2] {
+        [self.state.positions.values().len() / D, self.places.len()]
+    }
+
     /// The group and the place in it of an own element.
     pub(super) fn place(&self, element: Element) -> [usize; 2] {
         self.places[element.index()].map(|number| number as usize)

@@ -33,23 +33,49 @@ pub enum MshError {
         /// Its name.
         name: &'static str,
     },
-    /// A line is not what it has to be.
+    /// A line is outside of all sections.
     #[error(
-        "line {line} of the mesh, in `${section}`, is `{found}`: these are not the numbers that have to be there"
+        "line {line} of the mesh is `{found}`, outside of all sections, where only heads like `$Nodes` are"
     )]
-    Line {
-        /// The section.
-        section: &'static str,
+    Outside {
         /// From 1.
         line: usize,
         /// What is there.
         found: String,
     },
-    /// A node has two places.
-    #[error("node {node} is in the mesh twice")]
-    RepeatedNode {
-        /// The node.
-        node: u64,
+    /// A section has no end.
+    #[error(
+        "the section `${section}` of the mesh, which begins in line {line}, has no `$End{section}`"
+    )]
+    Unended {
+        /// Its name.
+        section: String,
+        /// Where it begins, from 1.
+        line: usize,
+    },
+    /// There are two sections of which there has to be one.
+    #[error(
+        "line {line} of the mesh begins a second section `${name}`, the first begins in line {first}: leave one of them"
+    )]
+    SecondSection {
+        /// Their name.
+        name: String,
+        /// Where the first begins, from 1.
+        first: usize,
+        /// Where the second begins, from 1.
+        line: usize,
+    },
+    /// A line is not what it has to be.
+    #[error("line {line} of the mesh, in `${section}`, is `{found}`: {fault}")]
+    Line {
+        /// The section.
+        section: String,
+        /// From 1.
+        line: usize,
+        /// What is there.
+        found: String,
+        /// What is wrong with it.
+        fault: LineFault,
     },
     /// An element has a node that does not exist.
     #[error("element {element} has node {node}, which is not in the mesh")]
@@ -120,7 +146,70 @@ pub enum MshError {
         /// What is wrong, in the numbering of the mesh.
         error: MeshError,
     },
+    /// Something is wrong between elements.
+    #[error("elements {elements:?} of the file: {error}")]
+    Elements {
+        /// The elements.
+        elements: Vec<u64>,
+        /// What is wrong, in the numbering of the mesh.
+        error: MeshError,
+    },
     /// Something else is wrong with the mesh, in its own numbering.
     #[error(transparent)]
     Mesh(#[from] MeshError),
+}
+
+/// What is wrong with a line of a file of Gmsh.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum LineFault {
+    /// It has too many or too few numbers, or what is no such number.
+    #[error("these are not the numbers that have to be there")]
+    Numbers,
+    /// The section goes on although all of its blocks have been read.
+    #[error("the section has to end here, by what its first line says of it")]
+    NotTheEnd,
+    /// The first line of a section says something else than what is in its blocks.
+    #[error(
+        "its blocks hold {count} in all, with tags from {least} to {largest}, which the second, third and fourth number have to be",
+        least = range[0], largest = range[1]
+    )]
+    Totals {
+        /// How many nodes or elements there are.
+        count: usize,
+        /// Their least and their largest tag.
+        range: [u64; 2],
+    },
+    /// A tag belongs to two nodes, or to two elements.
+    #[error("the tag {tag} is that of line {first} already")]
+    Repeated {
+        /// The tag.
+        tag: u64,
+        /// The line that has it first, from 1.
+        first: usize,
+    },
+    /// An entity has a dimension that there is not.
+    #[error("the dimension of an entity is 0, 1, 2 or 3, and {found} is given first")]
+    EntityDimension {
+        /// The dimension.
+        found: u64,
+    },
+    /// The elements of an entity have another dimension than itself.
+    #[error("the entity has the dimension {found}, and its {elements} have the dimension {needed}")]
+    Dimension {
+        /// That of the entity.
+        found: usize,
+        /// Its elements.
+        elements: &'static str,
+        /// Theirs.
+        needed: usize,
+    },
+    /// It is not clear whether nodes have coordinates within their entity.
+    #[error(
+        "the third number is 1 if nodes have coordinates within their entity and else 0, and {found} is given"
+    )]
+    Parametric {
+        /// What is given.
+        found: u64,
+    },
 }

@@ -1,9 +1,10 @@
-//! The sections of a file that hold nodes and elements, line by line.
+//! The sections of a file that hold nodes and elements, which have to agree with what they say of themselves.
 
 use std::collections::BTreeMap;
-use std::str::FromStr;
 
-use super::error::MshError;
+use super::error::{LineFault, MshError};
+use super::kind::Kind;
+use super::lines::{Line, Lines, Section};
 
 /// Elements of one type that belong to one entity.
 #[derive(Clone, Debug)]
@@ -11,41 +12,9 @@ pub(super) struct Block {
     pub(super) dimension: usize,
     /// The tag of the entity.
     pub(super) entity: i32,
-    /// The number of the type of its elements.
-    kind: u32,
+    pub(super) kind: Kind,
     /// Tags of elements, each with those of its nodes.
     pub(super) elements: Vec<(u64, Vec<u64>)>,
-}
-
-impl Block {
-    /// The type of its elements.
-    pub(super) fn name(&self) -> &'static str {
-        match self.kind {
-            1 | 8 | 26..=28 => "lines",
-            2 | 9 | 20..=25 => "triangles",
-            3 => "Quad4",
-            16 => "Quad8",
-            10 => "quadrilaterals of 9 nodes",
-            4 | 11 | 29..=33 => "tetrahedra",
-            5 => "Hex8",
-            17 => "Hex20",
-            12 => "hexahedra of 27 nodes",
-            6 | 13 | 18 => "prisms",
-            7 | 14 | 19 => "pyramids",
-            15 => "points",
-            _ => "elements of another type",
-        }
-    }
-
-    /// How many nodes an element has, where it matters.
-    fn nodes(&self) -> Option<usize> {
-        match self.kind {
-            3 => Some(4),
-            5 | 16 => Some(8),
-            17 => Some(20),
-            _ => None,
-        }
-    }
 }
 
 /// Nodes by tag, and blocks of elements.
@@ -53,139 +22,165 @@ pub(super) type Content = (BTreeMap<u64, [f64; 3]>, Vec<Block>);
 
 /// Reads the sections that hold the mesh; others are passed over.
 pub(super) fn read(text: &str) -> Result<Content, MshError> {
-    let format = Section::of(text, "MeshFormat").and_then(|mut section| section.line());
-    let format = format.map_or_else(|_| String::new(), |(_, line)| line.trim().to_owned());
-    let words: Vec<_> = format.split_ascii_whitespace().collect();
-    if words.get(..2) != Some(&["4.1", "0"]) {
-        return Err(MshError::Format { found: format });
+    let mut lines = Lines::of(text);
+    let (mut nodes, mut blocks) = (None, None);
+    // The lines where the sections begin that there is one of.
+    let mut heads = BTreeMap::new();
+    while let Some(section) = lines.section()? {
+        let is_mesh = ["MeshFormat", "Nodes", "Elements"].contains(&section.name);
+        if !is_mesh {
+            lines.skip(section)?;
+            continue;
+        }
+        if let Some(first) = heads.insert(section.name, section.line) {
+            let (name, line) = (section.name.to_owned(), section.line);
+            return Err(MshError::SecondSection { name, first, line });
+        }
+        match section.name {
+            "MeshFormat" => read_format(&mut lines, section)?,
+            "Nodes" => nodes = Some(read_nodes(&mut lines, section)?),
+            _ => blocks = Some(read_elements(&mut lines, section)?),
+        }
     }
-    let nodes = read_nodes(Section::of(text, "Nodes")?)?;
-    let blocks = read_elements(Section::of(text, "Elements")?)?;
-    Ok((nodes, blocks))
+    let missing = |name| MshError::Section { name };
+    if !heads.contains_key("MeshFormat") {
+        return Err(missing("MeshFormat"));
+    }
+    let nodes = nodes.ok_or(missing("Nodes"))?;
+    Ok((nodes, blocks.ok_or(missing("Elements"))?))
 }
 
-fn read_nodes(mut section: Section<'_>) -> Result<BTreeMap<u64, [f64; 3]>, MshError> {
-    let [blocks, ..] = section.numbers::<usize, 4>()?;
+/// Version 4.1, in ASCII, with numbers of eight bytes.
+fn read_format(lines: &mut Lines<'_>, section: Section<'_>) -> Result<(), MshError> {
+    let found = lines.line(section)?.text;
+    if !found.split_ascii_whitespace().eq(["4.1", "0", "8"]) {
+        let found = found.to_owned();
+        return Err(MshError::Format { found });
+    }
+    lines.end(section)
+}
+
+fn read_nodes(
+    lines: &mut Lines<'_>,
+    section: Section<'_>,
+) -> Result<BTreeMap<u64, [f64; 3]>, MshError> {
+    let totals = Totals::read(lines, section)?;
+    let mut tags = Tags::default();
     let mut nodes = BTreeMap::new();
-    for _ in 0..blocks {
-        let [.., count] = section.numbers::<i64, 4>()?;
-        let mut tags = Vec::new();
+    for _ in 0..totals.blocks {
+        let (line, [dimension, _, parametric, count], _) = lines.head(section)?;
+        let dimension = entity_dimension(line, section, dimension)?;
+        // The coordinates of a node within its entity follow its place.
+        let own = match parametric {
+            0 => 0,
+            1 => dimension,
+            found => return Err(line.wrong(section, LineFault::Parametric { found })),
+        };
+        let mut of_block = Vec::new();
         for _ in 0..count {
-            let [tag] = section.numbers::<u64, 1>()?;
-            tags.push(tag);
+            let (line, tag) = lines.numbers::<u64>(section, |count| count == 1)?;
+            tags.add(tag[0], line, section)?;
+            of_block.push(tag[0]);
         }
-        for node in tags {
-            // Parametric coordinates may follow.
-            let place = section.numbers_and_more::<f64, 3>()?;
-            if nodes.insert(node, place).is_some() {
-                return Err(MshError::RepeatedNode { node });
-            }
+        for tag in of_block {
+            let (_, place) = lines.numbers::<f64>(section, |count| count == 3 + own)?;
+            nodes.insert(tag, [place[0], place[1], place[2]]);
         }
     }
+    lines.end(section)?;
+    totals.check(&tags, section)?;
     Ok(nodes)
 }
 
-fn read_elements(mut section: Section<'_>) -> Result<Vec<Block>, MshError> {
-    let [blocks, ..] = section.numbers::<usize, 4>()?;
+fn read_elements(lines: &mut Lines<'_>, section: Section<'_>) -> Result<Vec<Block>, MshError> {
+    let totals = Totals::read(lines, section)?;
+    let mut tags = Tags::default();
     let mut all = Vec::new();
-    for _ in 0..blocks {
-        let (line, [dimension, entity, kind, count]) = (section.at, section.numbers::<i64, 4>()?);
-        let (Ok(dimension), Ok(entity), Ok(kind)) = (
-            usize::try_from(dimension),
-            i32::try_from(entity),
-            u32::try_from(kind),
-        ) else {
-            return Err(section.wrong(line));
-        };
-        let mut block = Block {
+    for _ in 0..totals.blocks {
+        let (line, [dimension, _, kind, count], entity) = lines.head(section)?;
+        let dimension = entity_dimension(line, section, dimension)?;
+        let kind = u32::try_from(kind).map_err(|_| line.wrong(section, LineFault::Numbers))?;
+        let kind = Kind::of(kind);
+        if let Some(needed) = kind.dimension.filter(|&needed| needed != dimension) {
+            let fault = LineFault::Dimension {
+                found: dimension,
+                elements: kind.name,
+                needed,
+            };
+            return Err(line.wrong(section, fault));
+        }
+        let mut elements = Vec::new();
+        for _ in 0..count {
+            let is_right = |count| count > 1 && kind.nodes.is_none_or(|nodes| count == nodes + 1);
+            let (line, numbers) = lines.numbers::<u64>(section, is_right)?;
+            tags.add(numbers[0], line, section)?;
+            elements.push((numbers[0], numbers[1..].to_vec()));
+        }
+        all.push(Block {
             dimension,
             entity,
             kind,
-            elements: Vec::new(),
-        };
-        for _ in 0..count {
-            let (line, words) = section.line()?;
-            let words: Result<Vec<u64>, _> =
-                words.split_ascii_whitespace().map(str::parse).collect();
-            let words = words.unwrap_or_default();
-            match words.split_first() {
-                Some((&tag, nodes)) if block.nodes().is_none_or(|count| count == nodes.len()) => {
-                    block.elements.push((tag, nodes.to_vec()));
-                }
-                _ => return Err(section.wrong(line)),
-            }
-        }
-        all.push(block);
+            elements,
+        });
     }
+    lines.end(section)?;
+    totals.check(&tags, section)?;
     Ok(all)
 }
 
-/// The lines of a section that have not been read.
-struct Section<'a> {
-    name: &'static str,
-    lines: Vec<&'a str>,
-    /// The next line, from 0.
-    at: usize,
+/// That of the entity of a block.
+fn entity_dimension(line: Line<'_>, section: Section<'_>, found: u64) -> Result<usize, MshError> {
+    let dimension = usize::try_from(found).ok();
+    let dimension = dimension.filter(|&dimension| dimension <= 3);
+    dimension.ok_or_else(|| line.wrong(section, LineFault::EntityDimension { found }))
 }
 
-impl<'a> Section<'a> {
-    /// The section with a name.
-    fn of(text: &'a str, name: &'static str) -> Result<Self, MshError> {
-        let lines: Vec<_> = text.lines().collect();
-        let is_head = |line: &&str| line.trim().strip_prefix('$') == Some(name);
-        let head = lines.iter().position(is_head);
-        let head = head.ok_or(MshError::Section { name })?;
-        let at = head + 1;
-        Ok(Self { name, lines, at })
+/// What the first line of a section says of all of it.
+struct Totals<'a> {
+    line: Line<'a>,
+    blocks: u64,
+    count: u64,
+    /// The least and the largest tag.
+    range: [u64; 2],
+}
+
+impl<'a> Totals<'a> {
+    fn read(lines: &mut Lines<'a>, section: Section<'_>) -> Result<Self, MshError> {
+        let (line, numbers) = lines.numbers::<u64>(section, |count| count == 4)?;
+        Ok(Self {
+            line,
+            blocks: numbers[0],
+            count: numbers[1],
+            range: [numbers[2], numbers[3]],
+        })
     }
 
-    /// The next line that is not empty, with its number, from 0.
-    fn line(&mut self) -> Result<(usize, &'a str), MshError> {
-        loop {
-            let at = self.at;
-            match self.lines.get(at).map(|line| line.trim()) {
-                Some("") => self.at += 1,
-                Some(line) if !line.starts_with('$') => {
-                    self.at += 1;
-                    return Ok((at, line));
-                }
-                _ => return Err(self.wrong(at)),
-            }
+    /// An error unless the blocks hold what is said of them.
+    fn check(&self, tags: &Tags, section: Section<'_>) -> Result<(), MshError> {
+        let mut ends = tags.0.keys();
+        let count = ends.len();
+        let least = ends.next().copied();
+        let range = least.map(|least| [least, ends.next_back().copied().unwrap_or(least)]);
+        let agrees = range.is_none_or(|range| range == self.range);
+        if u64::try_from(count) == Ok(self.count) && agrees {
+            return Ok(());
         }
+        let range = range.unwrap_or_default();
+        let fault = LineFault::Totals { count, range };
+        Err(self.line.wrong(section, fault))
     }
+}
 
-    /// The next line, of so many numbers.
-    fn numbers<T: FromStr, const N: usize>(&mut self) -> Result<[T; N], MshError> {
-        let at = self.at;
-        let numbers: Vec<T> = self.all_numbers()?;
-        numbers.try_into().map_err(|_| self.wrong(at))
-    }
+/// Tags, with the lines where they are.
+#[derive(Default)]
+struct Tags(BTreeMap<u64, usize>);
 
-    /// The next line, of so many numbers at least.
-    fn numbers_and_more<T: FromStr, const N: usize>(&mut self) -> Result<[T; N], MshError> {
-        let at = self.at;
-        let mut numbers: Vec<T> = self.all_numbers()?;
-        numbers.truncate(N);
-        numbers.try_into().map_err(|_| self.wrong(at))
-    }
-
-    fn all_numbers<T: FromStr>(&mut self) -> Result<Vec<T>, MshError> {
-        let (at, line) = self.line()?;
-        let words = line.split_ascii_whitespace().map(str::parse);
-        let numbers: Result<_, T::Err> = words.collect();
-        numbers.map_err(|_| self.wrong(at))
-    }
-
-    /// What is in a line, from 0, is not what has to be there.
-    fn wrong(&self, line: usize) -> MshError {
-        MshError::Line {
-            section: self.name,
-            line: line + 1,
-            found: self
-                .lines
-                .get(line)
-                .map_or("", |line| line.trim())
-                .to_owned(),
+impl Tags {
+    /// An error if the tag is there already.
+    fn add(&mut self, tag: u64, line: Line<'_>, section: Section<'_>) -> Result<(), MshError> {
+        match self.0.insert(tag, line.number) {
+            Some(first) => Err(line.wrong(section, LineFault::Repeated { tag, first })),
+            None => Ok(()),
         }
     }
 }

@@ -1,10 +1,11 @@
 //! The surface of a mesh.
 
-use std::collections::BTreeMap;
+use core::convert::Infallible;
 
 use super::Mesh;
 use super::error::MeshError;
 use super::face::Face;
+use super::sides;
 use crate::element::kinematics::Shape;
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
@@ -39,14 +40,13 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         let mut nodes: Vec<_> = sides.iter().flat_map(|&side| self.nodes_of(side)).collect();
         nodes.sort_unstable();
         nodes.dedup();
-        Ok(Face { sides, nodes })
+        let mesh = self.digest;
+        Ok(Face { mesh, sides, nodes })
     }
 
-    /// Whether some faces are faces of this mesh, or of one that is numbered alike.
+    /// Whether some faces are faces of this mesh, or of one that is equal to it.
     pub(crate) fn has(&self, face: &Face) -> bool {
-        let exists = |&[cell, side]: &[usize; 2]| cell < self.cells.len() && side < H::FACES.len();
-        let mut sides = face.sides.iter();
-        sides.all(exists) && self.face_of(face.sides.clone()).as_ref() == Ok(face)
+        face.mesh == self.digest
     }
 
     /// The nodes of a face of a cell.
@@ -57,17 +57,24 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
 
     /// The faces that belong to one cell.
     pub(crate) fn surface(&self) -> Vec<[usize; 2]> {
-        let cells = 0..self.cells.len();
-        let sides = cells.flat_map(|cell| (0..H::FACES.len()).map(move |face| [cell, face]));
-        let mut seen: BTreeMap<Vec<usize>, Vec<[usize; 2]>> = BTreeMap::new();
-        for side in sides {
-            let mut nodes: Vec<_> = self.nodes_of(side).collect();
-            nodes.sort_unstable();
-            seen.entry(nodes).or_default().push(side);
-        }
-        let single = seen.into_values().filter(|sides| sides.len() == 1);
-        let mut sides: Vec<_> = single.flatten().collect();
+        let mut sides = Vec::new();
+        self.for_same_sides(|same| {
+            if let &[side] = same {
+                sides.push(side);
+            }
+        });
         sides.sort_unstable();
         sides
+    }
+
+    /// Shows the faces of all cells, those with the same nodes at once.
+    pub(super) fn for_same_sides(&self, mut show: impl FnMut(&[[usize; 2]])) {
+        let shown = sides::for_same::<H, D, Infallible>(&self.cells, self.nodes.len(), |same| {
+            show(same);
+            Ok(())
+        });
+        match shown {
+            Ok(()) => {}
+        }
     }
 }

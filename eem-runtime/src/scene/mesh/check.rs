@@ -1,7 +1,9 @@
 //! The rules that a mesh must satisfy.
 
 use super::error::MeshError;
-use crate::element::kinematics::{Shape, SolidPoint};
+use super::geometry::power_of_two;
+use super::sides;
+use crate::element::kinematics::{Shape, Symmetric, integrals};
 use crate::material::free_energy::Array;
 
 /// The first thing that is wrong.
@@ -14,18 +16,115 @@ pub(super) fn check<H: Shape<D>, const D: usize>(
     }
     check_names::<H, D>(nodes.len(), cells)?;
     check_places(nodes)?;
-    for (index, cell) in cells.iter().enumerate() {
-        let mut reference = H::PerNode::filled([0.0; D]);
-        for (place, &node) in reference.as_mut().iter_mut().zip(cell.as_ref()) {
+    check_sizes::<H, D>(nodes, cells)?;
+    sides::for_same::<H, D, _>(cells, nodes.len(), |same| check_same::<H, D>(cells, same))
+}
+
+/// `det ∂X/∂ξ` is positive at all points and nodes. For a quadrilateral of four nodes it is then positive everywhere.
+fn check_sizes<H: Shape<D>, const D: usize>(
+    nodes: &[[f64; D]],
+    cells: &[H::PerNode<usize>],
+) -> Result<(), MeshError> {
+    let unit = if D == 2 { "m^2" } else { "m^3" };
+    let points = integrals::rule::<H, D>().into_iter();
+    let points: Vec<_> = points
+        .map(|(place, _)| integrals::functions::<H, f64, D>(place))
+        .collect();
+    let at_nodes = H::NODES.iter().map(|node| node.map(f64::from));
+    let at_nodes: Vec<_> = at_nodes.map(integrals::functions::<H, f64, D>).collect();
+    let mut reference = H::PerNode::filled([0.0; D]);
+    let is_size = |value: f64| value > 0.0 && value.is_finite();
+    for (cell, its_nodes) in cells.iter().enumerate() {
+        for (place, &node) in reference.as_mut().iter_mut().zip(its_nodes.as_ref()) {
             *place = nodes[node];
         }
-        let points = SolidPoint::<H, f64, 0, D>::points(&reference, 1.0, []);
-        points.map_err(|(point, value)| MeshError::InsideOut {
-            cell: index,
-            point,
-            value,
-            unit: if D == 2 { "m^2" } else { "m^3" },
-        })?;
+        let size = |functions: &integrals::Functions<f64, D>| {
+            let jacobian = integrals::jacobian(reference.as_ref(), functions);
+            H::Tensor::<f64>::determinant(&jacobian)
+        };
+        let scale = |functions, value| {
+            let is_there = is_size(scaled_size::<H, D>(reference.as_ref(), functions));
+            is_there.then_some(MeshError::Scale { cell, value, unit })
+        };
+        let sizes = points.iter().map(size);
+        if let Some((point, value)) = sizes.enumerate().find(|&(_, value)| !is_size(value)) {
+            let inside_out = MeshError::InsideOut {
+                cell,
+                point,
+                value,
+                unit,
+            };
+            return Err(scale(&points[point], value).unwrap_or(inside_out));
+        }
+        let sizes = at_nodes.iter().map(size);
+        if let Some((at, value)) = sizes.enumerate().find(|&(_, value)| !is_size(value)) {
+            let inside_out = MeshError::InsideOutAtNode {
+                cell,
+                node: its_nodes.as_ref()[at],
+                value,
+                unit,
+            };
+            return Err(scale(&at_nodes[at], value).unwrap_or(inside_out));
+        }
+    }
+    Ok(())
+}
+
+/// `det ∂X/∂ξ` of a cell that is of about the size one, by powers of two.
+fn scaled_size<H: Shape<D>, const D: usize>(
+    reference: &[[f64; D]],
+    functions: &integrals::Functions<f64, D>,
+) -> f64 {
+    let power = power_of_two(reference.as_flattened().iter());
+    let first = reference[0];
+    let arms = reference
+        .iter()
+        .map(|place| core::array::from_fn(|axis| power * place[axis] - power * first[axis]));
+    let mut arms: Vec<[f64; D]> = arms.collect();
+    let power = power_of_two(arms.as_flattened().iter());
+    for coordinate in arms.as_flattened_mut() {
+        *coordinate *= power;
+    }
+    H::Tensor::<f64>::determinant(&integrals::jacobian(&arms, functions))
+}
+
+/// Of faces of cells with the same nodes there are at most two, one of which is seen from either side.
+fn check_same<H: Shape<D>, const D: usize>(
+    cells: &[H::PerNode<usize>],
+    same: &[[usize; 2]],
+) -> Result<(), MeshError> {
+    let &[first, second, ref more @ ..] = same else {
+        return Ok(());
+    };
+    let pair = [first[0], second[0]];
+    let all_nodes = |cell: usize| {
+        let mut all = cells[cell].as_ref().to_vec();
+        all.sort_unstable();
+        all
+    };
+    if all_nodes(pair[0]) == all_nodes(pair[1]) {
+        return Err(MeshError::SameNodes { cells: pair });
+    }
+    // The corners against the clock seen from outside.
+    let corners = |[cell, face]: [usize; 2]| {
+        let corners = H::FACES[face].iter().take(1 << (D - 1));
+        let mut corners: Vec<usize> = corners.map(|&node| cells[cell].as_ref()[node]).collect();
+        // Around a face in space one may begin anywhere.
+        if D == 3 {
+            let least = (0..corners.len()).min_by_key(|&at| corners[at]);
+            corners.rotate_left(least.unwrap_or_default());
+        }
+        corners
+    };
+    let nodes = corners(first);
+    if let Some(third) = more.first() {
+        return Err(MeshError::CrowdedFace {
+            cells: [pair[0], pair[1], third[0]],
+            nodes,
+        });
+    }
+    if nodes == corners(second) {
+        return Err(MeshError::SameSide { cells: pair, nodes });
     }
     Ok(())
 }

@@ -21,6 +21,46 @@ pub enum MeshError {
         /// m.
         value: f64,
     },
+    /// The ends of a block along an axis do not ascend.
+    #[error(
+        "the block reaches from {from} m to {to} m along axis {axis}: both ends must be finite, and the second above the first",
+        from = Readable(*from), to = Readable(*to)
+    )]
+    Range {
+        /// The axis, from 0.
+        axis: usize,
+        /// m.
+        from: f64,
+        /// m.
+        to: f64,
+    },
+    /// Nodes cannot be numbered.
+    #[error(
+        "{cells} cells have {nodes} nodes, which take {bytes} bytes, and no more than 4294967295 nodes can be numbered: use fewer cells"
+    )]
+    TooMany {
+        /// Cells; [`u128::MAX`] stands for that or more, here and below.
+        cells: u128,
+        /// Their nodes.
+        nodes: u128,
+        /// What both take while the mesh is made and checked.
+        bytes: u128,
+    },
+    /// A mesh takes more memory than there is.
+    #[error(
+        "{cells} cells with {nodes} nodes take {bytes} bytes, {}: use fewer cells, or a machine with more memory",
+        available.map_or_else(|| "which the system refuses".to_owned(), |most| format!("and {most} are available"))
+    )]
+    TooLarge {
+        /// Cells.
+        cells: u128,
+        /// Their nodes.
+        nodes: u128,
+        /// What both take while the mesh is made and checked.
+        bytes: u128,
+        /// What there is, bytes; `None` where the machine had it available, or does not say, and refused it.
+        available: Option<u64>,
+    },
     /// Two sides of a polygon cross or touch.
     #[error("sides {first} and {second} of the polygon cross or touch, counted from 0: side n leads from corner n to the next", first = sides[0], second = sides[1])]
     Crossing {
@@ -81,6 +121,68 @@ pub enum MeshError {
         value: f64,
         /// Its unit, m² or m³.
         unit: &'static str,
+    },
+    /// A cell is inside out at one of its nodes, or its edges go on in one line there.
+    #[error(
+        "cell {cell} is inside out, or flat, at its node {node}: det dX/dxi is {value} {unit} there, it must be positive and finite; at a corner less than half a turn lies between its edges",
+        value = Readable(*value)
+    )]
+    InsideOutAtNode {
+        /// The cell, from 0.
+        cell: usize,
+        /// The node, from 0.
+        node: usize,
+        /// `det ∂X/∂ξ`.
+        value: f64,
+        /// Its unit, m² or m³.
+        unit: &'static str,
+    },
+    /// A cell is not inside out, but too large or too small for its volume to be a number.
+    #[error(
+        "cell {cell} is too large or too small: det dX/dxi is {value} {unit}, outside of what a number holds; give lengths in m",
+        value = Readable(*value)
+    )]
+    Scale {
+        /// The cell, from 0.
+        cell: usize,
+        /// What is computed for `det ∂X/∂ξ`.
+        value: f64,
+        /// Its unit, m² or m³.
+        unit: &'static str,
+    },
+    /// Two cells have the same nodes.
+    #[error("cells {first} and {second} have the same nodes: leave one of them", first = cells[0], second = cells[1])]
+    SameNodes {
+        /// The cells, from 0.
+        cells: [usize; 2],
+    },
+    /// More than two cells have a face in common.
+    #[error(
+        "cells {first}, {second} and {third} all have a face with the corners {nodes:?}, which two can have in common",
+        first = cells[0], second = cells[1], third = cells[2]
+    )]
+    CrowdedFace {
+        /// Three of the cells, from 0.
+        cells: [usize; 3],
+        /// The corners of the face, from 0.
+        nodes: Vec<usize>,
+    },
+    /// Two cells lie on the same side of the face that they have in common.
+    #[error(
+        "cells {first} and {second} are on the same side of their face with the corners {nodes:?}, one in the other",
+        first = cells[0], second = cells[1]
+    )]
+    SameSide {
+        /// The cells, from 0.
+        cells: [usize; 2],
+        /// The corners of the face, from 0.
+        nodes: Vec<usize>,
+    },
+    /// A node is looked for within what is no distance.
+    #[error("a node is looked for within {within} m, which must be zero or positive", within = Readable(*within))]
+    Distance {
+        /// m.
+        within: f64,
     },
     /// No node is in a place.
     #[error("no node is at {place:?} m: the nearest is at {nearest:?} m")]

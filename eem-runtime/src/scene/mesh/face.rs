@@ -1,8 +1,13 @@
 //! Parts of the surface of a mesh.
 
-/// Some faces of the surface of a mesh, from [`Mesh::face`](crate::Mesh::face).
+use super::digest::Digest;
+
+/// Some faces of the surface of a mesh, from [`Mesh::face`](crate::Mesh::face). They are also those of its copies and
+/// of meshes that are equal to it, but not of one that has been moved, mapped or refined.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Face {
+    /// That of the mesh.
+    pub(super) mesh: Digest,
     /// Cells with the number of their face.
     pub(crate) sides: Vec<[usize; 2]>,
     /// Their nodes, each once, in ascending order.

@@ -37,3 +37,40 @@ pub(crate) fn distance<const D: usize>(a: [f64; D], b: [f64; D]) -> f64 {
         Scalar::hypot(distance, a[axis] - b[axis])
     })
 }
+
+/// The power of two by which some numbers have to be multiplied to have magnitudes of about one, which is exact.
+pub(super) fn power_of_two<'a>(numbers: impl Iterator<Item = &'a f64>) -> f64 {
+    const MANTISSA: u32 = f64::MANTISSA_DIGITS - 1;
+    let largest = numbers.fold(0.0, |largest: f64, number| largest.max(number.abs()));
+    // The exponents e of 2^(e − 1023) and of its reciprocal add up to 2046; 0 and 2047 are none.
+    let exponent = largest.to_bits() >> MANTISSA;
+    f64::from_bits(2046_u64.saturating_sub(exponent).clamp(1, 2045) << MANTISSA)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::power_of_two;
+
+    #[test]
+    fn powers_of_two_bring_numbers_near_one() {
+        for largest in [
+            1.0,
+            0.3,
+            7.0,
+            1e200,
+            1e-170,
+            f64::MAX,
+            1e-320,
+            f64::MIN_POSITIVE,
+        ] {
+            let power = power_of_two([0.5 * largest, -largest].iter());
+            let scaled = largest * power;
+            assert!((scaled * power.recip()).to_bits() == largest.to_bits() || largest > 1e300);
+            assert!(
+                (1.0..4.0).contains(&scaled) || largest < 1e-300,
+                "{largest} {scaled}"
+            );
+        }
+        assert!(power_of_two([0.0].iter()) > 0.0);
+    }
+}

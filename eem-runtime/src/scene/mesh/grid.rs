@@ -1,9 +1,8 @@
 //! Meshes of boxes that planes cut into cells.
 
-use std::collections::BTreeMap;
-
 use super::Mesh;
 use super::error::MeshError;
+use super::lattice::Lattice;
 use crate::element::kinematics::Shape;
 use crate::material::free_energy::Array;
 
@@ -22,20 +21,36 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     ///
     /// # Errors
     ///
-    /// If there are no cells along an axis, or its ends do not ascend.
+    /// [`MeshError::Empty`] if there are no cells along an axis, [`MeshError::Range`] if its ends do not ascend;
+    /// [`MeshError::TooMany`] and [`MeshError::TooLarge`], before any memory is taken, if nodes cannot be numbered or
+    /// do not fit in the memory. The latter needs the feature `sparse` to know what is available.
     pub fn block(cells: [usize; D], ranges: [[f64; 2]; D]) -> Result<Self, MeshError> {
-        let cuts: [Vec<f64>; D] = core::array::from_fn(|axis| {
-            let ([from, to], parts) = (ranges[axis], cells[axis]);
-            let counted = core::iter::successors(Some(0.0), |at| Some(at + 1.0));
-            let all = counted.clone().nth(parts).unwrap_or(0.0);
-            // Exact at both ends.
-            let cut = |at: f64| (from * (all - at) + to * at) / all;
-            match parts {
-                0 => vec![from],
-                _ => counted.take(parts + 1).map(cut).collect(),
+        for (axis, [from, to]) in ranges.into_iter().enumerate() {
+            if !(from.is_finite() && to.is_finite() && from < to) {
+                return Err(MeshError::Range { axis, from, to });
             }
+        }
+        let lattice = Lattice::of(cells)?;
+        let cuts: [Vec<f64>; D] = core::array::from_fn(|axis| {
+            let [from, to] = ranges[axis];
+            // There are no more nodes than that.
+            let parts = u32::try_from(cells[axis]).unwrap_or(u32::MAX);
+            let all = f64::from(parts);
+            let cut = |at: u32| {
+                let at = f64::from(at);
+                // Exact at both ends.
+                let cut = (from * (all - at) + to * at) / all;
+                if cut.is_finite() {
+                    cut
+                } else {
+                    from * ((all - at) / all) + to * (at / all)
+                }
+            };
+            (0..=parts).map(cut).collect()
         });
-        Self::grid(cuts.each_ref().map(Vec::as_slice))
+        let cuts = cuts.each_ref().map(Vec::as_slice);
+        check_cuts(cuts)?;
+        Self::on_lattice(&lattice, cuts)
     }
 
     /// A box that is cut at these places along each axis, m.
@@ -53,41 +68,37 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     ///
     /// # Errors
     ///
-    /// If there are no cells along an axis, or cuts do not ascend.
+    /// [`MeshError::Empty`] if there are no cells along an axis, [`MeshError::Cut`] if cuts do not ascend;
+    /// [`MeshError::TooMany`] and [`MeshError::TooLarge`] as for a [`block`](Self::block).
     pub fn grid(cuts: [&[f64]; D]) -> Result<Self, MeshError> {
         check_cuts(cuts)?;
-        let cells = indices(cuts.map(|cuts| cuts.len() - 1));
-        // Twice the index of a cut: middles of edges are in between. The last coordinate sorts first.
-        let key = |cell: &[usize; D], node: &[i8; D]| -> [usize; D] {
-            core::array::from_fn(|back| {
-                let axis = D - 1 - back;
-                (2 * cell[axis] + 1).saturating_add_signed(isize::from(node[axis]))
-            })
-        };
-        let all = cells.iter();
-        let keys = all.flat_map(|cell| H::NODES.iter().map(move |node| key(cell, node)));
-        let mut nodes: BTreeMap<[usize; D], usize> = keys.map(|key| (key, 0)).collect();
-        let counted = nodes.values_mut().enumerate();
-        counted.for_each(|(index, node)| *node = index);
-        let place = |key: &[usize; D]| -> [f64; D] {
+        Self::on_lattice(&Lattice::of(cuts.map(|cuts| cuts.len() - 1))?, cuts)
+    }
+
+    fn on_lattice(lattice: &Lattice<H, D>, cuts: [&[f64]; D]) -> Result<Self, MeshError> {
+        let place = |at: [usize; D]| -> [f64; D] {
             core::array::from_fn(|axis| {
-                let twice = key[D - 1 - axis];
-                let before = cuts[axis][twice / 2];
-                match twice % 2 {
+                let before = cuts[axis][at[axis] / 2];
+                match at[axis] % 2 {
                     0 => before,
-                    _ => f64::midpoint(before, cuts[axis][twice / 2 + 1]),
+                    _ => f64::midpoint(before, cuts[axis][at[axis] / 2 + 1]),
                 }
             })
         };
-        let places = nodes.keys().map(place).collect();
-        let named = |cell: &[usize; D]| {
+        let named = |cell: [usize; D]| {
             let mut named = H::PerNode::filled(0);
             for (name, node) in named.as_mut().iter_mut().zip(H::NODES) {
-                *name = nodes[&key(cell, node)];
+                // Middles of edges are between the corners of a cell.
+                *name = lattice.number(core::array::from_fn(|axis| {
+                    (2 * cell[axis] + 1).saturating_add_signed(isize::from(node[axis]))
+                }));
             }
             named
         };
-        Self::new(places, cells.iter().map(named).collect())
+        let (mut places, mut cells) = lattice.reserved()?;
+        places.extend(lattice.places().map(place));
+        cells.extend(indices(cuts.map(|cuts| cuts.len() - 1)).map(named));
+        Self::new(places, cells)
     }
 }
 
@@ -113,14 +124,14 @@ pub(super) fn check_axis(axis: usize, cuts: &[f64]) -> Result<(), MeshError> {
 }
 
 /// All indices below these, the first coordinate fastest.
-pub(super) fn indices<const D: usize>(counts: [usize; D]) -> Vec<[usize; D]> {
+pub(super) fn indices<const D: usize>(counts: [usize; D]) -> impl Iterator<Item = [usize; D]> {
     let number = counts.iter().product();
-    let index = |mut rest: usize| {
+    let index = move |mut rest: usize| {
         counts.map(|count| {
             let own = rest % count;
             rest /= count;
             own
         })
     };
-    (0..number).map(index).collect()
+    (0..number).map(index)
 }

@@ -7,8 +7,6 @@
 //! t = k |A·d|/d²,   d = c_face − c,   κ = t_a t_b/(t_a + t_b)
 //! ```
 
-use std::collections::BTreeMap;
-
 use super::Mesh;
 use super::face::Face;
 use super::geometry::{area_vector, distance, mean};
@@ -75,7 +73,6 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     /// Both sides of each face between two points.
     fn pairs_of_faces(&self) -> Vec<[SubFace<D>; 2]> {
         let mut pairs = Vec::new();
-        let mut sides: BTreeMap<Vec<usize>, Vec<[usize; 2]>> = BTreeMap::new();
         for cell in 0..self.cells.len() {
             for index in indices([H::PER_AXIS; D]) {
                 for axis in (0..D).filter(|&axis| index[axis] + 1 < H::PER_AXIS) {
@@ -85,18 +82,13 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
                     pairs.push(faces.map(|(index, side)| self.sub_face(cell, index, axis, side)));
                 }
             }
-            for face in 0..H::FACES.len() {
-                let mut nodes: Vec<_> = self.nodes_of([cell, face]).collect();
-                nodes.sort_unstable();
-                sides.entry(nodes).or_default().push([cell, face]);
-            }
         }
-        for shared in sides.values() {
-            if let [first, second] = shared[..] {
+        self.for_same_sides(|same| {
+            if let &[first, second] = same {
                 let [first, second] = [first, second].map(|side| self.sub_faces_of(side));
                 pairs.extend(facing(first, &second));
             }
-        }
+        });
         pairs
     }
 
@@ -104,7 +96,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     pub(crate) fn sub_faces_of(&self, [cell, face]: [usize; 2]) -> Vec<SubFace<D>> {
         let (axis, side) = (face / 2, face % 2);
         let end = side * (H::PER_AXIS - 1);
-        let all = indices([H::PER_AXIS; D]).into_iter();
+        let all = indices([H::PER_AXIS; D]);
         let outer = all.filter(|index| index[axis] == end);
         outer
             .map(|index| self.sub_face(cell, index, axis, side))

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::Mesh;
 use super::error::MeshError;
-use super::geometry::mean;
+use super::geometry::{mean, power_of_two};
 use crate::element::kinematics::Quad4;
 
 impl Mesh<Quad4, 2> {
@@ -33,14 +33,19 @@ impl Mesh<Quad4, 2> {
     /// # Errors
     ///
     /// [`MeshError::Place`] if a corner is nowhere, [`MeshError::Crossing`] if two sides cross or touch,
-    /// [`MeshError::Empty`] if there are fewer than three corners or all are on a line.
+    /// [`MeshError::Empty`] if there are fewer than three corners or all are on a line; [`MeshError::Scale`] if areas
+    /// are too large or too small for numbers.
     pub fn polygon(corners: &[[f64; 2]]) -> Result<Self, MeshError> {
-        check_polygon(corners)?;
+        check_places(corners)?;
+        // Areas of what is very large or very small are no numbers.
+        let power = power_of_two(corners.as_flattened().iter());
+        let scaled: Vec<_> = corners.iter().map(|at| at.map(|x| power * x)).collect();
+        check_polygon(&scaled)?;
         let mut order: Vec<usize> = (0..corners.len()).collect();
-        if twice_area(corners, &order) < 0.0 {
+        if twice_area(&scaled, &order) < 0.0 {
             order.reverse();
         }
-        let triangles = triangles(corners, order)?;
+        let triangles = triangles(&scaled, order)?;
         let mut nodes = corners.to_vec();
         let mut middles = Middles::default();
         let mut cells = Vec::new();
@@ -122,14 +127,19 @@ fn twice_area(corners: &[[f64; 2]], order: &[usize]) -> f64 {
     })
 }
 
-/// Corners are somewhere, at least three, and no two sides meet but at their common corner.
-fn check_polygon(corners: &[[f64; 2]]) -> Result<(), MeshError> {
+/// Corners are somewhere.
+fn check_places(corners: &[[f64; 2]]) -> Result<(), MeshError> {
     for (node, corner) in corners.iter().enumerate() {
         if let Some(axis) = corner.iter().position(|coordinate| !coordinate.is_finite()) {
             let value = corner[axis];
             return Err(MeshError::Place { node, axis, value });
         }
     }
+    Ok(())
+}
+
+/// There are at least three corners, and no two sides meet but at their common corner.
+fn check_polygon(corners: &[[f64; 2]]) -> Result<(), MeshError> {
     let count = corners.len();
     if count < 3 {
         return Err(MeshError::Empty);

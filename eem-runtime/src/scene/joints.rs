@@ -1,0 +1,123 @@
+//! Nodes that a solid shares with others: which they are, and what is wrong with the wish for them.
+
+use crate::element::handle::{Element, Node};
+use crate::element::kinematics::Shape;
+use crate::scene::body::Body;
+use crate::scene::mesh::{Mesh, MeshError, distance};
+use crate::scene::solid_error::SolidError;
+
+/// A solid of which nodes become part that are not farther away from one of its own than a distance.
+#[derive(Clone, Debug)]
+pub(super) struct Joint<const D: usize> {
+    /// Its first point.
+    other: Element,
+    /// By the first coordinate.
+    nodes: Vec<Shared<D>>,
+    /// m.
+    within: f64,
+}
+
+/// A node of another solid, with its place, m.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shared<const D: usize> {
+    pub(super) node: Node,
+    place: [f64; D],
+}
+
+impl<const D: usize> Joint<D> {
+    pub(super) fn new<H: Shape<D>>(other: &Body<H, D>, within: f64) -> Self {
+        let nodes = other.nodes().iter().zip(other.mesh().nodes());
+        let mut nodes: Vec<_> = nodes
+            .map(|(&node, &place)| Shared { node, place })
+            .collect();
+        nodes.sort_by(|a, b| a.place[0].total_cmp(&b.place[0]));
+        Self {
+            other: other.points()[0],
+            nodes,
+            within,
+        }
+    }
+
+    /// The nearest node that is not too far from a place, with its distance, m.
+    fn nearest(&self, place: [f64; D]) -> Option<(f64, Shared<D>)> {
+        let is_before = |shared: &Shared<D>| place[0] - shared.place[0] > self.within;
+        let from = self.nodes.partition_point(is_before);
+        let near = self.nodes[from..].iter();
+        let near = near.take_while(|shared| shared.place[0] - place[0] <= self.within);
+        let near = near.map(|&shared| (distance(place, shared.place), shared));
+        let near = near.filter(|(distance, _)| *distance <= self.within);
+        near.min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// That no node of a mesh is near enough.
+    fn missed<H: Shape<D>>(&self, mesh: &Mesh<H, D>, element: Element) -> SolidError {
+        let endless = Self {
+            within: f64::INFINITY,
+            ..self.clone()
+        };
+        let places = mesh.nodes().iter();
+        let nearest = places.filter_map(|&place| endless.nearest(place));
+        SolidError::NotJoined {
+            elements: [element, self.other],
+            within: self.within,
+            nearest: nearest.fold(f64::INFINITY, |least, (distance, _)| least.min(distance)),
+        }
+    }
+}
+
+/// The nodes of other solids that those of a mesh become, or what is wrong with that.
+pub(super) fn joined<H: Shape<D>, const D: usize>(
+    joints: &[Joint<D>],
+    mesh: &Mesh<H, D>,
+    element: Element,
+) -> Result<Vec<Option<Shared<D>>>, SolidError> {
+    let mut nearest: Vec<Option<(f64, Shared<D>)>> = vec![None; mesh.nodes().len()];
+    for joint in joints {
+        let elements = [element, joint.other];
+        let within = joint.within;
+        if !(within >= 0.0 && within.is_finite()) {
+            return Err(SolidError::JointDistance { elements, within });
+        }
+        let mut is_joined = false;
+        for (known, &place) in nearest.iter_mut().zip(mesh.nodes()) {
+            let Some(found) = joint.nearest(place) else {
+                continue;
+            };
+            is_joined = true;
+            if known.is_none_or(|(distance, _)| found.0 < distance) {
+                *known = Some(found);
+            }
+        }
+        if !is_joined {
+            return Err(joint.missed(mesh, element));
+        }
+    }
+    let shared: Vec<_> = nearest
+        .iter()
+        .map(|known| known.map(|(_, shared)| shared))
+        .collect();
+    if nearest
+        .iter()
+        .flatten()
+        .any(|(distance, _)| *distance > 0.0)
+    {
+        check_moved(mesh, &shared).map_err(|error| SolidError::JoinedNodes {
+            element,
+            within: joints
+                .iter()
+                .fold(0.0, |most, joint| joint.within.max(most)),
+            error,
+        })?;
+    }
+    Ok(shared)
+}
+
+/// An error unless a mesh is sound with its nodes where those are that they become.
+fn check_moved<H: Shape<D>, const D: usize>(
+    mesh: &Mesh<H, D>,
+    shared: &[Option<Shared<D>>],
+) -> Result<(), MeshError> {
+    let places = mesh.nodes().iter().zip(shared);
+    let places = places.map(|(&place, shared)| shared.map_or(place, |shared| shared.place));
+    Mesh::<H, D>::new(places.collect(), mesh.cells().to_vec()).map(|_| ())
+}
