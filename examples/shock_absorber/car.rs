@@ -66,7 +66,7 @@ pub(crate) struct Damper {
     #[unit("K")]
     theta_ref: f64,
     #[unit("N/m")]
-    mount: f64,
+    pub(crate) mount: f64,
     #[unit("N")]
     gas_force: f64,
     #[unit("J/K")]

@@ -85,7 +85,8 @@ fn scheme_names() -> PossibleValuesParser {
     PossibleValuesParser::new(names.chain([ALL]))
 }
 
-fn positive_seconds(text: &str) -> Result<f64, String> {
+/// Accepts a finite time that is not zero.
+pub(crate) fn positive_seconds(text: &str) -> Result<f64, String> {
     let seconds: f64 = text
         .parse()
         .map_err(|_| "not a number; expected seconds, for example 0.1".to_owned())?;

@@ -144,7 +144,11 @@ fn draw_curve(
             Dash::None => {}
         }
     }
-    let every = curve.points.len().div_ceil(MOST_MARKERS).max(1);
+    // Without a line markers are all that there is.
+    let every = match look.dash {
+        Dash::None => 1,
+        Dash::Solid | Dash::Dashed { .. } => curve.points.len().div_ceil(MOST_MARKERS).max(1),
+    };
     let marked = curve.points.iter().step_by(every);
     for &point in marked.filter(|&&point| window.contains(point)) {
         draw_marker(chart.plotting_area(), point, look)?;

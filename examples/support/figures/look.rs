@@ -33,6 +33,7 @@ pub(super) enum Marker {
     Diamond,
     Square,
     Circle,
+    Dot,
 }
 
 /// A line of a marker, relative to the marked point, in pixels.
@@ -62,6 +63,7 @@ impl Marker {
                 (9, -5),
                 (10, 0),
             ]],
+            Self::Dot => &[&[(-2, 0), (2, 0)], &[(0, -2), (0, 2)]],
             Self::Square => &[&[(-7, -7), (7, -7), (7, 7), (-7, 7), (-7, -7)]],
         }
     }
@@ -124,11 +126,21 @@ pub(crate) const PLAIN: usize = 3000;
 /// Added to the index of a look: open circles of its colour, without a line.
 pub(crate) const OPEN: usize = 1000;
 
+/// Added to the index of a look: dots of its colour at every point, without a line.
+pub(crate) const DOTTED: usize = 4000;
+
 impl Look {
     /// The look of that index; indices beyond the last start again after the reference.
     pub(super) fn of(index: usize) -> Self {
         if index == BAND {
             return LIGHT_BAND;
+        }
+        if index >= DOTTED {
+            return Self {
+                dash: Dash::None,
+                marker: Marker::Dot,
+                ..Self::of(index - DOTTED)
+            };
         }
         if index >= PLAIN {
             return Self::of(index - PLAIN).plain();
