@@ -402,7 +402,7 @@ fn cells_whose_size_is_no_number_are_said_to_be_so() {
     }
     let all = [-f64::MAX, f64::MAX];
     let ends = Mesh::<Quad4, 2>::block([2, 1], [all, [0.0, 1.0]]).unwrap();
-    assert_eq!(ends.nodes()[1], [0.0, 0.0]);
+    assert_eq!(ends.cells().len(), 2);
     let mut scene = Scene::<3>::new();
     let body = scene.solid(ELASTIC, &cube(1), &Bulk::new(1.0));
     for within in [f64::NAN, -1.0] {
