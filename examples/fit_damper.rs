@@ -123,7 +123,7 @@ fn run(options: &Options) -> Result<Claims, Box<dyn Error>> {
     let start = survey
         .best()
         .ok_or("no member of the sweep reached the end")?;
-    report::print_survey(&survey, start, &recording);
+    report::print_survey(&survey, &recording);
 
     let data = Data {
         grid,
