@@ -17,12 +17,11 @@
 //! | tᵢ | times of recording | every 0.025 s of a ride of 30 s |
 //!
 //! A sweep ([`eem_sweep`]) looks over a box in which each unknown is off by a factor of 4.5 at most. Its best member
-//! is the start of a fit; the optimiser asks for χ², its gradient Jᵀr and the matrix JᵀJ of Gauss and Newton, which
-//! is an [`Ensemble`](eem::Ensemble) of four runs at each point. The trust region with conjugate gradients in it (Steihaug, SIAM J.
-//! Numer. Anal. 20 (1983) 626–637) is that of the crate `argmin`: it works on plain vectors, while
-//! `levenberg-marquardt` would compile an older `nalgebra` beside ours, which takes six times as long.
-//! The ellipse of confidence is the covariance (JᵀJ)⁻¹; fits of fresh noise show whether it is right (the
-//! parametric bootstrap: Efron & Tibshirani, 1993, §6.5).
+//! is the start of a fit; the optimiser asks for χ², its gradient Jᵀr and the matrix `JᵀJ` of Gauss and Newton, which
+//! is an [`Ensemble`](eem::Ensemble) of four runs at each point. The trust region with conjugate gradients in it
+//! (Steihaug, SIAM J. Numer. Anal. 20 (1983) 626–637) is that of the crate `argmin`, which works on plain vectors:
+//! `levenberg-marquardt` would compile an older `nalgebra` beside ours. The ellipse of confidence is the covariance
+//! `(JᵀJ)⁻¹`; fits of fresh noise show whether it is right (the parametric bootstrap: Efron & Tibshirani, 1993, §6.5).
 //!
 //! The recording is made by the same scheme with the same step, so that errors of the step are no part of what is
 //! found. What is shown is how much the noise leaves to be known.
@@ -124,7 +123,7 @@ fn run(options: &Options) -> Result<Claims, Box<dyn Error>> {
     let start = survey
         .best()
         .ok_or("no member of the sweep reached the end")?;
-    report::print_survey(&survey, start, &recording);
+    report::print_survey(&survey, &recording);
 
     let data = Data {
         grid,

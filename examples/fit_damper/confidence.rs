@@ -81,10 +81,10 @@ pub(crate) fn spread(samples: usize) -> [f64; 2] {
     [at(-4.0), at(4.0)]
 }
 
-/// The outline of the region that has 95 % of the estimates of two unknowns, as factors of the unknowns found.
+/// The outline of the region that has 95 % of the estimates of two unknowns, as logarithms off those found.
 ///
 /// ```text
-/// ln p = ln p̂ + r (cos φ a + sin φ b),   r² = −2 ln 0.05,   (a b)(a b)ᵀ = C
+/// ln p − ln p̂ = r (cos φ a + sin φ b),   r² = −2 ln 0.05,   (a b)(a b)ᵀ = C
 /// ```
 pub(crate) fn ellipse(covariance: &Matrix3<f64>, [x, y]: [usize; 2]) -> Vec<(f64, f64)> {
     const PARTS: u32 = 120;
@@ -95,7 +95,7 @@ pub(crate) fn ellipse(covariance: &Matrix3<f64>, [x, y]: [usize; 2]) -> Vec<(f64
     let point = |part: u32| {
         let (sine, cosine) = (std::f64::consts::TAU * f64::from(part) / f64::from(PARTS)).sin_cos();
         let (u, v) = (first * cosine, along * cosine + across * sine);
-        ((radius * u).exp(), (radius * v).exp())
+        (radius * u, radius * v)
     };
     (0..=PARTS).map(point).collect()
 }

@@ -70,7 +70,7 @@ impl Point {
         })
     }
 
-    /// JᵀJ.
+    /// The matrix `JᵀJ`.
     pub(crate) fn normal_matrix(&self) -> Matrix3<f64> {
         Matrix3::from_fn(|i, j| dot(&self.jacobian[i], &self.jacobian[j]))
     }
@@ -81,7 +81,7 @@ impl Point {
     }
 }
 
-/// r → ½ |r|² with the derivatives Jᵀr and, as Gauss and Newton have it, JᵀJ.
+/// r → ½ |r|² with the derivatives Jᵀr and, as Gauss and Newton have it, `JᵀJ`.
 struct Misfit<'a> {
     data: Data<'a>,
     /// The last point that was asked for.
@@ -93,12 +93,13 @@ struct Misfit<'a> {
 impl Misfit<'_> {
     /// What `of` says of the point, which is run unless it is the last one.
     fn at<T>(&self, logs: &[f64], of: impl Fn(&Point) -> T) -> Result<T, ArgminError> {
-        let mut last = self.point.borrow_mut();
-        if let Some(point) = last.as_ref().filter(|point| point.logs == *logs) {
-            return Ok(of(point));
-        }
         let mut wanted = Logs::default();
         wanted.copy_from_slice(logs);
+        let is_it = |point: &&Point| point.logs.map(f64::to_bits) == wanted.map(f64::to_bits);
+        let mut last = self.point.borrow_mut();
+        if let Some(point) = last.as_ref().filter(is_it) {
+            return Ok(of(point));
+        }
         *self.ensembles.borrow_mut() += 1;
         let point = last.insert(Point::new(self.data, wanted, &self.laws)?);
         Ok(of(point))

@@ -9,7 +9,6 @@ use super::car::CELSIUS;
 use super::confidence::{Bootstrap, ellipse};
 use super::drive::{Logs, UNKNOWNS};
 use super::fit::{Data, Fit};
-use super::support::comparison::look_beside_schemes;
 use super::support::figures::look::{DOTTED, OPEN, PLAIN};
 use super::support::figures::{Axes, Curve, Figure};
 use super::support::output;
@@ -150,7 +149,7 @@ impl Found<'_> {
         };
         let found = self.fit.misfit / freedom;
         figure(
-            "Misfit of the sweep's members: each is there three times",
+            "Misfit of the sweep's members, each over its three unknowns",
             ["unknown as a factor of the fitted one", "χ²/(n − 3)"],
             vec![
                 (UNKNOWNS[0].name, DOTTED + 3, over(0)),
@@ -164,19 +163,29 @@ impl Found<'_> {
 
     /// Two unknowns as found from fresh noise, with the ellipse that has 95 % of them, and the truth.
     fn estimates(&self, [x, y]: [usize; 2]) -> Figure {
-        let of = |logs: &Logs| (logs[x].exp(), logs[y].exp());
-        let fitted = of(&self.fit.point.logs);
-        let outline = ellipse(self.covariance, [x, y]);
-        let outline = outline.iter().map(|(a, b)| (a * fitted.0, b * fitted.1));
+        let off = |logs: &Logs, unknown: usize| {
+            let factor = logs[unknown].exp() / UNKNOWNS[unknown].truth;
+            100.0 * (factor - 1.0)
+        };
+        let of = |logs: &Logs| (off(logs, x), off(logs, y));
+        let fitted = self.fit.point.logs;
+        let outline = ellipse(self.covariance, [x, y]).into_iter();
+        let outline = outline.map(|(u, v)| {
+            let mut logs = fitted;
+            logs[x] += u;
+            logs[y] += v;
+            of(&logs)
+        });
         let estimates = self.bootstrap.estimates.iter().map(of);
+        let labels = [x, y].map(|unknown| format!("{}, off the truth (%)", UNKNOWNS[unknown].name));
         figure(
             "Fits of fresh noise, and where the linearised model has 95 % of them",
-            [UNKNOWNS[x].label, UNKNOWNS[y].label],
+            [&labels[0], &labels[1]],
             vec![
                 ("fits of fresh noise", OPEN + 1, estimates.collect()),
                 ("95 %, linear", PLAIN + 1, outline.collect()),
-                ("fit", look_beside_schemes(4), vec![fitted]),
-                ("truth", 2, vec![(UNKNOWNS[x].truth, UNKNOWNS[y].truth)]),
+                ("fit", 3, vec![of(&fitted)]),
+                ("truth", 2, vec![(0.0, 0.0)]),
             ],
         )
     }

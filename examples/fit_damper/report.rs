@@ -33,17 +33,16 @@ fn rise(drive: &Drive) -> f64 {
 }
 
 /// What the sweep has found.
-pub(crate) fn print_survey(survey: &Survey, best: &Sample, recording: &Recording) {
+pub(crate) fn print_survey(survey: &Survey, recording: &Recording) {
     let values = |of: fn(f64, f64) -> f64| {
         let misfits = survey.samples.iter().map(|sample| sample.misfit);
         misfits.reduce(of).unwrap_or(f64::NAN) / super::freedom(recording)
     };
     say(format_args!(
-        "Sweep: {} members, χ²/(n − 3) from {:.1} to {:.0}; fit from member with {:.1} on.",
+        "Sweep: {} members, χ²/(n − 3) from {:.1} to {:.0}; the best one is the start of the fit.",
         survey.samples.len(),
         values(f64::min),
         values(f64::max),
-        best.misfit / super::freedom(recording)
     ));
 }
 

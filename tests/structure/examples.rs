@@ -53,6 +53,7 @@ fn pictures_hold_their_texts_and_tables_their_numbers() {
         ("double_pendulum", &[]),
         ("log_stiffness", &[]),
         ("shock_absorber", &[]),
+        ("fit_damper", &["--members", "8", "--fits", "2"]),
         ("l_block", &[]),
         ("satellite", &["--scheme", "eem-entropy"]),
         ("rubber_bearing", &[]),
