@@ -139,7 +139,7 @@ fn models_work_without_the_prelude() {
     // ln 1 = 0, tanh 0 = 0; diff(ln(λ/L) θ, λ) = θ/λ = 300; −1.5·300·(−1) = 450.
     assert_eq!(psi, 750.0);
     let (eta, _): ([f64; 1], _) = ::eem::FreeEnergy::viscosity(&spring, 300.0);
-    assert_eq!(eta, [7.0 * f64::exp(1.0)]);
+    assert_eq!(eta, [7.0 * ::eem::Scalar::exp(1.0_f64)]);
 }
 
 #[test]
