@@ -63,6 +63,8 @@ impl Sweep<'_> {
         }
         let default = || directory.join(format!("merged.{}", shelf.format));
         let path = into.map_or_else(default, Path::to_owned);
+        let note = beside(&path);
+        let earlier = earlier(&note)?;
         let mut merged = Merged {
             path: path.clone(),
             sweep: opened.manifest.digest.clone(),
@@ -77,11 +79,7 @@ impl Sweep<'_> {
                 write_table(&opened, &parts, file, merged, problem)
             })
         })?;
-        let note = beside(&path);
         if !is_new && digest::of_file(&path).map_err(failed("read", &path))? != merged.table {
-            let earlier: Option<Merged> = fs::read(&note)
-                .ok()
-                .and_then(|text| serde_json::from_slice(&text).ok());
             // The table that was merged before some members were run again.
             if earlier.is_none_or(|earlier| earlier.sweep != merged.sweep) {
                 return Err(SweepError::Exists { path });
@@ -104,6 +102,16 @@ fn beside(path: &Path) -> PathBuf {
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(".json");
     path.with_file_name(name)
+}
+
+/// What was found when the table was merged before; an error if the file is something else.
+fn earlier(note: &Path) -> Result<Option<Merged>, SweepError> {
+    let Ok(text) = fs::read(note) else {
+        return Ok(None);
+    };
+    let path = note.to_owned();
+    let read = serde_json::from_slice(&text);
+    read.map(Some).map_err(|_| SweepError::Exists { path })
 }
 
 /// Calls `write` with a place for an error of this crate, which then goes before the error of the file.

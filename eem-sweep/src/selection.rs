@@ -7,6 +7,9 @@ use crate::error::SweepError;
 use crate::inputs::Inputs;
 use crate::places::Places;
 
+/// The most ids of a list, which is kept in memory: 128 MB.
+const LONGEST: u64 = 1 << 24;
+
 /// Which members a process runs. Whatever is chosen, bits and merged tables are the same.
 ///
 /// ```
@@ -74,7 +77,14 @@ impl Selection {
         for piece in text.split(',') {
             let (first, last) = piece.split_once('-').unwrap_or((piece, piece));
             match (first.trim().parse::<u64>(), last.trim().parse::<u64>()) {
-                (Ok(first), Ok(last)) if first <= last => ids.extend(first..=last),
+                (Ok(first), Ok(last)) if first <= last => {
+                    if last - first >= LONGEST - ids.len() as u64 {
+                        return Err(format!(
+                            "`{piece}`: a list has at most {LONGEST} ids; choose more by a range, a..b"
+                        ));
+                    }
+                    ids.extend(first..=last);
+                }
                 _ => return Err(format!("`{piece}`: expected ids, for example 3,7,10-12")),
             }
         }

@@ -45,6 +45,10 @@ impl Table {
             .from_reader(file);
         let heads = reader.headers().map_err(|e| unreadable(e.to_string()))?;
         let heads: Vec<String> = heads.iter().map(str::to_owned).collect();
+        let repeated = (1..heads.len()).find(|&at| heads[..at].contains(&heads[at]));
+        if let Some(name) = repeated.map(|at| heads[at].clone()) {
+            return Err(InputError::DuplicateColumn { name });
+        }
         let id_column = heads.iter().position(|head| head == ID);
         let (mut ids, mut values) = (Vec::new(), Vec::new());
         let mut record = csv::StringRecord::new();

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use eem::sweep::{InputError, Inputs};
+use eem::sweep::{InputError, Inputs, Selection};
 
 use crate::program::directory;
 
@@ -78,6 +78,13 @@ fn files_are_read_with_and_without_ids() {
         InputError::DuplicateId { id: 7 }
     );
     assert_eq!(wrong("a\n"), InputError::Empty);
+    for repeated in ["id", "a"] {
+        let name = repeated.to_owned();
+        let heads = format!("{repeated},b,{repeated}\n0,100,1.5\n");
+        assert_eq!(wrong(&heads), InputError::DuplicateColumn { name });
+    }
+    let list = Selection::list("0-99999999999").unwrap_err();
+    assert!(list.contains("by a range, a..b"), "{list}");
     let cell = wrong("a,b\n1,2\n3,x\n").to_string();
     assert!(
         cell.contains("line 3, column `b`: `x` is not a number"),

@@ -107,6 +107,11 @@ fn tables_of_others_are_not_overwritten() {
     let error = sweep.merge(&folder, Some(&table)).unwrap_err();
     assert!(matches!(error, SweepError::Exists { .. }), "{error}");
     assert_eq!(fs::read_to_string(&table).unwrap(), "mine");
+    // The name of the note beside the table is that of the manifest.
+    let manifest = fs::read(folder.join("sweep.json")).unwrap();
+    let error = sweep.merge(&folder, Some(&folder.join("sweep")));
+    assert!(matches!(error, Err(SweepError::Exists { .. })), "{error:?}");
+    assert_eq!(fs::read(folder.join("sweep.json")).unwrap(), manifest);
     // What it has merged itself may be there.
     let first = sweep.merge(&folder, None).unwrap();
     assert_eq!(sweep.merge(&folder, None).unwrap(), first);
