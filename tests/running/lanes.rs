@@ -88,7 +88,7 @@ fn inputs(of: impl Fn(f64) -> Input) -> Vec<Input> {
 
 #[test]
 fn elastic_springs_have_the_bits_of_one_by_one() {
-    let inputs = inputs(|i| [0.2 + 0.4 * i, 0.0, 0.0]);
+    let inputs = inputs(|i| [0.3 + 0.4 * i, 0.0, 0.0]);
     for scheme in SCHEMES {
         check(Elastic, (scheme, 0.05, 100), &inputs);
         check(Elastic, (scheme, 0.05, 10), &inputs[..6]);
