@@ -6,3 +6,4 @@ pub(crate) mod pattern;
 #[cfg(feature = "sparse")]
 mod stored;
 pub(crate) mod system;
+pub(crate) mod threads;

@@ -2,6 +2,9 @@
 
 use eem::prelude::*;
 
+use eem::{Body, kinematics::Quad4};
+
+use crate::support::solids::Viscous;
 use crate::support::{Hencky, LogarithmicStiffness};
 
 /// Nodes along a side of the lattice: enough for its system to be divided, see `eem-sparse/src/division.rs`.
@@ -63,13 +66,36 @@ fn lattice(conducts: bool) -> Scene<2> {
     scene
 }
 
+/// A sheet that conducts heat, with more cells than are found at a time (`element/group/evaluate.rs`), whose nodes move
+/// so fast that cells turn inside out on the way to their new places.
+fn sheet(speed: f64) -> Scene<2> {
+    let mesh = Mesh::block([12, 6], [[0.0, 12.0], [0.0, 6.0]]).unwrap();
+    let mut scene = Scene::new();
+    let bulk = Bulk::new(10.0).conductivity(20.0);
+    let body: Body<Quad4, 2> = scene.solid(Viscous::RUBBER, &mesh, &bulk);
+    for (&node, &[x, y]) in body.nodes().iter().zip(mesh.nodes()) {
+        let velocity = [speed * (0.7 * x + y).sin(), speed * (x - 0.3 * y).cos()];
+        scene.set_velocity(node, velocity);
+    }
+    for (point, warmth) in body.points().iter().zip((0..11).cycle()) {
+        scene.set_temperature(*point, 300.0 + f64::from(warmth));
+    }
+    scene
+}
+
 /// All that the next step depends on, as text that tells all doubles apart.
 fn bits(scene: Scene<2>, threads: usize) -> String {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
     pool.build().unwrap().install(|| {
         let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.01).unwrap();
-        run.step().unwrap();
-        format!("{:?}", run.checkpoint())
+        let settings = NewtonSettings {
+            max_iterations: 8,
+            ..NewtonSettings::default()
+        };
+        run.set_newton_settings(settings).unwrap();
+        let report = run.step();
+        let report = report.map_err(|error| error.to_string());
+        format!("{report:?} {:?}", run.checkpoint())
     })
 }
 
@@ -86,5 +112,14 @@ fn lattices_have_the_same_bits_on_any_number_of_threads() {
     for conducts in [false, true] {
         let [one, two] = [1, 2].map(|threads| bits(lattice(conducts), threads));
         assert!(one == two, "conducts: {conducts}");
+    }
+}
+
+#[test]
+fn solids_have_the_same_bits_and_errors_on_any_number_of_threads() {
+    for (speed, is_possible) in [(1.0, true), (100.0, false)] {
+        let [one, three] = [1, 3].map(|threads| bits(sheet(speed), threads));
+        assert!(one == three, "speed {speed}");
+        assert_eq!(one.starts_with("Ok("), is_possible, "{one:.300}");
     }
 }

@@ -40,6 +40,7 @@ mod respond;
 mod scatter;
 mod settle;
 mod settled;
+mod share;
 mod site;
 mod stages;
 mod view;

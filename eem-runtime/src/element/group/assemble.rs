@@ -1,30 +1,14 @@
-//! From the elements to the global system.
+//! What a point adds to the share of its element in the global system.
 
 use super::arms::{add_scaled, scale};
 use super::point::Point;
 use super::pose::Pose;
-use super::site::{Contact, Site};
+use super::share::{Heat, Momentum};
 use crate::element::conjugates::{ElementScheme, Form};
 use crate::element::group::view::Trial;
-use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics, Measures};
+use crate::element::kinematics::{Arms, Gradient, Kinematics, Measures};
 use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
-
-/// Where an element writes.
-pub(super) struct Target<'a, K: Kinematics<S, D>, S: Real, const D: usize> {
-    pub(super) values: &'a mut [S],
-    pub(super) right: &'a mut [[S; 1]],
-    pub(super) site: &'a Site<K, S, D>,
-    pub(super) contact: Option<&'a Contact<K, S, D>>,
-}
-
-/// What the points of an element add to the momentum balances of its nodes.
-pub(super) struct Momentum<K: Kinematics<S, D>, S: Real, const D: usize> {
-    /// `h w Gᵀ f*`, with the internal variables eliminated, N s.
-    pub(super) pull: Arms<K, S, D>,
-    /// Its derivatives.
-    pub(super) blocks: Blocks<K, S, D>,
-}
 
 /// A response with the internal variables eliminated: `value + Σ_a by_measure_a δπ_a − by_heat δr_s`.
 struct CondensedRow<K: Kinematics<S, D>, S: Real, const D: usize> {
@@ -86,15 +70,15 @@ where
         sum
     }
 
-    /// Adds the impulse `h w Gᵀ f*` on the nodes and its derivatives by them to those of the points before;
-    /// the derivatives by seen temperatures go to their places.
+    /// Adds the impulse `h w Gᵀ f*` on the nodes and its derivatives to those of the points before, and the
+    /// derivative by heat from other points to `heat`, if the point receives any.
     #[inline]
     pub(super) fn add_momentum(
         &self,
         step: S,
         pose: &Pose<K, S, D>,
         (form, by_rate): (&Form<S, M>, Option<&Gradient<K, S, D>>),
-        target: &mut Target<'_, K, S, D>,
+        heat: &mut Option<Heat<K, S, D>>,
         sum: &mut Option<Momentum<K, S, D>>,
     ) {
         let impulse = step * S::from_f64(C::IMPLICIT);
@@ -102,7 +86,7 @@ where
         let mut forces_by_arm = pose.direction;
         let mut values = forces;
         for a in 0..M::MEASURES {
-            let row = self.condensed_row(a, form, target.contact.is_some());
+            let row = self.condensed_row(a, form, heat.is_some());
             forces[a] = impulse * form.0[a];
             forces_by_arm[a] = self.by_arm(&row, impulse);
             if let Some(by_rate) = by_rate
@@ -112,13 +96,9 @@ where
                 add_scaled::<K, S, D>(&mut forces_by_arm[a], S::one(), &by);
             }
             values[a] = impulse * row.value;
-            if M::THERMAL
-                && let Some(contact) = target.contact
-            {
-                let mut heat = pose.direction[a];
-                let factor = impulse * row.by_heat * self.condensed.heat_factor;
-                scale::<K, S, D>(&mut heat, -factor);
-                contact.add_partners(target.site, &heat, target.values);
+            if let Some(heat) = heat {
+                let by_heat = impulse * row.by_heat * self.condensed.heat_factor;
+                add_scaled::<K, S, D>(&mut heat.pull, -by_heat, &pose.direction[a]);
             }
         }
         let (kinematics, at) = (&self.kinematics, C::PLACEMENT);
@@ -139,70 +119,16 @@ where
         }
     }
 
-    /// The equation `Θ − θ* = 0` of an element whose temperature neighbours see.
+    /// The equation `Θ − θ* = 0` of a point whose temperature neighbours see.
     #[inline]
-    pub(super) fn assemble_temperature(
-        &self,
-        trial: &Trial<S, D>,
-        form: &Form<S, M>,
-        target: &mut Target<'_, K, S, D>,
-    ) {
-        let (Some(contact), Some(slot)) = (target.contact, self.slots().thermal) else {
-            return;
-        };
+    pub(super) fn heat(&self, trial: &Trial<S, D>, form: &Form<S, M>) -> Heat<K, S, D> {
         let row = self.condensed_row(Self::TEMPERATURE, form, true);
-        let seen = trial.seen.values()[slot];
-        target.right[contact.unknown as usize][0] += row.value - seen;
-        let by_arm = self.by_arm(&row, S::one());
-        target
-            .site
-            .subtract_arms(&by_arm, &contact.row, target.values);
-        let heat = row.by_heat * self.condensed.heat_factor;
-        let mut diagonal = S::one();
-        for partner in &contact.partners {
-            let entry = heat * partner.conductance;
-            target.values[partner.entry as usize] += entry;
-            diagonal -= entry;
+        let seen = trial.seen.values()[self.slots().thermal.unwrap_or_default()];
+        Heat {
+            residual: row.value - seen,
+            by_arm: self.by_arm(&row, S::one()),
+            by_heat: row.by_heat * self.condensed.heat_factor,
+            pull: Arms::<K, S, D>::filled([S::zero(); D]),
         }
-        target.values[contact.diagonal as usize] += diagonal;
-    }
-}
-
-impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
-    /// Adds what the points of the element add to the balances of its nodes.
-    #[expect(
-        clippy::inline_always,
-        reason = "a call of its own costs 2 % of a step"
-    )]
-    #[inline(always)]
-    pub(super) fn add_momentum(
-        &self,
-        momentum: &Momentum<K, S, D>,
-        right: &mut [S],
-        values: &mut [S],
-    ) {
-        self.subtract_arms(&momentum.pull, &self.rows, right);
-        for (i, row) in momentum.blocks.as_ref().iter().enumerate() {
-            for (j, block) in row.as_ref().iter().enumerate() {
-                self.add_block([i + 1, j + 1], block, values);
-            }
-        }
-    }
-}
-
-impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
-    /// Adds the derivatives of something per arm times `Σ κ (Θ_partner − Θ)` to the rows of the nodes.
-    #[inline]
-    fn add_partners(&self, site: &Site<K, S, D>, arms: &Arms<K, S, D>, values: &mut [S]) {
-        let mut sum = S::zero();
-        for partner in &self.partners {
-            let mut by_partner = *arms;
-            scale::<K, S, D>(&mut by_partner, partner.conductance);
-            sum += partner.conductance;
-            site.add_column(&partner.column, &by_partner, values);
-        }
-        let mut by_own = *arms;
-        scale::<K, S, D>(&mut by_own, -sum);
-        site.add_column(&self.column, &by_own, values);
     }
 }

@@ -4,6 +4,7 @@ use super::interface::{Elements, Group, Loose};
 use super::loose::LooseElements;
 use super::member::Member;
 use super::point::Point;
+use super::share::Share;
 use super::site::{Contact, Site};
 use super::view::{Along, ElementTotals, ElementView, Old, Placed, Sites, StepView, Trial};
 use crate::algebra::system::LinearSystem;
@@ -32,6 +33,8 @@ where
 {
     pub(super) members: Vec<Member<S, M, K, C, D>>,
     pub(super) contacts: Vec<Contact<K, S, D>>,
+    /// Of elements with many points, some at a time.
+    pub(super) shares: Vec<Share<K, S, D>>,
 }
 
 impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
@@ -47,6 +50,7 @@ where
         Self {
             members: members.collect(),
             contacts: Vec::new(),
+            shares: Vec::new(),
         }
     }
 

@@ -1,12 +1,15 @@
 //! Evaluation of a trial state: responses, condensed local systems, contributions.
 
-use super::assemble::Target;
+use super::member::Member;
+use super::share::Share;
+use super::site::Contact;
 use crate::algebra::system::LinearSystem;
+use crate::algebra::threads;
 use crate::element::conjugates::ElementScheme;
 use crate::element::error::StateError;
 use crate::element::group::element_group::ElementGroup;
 use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::Kinematics;
+use crate::element::kinematics::{Kinematics, Points};
 use crate::material::free_energy::FreeEnergy;
 use crate::number::scalar::Real;
 
@@ -25,21 +28,19 @@ where
         system: Option<&mut LinearSystem<S, 1>>,
     ) -> Result<(), StateError> {
         match system {
-            Some(system) => self.linearize_all(view, trial, system),
-            None => self.members.iter_mut().try_for_each(|member| {
-                let arms = member.trial_arms(view, trial);
-                member.points.as_mut().iter_mut().try_for_each(|point| {
-                    let found = point.found_by(trial.settled);
-                    point.respond_alone(view, trial, &arms)?;
-                    point.return_to(found, trial.settled);
-                    Ok(())
-                })
-            }),
+            Some(system) if K::PerPoint::<()>::LEN > 1 => {
+                self.linearize_in_rounds(view, trial, system)
+            }
+            Some(system) => self.linearize_one_by_one(view, trial, system),
+            None => self
+                .members
+                .iter_mut()
+                .try_for_each(|member| member.respond(view, trial)),
         }
     }
 
     /// Responses with their tangents, and what they contribute to the system of the next iteration.
-    fn linearize_all(
+    fn linearize_one_by_one(
         &mut self,
         view: &StepView<'_, S>,
         trial: &Trial<S, D>,
@@ -47,46 +48,128 @@ where
     ) -> Result<(), StateError> {
         let (values, right) = system.parts();
         for member in &mut self.members {
-            let arms = member.trial_arms(view, trial);
-            let mut share = None;
-            for point in member.points.as_mut() {
-                let found = point.found_by(trial.settled);
-                let seen = point.locate_trial(arms.ends(), trial)?;
-                let pose = point.pose(&arms.old, &seen);
-                point.sensitivity = pose.sensitivity;
-                let by_rate = point.extend(&pose, &arms.motion);
-                // It stays where the model writes it: copies of it would be a good part of the work.
-                let mut form = point.form(trial);
-                if M::THERMAL && C::IN_TEMPERATURE {
-                    point.change_entropy_at_rates(view.step, &pose, &arms.motion, &mut form);
-                }
-                point.accept(view.per_step, &form)?;
-                let elastic = point.add_drag(view.per_step, &mut form);
-                let contact = point.contact_in(&self.contacts);
-                point.condense(view, &trial.seen, &form, contact)?;
-                if let Some(by_rate) = &by_rate {
-                    point.warm_by_rates(view, by_rate);
-                }
-                let mut target = Target {
-                    values: &mut *values,
-                    right: &mut *right,
-                    site: &member.site,
-                    contact,
-                };
-                if view.phase.moves() {
-                    let form = (&form, by_rate.as_ref());
-                    point.add_momentum(view.step, &pose, form, &mut target, &mut share);
-                }
-                point.assemble_temperature(trial, &form, &mut target);
-                point.keep(&form);
-                point.drop_drag(&elastic);
-                point.return_to(found, trial.settled);
+            let mut share = Share::none();
+            member.linearize(&self.contacts, view, trial, &mut share)?;
+            member.add_share(&share, &self.contacts, (&mut *values, &mut *right));
+        }
+        Ok(())
+    }
+
+    /// The same of elements with many points, which threads share: what elements add is found at the same time, and
+    /// then added in their order, so that every sum has the same bits.
+    #[inline(never)]
+    fn linearize_in_rounds(
+        &mut self,
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        system: &mut LinearSystem<S, 1>,
+    ) -> Result<(), StateError> {
+        let (values, right) = system.parts();
+        let contacts = &self.contacts;
+        let linearize = |member: &mut Member<S, M, K, C, D>, share: &mut Share<K, S, D>| {
+            member.linearize(contacts, view, trial, share)
+        };
+        self.shares
+            .resize_with(ROUND.min(self.members.len()), Share::none);
+        for members in self.members.chunks_mut(ROUND) {
+            let shares = &mut self.shares[..members.len()];
+            in_pieces(members, shares, &linearize)?;
+            for (member, share) in members.iter().zip(shares) {
+                member.add_share(share, contacts, (&mut *values, &mut *right));
             }
-            if let Some(share) = share {
-                member
-                    .site
-                    .add_momentum(&share, right.as_flattened_mut(), values);
+        }
+        Ok(())
+    }
+}
+
+/// Elements whose shares are kept at a time.
+const ROUND: usize = 64;
+
+/// The most elements that one thread takes at a time.
+const PIECE: usize = 8;
+
+/// Calls a function for each of some elements with its share, in pieces that do not depend on the number of threads;
+/// the error of the first element that has one.
+fn in_pieces<A: Send, B: Send>(
+    members: &mut [A],
+    shares: &mut [B],
+    of_one: &(impl Fn(&mut A, &mut B) -> Result<(), StateError> + Sync),
+) -> Result<(), StateError> {
+    if members.len() <= PIECE {
+        let mut pairs = members.iter_mut().zip(shares);
+        return pairs.try_for_each(|(member, share)| of_one(member, share));
+    }
+    let middle = members.len() / 2;
+    let (members, more_members) = members.split_at_mut(middle);
+    let (shares, more_shares) = shares.split_at_mut(middle);
+    let (mut first, mut second) = (Ok(()), Ok(()));
+    threads::join(
+        &mut || first = in_pieces(members, shares, of_one),
+        &mut || second = in_pieces(more_members, more_shares, of_one),
+    );
+    first.and(second)
+}
+
+impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// Responses without tangents.
+    #[inline]
+    fn respond(&mut self, view: &StepView<'_, S>, trial: &Trial<S, D>) -> Result<(), StateError> {
+        let arms = self.trial_arms(view, trial);
+        self.points.as_mut().iter_mut().try_for_each(|point| {
+            let found = point.found_by(trial.settled);
+            point.respond_alone(view, trial, &arms)?;
+            point.return_to(found, trial.settled);
+            Ok(())
+        })
+    }
+
+    /// Responses with their tangents, and the share of the element in the system of the next iteration.
+    #[expect(
+        clippy::inline_always,
+        reason = "a call of its own costs 1 % of a step of a spring"
+    )]
+    #[inline(always)]
+    fn linearize(
+        &mut self,
+        contacts: &[Contact<K, S, D>],
+        view: &StepView<'_, S>,
+        trial: &Trial<S, D>,
+        share: &mut Share<K, S, D>,
+    ) -> Result<(), StateError> {
+        let arms = self.trial_arms(view, trial);
+        share.momentum = None;
+        for (point, heat) in self.points.as_mut().iter_mut().zip(share.heat.as_mut()) {
+            let found = point.found_by(trial.settled);
+            let seen = point.locate_trial(arms.ends(), trial)?;
+            let pose = point.pose(&arms.old, &seen);
+            point.sensitivity = pose.sensitivity;
+            let by_rate = point.extend(&pose, &arms.motion);
+            // It stays where the model writes it: copies of it would be a good part of the work.
+            let mut form = point.form(trial);
+            if M::THERMAL && C::IN_TEMPERATURE {
+                point.change_entropy_at_rates(view.step, &pose, &arms.motion, &mut form);
             }
+            point.accept(view.per_step, &form)?;
+            let elastic = point.add_drag(view.per_step, &mut form);
+            let contact = point.contact_in(contacts);
+            point.condense(view, &trial.seen, &form, contact)?;
+            if let Some(by_rate) = &by_rate {
+                point.warm_by_rates(view, by_rate);
+            }
+            *heat = contact.map(|_| point.heat(trial, &form));
+            if view.phase.moves() {
+                let form = (&form, by_rate.as_ref());
+                point.add_momentum(view.step, &pose, form, heat, &mut share.momentum);
+            }
+            point.keep(&form);
+            point.drop_drag(&elastic);
+            point.return_to(found, trial.settled);
         }
         Ok(())
     }

@@ -1,0 +1,137 @@
+//! The share of an element in the global system, found apart from the others and then added to theirs.
+
+use super::arms::scale;
+use super::site::{Contact, Site};
+use crate::element::conjugates::ElementScheme;
+use crate::element::group::member::Member;
+use crate::element::kinematics::{Arms, Blocks, Kinematics, Points};
+use crate::material::free_energy::FreeEnergy;
+use crate::number::scalar::Real;
+
+/// What the points of an element add to the system of an iteration.
+pub(super) struct Share<K: Kinematics<S, D>, S: Real, const D: usize> {
+    /// To the momentum balances of its nodes; none where nothing moves.
+    pub(super) momentum: Option<Momentum<K, S, D>>,
+    /// To the balances of the temperatures that are seen of its points.
+    pub(super) heat: K::PerPoint<Option<Heat<K, S, D>>>,
+}
+
+/// What the points of an element add to the momentum balances of its nodes.
+pub(super) struct Momentum<K: Kinematics<S, D>, S: Real, const D: usize> {
+    /// `h w Gᵀ f*`, with the internal variables eliminated, N s.
+    pub(super) pull: Arms<K, S, D>,
+    /// Its derivatives by the new arms.
+    pub(super) blocks: Blocks<K, S, D>,
+}
+
+/// What a point whose temperature neighbours see adds.
+pub(super) struct Heat<K: Kinematics<S, D>, S: Real, const D: usize> {
+    /// `θ* − Θ`, with the internal variables eliminated, K.
+    pub(super) residual: S,
+    /// The derivative of θ* by the new arms, K/m.
+    pub(super) by_arm: Arms<K, S, D>,
+    /// The derivative of −θ* by the heat that the point receives, K/W.
+    pub(super) by_heat: S,
+    /// The derivative of `h w Gᵀ f*` by that heat, N s/W.
+    pub(super) pull: Arms<K, S, D>,
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Share<K, S, D> {
+    /// Of no point.
+    #[inline]
+    pub(super) fn none() -> Self {
+        Self {
+            momentum: None,
+            heat: K::PerPoint::from_fn(|_| None),
+        }
+    }
+}
+
+impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// Adds the share of the element to the entries of A and the rows of B.
+    #[expect(
+        clippy::inline_always,
+        reason = "a call of its own costs 1 % of a step of a spring"
+    )]
+    #[inline(always)]
+    pub(super) fn add_share(
+        &self,
+        share: &Share<K, S, D>,
+        contacts: &[Contact<K, S, D>],
+        (values, right): (&mut [S], &mut [[S; 1]]),
+    ) {
+        let heats = share.heat.as_ref().iter().zip(self.points.as_ref());
+        for (heat, point) in heats {
+            if let (Some(heat), Some(contact)) = (heat, point.contact_in(contacts)) {
+                if share.momentum.is_some() {
+                    contact.add_pull(&self.site, &heat.pull, values);
+                }
+                contact.add_balance(&self.site, heat, values, right);
+            }
+        }
+        if let Some(momentum) = &share.momentum {
+            self.site
+                .add_momentum(momentum, right.as_flattened_mut(), values);
+        }
+    }
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Site<K, S, D> {
+    /// Adds what the points of the element add to the balances of its nodes.
+    #[expect(
+        clippy::inline_always,
+        reason = "a call of its own costs 2 % of a step"
+    )]
+    #[inline(always)]
+    fn add_momentum(&self, momentum: &Momentum<K, S, D>, right: &mut [S], values: &mut [S]) {
+        self.subtract_arms(&momentum.pull, &self.rows, right);
+        for (i, row) in momentum.blocks.as_ref().iter().enumerate() {
+            for (j, block) in row.as_ref().iter().enumerate() {
+                self.add_block([i + 1, j + 1], block, values);
+            }
+        }
+    }
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
+    /// Adds the derivatives of something per arm times `Σ κ (Θ_partner − Θ)` to the rows of the nodes.
+    #[inline]
+    fn add_pull(&self, site: &Site<K, S, D>, arms: &Arms<K, S, D>, values: &mut [S]) {
+        let mut sum = S::zero();
+        for partner in &self.partners {
+            let mut by_partner = *arms;
+            scale::<K, S, D>(&mut by_partner, partner.conductance);
+            sum += partner.conductance;
+            site.add_column(&partner.column, &by_partner, values);
+        }
+        let mut by_own = *arms;
+        scale::<K, S, D>(&mut by_own, -sum);
+        site.add_column(&self.column, &by_own, values);
+    }
+
+    /// Adds the equation `Θ − θ* = 0`.
+    #[inline]
+    fn add_balance(
+        &self,
+        site: &Site<K, S, D>,
+        heat: &Heat<K, S, D>,
+        values: &mut [S],
+        right: &mut [[S; 1]],
+    ) {
+        right[self.unknown as usize][0] += heat.residual;
+        site.subtract_arms(&heat.by_arm, &self.row, values);
+        let mut diagonal = S::one();
+        for partner in &self.partners {
+            let entry = heat.by_heat * partner.conductance;
+            values[partner.entry as usize] += entry;
+            diagonal -= entry;
+        }
+        values[self.diagonal as usize] += diagonal;
+    }
+}
