@@ -15,6 +15,7 @@ pub(crate) mod error;
 pub(crate) mod gmsh;
 mod joints;
 pub(crate) mod loads;
+mod masses;
 mod memory;
 pub(crate) mod mesh;
 mod meshed_solid;
@@ -119,6 +120,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     fn push_node(&mut self, mass: Option<S>, position: [S; D], velocity: [S; D]) -> Node {
         self.nodes.push(NodeEntry {
             mass,
+            held: S::zero(),
             position: position.into(),
             velocity: velocity.into(),
             momentum: None,

@@ -39,6 +39,8 @@ pub(crate) struct StepLoads<S> {
     pub(crate) pushes: Vec<Push<S>>,
     /// Displacements of moved anchors, per coordinate, m.
     pub(crate) motion: Vec<S>,
+    /// Their velocities at the end of the step, per coordinate, m/s; only where masses couple nodes.
+    pub(crate) speeds: Vec<S>,
     /// The nodes that are moved.
     pub(crate) moved: Vec<usize>,
     /// Per thermal slot.
@@ -76,11 +78,24 @@ impl<S: Real> StepLoads<S> {
         point(&self.motion, node)
     }
 
+    /// The velocity of a moved anchor at the end of the step, where masses couple nodes, m/s.
+    #[inline]
+    pub(crate) fn speed<const D: usize>(&self, node: usize) -> [S; D] {
+        point(&self.speeds, node)
+    }
+
     /// The temperature prescribed on a thermal slot.
     #[inline]
     pub(crate) fn prescribed(&self, slot: usize) -> Option<Prescribed<S>> {
         self.prescribed.get(slot).copied().flatten()
     }
+}
+
+/// The velocity in the first of three places, m/s, to which something comes at equal times within a span, s: that of
+/// the parabola through them.
+#[inline]
+pub(crate) fn first_speed<S: Real>([first, middle, last]: [S; 3], span: S) -> S {
+    (S::from_f64(4.0) * (middle - first) - (last - first)) / span
 }
 
 /// What belongs to a node, among coordinates that may all be missing.

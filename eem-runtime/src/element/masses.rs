@@ -10,9 +10,11 @@ pub(crate) struct Masses<S> {
     own: Vec<S>,
     /// What is beside the diagonal, each pair of nodes that move once.
     pairs: Vec<MassPair<S>>,
+    /// What solids have at anchors: each pair with an anchor once, and each anchor with itself.
+    held: Vec<MassPair<S>>,
 }
 
-/// An entry beside the diagonal of the mass matrix.
+/// An entry of the mass matrix.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MassPair<S> {
     nodes: [u32; 2],
@@ -28,7 +30,7 @@ impl<S> MassPair<S> {
 }
 
 impl<S: Real> Masses<S> {
-    /// The masses of some nodes; `None` for anchors. Those of pairs with an anchor move nothing; several
+    /// The masses of some nodes; `None` for anchors, whose pairs and masses of their own are among the pairs. Several
     /// of the same pair add up.
     pub(crate) fn new(
         masses: impl Iterator<Item = Option<S>>,
@@ -39,15 +41,19 @@ impl<S: Real> Masses<S> {
         let mut masses = Self {
             own,
             pairs: Vec::new(),
+            held: Vec::new(),
         };
         pairs.sort_by_key(|&(nodes, _)| nodes);
         for (nodes, mass) in pairs {
-            if nodes.iter().any(|&node| masses.get(node).is_none()) {
-                continue;
-            }
-            match masses.pairs.last_mut() {
+            let moves = nodes.iter().all(|&node| masses.get(node).is_some());
+            let among = if moves {
+                &mut masses.pairs
+            } else {
+                &mut masses.held
+            };
+            match among.last_mut() {
                 Some(last) if last.nodes() == nodes => last.mass += mass,
-                _ => masses.pairs.push(MassPair {
+                _ => among.push(MassPair {
                     nodes: nodes.map(compact),
                     mass,
                 }),
@@ -81,18 +87,36 @@ impl<S: Real> Masses<S> {
             .map(|(node, _)| node)
     }
 
-    /// What is beside the diagonal; empty where masses do not couple nodes.
+    /// What is beside the diagonal, of nodes that move.
     pub(crate) fn pairs(&self) -> &[MassPair<S>] {
         &self.pairs
     }
 
-    /// The mass that gravity pulls at each node, a sum of a row, kg; zero for anchors.
+    /// What solids have at anchors: pairs with an anchor, and anchors with themselves.
+    pub(crate) fn held(&self) -> &[MassPair<S>] {
+        &self.held
+    }
+
+    /// Whether there are solids, whose masses couple nodes.
+    pub(crate) fn are_coupled(&self) -> bool {
+        !(self.pairs.is_empty() && self.held.is_empty())
+    }
+
+    /// The entries of the matrix beside the diagonal of the nodes that move, each with its row and its column.
+    pub(crate) fn coupled(&self) -> impl Iterator<Item = ([usize; 2], S)> + '_ {
+        let pairs = self.pairs.iter().chain(&self.held);
+        pairs.flat_map(|pair| {
+            let [i, j] = pair.nodes();
+            let other = (i != j).then_some(([j, i], pair.mass));
+            [([i, j], pair.mass)].into_iter().chain(other)
+        })
+    }
+
+    /// The mass that gravity pulls at each node, a sum of a row, kg; of anchors what solids have there.
     pub(crate) fn weights(&self) -> Vec<S> {
         let mut weights = self.own.clone();
-        for pair in &self.pairs {
-            for node in pair.nodes() {
-                weights[node] += pair.mass;
-            }
+        for ([row, _], mass) in self.coupled() {
+            weights[row] += mass;
         }
         weights
     }
@@ -102,11 +126,10 @@ impl<S: Real> Masses<S> {
         for (at, momentum) in momenta.iter_mut().enumerate() {
             *momentum = self.own[at / dimension] * velocities[at];
         }
-        for pair in &self.pairs {
-            let [i, j] = pair.nodes().map(|node| node * dimension);
+        for (nodes, mass) in self.coupled() {
+            let [row, column] = nodes.map(|node| node * dimension);
             for axis in 0..dimension {
-                momenta[i + axis] += pair.mass * velocities[j + axis];
-                momenta[j + axis] += pair.mass * velocities[i + axis];
+                momenta[row + axis] += mass * velocities[column + axis];
             }
         }
     }

@@ -21,7 +21,7 @@ pub(crate) struct State<S> {
     pub(crate) time: Sum<S>,
     /// q, m.
     pub(crate) positions: Compensated<S>,
-    /// p, kg m/s; zero for anchors.
+    /// p, kg m/s; of anchors what solids have there.
     pub(crate) momenta: Compensated<S>,
     /// v, m/s, where masses couple nodes: then the momenta follow, `p = M v`. Empty where they do not.
     #[cfg_attr(feature = "serde", serde(default = "Compensated::default"))]
@@ -95,7 +95,7 @@ impl<S: Real> Energy<S> {
 impl<S: Real> State<S> {
     /// Finds the momenta where masses couple nodes, which velocities decide there.
     pub(crate) fn follow_velocities(&mut self, dimension: usize, masses: &Masses<S>) {
-        if masses.pairs().is_empty() {
+        if !masses.are_coupled() {
             return;
         }
         let velocities = self.velocities.values();

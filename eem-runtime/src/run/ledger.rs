@@ -144,7 +144,7 @@ impl<const D: usize, S: Real> Ledger<D, S> {
 fn kinetic_energy<S: Real, const D: usize>(state: &State<S>, masses: &Masses<S>) -> S {
     let mut sum = Total::new();
     let momenta = state.momenta.values();
-    if !masses.pairs().is_empty() {
+    if masses.are_coupled() {
         let half = S::from_f64(0.5);
         let both = momenta.iter().zip(state.velocities.values());
         return Total::of(both.map(|(&p, &v)| half * p * v));

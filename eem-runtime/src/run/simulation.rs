@@ -135,13 +135,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let in_use = first(scheme, is_second);
         let mut layout = scene.layout();
         let conduction = Conduction::new(&scene.conductors, &scene.reservoirs, &layout);
-        let mut state = Box::new(initial_state(scene, &layout));
+        let mut state = Box::new(initial_state(scene, &layout, step));
         let places = places_in(scene);
         let shapes = scene.groups.iter().map(|group| group.shape()).collect();
-        let masses = Masses::new(
-            scene.nodes.iter().map(|node| node.mass),
-            scene.pairs.clone(),
-        );
+        let masses = scene.masses();
         state.follow_velocities(D, &masses);
         let systems = systems_of(scene, in_use, &layout, &conduction)?;
         let groups = begin_groups(scene, in_use, (&layout, &masses), &mut state)?;

@@ -95,7 +95,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
     }
 
     /// The position of an anchor as a function of time, m of s: a road, a shaking table. The work
-    /// of the support is booked.
+    /// of the support is booked. It is asked at the ends of steps and, where the anchor is a node of a solid, whose
+    /// mass it carries, in their middles, which gives the velocity.
     ///
     /// At t = 0 it must be where the anchor was created, to rounding: an anchor that jumps in the
     /// first step would do work on the scene before anything moves.

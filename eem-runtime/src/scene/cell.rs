@@ -126,14 +126,14 @@ impl<S: Real, const D: usize> Scene<D, S> {
             integrals::lump::<H, S, D>(&mut masses);
         }
         for (a, row) in masses.as_ref().iter().enumerate() {
-            if let Some(mass) = &mut self.nodes[nodes[a].index].mass {
-                // That of the node itself, if it is not zero, as that of the solids is positive.
-                if mass.less(S::zero()).any() {
-                    let (node, value) = (nodes[a], mass.to_f64());
-                    self.misuse.push(SceneError::Mass { node, value });
-                }
-                *mass += row[a];
+            let entry = &mut self.nodes[nodes[a].index];
+            let mass = entry.mass.as_mut().unwrap_or(&mut entry.held);
+            // That of the node itself, if it is not zero, as that of the solids is positive.
+            if mass.less(S::zero()).any() {
+                let (node, value) = (nodes[a], mass.to_f64());
+                self.misuse.push(SceneError::Mass { node, value });
             }
+            *mass += row[a];
             for (b, &mass) in row.as_ref().iter().enumerate().take(a) {
                 let [i, j] = [nodes[a].index, nodes[b].index];
                 self.pairs.push(([i.min(j), i.max(j)], mass));

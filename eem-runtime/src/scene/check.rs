@@ -54,7 +54,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         errors
     }
 
-    /// Nodes of solids have velocities, and are moved only where masses couple no nodes.
+    /// Nodes of solids have velocities.
     fn check_solids(&self, errors: &mut Vec<SceneError>) {
         let coupled: BTreeSet<_> = self.pairs.iter().flat_map(|&(nodes, _)| nodes).collect();
         for &index in &coupled {
@@ -63,20 +63,6 @@ impl<const D: usize, S: Real> Scene<D, S> {
                     node: self.node_at(index),
                     quantity: "a momentum",
                     instead: "give its velocity",
-                });
-            }
-        }
-        let with_mass = self
-            .pairs
-            .iter()
-            .filter(|(_, mass)| !mass.equal(S::zero()).all());
-        let with_mass: BTreeSet<_> = with_mass.flat_map(|&(nodes, _)| nodes).collect();
-        for &(node, _) in &self.loads.motions {
-            if with_mass.contains(&node.index) {
-                errors.push(SceneError::NodeOfSolid {
-                    node,
-                    quantity: "a prescribed motion",
-                    instead: "make its solid lumped (`Bulk::lumped`), so that masses couple no nodes",
                 });
             }
         }

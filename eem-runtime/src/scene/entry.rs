@@ -11,6 +11,8 @@ use crate::number::scalar::Real;
 pub(crate) struct NodeEntry<S, const D: usize> {
     /// `None` for an anchor.
     pub(crate) mass: Option<S>,
+    /// What solids have at an anchor, kg.
+    pub(crate) held: S,
     pub(crate) position: SVector<S, D>,
     pub(crate) velocity: SVector<S, D>,
     /// Given instead of the velocity.

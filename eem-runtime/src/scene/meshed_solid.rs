@@ -200,7 +200,10 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
     }
 
-    /// Makes a node an anchor, which stays where it is and has neither mass nor velocity.
+    /// Makes a node an anchor, which stays where it is unless it is [moved](Self::move_anchor).
+    ///
+    /// Its mass, and what it has in common with nodes that move, stays that of the solid: half of the weight of a cell
+    /// that stands on four fixed nodes hangs on the others, and to move it takes work.
     ///
     /// ```
     /// use eem::kinematics::Hex8;
@@ -239,7 +242,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
                 });
             }
             let entry = &mut self.nodes[node.index];
-            entry.mass = None;
+            entry.held += entry.mass.take().unwrap_or(S::zero());
             entry.momentum = None;
             entry.velocity = SVector::from([S::zero(); D]);
         }

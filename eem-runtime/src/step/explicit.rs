@@ -128,7 +128,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             held.resize(site.layout.thermal, false);
             held[slot] = true;
         }
-        let loads = StepLoads::new(site.masses.len() * D, site.layout, site.loads);
+        let loads = StepLoads::new(site.masses.len() * D, site.layout, site.loads, false);
         let has_loads = loads.has_total_force() || prescribed.moves();
         let counts = [held.len(), if has_loads { components.all.len() } else { 0 }];
         let masses = components.masses_of(site.masses);

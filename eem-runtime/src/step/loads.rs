@@ -7,18 +7,19 @@
 use std::collections::BTreeSet;
 
 use crate::element::layout::Layout;
-use crate::element::loads::{Prescribed, Push, StepLoads, point};
+use crate::element::loads::{Prescribed, Push, StepLoads, first_speed, point};
 use crate::element::masses::Masses;
 use crate::number::scalar::{Real, is_positive};
 use crate::scene::loads::Loads;
 use crate::step::error::StepFailure;
 
 impl<S: Real> StepLoads<S> {
-    /// Memory for a scene.
+    /// Memory for a scene, in which masses couple nodes or not.
     pub(crate) fn new<const D: usize>(
         coordinates: usize,
         layout: &Layout,
         loads: &Loads<S, D>,
+        is_coupled: bool,
     ) -> Self {
         let zeros = |needed: bool| vec![S::zero(); if needed { coordinates } else { 0 }];
         let slots = if loads.temperatures.is_empty() {
@@ -38,6 +39,7 @@ impl<S: Real> StepLoads<S> {
             total_force: zeros(!loads.forces.is_empty() || loads.have_weight()),
             pushes: lines.map(|line| Push { line, thrust }).collect(),
             motion: zeros(!loads.motions.is_empty()),
+            speeds: zeros(!loads.motions.is_empty() && is_coupled),
             prescribed: vec![None; slots],
             slots: thermal.collect(),
         }
@@ -61,6 +63,7 @@ impl<S: Real> StepLoads<S> {
         self.evaluate_rockets(loads, middle)?;
         self.add_weights(loads, masses);
         self.evaluate_motions(loads, end, q0)?;
+        self.evaluate_speeds(loads, [middle, step], q0)?;
         self.evaluate_temperatures(loads, [middle, end])
     }
 
@@ -156,6 +159,37 @@ impl<S: Real> StepLoads<S> {
         Ok(())
     }
 
+    /// The velocities that moved anchors have at the end, of the parabola through their places before, in the middle of
+    /// and after the step: as accurate as the step, and none that jumps to and fro.
+    fn evaluate_speeds<const D: usize>(
+        &mut self,
+        loads: &Loads<S, D>,
+        [middle, step]: [S; 2],
+        q0: &[S],
+    ) -> Result<(), StepFailure> {
+        if self.speeds.is_empty() {
+            return Ok(());
+        }
+        for (node, motion) in &loads.motions {
+            let position = motion(middle);
+            for axis in 0..D {
+                let at = node.index * D + axis;
+                let half_way = position[axis] - q0[at];
+                // Looked at from the end.
+                self.speeds[at] = -first_speed([self.motion[at], half_way, S::zero()], step);
+                if !self.speeds[at].is_finite() {
+                    return Err(StepFailure::Motion {
+                        node: *node,
+                        axis,
+                        value: position[axis].to_f64(),
+                        time: middle.to_f64(),
+                    });
+                }
+            }
+        }
+        Ok(())
+    }
+
     fn evaluate_temperatures<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,
@@ -186,11 +220,9 @@ impl<S: Real> StepLoads<S> {
             *total = point(&self.force, node);
             weigh(total, mass.unwrap_or(S::zero()), loads);
         }
-        for pair in masses.pairs() {
-            for node in pair.nodes() {
-                if let Some(total) = total.get_mut(node) {
-                    weigh(total, pair.mass, loads);
-                }
+        for ([row, _], mass) in masses.coupled() {
+            if let Some(total) = total.get_mut(row) {
+                weigh(total, mass, loads);
             }
         }
     }

@@ -127,7 +127,7 @@ where
         Heat {
             residual: row.value - seen,
             by_arm: self.by_arm(&row, S::one()),
-            by_heat: row.by_heat * self.condensed.heat_factor,
+            slope: row.by_heat * self.condensed.heat_factor,
             pull: Arms::<K, S, D>::filled([S::zero(); D]),
         }
     }

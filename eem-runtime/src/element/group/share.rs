@@ -31,7 +31,7 @@ pub(super) struct Heat<K: Kinematics<S, D>, S: Real, const D: usize> {
     /// The derivative of θ* by the new arms, K/m.
     pub(super) by_arm: Arms<K, S, D>,
     /// The derivative of −θ* by the heat that the point receives, K/W.
-    pub(super) by_heat: S,
+    pub(super) slope: S,
     /// The derivative of `h w Gᵀ f*` by that heat, N s/W.
     pub(super) pull: Arms<K, S, D>,
 }
@@ -128,7 +128,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {
         site.subtract_arms(&heat.by_arm, &self.row, values);
         let mut diagonal = S::one();
         for partner in &self.partners {
-            let entry = heat.by_heat * partner.conductance;
+            let entry = heat.slope * partner.conductance;
             values[partner.entry as usize] += entry;
             diagonal -= entry;
         }

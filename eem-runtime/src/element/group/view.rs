@@ -1,5 +1,7 @@
 //! What a group and the solver tell each other.
 
+use core::array;
+
 use crate::algebra::system::LinearSystem;
 use crate::element::conduction::{Conduction, SeenTemperatures};
 use crate::element::conjugates::Placement;
@@ -38,6 +40,13 @@ impl<S: Real> StepView<'_, S> {
             Some(mass) => self.state.velocity(node, mass),
             None => self.loads.motion(node).map(|motion: S| motion / self.step),
         }
+    }
+
+    /// How the velocity of a moved anchor changes in the step where masses couple nodes, m/s.
+    pub(crate) fn change_of_speed<const D: usize>(&self, node: usize) -> [S; D] {
+        let speed = self.loads.speed::<D>(node);
+        let old = self.state.velocities.point::<D>(node)[0];
+        array::from_fn(|axis| speed[axis] - old[axis])
     }
 
     /// The time during which internal variables evolve, s.

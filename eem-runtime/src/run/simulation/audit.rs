@@ -1,6 +1,6 @@
 //! Whether a saved state is one that this scene can have at its time.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::Simulation;
 use super::totals::{Overflow, overflow};
@@ -31,7 +31,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 for mass in self.masses.iter() {
                     digest.number(mass.unwrap_or(S::zero()));
                 }
-                for pair in self.masses.pairs() {
+                for pair in self.masses.pairs().iter().chain(self.masses.held()) {
                     let [first, second] = pair.nodes();
                     digest.count(first);
                     digest.count(second);
@@ -93,10 +93,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// Where masses couple nodes, momenta are those of the velocities, and anchors have none of either.
+    /// Where masses couple nodes, momenta are those of the velocities, which anchors have only if they are moved.
     fn audit_velocities(&self, state: &State<S>) -> Result<(), RestoreError> {
         let velocities: Vec<_> = state.velocities.sums().collect();
-        for node in self.masses.anchors().filter(|_| !velocities.is_empty()) {
+        let moved: BTreeSet<_> = self
+            .loads
+            .motions
+            .iter()
+            .map(|(node, _)| node.index)
+            .collect();
+        let still = |node: &usize| !velocities.is_empty() && !moved.contains(node);
+        for node in self.masses.anchors().filter(still) {
             for axis in 0..D {
                 audit_zero(node, axis, velocities[node * D + axis])?;
             }
@@ -114,7 +121,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// Anchors are where they were created or where their motion puts them, and have no momentum.
+    /// Anchors are where they were created or where their motion puts them, and have no momentum but that of solids.
     fn audit_anchors(&self, state: &State<S>, step: S) -> Result<(), RestoreError> {
         let scale = extent(state.positions.values().iter());
         let (time, created) = (state.time.value, self.state.positions.values());
@@ -127,7 +134,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             let motion = motions.get(&node);
             for axis in 0..D {
                 let at = node * D + axis;
-                audit_zero(node, axis, momenta[at])?;
+                if !self.masses.are_coupled() {
+                    audit_zero(node, axis, momenta[at])?;
+                }
                 let (value, carry) = positions[at];
                 let is_right = motion.map_or(
                     value.equal(created[at]).all() && carry.equal(S::zero()).all(),

@@ -8,6 +8,7 @@ use crate::element::group::ElementView;
 use crate::element::handle::{Element, Handle, Node, Reservoir, SceneId};
 use crate::element::kinematics::SolidState;
 use crate::element::layout::Slots;
+use crate::element::loads::point;
 use crate::number::scalar::Real;
 use crate::run::ledger::Ledger;
 use crate::scene::error::SceneError;
@@ -44,7 +45,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(vector(self.state.positions.values(), node.index))
     }
 
-    /// The momentum of a node, kg m/s; zero for an anchor.
+    /// The momentum of a node, kg m/s; zero for an anchor, unless it is a node of a solid.
     ///
     /// # Errors
     ///
@@ -54,17 +55,21 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(vector(self.state.momenta.values(), node.index))
     }
 
-    /// The velocity of a node, m/s; zero for an anchor.
+    /// The velocity of a node, m/s; zero for an anchor, unless a solid is moved there.
     ///
     /// # Errors
     ///
     /// For a foreign handle.
     pub fn velocity(&self, node: Node) -> Result<SVector<S, D>, SceneError> {
         self.expect_own(&node)?;
-        Ok(match self.masses.get(node.index) {
-            Some(mass) => SVector::from(self.state.velocity::<D>(node.index, mass)),
-            None => SVector::from([S::zero(); D]),
-        })
+        Ok(SVector::from(self.velocity_at(node.index)))
+    }
+
+    fn velocity_at(&self, node: usize) -> [S; D] {
+        match self.masses.get(node) {
+            Some(mass) => self.state.velocity(node, mass),
+            None => point(self.state.velocities.values(), node),
+        }
     }
 
     /// The stretch of an element, m.
@@ -180,10 +185,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub fn entropy_production(&self, element: Element) -> Result<S, SceneError> {
         let slot = self.thermal_slot(element)?;
         let theta = self.state.temperatures[slot];
-        let velocity = |node| match self.masses.get(node) {
-            Some(mass) => self.state.velocity(node, mass),
-            None => [S::zero(); D],
-        };
+        let velocity = |node| self.velocity_at(node);
         let [group, place] = self.place(element);
         let elements = self.stepper.elements(group);
         let mut production = elements.dissipation(place, &self.state, &velocity) / theta;

@@ -208,7 +208,7 @@ impl<S: Real, const D: usize> Newton<S, D> {
             loads,
             ..
         } = parts;
-        let memory = || StepLoads::new(masses.len() * D, layout, loads);
+        let memory = || StepLoads::new(masses.len() * D, layout, loads, masses.are_coupled());
         let stages = scheme.tableau().map_or(0, Tableau::stages);
         let whole = memory();
         let solver = Solver::new(scheme, systems, masses, layout, conduction, &whole);

@@ -58,7 +58,7 @@ pub(crate) enum Speeds<S, const D: usize> {
 impl<S: Real, const D: usize> NodeStep<'_, S, D> {
     /// `v̄·Δp` and `½(|v⁰·p⁰| + |v¹·p¹|)`, J.
     #[inline]
-    fn energies(&self) -> [S; 2] {
+    pub(crate) fn energies(&self) -> [S; 2] {
         let half = S::from_f64(0.5);
         let (mut gain, mut size) = (S::zero(), S::zero());
         match &self.speeds {

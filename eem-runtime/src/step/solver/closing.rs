@@ -13,7 +13,7 @@ use crate::element::recount::Recount;
 use crate::element::state::State;
 use crate::element::tally::{Care, Tally};
 use crate::number::scalar::{Mask, Real};
-use crate::step::certificate::{Certificate, Kept, Motion, Reach};
+use crate::step::certificate::{Certificate, Kept, Motion, NodeStep, Reach, Speeds};
 use crate::step::error::StepFailure;
 use crate::step::scheme::Closing;
 
@@ -166,6 +166,12 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 next.work.add(support * displacement);
                 motion.work(support * displacement);
             }
+            if view.masses.are_coupled() {
+                let displacement = &self.trial.displacements[node];
+                let work = carry(node, displacement, view, next, motion);
+                next.work.add(work);
+                motion.work(work);
+            }
         }
     }
 
@@ -210,6 +216,34 @@ impl<S: Real, const D: usize> Solver<S, D> {
             *impulse = array::from_fn(|axis| half * (impulse[axis] - view.step * force[axis]));
         }
     }
+}
+
+/// The work `v̄·Δp` that it takes to move what a solid has at an anchor, J.
+fn carry<S: Real, const D: usize>(
+    node: usize,
+    displacement: &[S; D],
+    view: &StepView<'_, S>,
+    next: &State<S>,
+    motion: &mut Motion<S, D>,
+) -> S {
+    let momentum = points::<S, D>(view.state.momenta.values())[node];
+    let end = points::<S, D>(next.momenta.values())[node];
+    let impulse = array::from_fn(|axis| end[axis] - momentum[axis]);
+    let change = view.change_of_speed(node);
+    let old = points::<S, D>(view.state.velocities.values())[node];
+    let load = view
+        .loads
+        .has_total_force()
+        .then(|| view.loads.total_force(node));
+    let step = NodeStep {
+        speeds: Speeds::Given { old, change },
+        position: &points(view.state.positions.values())[node],
+        momentum: &momentum,
+        displacement,
+        impulse: &impulse,
+    };
+    motion.see(&step, load.as_ref(), view.step);
+    step.energies()[0]
 }
 
 /// `Σ Δe + Σ θ_r Δσ_r + heat lost − heat`, and the magnitude of its terms, J.

@@ -1,13 +1,17 @@
 //! Masses that couple nodes: what is beside the diagonal of the mass matrix.
 //!
 //! ```text
-//! Δp_a = Σ_b (2 M_ab/h)(Δq_b − h v⁰_b),     v¹ = 2Δq/h − v⁰
+//! Δp_a = Σ_b (2 M_ab/h)(Δq_b − h v⁰_b) + Σ_m M_am Δv_m,     v¹ = 2Δq/h − v⁰
 //! ```
+//!
+//! where b moves, and m is moved: its velocities follow from its motion, and not from the places alone, so that they
+//! do not jump to and fro.
 
 use core::array;
+use std::collections::BTreeSet;
 
 use super::balance::Balance;
-use crate::element::group::{Sites, Trial};
+use crate::element::group::{Sites, StepView, Trial};
 use crate::element::masses::Masses;
 use crate::number::compact::compact;
 use crate::number::scalar::{Mask, Real};
@@ -16,6 +20,10 @@ use crate::number::scalar::{Mask, Real};
 #[derive(Debug)]
 pub(super) struct Coupling<S, const D: usize> {
     pairs: Vec<CoupledPair<S, D>>,
+    /// Nodes that move with those that are moved beside them.
+    driven: Vec<DrivenPair<S>>,
+    /// `Σ_m M_am Δv_m` of the nodes that move beside moved ones, and the magnitude of its terms, N s.
+    drives: Vec<(u32, [[S; D]; 2])>,
     /// `Δp` of the nodes that move, and the magnitude of its terms, N s; only where masses couple.
     impulses: Vec<[[S; D]; 2]>,
 }
@@ -30,9 +38,18 @@ struct CoupledPair<S, const D: usize> {
     places: [[u32; D]; 2],
 }
 
+/// A node that moves, among those that do, and one that is moved.
+#[derive(Clone, Copy, Debug)]
+struct DrivenPair<S> {
+    node: u32,
+    moved: u32,
+    /// kg.
+    mass: S,
+}
+
 impl<S: Real, const D: usize> Coupling<S, D> {
     /// That of a scene with one set of unknowns.
-    pub(super) fn new(masses: &Masses<S>, sites: &Sites<'_, S, D>) -> Self {
+    pub(super) fn new(masses: &Masses<S>, moved: &[usize], sites: &Sites<'_, S, D>) -> Self {
         let first = |node: usize| sites.layout.nodes[node];
         let pairs = masses.pairs().iter().filter_map(|pair| {
             let [a, b] = pair.nodes().map(first);
@@ -47,20 +64,45 @@ impl<S: Real, const D: usize> Coupling<S, D> {
             })
         });
         let pairs: Vec<_> = pairs.collect();
-        let moving = if pairs.is_empty() {
+        let driven: Vec<_> = driven::<S, D>(masses, moved, &first).collect();
+        let moving = if pairs.is_empty() && driven.is_empty() {
             0
         } else {
             masses.iter().flatten().count()
         };
+        let nodes: BTreeSet<_> = driven.iter().map(|pair| pair.node).collect();
+        let still = [[S::zero(); D]; 2];
         Self {
             pairs,
-            impulses: vec![[[S::zero(); D]; 2]; moving],
+            driven,
+            drives: nodes.into_iter().map(|node| (node, still)).collect(),
+            impulses: vec![still; moving],
+        }
+    }
+
+    /// Finds what the nodes that are moved do to those beside them in a step.
+    pub(super) fn drive(&mut self, view: &StepView<'_, S>) {
+        for (_, drive) in &mut self.drives {
+            *drive = [[S::zero(); D]; 2];
+        }
+        for pair in self.driven.iter().filter(|_| view.phase.moves()) {
+            let found = self
+                .drives
+                .binary_search_by_key(&pair.node, |&(node, _)| node);
+            let (Ok(at), change) = (found, view.change_of_speed::<D>(pair.moved as usize)) else {
+                continue;
+            };
+            let (_, [drive, terms]) = &mut self.drives[at];
+            for axis in 0..D {
+                drive[axis] += pair.mass * change[axis];
+                terms[axis] += (pair.mass * change[axis]).abs();
+            }
         }
     }
 
     /// Whether there are any.
     pub(super) fn is_none(&self) -> bool {
-        self.pairs.is_empty()
+        self.impulses.is_empty()
     }
 
     /// The largest update that may be the last one, where without coupled masses it is the usual one.
@@ -104,6 +146,11 @@ impl<S: Real, const D: usize> Coupling<S, D> {
                 }
             }
         }
+        for &(node, [drive, _]) in &self.drives {
+            for (row, impulse) in rows[node as usize].iter_mut().zip(drive) {
+                *row -= impulse;
+            }
+        }
     }
 
     /// Finds `Δp` of all nodes at a trial, if masses couple them.
@@ -131,6 +178,12 @@ impl<S: Real, const D: usize> Coupling<S, D> {
                 }
             }
         }
+        for &(node, drive) in &self.drives {
+            let sums = self.impulses[node as usize].as_flattened_mut();
+            for (sum, &more) in sums.iter_mut().zip(drive.as_flattened()) {
+                *sum += more;
+            }
+        }
     }
 
     /// `Δp` of a node among those that move, at the trial for which it has been found where masses couple,
@@ -151,4 +204,24 @@ impl<S: Real, const D: usize> Coupling<S, D> {
         let impulse = node.impulse([displacement, &trial.rests[at]], inertia_per_mass);
         [impulse, displacement.map(|moved| inertia * moved.abs())]
     }
+}
+
+/// The pairs of a node that moves, whose first unknown is asked for, and one that is moved.
+fn driven<S: Real, const D: usize>(
+    masses: &Masses<S>,
+    moved: &[usize],
+    first: &impl Fn(usize) -> Option<usize>,
+) -> impl Iterator<Item = DrivenPair<S>> {
+    let held = masses.held().iter().flat_map(|pair| {
+        let [a, b] = pair.nodes();
+        [([a, b], pair.mass), ([b, a], pair.mass)]
+    });
+    held.filter(|([_, moves], _)| moved.contains(moves))
+        .filter_map(|([node, moved], mass)| {
+            Some(DrivenPair {
+                node: compact(first(node)? / D),
+                moved: compact(moved),
+                mass,
+            })
+        })
 }

@@ -69,7 +69,14 @@ impl<S: Real, const D: usize> Solver<S, D> {
         }
         remembering.finish();
         self.final_residual = largest.found();
-        next.follow_velocities(D, view.masses);
+        if view.masses.are_coupled() {
+            for &node in &view.loads.moved {
+                let (old, none) = (&view.state.velocities, [S::zero(); D]);
+                let change = view.change_of_speed::<D>(node);
+                next.velocities.advance_point(node, old, [&change, &none]);
+            }
+            next.follow_velocities(D, view.masses);
+        }
         Ok(())
     }
 
