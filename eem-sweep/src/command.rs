@@ -3,6 +3,7 @@
 use std::env;
 use std::fmt::Display;
 use std::io::{Write, stderr, stdout};
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -10,6 +11,7 @@ use clap::{ArgGroup, Args, Parser, Subcommand};
 
 use crate::engine;
 use crate::error::SweepError;
+use crate::files;
 use crate::format::Format;
 use crate::run::{RunOptions, RunReport};
 use crate::selection::Selection;
@@ -84,9 +86,9 @@ pub struct Work {
     /// The format of tables [default: that of the directory, csv in a new one].
     #[arg(long, value_name = "NAME")]
     format: Option<Format>,
-    /// The most members that are reported at once [default: what takes a second].
+    /// Members that a thread reports at once [default: what takes a second].
     #[arg(long, value_name = "N")]
-    batch: Option<usize>,
+    batch: Option<NonZeroUsize>,
 }
 
 /// What is asked of the status.
@@ -153,7 +155,7 @@ impl Work {
             selection: selection.unwrap_or_default(),
             threads: self.threads,
             format: self.format,
-            batch: self.batch,
+            batch: self.batch.map(NonZeroUsize::get),
             bar: true,
         })
     }
@@ -241,7 +243,8 @@ fn attempt(command: &Command, sweep: &Sweep<'_>) -> Result<u8, SweepError> {
         Command::Status(look) => {
             let status = sweep.status(&look.place.directory)?;
             if look.json {
-                say(serde_json::to_string_pretty(&status).unwrap_or_default());
+                let text = files::json(&look.place.directory, &status)?;
+                say(String::from_utf8_lossy(&text).trim_end());
             } else {
                 say(&status);
             }

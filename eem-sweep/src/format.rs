@@ -126,12 +126,20 @@ pub(crate) enum Reader {
 }
 
 impl Reader {
-    /// Opens a file, checks its heads and goes to the first row.
-    pub(crate) fn open(format: Format, path: &Path, heads: &Heads) -> Result<Self, SweepError> {
+    /// Reads a file whose bytes have been checked, and goes to the first row; the path is for messages.
+    pub(crate) fn open(
+        format: Format,
+        path: &Path,
+        bytes: Vec<u8>,
+        heads: &Heads,
+    ) -> Result<Self, SweepError> {
         match format {
-            Format::Csv => Ok(Self::Text(text::Reader::open(path, heads)?)),
+            Format::Csv => Ok(Self::Text(text::Reader::open(path, bytes, heads)?)),
             #[cfg(feature = "arrow")]
-            Format::Arrow => Ok(Self::Arrow(Box::new(arrow::Reader::open(path, heads)?))),
+            Format::Arrow => {
+                let reader = arrow::Reader::open(path, bytes, heads)?;
+                Ok(Self::Arrow(Box::new(reader)))
+            }
             #[cfg(not(feature = "arrow"))]
             Format::Arrow => Err(SweepError::NoArrow),
         }

@@ -31,6 +31,7 @@
     reason = "counts of members, which are below 2³²"
 )]
 
+mod begun;
 mod command;
 mod digest;
 mod engine;
@@ -49,6 +50,7 @@ mod run;
 mod selection;
 mod status;
 mod sweep;
+mod team;
 mod walk;
 
 pub use command::{Again, Command, Join, Look, Work, execute, main};

@@ -1,7 +1,6 @@
 //! Tables as Arrow IPC files, in record batches of a fixed size, so that the same rows have the same bytes.
 
-use std::fs::File;
-use std::io::{self, BufReader, Write};
+use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -12,7 +11,6 @@ use arrow_schema::{ArrowError, DataType, Field, Schema};
 
 use super::heads::{FAILED_AT, FAILURE, Heads, ID, MESSAGE};
 use crate::error::SweepError;
-use crate::files::failed;
 use crate::record::Batch;
 
 /// Rows of a record batch.
@@ -156,16 +154,16 @@ fn of_io(error: ArrowError) -> io::Error {
 /// Reads record batches.
 pub(crate) struct Reader {
     path: PathBuf,
-    from: FileReader<BufReader<File>>,
+    from: FileReader<Cursor<Vec<u8>>>,
     batch: Option<RecordBatch>,
     row: usize,
 }
 
 impl Reader {
-    /// Opens a file, checks its columns and goes to the first row.
-    pub(super) fn open(path: &Path, heads: &Heads) -> Result<Self, SweepError> {
-        let file = File::open(path).map_err(failed("read", path))?;
-        let from = FileReader::try_new(BufReader::new(file), None);
+    /// Checks the columns of a file and goes to the first row. The bytes must be those that were written: what is
+    /// damaged may ask for any memory.
+    pub(super) fn open(path: &Path, bytes: Vec<u8>, heads: &Heads) -> Result<Self, SweepError> {
+        let from = FileReader::try_new(Cursor::new(bytes), None);
         let from = from.map_err(|error| damaged(path, &error))?;
         if *from.schema() != schema(heads) {
             return Err(damaged(path, &"it has other columns"));
