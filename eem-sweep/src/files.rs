@@ -19,7 +19,7 @@ use crate::error::SweepError;
 const TEMPORARY: &str = ".tmp";
 
 /// A temporary file that nobody has written to for so long is of a process that is dead.
-const DEAD: Duration = Duration::from_secs(3600);
+const DEAD: Duration = Duration::from_hours(1);
 
 /// Names an error of the operating system, which does not say what it is about.
 pub(crate) fn failed(
@@ -41,9 +41,12 @@ pub(crate) fn directory(path: &Path) -> Result<(), SweepError> {
 
 /// All bytes of a regular file, none if it is not there; pipes and devices, which may never end, are refused.
 pub(crate) fn read(path: &Path) -> Result<Option<Vec<u8>>, SweepError> {
-    let bytes = fs::metadata(path).and_then(|data| match data.is_file() {
-        true => fs::read(path),
-        false => Err(io::Error::other("it is no regular file")),
+    let bytes = fs::metadata(path).and_then(|data| {
+        if data.is_file() {
+            fs::read(path)
+        } else {
+            Err(io::Error::other("it is no regular file"))
+        }
     });
     match bytes {
         Ok(bytes) => Ok(Some(bytes)),

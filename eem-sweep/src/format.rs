@@ -13,7 +13,7 @@ use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 
 use crate::error::SweepError;
-use crate::record::Batch;
+use crate::record::{Batch, Failure};
 
 pub(crate) use heads::Heads;
 
@@ -160,6 +160,20 @@ impl Reader {
             Self::Text(reader) => reader.has_failed(),
             #[cfg(feature = "arrow")]
             Self::Arrow(reader) => reader.has_failed(),
+        }
+    }
+
+    /// Fills in the outputs of the row, or says why there are none.
+    pub(crate) fn result(
+        &self,
+        heads: &Heads,
+        outputs: &mut Vec<f64>,
+    ) -> Result<Option<Failure>, SweepError> {
+        outputs.clear();
+        match self {
+            Self::Text(reader) => reader.result(heads, outputs),
+            #[cfg(feature = "arrow")]
+            Self::Arrow(reader) => reader.result(heads, outputs),
         }
     }
 

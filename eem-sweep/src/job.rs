@@ -68,6 +68,21 @@ pub(crate) fn job<'a, I, T: Record>(
     }
 }
 
+/// The job that runs nothing, and reports all members as given up; there are so many outputs.
+pub(crate) fn giving_up(outputs: usize) -> Job<'static> {
+    let failure = Failure::new(FailureKind::GivenUp, None, "the caller has given it up");
+    Job {
+        bundle: 1,
+        run: Box::new(move |_, batch, tick| {
+            let members = batch.ids.len();
+            batch.outputs = vec![0.0; members * outputs];
+            batch.failures = vec![Some(failure.clone()); members];
+            tick(members);
+        }),
+        check: Box::new(|_| Ok(())),
+    }
+}
+
 /// An ensemble on the calling thread; others have batches of their own.
 fn ensemble(stepping: Stepping, tick: Tick<'_>) -> Ensemble<'_> {
     let ensemble = Ensemble::new(stepping.scheme, stepping.step);

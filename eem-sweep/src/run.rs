@@ -6,6 +6,7 @@ use std::thread;
 use crate::begun;
 use crate::error::SweepError;
 use crate::format::Format;
+use crate::job::giving_up;
 use crate::part::Shelf;
 use crate::places::{Places, extend};
 use crate::progress::Teller;
@@ -106,6 +107,41 @@ impl Sweep<'_> {
         let work = (&wanted, &seen.failed, seen.generation + 1, name.as_str());
         self.run_places(directory, &opened, options, work, &mut report)?;
         Ok(report)
+    }
+
+    /// Reports the selected members that nobody has reported yet as failed ([`GivenUp`](crate::FailureKind::GivenUp))
+    /// without running them: those at which every process ends, by a stack that overflows or for want of memory.
+    /// [`rerun_failed`](Self::rerun_failed) runs them all the same.
+    ///
+    /// # Errors
+    ///
+    /// As for [`run`](Self::run), and if there is no sweep in the directory.
+    pub fn give_up(
+        &self,
+        directory: &Path,
+        selection: &Selection,
+    ) -> Result<RunReport, SweepError> {
+        let wanted = selection.places(self.inputs())?;
+        let opened = self.open(directory, None, false)?;
+        let seen = Seen::of(&opened.shelf(), &wanted)?;
+        let missing = wanted.without(&seen.reported);
+        let name = format!("given-up-{selection}");
+        let task = Task {
+            directory,
+            name: &name,
+            shelf: opened.shelf(),
+            job: &giving_up(opened.heads().outputs.len()),
+            generation: 0,
+        };
+        let mut teller = Teller::new(directory, &name, missing.count(), false);
+        let (ran, failed) = team::run(task, &missing, 1, Sizes::adapted(1), &mut teller)?;
+        begun::forget(directory, &wanted);
+        Ok(RunReport {
+            members: wanted.count(),
+            skipped: seen.reported.count(),
+            ran,
+            failed: seen.failed.count() + failed,
+        })
     }
 
     /// Runs places among those that are wanted, and reports them as parts of a generation; `name` is that of files

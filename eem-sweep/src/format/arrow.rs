@@ -11,7 +11,7 @@ use arrow_schema::{ArrowError, DataType, Field, Schema};
 
 use super::heads::{FAILED_AT, FAILURE, Heads, ID, MESSAGE};
 use crate::error::SweepError;
-use crate::record::Batch;
+use crate::record::{Batch, Failure, FailureKind};
 
 /// Rows of a record batch.
 const ROWS: usize = 4096;
@@ -194,6 +194,29 @@ impl Reader {
     pub(super) fn has_failed(&self) -> bool {
         self.at()
             .is_some_and(|(batch, row)| !batch.column(1).is_null(row))
+    }
+
+    /// Fills in the outputs of the row, or says why there are none.
+    pub(super) fn result(
+        &self,
+        heads: &Heads,
+        outputs: &mut Vec<f64>,
+    ) -> Result<Option<Failure>, SweepError> {
+        let wrong = || damaged(&self.path, &"a row is none that was written");
+        let (batch, row) = self.at().ok_or_else(wrong)?;
+        let first = 2 + heads.inputs.len();
+        let end = first + heads.outputs.len();
+        if let Some(kind) = text(batch, 1, row) {
+            return Ok(Some(Failure {
+                kind: FailureKind::from_name(kind).ok_or_else(wrong)?,
+                time: number(batch, end, row),
+                message: text(batch, end + 1, row).unwrap_or_default().to_owned(),
+            }));
+        }
+        for column in first..end {
+            outputs.push(number(batch, column, row).ok_or_else(wrong)?);
+        }
+        Ok(None)
     }
 
     /// Whether two rows have the same bits.

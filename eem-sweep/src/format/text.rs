@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use super::heads::Heads;
 use crate::error::SweepError;
 use crate::files::failed;
-use crate::record::{Batch, Failure};
+use crate::record::{Batch, Failure, FailureKind};
 
 /// Writes lines.
 pub(crate) struct Writer<W: Write> {
@@ -138,6 +138,35 @@ impl Reader {
     /// The line as it is.
     pub(super) fn line(&self) -> &[u8] {
         &self.bytes[self.line.clone()]
+    }
+
+    /// Fills in the outputs of the line, or says why there are none.
+    pub(super) fn result(
+        &self,
+        heads: &Heads,
+        outputs: &mut Vec<f64>,
+    ) -> Result<Option<Failure>, SweepError> {
+        let mut line = csv::StringRecord::new();
+        let mut reader = csv::ReaderBuilder::new();
+        let mut reader = reader.has_headers(false).from_reader(self.line());
+        let read = reader.read_record(&mut line);
+        let wrong = || self.damaged("a line is none that was written");
+        let cells: Vec<&str> = line.iter().collect();
+        let first = 2 + heads.inputs.len();
+        if read.is_err() || cells.len() != first + heads.outputs.len() + 2 {
+            return Err(wrong());
+        }
+        let (values, failure) = cells[first..].split_at(heads.outputs.len());
+        if cells[1].is_empty() {
+            let values = values.iter().map(|cell| cell.parse::<f64>());
+            outputs.extend(values.collect::<Result<Vec<_>, _>>().map_err(|_| wrong())?);
+            return Ok(None);
+        }
+        Ok(Some(Failure {
+            kind: FailureKind::from_name(cells[1]).ok_or_else(wrong)?,
+            time: failure[0].parse().ok(),
+            message: failure[1].to_owned(),
+        }))
     }
 
     /// Goes to the next line.

@@ -169,10 +169,18 @@ fn a_member_that_kills_its_process_is_the_only_one_that_is_left() {
         ("17", "17")
     );
     assert!(status.to_string().contains("has ended at: 17"), "{status}");
-    // Where it can be run nothing is left of it.
-    assert_eq!(sweep.run(&folder, &RunOptions::default()).unwrap().ran, 1);
+    // It can be given up, and where it can be run nothing is left of that.
+    let line = ["60", "1", "give-up", "--dir", dir, "--members", "16,17"];
+    let (code, said) = finish(&line);
+    assert!(code == 3 && said.contains("1 were there, 1 run"), "{said}");
     let merged = sweep.merge(&folder, None).unwrap();
-    assert_eq!((merged.failed, merged.repeated), (0, 0));
+    assert_eq!((merged.members, merged.failed), (60, 1));
+    let row = fs::read_to_string(&merged.path).unwrap();
+    assert!(row.contains("\n17,given-up,"), "{row}");
+    let rerun = sweep.rerun_failed(&folder, &RunOptions::default());
+    assert_eq!(rerun.unwrap().ran, 1);
+    let merged = sweep.merge(&folder, None).unwrap();
+    assert_eq!((merged.failed, merged.superseded), (0, 1));
     let progress = fs::read_dir(folder.join("progress")).unwrap();
     let is_note = |path: &std::path::Path| path.extension().is_some_and(|end| end == "begun");
     assert!(!progress.flatten().any(|entry| is_note(&entry.path())));
