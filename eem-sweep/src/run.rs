@@ -60,7 +60,7 @@ impl Sweep<'_> {
     /// Runs the selected members that nobody has reported yet, and reports them in `directory`.
     ///
     /// It can be called again whatever has happened: what was reported is skipped, and members at which a process
-    /// has ended come last, each in a batch of its own. Processes that run at the same
+    /// has ended come last, in small batches. Processes that run at the same
     /// time should be given different members; if they have some in common, these are run twice, and
     /// [`merge`](Self::merge) proves that both have the same bits.
     ///
@@ -166,14 +166,13 @@ impl Sweep<'_> {
             job: &self.job,
             generation,
         };
-        for (ended, places) in begun::classes(directory, places) {
-            let (threads, sizes) = match (ended, options.batch) {
-                (0, Some(batch)) => (threads, Sizes::Fixed(batch.max(1))),
-                (0, None) => (threads, Sizes::adapted(self.job.bundle)),
-                // Half as many beside one another each time that a process has ended there.
-                _ => (threads.checked_shr(ended - 1).unwrap_or(0), Sizes::Fixed(1)),
+        for class in begun::classes(directory, places) {
+            let sizes = match class.batch.or(options.batch) {
+                Some(members) => Sizes::Fixed(members.max(1)),
+                None => Sizes::adapted(self.job.bundle),
             };
-            let (ran, failed) = team::run(task, &places, threads, sizes, &mut teller)?;
+            let threads = threads.checked_shr(class.halvings).unwrap_or(0);
+            let (ran, failed) = team::run(task, &class.places, threads, sizes, &mut teller)?;
             report.ran += ran;
             report.failed += failed;
         }
