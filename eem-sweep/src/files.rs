@@ -39,6 +39,14 @@ pub(crate) fn directory(path: &Path) -> Result<(), SweepError> {
     fs::create_dir_all(path).map_err(failed("make the directory", path))
 }
 
+/// The directory that a file is in.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
+    folder.unwrap_or(Path::new("."))
+}
+
 /// All bytes of a regular file, none if it is not there; pipes and devices, which may never end, are refused.
 pub(crate) fn read(path: &Path) -> Result<Option<Vec<u8>>, SweepError> {
     let bytes = fs::metadata(path).and_then(|data| {
@@ -105,7 +113,7 @@ impl Draft {
             self.to.flush()?;
             self.to.get_ref().sync_all()?;
             let named = name(&self.temporary, &self.path)?;
-            sync_directory(self.path.parent().unwrap_or(Path::new(".")))?;
+            sync_directory(folder_of(&self.path))?;
             Ok(named)
         };
         let result: io::Result<T> = attempt();
@@ -192,11 +200,6 @@ pub(crate) fn remove_dead(folder: &Path) {
 /// Brings names to disk; only Unix has directories that can be opened.
 fn sync_directory(folder: &Path) -> io::Result<()> {
     if cfg!(unix) {
-        let folder = if folder.as_os_str().is_empty() {
-            Path::new(".")
-        } else {
-            folder
-        };
         File::open(folder)?.sync_all()?;
     }
     Ok(())

@@ -19,6 +19,7 @@
 //! | `parts/FIRST-LAST.MEMBERS.gGENERATION.SWEEP.CONTENT.csv` | records that a thread has reported, a second of work each; SWEEP and CONTENT are digests |
 //! | `progress/SHARD.json` | how far a process is |
 //! | `progress/SHARD.PROCESS-CHANCE.begun` | members that a thread is at |
+//! | `tables/DIGEST` | empty; a table that was merged, and may be replaced |
 //! | `merged.csv`, `merged.csv.json` | the table of all members, and what `merge` has found |
 //!
 //! A file is written under a temporary name, brought to disk, and only then given its name: it is there whole or not at

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::begun;
 use crate::digest::{self, Digest};
 use crate::error::SweepError;
-use crate::files::{self, Draft, failed, remove_dead};
+use crate::files::{self, Draft, failed, folder_of, remove_dead};
 use crate::format::Writer;
 use crate::part::Part;
 use crate::places::Places;
@@ -38,16 +38,6 @@ pub struct Merged {
     pub repeated: usize,
 }
 
-/// The file beside a table. It is written before the table gets its name, so that a table of this crate always has
-/// a note that knows it.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-struct Note {
-    #[serde(flatten)]
-    merged: Merged,
-    /// The digests of all tables of this sweep that have been here.
-    tables: Vec<String>,
-}
-
 impl Sweep<'_> {
     /// Merges all parts into one table, `into` or `merged.csv` in the directory, in ascending order of ids.
     ///
@@ -66,36 +56,35 @@ impl Sweep<'_> {
         let shelf = opened.shelf();
         let default = || directory.join(format!("merged.{}", shelf.format));
         let path = into.map_or_else(default, Path::to_owned);
-        refuse_own(&path, &[shelf.folder, &progress::folder(directory)])?;
+        let own = [
+            shelf.folder.to_owned(),
+            progress::folder(directory),
+            Tables::of(directory).0,
+        ];
+        refuse_own(&path, &own)?;
+        let note = beside(&path);
         // Some of what is in the way can be seen before the work.
         is_there(&path)?;
-        own_tables(&opened, &path)?;
+        refuse_other_note(&note)?;
         let parts = shelf.parts()?;
         self.refuse_gaps(directory, &shelf.reported(&parts)?)?;
 
         let mut draft = Draft::new(&path)?;
         let merged = write_table(&opened, &parts, &mut draft, &path)?;
-        let mut tables = own_tables(&opened, &path)?;
-        if !tables.contains(&merged.table) {
-            tables.push(merged.table.clone());
-        }
-        let exists = refuse_foreign(&path, &tables)?;
-        let note = Note {
-            merged: merged.clone(),
-            tables,
-        };
-        let note_path = beside(&path);
-        files::replace(&note_path, &files::json(&note_path, &note)?)?;
-        if exists || !draft.publish()? {
+        let tables = Tables::of(directory);
+        tables.remember(&merged.table)?;
+        if tables.refuse_others(&path)? || !draft.publish()? {
             // Another call may have put its table there in the meantime.
-            refuse_foreign(&path, &note.tables)?;
+            tables.refuse_others(&path)?;
             draft.replace()?;
         }
+        files::replace(&note, &files::json(&note, &merged)?)?;
         begun::forget(directory, &Places::one(0..self.inputs().members()));
-        for folder in [shelf.folder, &progress::folder(directory), directory] {
+        for folder in &own {
             remove_dead(folder);
         }
-        remove_dead(path.parent().unwrap_or(directory));
+        remove_dead(directory);
+        remove_dead(folder_of(&path));
         Ok(merged)
     }
 
@@ -116,21 +105,18 @@ impl Sweep<'_> {
 }
 
 /// Refuses a table among the files of the sweep itself.
-fn refuse_own(path: &Path, folders: &[&Path]) -> Result<(), SweepError> {
-    let folder = path
-        .parent()
-        .filter(|folder| !folder.as_os_str().is_empty());
+fn refuse_own(path: &Path, folders: &[PathBuf]) -> Result<(), SweepError> {
     let resolve = |folder: &Path| fs::canonicalize(folder).ok();
-    let Some(place) = resolve(folder.unwrap_or(Path::new("."))) else {
+    let Some(place) = resolve(folder_of(path)) else {
         // It does not exist: the error comes when it is written to.
         return Ok(());
     };
-    let owns = |folder: &&Path| resolve(folder).is_some_and(|own| place.starts_with(own));
+    let owns = |folder: &&PathBuf| resolve(folder).is_some_and(|own| place.starts_with(own));
     match folders.iter().find(|folder| owns(folder)) {
         None => Ok(()),
         Some(folder) => Err(SweepError::OwnFolder {
             path: path.to_owned(),
-            folder: (*folder).to_owned(),
+            folder: folder.clone(),
         }),
     }
 }
@@ -147,25 +133,33 @@ fn is_there(path: &Path) -> Result<bool, SweepError> {
     }
 }
 
-/// Whether there is a table, which has to be one of these or empty.
-fn refuse_foreign(path: &Path, tables: &[String]) -> Result<bool, SweepError> {
-    if !is_there(path)? {
-        return Ok(false);
-    }
-    let digest = digest::of_file(path).map_err(failed("read", path))?;
-    if tables.contains(&digest) || digest == Digest::new().hex() {
-        return Ok(true);
-    }
-    Err(SweepError::Exists {
-        path: path.to_owned(),
-    })
-}
+/// The tables that have been merged from a directory: an empty file each, whose name is the digest. It is there before
+/// its table is, so that no kill leaves a table that nobody knows.
+struct Tables(PathBuf);
 
-/// The digests of tables of this sweep that have been there.
-fn own_tables(opened: &Opened<'_>, path: &Path) -> Result<Vec<String>, SweepError> {
-    let earlier = earlier(&beside(path))?;
-    let earlier = earlier.filter(|note| note.merged.sweep == opened.manifest.digest);
-    Ok(earlier.map_or_else(Vec::new, |note| note.tables))
+impl Tables {
+    fn of(directory: &Path) -> Self {
+        Self(directory.join("tables"))
+    }
+
+    fn remember(&self, digest: &str) -> Result<(), SweepError> {
+        files::directory(&self.0)?;
+        files::replace(&self.0.join(digest), b"")
+    }
+
+    /// Whether there is a file of this name, which has to be one of the tables or empty.
+    fn refuse_others(&self, path: &Path) -> Result<bool, SweepError> {
+        if !is_there(path)? {
+            return Ok(false);
+        }
+        let digest = digest::of_file(path).map_err(failed("read", path))?;
+        if digest == Digest::new().hex() || self.0.join(digest).is_file() {
+            return Ok(true);
+        }
+        Err(SweepError::Exists {
+            path: path.to_owned(),
+        })
+    }
 }
 
 /// The file with what was found, beside the table.
@@ -175,14 +169,15 @@ fn beside(path: &Path) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// What was found when the table was merged before; an error if the file is something else.
-fn earlier(note: &Path) -> Result<Option<Note>, SweepError> {
+/// Refuses a file of the note's name that is something else.
+fn refuse_other_note(note: &Path) -> Result<(), SweepError> {
     let Some(text) = files::read(note)? else {
-        return Ok(None);
+        return Ok(());
     };
-    let path = note.to_owned();
-    let read = serde_json::from_slice(&text);
-    read.map(Some).map_err(|_| SweepError::Exists { path })
+    let read: Result<Merged, _> = serde_json::from_slice(&text);
+    read.map(drop).map_err(|_| SweepError::Exists {
+        path: note.to_owned(),
+    })
 }
 
 /// Writes all rows and says what was found; `path` is for messages.

@@ -32,19 +32,19 @@ fn a_merge_that_was_killed_anywhere_can_be_repeated() {
     assert!((first.failed, second.failed) == (1, 0) && first.table != second.table);
     let (newer, newer_note) = (read(&path), read(&note));
 
-    // Killed after the note and before the table, which is the older one or none.
+    // Killed before the note, or before the table, which is the older one or none.
+    fs::write(&note, &noted).unwrap();
+    assert_eq!(sweep.merge(&folder, None).unwrap(), second);
+    assert!(read(&note) == newer_note);
     fs::write(&path, &table).unwrap();
     assert_eq!(sweep.merge(&folder, None).unwrap(), second);
     fs::remove_file(&path).unwrap();
     assert_eq!(sweep.merge(&folder, None).unwrap(), second);
-    // Killed before the note.
-    fs::write(&path, &table).unwrap();
-    fs::write(&note, &noted).unwrap();
-    assert_eq!(sweep.merge(&folder, None).unwrap(), second);
     // Killed between taking the name and filling it, on a file system without hard links.
     fs::write(&path, "").unwrap();
     assert_eq!(sweep.merge(&folder, None).unwrap(), second);
-    // The note was lost, and the table is the one that is merged again.
+    // The note was lost.
+    fs::write(&path, &table).unwrap();
     fs::remove_file(&note).unwrap();
     assert_eq!(sweep.merge(&folder, None).unwrap(), second);
     assert!(read(&path) == newer);
@@ -76,12 +76,12 @@ fn a_merge_removes_what_is_dead_and_leaves_what_may_be_alive() {
     let folder = directory("temporaries");
     let sweep = stones(MEMBERS, 1);
     sweep.run(&folder, &RunOptions::default()).unwrap();
-    let elsewhere = folder.join("tables");
+    let elsewhere = folder.join("mine");
     fs::create_dir(&elsewhere).unwrap();
     let names = [
         "parts/.0000000000-0000000003.4.g0.0123456789abcdef.0123456789abcdef.csv",
         ".sweep.json",
-        "tables/.mine.csv",
+        "mine/.mine.csv",
         "progress/.all.json",
     ];
     let write = |name: &str, hours: u64| {
@@ -105,13 +105,19 @@ fn a_table_goes_to_a_file_that_is_none_of_the_sweep() {
     let folder = directory("into");
     let sweep = stones(MEMBERS, 1);
     sweep.run(&folder, &RunOptions::default()).unwrap();
+    sweep.merge(&folder, None).unwrap();
     let refused = |into: &str| {
         let error = sweep.merge(&folder, Some(&folder.join(into))).unwrap_err();
         assert_eq!(error.exit_code(), 2);
         assert!(error.to_string().contains("with --into"), "{error}");
         error
     };
-    for into in ["parts/table.csv", "progress/../parts/x", "progress/x.csv"] {
+    for into in [
+        "parts/table.csv",
+        "tables/x.csv",
+        "progress/../parts/x",
+        "progress/x.csv",
+    ] {
         let error = refused(into);
         assert!(matches!(error, SweepError::OwnFolder { .. }), "{error}");
     }
