@@ -87,9 +87,11 @@ impl Draft {
         self.named(|temporary, path| {
             let taken = match fs::hard_link(temporary, path) {
                 // File systems without hard links: the name is taken by an empty file, which is then replaced.
-                Err(error) if has_no_links(&error) => {
-                    File::create_new(path).and_then(|_empty| fs::rename(temporary, path))
-                }
+                Err(error) if has_no_links(&error) => File::create_new(path).and_then(|_empty| {
+                    fs::rename(temporary, path).inspect_err(|_| {
+                        let _absent = fs::remove_file(path);
+                    })
+                }),
                 linked => linked,
             };
             match taken {

@@ -1,6 +1,7 @@
 //! Parts: the files with records that processes have reported, and what their names say.
 
 use std::fs;
+use std::io::ErrorKind;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -148,7 +149,8 @@ impl Shelf<'_> {
             path: part.path.clone(),
             reason: reason.to_owned(),
         };
-        let bytes = bytes.ok_or_else(|| damaged("it has gone"))?;
+        let gone = || failed("read", &part.path)(ErrorKind::NotFound.into());
+        let bytes = bytes.ok_or_else(gone)?;
         if self.content(&part.span, part.members, part.generation, &bytes) != part.content {
             return Err(damaged("its contents are not those that its name says"));
         }
