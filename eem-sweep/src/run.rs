@@ -104,7 +104,12 @@ impl Sweep<'_> {
             ..RunReport::default()
         };
         let name = format!("rerun-{}", options.selection);
-        let work = (&wanted, &seen.failed, seen.generation.saturating_add(1), name.as_str());
+        let work = (
+            &wanted,
+            &seen.failed,
+            seen.generation.saturating_add(1),
+            name.as_str(),
+        );
         self.run_places(directory, &opened, options, work, &mut report)?;
         Ok(report)
     }
