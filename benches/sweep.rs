@@ -12,13 +12,16 @@ use std::process::{Child, Command, Stdio};
 
 use clap::Parser;
 use eem::prelude::*;
-use eem_sweep::{Inputs, Plan, Record, Sweep, execute};
+use eem_sweep::{Inputs, Plan, Sweep, execute};
 
 #[path = "../examples/ensemble/pendulum.rs"]
 #[allow(dead_code, reason = "members are drawn in another way")]
 mod pendulum;
 
-use pendulum::{End, Pendulum, Spring};
+#[path = "../examples/sweep/member.rs"]
+mod member;
+
+use pendulum::{Pendulum, Spring};
 
 /// Members, and the published step and end of the single pendulum, s.
 const MEMBERS: usize = 100_000;
@@ -31,25 +34,6 @@ const SHARDS: usize = 8;
 /// How often each kind is measured; the median counts.
 const REPEATS: usize = 5;
 
-impl Record for End {
-    const COLUMNS: &'static [&'static str] = &[
-        "temperature (K)",
-        "entropy (J/K)",
-        "energy_defect",
-        "entropy_loss (J/K)",
-    ];
-
-    fn write(&self, row: &mut [f64]) {
-        let Self {
-            temperature,
-            entropy,
-            energy_defect,
-            entropy_loss,
-        } = *self;
-        row.copy_from_slice(&[temperature, entropy, energy_defect, entropy_loss]);
-    }
-}
-
 fn inputs() -> Inputs {
     let columns = Spring::UNKNOWNS.map(|unknown| unknown.name);
     let ranges = [90.0..110.0, 70.0..130.0, 0.05..0.15, 290.0..310.0, 0.5..1.5];
@@ -58,11 +42,7 @@ fn inputs() -> Inputs {
 
 fn sweep() -> Sweep<'static> {
     let plan = Plan::new("pendulums", inputs(), Scheme::EemTemperature, STEP);
-    plan.experiment(Pendulum { steps: STEPS }, |row| {
-        let mut values = [0.0; 5];
-        values.copy_from_slice(row.values());
-        Ok(Spring { values })
-    })
+    member::sweep(plan, STEPS)
 }
 
 /// All members in one call, on one thread.

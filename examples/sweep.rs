@@ -11,6 +11,10 @@
 //! stiffness, viscosity, insulation and start are known to some percent only. Each has a row in the table with
 //! these five numbers and what is kept of its run.
 //!
+//! Copied into a package of its own it needs `eem`, `eem-sweep`, `clap` and `rand` in `Cargo.toml`, and the folder
+//! `ensemble`. What it takes of `eem_sweep` is `eem::sweep`, too, with the feature `sweep` of `eem`; only options of a
+//! program's own need `clap`, which `eem::sweep::main` does not.
+//!
 //! What the example claims: whatever is killed and run again, the merged table has the bits of a run by one process.
 //! The scripts in `cluster` try it with each engine, the tests of `eem-sweep` with plain processes.
 
@@ -18,13 +22,16 @@ use std::error::Error;
 use std::process::ExitCode;
 
 use eem::prelude::*;
-use eem_sweep::{Command, Inputs, Plan, Record, execute};
+use eem_sweep::{Command, Inputs, Plan, execute};
 
 #[path = "ensemble/pendulum.rs"]
 #[allow(dead_code, reason = "labels are for pictures")]
 mod pendulum;
 
-use pendulum::{End, Pendulum, Spring};
+#[path = "sweep/member.rs"]
+mod member;
+
+use pendulum::Spring;
 
 /// Step and end time, s.
 const STEP: f64 = 0.05;
@@ -52,29 +59,11 @@ struct Options {
     command: Command,
 }
 
-impl Record for End {
-    const COLUMNS: &'static [&'static str] = &[
-        "temperature (K)",
-        "entropy (J/K)",
-        "energy_defect",
-        "entropy_loss (J/K)",
-    ];
-
-    fn write(&self, row: &mut [f64]) {
-        row.copy_from_slice(&[
-            self.temperature,
-            self.entropy,
-            self.energy_defect,
-            self.entropy_loss,
-        ]);
-    }
-}
-
 fn main() -> ExitCode {
     let options = <Options as clap::Parser>::parse();
     run(&options).unwrap_or_else(|error| {
         eprintln!("error: {error}");
-        ExitCode::from(2)
+        ExitCode::from(4)
     })
 }
 
@@ -88,11 +77,7 @@ fn run(options: &Options) -> Result<ExitCode, Box<dyn Error>> {
     if let Some(version) = &options.program {
         plan = plan.program(version);
     }
-    let sweep = plan.experiment(Pendulum { steps }, |row| {
-        let mut values = [0.0; 5];
-        values.copy_from_slice(row.values());
-        Ok(Spring { values })
-    });
+    let sweep = member::sweep(plan, steps);
     Ok(ExitCode::from(execute(&options.command, &sweep)))
 }
 

@@ -3,6 +3,7 @@
 use std::env;
 use std::fmt::Display;
 use std::io::{Write, stderr, stdout};
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -10,6 +11,7 @@ use clap::{ArgGroup, Args, Parser, Subcommand};
 
 use crate::engine;
 use crate::error::SweepError;
+use crate::files;
 use crate::format::Format;
 use crate::run::{RunOptions, RunReport};
 use crate::selection::Selection;
@@ -22,7 +24,8 @@ const FAILED: u8 = 3;
 const INCOMPLETE: u8 = 6;
 
 /// What a program that runs a sweep can be asked to do. Programs with options of their own take it as their
-/// subcommand and hand it to [`execute`]; others call [`main`](fn@main).
+/// subcommand and hand it to [`execute`]; others call [`main`](fn@main). They need `clap` 4 with the feature `derive`
+/// in `Cargo.toml`.
 ///
 /// ```
 /// use clap::Parser;
@@ -52,6 +55,8 @@ pub enum Command {
     Merge(Join),
     /// Runs members again that have failed.
     Rerun(Again),
+    /// Reports members as failed at which every process ends, so that the others can be merged.
+    GiveUp(Leave),
 }
 
 /// The directory of a sweep.
@@ -68,8 +73,8 @@ struct Place {
 pub struct Work {
     #[command(flatten)]
     place: Place,
-    /// One of n shards, counted from 0; `auto` is what Slurm or MPI say, `auto/n` the task of HyperQueue, PBS or GNU
-    /// parallel.
+    /// One of n shards, counted from 0; `auto` is what a whole Slurm array or MPI say, `auto/n` the task of HyperQueue,
+    /// PBS or GNU parallel, or some tasks of a Slurm array of n once more.
     #[arg(long, value_name = "i/n", group = "selection", value_parser = shard)]
     shard: Option<Shard>,
     /// Members with ids from a to below b.
@@ -84,9 +89,9 @@ pub struct Work {
     /// The format of tables [default: that of the directory, csv in a new one].
     #[arg(long, value_name = "NAME")]
     format: Option<Format>,
-    /// The most members that are reported at once [default: what takes a second].
+    /// Members that a thread reports at once [default: what takes a second].
     #[arg(long, value_name = "N")]
-    batch: Option<usize>,
+    batch: Option<NonZeroUsize>,
 }
 
 /// What is asked of the status.
@@ -117,6 +122,16 @@ pub struct Again {
     failed: bool,
     #[command(flatten)]
     work: Work,
+}
+
+/// What is given up.
+#[derive(Clone, Debug, Args)]
+pub struct Leave {
+    #[command(flatten)]
+    place: Place,
+    /// The members, such as 3,7,10-12; those that have been reported stay as they are.
+    #[arg(long, value_name = "LIST", value_parser = Selection::list)]
+    members: Selection,
 }
 
 /// A shard that is given, or taken from the environment.
@@ -153,7 +168,7 @@ impl Work {
             selection: selection.unwrap_or_default(),
             threads: self.threads,
             format: self.format,
-            batch: self.batch,
+            batch: self.batch.map(NonZeroUsize::get),
             bar: true,
         })
     }
@@ -172,6 +187,7 @@ struct Line {
 /// PROGRAM status --dir DIR [--json]
 /// PROGRAM merge  --dir DIR [--into FILE]
 /// PROGRAM rerun  --dir DIR --failed [--shard i/n …]
+/// PROGRAM give-up --dir DIR --members LIST
 /// ```
 ///
 /// All of it can be repeated, and killed at any time. Exit codes, which engines understand:
@@ -181,7 +197,7 @@ struct Line {
 /// | 0 | done | – |
 /// | 2 | the command line, or what `--shard auto` finds, makes no sense | correct it |
 /// | 3 | members have failed; the records of all are there | look at `failure` and `message` |
-/// | 4 | refused: another program, inputs or settings, a damaged file | as the message says |
+/// | 4 | refused: another program, inputs or settings, a damaged file, a member with two results | as the message says |
 /// | 5 | a file cannot be written or read: a full disk, no permission | as it says, then the same command again |
 /// | 6 | members are missing | `run` |
 ///
@@ -191,13 +207,13 @@ struct Line {
 /// ```no_run
 /// use std::process::ExitCode;
 ///
-/// use eem::sweep::{Inputs, Plan};
+/// use eem::sweep::{Inputs, Plan, Sweep, SweepError};
 /// use eem::{Scene, Scheme};
 ///
-/// fn main() -> ExitCode {
-///     let inputs = Inputs::latin_hypercube(1000, 1, [("speed", 5.0..20.0)]).expect("one column");
+/// fn sweep() -> Result<Sweep<'static>, SweepError> {
+///     let inputs = Inputs::csv("speeds.csv")?;
 ///     let plan = Plan::new("stones", inputs, Scheme::EemEntropy, 0.1);
-///     let sweep = plan.closures(
+///     Ok(plan.closures(
 ///         |row| row.number("speed"),
 ///         |&speed| {
 ///             let mut scene = Scene::<2>::new();
@@ -208,8 +224,18 @@ struct Line {
 ///             run.step()?;
 ///             Ok(run.position(stone)?.y)
 ///         },
-///     );
-///     eem::sweep::main(&sweep)
+///     ))
+/// }
+///
+/// fn main() -> ExitCode {
+///     match sweep() {
+///         Ok(sweep) => eem::sweep::main(&sweep),
+///         // Inputs that cannot be read: 4, where a panic would be 101.
+///         Err(error) => {
+///             eprintln!("error: {error}");
+///             ExitCode::from(error.exit_code())
+///         }
+///     }
 /// }
 /// ```
 #[must_use]
@@ -231,17 +257,22 @@ fn attempt(command: &Command, sweep: &Sweep<'_>) -> Result<u8, SweepError> {
         Command::Run(work) => {
             let options = work.options()?;
             let report = sweep.run(&work.place.directory, &options)?;
-            Ok(told(&options, report))
+            Ok(told(&options.selection, report))
         }
         Command::Rerun(Again { work, .. }) => {
             let options = work.options()?;
             let report = sweep.rerun_failed(&work.place.directory, &options)?;
-            Ok(told(&options, report))
+            Ok(told(&options.selection, report))
+        }
+        Command::GiveUp(Leave { place, members }) => {
+            let report = sweep.give_up(&place.directory, members)?;
+            Ok(told(members, report))
         }
         Command::Status(look) => {
             let status = sweep.status(&look.place.directory)?;
             if look.json {
-                say(serde_json::to_string_pretty(&status).unwrap_or_default());
+                let text = files::json(&look.place.directory, &status)?;
+                say(String::from_utf8_lossy(&text).trim_end());
             } else {
                 say(&status);
             }
@@ -269,14 +300,13 @@ fn attempt(command: &Command, sweep: &Sweep<'_>) -> Result<u8, SweepError> {
     }
 }
 
-fn told(options: &RunOptions, report: RunReport) -> u8 {
+fn told(selection: &Selection, report: RunReport) -> u8 {
     let RunReport {
         members,
         skipped,
         ran,
         failed,
     } = report;
-    let selection = &options.selection;
     say(format_args!(
         "{selection}: {members} members, {skipped} were there, {ran} run, {failed} failed"
     ));

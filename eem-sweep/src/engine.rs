@@ -28,18 +28,21 @@ pub enum EngineError {
         /// The engine.
         engine: &'static str,
     },
-    /// Tasks do not follow one another, so that their numbers are no shards.
+    /// The tasks that were submitted seem to be some of more, so that nobody can tell how many shards there are.
     #[error(
-        "--shard auto: the tasks of {engine} leave numbers out; submit them as 0-{last}, or write --shard i/n"
+        "--shard auto: the tasks of {engine} are {tasks}, not all of 0-m or 1-m; if they are some of n tasks that are \
+         submitted again, write --shard auto/n, and if it is one alone, no --shard at all"
     )]
-    Gaps {
+    Some {
         /// The engine.
         engine: &'static str,
-        /// The number of the last one if none were left out.
-        last: u64,
+        /// The tasks.
+        tasks: String,
     },
-    /// A variable is no whole number.
-    #[error("--shard auto: {variable} is `{value}`, not a whole number")]
+    /// A variable is no whole number, or there are 0 tasks.
+    #[error(
+        "--shard auto: {variable} is `{value}`, not a whole number of that kind; write --shard i/n"
+    )]
     Value {
         /// The variable.
         variable: &'static str,
@@ -48,8 +51,9 @@ pub enum EngineError {
     },
     /// There are not so many shards.
     #[error(
-        "--shard auto/{count}: {engine} says that this is task {index}, but tasks are counted from {first} to {last}",
-        last = first + count - 1
+        "--shard auto/{count}: {engine} says that this is task {index}, but tasks are counted from {first} to {last}; \
+         number them so, or write --shard i/{count} with i from 0",
+        last = first.saturating_add(*count).saturating_sub(1)
     )]
     TooLarge {
         /// The engine.
@@ -67,12 +71,11 @@ pub enum EngineError {
 struct Engine {
     name: &'static str,
     index: &'static str,
-    /// The number of the first task, and the variable that says so where it is not fixed.
+    /// The number of the first task.
     first: u64,
-    first_variable: Option<&'static str>,
     count: Option<&'static str>,
-    /// The largest number of a task, from which gaps are seen.
-    last: Option<&'static str>,
+    /// The smallest and the largest number of the tasks that were submitted together, where users choose them.
+    ends: Option<[&'static str; 2]>,
 }
 
 const fn engine(name: &'static str, index: &'static str, first: u64) -> Engine {
@@ -80,9 +83,8 @@ const fn engine(name: &'static str, index: &'static str, first: u64) -> Engine {
         name,
         index,
         first,
-        first_variable: None,
         count: None,
-        last: None,
+        ends: None,
     }
 }
 
@@ -99,9 +101,8 @@ const ENGINES: [Engine; 6] = [
         ..engine("MPI", "PMI_RANK", 0)
     },
     Engine {
-        first_variable: Some("SLURM_ARRAY_TASK_MIN"),
         count: Some("SLURM_ARRAY_TASK_COUNT"),
-        last: Some("SLURM_ARRAY_TASK_MAX"),
+        ends: Some(["SLURM_ARRAY_TASK_MIN", "SLURM_ARRAY_TASK_MAX"]),
         ..engine("a Slurm array", "SLURM_ARRAY_TASK_ID", 0)
     },
     engine("a PBS array", "PBS_ARRAY_INDEX", 0),
@@ -113,18 +114,7 @@ pub(crate) fn shard(
     variable: impl Fn(&str) -> Option<String>,
     count: Option<u64>,
 ) -> Result<(u64, u64), EngineError> {
-    let number = |name: &'static str| -> Result<Option<u64>, EngineError> {
-        let Some(value) = variable(name) else {
-            return Ok(None);
-        };
-        let parsed = value.trim().parse().map_err(|_| EngineError::Value {
-            variable: name,
-            value,
-        });
-        parsed.map(Some)
-    };
-    let optional = |name: Option<&'static str>| name.map_or(Ok(None), number);
-
+    let number = |name: &'static str| number(name, variable(name));
     let mut present = ENGINES.iter().filter(|e| variable(e.index).is_some());
     let Some(found) = present.next() else {
         return Err(EngineError::None {
@@ -138,17 +128,26 @@ pub(crate) fn shard(
         });
     }
     let engine = found.name;
-    let said = optional(found.count)?;
+    let said = match found.count {
+        None => None,
+        Some(name) => match number(name)? {
+            Some(0) => return Err(wrong(name, "0")),
+            said => said,
+        },
+    };
     let all = count.or(said).ok_or(EngineError::NoCount { engine })?;
-    let mut first = optional(found.first_variable)?.unwrap_or(found.first);
-    if count.is_some() {
-        // A part of an array that is submitted again keeps its numbers.
-        first = found.first;
-    } else if let Some(last) = optional(found.last)?
-        && last.saturating_sub(first) + 1 != all
+    let mut first = found.first;
+    if let Some([least, most]) = found.ends
+        && let (Some(least), Some(most), Some(said)) = (number(least)?, number(most)?, said)
     {
-        let last = all.saturating_sub(1);
-        return Err(EngineError::Gaps { engine, last });
+        let is_whole = said > 1 && least <= 1 && most.checked_sub(least) == Some(said - 1);
+        if is_whole && said == all {
+            first = least;
+        } else if count.is_none() {
+            let tasks = format!("{said} from {least} to {most}");
+            return Err(EngineError::Some { engine, tasks });
+        }
+        // Otherwise they are some of an array that was counted from 0, and keep their numbers.
     }
     let index = number(found.index)?.unwrap_or(first);
     match index.checked_sub(first) {
@@ -160,6 +159,17 @@ pub(crate) fn shard(
             first,
         }),
     }
+}
+
+/// The whole number in a variable, if it is there.
+fn number(variable: &'static str, value: Option<String>) -> Result<Option<u64>, EngineError> {
+    let parse = |value: String| value.trim().parse().map_err(|_| wrong(variable, &value));
+    value.map(parse).transpose()
+}
+
+fn wrong(variable: &'static str, value: &str) -> EngineError {
+    let value = value.to_owned();
+    EngineError::Value { variable, value }
 }
 
 #[cfg(test)]
@@ -186,12 +196,21 @@ mod tests {
         };
         assert_eq!(of(&slurm("3", "1", "8", "8"), None), Ok((2, 8)));
         assert_eq!(of(&slurm("7", "0", "7", "8"), None), Ok((7, 8)));
-        // Tasks 3 and 5 of eight once more.
-        assert!(matches!(
-            of(&slurm("5", "3", "5", "2"), None),
-            Err(EngineError::Gaps { .. })
-        ));
-        assert_eq!(of(&slurm("5", "3", "5", "2"), Some(8)), Ok((5, 8)));
+        assert_eq!(of(&slurm("3", "1", "8", "8"), Some(8)), Ok((2, 8)));
+        // Some of eight once more: 3 and 5, 3 to 5, 5 alone, the first alone, every other one.
+        for (min, max, count) in [
+            ("3", "5", "2"),
+            ("3", "5", "3"),
+            ("5", "5", "1"),
+            ("0", "0", "1"),
+            ("1", "7", "4"),
+        ] {
+            let error = of(&slurm(max, min, max, count), None).unwrap_err();
+            assert!(matches!(error, EngineError::Some { .. }), "{error}");
+            assert!(error.to_string().contains("auto/n"), "{error}");
+            let shard = max.parse().unwrap();
+            assert_eq!(of(&slurm(max, min, max, count), Some(8)), Ok((shard, 8)));
+        }
         let mpi = [("OMPI_COMM_WORLD_RANK", "1"), ("OMPI_COMM_WORLD_SIZE", "4")];
         assert_eq!(of(&mpi, None), Ok((1, 4)));
         assert_eq!(
@@ -215,6 +234,14 @@ mod tests {
         assert!(matches!(no_count, Err(EngineError::NoCount { .. })));
         let large = of(&[("HQ_TASK_ID", "8")], Some(8));
         assert!(large.unwrap_err().to_string().contains("from 0 to 7"));
+        let none = [
+            ("SLURM_ARRAY_TASK_ID", "0"),
+            ("SLURM_ARRAY_TASK_COUNT", "0"),
+        ];
+        let none = of(&none, None).unwrap_err().to_string();
+        assert!(none.contains("SLURM_ARRAY_TASK_COUNT is `0`"), "{none}");
+        let most = of(&[("PARALLEL_SEQ", "0")], Some(u64::MAX));
+        assert!(matches!(most, Err(EngineError::TooLarge { .. })));
         let word = of(&[("HQ_TASK_ID", "x")], Some(8));
         assert!(matches!(word, Err(EngineError::Value { .. })));
     }

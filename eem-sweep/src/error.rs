@@ -14,7 +14,7 @@ use crate::inputs::InputError;
 #[non_exhaustive]
 pub enum SweepError {
     /// A file cannot be written or read.
-    #[error("cannot {action} {}: {source}{}", path.display(), advice(source))]
+    #[error("cannot {action} {}: {source}{}", path.display(), advice(action, source))]
     File {
         /// What was tried.
         action: &'static str,
@@ -60,10 +60,22 @@ pub enum SweepError {
         /// What is wrong with it.
         reason: String,
     },
+    /// The file that says what all processes agree on is not what this crate has written.
+    #[error(
+        "{} is damaged: {reason}; if no process is beginning this sweep right now, move the file away and run the \
+         program, inputs and settings that began it: they write it again, and the parts that are there stay",
+        path.display()
+    )]
+    DamagedManifest {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// Two processes have run the same member and got different bits.
     #[error(
         "member {member} has other bits in {} than in {}: the program does not depend on its inputs alone, or the \
-         machines compute differently",
+         machines compute differently. Move away the one that is not to count, and `run` again what it alone has",
         first.display(), second.display())]
     Conflict {
         /// The id of the member.
@@ -94,6 +106,35 @@ pub enum SweepError {
         /// The file.
         path: PathBuf,
     },
+    /// What the table should be written to is no file.
+    #[error("{} is no regular file; choose another name with --into", path.display())]
+    NoFile {
+        /// What is there.
+        path: PathBuf,
+    },
+    /// The table would lie among the files of the sweep.
+    #[error(
+        "{} would be among the files of the sweep in {}; choose another name with --into",
+        path.display(), folder.display()
+    )]
+    OwnFolder {
+        /// The table.
+        path: PathBuf,
+        /// The folder of the sweep.
+        folder: PathBuf,
+    },
+    /// No member has an id in the range that was asked for.
+    #[error("no member has an id from {start} to below {end}; ids go from {first} to {last}")]
+    NoMembers {
+        /// The first id that was asked for.
+        start: u64,
+        /// The id after the last one.
+        end: u64,
+        /// The smallest id that there is.
+        first: u64,
+        /// The largest id that there is.
+        last: u64,
+    },
     /// A member that was asked for does not exist.
     #[error("there is no member {member}; ids go from {first} to {last}")]
     UnknownMember {
@@ -105,7 +146,7 @@ pub enum SweepError {
         last: u64,
     },
     /// There are not so many shards.
-    #[error("there is no shard {index}/{count}: shards are counted from 0, the last of {count} is {}/{count}", count.saturating_sub(1))]
+    #[error("there is no shard {index}/{count}: {}", shards(*count))]
     NoShard {
         /// The shard.
         index: u64,
@@ -132,11 +173,17 @@ impl SweepError {
         match self {
             Self::File { .. } => 5,
             Self::Incomplete { .. } => 6,
-            Self::UnknownMember { .. } | Self::NoShard { .. } | Self::Engine(_) => 2,
+            Self::UnknownMember { .. }
+            | Self::NoMembers { .. }
+            | Self::NoShard { .. }
+            | Self::NoFile { .. }
+            | Self::OwnFolder { .. }
+            | Self::Engine(_) => 2,
             Self::Different { .. }
             | Self::NoSweep { .. }
             | Self::ForeignPart { .. }
             | Self::Damaged { .. }
+            | Self::DamagedManifest { .. }
             | Self::Conflict { .. }
             | Self::Exists { .. }
             | Self::NoArrow
@@ -168,18 +215,35 @@ fn list(differences: &[Difference]) -> String {
     texts.join("; ")
 }
 
+/// Which shards there are.
+fn shards(count: u64) -> String {
+    match count {
+        0 => "a sweep has one shard at least, 0/1".to_owned(),
+        1 => "the only one is 0/1".to_owned(),
+        _ => format!(
+            "they are counted from 0, the last of {count} is {}/{count}",
+            count - 1
+        ),
+    }
+}
+
 /// What to do about an error of the file system.
-fn advice(error: &io::Error) -> &'static str {
+fn advice(action: &str, error: &io::Error) -> &'static str {
+    let reads = action.starts_with("read");
     match error.kind() {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
             "; free space and run the same command again, what was reported stays"
         }
+        io::ErrorKind::PermissionDenied if reads => "; give this user the right to read it",
+        io::ErrorKind::NotFound if reads => "; run the same command again, and see why it went",
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
-            "; choose a directory that can be written with --dir"
+            "; choose a place that can be written, with --dir or --into"
         }
-        io::ErrorKind::NotADirectory | io::ErrorKind::AlreadyExists => {
+        io::ErrorKind::NotADirectory | io::ErrorKind::AlreadyExists if !reads => {
             "; a file is in the way, choose another directory with --dir"
         }
-        _ => "",
+        io::ErrorKind::NotFound => "; make the directory, or choose another one",
+        _ if reads => "; when it can be read again, run the same command",
+        _ => "; when it can be written again, run the same command",
     }
 }

@@ -9,11 +9,17 @@ use std::hash::{BuildHasher, Hasher, RandomState};
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::process;
+use std::time::Duration;
+
+use serde::Serialize;
 
 use crate::error::SweepError;
 
 /// How temporary names end.
 const TEMPORARY: &str = ".tmp";
+
+/// A temporary file that nobody has written to for so long is of a process that is dead.
+const DEAD: Duration = Duration::from_hours(1);
 
 /// Names an error of the operating system, which does not say what it is about.
 pub(crate) fn failed(
@@ -33,59 +39,129 @@ pub(crate) fn directory(path: &Path) -> Result<(), SweepError> {
     fs::create_dir_all(path).map_err(failed("make the directory", path))
 }
 
-/// Publishes a file under a name that nothing has yet; says whether it did, or the name was taken.
-pub(crate) fn publish(
-    path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> Result<bool, SweepError> {
-    with_temporary(path, write, |temporary| {
-        match fs::hard_link(temporary, path) {
-            Ok(()) => {}
-            Err(error) if error.kind() == ErrorKind::AlreadyExists => return Ok(false),
-            // File systems without hard links. Between the two calls another process may take the name; what is
-            // replaced then are the same records.
-            Err(error) if has_no_links(&error) => {
-                if path.try_exists()? {
-                    return Ok(false);
-                }
-                fs::rename(temporary, path)?;
-                return Ok(true);
-            }
-            Err(error) => return Err(error),
+/// The directory that a file is in.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    let folder = path
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty());
+    folder.unwrap_or(Path::new("."))
+}
+
+/// All bytes of a regular file, none if it is not there; pipes and devices, which may never end, are refused.
+pub(crate) fn read(path: &Path) -> Result<Option<Vec<u8>>, SweepError> {
+    let bytes = fs::metadata(path).and_then(|data| {
+        if data.is_file() {
+            fs::read(path)
+        } else {
+            Err(io::Error::other("it is no regular file"))
         }
-        fs::remove_file(temporary)?;
-        Ok(true)
+    });
+    match bytes {
+        Ok(bytes) => Ok(Some(bytes)),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(failed("read", path)(error)),
+    }
+}
+
+/// A file under a temporary name, which is removed unless it gets its own.
+pub(crate) struct Draft {
+    path: PathBuf,
+    temporary: PathBuf,
+    to: BufWriter<File>,
+}
+
+impl Draft {
+    /// An empty file that may get the name `path`.
+    pub(crate) fn new(path: &Path) -> Result<Self, SweepError> {
+        let temporary = temporary_name(path);
+        let file = File::create_new(&temporary).map_err(failed("write", path))?;
+        Ok(Self {
+            path: path.to_owned(),
+            temporary,
+            to: BufWriter::with_capacity(1 << 17, file),
+        })
+    }
+
+    /// Gives it its name if nothing has that yet; says whether it did, or the name was taken.
+    pub(crate) fn publish(&mut self) -> Result<bool, SweepError> {
+        self.named(|temporary, path| {
+            let taken = match fs::hard_link(temporary, path) {
+                // File systems without hard links: the name is taken by an empty file, which is then replaced.
+                Err(error) if has_no_links(&error) => File::create_new(path).and_then(|_empty| {
+                    fs::rename(temporary, path).inspect_err(|_| {
+                        let _absent = fs::remove_file(path);
+                    })
+                }),
+                linked => linked,
+            };
+            match taken {
+                Ok(()) => Ok(true),
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => Ok(false),
+                Err(error) => Err(error),
+            }
+        })
+    }
+
+    /// Gives it its name, whatever has that now.
+    pub(crate) fn replace(&mut self) -> Result<(), SweepError> {
+        self.named(|temporary, path| fs::rename(temporary, path))
+    }
+
+    fn named<T>(
+        &mut self,
+        name: impl FnOnce(&Path, &Path) -> io::Result<T>,
+    ) -> Result<T, SweepError> {
+        let attempt = || {
+            self.to.flush()?;
+            self.to.get_ref().sync_all()?;
+            let named = name(&self.temporary, &self.path)?;
+            sync_directory(folder_of(&self.path))?;
+            Ok(named)
+        };
+        let result: io::Result<T> = attempt();
+        result.map_err(failed("write", &self.path))
+    }
+}
+
+impl Write for Draft {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.to.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.to.flush()
+    }
+}
+
+impl Drop for Draft {
+    fn drop(&mut self) {
+        // After a renaming it is gone.
+        let _absent = fs::remove_file(&self.temporary);
+    }
+}
+
+/// Writes a whole file, in the place of an older one if there is one.
+pub(crate) fn replace(path: &Path, bytes: &[u8]) -> Result<(), SweepError> {
+    let mut draft = Draft::new(path)?;
+    draft.write_all(bytes).map_err(failed("write", path))?;
+    draft.replace()
+}
+
+/// The same where a kill or a full disk may cost it: it is not waited until it is on the disk.
+pub(crate) fn replace_at_ease(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let temporary = temporary_name(path);
+    let written = fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path));
+    written.inspect_err(|_| {
+        let _absent = fs::remove_file(&temporary);
     })
 }
 
-/// Publishes a file in the place of an older one.
-pub(crate) fn replace(
-    path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> Result<(), SweepError> {
-    with_temporary(path, write, |temporary| fs::rename(temporary, path))
-}
-
-/// Writes a temporary file, gives it its name by `publish`, and removes it if that went wrong.
-fn with_temporary<T>(
-    path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    publish: impl FnOnce(&Path) -> io::Result<T>,
-) -> Result<T, SweepError> {
-    let folder = path.parent().unwrap_or(Path::new("."));
-    let temporary = temporary_name(path);
-    let attempt = || {
-        let mut file = BufWriter::with_capacity(1 << 17, File::create_new(&temporary)?);
-        write(&mut file)?;
-        file.into_inner()?.sync_all()?;
-        let published = publish(&temporary)?;
-        sync_directory(folder)?;
-        Ok(published)
-    };
-    let result: io::Result<T> = attempt();
-    // What was published has lost its temporary name already.
-    let _absent = fs::remove_file(&temporary);
-    result.map_err(failed("write", path))
+/// What is said of a file, as JSON of several lines.
+pub(crate) fn json(path: &Path, said: &impl Serialize) -> Result<Vec<u8>, SweepError> {
+    let text = serde_json::to_vec_pretty(said);
+    let mut text = text.map_err(|error| failed("form", path)(error.into()))?;
+    text.push(b'\n');
+    Ok(text)
 }
 
 /// A name beside `path` that no other call of any process has.
@@ -98,30 +174,34 @@ fn temporary_name(path: &Path) -> PathBuf {
     ))
 }
 
-/// Removes temporary files that killed processes have left; a process that still writes one fails and can be
-/// started again.
-pub(crate) fn remove_temporaries(folder: &Path) -> Result<(), SweepError> {
-    let reading = || failed("read the directory", folder);
-    for entry in fs::read_dir(folder).map_err(reading())? {
-        let entry = entry.map_err(reading())?;
-        let name = entry.file_name();
-        let name = name.to_string_lossy();
-        if name.starts_with('.') && name.ends_with(TEMPORARY) {
-            // Another `merge` may be removing it, too.
+/// Whether a name is that of a temporary file of this crate.
+fn is_temporary(name: &str) -> bool {
+    let body = name
+        .strip_prefix('.')
+        .and_then(|n| n.strip_suffix(TEMPORARY));
+    let chance = body.and_then(|body| body.rsplit_once('.')?.1.split_once('-'));
+    chance.is_some_and(|(process, chance)| {
+        process.parse::<u32>().is_ok()
+            && chance.len() == 16
+            && chance.bytes().all(|digit| digit.is_ascii_hexdigit())
+    })
+}
+
+/// Removes temporary files that killed processes have left: those that are so old that nobody can be writing them.
+pub(crate) fn remove_dead(folder: &Path) {
+    // What cannot be removed is in nobody's way.
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let age = || entry.metadata().ok()?.modified().ok()?.elapsed().ok();
+        if is_temporary(&entry.file_name().to_string_lossy()) && age().is_some_and(|age| age > DEAD)
+        {
             let _gone = fs::remove_file(entry.path());
         }
     }
-    Ok(())
 }
 
 /// Brings names to disk; only Unix has directories that can be opened.
 fn sync_directory(folder: &Path) -> io::Result<()> {
     if cfg!(unix) {
-        let folder = if folder.as_os_str().is_empty() {
-            Path::new(".")
-        } else {
-            folder
-        };
         File::open(folder)?.sync_all()?;
     }
     Ok(())
@@ -146,15 +226,18 @@ mod tests {
         folder
     }
 
+    fn draft(path: &Path, text: &str) -> Draft {
+        let mut draft = Draft::new(path).unwrap();
+        draft.write_all(text.as_bytes()).unwrap();
+        draft
+    }
+
     #[test]
     fn a_full_disk_leaves_nothing_behind_and_says_what_to_do() {
         let folder = folder("full");
         let path = folder.join("part");
-        let full = |file: &mut dyn Write| {
-            file.write_all(b"half of it")?;
-            Err(io::Error::from(ErrorKind::StorageFull))
-        };
-        let error = publish(&path, full).unwrap_err();
+        let full = |_: &Path, _: &Path| -> io::Result<()> { Err(ErrorKind::StorageFull.into()) };
+        let error = draft(&path, "half of it").named(full).unwrap_err();
         assert_eq!(error.exit_code(), 5);
         assert!(error.to_string().contains("free space"), "{error}");
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
@@ -162,19 +245,44 @@ mod tests {
     }
 
     #[test]
-    fn a_name_is_taken_once_and_temporaries_are_swept_away() {
+    fn a_name_is_taken_once() {
         let folder = folder("once");
         let path = folder.join("part");
-        let text = |text: &'static str| move |file: &mut dyn Write| file.write_all(text.as_bytes());
-        assert!(publish(&path, text("first")).unwrap());
-        assert!(!publish(&path, text("second")).unwrap());
+        assert!(draft(&path, "first").publish().unwrap());
+        assert!(!draft(&path, "second").publish().unwrap());
         assert_eq!(fs::read_to_string(&path).unwrap(), "first");
-        replace(&path, text("third")).unwrap();
-        assert_eq!(fs::read_to_string(&path).unwrap(), "third");
-        fs::write(temporary_name(&path), "torn").unwrap();
-        assert_eq!(fs::read_dir(&folder).unwrap().count(), 2);
-        remove_temporaries(&folder).unwrap();
+        replace(&path, b"third").unwrap();
+        assert_eq!(read(&path).unwrap().unwrap(), b"third");
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn temporaries_of_the_living_and_files_of_others_stay() {
+        let folder = folder("dead");
+        let path = folder.join("part");
+        let (old, young) = (temporary_name(&path), temporary_name(&path));
+        let others = [".notes.tmp", ".part.12-x.tmp", "part.tmp"].map(|name| folder.join(name));
+        let hours = std::time::SystemTime::now() - 2 * DEAD;
+        for path in others.iter().chain([&old, &young]) {
+            fs::write(path, "torn").unwrap();
+            if *path != young {
+                let file = File::options().write(true).open(path).unwrap();
+                file.set_modified(hours).unwrap();
+            }
+        }
+        remove_dead(&folder);
+        assert!(!old.exists() && young.exists());
+        assert!(others.iter().all(|path| path.exists()));
+        fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn what_is_no_file_is_not_read() {
+        let folder = folder("device");
+        let error = read(&folder).unwrap_err();
+        assert!(error.to_string().contains("no regular file"), "{error}");
+        assert!(read(&folder.join("absent")).unwrap().is_none());
         fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -13,7 +13,7 @@ use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 
 use crate::error::SweepError;
-use crate::record::Batch;
+use crate::record::{Batch, Failure};
 
 pub(crate) use heads::Heads;
 
@@ -126,12 +126,20 @@ pub(crate) enum Reader {
 }
 
 impl Reader {
-    /// Opens a file, checks its heads and goes to the first row.
-    pub(crate) fn open(format: Format, path: &Path, heads: &Heads) -> Result<Self, SweepError> {
+    /// Reads a file whose bytes have been checked, and goes to the first row; the path is for messages.
+    pub(crate) fn open(
+        format: Format,
+        path: &Path,
+        bytes: Vec<u8>,
+        heads: &Heads,
+    ) -> Result<Self, SweepError> {
         match format {
-            Format::Csv => Ok(Self::Text(text::Reader::open(path, heads)?)),
+            Format::Csv => Ok(Self::Text(text::Reader::open(path, bytes, heads)?)),
             #[cfg(feature = "arrow")]
-            Format::Arrow => Ok(Self::Arrow(Box::new(arrow::Reader::open(path, heads)?))),
+            Format::Arrow => {
+                let reader = arrow::Reader::open(path, bytes, heads)?;
+                Ok(Self::Arrow(Box::new(reader)))
+            }
             #[cfg(not(feature = "arrow"))]
             Format::Arrow => Err(SweepError::NoArrow),
         }
@@ -152,6 +160,20 @@ impl Reader {
             Self::Text(reader) => reader.has_failed(),
             #[cfg(feature = "arrow")]
             Self::Arrow(reader) => reader.has_failed(),
+        }
+    }
+
+    /// Fills in the outputs of the row, or says why there are none.
+    pub(crate) fn result(
+        &self,
+        heads: &Heads,
+        outputs: &mut Vec<f64>,
+    ) -> Result<Option<Failure>, SweepError> {
+        outputs.clear();
+        match self {
+            Self::Text(reader) => reader.result(heads, outputs),
+            #[cfg(feature = "arrow")]
+            Self::Arrow(reader) => reader.result(heads, outputs),
         }
     }
 

@@ -68,7 +68,9 @@ impl Inputs {
     /// A Latin hypercube: each of n members has a layer of its own among n equal layers of every range, in random
     /// order, and a random place in it. The same seed draws the same members on every machine.
     ///
-    /// It takes 4 bytes of memory per member and column.
+    /// It takes 4 bytes of memory per member and column. For a quantity of which only the order of magnitude is known,
+    /// take its logarithm as the column, `("log10 stiffness", 3.0..6.0)`, and let the function that makes inputs of
+    /// rows take the power: powers differ in the last bit from one machine to another, rows must not.
     ///
     /// ```
     /// use eem::sweep::Inputs;

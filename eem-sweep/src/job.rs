@@ -5,9 +5,7 @@ use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 
-use eem_runtime::{
-    Ensemble, Experiment, MemberError, MemberFailure, NewtonSettings, Scene, Scheme, Simulation,
-};
+use eem_runtime::{Ensemble, MemberError, NewtonSettings, Scheme};
 
 use crate::inputs::{InputError, Row};
 use crate::record::{Batch, Failure, FailureKind, Record};
@@ -25,7 +23,9 @@ pub(crate) type Tick<'t> = &'t mut (dyn FnMut(usize) + Send);
 
 /// What is done with the members of a batch.
 pub(crate) struct Job<'a> {
-    /// Runs the members, whose ids and inputs are there, on so many threads; the heads are those of the inputs.
+    /// How many members take hardly longer than one: those that move together in SIMD lanes.
+    pub(crate) bundle: usize,
+    /// Runs the members, whose ids and inputs are there; the heads are those of the inputs.
     pub(crate) run: Run<'a>,
     /// Whether an input can be made of a row.
     check: Check<'a>,
@@ -33,7 +33,7 @@ pub(crate) struct Job<'a> {
 
 type Check<'a> = Box<dyn Fn(Row<'_>) -> Result<(), InputError> + Sync + 'a>;
 
-type Run<'a> = Box<dyn Fn(&[String], &mut Batch, usize, Tick<'_>) + Sync + 'a>;
+type Run<'a> = Box<dyn Fn(&[String], &mut Batch, Tick<'_>) + Sync + 'a>;
 
 impl Job<'_> {
     /// A row without a column that the job reads is an error of the sweep; other errors are of one member.
@@ -45,53 +45,48 @@ impl Job<'_> {
     }
 }
 
-type Results<T> = Vec<Result<T, MemberError>>;
+/// What an ensemble returns.
+pub(crate) type Results<T> = Vec<Result<T, MemberError>>;
 
-/// The job of an experiment.
-pub(crate) fn of_experiment<'a, const D: usize, E>(
+/// The job whose inputs `input` makes of rows, and which `run` gives to an ensemble.
+pub(crate) fn job<'a, I, T: Record>(
     stepping: Stepping,
-    experiment: E,
-    input: impl Fn(Row<'_>) -> Result<E::Input, InputError> + Send + Sync + 'a,
-) -> Job<'a>
-where
-    E: Experiment<D> + 'a,
-    E::Output: Record,
-{
-    let input = Arc::new(input);
-    let check = input.clone();
-    Job {
-        run: Box::new(move |columns, batch, threads, tick| {
-            run_batch(columns, batch, &*input, tick, |inputs, tick| {
-                let ensemble = ensemble(stepping, threads, tick);
-                ensemble.run_experiment(&experiment, inputs)
-            });
-        }),
-        check: Box::new(move |row| check(row).map(drop)),
-    }
-}
-
-/// The job of a pair of closures, as of [`Ensemble::run`].
-pub(crate) fn of_closures<'a, const D: usize, I: Sync + 'a, H: 'a, T: Record + Send + 'a>(
-    stepping: Stepping,
+    bundle: usize,
     input: impl Fn(Row<'_>) -> Result<I, InputError> + Send + Sync + 'a,
-    build: impl Fn(&I) -> (Scene<D>, H) + Sync + 'a,
-    observe: impl Fn(&mut Simulation<D>, H, &I) -> Result<T, MemberFailure> + Sync + 'a,
+    run: impl Fn(Ensemble<'_>, &[I]) -> Results<T> + Sync + 'a,
 ) -> Job<'a> {
     let input = Arc::new(input);
     let check = input.clone();
     Job {
-        run: Box::new(move |columns, batch, threads, tick| {
+        bundle,
+        run: Box::new(move |columns, batch, tick| {
             run_batch(columns, batch, &*input, tick, |inputs, tick| {
-                ensemble(stepping, threads, tick).run(inputs, &build, &observe)
+                run(ensemble(stepping, tick), inputs)
             });
         }),
         check: Box::new(move |row| check(row).map(drop)),
     }
 }
 
-fn ensemble(stepping: Stepping, threads: usize, tick: Tick<'_>) -> Ensemble<'_> {
+/// The job that runs nothing, and reports all members as given up; there are so many outputs.
+pub(crate) fn giving_up(outputs: usize) -> Job<'static> {
+    let failure = Failure::new(FailureKind::GivenUp, None, "the caller has given it up");
+    Job {
+        bundle: 1,
+        run: Box::new(move |_, batch, tick| {
+            let members = batch.ids.len();
+            batch.outputs = vec![0.0; members * outputs];
+            batch.failures = vec![Some(failure.clone()); members];
+            tick(members);
+        }),
+        check: Box::new(|_| Ok(())),
+    }
+}
+
+/// An ensemble on the calling thread; others have batches of their own.
+fn ensemble(stepping: Stepping, tick: Tick<'_>) -> Ensemble<'_> {
     let ensemble = Ensemble::new(stepping.scheme, stepping.step);
-    let ensemble = ensemble.newton(stepping.newton).threads(threads);
+    let ensemble = ensemble.newton(stepping.newton).threads(1);
     ensemble.watch(|done, _| {
         tick(done);
         ControlFlow::Continue(())

@@ -16,13 +16,16 @@
 //! | file in the directory | what it has |
 //! |---|---|
 //! | `sweep.json` | what all processes agree on: digests of program and inputs, settings, columns; written by the first |
-//! | `parts/FIRST-LAST.MEMBERS.gGENERATION.DIGEST.csv` | records that a process has reported, a second of work each |
+//! | `parts/FIRST-LAST.MEMBERS.gGENERATION.SWEEP.CONTENT.csv` | records that a thread has reported, a second of work each; SWEEP and CONTENT are digests |
 //! | `progress/SHARD.json` | how far a process is |
+//! | `progress/SHARD.PROCESS-CHANCE.begun` | members that a thread is at |
+//! | `tables/DIGEST` | empty; a table that was merged, and may be replaced |
 //! | `merged.csv`, `merged.csv.json` | the table of all members, and what `merge` has found |
 //!
-//! A file is written under a temporary name, brought to disk, and only then given its name by a hard link, which
-//! fails where the name is taken: it is there whole or not at all, and nothing is overwritten. A member is *reported*
-//! when its part has its name. There are no locks that a killed process could leave behind.
+//! A file is written under a temporary name, brought to disk, and only then given its name: it is there whole or not at
+//! all. The name of a part has a digest of its contents, so that nothing but the same bytes can take its place, and what
+//! is damaged is found when it is read; a table gets its name by a hard link, which fails where the name is taken. A
+//! member is *reported* when its part has its name. There are no locks that a killed process could leave behind.
 #![warn(missing_docs)]
 #![allow(
     clippy::cast_precision_loss,
@@ -31,8 +34,10 @@
     reason = "counts of members, which are below 2³²"
 )]
 
+mod begun;
 mod command;
 mod digest;
+mod each;
 mod engine;
 mod error;
 mod files;
@@ -49,9 +54,10 @@ mod run;
 mod selection;
 mod status;
 mod sweep;
+mod team;
 mod walk;
 
-pub use command::{Again, Command, Join, Look, Work, execute, main};
+pub use command::{Again, Command, Join, Leave, Look, Work, execute, main};
 pub use engine::EngineError;
 pub use error::{Difference, SweepError};
 pub use format::Format;

@@ -1,22 +1,27 @@
 //! What all processes of a sweep agree on: written by the first, compared by all others.
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::io::ErrorKind;
+use std::io::Write;
 use std::path::Path;
+use std::thread::sleep;
+use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
 use crate::digest::Digest;
 use crate::error::{Difference, SweepError};
-use crate::files::{failed, publish};
+use crate::files::{self, Draft, failed};
 use crate::format::Format;
 
 /// The file in the directory of a sweep.
 const NAME: &str = "sweep.json";
 
 /// The layout of files that this version of the crate writes.
-const LAYOUT: u32 = 1;
+const LAYOUT: u32 = 2;
+
+/// How often, and after what time each, a file is looked at again that has a name and no contents yet.
+const LOOKS: u32 = 20;
+const PAUSE: Duration = Duration::from_millis(50);
 
 /// What decides the bits of a sweep, and how its files are written.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -29,6 +34,9 @@ pub(crate) struct Manifest {
     inputs: String,
     input_columns: Vec<String>,
     output_columns: Vec<String>,
+    /// Scheme, step and Newton's method.
+    stepping: BTreeMap<String, String>,
+    /// The caller's.
     settings: BTreeMap<String, String>,
     pub(crate) format: Format,
     /// Of all the above.
@@ -44,6 +52,7 @@ pub(crate) struct Identity {
     pub(crate) inputs: String,
     pub(crate) input_columns: Vec<String>,
     pub(crate) output_columns: Vec<String>,
+    pub(crate) stepping: BTreeMap<String, String>,
     pub(crate) settings: BTreeMap<String, String>,
 }
 
@@ -57,6 +66,7 @@ impl Manifest {
             inputs: identity.inputs,
             input_columns: identity.input_columns,
             output_columns: identity.output_columns,
+            stepping: identity.stepping,
             settings: identity.settings,
             format,
             digest: String::new(),
@@ -82,10 +92,17 @@ impl Manifest {
             ("program".to_owned(), self.program.clone()),
             ("number of members".to_owned(), self.members.to_string()),
             ("digest of inputs".to_owned(), self.inputs.clone()),
-            ("input columns".to_owned(), self.input_columns.join(", ")),
-            ("output columns".to_owned(), self.output_columns.join(", ")),
+            (
+                "input columns".to_owned(),
+                format!("{:?}", self.input_columns),
+            ),
+            (
+                "output columns".to_owned(),
+                format!("{:?}", self.output_columns),
+            ),
             ("format".to_owned(), self.format.to_string()),
         ];
+        items.extend(self.stepping.clone());
         let settings = self.settings.iter();
         items.extend(settings.map(|(name, value)| (format!("setting `{name}`"), value.clone())));
         items
@@ -117,39 +134,23 @@ impl Manifest {
         begin: bool,
     ) -> Result<Self, SweepError> {
         let path = directory.join(NAME);
-        let read = || match fs::read(&path) {
-            Ok(bytes) => Ok(Some(bytes)),
-            Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
-            Err(error) => Err(failed("read", &path)(error)),
-        };
-        let mut bytes = read()?;
-        if bytes.is_none() && begin {
+        let mut there = read(&path)?;
+        if there.is_none() && begin {
             let manifest = Self::new(identity.clone(), format.unwrap_or_default());
             if !manifest.format.is_available() {
                 return Err(SweepError::NoArrow);
             }
-            let text = serde_json::to_vec_pretty(&manifest).unwrap_or_default();
-            if publish(&path, |file| {
-                file.write_all(&text)?;
-                file.write_all(b"\n")
-            })? {
-                return Ok(manifest);
-            }
-            // Another process came first.
-            bytes = read()?;
+            let text = files::json(&path, &manifest)?;
+            let mut draft = Draft::new(&path)?;
+            draft.write_all(&text).map_err(failed("write", &path))?;
+            // Whoever came first: what is there now counts.
+            draft.publish()?;
+            there = read(&path)?;
         }
-        let Some(bytes) = bytes else {
+        let Some(there) = there else {
             let directory = directory.to_owned();
             return Err(SweepError::NoSweep { directory });
         };
-        let damaged = |reason: String| SweepError::Damaged {
-            path: path.clone(),
-            reason,
-        };
-        let there: Self = serde_json::from_slice(&bytes).map_err(|e| damaged(e.to_string()))?;
-        if there.digest != there.digest() {
-            return Err(damaged("its digest is not that of its contents".to_owned()));
-        }
         let here = Self::new(identity, format.unwrap_or(there.format));
         let differences = there.differences(&here);
         if !differences.is_empty() {
@@ -163,4 +164,27 @@ impl Manifest {
         }
         Ok(there)
     }
+}
+
+/// The manifest in a file, if there is one.
+fn read(path: &Path) -> Result<Option<Manifest>, SweepError> {
+    let damaged = |reason: String| SweepError::DamagedManifest {
+        path: path.to_owned(),
+        reason,
+    };
+    let mut looks = 0;
+    let bytes = loop {
+        match files::read(path)? {
+            None => return Ok(None),
+            // Where there are no hard links, it is empty for a moment.
+            Some(bytes) if bytes.is_empty() && looks < LOOKS => sleep(PAUSE),
+            Some(bytes) => break bytes,
+        }
+        looks += 1;
+    };
+    let manifest: Manifest = serde_json::from_slice(&bytes).map_err(|e| damaged(e.to_string()))?;
+    if manifest.digest != manifest.digest() {
+        return Err(damaged("its digest is not that of its contents".to_owned()));
+    }
+    Ok(Some(manifest))
 }

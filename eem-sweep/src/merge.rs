@@ -6,12 +6,14 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use crate::begun;
 use crate::digest::{self, Digest};
 use crate::error::SweepError;
-use crate::files::{failed, publish, remove_temporaries, replace};
+use crate::files::{self, Draft, failed, folder_of, remove_dead};
 use crate::format::Writer;
 use crate::part::Part;
 use crate::places::Places;
+use crate::progress;
 use crate::status::named;
 use crate::sweep::{Opened, Sweep};
 use crate::walk::walk;
@@ -19,7 +21,8 @@ use crate::walk::walk;
 /// What was merged.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Merged {
-    /// The table.
+    /// The table. The note beside it does not repeat its name, so that both can be moved.
+    #[serde(skip)]
     pub path: PathBuf,
     /// The digest of program, inputs and settings that all parts have.
     pub sweep: String,
@@ -40,60 +43,122 @@ impl Sweep<'_> {
     ///
     /// It proves that every member has a record of a program, inputs and settings with one digest, takes the last
     /// record of each, and compares those that are there twice. Beside the table it writes what it has found,
-    /// with `.json` added to the name. What killed processes have left behind is removed.
+    /// with `.json` added to the name. It can be killed and repeated at any time; temporary files that killed
+    /// processes have left behind are removed when they are an hour old.
     ///
     /// # Errors
     ///
     /// [`SweepError::Incomplete`] if members are missing, [`SweepError::Conflict`] if a member has different bits
-    /// in two parts, [`SweepError::Exists`] if the file exists and is none of this sweep, and others if files
-    /// cannot be read or written. Nothing is written then.
+    /// in two parts, [`SweepError::Damaged`] if a part is not what was written, [`SweepError::Exists`] if the file
+    /// exists and is none of this sweep, and others if files cannot be read or written. Nothing is written then.
     pub fn merge(&self, directory: &Path, into: Option<&Path>) -> Result<Merged, SweepError> {
         let opened = self.open(directory, None, false)?;
         let shelf = opened.shelf();
-        let parts = shelf.parts()?;
-        let members = self.inputs().members();
-        let missing = Places::one(0..members).without(&shelf.reported(&parts)?);
-        if missing.count() > 0 {
-            return Err(SweepError::Incomplete {
-                directory: directory.to_owned(),
-                missing: missing.count(),
-                members,
-                which: named(&missing, self.inputs()),
-            });
-        }
         let default = || directory.join(format!("merged.{}", shelf.format));
         let path = into.map_or_else(default, Path::to_owned);
+        let own = [
+            shelf.folder.to_owned(),
+            progress::folder(directory),
+            Tables::of(directory).0,
+        ];
+        refuse_own(&path, &own)?;
         let note = beside(&path);
-        let earlier = earlier(&note)?;
-        let mut merged = Merged {
-            path: path.clone(),
-            sweep: opened.manifest.digest.clone(),
-            table: String::new(),
-            members,
-            failed: 0,
-            superseded: 0,
-            repeated: 0,
-        };
-        let is_new = attempt(&mut merged, |merged, problem| {
-            publish(&path, |file| {
-                write_table(&opened, &parts, file, merged, problem)
-            })
-        })?;
-        if !is_new && digest::of_file(&path).map_err(failed("read", &path))? != merged.table {
-            // The table that was merged before some members were run again.
-            if earlier.is_none_or(|earlier| earlier.sweep != merged.sweep) {
-                return Err(SweepError::Exists { path });
-            }
-            attempt(&mut merged, |merged, problem| {
-                replace(&path, |file| {
-                    write_table(&opened, &parts, file, merged, problem)
-                })
-            })?;
+        // Some of what is in the way can be seen before the work.
+        is_there(&path)?;
+        refuse_other_note(&note)?;
+        let parts = shelf.parts()?;
+        self.refuse_gaps(directory, &shelf.reported(&parts)?)?;
+
+        let mut draft = Draft::new(&path)?;
+        let merged = write_table(&opened, &parts, &mut draft, &path)?;
+        let tables = Tables::of(directory);
+        tables.remember(&merged.table)?;
+        if tables.refuse_others(&path)? || !draft.publish()? {
+            // Another call may have put its table there in the meantime.
+            tables.refuse_others(&path)?;
+            draft.replace()?;
         }
-        let text = serde_json::to_vec_pretty(&merged).unwrap_or_default();
-        replace(&note, |file| file.write_all(&text))?;
-        remove_temporaries(shelf.folder)?;
+        files::replace(&note, &files::json(&note, &merged)?)?;
+        begun::forget(directory, &Places::one(0..self.inputs().members()));
+        for folder in &own {
+            remove_dead(folder);
+        }
+        remove_dead(directory);
+        remove_dead(folder_of(&path));
         Ok(merged)
+    }
+
+    /// All members must be there.
+    fn refuse_gaps(&self, directory: &Path, reported: &Places) -> Result<(), SweepError> {
+        let members = self.inputs().members();
+        let missing = Places::one(0..members).without(reported);
+        if missing.count() == 0 {
+            return Ok(());
+        }
+        Err(SweepError::Incomplete {
+            directory: directory.to_owned(),
+            missing: missing.count(),
+            members,
+            which: named(&missing, self.inputs()),
+        })
+    }
+}
+
+/// Refuses a table among the files of the sweep itself.
+fn refuse_own(path: &Path, folders: &[PathBuf]) -> Result<(), SweepError> {
+    let resolve = |folder: &Path| fs::canonicalize(folder).ok();
+    let Some(place) = resolve(folder_of(path)) else {
+        // It does not exist: the error comes when it is written to.
+        return Ok(());
+    };
+    let owns = |folder: &&PathBuf| resolve(folder).is_some_and(|own| place.starts_with(own));
+    match folders.iter().find(|folder| owns(folder)) {
+        None => Ok(()),
+        Some(folder) => Err(SweepError::OwnFolder {
+            path: path.to_owned(),
+            folder: folder.clone(),
+        }),
+    }
+}
+
+/// Whether there is a file of this name; what is none is refused, as reading a pipe may never end.
+fn is_there(path: &Path) -> Result<bool, SweepError> {
+    match fs::metadata(path) {
+        Ok(data) if data.is_file() => Ok(true),
+        Ok(_) => Err(SweepError::NoFile {
+            path: path.to_owned(),
+        }),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(failed("read", path)(error)),
+    }
+}
+
+/// The tables that have been merged from a directory: an empty file each, whose name is the digest. It is there before
+/// its table is, so that no kill leaves a table that nobody knows.
+struct Tables(PathBuf);
+
+impl Tables {
+    fn of(directory: &Path) -> Self {
+        Self(directory.join("tables"))
+    }
+
+    fn remember(&self, digest: &str) -> Result<(), SweepError> {
+        files::directory(&self.0)?;
+        files::replace(&self.0.join(digest), b"")
+    }
+
+    /// Whether there is a file of this name, which has to be one of the tables or empty.
+    fn refuse_others(&self, path: &Path) -> Result<bool, SweepError> {
+        if !is_there(path)? {
+            return Ok(false);
+        }
+        let digest = digest::of_file(path).map_err(failed("read", path))?;
+        if digest == Digest::new().hex() || self.0.join(digest).is_file() {
+            return Ok(true);
+        }
+        Err(SweepError::Exists {
+            path: path.to_owned(),
+        })
     }
 }
 
@@ -104,72 +169,51 @@ fn beside(path: &Path) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// What was found when the table was merged before; an error if the file is something else.
-fn earlier(note: &Path) -> Result<Option<Merged>, SweepError> {
-    let Ok(text) = fs::read(note) else {
-        return Ok(None);
+/// Refuses a file of the note's name that is something else.
+fn refuse_other_note(note: &Path) -> Result<(), SweepError> {
+    let Some(text) = files::read(note)? else {
+        return Ok(());
     };
-    let path = note.to_owned();
-    let read = serde_json::from_slice(&text);
-    read.map(Some).map_err(|_| SweepError::Exists { path })
+    let read: Result<Merged, _> = serde_json::from_slice(&text);
+    read.map(drop).map_err(|_| SweepError::Exists {
+        path: note.to_owned(),
+    })
 }
 
-/// Calls `write` with a place for an error of this crate, which then goes before the error of the file.
-fn attempt<T>(
-    merged: &mut Merged,
-    write: impl FnOnce(&mut Merged, &mut Option<SweepError>) -> Result<T, SweepError>,
-) -> Result<T, SweepError> {
-    let mut problem = None;
-    let result = write(merged, &mut problem);
-    match problem {
-        Some(problem) => Err(problem),
-        None => result,
-    }
-}
-
-/// Writes all rows and fills in what was found.
+/// Writes all rows and says what was found; `path` is for messages.
 fn write_table(
     opened: &Opened<'_>,
     parts: &[Part],
     file: &mut dyn Write,
-    merged: &mut Merged,
-    problem: &mut Option<SweepError>,
-) -> io::Result<()> {
+    path: &Path,
+) -> Result<Merged, SweepError> {
     let shelf = opened.shelf();
     let mut hashing = Hashing {
         to: file,
         digest: Digest::new(),
     };
-    let mut table = Writer::new(shelf.format, &mut hashing, opened.heads())?;
-    (merged.failed, merged.superseded, merged.repeated) = (0, 0, 0);
-    let mut rows = 0;
-    let mut file_error = None;
-    let walked = walk(&shelf, parts, |record| {
-        if record.place != rows || file_error.is_some() {
-            return Ok(());
-        }
-        rows += 1;
+    let writing = || failed("write", path);
+    let mut merged = Merged {
+        path: path.to_owned(),
+        sweep: opened.manifest.digest.clone(),
+        table: String::new(),
+        members: 0,
+        failed: 0,
+        superseded: 0,
+        repeated: 0,
+    };
+    let table = Writer::new(shelf.format, &mut hashing, opened.heads());
+    let mut table = table.map_err(writing())?;
+    walk(&shelf, parts, |record| {
+        merged.members += 1;
         merged.failed += usize::from(record.reader.has_failed());
         merged.superseded += record.superseded;
         merged.repeated += record.repeated;
-        file_error = table.copy(record.reader).err();
-        Ok(())
-    });
-    if let Some(error) = file_error {
-        return Err(error);
-    }
-    if let Err(error) = walked {
-        *problem = Some(error);
-        return Err(io::Error::other("the parts cannot be read"));
-    }
-    if rows != merged.members {
-        return Err(io::Error::other(
-            "the parts have changed while they were merged",
-        ));
-    }
-    table.finish()?;
+        table.copy(record.reader).map_err(writing())
+    })?;
+    table.finish().map_err(writing())?;
     merged.table = hashing.digest.hex();
-    Ok(())
+    Ok(merged)
 }
 
 /// Forms the digest of what passes.

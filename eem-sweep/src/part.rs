@@ -1,16 +1,18 @@
 //! Parts: the files with records that processes have reported, and what their names say.
 
 use std::fs;
+use std::io::ErrorKind;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
+use crate::digest::Digest;
 use crate::error::SweepError;
-use crate::files::failed;
+use crate::files::{self, failed};
 use crate::format::{Format, Heads, Reader};
 use crate::inputs::Inputs;
 use crate::places::Places;
 
-/// Hexadecimal digits of the digest that a name has.
+/// Hexadecimal digits of the digests that a name has.
 const DIGITS: usize = 16;
 
 /// A file with records of some members.
@@ -23,6 +25,8 @@ pub(crate) struct Part {
     pub(crate) members: usize,
     /// 0 for the first run of a member, more for the runs that supersede it.
     pub(crate) generation: u32,
+    /// Of its contents and of all else that its name says.
+    content: String,
 }
 
 /// What parts have in common.
@@ -36,13 +40,39 @@ pub(crate) struct Shelf<'a> {
 }
 
 impl Shelf<'_> {
-    /// The path of a part: `FIRST-LAST.MEMBERS.gGENERATION.DIGEST.csv`.
-    pub(crate) fn path(&self, span: &Range<usize>, members: usize, generation: u32) -> PathBuf {
-        let Range { start, end } = *span;
+    /// Reports the records of some members. The name has a digest of the contents, so that a file of the same name
+    /// is one with the same bytes, and may be replaced.
+    pub(crate) fn report(
+        &self,
+        span: Range<usize>,
+        members: usize,
+        generation: u32,
+        bytes: &[u8],
+    ) -> Result<(), SweepError> {
+        let content = self.content(&span, members, generation, bytes);
+        let Range { start, end } = span;
         let last = end.saturating_sub(1);
-        let (digest, extension) = (&self.digest[..DIGITS], self.format.extension());
-        let name = format!("{start:010}-{last:010}.{members}.g{generation}.{digest}.{extension}");
-        self.folder.join(name)
+        let (sweep, extension) = (&self.digest[..DIGITS], self.format.extension());
+        let name =
+            format!("{start:010}-{last:010}.{members}.g{generation}.{sweep}.{content}.{extension}");
+        files::replace(&self.folder.join(name), bytes)
+    }
+
+    /// The digest of a part.
+    fn content(
+        &self,
+        span: &Range<usize>,
+        members: usize,
+        generation: u32,
+        bytes: &[u8],
+    ) -> String {
+        let mut digest = Digest::new();
+        digest.text(self.digest);
+        for number in [span.start, span.end, members, generation as usize] {
+            digest.whole(number as u64);
+        }
+        digest.bytes(bytes);
+        digest.hex()[..DIGITS].to_owned()
     }
 
     /// All parts, ordered by their first members; other files are left alone unless they are parts of another
@@ -62,16 +92,23 @@ impl Shelf<'_> {
     }
 
     fn part(&self, name: &str, path: &Path) -> Result<Option<Part>, SweepError> {
-        let Some((span, members, generation, digest, extension)) = read_name(name) else {
+        let Some(name) = Name::read(name) else {
             return Ok(None);
         };
-        if *digest != self.digest[..DIGITS] || extension != self.format.extension() {
+        if *name.sweep != self.digest[..DIGITS] {
             return Err(SweepError::ForeignPart {
                 path: path.to_owned(),
-                found: digest.to_owned(),
+                found: name.sweep.to_owned(),
                 expected: self.digest[..DIGITS].to_owned(),
             });
         }
+        if name.extension != self.format.extension() {
+            return Err(SweepError::Damaged {
+                path: path.to_owned(),
+                reason: format!("its name does not end in `{}`", self.format),
+            });
+        }
+        let (span, members) = (name.span, name.members);
         if span.end > self.inputs.members() || members == 0 || members > span.len() {
             return Err(SweepError::Damaged {
                 path: path.to_owned(),
@@ -82,7 +119,8 @@ impl Shelf<'_> {
             path: path.to_owned(),
             span,
             members,
-            generation,
+            generation: name.generation,
+            content: name.content.to_owned(),
         }))
     }
 
@@ -104,26 +142,50 @@ impl Shelf<'_> {
         Ok(Places::new(ranges))
     }
 
-    /// The rows of a part.
+    /// The rows of a part, which is read as a whole, and refused if a byte is not what it was.
     pub(crate) fn open(&self, part: &Part) -> Result<Reader, SweepError> {
-        Reader::open(self.format, &part.path, self.heads)
+        let bytes = files::read(&part.path)?;
+        let damaged = |reason: &str| SweepError::Damaged {
+            path: part.path.clone(),
+            reason: reason.to_owned(),
+        };
+        let gone = || failed("read", &part.path)(ErrorKind::NotFound.into());
+        let bytes = bytes.ok_or_else(gone)?;
+        if self.content(&part.span, part.members, part.generation, &bytes) != part.content {
+            return Err(damaged("its contents are not those that its name says"));
+        }
+        Reader::open(self.format, &part.path, bytes, self.heads)
     }
 }
 
-/// Span, members, generation, digest and format in the name of a part.
-fn read_name(name: &str) -> Option<(Range<usize>, usize, u32, &str, &str)> {
-    let mut pieces = name.split('.');
-    let (first, last) = pieces.next()?.split_once('-')?;
-    let members = pieces.next()?.parse().ok()?;
-    let generation = pieces.next()?.strip_prefix('g')?.parse().ok()?;
-    let (digest, extension) = (pieces.next()?, pieces.next()?);
-    let end = last.parse::<usize>().ok()?.checked_add(1)?;
-    let is_whole = pieces.next().is_none() && digest.len() == DIGITS;
-    is_whole.then_some((
-        first.parse().ok()?..end,
-        members,
-        generation,
-        digest,
-        extension,
-    ))
+/// What the name of a part says.
+struct Name<'n> {
+    span: Range<usize>,
+    members: usize,
+    generation: u32,
+    sweep: &'n str,
+    content: &'n str,
+    extension: &'n str,
+}
+
+impl<'n> Name<'n> {
+    /// None if it is the name of something else.
+    fn read(name: &'n str) -> Option<Self> {
+        let mut pieces = name.split('.');
+        let (first, last) = pieces.next()?.split_once('-')?;
+        let members = pieces.next()?.parse().ok()?;
+        let generation = pieces.next()?.strip_prefix('g')?.parse().ok()?;
+        let (sweep, content) = (pieces.next()?, pieces.next()?);
+        let extension = pieces.next()?;
+        let end = last.parse::<usize>().ok()?.checked_add(1)?;
+        let is_whole = pieces.next().is_none() && sweep.len() == DIGITS && content.len() == DIGITS;
+        is_whole.then_some(Self {
+            span: first.parse().ok()?..end,
+            members,
+            generation,
+            sweep,
+            content,
+            extension,
+        })
+    }
 }

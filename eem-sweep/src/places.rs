@@ -59,6 +59,12 @@ impl Places {
         self.without(&self.without(other))
     }
 
+    /// Whether some place of a range is among them.
+    pub(crate) fn touches(&self, range: &Range<usize>) -> bool {
+        let after = self.0.partition_point(|own| own.end <= range.start);
+        self.0.get(after).is_some_and(|own| own.start < range.end)
+    }
+
     /// The ranges in ascending order.
     pub(crate) fn ranges(&self) -> &[Range<usize>] {
         &self.0
@@ -67,6 +73,14 @@ impl Places {
     /// Each place in ascending order.
     pub(crate) fn iter(&self) -> impl Iterator<Item = usize> + '_ {
         self.0.iter().cloned().flatten()
+    }
+}
+
+/// Adds a place to ranges in ascending order.
+pub(crate) fn extend(ranges: &mut Vec<Range<usize>>, place: usize) {
+    match ranges.last_mut() {
+        Some(last) if last.end == place => last.end += 1,
+        _ => ranges.push(place..place + 1),
     }
 }
 
@@ -87,6 +101,10 @@ mod tests {
                 assert_eq!(set(one).within(&set(other)), set(one & other));
             }
             assert_eq!(set(one).count(), one.count_ones() as usize);
+            for (start, end) in [(0, 1), (2, 5), (3, 8)] {
+                let some = (start..end).any(|place| one >> place & 1 == 1);
+                assert_eq!(set(one).touches(&(start..end)), some);
+            }
             let back = set(one).iter().fold(0, |bits, place| bits | 1 << place);
             assert_eq!(back, one);
         }

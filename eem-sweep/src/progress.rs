@@ -10,6 +10,8 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::{Deserialize, Serialize};
 
+use crate::files::replace_at_ease;
+
 /// How long a run may take before a bar appears.
 const PATIENCE: Duration = Duration::from_secs(2);
 
@@ -39,6 +41,11 @@ pub struct ShardProgress {
     pub process: u32,
 }
 
+/// Where processes tell how far they are.
+pub(crate) fn folder(directory: &Path) -> PathBuf {
+    directory.join("progress")
+}
+
 /// Tells how far a run is.
 pub(crate) struct Teller {
     path: PathBuf,
@@ -52,7 +59,7 @@ pub(crate) struct Teller {
 impl Teller {
     /// Nothing is done yet.
     pub(crate) fn new(directory: &Path, selection: &str, members: usize, wants_bar: bool) -> Self {
-        let folder = directory.join("progress");
+        let folder = folder(directory);
         // Progress is for people: where it cannot be written, the records say why.
         let _reported_by_parts = fs::create_dir_all(&folder);
         let host = env::var("HOSTNAME").ok();
@@ -77,7 +84,7 @@ impl Teller {
         }
     }
 
-    /// So many members of the present batch are done.
+    /// So many members are done that are not reported yet.
     pub(crate) fn at_hand(&mut self, members: usize) {
         self.now.done = self.now.reported + members;
         let is_due = self.told.is_none_or(|told| told.elapsed() >= INTERVAL);
@@ -90,7 +97,7 @@ impl Teller {
     pub(crate) fn reported(&mut self, members: usize, failed: usize) {
         self.now.reported += members;
         self.now.failed += failed;
-        self.at_hand(0);
+        self.at_hand((self.now.done).saturating_sub(self.now.reported));
     }
 
     /// The last word.
@@ -106,9 +113,7 @@ impl Teller {
         let clock = SystemTime::now().duration_since(UNIX_EPOCH);
         self.now.updated = clock.map_or(0, |time| time.as_secs());
         let text = serde_json::to_vec(&self.now).unwrap_or_default();
-        let temporary = self.path.with_extension(format!("{}.tmp", process::id()));
-        let written = fs::write(&temporary, text);
-        let _reported_by_parts = written.and_then(|()| fs::rename(&temporary, &self.path));
+        let _reported_by_parts = replace_at_ease(&self.path, &text);
         self.show();
     }
 
@@ -144,7 +149,7 @@ fn bar(label: &str, members: u64) -> ProgressBar {
 
 /// What all processes have told last, in the order of their selections; files that cannot be read are left out.
 pub(crate) fn told(directory: &Path) -> Vec<ShardProgress> {
-    let entries = fs::read_dir(directory.join("progress"));
+    let entries = fs::read_dir(folder(directory));
     let paths = entries.into_iter().flatten().flatten().map(|e| e.path());
     let files = paths.filter(|path| path.extension().is_some_and(|end| end == "json"));
     let texts = files.filter_map(|path| fs::read(path).ok());

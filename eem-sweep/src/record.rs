@@ -121,6 +121,8 @@ kinds! {
     Step = "step",
     /// The member panicked.
     Panic = "panic",
+    /// The member was given up, as processes end at it.
+    GivenUp = "given-up",
     /// An error of the caller's own.
     Other = "other",
 }

@@ -1,32 +1,19 @@
-//! A process runs its members batch by batch; a batch is reported as a part before the next one begins.
+//! What a process runs: which members are missing or have failed, and in which order they come.
 
-use std::fs;
 use std::path::Path;
 use std::thread;
-use std::time::{Duration, Instant};
 
+use crate::begun;
 use crate::error::SweepError;
-use crate::files::{failed, publish};
-use crate::format::{Format, Writer};
+use crate::format::Format;
+use crate::job::giving_up;
 use crate::part::Shelf;
-use crate::places::Places;
+use crate::places::{Places, extend};
 use crate::progress::Teller;
-use crate::record::Batch;
 use crate::selection::Selection;
 use crate::sweep::{Opened, Sweep};
+use crate::team::{self, Sizes, Task};
 use crate::walk::walk;
-
-/// How long a batch should take: what a killed process loses.
-const BATCH: Duration = Duration::from_secs(1);
-
-/// The most members of a batch, which bounds the memory.
-const MOST: usize = 4096;
-
-/// Members of the first batch, for each thread: those of one bundle of SIMD lanes.
-const BUNDLE: usize = 4;
-
-/// A batch has at most so many times as many members as the last, as a few of them say little about the others.
-const GROWTH: usize = 8;
 
 /// How a process runs its members. Records do not depend on it.
 ///
@@ -45,12 +32,12 @@ const GROWTH: usize = 8;
 pub struct RunOptions {
     /// Which members. Default: all.
     pub selection: Selection,
-    /// Threads, with the feature `parallel`; 0, the default, is one for each core that the process may use.
+    /// Threads; 0, the default, is one for each core that the process may use.
     pub threads: usize,
     /// The format of all tables. Default: that of the directory, or CSV in a new one.
     pub format: Option<Format>,
-    /// The most members that are reported at once. Default: what takes about a second, at most 4096. Fewer lose
-    /// less when the process is killed; more leave threads waiting less often for the slowest member.
+    /// How many members a thread reports at once. Default: what takes about a second, at most 4096, and never less
+    /// than one. Fewer lose less when the process is killed, more need fewer files; a file is read as a whole.
     pub batch: Option<usize>,
     /// Whether a bar shows the progress on a terminal.
     pub bar: bool,
@@ -72,7 +59,8 @@ pub struct RunReport {
 impl Sweep<'_> {
     /// Runs the selected members that nobody has reported yet, and reports them in `directory`.
     ///
-    /// It can be called again whatever has happened: what was reported is skipped. Processes that run at the same
+    /// It can be called again whatever has happened: what was reported is skipped, and members at which a process
+    /// has ended come last, in small batches. Processes that run at the same
     /// time should be given different members; if they have some in common, these are run twice, and
     /// [`merge`](Self::merge) proves that both have the same bits.
     ///
@@ -84,30 +72,17 @@ impl Sweep<'_> {
         self.job.check(self.inputs().row(0, &mut Vec::new()))?;
         let wanted = options.selection.places(self.inputs())?;
         let opened = self.open(directory, options.format, true)?;
-        let shelf = opened.shelf();
-        let mut parts = shelf.parts()?;
-        let hull = (wanted.ranges().first(), wanted.ranges().last());
-        parts.retain(|part| {
-            let (start, end) = (part.span.start, part.span.end);
-            matches!(hull, (Some(a), Some(b)) if start < b.end && end > a.start)
-        });
-        let reported = shelf.reported(&parts)?.within(&wanted);
+        let seen = Seen::of(&opened.shelf(), &wanted)?;
         let mut report = RunReport {
             members: wanted.count(),
-            skipped: reported.count(),
-            ..RunReport::default()
+            skipped: seen.reported.count(),
+            ran: 0,
+            failed: seen.failed.count(),
         };
-        let failed = failed_members(&shelf, &wanted)?.0;
-        report.failed = failed.count();
-        let missing = wanted.without(&reported);
+        let missing = wanted.without(&seen.reported);
         let name = options.selection.to_string();
-        self.run_places(
-            directory,
-            &opened,
-            options,
-            (&missing, 0, &name),
-            &mut report,
-        )?;
+        let work = (&wanted, &missing, 0, name.as_str());
+        self.run_places(directory, &opened, options, work, &mut report)?;
         Ok(report)
     }
 
@@ -123,142 +98,121 @@ impl Sweep<'_> {
     ) -> Result<RunReport, SweepError> {
         let wanted = options.selection.places(self.inputs())?;
         let opened = self.open(directory, options.format, false)?;
-        let (failed, generation) = failed_members(&opened.shelf(), &wanted)?;
+        let seen = Seen::of(&opened.shelf(), &wanted)?;
         let mut report = RunReport {
-            members: failed.count(),
+            members: seen.failed.count(),
             ..RunReport::default()
         };
         let name = format!("rerun-{}", options.selection);
-        let work = (&failed, generation + 1, name.as_str());
+        let work = (
+            &wanted,
+            &seen.failed,
+            seen.generation.saturating_add(1),
+            name.as_str(),
+        );
         self.run_places(directory, &opened, options, work, &mut report)?;
         Ok(report)
     }
 
-    /// Runs members and reports them as parts of a generation; `name` is that of the progress file.
+    /// Reports the selected members that nobody has reported yet as failed ([`GivenUp`](crate::FailureKind::GivenUp))
+    /// without running them: those at which every process ends, by a stack that overflows or for want of memory.
+    /// [`rerun_failed`](Self::rerun_failed) runs them all the same.
+    ///
+    /// # Errors
+    ///
+    /// As for [`run`](Self::run), and if there is no sweep in the directory.
+    pub fn give_up(
+        &self,
+        directory: &Path,
+        selection: &Selection,
+    ) -> Result<RunReport, SweepError> {
+        let wanted = selection.places(self.inputs())?;
+        let opened = self.open(directory, None, false)?;
+        let seen = Seen::of(&opened.shelf(), &wanted)?;
+        let missing = wanted.without(&seen.reported);
+        let name = format!("given-up-{selection}");
+        let task = Task {
+            directory,
+            name: &name,
+            shelf: opened.shelf(),
+            job: &giving_up(opened.heads().outputs.len()),
+            generation: 0,
+        };
+        let mut teller = Teller::new(directory, &name, missing.count(), false);
+        let (ran, failed) = team::run(task, &missing, 1, Sizes::adapted(1), &mut teller)?;
+        begun::forget(directory, &wanted);
+        Ok(RunReport {
+            members: wanted.count(),
+            skipped: seen.reported.count(),
+            ran,
+            failed: seen.failed.count() + failed,
+        })
+    }
+
+    /// Runs places among those that are wanted, and reports them as parts of a generation; `name` is that of files
+    /// about the run.
     fn run_places(
         &self,
         directory: &Path,
         opened: &Opened<'_>,
         options: &RunOptions,
-        (places, generation, name): (&Places, u32, &str),
+        (wanted, places, generation, name): (&Places, &Places, u32, &str),
         report: &mut RunReport,
     ) -> Result<(), SweepError> {
         let mut teller = Teller::new(directory, name, places.count(), options.bar);
-        let mut sizes = Sizes::new(options);
-        let mut rest = places.iter().peekable();
-        let mut batch = Batch::default();
-        while rest.peek().is_some() {
-            let chosen: Vec<usize> = rest.by_ref().take(sizes.next).collect();
-            self.fill(&mut batch, chosen.iter().copied());
-            let begun = Instant::now();
-            let columns = self.inputs().columns();
-            (self.job.run)(columns, &mut batch, options.threads, &mut |done| {
-                teller.at_hand(done);
-            });
-            sizes.adapt(chosen.len(), begun.elapsed());
-            write_part(opened, &chosen, &batch, generation)?;
-            report.ran += chosen.len();
-            report.failed += batch.failed();
-            teller.reported(chosen.len(), batch.failed());
-        }
-        teller.finish();
-        Ok(())
-    }
-
-    /// Ids and inputs of members.
-    fn fill(&self, batch: &mut Batch, places: impl Iterator<Item = usize>) {
-        batch.ids.clear();
-        batch.inputs.clear();
-        for place in places {
-            batch.ids.push(self.inputs().id(place));
-            self.inputs().push_values(place, &mut batch.inputs);
-        }
-    }
-}
-
-/// The members that have failed, and the largest generation of their records.
-fn failed_members(shelf: &Shelf<'_>, wanted: &Places) -> Result<(Places, u32), SweepError> {
-    let mut parts = shelf.parts()?;
-    parts.retain(|part| wanted.within(&Places::one(part.span.clone())).count() > 0);
-    let (mut failed, mut generation) = (Vec::new(), 0);
-    walk(shelf, &parts, |found| {
-        if found.reader.has_failed() {
-            failed.push(found.place..found.place + 1);
-            generation = generation.max(found.generation);
-        }
-        Ok(())
-    })?;
-    Ok((Places::new(failed).within(wanted), generation))
-}
-
-/// How many members the batches have.
-struct Sizes {
-    next: usize,
-    least: usize,
-    most: usize,
-}
-
-impl Sizes {
-    fn new(options: &RunOptions) -> Self {
         let threads = match options.threads {
             0 => thread::available_parallelism().map_or(1, usize::from),
             threads => threads,
         };
-        let most = options.batch.unwrap_or(MOST).max(1);
-        let least = (BUNDLE * threads).min(most);
-        Self {
-            next: least,
-            least,
-            most,
+        let task = Task {
+            directory,
+            name,
+            shelf: opened.shelf(),
+            job: &self.job,
+            generation,
+        };
+        for class in begun::classes(directory, places) {
+            let sizes = match class.batch.or(options.batch) {
+                Some(members) => Sizes::Fixed(members.max(1)),
+                None => Sizes::adapted(self.job.bundle),
+            };
+            let threads = threads.checked_shr(class.halvings).unwrap_or(0);
+            let (ran, failed) = team::run(task, &class.places, threads, sizes, &mut teller)?;
+            report.ran += ran;
+            report.failed += failed;
         }
-    }
-
-    /// After so many members have taken so long. Whole bundles, so that no lane is empty.
-    fn adapt(&mut self, members: usize, took: Duration) {
-        let share = BATCH.as_secs_f64() / took.as_secs_f64().max(f64::MIN_POSITIVE);
-        let growth = share.min(GROWTH as f64);
-        // At most GROWTH times MOST.
-        let wanted = (members as f64 * growth) as usize;
-        let bundles = (wanted / BUNDLE * BUNDLE).max(self.least);
-        self.next = bundles.min(self.most);
+        teller.finish();
+        begun::forget(directory, wanted);
+        Ok(())
     }
 }
 
-/// Reports a batch: one file, there whole or not at all.
-fn write_part(
-    opened: &Opened<'_>,
-    chosen: &[usize],
-    batch: &Batch,
+/// What there is of some members.
+struct Seen {
+    reported: Places,
+    /// Those whose last record is a failure.
+    failed: Places,
+    /// The largest generation of failures.
     generation: u32,
-) -> Result<(), SweepError> {
-    let (Some(&first), Some(&last)) = (chosen.first(), chosen.last()) else {
-        return Ok(());
-    };
-    let shelf = opened.shelf();
-    let mut generation = generation;
-    loop {
-        let path = shelf.path(&(first..last + 1), chosen.len(), generation);
-        let mut bytes = Vec::new();
-        let table = Writer::new(shelf.format, &mut bytes, shelf.heads);
-        let written = table.and_then(|mut table| {
-            table.batch(batch)?;
-            table.finish()
-        });
-        written.map_err(failed("form", &path))?;
-        if publish(&path, |file| file.write_all(&bytes))? {
-            return Ok(());
-        }
-        // Another process has reported a batch of this name: the same members, or others of a list with gaps.
-        if fs::read(&path).map_err(failed("read", &path))? == bytes {
-            return Ok(());
-        }
-        if last + 1 - first == chosen.len() {
-            return Err(SweepError::Conflict {
-                member: batch.ids[0],
-                first: path.clone(),
-                second: path,
-            });
-        }
-        generation += 1;
+}
+
+impl Seen {
+    fn of(shelf: &Shelf<'_>, wanted: &Places) -> Result<Self, SweepError> {
+        let mut parts = shelf.parts()?;
+        parts.retain(|part| wanted.touches(&part.span));
+        let (mut reported, mut failed, mut generation) = (Vec::new(), Vec::new(), 0);
+        walk(shelf, &parts, |found| {
+            extend(&mut reported, found.place);
+            if found.reader.has_failed() {
+                extend(&mut failed, found.place);
+                generation = generation.max(found.generation);
+            }
+            Ok(())
+        })?;
+        Ok(Self {
+            reported: Places::new(reported).within(wanted),
+            failed: Places::new(failed).within(wanted),
+            generation,
+        })
     }
 }

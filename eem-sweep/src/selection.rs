@@ -108,7 +108,18 @@ impl Selection {
                 };
                 Places::one(bound(index)..bound(index + 1))
             }
-            Self::Range(range) => Places::one(inputs.place(range.start)..inputs.place(range.end)),
+            &Self::Range(Range { start, end }) => {
+                let places = inputs.place(start)..inputs.place(end);
+                if places.is_empty() {
+                    return Err(SweepError::NoMembers {
+                        start,
+                        end,
+                        first: inputs.id(0),
+                        last: inputs.id(members - 1),
+                    });
+                }
+                Places::one(places)
+            }
             Self::Members(ids) => {
                 let place = |&member: &u64| {
                     let place = inputs.place(member);

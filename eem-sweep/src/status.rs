@@ -5,9 +5,10 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use crate::begun::begun;
 use crate::error::SweepError;
 use crate::inputs::Inputs;
-use crate::places::Places;
+use crate::places::{Places, extend};
 use crate::progress::{ShardProgress, told};
 use crate::sweep::Sweep;
 use crate::walk::walk;
@@ -30,6 +31,8 @@ pub struct Status {
     pub repeated: usize,
     /// The ids without a record, the first ones of many; empty if there are none.
     pub missing: String,
+    /// Those of them that some process has begun: it is at work on them, or has ended there.
+    pub begun: String,
     /// What processes have told last.
     pub processes: Vec<ShardProgress>,
 }
@@ -50,6 +53,7 @@ impl Sweep<'_> {
             superseded: 0,
             repeated: 0,
             missing: String::new(),
+            begun: String::new(),
             processes: told(directory),
         };
         let mut found = Vec::new();
@@ -63,15 +67,8 @@ impl Sweep<'_> {
         })?;
         let missing = Places::one(0..status.members).without(&Places::new(found));
         status.missing = named(&missing, self.inputs());
+        status.begun = named(&begun(directory, &missing), self.inputs());
         Ok(status)
-    }
-}
-
-/// Adds a place to ranges in ascending order.
-fn extend(ranges: &mut Vec<std::ops::Range<usize>>, place: usize) {
-    match ranges.last_mut() {
-        Some(last) if last.end == place => last.end += 1,
-        _ => ranges.push(place..place + 1),
     }
 }
 
@@ -98,6 +95,7 @@ impl fmt::Display for Status {
             superseded,
             repeated,
             missing,
+            begun,
             processes,
         } = self;
         write!(
@@ -112,6 +110,12 @@ impl fmt::Display for Status {
         }
         if !missing.is_empty() {
             write!(f, "\nmissing: {missing}")?;
+        }
+        if !begun.is_empty() {
+            write!(
+                f,
+                "\nof these a process is at work on, or has ended at: {begun}"
+            )?;
         }
         for process in processes {
             let ShardProgress {

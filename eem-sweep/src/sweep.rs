@@ -12,10 +12,13 @@ use crate::error::SweepError;
 use crate::files;
 use crate::format::{Format, Heads};
 use crate::inputs::{InputError, Inputs, Row};
-use crate::job::{self, Job, Stepping};
+use crate::job::{Job, Stepping, job};
 use crate::manifest::{Identity, Manifest};
 use crate::part::Shelf;
 use crate::record::Record;
+
+/// Members of an experiment that move together with the feature `lanes`.
+const LANES: usize = 4;
 
 /// A sweep as data: inputs, scheme, step and settings. With an experiment it is a [`Sweep`].
 ///
@@ -121,7 +124,13 @@ impl Plan {
         E: Experiment<D> + 'a,
         E::Output: Record,
     {
-        let job = job::of_experiment(self.stepping, experiment, input);
+        let bundle = if cfg!(feature = "lanes") { LANES } else { 1 };
+        let job = job(
+            self.stepping,
+            bundle,
+            input,
+            move |ensemble, inputs: &[_]| ensemble.run_experiment(&experiment, inputs),
+        );
         self.with(job, E::Output::COLUMNS)
     }
 
@@ -138,7 +147,9 @@ impl Plan {
         H: 'a,
         T: Record + Send + 'a,
     {
-        let job = job::of_closures(self.stepping, input, build, observe);
+        let job = job(self.stepping, 1, input, move |ensemble, inputs: &[_]| {
+            ensemble.run(inputs, &build, &observe)
+        });
         self.with(job, T::COLUMNS)
     }
 
@@ -225,23 +236,20 @@ impl Sweep<'_> {
 
     fn identity(&self) -> Result<Identity, SweepError> {
         let plan = &self.plan;
-        let mut settings: BTreeMap<String, String> = BTreeMap::new();
-        let own = plan.settings.iter();
-        settings.extend(own.map(|(name, value)| (name.clone(), value.clone())));
         let Stepping {
             scheme,
             step,
             newton,
         } = plan.stepping;
-        settings.insert("scheme".to_owned(), scheme.to_string());
-        settings.insert("step (s)".to_owned(), step.to_string());
-        settings.insert(
-            "Newton's method".to_owned(),
-            format!(
-                "{} iterations, {:e}",
-                newton.max_iterations, newton.tolerance
-            ),
+        let newton = format!(
+            "{} iterations, {:e}",
+            newton.max_iterations, newton.tolerance
         );
+        let stepping = [
+            ("scheme", scheme.to_string()),
+            ("step (s)", step.to_string()),
+            ("Newton's method", newton),
+        ];
         Ok(Identity {
             name: plan.name.clone(),
             program: self.program()?,
@@ -249,7 +257,10 @@ impl Sweep<'_> {
             inputs: plan.inputs.digest(),
             input_columns: plan.inputs.columns().to_vec(),
             output_columns: self.outputs.iter().map(|&head| head.to_owned()).collect(),
-            settings,
+            stepping: stepping
+                .map(|(name, value)| (name.to_owned(), value))
+                .into(),
+            settings: plan.settings.clone(),
         })
     }
 

@@ -1,5 +1,8 @@
 //! All records of a sweep in the order of their members, each once, whatever the parts they are in.
 
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
 use crate::error::SweepError;
 use crate::format::Reader;
 use crate::part::{Part, Shelf};
@@ -15,7 +18,7 @@ pub(crate) struct Found<'r> {
     pub(crate) repeated: usize,
 }
 
-/// A part that is being read.
+/// A part that is being read, ordered so that the one with the lowest place comes first from a heap.
 struct Open<'p> {
     part: &'p Part,
     reader: Reader,
@@ -66,6 +69,26 @@ impl<'p> Open<'p> {
     }
 }
 
+impl Ord for Open<'_> {
+    fn cmp(&self, other: &Self) -> Ordering {
+        other.place.cmp(&self.place)
+    }
+}
+
+impl PartialOrd for Open<'_> {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Open<'_> {
+    fn eq(&self, other: &Self) -> bool {
+        self.place == other.place
+    }
+}
+
+impl Eq for Open<'_> {}
+
 /// Visits the record of every member that some part has, in ascending order. Of several the one of the last
 /// generation counts; those of one generation must have the same bits.
 pub(crate) fn walk(
@@ -74,53 +97,61 @@ pub(crate) fn walk(
     mut visit: impl FnMut(Found<'_>) -> Result<(), SweepError>,
 ) -> Result<(), SweepError> {
     let mut closed = parts.iter().peekable();
-    let mut open: Vec<Open<'_>> = Vec::new();
+    let mut open: BinaryHeap<Open<'_>> = BinaryHeap::new();
+    let mut here: Vec<Open<'_>> = Vec::new();
     loop {
-        let lowest = open.iter().map(|part| part.place).min();
+        let lowest = open.peek().map(|part| part.place);
         let next = closed.peek().map(|part| part.span.start);
         let Some(place) = lowest.into_iter().chain(next).min() else {
             return Ok(());
         };
         while let Some(part) = closed.next_if(|part| part.span.start == place) {
-            open.push(Open::new(shelf, part)?);
+            here.push(Open::new(shelf, part)?);
         }
-        let has_it = |part: &&Open<'_>| part.place == place;
-        let Some(last) = open.iter().filter(has_it).max_by_key(|o| o.part.generation) else {
-            return Ok(());
-        };
-        let generation = last.part.generation;
-        let (mut superseded, mut repeated) = (0, 0);
-        for other in open.iter().filter(has_it) {
-            if other.part.generation < generation {
-                superseded += 1;
-            } else if other.reader.equals(&last.reader) {
-                repeated += 1;
-            } else {
-                return Err(SweepError::Conflict {
-                    member: shelf.inputs.id(place),
-                    first: other.part.path.clone(),
-                    second: last.part.path.clone(),
-                });
-            }
+        while open.peek().is_some_and(|part| part.place == place) {
+            here.extend(open.pop());
         }
-        visit(Found {
-            place,
-            reader: &last.reader,
-            generation,
-            superseded,
-            repeated: repeated - 1,
-        })?;
-        let mut index = 0;
-        while index < open.len() {
-            let part = &mut open[index];
-            if part.place == place {
-                part.reader.advance()?;
-                if !part.find(shelf)? {
-                    open.swap_remove(index);
-                    continue;
-                }
+        if let Some(found) = judge(shelf, place, &here)? {
+            visit(found)?;
+        }
+        for mut part in here.drain(..) {
+            part.reader.advance()?;
+            if part.find(shelf)? {
+                open.push(part);
             }
-            index += 1;
         }
     }
+}
+
+/// The record that counts among those of one member.
+fn judge<'r>(
+    shelf: &Shelf<'_>,
+    place: usize,
+    records: &'r [Open<'_>],
+) -> Result<Option<Found<'r>>, SweepError> {
+    let Some(last) = records.iter().max_by_key(|open| open.part.generation) else {
+        return Ok(None);
+    };
+    let generation = last.part.generation;
+    let (mut superseded, mut repeated) = (0, 0);
+    for other in records {
+        if other.part.generation < generation {
+            superseded += 1;
+        } else if other.reader.equals(&last.reader) {
+            repeated += 1;
+        } else {
+            return Err(SweepError::Conflict {
+                member: shelf.inputs.id(place),
+                first: other.part.path.clone(),
+                second: last.part.path.clone(),
+            });
+        }
+    }
+    Ok(Some(Found {
+        place,
+        reader: &last.reader,
+        generation,
+        superseded,
+        repeated: repeated - 1,
+    }))
 }

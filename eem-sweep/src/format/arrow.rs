@@ -1,7 +1,6 @@
 //! Tables as Arrow IPC files, in record batches of a fixed size, so that the same rows have the same bytes.
 
-use std::fs::File;
-use std::io::{self, BufReader, Write};
+use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -12,8 +11,7 @@ use arrow_schema::{ArrowError, DataType, Field, Schema};
 
 use super::heads::{FAILED_AT, FAILURE, Heads, ID, MESSAGE};
 use crate::error::SweepError;
-use crate::files::failed;
-use crate::record::Batch;
+use crate::record::{Batch, Failure, FailureKind};
 
 /// Rows of a record batch.
 const ROWS: usize = 4096;
@@ -156,16 +154,16 @@ fn of_io(error: ArrowError) -> io::Error {
 /// Reads record batches.
 pub(crate) struct Reader {
     path: PathBuf,
-    from: FileReader<BufReader<File>>,
+    from: FileReader<Cursor<Vec<u8>>>,
     batch: Option<RecordBatch>,
     row: usize,
 }
 
 impl Reader {
-    /// Opens a file, checks its columns and goes to the first row.
-    pub(super) fn open(path: &Path, heads: &Heads) -> Result<Self, SweepError> {
-        let file = File::open(path).map_err(failed("read", path))?;
-        let from = FileReader::try_new(BufReader::new(file), None);
+    /// Checks the columns of a file and goes to the first row. The bytes must be those that were written: what is
+    /// damaged may ask for any memory.
+    pub(super) fn open(path: &Path, bytes: Vec<u8>, heads: &Heads) -> Result<Self, SweepError> {
+        let from = FileReader::try_new(Cursor::new(bytes), None);
         let from = from.map_err(|error| damaged(path, &error))?;
         if *from.schema() != schema(heads) {
             return Err(damaged(path, &"it has other columns"));
@@ -196,6 +194,29 @@ impl Reader {
     pub(super) fn has_failed(&self) -> bool {
         self.at()
             .is_some_and(|(batch, row)| !batch.column(1).is_null(row))
+    }
+
+    /// Fills in the outputs of the row, or says why there are none.
+    pub(super) fn result(
+        &self,
+        heads: &Heads,
+        outputs: &mut Vec<f64>,
+    ) -> Result<Option<Failure>, SweepError> {
+        let wrong = || damaged(&self.path, &"a row is none that was written");
+        let (batch, row) = self.at().ok_or_else(wrong)?;
+        let first = 2 + heads.inputs.len();
+        let end = first + heads.outputs.len();
+        if let Some(kind) = text(batch, 1, row) {
+            return Ok(Some(Failure {
+                kind: FailureKind::from_name(kind).ok_or_else(wrong)?,
+                time: number(batch, end, row),
+                message: text(batch, end + 1, row).unwrap_or_default().to_owned(),
+            }));
+        }
+        for column in first..end {
+            outputs.push(number(batch, column, row).ok_or_else(wrong)?);
+        }
+        Ok(None)
     }
 
     /// Whether two rows have the same bits.

@@ -19,13 +19,18 @@ pub(crate) struct Heads {
 }
 
 impl Heads {
-    /// Refuses two columns of one name.
+    /// Refuses two columns of one name, and names that are no line.
     pub(crate) fn new(inputs: &[String], outputs: &[&str]) -> Result<Self, InputError> {
         let heads = Self {
             inputs: inputs.to_vec(),
             outputs: outputs.iter().map(|&head| head.to_owned()).collect(),
         };
         let mut all = heads.all();
+        if let Some(name) = all.iter().find(|name| name.contains(char::is_control)) {
+            return Err(InputError::ColumnName {
+                name: (*name).to_owned(),
+            });
+        }
         all.sort_unstable();
         match all.windows(2).find(|pair| pair[0] == pair[1]) {
             Some(pair) => Err(InputError::DuplicateColumn {

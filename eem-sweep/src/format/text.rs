@@ -1,17 +1,14 @@
 //! Tables as CSV: a member is a line, so that lines can be counted, compared and copied without reading numbers.
 
 use std::fmt::Write as _;
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, Write};
+use std::io::{self, BufRead, Write};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::heads::Heads;
 use crate::error::SweepError;
 use crate::files::failed;
-use crate::record::{Batch, Failure};
-
-/// Bytes that are read at once.
-const PIECE: usize = 1 << 16;
+use crate::record::{Batch, Failure, FailureKind};
 
 /// Writes lines.
 pub(crate) struct Writer<W: Write> {
@@ -95,13 +92,10 @@ fn head_line(heads: &Heads) -> String {
     heads.join(",") + "\n"
 }
 
-/// A cell, in quotes if it needs them (RFC 4180).
+/// A cell, in quotes if it needs them (RFC 4180); it has no line break.
 fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!(
-            "\"{}\"",
-            text.replace('"', "\"\"").replace(['\n', '\r'], " ")
-        )
+    if text.contains([',', '"']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
     } else {
         text.to_owned()
     }
@@ -110,22 +104,21 @@ fn quoted(text: &str) -> String {
 /// Reads lines, and of a line its id and whether there is a failure.
 pub(crate) struct Reader {
     path: PathBuf,
-    from: BufReader<File>,
-    line: Vec<u8>,
+    bytes: Vec<u8>,
+    line: Range<usize>,
     row: Option<(u64, bool)>,
 }
 
 impl Reader {
-    /// Opens a file, checks its heads and goes to the first line.
-    pub(super) fn open(path: &Path, heads: &Heads) -> Result<Self, SweepError> {
-        let file = File::open(path).map_err(failed("read", path))?;
+    /// Checks the heads of a file and goes to the first line.
+    pub(super) fn open(path: &Path, bytes: Vec<u8>, heads: &Heads) -> Result<Self, SweepError> {
         let mut reader = Self {
             path: path.to_owned(),
-            from: BufReader::with_capacity(PIECE, file),
-            line: Vec::new(),
+            bytes,
+            line: 0..0,
             row: None,
         };
-        if !reader.read()? || reader.line != head_line(heads).as_bytes() {
+        if !reader.read()? || reader.line() != head_line(heads).as_bytes() {
             return Err(reader.damaged("it has other columns"));
         }
         reader.advance()?;
@@ -144,14 +137,43 @@ impl Reader {
 
     /// The line as it is.
     pub(super) fn line(&self) -> &[u8] {
-        &self.line
+        &self.bytes[self.line.clone()]
+    }
+
+    /// Fills in the outputs of the line, or says why there are none.
+    pub(super) fn result(
+        &self,
+        heads: &Heads,
+        outputs: &mut Vec<f64>,
+    ) -> Result<Option<Failure>, SweepError> {
+        let mut line = csv::StringRecord::new();
+        let mut reader = csv::ReaderBuilder::new();
+        let mut reader = reader.has_headers(false).from_reader(self.line());
+        let read = reader.read_record(&mut line);
+        let wrong = || self.damaged("a line is none that was written");
+        let cells: Vec<&str> = line.iter().collect();
+        let first = 2 + heads.inputs.len();
+        if read.is_err() || cells.len() != first + heads.outputs.len() + 2 {
+            return Err(wrong());
+        }
+        let (values, failure) = cells[first..].split_at(heads.outputs.len());
+        if cells[1].is_empty() {
+            let values = values.iter().map(|cell| cell.parse::<f64>());
+            outputs.extend(values.collect::<Result<Vec<_>, _>>().map_err(|_| wrong())?);
+            return Ok(None);
+        }
+        Ok(Some(Failure {
+            kind: FailureKind::from_name(cells[1]).ok_or_else(wrong)?,
+            time: failure[0].parse().ok(),
+            message: failure[1].to_owned(),
+        }))
     }
 
     /// Goes to the next line.
     pub(super) fn advance(&mut self) -> Result<(), SweepError> {
         self.row = None;
         if self.read()? {
-            let mut cells = self.line.split(|&byte| byte == b',');
+            let mut cells = self.line().split(|&byte| byte == b',');
             let id = cells.next().and_then(|id| str::from_utf8(id).ok());
             let id = id.and_then(|id| id.parse().ok());
             match (id, cells.next()) {
@@ -162,14 +184,17 @@ impl Reader {
         Ok(())
     }
 
-    /// Reads a line; says whether there was one.
+    /// Finds the next line; says whether there is one.
     fn read(&mut self) -> Result<bool, SweepError> {
-        self.line.clear();
-        let read = self.from.read_until(b'\n', &mut self.line);
-        match read.map_err(failed("read", &self.path))? {
-            0 => Ok(false),
-            _ if self.line.ends_with(b"\n") => Ok(true),
-            _ => Err(self.damaged("its last line is torn")),
+        let start = self.line.end;
+        let mut rest = &self.bytes[start..];
+        let length = rest.skip_until(b'\n');
+        let length = length.map_err(failed("read", &self.path))?;
+        self.line = start..start + length;
+        match self.line().last() {
+            None => Ok(false),
+            Some(b'\n') => Ok(true),
+            Some(_) => Err(self.damaged("its last line is torn")),
         }
     }
 

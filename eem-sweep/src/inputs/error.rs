@@ -22,6 +22,14 @@ pub enum InputError {
         /// The name.
         name: String,
     },
+    /// The name of a column has a line break or another control character.
+    #[error(
+        "the column {name:?} has a control character in its name; heads of tables are one line"
+    )]
+    ColumnName {
+        /// The name.
+        name: String,
+    },
     /// A sweep has no member.
     #[error("the inputs have no member; give every axis a value, or ask for one member at least")]
     Empty,

@@ -45,7 +45,12 @@ impl Latin {
             // 53 bits: all doubles of this spacing in [0, 1).
             let place = (random.next_u64() >> 11) as f64 * (0.5 * f64::EPSILON);
             let share = (f64::from(layers[member]) + place) / layers_in_all;
-            values.push(range.start + (range.end - range.start) * share);
+            let width = range.end - range.start;
+            values.push(if width.is_finite() {
+                range.start + width * share
+            } else {
+                range.start * (1.0 - share) + range.end * share
+            });
         }
     }
 }

@@ -69,7 +69,12 @@ impl Table {
                     let id = text.parse().map_err(|_| wrong(column, "whole number"))?;
                     ids.push(id);
                 } else {
-                    values.push(text.parse().map_err(|_| wrong(column, "number"))?);
+                    let value: f64 = text.parse().map_err(|_| wrong(column, "number"))?;
+                    // `1e400` is read as infinite, which only `inf` means.
+                    if value.is_infinite() && text.contains(|c: char| c.is_ascii_digit()) {
+                        return Err(wrong(column, "number that 64 bits can hold"));
+                    }
+                    values.push(value);
                 }
             }
             if id_column.is_none() {

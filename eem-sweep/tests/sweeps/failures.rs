@@ -64,6 +64,38 @@ fn failures_are_rows_and_a_later_run_supersedes_them() {
     assert_eq!(table[5][5], "it \"rains\", says the observer");
     assert_eq!((table[5][3].as_str(), table[6][2].as_str()), ("", "50.0"));
 
+    // The same in memory, from CSV and from Arrow.
+    let mut formats = vec![folder.clone()];
+    if cfg!(feature = "arrow") {
+        let other = directory("failures-arrow");
+        let arrow = RunOptions {
+            format: Some(eem::sweep::Format::Arrow),
+            ..RunOptions::default()
+        };
+        sweep.run(&other, &arrow).unwrap();
+        formats.push(other);
+    }
+    for folder in &formats {
+        let mut ids = 0..7;
+        sweep
+            .each(folder, |member, result| {
+                let row = &table[usize::try_from(ids.next().unwrap()).unwrap()];
+                assert_eq!(member.id().to_string(), row[0]);
+                match result {
+                    Ok(outputs) => {
+                        assert_eq!((row[1].as_str(), cell(outputs)), ("", row[3].clone()));
+                    }
+                    Err(failure) => {
+                        assert_eq!(failure.kind.name(), row[1]);
+                        assert_eq!(failure.time.is_some(), !row[4].is_empty());
+                        assert_eq!(failure.message, row[5]);
+                    }
+                }
+            })
+            .unwrap();
+        assert_eq!(ids.next(), None);
+    }
+
     weather.store(true, Ordering::Relaxed);
     let some = RunOptions {
         selection: Selection::Range(4..7),
@@ -117,4 +149,10 @@ fn a_step_that_fails_says_when() {
     assert_eq!(row[1], "step");
     let time: f64 = row[4].parse().unwrap();
     assert!((0.2..0.4).contains(&time), "{time}");
+}
+
+/// The only output as a cell of a table.
+fn cell(outputs: &[f64]) -> String {
+    assert_eq!(outputs.len(), 1);
+    format!("{:?}", outputs[0])
 }

@@ -90,6 +90,11 @@ fn files_are_read_with_and_without_ids() {
         cell.contains("line 3, column `b`: `x` is not a number"),
         "{cell}"
     );
+    for large in ["1e400", "-1e400"] {
+        let cell = wrong(&format!("a,b\n1,{large}\n")).to_string();
+        let says = format!("`{large}` is not a number that 64 bits can hold");
+        assert!(cell.contains(&says), "{cell}");
+    }
     let id = wrong("id,a\n-1,2\n").to_string();
     assert!(id.contains("is not a whole number"), "{id}");
     assert!(matches!(wrong("a,b\n1\n"), InputError::File { .. }));
@@ -112,6 +117,12 @@ fn inputs_that_make_no_sense_are_refused() {
         let error = Inputs::latin_hypercube(3, 1, [("a", range)]).unwrap_err();
         assert!(matches!(error, InputError::Range { .. }));
     }
+    // From one end of all numbers to the other.
+    let all = Inputs::latin_hypercube(9, 1, [("a", f64::MIN..f64::MAX)]).unwrap();
+    let mut drawn = values(&all);
+    assert!(drawn.iter().all(|value| value.is_finite()), "{drawn:?}");
+    drawn.sort_by(f64::total_cmp);
+    assert!(drawn[0] < -0.7 * f64::MAX && drawn[8] > 0.7 * f64::MAX);
     let ragged = Inputs::rows(["a", "b"], [vec![1.0, 2.0], vec![3.0]]).unwrap_err();
     assert_eq!(
         ragged,

@@ -8,7 +8,7 @@ use eem::sweep::{RunOptions, Selection};
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 
-use crate::program::{contents, directory, finish, start, stones};
+use crate::program::{abort_at, contents, directory, finish, start, stones};
 
 const MEMBERS: usize = 600;
 const STEPS: usize = 40;
@@ -79,10 +79,6 @@ fn survive(name: &str, kills: usize, seed: u64) {
         assert_eq!(code, 0, "{said}");
         assert!(said.contains("0 records superseded, 0 repeated"), "{said}");
         assert!(fs::read(folder.join("merged.csv")).unwrap() == whole);
-        let hidden = |(path, _): &(std::path::PathBuf, Vec<u8>)| {
-            path.file_name().unwrap().to_string_lossy().starts_with('.')
-        };
-        assert!(!contents(&folder.join("parts")).iter().any(hidden));
         fs::remove_dir_all(&folder).unwrap();
     }
 }
@@ -148,4 +144,44 @@ fn a_shard_that_was_killed_goes_on_where_it_was() {
         .unwrap();
     assert_eq!((report.members, report.skipped, report.ran), (50, 30, 20));
     assert_eq!(sweep.status(&folder).unwrap().missing, "50-99");
+}
+
+#[test]
+fn a_member_that_kills_its_process_is_the_only_one_that_is_left() {
+    let folder = directory("abort");
+    let sweep = stones(60, 1);
+    let dir = folder.to_str().unwrap();
+    let mut died = 0;
+    while sweep
+        .status(&folder)
+        .is_ok_and(|status| status.reported < 59)
+        || died == 0
+    {
+        let line = ["60", "1", "run", "--threads", "3", "--dir", dir];
+        let status = abort_at(17, &line).wait().unwrap();
+        assert_eq!(status.code(), None);
+        died += 1;
+        assert!(died < 10, "{}", sweep.status(&folder).unwrap());
+    }
+    let status = sweep.status(&folder).unwrap();
+    assert_eq!(
+        (status.missing.as_str(), status.begun.as_str()),
+        ("17", "17")
+    );
+    assert!(status.to_string().contains("has ended at: 17"), "{status}");
+    // It can be given up, and where it can be run nothing is left of that.
+    let line = ["60", "1", "give-up", "--dir", dir, "--members", "16,17"];
+    let (code, said) = finish(&line);
+    assert!(code == 3 && said.contains("1 were there, 1 run"), "{said}");
+    let merged = sweep.merge(&folder, None).unwrap();
+    assert_eq!((merged.members, merged.failed), (60, 1));
+    let row = fs::read_to_string(&merged.path).unwrap();
+    assert!(row.contains("\n17,given-up,"), "{row}");
+    let rerun = sweep.rerun_failed(&folder, &RunOptions::default());
+    assert_eq!(rerun.unwrap().ran, 1);
+    let merged = sweep.merge(&folder, None).unwrap();
+    assert_eq!((merged.failed, merged.superseded), (0, 1));
+    let progress = fs::read_dir(folder.join("progress")).unwrap();
+    let is_note = |path: &std::path::Path| path.extension().is_some_and(|end| end == "begun");
+    assert!(!progress.flatten().any(|entry| is_note(&entry.path())));
 }

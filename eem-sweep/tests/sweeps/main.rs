@@ -4,8 +4,10 @@
 #![allow(clippy::unwrap_used, reason = "a test: what is missing is a failure")]
 
 mod bits;
+mod damage;
 mod failures;
 mod inputs;
 mod kills;
+mod merges;
 mod program;
 mod refusals;

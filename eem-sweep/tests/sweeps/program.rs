@@ -89,7 +89,11 @@ pub(crate) fn plan(members: usize, steps: usize) -> Plan {
 
 /// The sweep of so many members and steps.
 pub(crate) fn stones(members: usize, steps: usize) -> Sweep<'static> {
-    plan(members, steps).experiment(Stone { steps }, |row| {
+    let abort: Option<u64> = env::var(ABORT).ok().map(|id| id.parse().unwrap());
+    plan(members, steps).experiment(Stone { steps }, move |row| {
+        if Some(row.id()) == abort {
+            std::process::abort();
+        }
         Ok([row.number("stiffness")?, row.number("speed")?])
     })
 }
@@ -122,9 +126,32 @@ pub(crate) fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
 /// What the other process reads.
 const LINE: &str = "EEM_SWEEP_LINE";
 
+/// The member at which the other process aborts.
+const ABORT: &str = "EEM_SWEEP_ABORT";
+
 /// A process of the program with this command line: members, steps, and what [`eem::sweep::Command`] understands.
 pub(crate) fn start(line: &[&str]) -> Child {
+    let command = Command::new(env::current_exe().unwrap());
+    start_by(command, line)
+}
+
+/// The same, which aborts where it comes to a member.
+pub(crate) fn abort_at(member: u64, line: &[&str]) -> Child {
     let mut command = Command::new(env::current_exe().unwrap());
+    command.env(ABORT, member.to_string());
+    start_by(command, line)
+}
+
+/// The same, which may have so many files open.
+pub(crate) fn with_files(files: usize, line: &[&str]) -> Child {
+    let mut command = Command::new("sh");
+    let script = format!("ulimit -n {files}; exec \"$0\" \"$@\"");
+    command.args(["-c", &script]);
+    command.arg(env::current_exe().unwrap());
+    start_by(command, line)
+}
+
+fn start_by(mut command: Command, line: &[&str]) -> Child {
     command.args(["program::process", "--exact", "--ignored", "--nocapture"]);
     command.env(LINE, line.join("\n")).stdin(Stdio::null());
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -133,7 +160,12 @@ pub(crate) fn start(line: &[&str]) -> Child {
 
 /// The same, and waits for its end: the exit code, and what it said.
 pub(crate) fn finish(line: &[&str]) -> (i32, String) {
-    let output = start(line).wait_with_output().unwrap();
+    ended(start(line))
+}
+
+/// The exit code of a process, and what it said.
+pub(crate) fn ended(process: Child) -> (i32, String) {
+    let output = process.wait_with_output().unwrap();
     let said = [output.stdout, output.stderr].concat();
     (
         output.status.code().unwrap(),

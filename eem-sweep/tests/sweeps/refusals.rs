@@ -46,6 +46,10 @@ fn shards_of_another_program_inputs_or_settings_are_refused() {
             sweep(plan(MEMBERS, 1).setting("end", 3.5)),
         ),
         (
+            "setting `scheme` is absent there and new here",
+            sweep(plan(MEMBERS, 1).setting("scheme", "new")),
+        ),
+        (
             "number of members is 20 there and 21 here",
             sweep(plan(MEMBERS + 1, 1)),
         ),
@@ -55,7 +59,7 @@ fn shards_of_another_program_inputs_or_settings_are_refused() {
             let plan = Plan::new("stones", inputs, Scheme::EemEntropy, STEP);
             sweep(plan.setting("steps", 1).program("1"))
         }),
-        ("setting `scheme` is eem-entropy there and midpoint here", {
+        ("scheme is eem-entropy there and midpoint here", {
             let plan = Plan::new("stones", inputs(MEMBERS), Scheme::Midpoint, STEP);
             sweep(plan.setting("steps", 1).program("1"))
         }),
@@ -140,33 +144,38 @@ fn parts_that_are_foreign_damaged_or_contradict_are_found() {
         assert_eq!(error.exit_code(), 4);
         assert!(!folder.join("merged.csv").exists());
     };
-    // Torn, as no kill can leave it, but a copy may be; with a line less; with two lines in another order.
-    fs::write(path, &bytes[..bytes.len() - 3]).unwrap();
-    found("torn");
-    let lines: Vec<&[u8]> = bytes.split_inclusive(|&byte| byte == b'\n').collect();
-    fs::write(path, lines[..5].concat()).unwrap();
-    found("other members than its name says");
-    fs::write(
-        path,
-        [lines[0], lines[2], lines[1], lines[3], lines[4], lines[5]].concat(),
-    )
-    .unwrap();
-    found("first record");
-    fs::write(path, b"a,b\n1,2\n").unwrap();
-    found("other columns");
+    // Torn, as no kill can leave it, but a copy may be; with a digit that has changed; something else.
+    let digit = bytes.len() - 4;
+    let mut flipped = bytes.clone();
+    flipped[digit] ^= 1;
+    for wrong in [&bytes[..bytes.len() - 3], &flipped, b"a,b\n1,2\n", b""] {
+        fs::write(path, wrong).unwrap();
+        found("is damaged: its contents are not those that its name says; move it away");
+    }
     fs::write(path, bytes).unwrap();
+    // With another generation, other members, another format in its name.
+    for (from, to) in [(".g0.", ".g1."), ("-0000000009.5", "-0000000008.4")] {
+        let other = path.with_file_name(name.replace(from, to));
+        fs::rename(path, &other).unwrap();
+        let says = if from == ".g0." {
+            "contents"
+        } else {
+            "lacks 1 of 20"
+        };
+        let error = sweep.merge(&folder, None).unwrap_err().to_string();
+        assert!(error.contains(says), "{error}");
+        fs::rename(&other, path).unwrap();
+    }
+    let other = path.with_extension("arrow");
+    fs::rename(path, &other).unwrap();
+    found("its name does not end in `csv`");
+    fs::rename(&other, path).unwrap();
     // A part of another sweep.
     let digest = name.split('.').nth(3).unwrap();
     let foreign = path.with_file_name(name.replace(digest, "0123456789abcdef"));
     fs::write(&foreign, bytes).unwrap();
     found("belongs to the sweep 0123456789abcdef");
     fs::remove_file(foreign).unwrap();
-    // A member with other bits in another part.
-    let text = String::from_utf8([lines[0], lines[1]].concat()).unwrap();
-    let single = path.with_file_name(format!("0000000005-0000000005.1.g0.{digest}.csv"));
-    fs::write(&single, text.replace(",-1.", ",-2.")).unwrap();
-    found("member 5 has other bits");
-    fs::remove_file(single).unwrap();
     // Other files are nobody's business.
     fs::write(path.with_file_name("notes.txt"), "x").unwrap();
     sweep.merge(&folder, None).unwrap();
@@ -218,5 +227,11 @@ fn a_column_that_is_not_there_is_an_error_of_the_sweep() {
         error.to_string().contains("two columns `height (m)`"),
         "{error}"
     );
+    for name in ["stiffness\n", "\rspeed"] {
+        let inputs = Inputs::rows(["stiffness", "speed", name], [[1.0, 0.0, 1.0]]).unwrap();
+        let lines = sweep(Plan::new("stones", inputs, Scheme::EemEntropy, STEP).program("1"));
+        let error = lines.run(&folder, &RunOptions::default()).unwrap_err();
+        assert!(error.to_string().contains(&format!("{name:?}")), "{error}");
+    }
     assert!(!folder.exists());
 }
