@@ -35,17 +35,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let at = node.place.node();
             let (displacement, rest) = (&self.trial.displacements[at], &self.trial.rests[at]);
             if takes_increments {
-                let coupling = &self.coupling;
                 let [impulse, terms] =
-                    coupling.impulse((moving, node), &self.trial, twice_per_step);
+                    (self.coupling).impulse((moving, node), &self.trial, twice_per_step);
                 let found = remembering.impulse_mut(at);
+                let magnitude = self.magnitudes.get(at).copied();
+                let magnitude = magnitude.unwrap_or(S::zero());
                 for axis in 0..D {
                     let residual = impulse[axis] - found[axis];
                     largest.see(residual);
                     if is_exact {
-                        let terms = impulse[axis].abs() + terms[axis];
-                        let magnitude = self.magnitudes.get(at).copied();
-                        tally.balance(residual, terms + magnitude.unwrap_or(S::zero()));
+                        tally.balance(residual, impulse[axis].abs() + terms[axis] + magnitude);
                     }
                 }
                 *found = impulse;
@@ -70,12 +69,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         remembering.finish();
         self.final_residual = largest.found();
         if view.masses.are_coupled() {
-            for &node in &view.loads.moved {
-                let (old, none) = (&view.state.velocities, [S::zero(); D]);
-                let change = view.change_of_speed::<D>(node);
-                next.velocities.advance_point(node, old, [&change, &none]);
-            }
-            next.follow_velocities(D, view.masses);
+            follow_coupled_masses::<S, D>(view, next);
         }
         Ok(())
     }
@@ -91,6 +85,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
             }
         }
     }
+}
+
+/// The new velocities of moved nodes, then those of the nodes whose masses are coupled, from all momenta.
+fn follow_coupled_masses<S: Real, const D: usize>(view: &StepView<'_, S>, next: &mut State<S>) {
+    for &node in &view.loads.moved {
+        let (old, none) = (&view.state.velocities, [S::zero(); D]);
+        let change = view.change_of_speed::<D>(node);
+        next.velocities.advance_point(node, old, [&change, &none]);
+    }
+    next.follow_velocities(D, view.masses);
 }
 
 /// The new position and the new momentum of a node, all finite, from its displacement and impulse.
