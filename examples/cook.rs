@@ -33,7 +33,6 @@ use std::error::Error;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use comfy_table::{Table, presets};
 use eem::kinematics::{Quad4, Quad8};
 
 #[path = "cook/membrane.rs"]
@@ -43,7 +42,7 @@ mod support;
 use membrane::{Membrane, Row};
 use support::claims::{self, Claims};
 use support::deformed::{Picture, View};
-use support::{command_line, output, terminal};
+use support::{command_line, output, table, terminal};
 
 const ABOUT: &str = "Cook's membrane: convergence with the mesh";
 const HINT: &str = "Add --out DIR for a CSV file and a picture.";
@@ -118,8 +117,7 @@ fn run(options: &Options) -> Result<Claims, Box<dyn Error>> {
 
 /// A row per mesh.
 fn print(rows: &[Row]) {
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_header([
+    let mut table = table::headed([
         "cells",
         "nodes per cell",
         "nodes",

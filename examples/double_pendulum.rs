@@ -59,7 +59,7 @@ use support::command_line::{self, CommandLine};
 use support::comparison::Comparison;
 use support::published::{self, Published};
 use support::record::Record;
-use support::{output, simulate, table, terminal};
+use support::{defects, output, simulate, terminal};
 
 const HINT: &str = "Add --out DIR for the states as CSV and the figures of the papers.";
 const CHAOS: &str = "Later the motion is chaotic: the paths of different schemes part, and only \
@@ -141,7 +141,7 @@ fn run(options: &Options) -> Result<Claims, Box<dyn Error>> {
             grid,
         )?);
     }
-    table::print(&runs, Some(&reference.until(case.comparable)));
+    defects::print(&runs, Some(&reference.until(case.comparable)));
     if case.comparable < grid.end() {
         terminal::say(CHAOS);
     }

@@ -65,9 +65,9 @@ use scene::{Block, block};
 use support::claims::{self, Claims};
 use support::command_line::CommandLine;
 use support::record::Record;
-use support::simulate::{self, Columns, Watched};
+use support::simulate::{self, Further, Watched};
 use support::time_grid::TimeGrid;
-use support::{output, terminal};
+use support::{output, points, terminal};
 
 const ABOUT: &str = "A thermoelastic block in the shape of an L, and how schemes keep its laws";
 const HINT: &str = "Add --out DIR for a CSV file per scheme and pictures.";
@@ -104,15 +104,10 @@ fn run(command_line: &CommandLine) -> Result<Claims, Box<dyn Error>> {
     let directory = command_line.out.as_deref();
     directory.map_or(Ok(()), output::prepare)?;
 
-    let schemes = if command_line.takes_all_schemes() {
-        COMPARED.into()
-    } else {
-        command_line.schemes()
-    };
-    let mut runs = Vec::new();
-    for scheme in schemes {
-        runs.push(tumble(scheme, grid)?);
-    }
+    let schemes = command_line.schemes_or(&COMPARED).into_iter();
+    let runs = schemes
+        .map(|scheme| tumble(scheme, grid))
+        .collect::<Result<Vec<_>, _>>()?;
     balance::print(&runs);
     match directory {
         Some(directory) => {
@@ -143,27 +138,12 @@ fn tumble(scheme: Scheme, grid: TimeGrid) -> Result<Record, Box<dyn Error>> {
 }
 
 /// Columns of this example's own. A handle that is not of the scene would show as not a number.
-fn further(points: &[Element]) -> Columns<3> {
-    let coldest = over(points, |a, b| if a.is_nan() || a < b { a } else { b });
-    let warmest = over(points, |a, b| if a.is_nan() || a > b { a } else { b });
-    let columns = [
+fn further(points: &[Element]) -> [Further<3>; 5] {
+    [
         ("work", Quantity::Ledger(|ledger| ledger.work)),
         ("entropy", Quantity::TotalEntropy),
         ("kinetic", Quantity::Ledger(|ledger| ledger.kinetic_energy)),
-        ("temperature_min", coldest),
-        ("temperature_max", warmest),
-    ];
-    columns
-        .map(|(name, quantity)| (name.to_owned(), quantity))
-        .into()
-}
-
-/// One of the temperatures of all points, as chosen between two.
-fn over(points: &[Element], choose: fn(f64, f64) -> f64) -> Quantity<3> {
-    let points = points.to_vec();
-    Quantity::custom_in("K", move |run: &Simulation<3>| {
-        let temperature = |&point| run.temperature(point).unwrap_or(f64::NAN);
-        let temperatures = points.iter().map(temperature);
-        temperatures.reduce(choose).unwrap_or(f64::NAN)
-    })
+        ("temperature_min", points::coldest(points)),
+        ("temperature_max", points::warmest(points)),
+    ]
 }

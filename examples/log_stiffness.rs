@@ -55,7 +55,7 @@ use support::comparison::{Comparison, Plot};
 use support::record::Record;
 use support::simulate::{self, Watched};
 use support::time_grid::TimeGrid;
-use support::{output, statistics, table, terminal};
+use support::{defects, output, statistics, terminal};
 
 const ABOUT: &str = "Energy, entropy and momentum kept in entropy form, without a formula for θ(s)";
 const HINT: &str = "Add --out DIR for the states as CSV and a picture of the energy defects.";
@@ -167,7 +167,7 @@ fn run(command_line: &CommandLine) -> Result<Claims, Box<dyn Error>> {
             grid,
         )?);
     }
-    table::print(&runs, None);
+    defects::print(&runs, None);
     match directory {
         Some(directory) => write(directory, &runs)?,
         None => terminal::say(HINT),

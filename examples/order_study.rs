@@ -33,7 +33,6 @@ use std::error::Error;
 use std::path::Path;
 use std::process::ExitCode;
 
-use comfy_table::{Table, presets};
 use eem::prelude::*;
 
 mod support;
@@ -45,7 +44,7 @@ use support::figures::{Axes, Curve, Figure};
 use support::record::Record;
 use support::simulate::{self, Watched};
 use support::time_grid::TimeGrid;
-use support::{output, terminal};
+use support::{output, table, terminal};
 
 const ABOUT: &str = "Errors over step sizes, and the order of every scheme; --step is the largest";
 const HINT: &str = "Add --out DIR for the errors as CSV and a picture.";
@@ -221,8 +220,7 @@ fn print(studies: &[Study]) {
     let heads = steps
         .iter()
         .map(|(step, _)| format!("{:.2} ms", 1e3 * step));
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_header(
+    let mut table = table::headed(
         ["scheme".to_owned()]
             .into_iter()
             .chain(heads)

@@ -42,8 +42,6 @@ use std::error::Error;
 use std::path::Path;
 use std::process::ExitCode;
 
-use comfy_table::{Table, presets};
-
 #[path = "double_pendulum/cases.rs"]
 mod double_pendulum;
 #[path = "paper_tables/errors.rs"]
@@ -63,7 +61,7 @@ use support::claims::{self, Claims, Laws};
 use support::command_line::CommandLine;
 use support::record::Record;
 use support::statistics::Statistics;
-use support::{output, terminal};
+use support::{output, table, terminal};
 
 const ABOUT: &str = "Table III of Kern et al. (2021) and other published numbers, beside ours";
 const HINT: &str = "Add --out DIR for the table as CSV.";
@@ -144,8 +142,7 @@ fn run(command_line: &CommandLine) -> Result<Claims, Box<dyn Error>> {
     let both = [single?, double?];
 
     let rows: Vec<_> = both.iter().flat_map(rows).collect();
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_header(HEADS);
+    let mut table = table::headed(HEADS);
     table.add_rows(&rows);
     terminal::say(format_args!("Table III\n\n{table}\n\n{NOTES}"));
     let stated = examples::final_entropy(NEEDED_CONDUCTANCE)?;

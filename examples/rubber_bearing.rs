@@ -57,9 +57,9 @@ use scene::{Bearing, HEIGHT, bearing};
 use support::claims::{self, Claims};
 use support::command_line::CommandLine;
 use support::record::Record;
-use support::simulate::{self, Columns, Watched};
+use support::simulate::{self, Further, Watched};
 use support::time_grid::TimeGrid;
-use support::{output, terminal};
+use support::{output, points, terminal};
 
 const ABOUT: &str = "A rubber bearing in an earthquake, which warms up and damps less";
 const HINT: &str = "Add --out DIR for a CSV file per scheme and pictures.";
@@ -88,15 +88,10 @@ fn run(command_line: &CommandLine) -> Result<Claims, Box<dyn Error>> {
     let grid = command_line.time_grid(scene::STEP, scene::END);
     let directory = command_line.out.as_deref();
     directory.map_or(Ok(()), output::prepare)?;
-    let schemes = if command_line.takes_all_schemes() {
-        COMPARED.into()
-    } else {
-        command_line.schemes()
-    };
-    let mut runs = Vec::new();
-    for scheme in schemes {
-        runs.push(shake(scheme, grid)?);
-    }
+    let schemes = command_line.schemes_or(&COMPARED).into_iter();
+    let runs = schemes
+        .map(|scheme| shake(scheme, grid))
+        .collect::<Result<Vec<_>, _>>()?;
     balance::print(&runs);
     match directory {
         Some(directory) => {
@@ -127,61 +122,27 @@ fn shake(scheme: Scheme, grid: TimeGrid) -> Result<Record, Box<dyn Error>> {
 }
 
 /// Columns of this example's own. A handle that is not of the scene would show as not a number.
-fn further(bearing: &Bearing) -> Columns<2> {
-    let points = bearing.rubber.points();
+fn further(bearing: &Bearing) -> [Further<2>; 6] {
+    let rubber = bearing.rubber.points();
     let plate = bearing.plate;
     let strain = Quantity::custom(move |run: &Simulation<2>| {
         run.position(plate)
             .map_or(f64::NAN, |position| position.x / HEIGHT)
     });
-    let columns = [
+    [
         ("work", Quantity::Ledger(|ledger| ledger.work)),
         ("entropy", Quantity::TotalEntropy),
         ("strain", strain),
         (
             "shear_stress",
-            mean(points, "Pa", |run, point| {
-                Some(run.solid_state(point).ok()?.stress[(0, 1)])
+            points::mean(rubber, "Pa", |run, point| {
+                Ok(run.solid_state(point)?.stress[(0, 1)])
             }),
         ),
         (
             "temperature_mean",
-            mean(points, "K", |run, point| run.temperature(point).ok()),
+            points::mean(rubber, "K", Simulation::temperature),
         ),
-        ("temperature_max", largest(points)),
-    ];
-    columns
-        .map(|(name, quantity)| (name.to_owned(), quantity))
-        .into()
-}
-
-/// The mean of a quantity over all points, cell by cell alike.
-fn mean(
-    points: &[Element],
-    unit: &'static str,
-    of: fn(&Simulation<2>, Element) -> Option<f64>,
-) -> Quantity<2> {
-    let points = points.to_vec();
-    Quantity::custom_in(unit, move |run: &Simulation<2>| {
-        let add = |[sum, count]: [f64; 2], value: f64| [sum + value, count + 1.0];
-        let values = points.iter().map(|&point| of(run, point));
-        let [sum, count] = values
-            .map(|value| value.unwrap_or(f64::NAN))
-            .fold([0.0; 2], add);
-        sum / count
-    })
-}
-
-/// The temperature of the warmest point.
-fn largest(points: &[Element]) -> Quantity<2> {
-    let points = points.to_vec();
-    Quantity::custom_in("K", move |run: &Simulation<2>| {
-        let temperature = |&point| run.temperature(point).unwrap_or(f64::NAN);
-        let larger = |a: f64, b: f64| if a.is_nan() || a > b { a } else { b };
-        points
-            .iter()
-            .map(temperature)
-            .reduce(larger)
-            .unwrap_or(f64::NAN)
-    })
+        ("temperature_max", points::warmest(rubber)),
+    ]
 }

@@ -61,7 +61,7 @@ use scene::{Axis, Satellite, satellite};
 use support::claims::{self, Claims};
 use support::command_line::{self, CommandLine};
 use support::record::Record;
-use support::simulate::{self, Columns, Watched};
+use support::simulate::{self, Further, Watched};
 use support::time_grid::TimeGrid;
 use support::{output, terminal};
 
@@ -135,15 +135,10 @@ fn run(options: &Options) -> Result<Claims, Box<dyn Error>> {
         stops: !options.no_stop,
         step: grid.step,
     };
-    let schemes = if options.common.takes_all_schemes() {
-        COMPARED.into()
-    } else {
-        options.common.schemes()
-    };
-    let mut runs = Vec::new();
-    for scheme in schemes {
-        runs.push(turn(scheme, case, grid)?);
-    }
+    let schemes = options.common.schemes_or(&COMPARED).into_iter();
+    let runs = schemes
+        .map(|scheme| turn(scheme, case, grid))
+        .collect::<Result<Vec<_>, _>>()?;
     balance::print(&runs);
     match directory {
         Some(directory) => {
@@ -179,7 +174,7 @@ fn turn(scheme: Scheme, case: Case, grid: TimeGrid) -> Result<Record, Box<dyn Er
 }
 
 /// Columns of this example's own. A handle that is not of the scene would show as not a number.
-fn further(satellite: &Satellite, axis: Axis) -> Columns<3> {
+fn further(satellite: &Satellite, axis: Axis) -> [Further<3>; 3] {
     let [tail, head] = satellite.line;
     let attitude = Quantity::custom_in("°", move |run: &Simulation<3>| {
         let [Ok(tail), Ok(head)] = [tail, head].map(|node| run.position(node)) else {
@@ -192,14 +187,11 @@ fn further(satellite: &Satellite, axis: Axis) -> Columns<3> {
         };
         ahead.atan2(line.x).to_degrees()
     });
-    let columns = [
+    [
         ("work", Quantity::Ledger(|ledger| ledger.work)),
         ("kinetic", Quantity::Ledger(|ledger| ledger.kinetic_energy)),
         (ATTITUDE, attitude),
-    ];
-    columns
-        .map(|(name, quantity)| (name.to_owned(), quantity))
-        .into()
+    ]
 }
 
 /// Angles that go on where they jump back by a turn, degrees.

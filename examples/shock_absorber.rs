@@ -73,7 +73,7 @@ use ride::Lap;
 use support::claims::{self, Claims};
 use support::command_line::CommandLine;
 use support::record::Record;
-use support::simulate::{self, Columns, Watched};
+use support::simulate::{self, Further, Watched};
 use support::time_grid::TimeGrid;
 use support::{output, terminal};
 
@@ -118,7 +118,7 @@ fn drive(
 }
 
 /// Columns of this example's own. A handle that is not of the scene would show as not a number.
-fn further(contact: Node, [tyre, spring, damper]: [Element; 3]) -> Columns<1> {
+fn further(contact: Node, [tyre, spring, damper]: [Element; 3]) -> [Further<1>; 8] {
     let value = |result: Result<f64, SceneError>| result.unwrap_or(f64::NAN);
     let road = move |run: &Simulation<1>| value(run.position(contact).map(|road| road[0]));
     let travel = move |run: &Simulation<1>| value(run.stretch(spring)) - CLEARANCE;
@@ -127,7 +127,7 @@ fn further(contact: Node, [tyre, spring, damper]: [Element; 3]) -> Columns<1> {
         -strut / BODY - GRAVITY
     };
     let tyre_force = move |run: &Simulation<1>| -value(run.force(tyre));
-    let columns = [
+    [
         ("road", Quantity::custom(road)),
         ("travel", Quantity::custom(travel)),
         ("acceleration", Quantity::custom(acceleration)),
@@ -139,10 +139,7 @@ fn further(contact: Node, [tyre, spring, damper]: [Element; 3]) -> Columns<1> {
         ),
         ("work", Quantity::Ledger(|ledger| ledger.work)),
         ("balance", Quantity::Ledger(|ledger| ledger.balance)),
-    ];
-    columns
-        .map(|(name, quantity)| (name.to_owned(), quantity))
-        .into()
+    ]
 }
 
 fn main() -> ExitCode {

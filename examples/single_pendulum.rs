@@ -56,7 +56,7 @@ use support::comparison::Comparison;
 use support::record::Record;
 use support::statistics::Statistics;
 use support::time_grid::TimeGrid;
-use support::{output, published, simulate, table, terminal};
+use support::{defects, output, published, simulate, terminal};
 
 const HINT: &str = "Add --out DIR for the states as CSV and the figures of the papers.";
 const ABOUT: &str =
@@ -103,7 +103,7 @@ fn run(command_line: &CommandLine) -> Result<Claims, Box<dyn Error>> {
             grid,
         )?);
     }
-    table::print(&runs, Some(&reference));
+    defects::print(&runs, Some(&reference));
     match directory {
         Some(directory) => write(directory, &reference, &runs)?,
         None => terminal::say(HINT),
@@ -124,10 +124,7 @@ fn check(runs: &[Record]) -> Claims {
     let mut claims = Claims::default();
     for run in runs.iter().filter(|run| run.scheme.starts_with("eem-")) {
         let scheme = &run.scheme;
-        claims.holds(
-            run.completed(),
-            format!("{scheme} does not reach the end time"),
-        );
+        claims.reaches_the_end(run);
         let steps = u32::try_from(run.steps()).map_or(f64::INFINITY, f64::from);
         let figures = Statistics::of(run);
         claims.at_most(

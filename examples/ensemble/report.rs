@@ -1,9 +1,10 @@
 //! The answer on the terminal: quantiles for every scheme, and which unknown matters.
 
-use comfy_table::{Table, presets};
+use comfy_table::Table;
 
 use super::members::Sample;
 use super::pendulum::{End, Spring};
+use super::support::table::{self, scientific};
 use super::support::terminal;
 
 /// Five of a hundred members lie below the first of these, five above the last.
@@ -23,7 +24,7 @@ const HEADS: [&str; 9] = [
 
 /// Prints a row for each scheme, and what the first one says about the unknowns.
 pub(crate) fn print(springs: &[Spring], samples: &[Sample], end: f64) {
-    let mut table = table(&HEADS);
+    let mut table = table::headed(HEADS);
     for sample in samples {
         table.add_row(row(sample));
     }
@@ -56,19 +57,11 @@ pub(crate) fn print(springs: &[Spring], samples: &[Sample], end: f64) {
     );
 }
 
-fn table(heads: &[&str]) -> Table {
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_header(heads);
-    table
-}
-
 fn row(sample: &Sample) -> Vec<String> {
     let temperatures = sample.sorted(|end| end.temperature);
     let entropies = sample.sorted(|end| end.entropy);
     let total = real(sample.ends.len());
     let completed = 100.0 * real(temperatures.len()) / total;
-    let scientific =
-        |value: Option<f64>| value.map_or("–".into(), |value| format!("{value:.1e}"));
     let mut cells = vec![sample.scheme.name().to_owned(), percent(completed)];
     for share in QUANTILES {
         cells.push(cell(quantile(&temperatures, share), 2));
@@ -86,7 +79,7 @@ fn row(sample: &Sample) -> Vec<String> {
 
 /// The share of each unknown in the variance of temperature and entropy.
 fn shares(springs: &[Spring], sample: &Sample) -> Table {
-    let mut table = table(&["unknown", "share in θ", "share in S − S₀"]);
+    let mut table = table::headed(["unknown", "share in θ", "share in S − S₀"]);
     for (index, unknown) in Spring::UNKNOWNS.iter().enumerate() {
         let share = |quantity: fn(&End) -> f64| {
             let members = springs.iter().zip(&sample.ends);

@@ -1,12 +1,12 @@
 //! The answer on the terminal: truth, start and fit of every unknown, and how well they are known.
 
-use comfy_table::{Table, presets};
 use eem::nalgebra::Matrix3;
 
 use super::confidence::{Bootstrap, deviations};
 use super::drive::{Drive, Logs, UNKNOWNS};
 use super::fit::{Data, Fit};
 use super::recording::{Recording, TEMPERATURE_NOISE};
+use super::support::table;
 use super::support::terminal::say;
 use super::survey::{Sample, Survey};
 
@@ -65,8 +65,7 @@ pub(crate) fn print(
         bootstrap.ensembles,
     ));
     let (linear, sampled) = (deviations(covariance), bootstrap.deviations());
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_header([
+    let mut table = table::headed([
         "unknown",
         "truth",
         "start",

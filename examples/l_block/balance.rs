@@ -1,13 +1,10 @@
 //! The balance sheet: what the tractions gave and what became of it, and the laws that it must keep.
 
-use comfy_table::{Table, presets};
-
 use super::scene::{LOADED, RUBBER, VOLUME};
 use super::support::claims::Claims;
-use super::support::first_law;
-use super::support::record::{Outcome, Record};
-use super::support::statistics::{Statistics, largest, momentum_change};
-use super::support::terminal;
+use super::support::record::Record;
+use super::support::statistics::{Statistics, momentum_change};
+use super::support::{table, terminal};
 
 /// What rounding may do to E − W, relative to the heat c θ of the block, the largest term in it. The state
 /// is kept to twice the working precision and Newton's method goes on to the rounding of its residual, so that
@@ -25,8 +22,7 @@ const ENTROPY_LOSS: f64 = 2.0;
 
 /// What was given and what became of it, a row per scheme.
 pub(crate) fn print(runs: &[Record]) {
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_header([
+    let heads = [
         "scheme",
         "outcome",
         "W (J)",
@@ -37,19 +33,8 @@ pub(crate) fn print(runs: &[Record]) {
         "θ (K)",
         "Newton/step",
         "ms/step",
-    ]);
-    for run in runs {
-        table.add_row(row(run));
-    }
-    terminal::say(format_args!("{table}\n"));
-    for run in runs {
-        if let Outcome::Failed { time, reason } = &run.outcome {
-            let scheme = &run.scheme;
-            terminal::say(format_args!(
-                "{scheme} failed after t = {time:.6} s: {reason}"
-            ));
-        }
-    }
+    ];
+    table::print(heads, runs, row);
     terminal::say(format_args!(
         "W: work of the tractions; W, kinetic energy and least and largest temperature at the end.\n\
          Off by: the energy, max |E − E₀ − W| over the run. ΔJ: max |J − J(t₀)| after t₀ = {LOADED} s,\n\
@@ -59,30 +44,20 @@ pub(crate) fn print(runs: &[Record]) {
 
 fn row(run: &Record) -> [String; 10] {
     let figures = Statistics::of(run);
-    let last = |name| run.column(name).and_then(|values| values.last().copied());
-    let cell = |value: Option<f64>, format: fn(f64) -> String| value.map_or("–".into(), format);
-    let outcome = match run.outcome {
-        Outcome::Completed => "completed".to_owned(),
-        Outcome::Failed { time, .. } => format!("failed at {time:.1} s"),
-    };
-    let range = [last("temperature_min"), last("temperature_max")];
-    let [least, most] = range.map(|theta| cell(theta, |theta| format!("{theta:.2}")));
+    let range = ["temperature_min", "temperature_max"];
+    let [least, most] = range.map(|name| table::last(run, name, |theta| format!("{theta:.2}")));
     let time = figures.time_per_step.map(|time| time.as_secs_f64());
     [
         run.scheme.clone(),
-        outcome,
-        cell(last("work"), |work| format!("{work:.3}")),
-        cell(last("kinetic"), |kinetic| format!("{kinetic:.3}")),
-        cell(largest(first_law::defects(run)), |defect| {
-            format!("{defect:.1e}")
-        }),
-        cell(figures.entropy_increment, |least| format!("{least:.1e}")),
-        cell(momentum_change(run, LOADED), |defect| {
-            format!("{defect:.1e}")
-        }),
+        table::outcome(run),
+        table::last(run, "work", |work| format!("{work:.3}")),
+        table::last(run, "kinetic", |kinetic| format!("{kinetic:.3}")),
+        table::first_law_defect(run),
+        table::scientific(figures.entropy_increment),
+        table::scientific(momentum_change(run, LOADED)),
         format!("{least} … {most}"),
-        cell(figures.newton_iterations, |mean| format!("{mean:.2}")),
-        cell(time, |time| format!("{:.2}", 1e3 * time)),
+        table::cell(figures.newton_iterations, |mean| format!("{mean:.2}")),
+        table::cell(time, |time| format!("{:.2}", 1e3 * time)),
     ]
 }
 
@@ -92,22 +67,11 @@ pub(crate) fn check(run: &Record, claims: &mut Claims) {
     if !scheme.starts_with("eem-") {
         return;
     }
-    claims.holds(
-        run.completed(),
-        format!("{scheme} does not reach the end time"),
-    );
+    claims.reaches_the_end(run);
     let warmest = run.column("temperature_max").unwrap_or_default();
     let warmest = warmest.iter().copied().fold(0.0, f64::max);
-    claims.at_most(
-        &format!("{scheme}: the defect of the energy (J)"),
-        largest(first_law::defects(run)),
-        ENERGY_DEFECT * RUBBER.capacity * VOLUME * warmest,
-    );
-    claims.at_least(
-        &format!("{scheme}: the smallest entropy increment (units in the last place)"),
-        Statistics::of(run).entropy_increment_ulps,
-        -ENTROPY_LOSS,
-    );
+    claims.keeps_the_first_law(run, ENERGY_DEFECT * RUBBER.capacity * VOLUME * warmest);
+    claims.loses_no_entropy(run, ENTROPY_LOSS);
     if let Some(defect) = momentum_change(run, LOADED) {
         let steps = u32::try_from(run.steps()).map_or(f64::INFINITY, f64::from);
         claims.at_most(

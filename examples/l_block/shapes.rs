@@ -6,7 +6,7 @@ use std::path::Path;
 use eem::prelude::*;
 
 use super::scene::{Block, block};
-use super::support::deformed::{self, Picture, State, View};
+use super::support::deformed::{self, Picture, View};
 use super::support::time_grid::TimeGrid;
 
 /// Times of the states, s, as far as the run has them.
@@ -16,16 +16,9 @@ const TIMES: [f64; 6] = [0.0, 1.0, 2.0, 5.0, 10.0, 15.0];
 pub(crate) fn write(directory: &Path, grid: TimeGrid) -> Result<(), Box<dyn Error>> {
     let Block { scene, body } = block()?;
     let mut run = Simulation::new(scene, Scheme::EemTemperature, grid.step)?;
-    let mut states = Vec::new();
-    for time in TIMES.into_iter().filter(|&time| time <= grid.end()) {
-        run.run_until(time)?;
-        states.push(State {
-            caption: format!("t = {time} s"),
-            patches: deformed::patches(&run, &body, |points| {
-                deformed::mean_temperature(&run, points)
-            })?,
-        });
-    }
+    let states = deformed::states(&mut run, &TIMES, grid.end(), |run| {
+        deformed::temperatures(run, &body)
+    })?;
     let picture = Picture {
         title: "An L-shaped block: its shape, and the mean temperature of each cell".to_owned(),
         quantity: "temperature (K)".to_owned(),

@@ -1,12 +1,10 @@
 //! Numbers that the papers give in captions and in the text, beside ours.
 
-use comfy_table::{Table, presets};
 use eem::{FreeEnergy, Scheme};
 
 use super::examples::Runs;
 use super::support::record::{Outcome, Record};
-use super::support::statistics;
-use super::support::terminal;
+use super::support::{statistics, table, terminal};
 use super::{double_pendulum, single_pendulum};
 
 const HEADS: [&str; 4] = ["example", "number", "published", "ours"];
@@ -25,8 +23,7 @@ pub(crate) fn print(both: &[Runs; 2], conductance: f64, stated: Option<f64>) {
         lines.extend(breakdowns(single, double));
     }
     lines.sort_by_key(|line| line.0);
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_header(HEADS);
+    let mut table = table::headed(HEADS);
     for (example, what, published, ours) in lines {
         table.add_row([&example.to_string(), &what, published, &ours]);
     }

@@ -1,14 +1,11 @@
 //! The balance sheet: what the plate gave and what became of it, and the laws that it must keep.
 
-use comfy_table::{Table, presets};
-
 use super::cycles;
 use super::scene::{RUBBER, TEMPERATURE, VOLUME};
 use super::support::claims::Claims;
-use super::support::first_law;
-use super::support::record::{Outcome, Record};
-use super::support::statistics::{Statistics, largest};
-use super::support::terminal;
+use super::support::record::Record;
+use super::support::statistics::Statistics;
+use super::support::{table, terminal};
 
 /// What rounding may do to E − W, relative to the heat c θ of the rubber, the largest term in it: evaluating E from
 /// θ costs a dozen roundings of ε/2 at each of the 144 points, whose signs differ: half an ε of the whole, for each
@@ -20,8 +17,7 @@ const ENTROPY_LOSS: f64 = 2.0;
 
 /// What was given and what became of it, a row per scheme.
 pub(crate) fn print(runs: &[Record]) {
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_header([
+    let heads = [
         "scheme",
         "outcome",
         "W (J)",
@@ -32,19 +28,8 @@ pub(crate) fn print(runs: &[Record]) {
         "mean θ (K)",
         "Newton/step",
         "ms/step",
-    ]);
-    for run in runs {
-        table.add_row(row(run));
-    }
-    terminal::say(format_args!("{table}\n"));
-    for run in runs {
-        if let Outcome::Failed { time, reason } = &run.outcome {
-            let scheme = &run.scheme;
-            terminal::say(format_args!(
-                "{scheme} failed after t = {time:.6} s: {reason}"
-            ));
-        }
-    }
+    ];
+    table::print(heads, runs, row);
     terminal::say(
         "W: work of the plate, over the run, and in the third and the last cycle, as are stress and\n\
          temperature. Off by: the energy, max |E − E₀ − W| over the run.",
@@ -53,12 +38,6 @@ pub(crate) fn print(runs: &[Record]) {
 
 fn row(run: &Record) -> [String; 10] {
     let figures = Statistics::of(run);
-    let last = |name| run.column(name).and_then(|values| values.last().copied());
-    let cell = |value: Option<f64>, format: fn(f64) -> String| value.map_or("–".into(), format);
-    let outcome = match run.outcome {
-        Outcome::Completed => "completed".to_owned(),
-        Outcome::Failed { time, .. } => format!("failed at {time:.1} s"),
-    };
     let cycles = cycles::all(run);
     let ends = |of: fn(&cycles::Cycle) -> String| match (cycles.first(), cycles.last()) {
         (Some(first), Some(last)) => format!("{} … {}", of(first), of(last)),
@@ -67,17 +46,15 @@ fn row(run: &Record) -> [String; 10] {
     let time = figures.time_per_step.map(|time| time.as_secs_f64());
     [
         run.scheme.clone(),
-        outcome,
-        cell(last("work"), |work| format!("{work:.1}")),
-        cell(largest(first_law::defects(run)), |defect| {
-            format!("{defect:.1e}")
-        }),
-        cell(figures.entropy_increment, |least| format!("{least:.1e}")),
+        table::outcome(run),
+        table::last(run, "work", |work| format!("{work:.1}")),
+        table::first_law_defect(run),
+        table::scientific(figures.entropy_increment),
         ends(|cycle| format!("{:.0}", cycle.work)),
         ends(|cycle| format!("{:.1}", 1e-3 * cycle.stress)),
         ends(|cycle| format!("{:.2}", cycle.temperature)),
-        cell(figures.newton_iterations, |mean| format!("{mean:.2}")),
-        cell(time, |time| format!("{:.2}", 1e3 * time)),
+        table::cell(figures.newton_iterations, |mean| format!("{mean:.2}")),
+        table::cell(time, |time| format!("{:.2}", 1e3 * time)),
     ]
 }
 
@@ -87,18 +64,7 @@ pub(crate) fn check(run: &Record, claims: &mut Claims) {
     if !scheme.starts_with("eem-") {
         return;
     }
-    claims.holds(
-        run.completed(),
-        format!("{scheme} does not reach the end time"),
-    );
-    claims.at_most(
-        &format!("{scheme}: the defect of the energy (J)"),
-        largest(first_law::defects(run)),
-        ENERGY_DEFECT * RUBBER.capacity * VOLUME * TEMPERATURE,
-    );
-    claims.at_least(
-        &format!("{scheme}: the smallest entropy increment (units in the last place)"),
-        Statistics::of(run).entropy_increment_ulps,
-        -ENTROPY_LOSS,
-    );
+    claims.reaches_the_end(run);
+    claims.keeps_the_first_law(run, ENERGY_DEFECT * RUBBER.capacity * VOLUME * TEMPERATURE);
+    claims.loses_no_entropy(run, ENTROPY_LOSS);
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use eem::prelude::*;
 
 use super::scene::{Bearing, bearing};
-use super::support::deformed::{self, Picture, State, View};
+use super::support::deformed::{self, Picture, View};
 use super::support::time_grid::TimeGrid;
 
 /// Times of the states, s, as far as the run has them: where the plate is farthest to one side or the other.
@@ -16,16 +16,9 @@ const TIMES: [f64; 4] = [1.25, 5.75, 12.25, 19.75];
 pub(crate) fn write(directory: &Path, grid: TimeGrid) -> Result<(), Box<dyn Error>> {
     let Bearing { scene, rubber, .. } = bearing()?;
     let mut run = Simulation::new(scene, Scheme::EemTemperature, grid.step)?;
-    let mut states = Vec::new();
-    for time in TIMES.into_iter().filter(|&time| time <= grid.end()) {
-        run.run_until(time)?;
-        states.push(State {
-            caption: format!("t = {time} s"),
-            patches: deformed::patches(&run, &rubber, |points| {
-                deformed::mean_temperature(&run, points)
-            })?,
-        });
-    }
+    let states = deformed::states(&mut run, &TIMES, grid.end(), |run| {
+        deformed::temperatures(run, &rubber)
+    })?;
     if states.is_empty() {
         return Ok(());
     }

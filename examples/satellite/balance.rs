@@ -1,14 +1,13 @@
 //! The balance sheet: what the rockets gave and what became of it, and the laws that it must keep.
 
-use comfy_table::{Table, presets};
 use eem::Scheme;
 
 use super::scene::{FIRED, STOP};
 use super::support::claims::Claims;
 use super::support::first_law;
-use super::support::record::{Outcome, Record};
-use super::support::statistics::{Statistics, TIME_TOLERANCE, largest, momentum_change};
-use super::support::terminal;
+use super::support::record::Record;
+use super::support::statistics::{Statistics, TIME_TOLERANCE, momentum_change};
+use super::support::{table, terminal};
 use super::{ATTITUDE, Case};
 
 /// What the exact schemes may be off by: energy, J, and angular momentum between the firings, relative to itself.
@@ -24,8 +23,7 @@ const LONG: f64 = 60.0;
 
 /// What was given and what became of it, a row per scheme.
 pub(crate) fn print(runs: &[Record]) {
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_header([
+    let heads = [
         "scheme",
         "outcome",
         "turn (°)",
@@ -36,19 +34,8 @@ pub(crate) fn print(runs: &[Record]) {
         "ΔJ/J",
         "Newton/step",
         "ms/iteration",
-    ]);
-    for run in runs {
-        table.add_row(row(run));
-    }
-    terminal::say(format_args!("{table}\n"));
-    for run in runs {
-        if let Outcome::Failed { time, reason } = &run.outcome {
-            let scheme = &run.scheme;
-            terminal::say(format_args!(
-                "{scheme} failed after t = {time:.6} s: {reason}"
-            ));
-        }
-    }
+    ];
+    table::print(heads, runs, row);
     terminal::say(format_args!(
         "W: work of the rockets; turn, W and kinetic energy at the end. Off by: the energy,\n\
          max |E − E₀ − W| over the run. ΔJ: max |J − J(t₀)| from the first firing to the second."
@@ -57,27 +44,19 @@ pub(crate) fn print(runs: &[Record]) {
 
 fn row(run: &Record) -> [String; 10] {
     let figures = Statistics::of(run);
-    let last = |name| run.column(name).and_then(|values| values.last().copied());
-    let cell = |value: Option<f64>, format: fn(f64) -> String| value.map_or("–".into(), format);
-    let outcome = match run.outcome {
-        Outcome::Completed => "completed".to_owned(),
-        Outcome::Failed { time, .. } => format!("failed at {time:.1} s"),
-    };
     let time = figures.time_per_step.map(|time| time.as_secs_f64());
     let per_iteration = time.zip(figures.newton_iterations);
     [
         run.scheme.clone(),
-        outcome,
-        cell(last(ATTITUDE), |turn| format!("{turn:.2}")),
-        cell(last("work"), |work| format!("{work:.6}")),
-        cell(last("kinetic"), |kinetic| format!("{kinetic:.5}")),
-        cell(largest(first_law::defects(run)), |defect| {
-            format!("{defect:.1e}")
-        }),
-        cell(figures.entropy_increment, |least| format!("{least:.1e}")),
-        cell(momentum_defect(run), |defect| format!("{defect:.1e}")),
-        cell(figures.newton_iterations, |mean| format!("{mean:.2}")),
-        cell(
+        table::outcome(run),
+        table::last(run, ATTITUDE, |turn| format!("{turn:.2}")),
+        table::last(run, "work", |work| format!("{work:.6}")),
+        table::last(run, "kinetic", |kinetic| format!("{kinetic:.5}")),
+        table::first_law_defect(run),
+        table::scientific(figures.entropy_increment),
+        table::scientific(momentum_defect(run)),
+        table::cell(figures.newton_iterations, |mean| format!("{mean:.2}")),
+        table::cell(
             per_iteration.map(|(time, iterations)| time / iterations),
             |time| format!("{:.2}", 1e3 * time),
         ),
@@ -102,15 +81,8 @@ pub(crate) fn check(run: &Record, case: Case, claims: &mut Claims) {
     }
     let scheme = &run.scheme;
     if scheme.starts_with("eem-") {
-        claims.holds(
-            run.completed(),
-            format!("{scheme} does not reach the end time"),
-        );
-        claims.at_most(
-            &format!("{scheme}: the defect of the energy (J)"),
-            largest(first_law::defects(run)),
-            ENERGY_DEFECT,
-        );
+        claims.reaches_the_end(run);
+        claims.keeps_the_first_law(run, ENERGY_DEFECT);
         claims.at_least(
             &format!("{scheme}: the smallest entropy increment (J/K)"),
             Statistics::of(run).entropy_increment,

@@ -7,7 +7,8 @@ use eem::prelude::*;
 
 use super::Case;
 use super::scene::satellite;
-use super::support::deformed::{self, Picture, State, View};
+use super::support::deformed::{self, Picture, View};
+use super::support::points;
 use super::support::time_grid::TimeGrid;
 
 /// Times of the states, s, as far as the run has them.
@@ -17,19 +18,14 @@ const TIMES: [f64; 6] = [0.0, 2.0, 5.0, 15.0, 30.0, 60.0];
 pub(crate) fn write(directory: &Path, case: Case, grid: TimeGrid) -> Result<(), Box<dyn Error>> {
     let satellite = satellite(case.axis, case.stops)?;
     let mut run = Simulation::new(satellite.scene, Scheme::EemEntropy, grid.step)?;
-    let mut states = Vec::new();
-    for time in TIMES.into_iter().filter(|&time| time <= grid.end()) {
-        run.run_until(time)?;
-        let strain = |points: &[Element]| mean_strain(&run, points);
-        let mut patches = deformed::patches(&run, &satellite.body, strain)?;
+    let states = deformed::states(&mut run, &TIMES, grid.end(), |run| {
+        let strain = |points: &[Element]| mean_strain(run, points);
+        let mut patches = deformed::patches(run, &satellite.body, strain)?;
         for panel in &satellite.panels {
-            patches.extend(deformed::patches(&run, panel, strain)?);
+            patches.extend(deformed::patches(run, panel, strain)?);
         }
-        states.push(State {
-            caption: format!("t = {time} s"),
-            patches,
-        });
-    }
+        Ok(patches)
+    })?;
     let picture = Picture {
         title: "A satellite: its shape, and the mean strain of each cell".to_owned(),
         quantity: "strain √(G : G)".to_owned(),
@@ -40,11 +36,7 @@ pub(crate) fn write(directory: &Path, case: Case, grid: TimeGrid) -> Result<(), 
 }
 
 /// The mean of `√(G : G)` over some points.
-fn mean_strain(run: &Simulation<3>, points: &[Element]) -> Result<f64, SceneError> {
-    let (mut sum, mut count) = (0.0, 0.0);
-    for &point in points {
-        sum += run.solid_state(point)?.strain.norm();
-        count += 1.0;
-    }
-    Ok(sum / count)
+fn mean_strain(run: &Simulation<3>, points_of_cell: &[Element]) -> Result<f64, SceneError> {
+    let norm = |&point| Ok(run.solid_state(point)?.strain.norm());
+    points::mean_of(points_of_cell.iter().map(norm))
 }

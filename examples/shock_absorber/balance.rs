@@ -1,12 +1,10 @@
 //! The ledger: what the road gave and what became of it, and the laws that it must keep.
 
-use comfy_table::{Table, presets};
-
 use super::car::{DAMPER, TRACK, TYRE};
 use super::support::claims::Claims;
-use super::support::record::{Outcome, Record};
+use super::support::record::Record;
 use super::support::statistics::{Statistics, largest};
-use super::support::terminal;
+use super::support::{table, terminal};
 
 /// What rounding may do to E − work − heat, relative to the largest term in it, c θ: evaluating E from θ costs
 /// a few roundings of ε/2.
@@ -21,8 +19,7 @@ const ENTROPY_LOSS: f64 = 2.0 * 64.0 * f64::EPSILON;
 
 /// What was given and what became of it, a row per scheme.
 pub(crate) fn print(runs: &[Record]) {
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_header([
+    let heads = [
         "scheme",
         "work of the road (J)",
         "heat to the air (J)",
@@ -30,31 +27,8 @@ pub(crate) fn print(runs: &[Record]) {
         "least ΔS (J/K)",
         "Newton/step",
         "µs/step",
-    ]);
-    for run in runs {
-        let figures = Statistics::of(run);
-        let last = |name| run.column(name).and_then(|values| values.last().copied());
-        let cell = |value: Option<f64>, format: fn(f64) -> String| value.map_or("–".into(), format);
-        let time = figures.time_per_step.map(|time| time.as_secs_f64());
-        table.add_row([
-            run.scheme.clone(),
-            cell(last("work"), |work| format!("{work:.3}")),
-            cell(last("reservoir_heat"), |heat| format!("{heat:.3}")),
-            cell(balance_defect(run), |defect| format!("{defect:.1e}")),
-            cell(figures.entropy_increment, |least| format!("{least:.1e}")),
-            cell(figures.newton_iterations, |mean| format!("{mean:.2}")),
-            cell(time, |time| format!("{:.1}", 1e6 * time)),
-        ]);
-    }
-    terminal::say(format_args!("{table}\n"));
-    for run in runs {
-        if let Outcome::Failed { time, reason } = &run.outcome {
-            let scheme = &run.scheme;
-            terminal::say(format_args!(
-                "{scheme} failed after t = {time:.6} s: {reason}"
-            ));
-        }
-    }
+    ];
+    table::print(heads, runs, row);
     terminal::say("Balance: B = E − work − heat; its defect is max |B − B₀| over the drive.");
     if let Some(power) = mean_power(&runs[0]) {
         let expected = TRACK.power(TYRE);
@@ -62,6 +36,20 @@ pub(crate) fn print(runs: &[Record]) {
             "The road gives {power:.0} W, a road of all wavelengths {expected:.0} W, thick oil or thin."
         ));
     }
+}
+
+fn row(run: &Record) -> [String; 7] {
+    let figures = Statistics::of(run);
+    let time = figures.time_per_step.map(|time| time.as_secs_f64());
+    [
+        run.scheme.clone(),
+        table::last(run, "work", |work| format!("{work:.3}")),
+        table::last(run, "reservoir_heat", |heat| format!("{heat:.3}")),
+        table::scientific(balance_defect(run)),
+        table::scientific(figures.entropy_increment),
+        table::cell(figures.newton_iterations, |mean| format!("{mean:.2}")),
+        table::cell(time, |time| format!("{:.1}", 1e6 * time)),
+    ]
 }
 
 /// max |B − B₀|, J.
@@ -76,10 +64,7 @@ pub(crate) fn check(run: &Record, claims: &mut Claims) {
     if !scheme.starts_with("eem-") {
         return;
     }
-    claims.holds(
-        run.completed(),
-        format!("{scheme} does not reach the end time"),
-    );
+    claims.reaches_the_end(run);
     let temperatures = run.column("theta_1").unwrap_or_default();
     let heat = DAMPER.capacity * temperatures.iter().copied().fold(0.0, f64::max);
     #[expect(clippy::cast_precision_loss, reason = "a number of steps")]

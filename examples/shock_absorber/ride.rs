@@ -1,10 +1,8 @@
 //! The ride, lap by lap: every lap is the same road, so that laps differ by the car alone.
 
-use comfy_table::{Table, presets};
-
 use super::car::{CELSIUS, Damper};
 use super::support::record::Record;
-use super::support::terminal;
+use super::support::{table, terminal};
 
 /// Recorded times that exceed the end of a lap by less than this (s) belong to it.
 const TIME_TOLERANCE: f64 = 1e-6;
@@ -49,8 +47,7 @@ pub(crate) fn laps(record: &Record, lap_time: f64) -> Vec<Lap> {
 
 /// Prints both runs beside each other, a row per lap.
 pub(crate) fn print(warming: (&Damper, &[Lap]), constant: (&Damper, &[Lap])) {
-    let mut table = Table::new();
-    table.load_style(presets::ASCII_MARKDOWN).set_header([
+    let mut table = table::headed([
         "time (s)",
         "damper (°C)",
         "viscosity (N s/m)",

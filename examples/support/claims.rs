@@ -3,6 +3,7 @@
 use std::error::Error;
 use std::process::ExitCode;
 
+use super::first_law;
 use super::record::Record;
 use super::statistics::Statistics;
 use super::terminal;
@@ -60,10 +61,7 @@ impl Claims {
     /// last place.
     pub(crate) fn keeps_the_laws(&mut self, run: &Record, laws: &Laws) {
         let (scheme, figures) = (&run.scheme, Statistics::of(run));
-        self.holds(
-            run.completed(),
-            format!("{scheme} does not reach the end time"),
-        );
+        self.reaches_the_end(run);
         self.at_most(
             &format!("{scheme}: the relative energy defect"),
             figures.energy_defect,
@@ -74,10 +72,36 @@ impl Claims {
             figures.angular_momentum_defect,
             laws.angular_momentum,
         );
+        self.loses_no_entropy(run, laws.entropy);
+    }
+
+    /// Claims that a run reaches its end.
+    pub(crate) fn reaches_the_end(&mut self, run: &Record) {
+        let scheme = &run.scheme;
+        self.holds(
+            run.completed(),
+            format!("{scheme} does not reach the end time"),
+        );
+    }
+
+    /// Claims that energy and work differ by at most `bound`, J, at any time of a run.
+    pub(crate) fn keeps_the_first_law(&mut self, run: &Record, bound: f64) {
+        self.at_most(
+            &format!("{}: the defect of the energy (J)", run.scheme),
+            first_law::largest_defect(run),
+            bound,
+        );
+    }
+
+    /// Claims that no step of a run takes more entropy than what rounding may take: so many units in its last place.
+    pub(crate) fn loses_no_entropy(&mut self, run: &Record, rounding: f64) {
         self.at_least(
-            &format!("{scheme}: the smallest entropy increment (units in the last place)"),
-            figures.entropy_increment_ulps,
-            -laws.entropy,
+            &format!(
+                "{}: the smallest entropy increment (units in the last place)",
+                run.scheme
+            ),
+            Statistics::of(run).entropy_increment_ulps,
+            -rounding,
         );
     }
 

@@ -43,6 +43,15 @@ impl CommandLine {
         schemes
     }
 
+    /// The schemes asked for, or those that are compared where none is asked for by its name.
+    pub(crate) fn schemes_or(&self, compared: &[Scheme]) -> Vec<Scheme> {
+        if self.takes_all_schemes() {
+            compared.to_vec()
+        } else {
+            self.schemes()
+        }
+    }
+
     /// The schemes asked for, by an example in which each has steps of its own.
     pub(crate) fn schemes_of_any_step(&self) -> Vec<Scheme> {
         let is_chosen = |scheme: &Scheme| self.takes_all_schemes() || self.scheme == scheme.name();

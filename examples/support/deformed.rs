@@ -12,6 +12,8 @@ use eem::Body;
 use eem::kinematics::Shape;
 use eem::prelude::*;
 
+use super::points;
+
 /// A picture of several states, which share scale, view and colours.
 #[derive(Clone, Debug)]
 pub(crate) struct Picture {
@@ -76,15 +78,30 @@ pub(crate) fn patches<H: Shape<D>, const D: usize>(
     body.mesh().outlines().into_iter().map(patch).collect()
 }
 
-/// The mean temperature of some points, K.
-pub(crate) fn mean_temperature<const D: usize>(
+/// The same with the mean temperatures, K.
+pub(crate) fn temperatures<H: Shape<D>, const D: usize>(
     run: &Simulation<D>,
-    points: &[Element],
-) -> Result<f64, SceneError> {
-    let (mut sum, mut count) = (0.0, 0.0);
-    for &point in points {
-        sum += run.temperature(point)?;
-        count += 1.0;
+    body: &Body<H, D>,
+) -> Result<Vec<Patch>, SceneError> {
+    patches(run, body, |points| {
+        points::mean_of(points.iter().map(|&point| run.temperature(point)))
+    })
+}
+
+/// What is to be seen at some times (s) of a run, as far as they come before its end.
+pub(crate) fn states<const D: usize>(
+    run: &mut Simulation<D>,
+    times: &[f64],
+    end: f64,
+    patches: impl Fn(&Simulation<D>) -> Result<Vec<Patch>, SceneError>,
+) -> Result<Vec<State>, Box<dyn Error>> {
+    let mut states = Vec::new();
+    for &time in times.iter().filter(|&&time| time <= end) {
+        run.run_until(time)?;
+        states.push(State {
+            caption: format!("t = {time} s"),
+            patches: patches(run)?,
+        });
     }
-    Ok(sum / count)
+    Ok(states)
 }

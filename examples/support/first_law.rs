@@ -3,6 +3,7 @@
 use super::comparison::over_time;
 use super::figures::{Axes, Figure};
 use super::record::Record;
+use super::statistics::largest;
 
 /// The least defect (J) that is drawn; it stands for none at all.
 const LEAST_DEFECT: f64 = 1e-12;
@@ -12,6 +13,11 @@ pub(crate) fn defects(run: &Record) -> impl Iterator<Item = f64> + use<'_> {
     let work = run.column("work").unwrap_or_default();
     let changes = run.energy_changes().into_iter().zip(work);
     changes.map(|((_, change), work)| (change - work).abs())
+}
+
+/// max |E − E₀ − W|, J.
+pub(crate) fn largest_defect(run: &Record) -> Option<f64> {
+    largest(defects(run))
 }
 
 /// What each scheme makes of it.

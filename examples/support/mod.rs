@@ -6,10 +6,12 @@
 pub(crate) mod claims;
 pub(crate) mod command_line;
 pub(crate) mod comparison;
+pub(crate) mod defects;
 pub(crate) mod deformed;
 pub(crate) mod figures;
 pub(crate) mod first_law;
 pub(crate) mod output;
+pub(crate) mod points;
 pub(crate) mod progress;
 pub(crate) mod published;
 pub(crate) mod record;

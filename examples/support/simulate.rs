@@ -11,7 +11,10 @@ use super::record::{Outcome, Record};
 use super::time_grid::TimeGrid;
 
 /// Columns: their name, to which vectors append `_x`, `_y`, `_z`, and what they hold.
-pub(crate) type Columns<const D: usize> = Vec<(String, Quantity<D>)>;
+type Columns<const D: usize> = Vec<(String, Quantity<D>)>;
+
+/// A column of an example's own.
+pub(crate) type Further<const D: usize> = (&'static str, Quantity<D>);
 
 /// What is recorded of a scene; columns are numbered in this order, from 1.
 #[derive(Clone, Debug, Default)]
@@ -36,7 +39,7 @@ pub(crate) fn record<const D: usize>(
     watched: &Watched,
     grid: TimeGrid,
 ) -> Result<Record, Box<dyn Error>> {
-    record_with(name, simulation, watched, grid, Vec::new())
+    record_with(name, simulation, watched, grid, [])
 }
 
 /// The same, with further columns of the example's own.
@@ -49,10 +52,11 @@ pub(crate) fn record_with<const D: usize>(
     simulation: &mut Simulation<D>,
     watched: &Watched,
     grid: TimeGrid,
-    further: Columns<D>,
+    further: impl IntoIterator<Item = Further<D>>,
 ) -> Result<Record, Box<dyn Error>> {
     let mut columns = columns(simulation, watched);
-    columns.extend(further);
+    let further = further.into_iter();
+    columns.extend(further.map(|(name, quantity)| (name.to_owned(), quantity)));
     columns.push(("newton_iterations".to_owned(), Quantity::NewtonIterations));
     let mut recorder = Recorder::new(simulation, columns)?.every(grid.stride);
     recorder.reserve(grid.steps / grid.stride);

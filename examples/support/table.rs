@@ -1,114 +1,70 @@
-//! The comparison on the terminal: one row per scheme, and why a run failed below it.
-
-use std::time::Duration;
+//! Tables on the terminal, as Markdown has them.
 
 use comfy_table::{Table, presets};
 
+use super::first_law;
 use super::record::{Outcome, Record};
-use super::statistics::{self, BREAKDOWN, Statistics, TIME_TOLERANCE};
 use super::terminal;
 
-/// Column heads, with units where there are any; the last needs a reference.
-const HEADS: [&str; 8] = [
-    "scheme",
-    "outcome",
-    "energy defect",
-    "least ΔS (J/K)",
-    "ang. mom. defect",
-    "Newton/step",
-    "µs/step",
-    "error of q",
-];
-
-/// What the heads mean.
-const DEFECTS: &str = "Defects are max |X − X₀|/|X₀| over the run";
-const ERRORS: &str = "the error of q is its root mean square over";
-
-/// Prints a row per record and, below, the reasons of failed runs and what the heads mean. Positions
-/// are compared as long as the reference runs.
-pub(crate) fn print(records: &[Record], reference: Option<&Record>) {
-    let columns = HEADS.len() - usize::from(reference.is_none());
+/// An empty table with these heads.
+pub(crate) fn headed(heads: impl IntoIterator<Item = impl Into<String>>) -> Table {
+    let heads: Vec<String> = heads.into_iter().map(Into::into).collect();
     let mut table = Table::new();
+    table.load_style(presets::ASCII_MARKDOWN).set_header(heads);
     table
-        .load_style(presets::ASCII_MARKDOWN)
-        .set_header(&HEADS[..columns]);
-    for record in records {
-        table.add_row(row(record, reference).into_iter().take(columns));
+}
+
+/// Prints a row of cells per run and, below, when and why runs failed.
+pub(crate) fn print<const N: usize>(
+    heads: [&str; N],
+    runs: &[Record],
+    row: impl Fn(&Record) -> [String; N],
+) {
+    let mut table = headed(heads);
+    for run in runs {
+        table.add_row(row(run));
     }
     terminal::say(format_args!("{table}\n"));
-    for record in records {
-        explain(record);
-    }
-    match reference {
-        Some(reference) => {
-            let times = compared(records, reference);
-            terminal::say(format_args!(
-                "{DEFECTS}; {ERRORS} {times}, relative to the reference."
-            ));
-        }
-        None => terminal::say(format_args!("{DEFECTS}.")),
+    for run in runs {
+        say_failure(run);
     }
 }
 
-/// The times over which positions are compared.
-fn compared(records: &[Record], reference: &Record) -> String {
-    let longest = records.iter().map(Record::end).fold(0.0, f64::max);
-    let end = reference.end();
-    if end < longest - TIME_TOLERANCE {
-        format!("the first {end:.1} s")
-    } else {
-        "the run".to_owned()
-    }
-}
-/// Says when and why a run broke down.
-fn explain(record: &Record) {
-    let scheme = &record.scheme;
-    if let Some(time) = Statistics::of(record).breakdown {
-        let percent = 100.0 * BREAKDOWN;
-        terminal::say(format_args!(
-            "{scheme}: the energy is off by more than {percent} % for the first time at t = {time:.6} s."
-        ));
-    }
-    if let Outcome::Failed { time, reason } = &record.outcome {
+/// When and why a run failed, if it did.
+pub(crate) fn say_failure(run: &Record) {
+    if let Outcome::Failed { time, reason } = &run.outcome {
+        let scheme = &run.scheme;
         terminal::say(format_args!(
             "{scheme} failed after t = {time:.6} s: {reason}"
         ));
     }
 }
 
-fn row(record: &Record, reference: Option<&Record>) -> Vec<String> {
-    let figures = Statistics::of(record);
-    let error = reference.and_then(|exact| statistics::position_error(record, exact));
-    vec![
-        record.scheme.clone(),
-        outcome(&record.outcome, figures.breakdown),
-        scientific(figures.energy_defect),
-        scientific(figures.entropy_increment),
-        scientific(figures.angular_momentum_defect),
-        cell(figures.newton_iterations, |mean| format!("{mean:.2}")),
-        cell(figures.time_per_step, microseconds),
-        scientific(error),
-    ]
-}
-
-/// Completed, failed, or went on with an energy that is plainly wrong.
-fn outcome(outcome: &Outcome, breakdown: Option<f64>) -> String {
-    match (outcome, breakdown) {
-        (Outcome::Failed { time, .. }, _) => format!("failed at {time:.1} s"),
-        (Outcome::Completed, Some(time)) => format!("energy off at {time:.1} s"),
-        (Outcome::Completed, None) => "completed".to_owned(),
+/// How a run ended.
+pub(crate) fn outcome(run: &Record) -> String {
+    match run.outcome {
+        Outcome::Completed => "completed".to_owned(),
+        Outcome::Failed { time, .. } => format!("failed at {time:.1} s"),
     }
 }
 
-fn scientific(value: Option<f64>) -> String {
+/// The last value of a column.
+pub(crate) fn last(run: &Record, column: &str, format: impl FnOnce(f64) -> String) -> String {
+    let last = run.column(column).and_then(|values| values.last().copied());
+    cell(last, format)
+}
+
+/// max |E − E₀ − W|, J.
+pub(crate) fn first_law_defect(run: &Record) -> String {
+    scientific(first_law::largest_defect(run))
+}
+
+/// Two digits and a power of ten.
+pub(crate) fn scientific(value: Option<f64>) -> String {
     cell(value, |value| format!("{value:.1e}"))
 }
 
-fn microseconds(duration: Duration) -> String {
-    format!("{:.1}", duration.as_secs_f64() * 1e6)
-}
-
 /// A quantity that the scene or the run does not have is a dash.
-fn cell<T>(value: Option<T>, format: impl FnOnce(T) -> String) -> String {
+pub(crate) fn cell<T>(value: Option<T>, format: impl FnOnce(T) -> String) -> String {
     value.map_or_else(|| "–".to_owned(), format)
 }

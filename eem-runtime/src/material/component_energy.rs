@@ -12,7 +12,7 @@
 
 mod chain;
 
-use crate::material::free_energy::{Caloric, FreeEnergy};
+use crate::material::free_energy::{Array, Caloric, FreeEnergy};
 use crate::material::joint::JointEnergy;
 use crate::number::scalar::Real;
 
@@ -147,9 +147,7 @@ where
         new: usize,
     ) -> impl Fn(S) -> (Caloric<S>, S) {
         let [x0, x1] = [x0, x1].map(Self::variables);
-        let mut x = x0;
-        x.as_mut()[..new].copy_from_slice(&x1.as_ref()[..new]);
-        self.material.caloric_at(x)
+        self.material.caloric_at(x0.beginning_as(&x1, new))
     }
 
     fn entropy_hessian(&self, x: &[S; N]) -> [[S; N]; N] {

@@ -25,6 +25,20 @@ pub trait Array<T>:
 
     /// The array with `value` everywhere.
     fn filled(value: T) -> Self;
+
+    /// The array with the first `count` elements of another one, and its own beyond.
+    #[inline]
+    fn beginning_as(mut self, other: &Self, count: usize) -> Self
+    where
+        T: Copy,
+    {
+        for index in 0..Self::LEN {
+            if index < count {
+                self[index] = other[index];
+            }
+        }
+        self
+    }
 }
 
 /// What an array can hold. Implemented for everything that qualifies.
@@ -179,15 +193,14 @@ pub trait FreeEnergy<S: Scalar> {
 
     /// [`caloric_at`](Self::caloric_at) of the mixed state with the first `new` measures and viscous variables
     /// of `x1` and the others of `x0`, one of the [`Corners`](Self::Corners).
+    #[inline]
     fn caloric_between(
         &self,
         x0: &Self::Variables,
         x1: &Self::Variables,
         new: usize,
     ) -> impl Fn(S) -> (Caloric<S>, S) {
-        let mut x = *x0;
-        x.as_mut()[..new].copy_from_slice(&x1.as_ref()[..new]);
-        self.caloric_at(x)
+        self.caloric_at(x0.beginning_as(x1, new))
     }
 
     /// Forces, heat capacity and the slopes of the entropy, of which the rates of a state consist.

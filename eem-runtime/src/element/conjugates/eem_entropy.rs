@@ -103,9 +103,9 @@ fn find_corners<S: Real, M: FreeEnergy<S>>(
     Infeasible::unless_stable(caloric1.heat_capacity, x1[M::Variables::LEN - 1])?;
     for k in 1..=steps {
         let mixed = model.caloric_between(&start.x0, x1, k);
-        ascending[k - 1] = temperature_of(mixed, start.old.1, ascending[k - 1])?;
+        ascending[k - 1] = temperature_of(&mixed, start.old.1, ascending[k - 1])?;
         let mixed = model.caloric_between(x1, &start.x0, k);
-        descending[k - 1] = temperature_of(mixed, caloric1.entropy, descending[k - 1])?;
+        descending[k - 1] = temperature_of(&mixed, caloric1.entropy, descending[k - 1])?;
     }
     Ok(())
 }

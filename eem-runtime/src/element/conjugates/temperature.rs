@@ -22,13 +22,13 @@ pub(crate) fn temperature_at<S: Real, M: FreeEnergy<S>>(
     entropy: S,
     guess: S,
 ) -> Result<S, Infeasible> {
-    temperature_of(model.caloric_at(x), entropy, guess)
+    temperature_of(&model.caloric_at(x), entropy, guess)
 }
 
 /// θ̂ where the caloric quantities are these functions of the temperature; stable.
 #[inline]
 pub(crate) fn temperature_of<S: Real>(
-    caloric_at: impl Fn(S) -> (Caloric<S>, S),
+    caloric_at: &impl Fn(S) -> (Caloric<S>, S),
     entropy: S,
     guess: S,
 ) -> Result<S, Infeasible> {
