@@ -2,6 +2,7 @@
 
 pub(crate) mod compact;
 pub(crate) mod compensated;
+pub(crate) mod derivative;
 pub(crate) mod digest;
 pub mod kernel;
 #[cfg(feature = "lanes")]

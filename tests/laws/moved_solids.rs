@@ -8,13 +8,8 @@ use crate::support::solids::ThermoelasticSolid;
 /// kg/m³
 const DENSITY: f64 = 10.0;
 
-/// A bar whose left end is moved along x.
-fn moved<H: Shape<3>>(
-    motion: fn(f64) -> f64,
-    (speed, gravity): (f64, f64),
-    is_lumped: bool,
-    (scheme, step): (Scheme, f64),
-) -> (Simulation<3>, eem::Body<H, 3>) {
+/// A bar of two cells, to be held at its left end.
+fn bar<H: Shape<3>>((speed, gravity): (f64, f64), is_lumped: bool) -> (Scene<3>, eem::Body<H, 3>) {
     let mut scene = Scene::<3>::new();
     let mesh = Mesh::<H, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]]).unwrap();
     let bulk = Bulk::new(DENSITY).conductivity(20.0);
@@ -24,14 +19,31 @@ fn moved<H: Shape<3>>(
     for &point in body.points() {
         scene.set_temperature(point, 300.0);
     }
-    for (&node, &[x, y, z]) in body.nodes().iter().zip(mesh.nodes()) {
+    for node in body.nodes_where(|[x, ..]| x > 0.0) {
+        scene.set_velocity(node, [speed, 0.0, 0.0]);
+    }
+    (scene, body)
+}
+
+/// Moves the left end along x.
+fn support<H: Shape<3>>(scene: &mut Scene<3>, body: &eem::Body<H, 3>, motion: fn(f64) -> f64) {
+    for (&node, &[x, y, z]) in body.nodes().iter().zip(body.mesh().nodes()) {
         if x <= 0.0 {
             scene.fix(node);
             scene.move_anchor(node, move |t| [motion(t), y, z]);
-        } else {
-            scene.set_velocity(node, [speed, 0.0, 0.0]);
         }
     }
+}
+
+/// A bar whose left end is moved along x.
+fn moved<H: Shape<3>>(
+    motion: fn(f64) -> f64,
+    state: (f64, f64),
+    is_lumped: bool,
+    (scheme, step): (Scheme, f64),
+) -> (Simulation<3>, eem::Body<H, 3>) {
+    let (mut scene, body) = bar::<H>(state, is_lumped);
+    support(&mut scene, &body, motion);
     (Simulation::new(scene, scheme, step).unwrap(), body)
 }
 
@@ -45,7 +57,7 @@ fn is_booked<H: Shape<3>>(scheme: Scheme, is_lumped: bool) {
     let (mut run, _) = moved::<H>(shake, (0.0, 3.0), is_lumped, (scheme, 0.05));
     let first = run.ledger();
     let mut entropy = first.entropy;
-    for _ in 0..40 {
+    for _ in 0..20 {
         run.step().unwrap();
         let ledger = run.ledger();
         // 2 m³ of 100 J/(K m³) at 300 K.
@@ -163,5 +175,50 @@ fn fixed_nodes_leave_others_their_weight() {
         let weight = 3.0 * 2.0 * DENSITY * 0.75;
         let found = momentum(&run) / 1e-5;
         assert!((found - weight).abs() <= 1e-5 * weight, "{found} {weight}");
+    }
+}
+
+/// The velocity with which a support begins does not depend on the first step.
+#[test]
+fn supports_begin_with_the_velocity_of_their_motion() {
+    let shake = |t: f64| 0.01 * (300.0 * t).sin();
+    for first in [1e-4, 1e-2, 1.0] {
+        let by = (Scheme::EemEntropy, first);
+        let (mut run, body) = moved::<Hex8>(shake, (0.0, 0.0), false, by);
+        let support = body.node_at([0.0, 1.0, 1.0], 0.0).unwrap();
+        let speed = run.velocity(support).unwrap()[0];
+        assert!((speed - 3.0).abs() <= 1e-11, "{first}: {speed}");
+        run.control_steps(Tolerance::new(1e-3)).unwrap();
+        run.run_until(0.01).unwrap();
+        let error = run.velocity(support).unwrap()[0] - 3.0 * 3.0_f64.cos();
+        assert!(error.abs() <= 1e-2, "{first}: {error:e}");
+    }
+}
+
+#[test]
+fn a_motion_without_a_first_velocity_is_refused() {
+    let by = (Scheme::EemEntropy, 0.01);
+    let late = |t: f64| if t > 0.0 && t < 0.003 { f64::NAN } else { 0.0 };
+    let (mut scene, body) = bar::<Hex8>((0.0, 0.0), false);
+    support(&mut scene, &body, late);
+    let refused = Simulation::new(scene, by.0, by.1).unwrap_err();
+    let is_named = |error: &SceneError| matches!(error, SceneError::AnchorSpeed { axis: 0, .. });
+    assert!(refused.errors().iter().all(is_named), "{refused}");
+}
+
+/// Momenta of nodes that are moved follow from the motion, however short the step: they do not decide about it.
+#[test]
+fn step_control_passes_kinks_and_goes_to_tight_tolerances() {
+    let pull = |t: f64| 0.2 * (t - 1.0 / 3.0).max(0.0);
+    for is_lumped in [true, false] {
+        let by = (Scheme::EemTemperature, 0.01);
+        let (mut run, _) = moved::<Hex8>(pull, (0.0, -1.0), is_lumped, by);
+        run.control_steps(Tolerance::new(1e-3)).unwrap();
+        run.run_until(0.4).unwrap();
+        let (mut run, _) = moved::<Hex8>(shake, (0.0, 3.0), is_lumped, by);
+        run.control_steps(Tolerance::new(1e-6)).unwrap();
+        run.run_until(0.05).unwrap();
+        let steps = run.step_statistics().unwrap().accepted;
+        assert!(steps <= 400, "{steps}");
     }
 }

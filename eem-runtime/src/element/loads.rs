@@ -91,13 +91,6 @@ impl<S: Real> StepLoads<S> {
     }
 }
 
-/// The velocity in the first of three places, m/s, to which something comes at equal times within a span, s: that of
-/// the parabola through them.
-#[inline]
-pub(crate) fn first_speed<S: Real>([first, middle, last]: [S; 3], span: S) -> S {
-    (S::from_f64(4.0) * (middle - first) - (last - first)) / span
-}
-
 /// What belongs to a node, among coordinates that may all be missing.
 #[inline]
 pub(crate) fn point<S: Real, const D: usize>(coordinates: &[S], node: usize) -> [S; D] {

@@ -27,6 +27,7 @@ pub trait Array<T>:
     fn filled(value: T) -> Self;
 
     /// The array with the first `count` elements of another one, and its own beyond.
+    #[must_use]
     #[inline]
     fn beginning_as(mut self, other: &Self, count: usize) -> Self
     where

@@ -135,7 +135,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let in_use = first(scheme, is_second);
         let mut layout = scene.layout();
         let conduction = Conduction::new(&scene.conductors, &scene.reservoirs, &layout);
-        let mut state = Box::new(initial_state(scene, &layout, step));
+        let mut state = Box::new(initial_state(scene, &layout, step)?);
         let places = places_in(scene);
         let shapes = scene.groups.iter().map(|group| group.shape()).collect();
         let masses = scene.masses();

@@ -95,8 +95,13 @@ impl<const D: usize, S: Real> Scene<D, S> {
     }
 
     /// The position of an anchor as a function of time, m of s: a road, a shaking table. The work
-    /// of the support is booked. It is asked at the ends of steps and, where the anchor is a node of a solid, whose
-    /// mass it carries, in their middles, which gives the velocity.
+    /// of the support is booked. It is asked at the ends of steps.
+    ///
+    /// Where there are solids with consistent mass, anchors have velocities, which move what is beside them. They are
+    /// those of the cubic through the positions before and after a step and at its thirds, off by `O(h³)` and by
+    /// 15ε|x|/h of roundings. The first one is the derivative at t = 0, found from positions at several times within the
+    /// first step; [`SceneError::AnchorSpeed`] says where there is none. A jump in a step leaves a velocity that depends on
+    /// where in the step it is: let what moves fast do so within several steps.
     ///
     /// At t = 0 it must be where the anchor was created, to rounding: an anchor that jumps in the
     /// first step would do work on the scene before anything moves.

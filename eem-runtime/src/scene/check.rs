@@ -75,26 +75,16 @@ impl<const D: usize, S: Real> Scene<D, S> {
                 errors.push(SceneError::Gravity { axis, value });
             }
         }
-        let elements: Vec<_> = self
-            .loads
-            .temperatures
-            .iter()
-            .map(|(element, _)| *element)
-            .collect();
-        for (at, element) in elements.iter().enumerate() {
+        let mut prescribed = BTreeSet::new();
+        for (element, _) in &self.loads.temperatures {
             self.check_thermal(*element, errors);
-            if elements[..at].contains(element) {
+            if !prescribed.insert(element.index()) {
                 errors.push(prescribed_twice(element, "the temperature"));
             }
         }
-        let anchors: Vec<_> = self
-            .loads
-            .motions
-            .iter()
-            .map(|(anchor, _)| *anchor)
-            .collect();
-        for (at, anchor) in anchors.iter().enumerate() {
-            if anchors[..at].contains(anchor) {
+        let mut moved = BTreeSet::new();
+        for (anchor, _) in &self.loads.motions {
+            if !moved.insert(anchor.index) {
                 errors.push(prescribed_twice(anchor, "the motion"));
             }
         }

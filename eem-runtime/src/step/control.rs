@@ -9,4 +9,4 @@ pub(crate) use accuracy::{Accuracy, Estimate};
 pub(crate) use controller::{AFTER_FAILURE, Controller};
 pub use statistics::StepStatistics;
 pub use tolerance::Tolerance;
-pub(crate) use tolerance::{Scales, norm};
+pub(crate) use tolerance::{Kinds, Scales, norm};

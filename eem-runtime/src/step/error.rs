@@ -102,6 +102,19 @@ pub enum StepFailure {
         /// The time, s.
         time: f64,
     },
+    /// The velocity of a prescribed motion is not finite.
+    #[error(
+        "the velocity of coordinate {axis} of the motion of {node} is {value} m/s at t = {time} s, it must be finite: its positions are too far apart", value = Readable(*value), time = Readable(*time))]
+    MotionSpeed {
+        /// The node.
+        node: Node,
+        /// The axis, from 0.
+        axis: usize,
+        /// The velocity, m/s.
+        value: f64,
+        /// The time, s.
+        time: f64,
+    },
     /// A prescribed temperature is not positive and finite.
     #[error(
         "the temperature prescribed on {element} is {value} K at t = {time} s, it must be positive and finite", value = Readable(*value), time = Readable(*time))]
@@ -256,6 +269,7 @@ impl StepFailure {
             | Self::Load { .. }
             | Self::Thrust { .. }
             | Self::Motion { .. }
+            | Self::MotionSpeed { .. }
             | Self::PrescribedTemperature { .. }
             | Self::State(_) => true,
             Self::Time { .. }

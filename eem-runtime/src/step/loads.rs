@@ -7,7 +7,7 @@
 use std::collections::BTreeSet;
 
 use crate::element::layout::Layout;
-use crate::element::loads::{Prescribed, Push, StepLoads, first_speed, point};
+use crate::element::loads::{Prescribed, Push, StepLoads, point};
 use crate::element::masses::Masses;
 use crate::number::scalar::{Real, is_positive};
 use crate::scene::loads::Loads;
@@ -63,7 +63,7 @@ impl<S: Real> StepLoads<S> {
         self.evaluate_rockets(loads, middle)?;
         self.add_weights(loads, masses);
         self.evaluate_motions(loads, end, q0)?;
-        self.evaluate_speeds(loads, [middle, step], q0)?;
+        self.evaluate_speeds(loads, [time, step], q0)?;
         self.evaluate_temperatures(loads, [middle, end])
     }
 
@@ -159,32 +159,43 @@ impl<S: Real> StepLoads<S> {
         Ok(())
     }
 
-    /// The velocities that moved anchors have at the end, of the parabola through their places before, in the middle of
-    /// and after the step: as accurate as the step, and none that jumps to and fro.
+    /// The velocities that moved anchors have at the end, of the cubic through their places before, after and at thirds
+    /// of the step: more accurate than the step, and none that jumps to and fro.
     fn evaluate_speeds<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,
-        [middle, step]: [S; 2],
+        [time, step]: [S; 2],
         q0: &[S],
     ) -> Result<(), StepFailure> {
         if self.speeds.is_empty() {
             return Ok(());
         }
+        let third = step / S::from_f64(3.0);
+        let times = [time + third, time + (third + third)];
         for (node, motion) in &loads.motions {
-            let position = motion(middle);
+            let positions = times.map(|time| motion(time));
             for axis in 0..D {
                 let at = node.index * D + axis;
-                let half_way = position[axis] - q0[at];
-                // Looked at from the end.
-                self.speeds[at] = -first_speed([self.motion[at], half_way, S::zero()], step);
-                if !self.speeds[at].is_finite() {
+                let places = positions.map(|position| position[axis] - q0[at]);
+                let unbounded = places.iter().position(|place| !place.is_finite());
+                if let Some(third) = unbounded {
                     return Err(StepFailure::Motion {
                         node: *node,
                         axis,
-                        value: position[axis].to_f64(),
-                        time: middle.to_f64(),
+                        value: positions[third][axis].to_f64(),
+                        time: times[third].to_f64(),
                     });
                 }
+                let speed = last_speed(places, self.motion[at], step);
+                if !speed.is_finite() {
+                    return Err(StepFailure::MotionSpeed {
+                        node: *node,
+                        axis,
+                        value: speed.to_f64(),
+                        time: (time + step).to_f64(),
+                    });
+                }
+                self.speeds[at] = speed;
             }
         }
         Ok(())
@@ -226,6 +237,14 @@ impl<S: Real> StepLoads<S> {
             }
         }
     }
+}
+
+/// The velocity at the end of a span, s, of the cubic through 0, the places after one and two thirds of it and the last
+/// place, m; all looked at from there, as differences of the places have less rounding.
+fn last_speed<S: Real>([first, second]: [S; 2], last: S, span: S) -> S {
+    let [second, first, start] = [last - second, last - first, last];
+    let sum = S::from_f64(18.0) * second - S::from_f64(9.0) * first + (start + start);
+    sum / (span + span)
 }
 
 /// Adds the weight of a mass.

@@ -3,7 +3,7 @@
 use crate::element::state::State;
 use crate::number::scalar::Real;
 use crate::run::checkpoint::{SavedChoice, SavedControl};
-use crate::step::control::Accuracy;
+use crate::step::control::{Accuracy, Kinds};
 use crate::step::solver::SavedPast;
 
 /// The smallest step that is tried, in units in the last place of the time, and of the first size.
@@ -32,8 +32,7 @@ pub(super) struct Halves<S> {
     pub(super) past: SavedPast<S>,
     /// Where it led at once.
     pub(super) whole: State<S>,
-    /// Which viscous variables are strains of solids.
-    pub(super) are_strains: Vec<bool>,
+    pub(super) kinds: Kinds,
     /// The state is somewhere between the ends of the step.
     pub(super) is_under_way: bool,
 }

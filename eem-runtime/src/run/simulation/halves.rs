@@ -15,7 +15,7 @@ use super::{Simulation, Tried};
 use crate::element::state::State;
 use crate::number::scalar::Real;
 use crate::run::checkpoint::SavedControl;
-use crate::step::control::{Accuracy, Scales};
+use crate::step::control::{Accuracy, Kinds, Scales};
 use crate::step::error::StepError;
 use crate::step::newton::StepReport;
 
@@ -27,7 +27,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             before: State::clone(&self.state),
             past,
             whole: State::clone(&self.state),
-            are_strains: self.viscous_strains(),
+            kinds: Kinds {
+                are_strains: self.viscous_strains(),
+                are_given: self.given_momenta(),
+            },
             is_under_way: false,
         }
     }
@@ -51,7 +54,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let largest = memory.largest_momentum;
         let scales = Scales::new(&memory.tolerance, accuracy, ends, largest);
         let share = S::from_f64(accuracy.order().exp2() - 1.0).recip();
-        report.error = share * scales.error([&halves.whole, &self.state], &halves.are_strains);
+        report.error = share * scales.error([&halves.whole, &self.state], &halves.kinds);
         if accuracy.accepts(report.error) {
             return Ok(Tried::Made(report));
         }
@@ -84,6 +87,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.has_stepped = false;
         self.state.copy_all_from(&halves.before);
         self.stepper.restore(&halves.past, None);
+    }
+
+    /// Which momenta, by coordinate, are those of nodes that are moved.
+    fn given_momenta(&self) -> Vec<bool> {
+        let mut are_given = Vec::new();
+        for (node, _) in &self.loads.motions {
+            are_given.resize(self.masses.len() * D, false);
+            are_given[node.index * D..][..D].fill(true);
+        }
+        are_given
     }
 
     /// Which viscous variables are strains of solids.

@@ -55,7 +55,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(vector(self.state.momenta.values(), node.index))
     }
 
-    /// The velocity of a node, m/s; zero for an anchor, unless a solid is moved there.
+    /// The velocity of a node, m/s; that of an anchor is zero, unless it is moved in a scene that has solids with
+    /// consistent mass.
     ///
     /// # Errors
     ///

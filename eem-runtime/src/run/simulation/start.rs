@@ -1,6 +1,6 @@
 //! The state in which a scene begins.
 
-use core::mem;
+use core::{array, mem};
 
 use nalgebra::SVector;
 
@@ -9,15 +9,16 @@ use super::totals::check_totals;
 use crate::element::conduction::Conduction;
 use crate::element::group::Placed;
 use crate::element::layout::Layout;
-use crate::element::loads::first_speed;
 use crate::element::masses::Masses;
 use crate::element::state::{Energy, State};
 use crate::number::compact::compact;
 use crate::number::compensated::{Compensated, Sum};
+use crate::number::derivative::{derivative, shares};
 use crate::number::scalar::Real;
 use crate::run::ledger::Ledger;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
+use crate::scene::loads::OfTime;
 use crate::step::scheme::Scheme;
 use crate::step::systems::Systems;
 
@@ -41,12 +42,14 @@ pub(super) fn systems_of<const D: usize, S: Real>(
         .map_err(|error| vec![error.into()])
 }
 
-/// The state that the scene describes, given the first step; its entropies are still to be found.
+/// The state that the scene describes, given the first step, or the motions that it cannot have; its entropies are still
+/// to be found.
 pub(super) fn initial_state<const D: usize, S: Real>(
     scene: &Scene<D, S>,
     layout: &Layout,
     step: S,
-) -> State<S> {
+) -> Result<State<S>, Vec<SceneError>> {
+    let mut errors = Vec::new();
     let coordinates = scene.nodes.len() * D;
     let mut positions = Vec::with_capacity(coordinates);
     let mut momenta = Vec::with_capacity(coordinates);
@@ -63,18 +66,17 @@ pub(super) fn initial_state<const D: usize, S: Real>(
         }
     }
     if is_coupled {
-        let share = S::from_f64(FIRST_SHARE) * step;
-        let times = [S::zero(), S::from_f64(0.5) * share, share];
         for (node, motion) in &scene.loads.motions {
-            let places = times.map(|time| motion(time));
-            for axis in 0..D {
-                let speed = first_speed(places.map(|place| place[axis]), share);
-                // What is no number is so in the first step, which says of what and when.
-                if speed.is_finite() {
-                    velocities[node.index * D + axis] = speed;
+            for (axis, speed) in first_speed(motion, step).into_iter().enumerate() {
+                if !speed.is_finite() {
+                    errors.push(SceneError::AnchorSpeed { node: *node, axis });
                 }
+                velocities[node.index * D + axis] = speed;
             }
         }
+    }
+    if !errors.is_empty() {
+        return Err(errors);
     }
     let mut viscous = vec![S::zero(); layout.viscous];
     let mut temperatures = vec![S::zero(); layout.thermal];
@@ -86,7 +88,7 @@ pub(super) fn initial_state<const D: usize, S: Real>(
             temperatures[slot] = temperature;
         }
     }
-    State {
+    Ok(State {
         time: Sum::new(S::zero()),
         positions: Compensated::new(positions),
         momenta: Compensated::new(momenta),
@@ -100,12 +102,25 @@ pub(super) fn initial_state<const D: usize, S: Real>(
         heat: Sum::new(S::zero()),
         thermostat_entropy: Sum::new(S::zero()),
         dissipated: Sum::new(S::zero()),
-    }
+    })
 }
 
-/// The share of the first step within which a node of a solid that is moved gets its initial velocity: of the error
-/// h² of that from the whole step it leaves nothing that counts, and of the digits of its places most.
-const FIRST_SHARE: f64 = 1.0 / 256.0;
+/// The velocity with which a motion begins, from where it is within the first step, m/s; not a number if it has none.
+fn first_speed<const D: usize, S: Real>(motion: &OfTime<S, D>, step: S) -> [S; D] {
+    let spans = shares().map(|share| S::from_f64(share) * step);
+    let (first, places) = (motion(S::zero()), spans.map(|span| motion(span)));
+    array::from_fn(|axis| {
+        S::pack(|lane| {
+            let spans = spans.map(|span| span.lane(lane));
+            let values = places.map(|place| place[axis].lane(lane));
+            derivative(
+                first[axis].lane(lane),
+                (spans, values),
+                S::EPSILON.lane(lane),
+            )
+        })
+    })
+}
 
 /// The elements of a scene, ready for a scheme in the initial state, whose entropies are found; or everything for which
 /// it cannot be one, and the scene as it was.

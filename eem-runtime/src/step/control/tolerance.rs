@@ -120,6 +120,16 @@ impl<S: Real> Tolerance<S> {
     }
 }
 
+/// What is not compared as others of its kind.
+#[derive(Clone, Debug)]
+pub(crate) struct Kinds {
+    /// Which viscous variables are strains of solids.
+    pub(crate) are_strains: Vec<bool>,
+    /// Which momenta, by coordinate, follow from a motion that is given, so that their errors are those of one step and
+    /// do not add up: they are not compared. None where nothing is moved.
+    pub(crate) are_given: Vec<bool>,
+}
+
 /// What errors of a step are compared with.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scales<S> {
@@ -154,7 +164,7 @@ impl<S: Real> Scales<S> {
     }
 
     /// The largest error in units of the tolerance, of differences between two states.
-    pub(crate) fn error(&self, [a, b]: [&State<S>; 2], are_strains: &[bool]) -> S {
+    pub(crate) fn error(&self, [a, b]: [&State<S>; 2], kinds: &Kinds) -> S {
         let mut largest = S::zero();
         let mut see = |values: [&[S]; 2], scale: &dyn Fn(usize, S) -> S| {
             for (index, (&a, &b)) in values[0].iter().zip(values[1]).enumerate() {
@@ -168,11 +178,15 @@ impl<S: Real> Scales<S> {
         see([a.positions.values(), b.positions.values()], &|_, _| {
             self.position
         });
-        see([a.momenta.values(), b.momenta.values()], &|_, _| {
-            self.momentum
+        see([a.momenta.values(), b.momenta.values()], &|index, _| {
+            if kinds.are_given.get(index) == Some(&true) {
+                S::MAX
+            } else {
+                self.momentum
+            }
         });
         see([a.viscous.values(), b.viscous.values()], &|index, _| {
-            if are_strains[index] {
+            if kinds.are_strains[index] {
                 self.strain
             } else {
                 self.position

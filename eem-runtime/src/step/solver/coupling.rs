@@ -206,7 +206,8 @@ impl<S: Real, const D: usize> Coupling<S, D> {
     }
 }
 
-/// The pairs of a node that moves, whose first unknown is asked for, and one that is moved.
+/// The pairs of a node that moves, whose first unknown is asked for, and one that is moved, of which there is a sorted
+/// list.
 fn driven<S: Real, const D: usize>(
     masses: &Masses<S>,
     moved: &[usize],
@@ -216,7 +217,7 @@ fn driven<S: Real, const D: usize>(
         let [a, b] = pair.nodes();
         [([a, b], pair.mass), ([b, a], pair.mass)]
     });
-    held.filter(|([_, moves], _)| moved.contains(moves))
+    held.filter(|([_, moves], _)| moved.binary_search(moves).is_ok())
         .filter_map(|([node, moved], mass)| {
             Some(DrivenPair {
                 node: compact(first(node)? / D),
