@@ -17,7 +17,8 @@ const SINGLE: f64 = 1e-12;
 /// error = max(|δq|/(r |q|₂ + a_q), |δγ|/(r |q|₂ + a_q), |δp|/(r max |p|₂ + a_p), |δθ|/(r θ + a_θ))
 /// ```
 ///
-/// Viscous strains of solids have no length; they are compared with `r + a_q`.
+/// Viscous strains of solids have no length; they are compared with `r + a_q`. Momenta of nodes that are moved follow
+/// from their motion and are not compared.
 ///
 /// The relative tolerance r stands for the accuracy of the state after the time in which the motion changes
 /// by as much as it is large, and errors go with its first power: a scheme of order p takes a step whose error
