@@ -1,5 +1,6 @@
 //! Nodes of solids whose motion is prescribed: what their supports do is booked, and what they carry has inertia.
 
+use eem::SolidError;
 use eem::kinematics::{Hex8, Hex20, Shape};
 use eem::prelude::*;
 
@@ -202,7 +203,12 @@ fn a_motion_without_a_first_velocity_is_refused() {
     let (mut scene, body) = bar::<Hex8>((0.0, 0.0), false);
     support(&mut scene, &body, late);
     let refused = Simulation::new(scene, by.0, by.1).unwrap_err();
-    let is_named = |error: &SceneError| matches!(error, SceneError::AnchorSpeed { axis: 0, .. });
+    let is_named = |error: &SceneError| {
+        matches!(
+            error,
+            SceneError::Solid(SolidError::AnchorSpeed { axis: 0, .. })
+        )
+    };
     assert!(refused.errors().iter().all(is_named), "{refused}");
 }
 

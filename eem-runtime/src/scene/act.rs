@@ -100,7 +100,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// Where there are solids with consistent mass, anchors have velocities, which move what is beside them. They are
     /// those of the cubic through the positions before and after a step and at its thirds, off by `O(h³)` and by
     /// 15ε|x|/h of roundings. The first one is the derivative at t = 0, found from positions at several times within the
-    /// first step; [`SceneError::AnchorSpeed`] says where there is none. A jump in a step leaves a velocity that depends on
+    /// first step; [`SolidError::AnchorSpeed`](crate::SolidError::AnchorSpeed) says where there is none. A jump in a step leaves a velocity that depends on
     /// where in the step it is: let what moves fast do so within several steps.
     ///
     /// At t = 0 it must be where the anchor was created, to rounding: an anchor that jumps in the

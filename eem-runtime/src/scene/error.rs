@@ -321,16 +321,6 @@ pub enum SceneError {
         /// The coordinate that the motion has at t = 0, m.
         prescribed: f64,
     },
-    /// A motion that a solid follows has no velocity at t = 0.
-    #[error(
-        "coordinate {axis} of the motion of {node} has no finite velocity at t = 0 s, which the solid there needs: give it finite positions from t = 0 s on"
-    )]
-    AnchorSpeed {
-        /// The anchor.
-        node: Node,
-        /// The axis, from 0.
-        axis: usize,
-    },
     /// A prescribed temperature does not begin at the initial one.
     #[error(
         "the temperature prescribed on {element} is {prescribed} K at t = 0 s, but its initial temperature is {initial} K: set the temperature with which the thermostat begins",

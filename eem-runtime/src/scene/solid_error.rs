@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::element::handle::Element;
+use crate::element::handle::{Element, Node};
 use crate::number::readable::Readable;
 use crate::scene::mesh::MeshError;
 
@@ -50,6 +50,16 @@ pub enum SolidError {
         needed: usize,
         /// How many are given.
         given: usize,
+    },
+    /// A motion that a solid follows has no velocity at t = 0.
+    #[error(
+        "coordinate {axis} of the motion of {node} has no finite velocity at t = 0 s, which the solid there needs: give it finite positions from t = 0 s on"
+    )]
+    AnchorSpeed {
+        /// The anchor.
+        node: Node,
+        /// The axis, from 0.
+        axis: usize,
     },
     /// Heat is to pass the surface of a solid that conducts none.
     #[error("the solid at {element} has no conductivity: give it one by `Bulk::conductivity`")]

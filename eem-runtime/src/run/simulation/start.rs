@@ -19,6 +19,7 @@ use crate::run::ledger::Ledger;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::scene::loads::OfTime;
+use crate::scene::solid_error::SolidError;
 use crate::step::scheme::Scheme;
 use crate::step::systems::Systems;
 
@@ -69,7 +70,7 @@ pub(super) fn initial_state<const D: usize, S: Real>(
         for (node, motion) in &scene.loads.motions {
             for (axis, speed) in first_speed(motion, step).into_iter().enumerate() {
                 if !speed.is_finite() {
-                    errors.push(SceneError::AnchorSpeed { node: *node, axis });
+                    errors.push(SolidError::AnchorSpeed { node: *node, axis }.into());
                 }
                 velocities[node.index * D + axis] = speed;
             }
