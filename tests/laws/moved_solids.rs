@@ -223,8 +223,8 @@ fn step_control_passes_kinks_and_goes_to_tight_tolerances() {
         run.run_until(0.4).unwrap();
         let (mut run, _) = moved::<Hex8>(shake, (0.0, 3.0), is_lumped, by);
         run.control_steps(Tolerance::new(1e-6)).unwrap();
-        run.run_until(0.05).unwrap();
+        run.run_until(0.02).unwrap();
         let steps = run.step_statistics().unwrap().accepted;
-        assert!(steps <= 400, "{steps}");
+        assert!(steps <= 160, "{steps}");
     }
 }

@@ -1,0 +1,23 @@
+//! What depends on rounding alone: these tests of `cases` and `running` are run with other sets of features and with
+//! optimisation.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+/// Against reference data and stored bits.
+#[path = "../cases"]
+mod cases {
+    mod blocks;
+    mod plate;
+    mod reference_trajectory;
+    mod same_bits;
+}
+
+/// Lanes against plain runs.
+#[cfg(feature = "lanes")]
+#[path = "../running"]
+mod running {
+    mod lanes;
+}
