@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::{env, fs, process};
 
-use eem_sweep::{Inputs, Plan, Record, RunOptions};
+use eem_sweep::{Inputs, Plan, Record, Row, RunOptions};
 
 use super::drive::{self, Laws, Logs, UNKNOWNS};
 use super::recording::Recording;
@@ -68,11 +68,7 @@ impl Survey {
         let sweep = Plan::new("fit_damper", inputs, drive::SCHEME, grid.step)
             .setting("steps", grid.steps)
             .closures(
-                |row| {
-                    let mut logs = Logs::default();
-                    logs.copy_from_slice(row.values());
-                    Ok(logs)
-                },
+                |row| Ok(logs_of(row)),
                 drive::build,
                 |run, damper, logs| {
                     let drive = drive::observe(run, damper, logs, grid)?;
@@ -88,9 +84,22 @@ impl Survey {
             ..RunOptions::default()
         };
         let report = sweep.run(&directory, &options)?;
-        let merged = sweep.merge(&directory, None)?;
+        sweep.merge(&directory, None)?;
+        let mut samples = Vec::new();
+        sweep.each(&directory, |row, result| {
+            if let Ok(&[misfit, balance_defect, entropy_loss]) = result {
+                samples.push(Sample {
+                    logs: logs_of(row),
+                    misfit,
+                    laws: Laws {
+                        balance_defect,
+                        entropy_loss,
+                    },
+                });
+            }
+        })?;
         Ok(Self {
-            samples: read(&merged.path)?,
+            samples,
             failed: report.failed,
         })
     }
@@ -102,29 +111,11 @@ impl Survey {
     }
 }
 
-/// The members of the merged table that have not failed: `id`, `failure`, inputs, outputs.
-fn read(table: &Path) -> Result<Vec<Sample>, Box<dyn Error>> {
-    let mut samples = Vec::new();
-    for row in csv::Reader::from_path(table)?.records() {
-        let row = row?;
-        if row.get(1).is_none_or(|failure| !failure.is_empty()) {
-            continue;
-        }
-        let cells = row.iter().skip(2).take(6);
-        let cells: Vec<f64> = cells.map(str::parse).collect::<Result<_, _>>()?;
-        let [mount, eta0, capacity, misfit, balance_defect, entropy_loss] = cells[..] else {
-            return Err(format!("{}: a row is too short", table.display()).into());
-        };
-        samples.push(Sample {
-            logs: [mount, eta0, capacity],
-            misfit,
-            laws: Laws {
-                balance_defect,
-                entropy_loss,
-            },
-        });
-    }
-    Ok(samples)
+/// What is asked of a member.
+fn logs_of(row: Row<'_>) -> Logs {
+    let mut logs = Logs::default();
+    logs.copy_from_slice(row.values());
+    logs
 }
 
 /// A directory of this process, removed in the end if it is there.

@@ -3,11 +3,12 @@
 use std::fs;
 use std::path::Path;
 
+use eem::kinematics::Hex8;
 use eem::nalgebra::SVector;
 use eem::prelude::*;
 use eem::{SolidState, VtkSeries};
 
-use crate::support::solids::{SECTION, ThermoelasticSolid};
+use crate::support::solids::{Relaxing, SECTION, ThermoelasticSolid};
 use crate::support::{Hencky, ThermoViscoElastic};
 
 /// The numbers of an array of a file.
@@ -37,6 +38,7 @@ fn files_have_all_digits_of_every_state() {
     };
     let spring = scene.spring(hencky, [nodes[1], bob]);
     scene.conduct(damper, points[2], 2.0);
+    let alone = scene.mass(2.0, [4.0, 0.0], [0.5, 0.0]);
 
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("paraview");
     let mut series = VtkSeries::new(&scene, &folder, "a \"solid\" & springs");
@@ -55,31 +57,77 @@ fn files_have_all_digits_of_every_state() {
         assert_eq!(bits(&found), bits(expected), "{name}: {found:?}");
     };
     let in_space = |q: SVector<f64, 2>| [q[0], q[1], 0.0];
-    let all = [nodes[0], nodes[1], nodes[2], nodes[3], bob];
+    let all = [nodes[0], nodes[1], nodes[2], nodes[3], bob, alone];
     let positions = all.map(|node| in_space(run.position(node).unwrap()));
     same("position", positions.as_flattened());
     let velocities = all.map(|node| in_space(run.velocity(node).unwrap()));
     same("velocity", velocities.as_flattened());
     let theta = |element| run.temperature(element).unwrap();
     let mean = points.iter().map(|&point| theta(point)).sum::<f64>() / 4.0;
-    same("temperature", &[mean, theta(damper), f64::NAN]);
+    same("temperature", &[mean, theta(damper), f64::NAN, f64::NAN]);
     let stretch = |element| run.stretch(element).unwrap();
-    same("stretch", &[f64::NAN, stretch(damper), stretch(spring)]);
+    same(
+        "stretch",
+        &[f64::NAN, stretch(damper), stretch(spring), f64::NAN],
+    );
     let produced = |element| run.entropy_production(element).unwrap();
     let solid = points.iter().map(|&point| produced(point)).sum();
-    same("entropy_production", &[solid, produced(damper), f64::NAN]);
+    same(
+        "entropy_production",
+        &[solid, produced(damper), f64::NAN, f64::NAN],
+    );
     let states = points.map(|point| run.solid_state(point).unwrap());
     let stress = states.iter().map(SolidState::von_mises).sum::<f64>() / 4.0;
-    same("von_mises", &[stress, f64::NAN, f64::NAN]);
+    same("von_mises", &[stress, f64::NAN, f64::NAN, f64::NAN]);
     let growth = states.iter().map(|state| state.dilatation).sum::<f64>() / 4.0;
-    same("dilatation", &[growth, f64::NAN, f64::NAN]);
-    same("connectivity", &[0.0, 1.0, 2.0, 3.0, 2.0, 4.0, 1.0, 4.0]);
-    same("offsets", &[4.0, 6.0, 8.0]);
-    same("types", &[9.0, 3.0, 3.0]);
+    same("dilatation", &[growth, f64::NAN, f64::NAN, f64::NAN]);
+    // 11, 22, 33, 12, 23, 13.
+    let places = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
+    for (name, tensor) in [
+        ("stress", states.map(|state| state.stress)),
+        ("strain", states.map(|state| state.strain)),
+    ] {
+        let mean = places.map(|place| tensor.iter().map(|t| t[place]).sum::<f64>() / 4.0);
+        same(
+            name,
+            [mean, [f64::NAN; 6], [f64::NAN; 6], [f64::NAN; 6]].as_flattened(),
+        );
+    }
+    assert!(!text.contains("viscous_strain"));
+    same(
+        "connectivity",
+        &[0.0, 1.0, 2.0, 3.0, 2.0, 4.0, 1.0, 4.0, 5.0],
+    );
+    same("offsets", &[4.0, 6.0, 8.0, 9.0]);
+    same("types", &[9.0, 3.0, 3.0, 1.0]);
 
     let list = fs::read_to_string(folder.join("a \"solid\" & springs.pvd")).unwrap();
     assert_eq!(list.matches("<DataSet").count(), 4);
     assert!(list.contains("file=\"a &quot;solid&quot; &amp; springs_00003.vtu\""));
+}
+
+/// The strain within a Maxwell branch is a tensor of its own.
+#[test]
+fn viscous_strains_are_written_where_there_are_any() {
+    let mesh = Mesh::<Hex8, 3>::block([1; 3], [[0.0, 1.0]; 3]).unwrap();
+    let mut scene = Scene::<3>::new();
+    let body = scene.solid(Relaxing::RUBBER, &mesh, &Bulk::new(10.0));
+    let strain = [[0.2, 0.1, 0.0], [0.1, -0.2, 0.0], [0.0; 3]];
+    for &point in body.points() {
+        scene.set_viscous_strain(point, strain);
+        scene.set_temperature(point, 300.0);
+    }
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("paraview");
+    let mut series = VtkSeries::new(&scene, &folder, "viscous");
+    series
+        .write(&Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap())
+        .unwrap();
+    let text = fs::read_to_string(folder.join("viscous_00000.vtu")).unwrap();
+    let found = array(&text, "viscous_strain");
+    for (found, expected) in found.iter().zip([0.2, -0.2, 0.0, 0.1, 0.0, 0.0]) {
+        assert!((found - expected).abs() < 1e-15, "{found} {expected}");
+    }
+    assert_eq!(found.len(), 6);
 }
 
 #[test]

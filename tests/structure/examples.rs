@@ -1,30 +1,24 @@
-//! What examples print and draw where there is little to say: no "NaN", no text beyond the edge of its picture, and an
-//! error for options without effect.
+//! Every example keeps the claims that it checks itself, prints no "NaN", keeps its texts within its pictures, and
+//! refuses options without effect.
 //!
-//! Running them takes some seconds, so that only the gate (`.ci/run`) asks for it.
+//! Running them takes minutes, so that only the gate (`.ci/run`) asks for it.
 
 #![allow(clippy::unwrap_used, reason = "a test: what is missing is a failure")]
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Output};
+use std::sync::Mutex;
+use std::thread;
+
+const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
 /// Runs an example.
 fn example(name: &str, arguments: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO"));
     // With the features that the gate has built it with.
     command.args(["run", "--quiet", "-p", "eem", "--example", name, "--"]);
-    command
-        .args(arguments)
-        .current_dir(env!("CARGO_MANIFEST_DIR"));
-    command.output().unwrap()
-}
-
-/// An empty folder for what an example writes.
-fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("example-{name}"));
-    let _ = fs::remove_dir_all(&folder);
-    folder
+    command.args(arguments).current_dir(ROOT).output().unwrap()
 }
 
 #[test]
@@ -44,39 +38,75 @@ fn options_without_effect_are_refused() {
     );
 }
 
+/// With what an example is run: its first seconds, or what else does not take long without optimisation.
+fn runs(name: &str) -> &'static [&'static [&'static str]] {
+    match name {
+        // At rest, so that options about steps have no effect.
+        "describe" | "cook" => &[&[]],
+        "ensemble" => &[&["--end", "2"], &["--end", "1", "--members", "1"]],
+        "fit_damper" => &[
+            &["--end", "2"],
+            &["--end", "1", "--members", "8", "--fits", "2"],
+        ],
+        "l_block" | "rubber_bearing" | "satellite" => &[&["--end", "1"]],
+        "sweep" => &[&["--end", "2", "run"]],
+        _ => &[&["--end", "2"]],
+    }
+}
+
+/// Those that print all they have.
+const WITHOUT_PICTURES: [&str; 4] = ["describe", "extremes", "paper_tables", "sweep"];
+
 #[test]
 #[ignore = "runs examples; the gate asks for it"]
-fn pictures_hold_their_texts_and_tables_their_numbers() {
-    for (name, options) in [
-        ("ensemble", &["--members", "1"][..]),
-        ("single_pendulum", &[]),
-        ("double_pendulum", &[]),
-        ("log_stiffness", &[]),
-        ("shock_absorber", &[]),
-        ("fit_damper", &["--members", "8", "--fits", "2"]),
-        ("l_block", &[]),
-        ("satellite", &["--scheme", "eem-entropy"]),
-        ("rubber_bearing", &[]),
-        ("cook", &[]),
-    ] {
-        let folder = folder(name);
-        let out = folder.to_str().unwrap();
-        // What is at rest has no end.
-        let end: &[&str] = if name == "cook" { &[] } else { &["--end", "1"] };
-        let output = example(name, &[end, &["--out", out], options].concat());
-        let said = String::from_utf8(output.stdout).unwrap();
-        assert!(output.status.success(), "{name}: {said}");
-        assert!(!said.contains("NaN"), "{name}: {said}");
-        let mut pictures = 0;
-        for file in fs::read_dir(&folder).unwrap() {
-            let path = file.unwrap().path();
-            if path.extension().is_some_and(|extension| extension == "svg") {
-                assert_texts_inside(&path);
-                pictures += 1;
-            }
+fn examples_keep_their_claims_and_their_pictures_hold_their_texts() {
+    let mut left = Vec::new();
+    for file in fs::read_dir(Path::new(ROOT).join("examples")).unwrap() {
+        let path = file.unwrap().path();
+        if path.extension().is_some_and(|extension| extension == "rs") {
+            let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
+            left.extend(runs(&name).iter().map(|&options| (name.clone(), options)));
         }
-        assert!(pictures > 0, "{name} draws nothing");
     }
+    assert!(left.len() > 15);
+    let left = Mutex::new(left);
+    let next = || left.lock().unwrap().pop();
+    thread::scope(|scope| {
+        for _ in 0..thread::available_parallelism().unwrap().get() {
+            scope.spawn(|| {
+                while let Some((name, options)) = next() {
+                    assert_run(&name, options);
+                }
+            });
+        }
+    });
+}
+
+/// A run of an example succeeds, which it does if its claims hold, and what it prints and draws can be looked at.
+fn assert_run(name: &str, options: &[&str]) {
+    let folder = format!("example-{name}{}", options.concat());
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(folder);
+    let _ = fs::remove_dir_all(&folder);
+    let output = example(
+        name,
+        &[options, &["--out", folder.to_str().unwrap()]].concat(),
+    );
+    let said = String::from_utf8(output.stdout).unwrap();
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{name}: {said}{errors}");
+    assert!(!said.contains("NaN"), "{name}: {said}");
+    if WITHOUT_PICTURES.contains(&name) {
+        return;
+    }
+    let mut pictures = 0;
+    for file in fs::read_dir(&folder).unwrap() {
+        let path = file.unwrap().path();
+        if path.extension().is_some_and(|extension| extension == "svg") {
+            assert_texts_inside(&path);
+            pictures += 1;
+        }
+    }
+    assert!(pictures > 0, "{name} draws nothing");
 }
 
 /// Letters are about so wide, in sizes of the font.

@@ -1,5 +1,6 @@
 //! States of a run as files that ParaView opens.
 
+mod cell;
 mod error;
 mod file;
 
@@ -9,11 +10,12 @@ use std::io;
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 
-use crate::element::handle::{Element, Node};
+use crate::element::handle::Node;
 use crate::number::scalar::Real;
 use crate::run::simulation::Simulation;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
+use cell::{Cell, SCALARS, TENSORS, cells};
 use error::{SeriesError, at};
 use file::Grid;
 
@@ -21,10 +23,11 @@ use file::Grid;
 /// that names them with their times. Open the latter.
 ///
 /// Points are the nodes where they are now, with `displacement` (m) from where the scene has them and `velocity` (m/s).
-/// Cells are springs and cells of solids, with means over their points: `temperature` (K), `internal_energy` (J, the
-/// sum), `entropy_production` (W/K, the sum), of springs `stretch` (m) and `force` (N), of solids `strain_trace` (tr E), `dilatation` (J − 1) and `von_mises` (Pa).
-/// What an element does not have is
-/// not a number there. Scenes have at most three dimensions; values have all their digits.
+/// Cells are springs, cells of solids with means over their points, and nodes that belong to neither: `temperature` (K),
+/// `internal_energy` (J, the sum), `entropy_production` (W/K, the sum), of springs `stretch` (m) and `force` (N), of solids
+/// `strain_trace` (tr E), `dilatation` (J − 1) and `von_mises` (Pa), and the tensors `strain` (E), `stress` (Cauchy's, Pa)
+/// and `viscous_strain` (Γ). What an element does not have is not a number there, and tensors that none has are left out.
+/// Scenes have at most three dimensions; values have all their digits.
 ///
 /// ```no_run
 /// use eem::prelude::*;
@@ -53,18 +56,6 @@ pub struct VtkSeries<const D: usize> {
     times: Vec<f64>,
     /// Whether it is known that no other series has the files.
     has_claimed: bool,
-}
-
-/// A spring, or a cell of a solid.
-#[derive(Debug)]
-struct Cell {
-    nodes: Vec<usize>,
-    /// The number that the format has for its shape.
-    kind: u8,
-    /// Its points.
-    elements: Vec<Element>,
-    is_spring: bool,
-    is_thermal: bool,
 }
 
 impl<const D: usize> VtkSeries<D> {
@@ -179,119 +170,24 @@ impl<const D: usize> VtkSeries<D> {
             grid.points.push(position);
         }
         grid.vectors = vec![("displacement", moved), ("velocity", velocities)];
-        let mut columns = [const { Vec::new() }; QUANTITIES.len()];
+        let mut scalars = [const { Vec::new() }; SCALARS.len()];
+        let mut tensors = [const { Vec::new() }; TENSORS.len()];
         for cell in &self.cells {
-            for (column, value) in columns.iter_mut().zip(cell.values(run)?) {
+            let values = cell.values(run)?;
+            for (column, value) in scalars.iter_mut().zip(values.scalars) {
+                column.push(value);
+            }
+            for (column, value) in tensors.iter_mut().zip(values.tensors) {
                 column.push(value);
             }
         }
-        grid.scalars = QUANTITIES.into_iter().zip(columns).collect();
+        grid.scalars = SCALARS.into_iter().zip(scalars).collect();
+        let tensors = TENSORS.into_iter().zip(tensors);
+        let is_known = |tensor: &[f64; 6]| !tensor[0].is_nan();
+        grid.tensors = tensors
+            .filter(|(_, column)| column.iter().any(is_known))
+            .collect();
         Ok(grid)
-    }
-}
-
-/// The quantities of cells.
-const QUANTITIES: [&str; 8] = [
-    "temperature",
-    "internal_energy",
-    "entropy_production",
-    "stretch",
-    "force",
-    "strain_trace",
-    "dilatation",
-    "von_mises",
-];
-
-impl Cell {
-    /// Its quantities in a state.
-    fn values<const D: usize, S: Real>(
-        &self,
-        run: &Simulation<D, S>,
-    ) -> Result<[f64; QUANTITIES.len()], SceneError> {
-        let [mut heat, mut energy, mut production] = [0.0; 3];
-        let mut solid = [0.0; 3];
-        for &element in &self.elements {
-            energy += run.internal_energy(element)?.to_f64();
-            if self.is_thermal {
-                heat += run.temperature(element)?.to_f64();
-                production += run.entropy_production(element)?.to_f64();
-            }
-            if !self.is_spring {
-                let state = run.solid_state(element)?;
-                let e = |axis| state.strain[(axis, axis)];
-                let trace = e(0) + e(1) + e(2);
-                let at_point = [trace, state.dilatation, state.von_mises()];
-                for (sum, value) in solid.iter_mut().zip(at_point) {
-                    *sum += value.to_f64();
-                }
-            }
-        }
-        let points = f64::from(u32::try_from(self.elements.len()).unwrap_or(u32::MAX));
-        let [temperature, production] = if self.is_thermal {
-            [heat / points, production]
-        } else {
-            [f64::NAN; 2]
-        };
-        let [stretch, force] = match self.elements[..] {
-            [spring] if self.is_spring => {
-                [run.stretch(spring)?, run.force(spring)?].map(Real::to_f64)
-            }
-            _ => [f64::NAN; 2],
-        };
-        let [trace, dilatation, stress] = if self.is_spring {
-            [f64::NAN; 3]
-        } else {
-            solid.map(|sum| sum / points)
-        };
-        Ok([
-            temperature,
-            energy,
-            production,
-            stretch,
-            force,
-            trace,
-            dilatation,
-            stress,
-        ])
-    }
-}
-
-/// The cells of a scene, in the order of creation.
-fn cells<const D: usize, S: Real>(scene: &Scene<D, S>) -> Vec<Cell> {
-    let mut cells = Vec::new();
-    let mut next = 0;
-    while let Some(entry) = scene.elements.get(next) {
-        // A solid that could not be made has no group; the scene is refused for it.
-        let Some(group) = scene.groups.get(entry.group) else {
-            next += 1;
-            continue;
-        };
-        let points = group.points_per_element();
-        let shape = group.shape();
-        cells.push(Cell {
-            kind: kind(entry.nodes.len(), D),
-            nodes: entry.nodes.clone(),
-            elements: (next..next + points)
-                .map(|at| scene.element_at(at))
-                .collect(),
-            is_spring: shape.is_spring,
-            is_thermal: shape.thermal,
-        });
-        next += points;
-    }
-    cells
-}
-
-/// The number that the format has for a shape with so many nodes.
-const fn kind(nodes: usize, dimension: usize) -> u8 {
-    match (nodes, dimension) {
-        (2, _) => 3,
-        (4, _) => 9,
-        (8, 2) => 23,
-        (8, _) => 12,
-        (20, _) => 25,
-        // As a set of points.
-        _ => 2,
     }
 }
 

@@ -2,6 +2,8 @@
 
 use core::fmt::{self, Display, Write as _};
 
+use super::cell::Components;
+
 /// An unstructured grid with data on points and cells.
 #[derive(Debug)]
 pub(super) struct Grid {
@@ -15,6 +17,8 @@ pub(super) struct Grid {
     pub(super) vectors: Vec<(&'static str, Vec<[f64; 3]>)>,
     /// A number per cell.
     pub(super) scalars: Vec<(&'static str, Vec<f64>)>,
+    /// A symmetric tensor per cell.
+    pub(super) tensors: Vec<(&'static str, Vec<Components>)>,
 }
 
 impl Grid {
@@ -27,6 +31,7 @@ impl Grid {
             offsets: Vec::new(),
             vectors: Vec::new(),
             scalars: Vec::new(),
+            tensors: Vec::new(),
         };
         for (kind, nodes) in cells {
             grid.kinds.push(kind);
@@ -46,19 +51,17 @@ impl Grid {
         ));
         xml.line("<PointData>");
         for (name, vectors) in &self.vectors {
-            xml.vectors(name, vectors);
+            xml.numbers(name, 3, vectors.as_flattened());
         }
         xml.line("</PointData>\n<CellData>");
         for (name, values) in &self.scalars {
-            xml.array(
-                "Float64",
-                name,
-                1,
-                values.iter().map(|&value| Number(value)),
-            );
+            xml.numbers(name, 1, values);
+        }
+        for (name, tensors) in &self.tensors {
+            xml.numbers(name, 6, tensors.as_flattened());
         }
         xml.line("</CellData>\n<Points>");
-        xml.vectors("position", &self.points);
+        xml.numbers("position", 3, self.points.as_flattened());
         xml.line("</Points>\n<Cells>");
         xml.array("Int64", "connectivity", 1, self.connectivity.iter());
         xml.array("Int64", "offsets", 1, self.offsets.iter());
@@ -112,9 +115,9 @@ impl Xml {
         self.line("\n</DataArray>");
     }
 
-    fn vectors(&mut self, name: &str, vectors: &[[f64; 3]]) {
-        let components = vectors.as_flattened().iter();
-        self.array("Float64", name, 3, components.map(|&value| Number(value)));
+    fn numbers(&mut self, name: &str, components: usize, numbers: &[f64]) {
+        let numbers = numbers.iter().map(|&number| Number(number));
+        self.array("Float64", name, components, numbers);
     }
 
     fn end(mut self) -> String {

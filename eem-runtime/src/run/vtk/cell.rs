@@ -1,0 +1,177 @@
+//! What files show of a node alone, of a spring and of a cell of a solid.
+
+use core::array;
+
+use nalgebra::SMatrix;
+
+use crate::element::handle::Element;
+use crate::number::scalar::Real;
+use crate::run::simulation::Simulation;
+use crate::scene::Scene;
+use crate::scene::error::SceneError;
+
+/// The numbers of cells.
+pub(super) const SCALARS: [&str; 8] = [
+    "temperature",
+    "internal_energy",
+    "entropy_production",
+    "stretch",
+    "force",
+    "strain_trace",
+    "dilatation",
+    "von_mises",
+];
+
+/// The symmetric tensors of cells.
+pub(super) const TENSORS: [&str; 3] = ["strain", "stress", "viscous_strain"];
+
+/// The components of a symmetric tensor in the order of the format: 11, 22, 33, 12, 23, 13.
+pub(super) type Components = [f64; 6];
+
+/// A node of no element, a spring, or a cell of a solid.
+#[derive(Debug)]
+pub(super) struct Cell {
+    pub(super) nodes: Vec<usize>,
+    /// The number that the format has for its shape.
+    pub(super) kind: u8,
+    /// Its points; a node has none.
+    pub(super) elements: Vec<Element>,
+    is_spring: bool,
+    is_thermal: bool,
+    has_viscous_strain: bool,
+}
+
+/// What a cell has in a state; not a number where it has none.
+#[derive(Debug)]
+pub(super) struct Values {
+    pub(super) scalars: [f64; SCALARS.len()],
+    pub(super) tensors: [Components; TENSORS.len()],
+}
+
+impl Cell {
+    /// Its quantities in a state: sums of energy and production, means of all others.
+    pub(super) fn values<const D: usize, S: Real>(
+        &self,
+        run: &Simulation<D, S>,
+    ) -> Result<Values, SceneError> {
+        let mut scalars = [f64::NAN; SCALARS.len()];
+        let mut tensors = [[f64::NAN; 6]; TENSORS.len()];
+        let [
+            temperature,
+            energy,
+            production,
+            stretch,
+            force,
+            trace,
+            dilatation,
+            von_mises,
+        ] = &mut scalars;
+        let [strain, stress, viscous_strain] = &mut tensors;
+        if !self.elements.is_empty() {
+            [*energy] = self.sum(|element| Ok([run.internal_energy(element)?.to_f64()]))?;
+        }
+        if self.is_thermal {
+            [*temperature] = self.mean(|element| Ok([run.temperature(element)?.to_f64()]))?;
+            [*production] = self.sum(|element| Ok([run.entropy_production(element)?.to_f64()]))?;
+        }
+        if self.is_spring {
+            [*stretch] = self.mean(|element| Ok([run.stretch(element)?.to_f64()]))?;
+            [*force] = self.mean(|element| Ok([run.force(element)?.to_f64()]))?;
+        } else if !self.elements.is_empty() {
+            [*trace, *dilatation, *von_mises] = self.mean(|element| {
+                let state = run.solid_state(element)?;
+                let e = |axis| state.strain[(axis, axis)];
+                let trace = e(0) + e(1) + e(2);
+                Ok([trace, state.dilatation, state.von_mises()].map(Real::to_f64))
+            })?;
+            *strain = self.mean(|element| Ok(components(&run.solid_state(element)?.strain)))?;
+            *stress = self.mean(|element| Ok(components(&run.solid_state(element)?.stress)))?;
+        }
+        if self.has_viscous_strain {
+            *viscous_strain = self.mean(|element| Ok(components(&run.viscous_strain(element)?)))?;
+        }
+        Ok(Values { scalars, tensors })
+    }
+
+    /// Over its points.
+    fn sum<const N: usize>(
+        &self,
+        of: impl Fn(Element) -> Result<[f64; N], SceneError>,
+    ) -> Result<[f64; N], SceneError> {
+        let mut total = [0.0; N];
+        for &element in &self.elements {
+            let values = of(element)?;
+            total = array::from_fn(|k| total[k] + values[k]);
+        }
+        Ok(total)
+    }
+
+    /// Over its points.
+    fn mean<const N: usize>(
+        &self,
+        of: impl Fn(Element) -> Result<[f64; N], SceneError>,
+    ) -> Result<[f64; N], SceneError> {
+        let points = f64::from(u32::try_from(self.elements.len()).unwrap_or(u32::MAX));
+        Ok(self.sum(of)?.map(|sum| sum / points))
+    }
+}
+
+/// Of a symmetric tensor.
+fn components<S: Real>(tensor: &SMatrix<S, 3, 3>) -> Components {
+    let places = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
+    places.map(|place| tensor[place].to_f64())
+}
+
+/// The cells of a scene in the order of creation, then the nodes that belong to none.
+pub(super) fn cells<const D: usize, S: Real>(scene: &Scene<D, S>) -> Vec<Cell> {
+    let mut cells = Vec::new();
+    let mut is_alone = vec![true; scene.nodes.len()];
+    let mut next = 0;
+    while let Some(entry) = scene.elements.get(next) {
+        // A solid that could not be made has no group; the scene is refused for it.
+        let Some(group) = scene.groups.get(entry.group) else {
+            next += 1;
+            continue;
+        };
+        let points = group.points_per_element();
+        let shape = group.shape();
+        for &node in &entry.nodes {
+            is_alone[node] = false;
+        }
+        cells.push(Cell {
+            kind: kind(entry.nodes.len(), D),
+            nodes: entry.nodes.clone(),
+            elements: (next..next + points)
+                .map(|at| scene.element_at(at))
+                .collect(),
+            is_spring: shape.is_spring,
+            is_thermal: shape.thermal,
+            has_viscous_strain: shape.viscous_strain > 0,
+        });
+        next += points;
+    }
+    let alone = (0..scene.nodes.len()).filter(|&node| is_alone[node]);
+    cells.extend(alone.map(|node| Cell {
+        nodes: vec![node],
+        kind: kind(1, D),
+        elements: Vec::new(),
+        is_spring: false,
+        is_thermal: false,
+        has_viscous_strain: false,
+    }));
+    cells
+}
+
+/// The number that the format has for a shape with so many nodes.
+const fn kind(nodes: usize, dimension: usize) -> u8 {
+    match (nodes, dimension) {
+        (1, _) => 1,
+        (2, _) => 3,
+        (4, _) => 9,
+        (8, 2) => 23,
+        (8, _) => 12,
+        (20, _) => 25,
+        // As a set of points.
+        _ => 2,
+    }
+}
