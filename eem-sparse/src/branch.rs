@@ -140,6 +140,11 @@ impl Branch {
         parts.fold(own, |sum, part| sum + Self::stacks(fronts, part, length))
     }
 
+    /// Whether some of its fronts can be factored at the same time as others.
+    pub(crate) const fn has_parts(&self) -> bool {
+        !self.parts.is_empty()
+    }
+
     /// Factors its parts, then its own fronts.
     pub(crate) fn factor<P: Precision, const L: usize>(
         &mut self,

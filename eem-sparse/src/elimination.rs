@@ -24,7 +24,7 @@ use crate::threads;
 /// `faer` are faster.
 const SMALL: usize = 24;
 
-/// A product is split in two tasks if each has more multiplications than this, about a millisecond.
+/// Work is split in two tasks if each has more multiplications than this, about a millisecond.
 const PIECE: usize = 1 << 22;
 
 /// Products are split at multiples of this many columns, a multiple of the block size of the kernels of
@@ -163,16 +163,20 @@ impl Blocks<'_> {
         }
         let mut upper = MatMut::from_column_major_slice_mut(self.upper, width, height);
         let (transposed, right) = (diagonal.rb().transpose(), below.rb_mut().transpose_mut());
-        threads::join(
-            || {
-                solve_columns(
-                    solve_unit_lower_triangular_in_place,
-                    diagonal.rb(),
-                    upper.rb_mut(),
-                );
-            },
-            || solve_columns(solve_lower_triangular_in_place, transposed, right),
-        );
+        let mut solve_above = || {
+            solve_columns(
+                solve_unit_lower_triangular_in_place,
+                diagonal.rb(),
+                upper.rb_mut(),
+            );
+        };
+        let solve_below = || solve_columns(solve_lower_triangular_in_place, transposed, right);
+        if width * width * height > PIECE {
+            threads::join(solve_above, solve_below);
+        } else {
+            solve_above();
+            solve_below();
+        }
         let schur = MatMut::from_column_major_slice_mut(self.schur, height, height);
         subtract_product(schur, below.rb(), upper.rb());
     }

@@ -5,6 +5,7 @@ use crate::division::Division;
 use crate::fronts::{Front, Fronts};
 use crate::gathering::Matrix;
 use crate::precision::Precision;
+use crate::threads;
 
 /// L and U of all fronts, and the memory in which they are found.
 #[derive(Debug)]
@@ -46,7 +47,12 @@ impl Factors {
             upper: &mut self.upper,
             pivots: &mut self.pivots,
         };
-        self.root.factor(matrix, memory);
+        let root = &mut self.root;
+        if root.has_parts() {
+            threads::enter(|| root.factor(matrix, memory));
+        } else {
+            root.factor(matrix, memory);
+        }
     }
 
     /// Overwrites a right-hand side with the solution, both in the order of elimination.

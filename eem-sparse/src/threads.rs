@@ -5,17 +5,36 @@
 /// Whether work is split into tasks at all.
 pub(crate) const DIVIDE: bool = cfg!(feature = "parallel");
 
+/// Runs a task on a thread of the pool, unless that is the only one: what it joins need not wake one each time.
+#[cfg(feature = "parallel")]
+pub(crate) fn enter(task: impl FnOnce() + Send) {
+    if rayon::current_num_threads() > 1 {
+        rayon::scope(|_| task());
+    } else {
+        task();
+    }
+}
+
+/// Runs a task.
+#[cfg(not(feature = "parallel"))]
+pub(crate) fn enter(task: impl FnOnce()) {
+    task();
+}
+
 /// Runs both tasks, in parallel if a thread is free.
 #[cfg(feature = "parallel")]
-pub(crate) fn join<A: Send, B: Send>(
-    first: impl FnOnce() -> A + Send,
-    second: impl FnOnce() -> B + Send,
-) -> (A, B) {
-    rayon::join(first, second)
+pub(crate) fn join(first: impl FnOnce() + Send, second: impl FnOnce() + Send) {
+    if rayon::current_num_threads() > 1 {
+        rayon::join(first, second);
+    } else {
+        first();
+        second();
+    }
 }
 
 /// Runs one task after the other.
 #[cfg(not(feature = "parallel"))]
-pub(crate) fn join<A, B>(first: impl FnOnce() -> A, second: impl FnOnce() -> B) -> (A, B) {
-    (first(), second())
+pub(crate) fn join(first: impl FnOnce(), second: impl FnOnce()) {
+    first();
+    second();
 }

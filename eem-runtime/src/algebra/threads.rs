@@ -6,15 +6,22 @@
 /// and not for each material.
 pub(crate) type Task<'a> = &'a mut (dyn FnMut() + Send);
 
+/// Runs a task on a thread of the pool, unless that is the only one: what it joins need not wake one each time.
+pub(crate) fn enter(task: Task<'_>) {
+    #[cfg(feature = "parallel")]
+    if rayon::current_num_threads() > 1 {
+        return rayon::scope(|_| task());
+    }
+    task();
+}
+
 /// Runs both tasks.
 pub(crate) fn join(first: Task<'_>, second: Task<'_>) {
     #[cfg(feature = "parallel")]
-    {
+    if rayon::current_num_threads() > 1 {
         rayon::join(first, second);
+        return;
     }
-    #[cfg(not(feature = "parallel"))]
-    {
-        first();
-        second();
-    }
+    first();
+    second();
 }

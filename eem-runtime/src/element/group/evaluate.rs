@@ -71,14 +71,19 @@ where
         };
         self.shares
             .resize_with(ROUND.min(self.members.len()), Share::none);
-        for members in self.members.chunks_mut(ROUND) {
-            let shares = &mut self.shares[..members.len()];
-            in_pieces(members, shares, &linearize)?;
-            for (member, share) in members.iter().zip(shares) {
-                member.add_share(share, contacts, (&mut *values, &mut *right));
-            }
-        }
-        Ok(())
+        let (members, shares) = (&mut self.members, &mut self.shares);
+        let mut outcome = Ok(());
+        threads::enter(&mut || {
+            outcome = members.chunks_mut(ROUND).try_for_each(|members| {
+                let shares = &mut shares[..members.len()];
+                in_pieces(members, shares, &linearize)?;
+                for (member, share) in members.iter().zip(shares) {
+                    member.add_share(share, contacts, (&mut *values, &mut *right));
+                }
+                Ok(())
+            });
+        });
+        outcome
     }
 }
 
