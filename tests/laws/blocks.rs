@@ -44,7 +44,7 @@ where
     (Simulation::new(scene, scheme, step).unwrap(), heat)
 }
 
-/// 20 steps keep the laws, whatever the step.
+/// 40 steps keep the laws, whatever the step.
 fn keep_the_laws<M, const N: usize>(name: &str, parts: (&M, &Bulk<3>), theta_ref: f64)
 where
     M: FreeEnergy<f64> + StrainEnergy<N> + Clone + Send + Sync + 'static,
@@ -57,7 +57,7 @@ where
             let momenta = 20.0 * f64::min(1.0, 0.2 / step);
             let mut entropy = first.entropy;
             let mut worst = [0.0_f64; 3];
-            for _ in 0..20 {
+            for _ in 0..40 {
                 run.step().unwrap();
                 let ledger = run.ledger();
                 let errors = [
