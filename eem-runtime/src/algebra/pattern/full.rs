@@ -3,7 +3,7 @@
 use core::convert::Infallible;
 
 /// A full matrix, of which only the number of unknowns matters.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub(crate) struct Pattern {
     unknowns: usize,
 }
@@ -31,7 +31,7 @@ impl Pattern {
     }
 
     /// Number of rows and of columns.
-    pub(crate) fn unknowns(self) -> usize {
+    pub(crate) fn unknowns(&self) -> usize {
         self.unknowns
     }
 }
