@@ -72,8 +72,9 @@ where
         self.shares
             .resize_with(ROUND.min(self.members.len()), Share::none);
         let (members, shares) = (&mut self.members, &mut self.shares);
+        let is_shared = members.len() > PIECE;
         let mut outcome = Ok(());
-        threads::enter(&mut || {
+        let mut linearize_all = || {
             outcome = members.chunks_mut(ROUND).try_for_each(|members| {
                 let shares = &mut shares[..members.len()];
                 in_pieces(members, shares, &linearize)?;
@@ -82,7 +83,12 @@ where
                 }
                 Ok(())
             });
-        });
+        };
+        if is_shared {
+            threads::enter(&mut linearize_all);
+        } else {
+            linearize_all();
+        }
         outcome
     }
 }
