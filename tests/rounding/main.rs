@@ -17,7 +17,10 @@ mod cases {
 
 /// Lanes against plain runs.
 #[cfg(feature = "lanes")]
-#[path = "../running"]
-mod running {
-    mod lanes;
+#[path = "../running/lanes"]
+mod lanes {
+    mod bits;
+    #[allow(dead_code, reason = "scenes of other tests")]
+    mod scenes;
+    mod watched;
 }
