@@ -41,7 +41,8 @@ pub enum SweepError {
     },
     /// A part of another sweep lies among those of this one.
     #[error(
-        "{} belongs to the sweep {found}, this one is {expected}; move the file away",
+        "{} belongs to the sweep {found}, this one is {expected}; run it with the program, inputs, settings and format \
+         that began the directory, or move the file away if it is none of it",
         path.display()
     )]
     ForeignPart {

@@ -12,6 +12,7 @@ use crate::digest::Digest;
 use crate::error::{Difference, SweepError};
 use crate::files::{self, Draft, failed};
 use crate::format::Format;
+use crate::part::{PARTS, refuse_foreign};
 
 /// The file in the directory of a sweep.
 const NAME: &str = "sweep.json";
@@ -140,6 +141,8 @@ impl Manifest {
             if !manifest.format.is_available() {
                 return Err(SweepError::NoArrow);
             }
+            // Whoever has lost the manifest writes the same one again; nobody else gets the directory.
+            refuse_foreign(&directory.join(PARTS), &manifest.digest)?;
             let text = files::json(&path, &manifest)?;
             let mut draft = Draft::new(&path)?;
             draft.write_all(&text).map_err(failed("write", &path))?;

@@ -43,7 +43,7 @@ impl Sweep<'_> {
     ///
     /// It proves that every member has a record of a program, inputs and settings with one digest, takes the last
     /// record of each, and compares those that are there twice. Beside the table it writes what it has found,
-    /// with `.json` added to the name. It can be killed and repeated at any time; temporary files that killed
+    /// with `.json` added to the name. Of a directory that can only be read it merges `into` another one, once. It can be killed and repeated at any time; temporary files that killed
     /// processes have left behind are removed when they are an hour old.
     ///
     /// # Errors
@@ -72,10 +72,16 @@ impl Sweep<'_> {
         let mut draft = Draft::new(&path)?;
         let merged = write_table(&opened, &parts, &mut draft, &path)?;
         let tables = Tables::of(directory);
-        tables.remember(&merged.table)?;
+        let remembered = tables.remember(&merged.table);
+        // A table elsewhere can be made of a sweep that can only be read; it cannot be made again in its place.
+        if into.is_none() {
+            remembered?;
+        }
         if tables.refuse_others(&path)? || !draft.publish()? {
-            // Another call may have put its table there in the meantime.
-            tables.refuse_others(&path)?;
+            // Another call may have put its table there in the meantime; a link to nowhere is nobody's table.
+            if !tables.refuse_others(&path)? {
+                return Err(SweepError::Exists { path });
+            }
             draft.replace()?;
         }
         files::replace(&note, &files::json(&note, &merged)?)?;

@@ -12,6 +12,9 @@ use crate::format::{Format, Heads, Reader};
 use crate::inputs::Inputs;
 use crate::places::Places;
 
+/// The folder of parts in the directory of a sweep.
+pub(crate) const PARTS: &str = "parts";
+
 /// Hexadecimal digits of the digests that a name has.
 const DIGITS: usize = 16;
 
@@ -23,7 +26,7 @@ pub(crate) struct Part {
     pub(crate) span: Range<usize>,
     /// Members in it; less than the span if there are gaps.
     pub(crate) members: usize,
-    /// 0 for the first run of a member, more for the runs that supersede it.
+    /// 0 for members that are given up, 1 for the first run of a member, more for the runs that supersede it.
     pub(crate) generation: u32,
     /// Of its contents and of all else that its name says.
     content: String,
@@ -37,6 +40,19 @@ pub(crate) struct Shelf<'a> {
     pub(crate) format: Format,
     pub(crate) heads: &'a Heads,
     pub(crate) inputs: &'a Inputs,
+}
+
+/// An error if a folder has parts of another sweep than that of a digest.
+pub(crate) fn refuse_foreign(folder: &Path, digest: &str) -> Result<(), SweepError> {
+    let reading = || failed("read the directory", folder);
+    for entry in fs::read_dir(folder).map_err(reading())? {
+        let path = entry.map_err(reading())?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if let Some(name) = Name::read(&name) {
+            name.refuse_foreign(&path, digest)?;
+        }
+    }
+    Ok(())
 }
 
 impl Shelf<'_> {
@@ -95,13 +111,7 @@ impl Shelf<'_> {
         let Some(name) = Name::read(name) else {
             return Ok(None);
         };
-        if *name.sweep != self.digest[..DIGITS] {
-            return Err(SweepError::ForeignPart {
-                path: path.to_owned(),
-                found: name.sweep.to_owned(),
-                expected: self.digest[..DIGITS].to_owned(),
-            });
-        }
+        name.refuse_foreign(path, self.digest)?;
         if name.extension != self.format.extension() {
             return Err(SweepError::Damaged {
                 path: path.to_owned(),
@@ -186,6 +196,18 @@ impl<'n> Name<'n> {
             sweep,
             content,
             extension,
+        })
+    }
+
+    /// An error unless it is a part of the sweep with this digest.
+    fn refuse_foreign(&self, path: &Path, digest: &str) -> Result<(), SweepError> {
+        if *self.sweep == digest[..DIGITS] {
+            return Ok(());
+        }
+        Err(SweepError::ForeignPart {
+            path: path.to_owned(),
+            found: self.sweep.to_owned(),
+            expected: digest[..DIGITS].to_owned(),
         })
     }
 }

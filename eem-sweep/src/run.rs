@@ -15,6 +15,12 @@ use crate::sweep::{Opened, Sweep};
 use crate::team::{self, Sizes, Task};
 use crate::walk::walk;
 
+/// The generation of members that are given up: whoever is at work on one supersedes it.
+const GIVEN_UP: u32 = 0;
+
+/// The generation of the first run of a member.
+const FIRST_RUN: u32 = 1;
+
 /// How a process runs its members. Records do not depend on it.
 ///
 /// ```
@@ -81,7 +87,7 @@ impl Sweep<'_> {
         };
         let missing = wanted.without(&seen.reported);
         let name = options.selection.to_string();
-        let work = (&wanted, &missing, 0, name.as_str());
+        let work = (&wanted, &missing, FIRST_RUN, name.as_str());
         self.run_places(directory, &opened, options, work, &mut report)?;
         Ok(report)
     }
@@ -104,8 +110,9 @@ impl Sweep<'_> {
             ..RunReport::default()
         };
         let name = format!("rerun-{}", options.selection);
+        // Notes of members that nobody has reported say which come last.
         let work = (
-            &wanted,
+            &seen.reported,
             &seen.failed,
             seen.generation.saturating_add(1),
             name.as_str(),
@@ -136,7 +143,7 @@ impl Sweep<'_> {
             name: &name,
             shelf: opened.shelf(),
             job: &giving_up(opened.heads().outputs.len()),
-            generation: 0,
+            generation: GIVEN_UP,
         };
         let mut teller = Teller::new(directory, &name, missing.count(), false);
         let (ran, failed) = team::run(task, &missing, 1, Sizes::adapted(1), &mut teller)?;
@@ -149,14 +156,14 @@ impl Sweep<'_> {
         })
     }
 
-    /// Runs places among those that are wanted, and reports them as parts of a generation; `name` is that of files
-    /// about the run.
+    /// Runs places, and reports them as parts of a generation; then all that are `settled` are reported, and notes of
+    /// them are of no use. `name` is that of files about the run.
     fn run_places(
         &self,
         directory: &Path,
         opened: &Opened<'_>,
         options: &RunOptions,
-        (wanted, places, generation, name): (&Places, &Places, u32, &str),
+        (settled, places, generation, name): (&Places, &Places, u32, &str),
         report: &mut RunReport,
     ) -> Result<(), SweepError> {
         let mut teller = Teller::new(directory, name, places.count(), options.bar);
@@ -172,7 +179,7 @@ impl Sweep<'_> {
             generation,
         };
         for class in begun::classes(directory, places) {
-            let sizes = match class.batch.or(options.batch) {
+            let sizes = match class.batch.into_iter().chain(options.batch).min() {
                 Some(members) => Sizes::Fixed(members.max(1)),
                 None => Sizes::adapted(self.job.bundle),
             };
@@ -182,7 +189,7 @@ impl Sweep<'_> {
             report.failed += failed;
         }
         teller.finish();
-        begun::forget(directory, wanted);
+        begun::forget(directory, settled);
         Ok(())
     }
 }

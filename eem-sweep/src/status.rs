@@ -74,14 +74,25 @@ impl Sweep<'_> {
 
 /// The ids of members for people, the first ranges of many.
 pub(crate) fn named(places: &Places, inputs: &Inputs) -> String {
-    let ranges = places.ranges();
-    let name = |range: &std::ops::Range<usize>| match (inputs.id(range.start), range.len()) {
-        (first, 1) => first.to_string(),
-        (first, _) => format!("{first}-{}", inputs.id(range.end - 1)),
+    let mut ranges: Vec<[u64; 2]> = Vec::new();
+    let mut named = 0;
+    for id in places.iter().map(|place| inputs.id(place)) {
+        let known = ranges.len();
+        match ranges.last_mut() {
+            Some([_, last]) if *last + 1 == id => *last = id,
+            _ if known == NAMED => break,
+            _ => ranges.push([id, id]),
+        }
+        named += 1;
+    }
+    let name = |&[first, last]: &[u64; 2]| match last - first {
+        0 => first.to_string(),
+        _ => format!("{first}-{last}"),
     };
-    let mut texts: Vec<String> = ranges.iter().take(NAMED).map(name).collect();
-    if ranges.len() > NAMED {
-        texts.push(format!("and {} more ranges", ranges.len() - NAMED));
+    let mut texts: Vec<String> = ranges.iter().map(name).collect();
+    let left = places.count() - named;
+    if left > 0 {
+        texts.push(format!("and {left} more"));
     }
     texts.join(",")
 }
@@ -134,5 +145,27 @@ impl fmt::Display for Status {
             )?;
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::selection::Selection;
+
+    #[test]
+    fn what_is_named_can_be_selected() {
+        let file = std::env::temp_dir().join(format!("eem-named-{}.csv", std::process::id()));
+        std::fs::write(&file, "id,speed\n10,1\n20,2\n30,3\n31,4\n").unwrap();
+        let inputs = Inputs::csv(&file).unwrap();
+        std::fs::remove_file(&file).unwrap();
+        let text = named(&Places::one(0..4), &inputs);
+        assert_eq!(text, "10,20,30-31");
+        let places = Selection::list(&text).unwrap().places(&inputs).unwrap();
+        assert_eq!(places, Places::one(0..4));
+        // The first ranges of many.
+        let inputs = Inputs::grid([("speed", vec![0.0; 100])]).unwrap();
+        let odd = Places::new((0..50).map(|i| 2 * i..2 * i + 1).collect());
+        assert!(named(&odd, &inputs).ends_with(&format!("and {} more", 50 - NAMED)));
     }
 }

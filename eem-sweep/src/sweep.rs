@@ -14,7 +14,7 @@ use crate::format::{Format, Heads};
 use crate::inputs::{InputError, Inputs, Row};
 use crate::job::{Job, Stepping, job};
 use crate::manifest::{Identity, Manifest};
-use crate::part::Shelf;
+use crate::part::{PARTS, Shelf};
 use crate::record::Record;
 
 /// Members of an experiment that move together with the feature `lanes`.
@@ -221,7 +221,7 @@ impl Sweep<'_> {
         begin: bool,
     ) -> Result<Opened<'_>, SweepError> {
         let heads = Heads::new(self.plan.inputs.columns(), self.outputs)?;
-        let folder = directory.join("parts");
+        let folder = directory.join(PARTS);
         if begin {
             files::directory(&folder)?;
         }
@@ -270,7 +270,12 @@ impl Sweep<'_> {
             return Ok(version.clone());
         }
         let unknown = || files::failed("find the executable of", Path::new("this process"));
-        let path = env::current_exe().map_err(unknown())?;
+        // What runs, also if its file has been replaced or removed meanwhile.
+        let path = if cfg!(target_os = "linux") {
+            PathBuf::from("/proc/self/exe")
+        } else {
+            env::current_exe().map_err(unknown())?
+        };
         let digest = digest::of_file(&path).map_err(files::failed("read the executable", &path))?;
         Ok(format!("an executable with digest {digest}"))
     }

@@ -161,7 +161,9 @@ impl<'t, P: Iterator<Item = usize> + Send> Team<'t, P> {
                     queue.sizes.adapt(chosen.len(), took);
                     queue.teller.reported(chosen.len(), batch.failed());
                 }
-                Err(error) => queue.error = Some(error),
+                Err(error) => {
+                    queue.error.get_or_insert(error);
+                }
             }
         }
     }

@@ -56,8 +56,12 @@ fn no_byte_can_change(name: &str, format: Format) {
         assert!(error.to_string().contains("move the file away"), "{error}");
     });
     assert_eq!(contents(&folder).len(), 4);
-    // The advice is right.
+    // Nobody else gets a directory with parts.
     fs::remove_file(folder.join("sweep.json")).unwrap();
+    let error = stones(MEMBERS, 2).run(&folder, &options).unwrap_err();
+    assert!(matches!(error, SweepError::ForeignPart { .. }), "{error}");
+    assert!(!folder.join("sweep.json").exists());
+    // The advice is right.
     fs::remove_file(&parts[1]).unwrap();
     assert_eq!(sweep.run(&folder, &options).unwrap().ran, 7);
     sweep.merge(&folder, None).unwrap();

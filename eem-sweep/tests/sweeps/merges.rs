@@ -15,6 +15,71 @@ fn read(path: &Path) -> Vec<u8> {
 }
 
 #[test]
+fn who_is_at_work_on_a_member_that_is_given_up_supersedes_it() {
+    let [folder, other] = ["given-up-alive", "given-up-other"].map(directory);
+    let sweep = stones(MEMBERS, 1);
+    let some = |range| RunOptions {
+        selection: Selection::Range(range),
+        ..RunOptions::default()
+    };
+    sweep.run(&folder, &some(0..19)).unwrap();
+    sweep.give_up(&folder, &Selection::All).unwrap();
+    // Its record comes when it has been given up.
+    sweep.run(&other, &some(19..20)).unwrap();
+    for part in fs::read_dir(other.join("parts")).unwrap() {
+        let part = part.unwrap();
+        fs::copy(part.path(), folder.join("parts").join(part.file_name())).unwrap();
+    }
+    let merged = sweep.merge(&folder, None).unwrap();
+    assert_eq!((merged.failed, merged.superseded), (0, 1));
+}
+
+#[test]
+fn runs_of_what_has_failed_keep_notes_of_what_is_missing() {
+    let folder = directory("notes-of-others");
+    let sweep = stones(MEMBERS, 1);
+    let options = RunOptions {
+        selection: Selection::Range(0..10),
+        ..RunOptions::default()
+    };
+    sweep.run(&folder, &options).unwrap();
+    let note = folder.join("progress/all.1-0123456789abcdef.begun");
+    fs::write(&note, r#"[{"start":15,"end":16}]"#).unwrap();
+    sweep.rerun_failed(&folder, &RunOptions::default()).unwrap();
+    assert_eq!(sweep.status(&folder).unwrap().begun, "15");
+    sweep.run(&folder, &RunOptions::default()).unwrap();
+    assert!(!note.exists());
+}
+
+#[test]
+fn a_sweep_that_can_only_be_read_is_merged_elsewhere() {
+    let [folder, elsewhere] = ["read-only-sweep", "read-only-table"].map(directory);
+    let sweep = stones(MEMBERS, 1);
+    sweep.run(&folder, &RunOptions::default()).unwrap();
+    // Nothing can be noted there.
+    fs::write(folder.join("tables"), "").unwrap();
+    fs::create_dir_all(&elsewhere).unwrap();
+    sweep.merge(&folder, None).unwrap_err();
+    let table = elsewhere.join("table.csv");
+    sweep.merge(&folder, Some(&table)).unwrap();
+    let again = sweep.merge(&folder, Some(&table)).unwrap_err();
+    assert!(matches!(again, SweepError::Exists { .. }), "{again}");
+}
+
+#[test]
+#[cfg(unix)]
+fn a_link_to_nowhere_is_not_replaced() {
+    let folder = directory("dangling");
+    let sweep = stones(MEMBERS, 1);
+    sweep.run(&folder, &RunOptions::default()).unwrap();
+    let table = folder.join("merged.csv");
+    std::os::unix::fs::symlink("nowhere", &table).unwrap();
+    let refused = sweep.merge(&folder, None).unwrap_err();
+    assert!(matches!(refused, SweepError::Exists { .. }), "{refused}");
+    assert!(fs::symlink_metadata(&table).unwrap().is_symlink());
+}
+
+#[test]
 fn a_merge_that_was_killed_anywhere_can_be_repeated() {
     let folder = directory("merged-twice");
     let sweep = stones(MEMBERS, 1);

@@ -154,10 +154,10 @@ fn parts_that_are_foreign_damaged_or_contradict_are_found() {
     }
     fs::write(path, bytes).unwrap();
     // With another generation, other members, another format in its name.
-    for (from, to) in [(".g0.", ".g1."), ("-0000000009.5", "-0000000008.4")] {
+    for (from, to) in [(".g1.", ".g2."), ("-0000000009.5", "-0000000008.4")] {
         let other = path.with_file_name(name.replace(from, to));
         fs::rename(path, &other).unwrap();
-        let says = if from == ".g0." {
+        let says = if from == ".g1." {
             "contents"
         } else {
             "lacks 1 of 20"
