@@ -42,9 +42,10 @@ impl Sweep<'_> {
     /// Merges all parts into one table, `into` or `merged.csv` in the directory, in ascending order of ids.
     ///
     /// It proves that every member has a record of a program, inputs and settings with one digest, takes the last
-    /// record of each, and compares those that are there twice. Beside the table it writes what it has found,
-    /// with `.json` added to the name. Of a directory that can only be read it merges `into` another one, once. It can be killed and repeated at any time; temporary files that killed
-    /// processes have left behind are removed when they are an hour old.
+    /// record of each, and compares those that are there twice. Beside the table it writes what it has found, with
+    /// `.json` added to the name. Of a directory that can only be read it merges `into` another one, once. It can be
+    /// killed and repeated at any time; temporary files that killed processes have left behind are removed when they
+    /// are an hour old.
     ///
     /// # Errors
     ///
