@@ -74,16 +74,25 @@ impl Sweep<'_> {
 
 /// The ids of members for people, the first ranges of many.
 pub(crate) fn named(places: &Places, inputs: &Inputs) -> String {
+    // Ids ascend: those of a range are consecutive if so many lie between its ends.
+    let pieces = places.ranges().iter().flat_map(|range| {
+        let between = inputs.id(range.end - 1) - inputs.id(range.start);
+        let is_run = between == range.len() as u64 - 1;
+        let length = if is_run { range.len() } else { 1 };
+        let starts = range.clone().step_by(length);
+        starts.map(move |start| start..start + length)
+    });
     let mut ranges: Vec<[u64; 2]> = Vec::new();
     let mut named = 0;
-    for id in places.iter().map(|place| inputs.id(place)) {
+    for piece in pieces {
+        let [first, last] = [piece.start, piece.end - 1].map(|place| inputs.id(place));
         let known = ranges.len();
         match ranges.last_mut() {
-            Some([_, last]) if *last + 1 == id => *last = id,
+            Some([_, end]) if *end + 1 == first => *end = last,
             _ if known == NAMED => break,
-            _ => ranges.push([id, id]),
+            _ => ranges.push([first, last]),
         }
-        named += 1;
+        named += piece.len();
     }
     let name = |&[first, last]: &[u64; 2]| match last - first {
         0 => first.to_string(),
