@@ -140,13 +140,13 @@ pub fn expression(data: &[u8]) {
     let Ok(input) = syn::parse_str::<DeriveInput>(&item) else {
         return;
     };
-    let expansion = crate::derive::derive(&input);
+    let expansion = eem_language::derive(&input);
     let file = syn::parse2::<syn::File>(expansion.clone());
     assert!(
         file.is_ok(),
         "the expansion of `{item}` is not Rust: {expansion}"
     );
-    let again = crate::derive::derive(&input);
+    let again = eem_language::derive(&input);
     assert_eq!(
         expansion.to_string(),
         again.to_string(),

@@ -4,40 +4,7 @@
 //! runs, and of a test of the package `eem`, which feeds the saved corpora to the same functions
 //! with a stable compiler.
 
-#![allow(
-    dead_code,
-    unreachable_pub,
-    reason = "the entry of the macro is not among these files"
-)]
-
-// For modules that ask whether a compiler runs them.
-extern crate proc_macro;
-
-/// The front end of the derive, which a procedural macro cannot export.
-#[path = "../../eem-derive/src"]
-mod front_end {
-    pub(crate) mod ast;
-    pub(crate) mod attr;
-    pub(crate) mod check;
-    pub(crate) mod checked;
-    pub(crate) mod ctxt;
-    pub(crate) mod derive;
-    pub(crate) mod expand;
-    pub(crate) mod fallback;
-    pub(crate) mod message;
-    pub(crate) mod model;
-    pub(crate) mod nearest;
-    pub(crate) mod parse;
-    pub(crate) mod physics;
-    pub(crate) mod unit;
-    pub(crate) mod units;
-    pub(crate) mod warnings;
-}
-// Its files name each other from the root of their crate.
-use front_end::{
-    ast, attr, check, checked, ctxt, derive, expand, fallback, message, model, nearest, parse,
-    physics, unit, units, warnings,
-};
+#![allow(unreachable_pub, reason = "a test exports nothing")]
 
 #[path = "expression.rs"]
 mod expressions;

@@ -15,7 +15,6 @@ mod domain;
 mod dual_numbers;
 mod generated_against_interpreter;
 mod generics;
-mod guide;
 mod hygiene;
 mod legal_forms;
 pub mod lint_silence;

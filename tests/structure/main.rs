@@ -9,6 +9,7 @@ mod circles;
 mod documents;
 mod examples;
 mod followed;
+mod guide;
 mod imports;
 mod sizes;
 mod sources;
@@ -53,7 +54,7 @@ const CRATES: [Crate; 5] = [
         allowed: &[],
     },
     Crate {
-        name: "eem-derive",
+        name: "eem-language",
         allowed: &[(
             &["parse/block.rs", "parse/expr.rs"],
             "a block contains expressions, and an expression can be a block",

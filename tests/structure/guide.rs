@@ -5,7 +5,8 @@ use std::path::Path;
 
 /// All expected messages of the compile-fail tests.
 fn messages() -> String {
-    let folders = fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/ui")).unwrap();
+    let folders =
+        fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("eem-ui/tests/ui")).unwrap();
     let files = folders.flat_map(|folder| fs::read_dir(folder.unwrap().path()).unwrap());
     let paths = files.map(|file| file.unwrap().path());
     let expected = paths.filter(|path| path.extension().is_some_and(|end| end == "stderr"));

@@ -10,11 +10,11 @@ use crate::ctxt::Ctxt;
 use crate::fallback::Shape;
 use crate::{check, expand, fallback, model, parse, physics, units, warnings};
 
-/// The implementation of the trait, or the errors of all phases together with an implementation
-/// that does nothing.
+/// The code that `#[derive(FreeEnergy)]` generates for a struct, or the errors of all phases as `compile_error!`,
+/// together with an implementation that does nothing.
 ///
 /// A phase leaves a hole where it reported something, and the phases after it look at the rest.
-pub(crate) fn derive(input: &DeriveInput) -> TokenStream {
+pub fn derive(input: &DeriveInput) -> TokenStream {
     let cx = Ctxt::new();
     let attributes = Attributes::from_syn(&cx, input);
     let parsed = parse::input(&cx, input, &attributes);

@@ -1,35 +1,13 @@
 //! Prints what `#[derive(FreeEnergy)]` generates for the structs of a file:
-//! `cargo run -p eem-derive --example expand -- examples/single_pendulum.rs`.
+//! `cargo run -p eem-language --example expand -- examples/single_pendulum.rs`.
 //!
 //! With names behind the file, for the structs of these names only. Mistakes in a model are printed
 //! where the compiler would show them, as `compile_error!` in front of an empty implementation.
-
-// For modules that ask whether a compiler runs them.
-extern crate proc_macro;
 
 use std::error::Error;
 use std::process::ExitCode;
 
 use syn::{Attribute, DeriveInput, File, Item, Meta, Path, Token, punctuated::Punctuated};
-
-// A crate of procedural macros exports nothing else, so that the modules of the macro are modules of
-// this program, too; as ordinary functions they work outside of a compiler.
-mod ast;
-mod attr;
-mod check;
-mod checked;
-mod ctxt;
-mod derive;
-mod expand;
-mod fallback;
-mod message;
-mod model;
-mod nearest;
-mod parse;
-mod physics;
-mod unit;
-mod units;
-mod warnings;
 
 const USAGE: &str = "usage: expand FILE [STRUCT]…";
 
@@ -58,7 +36,7 @@ fn print(file: &str, names: &[String]) -> Result<(), Box<dyn Error>> {
         return Err("no such struct with `#[derive(FreeEnergy)]`".into());
     }
     for model in models {
-        let expansion: File = syn::parse2(derive::derive(&model))?;
+        let expansion: File = syn::parse2(eem_language::derive(&model))?;
         println!("// {}\n{}", model.ident, prettyplease::unparse(&expansion));
     }
     Ok(())

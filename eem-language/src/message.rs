@@ -2,7 +2,7 @@
 //!
 //! A message is one lower-case sentence about what is wrong, with the offending text in
 //! backticks, and a line `help: …` that says what to write instead. There is one function per
-//! message. The modules are the folders of the compile-fail tests in `tests/ui` of the root crate;
+//! message. The modules are the folders of the compile-fail tests in `eem-ui/tests/ui`;
 //! `tests::catalogue` sees to it that every message has a case there.
 
 use std::fmt::{self, Display, Formatter};

@@ -2,6 +2,10 @@
 
 #![allow(missing_docs)]
 
+extern crate eem as energies;
+// Generated code that relied on the name `eem` would find the wrong crate.
+extern crate core as eem;
+
 use energies::{FreeEnergy, Strain, StrainEnergy as _};
 
 #[derive(FreeEnergy)]

@@ -1,7 +1,7 @@
 //! Every message has a compile-fail case, in the folder of its module.
 //!
 //! Messages remember where they were written while the cases are expanded here. That the compiler
-//! shows them at the right tokens is tested by `tests/ui.rs` of the root crate.
+//! shows them at the right tokens is tested by `eem-ui`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -97,7 +97,7 @@ fn expand_case(case: &Path) -> String {
 
 #[test]
 fn every_message_has_a_case_in_its_folder() {
-    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/ui");
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../eem-ui/tests/ui");
     let catalogue = catalogue();
     let mut missing: BTreeSet<&String> = catalogue.values().collect();
     for subject in SUBJECTS {
@@ -124,6 +124,6 @@ fn every_message_has_a_case_in_its_folder() {
     }
     assert!(
         missing.is_empty(),
-        "without a case in tests/ui: {missing:?}"
+        "without a case in eem-ui/tests/ui: {missing:?}"
     );
 }

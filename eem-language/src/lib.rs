@@ -1,0 +1,57 @@
+//! The language of free energies: from the tokens of a struct to straight-line Rust.
+//!
+//! The input is a struct whose fields are the parameters of a material and whose attribute is its free energy. The
+//! output is one `impl FreeEnergy`, for solids with one `impl StrainEnergy`. [`derive()`] is all that there is to call;
+//! `eem-derive` makes the macro `#[derive(FreeEnergy)]` of it, whose documentation describes the language.
+//!
+//! This crate does no mathematics. It reads tokens, checks them, hands a model to [`eem_symbolic`] and prints the
+//! programs that come back. The phases:
+//!
+//! | phase | module | from → to |
+//! |---|---|---|
+//! | parse | `attr`, `parse` | tokens → `ast` |
+//! | check | `check` | `ast` → `checked`: names resolved, roles and laws complete |
+//! | units | `units` | `checked` → the units of its fields, every operation in order |
+//! | model | `model` | `checked` → [`eem_symbolic::Model`]: every subexpression has a value |
+//! | physics | `physics` | the model can be one of a material |
+//! | expand | `expand` | programs → tokens |
+//!
+//! A phase leaves a hole where it reports something, and the phases after it look at the rest: the
+//! mistakes of all phases come out together, and none of them causes a second message. Beside them
+//! stands an implementation that does nothing, from `fallback`, so that uses of a wrong model cause
+//! no messages either. `message` is the catalogue of all messages.
+//!
+//! ```
+//! let input = syn::parse_quote! {
+//!     #[free_energy(|lambda: Stretch| 0.5 * stifness * lambda.powi(2))]
+//!     struct Spring {
+//!         stiffness: f64,
+//!     }
+//! };
+//! let tokens = eem_language::derive(&input).to_string();
+//! assert!(tokens.contains("unknown name `stifness`"));
+//! ```
+
+// For `ctxt`, which asks whether a compiler runs it.
+extern crate proc_macro;
+
+mod ast;
+mod attr;
+mod check;
+mod checked;
+mod ctxt;
+mod derive;
+mod expand;
+mod fallback;
+mod message;
+mod model;
+mod nearest;
+mod parse;
+mod physics;
+#[cfg(test)]
+mod tests;
+mod unit;
+mod units;
+mod warnings;
+
+pub use derive::derive;
