@@ -36,7 +36,7 @@
 //! all schemes; figure 2 is the example `order_study`.
 //!
 //! The source gives the data of the first two cases without units; they are read here in those of the
-//! table, in which ψ is in J. The strain ln(λ/λ0) is a pure number, so that stiffnesses are energies.
+//! table, in which ψ is in J. The strain ln(λ/λ0) is dimensionless, so that stiffnesses are energies.
 //!
 //! What the example claims, and fails without: every energy–entropy–momentum scheme reaches the
 //! end, keeps energy and angular momentum to rounding, and loses no entropy in any step.

@@ -31,7 +31,7 @@
 //! are drawn under their numbers; the example `paper_tables` compares the numbers.
 //!
 //! Units are checked where the free energy stands below. Every sum of the paper agrees in its units
-//! (N m of its stiffnesses is J) if βc is a pure number, and this is the reading here; 2 μ0/k0, to
+//! (N m of its stiffnesses is J) if βc is dimensionless, and this is the reading here; 2 μ0/k0, to
 //! which it is equal, is per square metre, and so a number only with lengths in units of λ0.
 //!
 //! What the example claims, and fails without: every energy–entropy–momentum scheme reaches the

@@ -138,7 +138,7 @@ fn report_unreadable(cx: &Ctxt, attribute: &Attribute, error: &syn::Error, messa
     let keyword = control_flow::first(tokens(attribute));
     if let Some(keyword) = &keyword {
         let name = keyword.to_string();
-        cx.error(keyword, &expression::syntax::control_flow(&name));
+        cx.error(keyword, &expression::syntax::not_allowed(&name));
     }
     if keyword.is_none_or(|keyword| precedes(error.span(), keyword.span())) {
         cx.error_at(error.span(), message);

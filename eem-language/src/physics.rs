@@ -23,16 +23,33 @@ pub(crate) fn check(cx: &Ctxt, checked: &Checked<'_>, model: &Model) {
             }
             Flaw::NoViscosity(dashpot) => {
                 if let Some(Some(law)) = checked.viscosities.get(dashpot) {
-                    cx.error(law.value.original, &message::no_viscosity());
+                    let argument = dashpot_argument(checked, dashpot);
+                    cx.error(
+                        law.value.original,
+                        &message::no_viscosity(argument.as_deref()),
+                    );
                 }
             }
             Flaw::NoDrag => {
                 if let Some(law) = &checked.drag {
-                    cx.error(law.value.original, &message::no_viscosity());
+                    cx.error(law.value.original, &message::no_viscosity(None));
                 }
             }
         }
     }
+}
+
+/// The argument that a law is for, in the order of [`Checked::viscosities`].
+fn dashpot_argument(checked: &Checked<'_>, dashpot: usize) -> Option<String> {
+    let flows = [
+        Role::Viscous,
+        Role::Joint(Joint::Strain),
+        Role::Joint(Joint::Trace),
+    ];
+    let variables = checked.variables.iter();
+    let of_role = |role| variables.clone().filter(move |v| v.role == role);
+    let variable = flows.into_iter().flat_map(of_role).nth(dashpot)?;
+    Some(ast::name(variable.ident))
 }
 
 /// Reports factors that are too large only when they come together; constants that are written out

@@ -61,7 +61,7 @@ pub(crate) struct Unit {
 }
 
 impl Unit {
-    /// 1, the unit of pure numbers.
+    /// 1, the unit of what is dimensionless.
     pub(crate) fn one() -> Self {
         Self::default()
     }
@@ -90,7 +90,7 @@ impl Unit {
         Self::of([(Base::Kelvin, 1)])
     }
 
-    /// Whether this is the unit of pure numbers.
+    /// Whether this is the unit of what is dimensionless.
     pub(crate) fn is_one(&self) -> bool {
         self.exponents.is_empty()
     }

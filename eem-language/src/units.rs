@@ -1,8 +1,8 @@
 //! Units: [`checked`](crate::checked) → the units of its fields, every operation in order.
 //!
 //! A model is checked if one of the fields or constants in its formulas has a unit. Then all fields
-//! need one, a constant without one is a pure number; θ is in K. In a spring λ and γ are in m, ψ has to come out in J and viscosities in N s/m; in
-//! a solid strains and γ are pure numbers, ψ is in J/m³ and viscosities are in Pa s. Numbers in a formula have no unit, so that a factor of 1000 never stands for a prefix: the scale of a unit is
+//! need one, a constant without one is dimensionless; θ is in K. In a spring λ and γ are in m, ψ has to come out in J and viscosities in N s/m; in
+//! a solid strains and γ are dimensionless, ψ is in J/m³ and viscosities are in Pa s. Numbers in a formula have no unit, so that a factor of 1000 never stands for a prefix: the scale of a unit is
 //! compared like its dimension, and a value in mm cannot be added to one in m.
 //!
 //! The rules are one function each in `rules`, which walk the expression as it was written. An

@@ -8,19 +8,22 @@ use quote::quote;
 // Expands to, with the place of the warning:
 //
 //     const _: () = {
-//         #[deprecated(note = "`ln(1 + j)` loses …")]
-//         const FORM: () = ();
-//         FORM
+//         #[deprecated(note = "`ln(1 + j)` is inaccurate …")]
+//         macro_rules! formula { () => {}; }
+//         formula!();
 //     };
+//
+// A macro, because the compiler names it as it was called; the name of any other item would come with its module,
+// which here is `_`.
 pub(crate) fn warnings(all: &[(Span, String)]) -> TokenStream {
     let one = |(span, text): &(Span, String)| {
         // With the place of what was written: the compiler does not warn of what a derive has written.
-        let form = Ident::new("FORM", *span);
+        let formula = Ident::new("formula", *span);
         quote! {
             const _: () = {
                 #[deprecated(note = #text)]
-                const #form: () = ();
-                #form
+                macro_rules! #formula { () => {}; }
+                #formula!();
             };
         }
     };

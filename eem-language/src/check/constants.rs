@@ -5,6 +5,8 @@ use core::f64::consts;
 use proc_macro2::{Ident, TokenStream};
 use quote::ToTokens;
 
+use crate::nearest::nearest;
+
 /// The constants that formulas mention and Rust resolves, in order of appearance.
 #[derive(Debug, Default)]
 pub(super) struct Constants {
@@ -40,34 +42,47 @@ pub(crate) fn bare(ident: &Ident) -> Option<f64> {
     (ident == "PI").then_some(consts::PI)
 }
 
-/// The value of `core::f64::consts::NAME` and `std::f64::consts::NAME`.
+/// The constants of `core::f64::consts`.
+const OF_STD: [(&str, f64); 19] = [
+    ("PI", consts::PI),
+    ("TAU", consts::TAU),
+    ("E", consts::E),
+    ("FRAC_1_PI", consts::FRAC_1_PI),
+    ("FRAC_1_SQRT_2", consts::FRAC_1_SQRT_2),
+    ("FRAC_2_PI", consts::FRAC_2_PI),
+    ("FRAC_2_SQRT_PI", consts::FRAC_2_SQRT_PI),
+    ("FRAC_PI_2", consts::FRAC_PI_2),
+    ("FRAC_PI_3", consts::FRAC_PI_3),
+    ("FRAC_PI_4", consts::FRAC_PI_4),
+    ("FRAC_PI_6", consts::FRAC_PI_6),
+    ("FRAC_PI_8", consts::FRAC_PI_8),
+    ("LN_10", consts::LN_10),
+    ("LN_2", consts::LN_2),
+    ("LOG10_2", consts::LOG10_2),
+    ("LOG10_E", consts::LOG10_E),
+    ("LOG2_10", consts::LOG2_10),
+    ("LOG2_E", consts::LOG2_E),
+    ("SQRT_2", consts::SQRT_2),
+];
+
+/// The value of `core::f64::consts::NAME` and `std::f64::consts::NAME`. Nothing for a constant that is newer than
+/// the list: Rust resolves it.
 pub(crate) fn of_std(path: &syn::Path) -> Option<f64> {
     let text = text(path);
     let text = text.strip_prefix("::").unwrap_or(&text);
     let inside = ["core::", "std::"]
         .iter()
         .find_map(|root| text.strip_prefix(root))?;
-    Some(match inside.strip_prefix("f64::consts::")? {
-        "E" => consts::E,
-        "FRAC_1_PI" => consts::FRAC_1_PI,
-        "FRAC_1_SQRT_2" => consts::FRAC_1_SQRT_2,
-        "FRAC_2_PI" => consts::FRAC_2_PI,
-        "FRAC_2_SQRT_PI" => consts::FRAC_2_SQRT_PI,
-        "FRAC_PI_2" => consts::FRAC_PI_2,
-        "FRAC_PI_3" => consts::FRAC_PI_3,
-        "FRAC_PI_4" => consts::FRAC_PI_4,
-        "FRAC_PI_6" => consts::FRAC_PI_6,
-        "FRAC_PI_8" => consts::FRAC_PI_8,
-        "LN_10" => consts::LN_10,
-        "LN_2" => consts::LN_2,
-        "LOG10_2" => consts::LOG10_2,
-        "LOG10_E" => consts::LOG10_E,
-        "LOG2_10" => consts::LOG2_10,
-        "LOG2_E" => consts::LOG2_E,
-        "PI" => consts::PI,
-        "SQRT_2" => consts::SQRT_2,
-        "TAU" => consts::TAU,
-        // One that is newer than this list is resolved by Rust.
-        _ => return None,
+    let name = inside.strip_prefix("f64::consts::")?;
+    let found = OF_STD.iter().find(|(known, _)| *known == name);
+    found.map(|&(_, value)| value)
+}
+
+/// How to write the constant of `std` that was most likely meant by a name that is none.
+pub(crate) fn meant(ident: &Ident) -> Option<String> {
+    let nearest = nearest(&ident.to_string(), OF_STD.map(|(name, _)| name))?;
+    Some(match nearest {
+        "PI" => nearest.to_owned(),
+        other => format!("core::f64::consts::{other}"),
     })
 }

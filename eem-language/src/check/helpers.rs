@@ -102,7 +102,7 @@ impl<'a> Resolver<'_, 'a> {
         let result = self.body_of_call(helper, values, call);
         if outermost && self.inlining.exhausted {
             self.cx
-                .error(function, &message::helper::too_many_calls(function));
+                .error(function, &message::helper::too_many_calls(function, CALLS));
         }
         result
     }

@@ -29,7 +29,10 @@ pub(super) fn laws<'a>(
 ) -> Laws<'a> {
     let mut bodies = Vec::new();
     for law in &input.laws {
-        let mut resolver = Resolver::new(cx, scope(input, variables), variables, used);
+        let mut resolver = Resolver {
+            is_law: true,
+            ..Resolver::new(cx, scope(input, variables), variables, used)
+        };
         let value = resolver.expr(&law.value);
         bodies.push((ast::name(law.dashpot), resolver.finish(value)));
     }

@@ -91,10 +91,7 @@ impl<'a> Resolver<'_, 'a> {
             }
             ast::ExprKind::Number(number) => ExprKind::Number(*number),
             ast::ExprKind::Name(ident) => self.name(ident),
-            ast::ExprKind::Constant(path) => match constants::of_std(path) {
-                Some(value) => ExprKind::Number(value.into()),
-                None => self.constant(path),
-            },
+            ast::ExprKind::Constant(path) => self.path(path),
             ast::ExprKind::Entry(entry) => self.entry(entry),
             ast::ExprKind::Negate(inner) => ExprKind::Negate(Box::new(self.expr(inner))),
             ast::ExprKind::Binary(operator, left, right) => {
@@ -149,6 +146,23 @@ impl<'a> Resolver<'_, 'a> {
             None => self.unknown(ident),
         }
         self.wrong([])
+    }
+
+    /// A constant at the end of a path.
+    fn path(&mut self, path: &'a syn::Path) -> ExprKind<'a> {
+        if let Some(value) = constants::of_std(path) {
+            return ExprKind::Number(value.into());
+        }
+        match path.segments.last() {
+            Some(last) if !ast::is_upper_case(&last.ident) => {
+                let meant = constants::meant(&last.ident);
+                let text = constants::text(path);
+                let message = message::syntax::constant_of_std(&text, meant.as_deref());
+                self.cx.error(path, &message);
+                self.wrong([])
+            }
+            _ => self.constant(path),
+        }
     }
 
     /// A constant of the program, which Rust resolves.
@@ -288,6 +302,7 @@ fn diff_variable<'a>(resolver: &Resolver<'_, 'a>, variable: &'a ast::Expr<'a>) -
         Some(Meaning::HelperArgument(_)) => refuse("helper argument"),
         Some(Meaning::Binding(_)) => refuse("`let` binding"),
         Some(meaning) => resolver.refuse(ident, meaning),
+        None if ast::is_upper_case(ident) => refuse("constant"),
         None => resolver.unknown(ident),
     }
     None

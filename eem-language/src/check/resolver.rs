@@ -22,6 +22,8 @@ pub(super) struct Resolver<'r, 'a> {
     pub(super) names: Vec<(Option<&'a Ident>, bool)>,
     /// The same of those in the bodies of helpers.
     pub(super) inner_names: Vec<(Option<&'a Ident>, bool)>,
+    /// It is a viscosity law, which may use less than the free energy.
+    pub(super) is_law: bool,
     /// The helpers, whether they are visible or not.
     pub(super) helpers: Vec<Helper<'a>>,
     /// The calls of helpers that are being resolved, outermost first.
@@ -47,6 +49,7 @@ impl<'r, 'a> Resolver<'r, 'a> {
             bindings: Vec::new(),
             names: Vec::new(),
             inner_names: Vec::new(),
+            is_law: false,
             helpers: Vec::new(),
             calls: Vec::new(),
             inlining: Inlining::default(),
@@ -115,7 +118,15 @@ impl<'r, 'a> Resolver<'r, 'a> {
             let are_measures = one.is_measure() && other.is_measure();
             are_measures && one.is_of_solid() != other.is_of_solid()
         });
-        (!taken && !other_kind).then_some(role)
+        let foreign = self.is_law && role != Role::Temperature;
+        (!taken && !other_kind && !foreign).then_some(role)
+    }
+
+    /// The name of the temperature, if the model has one.
+    fn temperature(&self) -> Option<String> {
+        let mut variables = self.variables.iter();
+        let theta = variables.find(|variable| variable.role == Role::Temperature);
+        theta.map(|variable| ast::name(variable.ident))
     }
 
     /// Reports a name that stands for nothing.
@@ -126,7 +137,14 @@ impl<'r, 'a> Resolver<'r, 'a> {
         let message = match (nearest, constant) {
             _ if is_function(ident) => message::name_is_a_function(&name),
             (None, Some(value)) => message::syntax::constant(&name, value),
-            _ => message::unknown_name(ident, nearest, self.missing_role(&name)),
+            (Some(nearest), _) => message::misspelt_name(&name, nearest),
+            (None, None) => match self.missing_role(&name) {
+                Some(role) => message::missing_argument(&name, role),
+                None if self.is_law => {
+                    message::unknown_name_in_law(&name, self.temperature().as_deref())
+                }
+                None => message::unknown_name(&name),
+            },
         };
         self.cx.error(ident, &message);
     }

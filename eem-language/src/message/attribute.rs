@@ -61,14 +61,14 @@ pub(crate) fn too_deep() -> Message {
 
 pub(crate) fn after_the_closure() -> Message {
     Message::new(
-        "the free energy is complete before this",
-        "nothing follows the closure; the decimal point is `.`",
+        "nothing may follow the closure of the free energy",
+        "remove it; the decimal point is `.`, not `,`",
     )
 }
 
 pub(crate) fn free_energy_is_not_a_closure() -> Message {
     Message::new(
-        "this is not a closure, and says nothing about the arguments and their roles",
+        "the free energy must be a closure, whose arguments have roles",
         format!("write {CLOSURE}"),
     )
 }
@@ -94,29 +94,20 @@ pub(crate) fn crate_is_not_a_path() -> Message {
     )
 }
 
-pub(crate) fn closure_modifier(modifier: &str) -> Message {
-    Message::new(
-        format!("a free energy is not `{modifier}`"),
-        format!("remove `{modifier}`"),
-    )
-}
-
-pub(crate) fn closure_output() -> Message {
-    Message::new(
-        "a free energy has no return type: it is an energy",
-        "remove `-> …`",
-    )
-}
-
 pub(crate) fn argument_without_role(argument: &str) -> Message {
     let help = match Role::usual(argument) {
         Some(role @ Role::Strain(_)) => format!(
             "say what it stands for, in a solid `{argument}: {}`",
             role.name()
         ),
-        _ => format!(
-            "say what it stands for: `{argument}: Stretch`, `{argument}: Viscous` or `{argument}: Temperature`"
-        ),
+        usual => {
+            let mut roles = vec![Role::Stretch, Role::Viscous, Role::Temperature];
+            roles.sort_by_key(|role| Some(*role) != usual);
+            let roles = roles.into_iter().map(Role::name);
+            let roles: Vec<String> = roles.map(|role| format!("{argument}: {role}")).collect();
+            let roles = alternatives(roles.iter().map(String::as_str));
+            format!("say what it stands for: {roles}")
+        }
     };
     Message::new(format!("the argument `{argument}` has no role"), help)
 }
@@ -162,10 +153,10 @@ pub(crate) fn flow_without_strain(argument: &Ident, role: Role) -> Message {
     let name = ast::name(argument);
     Message::new(
         format!(
-            "`{name}` is a `{}` without a `ViscousStrain`: nothing drives the viscous strain Γ",
+            "`{name}` is a `{}`, but no `ViscousStrain` drives the viscous strain Γ",
             role.name()
         ),
-        "add E:Γ as an argument, `m3: ViscousStrain`, and the viscosity of the flow, `#[viscosity(m3 = …)]`",
+        "add the argument `m3: ViscousStrain`, which is E:Γ, and its viscosity, `#[viscosity(m3 = …)]`",
     )
 }
 

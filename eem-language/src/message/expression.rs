@@ -10,31 +10,48 @@ pub(crate) mod helper;
 pub(crate) mod rest;
 pub(crate) mod syntax;
 
+pub(crate) fn misspelt_name(name: &str, nearest: &str) -> Message {
+    Message::new(
+        format!("unknown name `{name}`"),
+        format!("did you mean `{nearest}`?"),
+    )
+}
+
 /// `role` is what the literature means by the name.
-pub(crate) fn unknown_name(name: &Ident, nearest: Option<&str>, role: Option<Role>) -> Message {
-    let name = ast::name(name);
-    let help = match (nearest, role) {
-        (Some(nearest), _) => format!("did you mean `{nearest}`?"),
-        (None, Some(role)) => format!(
-            "declare it as an argument, `{name}: {}`, or as a field, `{name}: f64`",
-            role.name()
+pub(crate) fn missing_argument(name: &str, role: Role) -> Message {
+    let role = role.name();
+    Message::new(
+        format!("unknown name `{name}`"),
+        format!("declare it as an argument, `{name}: {role}`, or as a field, `{name}: f64`"),
+    )
+}
+
+pub(crate) fn unknown_name(name: &str) -> Message {
+    Message::new(
+        format!("unknown name `{name}`"),
+        format!(
+            "use an argument of the closure, a field or an earlier `let`; a parameter is a field, `{name}: f64`"
         ),
-        (None, None) if name.len() > 1 && !name.contains(char::is_lowercase) => {
-            "constants of the program are not seen: write the value, or make it a field".to_owned()
-        }
-        (None, None) => format!(
-            "known are the arguments of the closure, the fields and earlier `let` bindings; a parameter is a field, `{name}: f64`"
+    )
+}
+
+/// `theta` is the name of the temperature, if the model has one.
+pub(crate) fn unknown_name_in_law(name: &str, theta: Option<&str>) -> Message {
+    let theta = theta.map_or_else(String::new, |name| format!("the temperature `{name}`, "));
+    Message::new(
+        format!("unknown name `{name}`"),
+        format!(
+            "a viscosity law may use {theta}fields and its own `let` bindings; a parameter is a field, `{name}: f64`"
         ),
-    };
-    Message::new(format!("unknown name `{name}`"), help)
+    )
 }
 
 /// `instead` is how to write it with a free name.
 pub(crate) fn binding_hides(binding: &Ident, what: &str, instead: &str) -> Message {
     let name = ast::name(binding);
     Message::new(
-        format!("`{name}` is the name of {what} already"),
-        format!("a name means one thing in a formula: write `{instead}`"),
+        format!("`{name}` is already the name of {what}"),
+        format!("choose another name: `{instead}`"),
     )
 }
 
@@ -85,7 +102,7 @@ fn function_advice(name: &str) -> Option<&'static str> {
         "sum" | "map" | "fold" | "iter" => "write the terms out",
         "min" | "max" | "clamp" | "sign" | "sgn" | "signum" | "copysign" | "heaviside" | "step"
         | "floor" | "ceil" | "round" | "trunc" | "fract" | "rem_euclid" => {
-            "forces are derivatives of the free energy, and this one has none at its kinks: use a smooth function such as `tanh`"
+            "it has no derivative at its kinks, and forces are derivatives: use a smooth function such as `tanh`"
         }
         _ => return None,
     })
@@ -114,7 +131,7 @@ pub(crate) fn argument_count(function: &str, form: &str, expected: usize, found:
 
 pub(crate) fn name_is_a_function(name: &str) -> Message {
     Message::new(
-        format!("`{name}` is a function without its argument"),
+        format!("the function `{name}` is used without an argument"),
         format!("write `{name}(…)`"),
     )
 }
@@ -128,7 +145,7 @@ pub(crate) fn name_is_not_a_function(name: &str) -> Message {
 
 pub(crate) fn exponent_is_not_an_integer() -> Message {
     Message::new(
-        "the exponent of `powi` is not an integer known at compile time",
+        "the exponent of `powi` must be an integer known at compile time",
         "write `powf(x, y)` for any other exponent",
     )
 }
@@ -155,7 +172,7 @@ pub(crate) fn diff_variable<'n>(
     let name = ast::name(name);
     Message::new(
         format!(
-            "`{name}` is a {kind}, and `diff` is with respect to an argument of the free energy"
+            "`diff` differentiates with respect to an argument of the free energy, but `{name}` is a {kind}"
         ),
         format!("the arguments are {}", list(arguments)),
     )
@@ -163,7 +180,7 @@ pub(crate) fn diff_variable<'n>(
 
 pub(crate) fn abs_of_state(argument: &str) -> Message {
     Message::new(
-        format!("`abs` of something that depends on `{argument}` has no derivative at zero"),
+        format!("`abs` has no derivative at zero, and its argument depends on `{argument}`"),
         "write `sqrt(x * x + c * c)` with a small parameter `c`, or `x.powi(2)`",
     )
 }
@@ -171,7 +188,7 @@ pub(crate) fn abs_of_state(argument: &str) -> Message {
 pub(crate) fn root_of_square(argument: &str) -> Message {
     Message::new(
         format!(
-            "the root of a square is an absolute value, and it depends on `{argument}`: there is no derivative at zero"
+            "the root of a square is an absolute value, which has no derivative at zero, and this one depends on `{argument}`"
         ),
         "write the square without the root, or add a small constant under it: `sqrt(x * x + c * c)`",
     )
@@ -179,8 +196,8 @@ pub(crate) fn root_of_square(argument: &str) -> Message {
 
 pub(crate) fn diff_of_number() -> Message {
     Message::new(
-        "this depends on no argument of the free energy, and its derivative is zero",
-        "the first argument of `diff` is an expression of the state, such as a part of the energy",
+        "this expression depends on no argument of the free energy: its derivative is zero",
+        "differentiate an expression of the arguments, such as a part of the energy",
     )
 }
 
@@ -188,7 +205,7 @@ pub(crate) fn law_of_state(name: &Ident, role: Role) -> Message {
     let name = ast::name(name);
     Message::new(
         format!(
-            "a viscosity depends on the temperature and the fields, and `{name}` is a `{}`",
+            "a viscosity may depend on the temperature and the fields, but `{name}` is a `{}`",
             role.name()
         ),
         format!("remove `{name}` from the law"),
@@ -198,7 +215,7 @@ pub(crate) fn law_of_state(name: &Ident, role: Role) -> Message {
 pub(crate) fn law_of_binding(name: &Ident) -> Message {
     let name = ast::name(name);
     Message::new(
-        format!("`{name}` is a `let` of the free energy, which a viscosity does not see"),
+        format!("`{name}` is a `let` of the free energy, which a viscosity cannot use"),
         "repeat it: a law may be a block, `gamma = { let x = …; … }`",
     )
 }
@@ -231,44 +248,42 @@ pub(crate) fn negative_base() -> Message {
     )
 }
 
-/// The exponent is given if it is a constant; `smooth` means that a power of the square is.
-pub(crate) fn base_can_be_negative(argument: &str, exponent: Option<f64>, smooth: bool) -> Message {
+/// `base` is as quoted. The exponent is given if it is a constant; `smooth` means that a power of the square is.
+pub(crate) fn base_can_be_negative(base: &str, exponent: Option<f64>, smooth: bool) -> Message {
     // An exponent of many digits, such as 5/3, is shown as `y`.
     let short = exponent.filter(|y| (1000.0 * y).fract() == 0.0);
     let (y, half) = short.map_or_else(
         || ("y".to_owned(), "y / 2".to_owned()),
         |y| (y.to_string(), (0.5 * y).to_string()),
     );
-    let narrow = format!("`exp({y} * ln(x))` if no state comes to `x <= 0`");
+    let narrow = format!("`exp({y} * ln(x))` if `x` is positive in every state");
     let help = match exponent {
         // |x|^y has a kink or a pole at zero.
         Some(y) if y <= 1.0 => format!("write {narrow}"),
         _ if !smooth => format!(
-            "write `(x.powi(2) + c.powi(2)).powf({half})` with a small parameter `c` for the power of `|x|`, or `x.powi(n)` for an integer power"
+            "for a power of `|x|` write `(x.powi(2) + c.powi(2)).powf({half})` with a small parameter `c`; for an integer power `x.powi(n)`"
         ),
         _ => format!(
-            "write `x.powi(2).powf({half})` for the power of `|x|`, `x.powi(n)` for an integer power, or {narrow}"
+            "for a power of `|x|` write `x.powi(2).powf({half})`; for an integer power `x.powi(n)`; or {narrow}"
         ),
     };
     Message::new(
-        format!(
-            "the base of this `powf` depends on `{argument}` and can be negative, where the power has no value"
-        ),
+        format!("`{base}` can be negative, where `x.powf({y})` has no value"),
         help,
     )
 }
 
 pub(crate) fn divisor_is_zero() -> Message {
     Message::new(
-        "this divisor is zero",
-        "check the constants in it; numbers are exact, `2 - 2` is nothing but zero",
+        "this divisor is always zero",
+        "check the constants in it: they are computed exactly",
     )
 }
 
 pub(crate) fn number_suffix(suffix: &str) -> Message {
     Message::new(
-        format!("a number in a free energy has no type `{suffix}`"),
-        "write it without suffix: all numbers are exact",
+        format!("the suffix `{suffix}` is not allowed in a formula"),
+        "write the number without suffix: all numbers are exact",
     )
 }
 

@@ -20,7 +20,7 @@ pub(crate) fn not_on_a_field() -> Message {
 pub(crate) fn not_a_string() -> Message {
     Message::new(
         "`#[unit]` takes one string",
-        format!("write {EXAMPLE}, or `#[unit(\"1\")]` for a pure number"),
+        format!("write {EXAMPLE}, or `#[unit(\"1\")]` if it is dimensionless"),
     )
 }
 
@@ -44,8 +44,8 @@ pub(crate) fn second_of_constant(name: &str) -> Message {
 
 pub(crate) fn of_pure_number(name: &str) -> Message {
     Message::new(
-        format!("`{name}` is a pure number"),
-        "remove its unit; a unit comes with a field or a constant of your own",
+        format!("`{name}` is dimensionless"),
+        "remove its unit; only fields and constants of your own have one",
     )
 }
 
@@ -76,7 +76,7 @@ pub(crate) fn of_no_constant<'n>(
 pub(crate) fn empty() -> Message {
     Message::new(
         "a unit without a symbol",
-        "write `#[unit(\"1\")]` for a pure number",
+        "write `#[unit(\"1\")]` if it is dimensionless",
     )
 }
 
@@ -142,7 +142,9 @@ pub(crate) fn missing(field: &Ident, unit: Option<&Unit>) -> Message {
     let name = ast::name(field);
     let help = match unit {
         Some(unit) => format!("the formula needs `#[unit(\"{unit}\")]` above it"),
-        None => "write `#[unit(\"…\")]` above it, `#[unit(\"1\")]` for a pure number".to_owned(),
+        None => {
+            "write `#[unit(\"…\")]` above it, `#[unit(\"1\")]` if it is dimensionless".to_owned()
+        }
     };
     Message::new(
         format!("`{name}` has no unit, but other fields of the formula have one"),
@@ -157,18 +159,19 @@ pub(crate) struct Side<'m> {
 }
 
 impl Side<'_> {
-    /// `in N/m`, `a pure number`
+    /// `in N/m`, `dimensionless`
     fn phrase(&self) -> String {
         match (self.unit.is_one(), self.unit.coherent().is_one()) {
-            (true, _) => "a pure number".to_owned(),
-            (false, true) => format!("{} times a pure number", self.unit.expanded()),
+            (true, _) => "dimensionless".to_owned(),
+            (false, true) => format!("dimensionless with a factor of {}", self.unit.expanded()),
             (false, false) => format!("in {}", self.unit),
         }
     }
 
+    /// `N/m`, `a dimensionless number`
     fn name(&self) -> String {
-        if self.unit.coherent().is_one() {
-            self.phrase()
+        if self.unit.is_one() {
+            "a dimensionless number".to_owned()
         } else {
             self.unit.to_string()
         }
@@ -211,21 +214,38 @@ pub(crate) fn field_with_scale(field: &str, unit: &Unit) -> String {
 
 /// Help for units that differ: the quotient of what is wanted and what is `found`, by name.
 pub(crate) fn factor_is_missing(found: &str, wanted: &Unit, unit: &Unit) -> String {
-    let lacks = |what: &str, unit: Option<Unit>| {
-        unit.map(|unit| format!("{found} lacks a {what} in {unit}"))
-    };
     let divisor = unit.over(wanted).filter(|u| !u.to_string().contains('/'));
     let help = match divisor {
-        Some(divisor) => lacks("divisor", Some(divisor)),
-        None => lacks("factor", wanted.over(unit)),
+        Some(divisor) => Some(format!("divide {found} by {}", quantity(&divisor))),
+        None => wanted
+            .over(unit)
+            .map(|factor| format!("multiply {found} by {}", quantity(&factor))),
     };
     help.unwrap_or_default()
+}
+
+/// `a length (m)`
+fn quantity(unit: &Unit) -> String {
+    let unit = unit.to_string();
+    let name = match unit.as_str() {
+        "m" => "a length",
+        "m^2" => "an area",
+        "m^3" => "a volume",
+        "s" => "a time",
+        "K" => "a temperature",
+        "kg" => "a mass",
+        "N" => "a force",
+        "J" => "an energy",
+        "Pa" => "a stress",
+        _ => return format!("a quantity in {unit}"),
+    };
+    format!("{name} ({unit})")
 }
 
 pub(crate) fn function_of_unit(function: &str, argument: &Side<'_>, help: String) -> Message {
     Message::new(
         format!(
-            "`{function}` takes a pure number, and `{}` is {}",
+            "`{function}` expects a dimensionless argument, but `{}` is {}",
             argument.text,
             argument.phrase()
         ),
@@ -242,7 +262,7 @@ pub(crate) fn divide_by_reference(argument: &Side<'_>) -> String {
 pub(crate) fn exponent_with_unit(exponent: &Side<'_>) -> Message {
     Message::new(
         format!(
-            "an exponent is a pure number, and `{}` is {}",
+            "an exponent must be dimensionless, but `{}` is {}",
             exponent.text,
             exponent.phrase()
         ),
@@ -253,7 +273,7 @@ pub(crate) fn exponent_with_unit(exponent: &Side<'_>) -> Message {
 pub(crate) fn power_of_unit(base: &Side<'_>, exponent: &str) -> Message {
     Message::new(
         format!(
-            "`{}` is {}, and the unit of its power would depend on the value of `{exponent}`",
+            "`{}` is {}, so that the unit of its power would depend on the value of `{exponent}`",
             base.text,
             base.phrase()
         ),
@@ -263,14 +283,14 @@ pub(crate) fn power_of_unit(base: &Side<'_>, exponent: &str) -> Message {
 
 pub(crate) fn whole(what: &str, wanted: &str, found: &Side<'_>, help: String) -> Message {
     Message::new(
-        format!("{what} is in {wanted}, and this is {}", found.phrase()),
+        format!("{what} must be in {wanted}, but this is {}", found.phrase()),
         help,
     )
 }
 
 pub(crate) fn beyond_measure() -> Message {
     Message::new(
-        "the exponents of the unit of this expression do not fit 128 bits",
+        "the unit of this expression has exponents that do not fit 128 bits",
         "use smaller powers",
     )
 }

@@ -10,6 +10,7 @@ use super::Lowering;
 use crate::ast::{Joint, Role, Strain};
 use crate::checked::Expr;
 use crate::message::expression as message;
+use crate::units::excerpt;
 
 impl Lowering<'_> {
     /// A constant is finite: `exp(1000)` is not.
@@ -58,12 +59,12 @@ impl Lowering<'_> {
             }
         });
         let negative = range(&self.graph, base, &self.bounds(), &any).lower < 0.0;
-        let Some(name) = self.argument_in(base) else {
+        if self.argument_in(base).is_none() {
             return Some(());
-        };
+        }
         let smooth = self.is_smooth_power(base, exponent);
         self.unless(!integer && negative, expr, &|| {
-            message::base_can_be_negative(&name, exponent, smooth)
+            message::base_can_be_negative(&excerpt(expr.original), exponent, smooth)
         })?;
         match exponent {
             Some(y) if !integer => self.check_power_at_rest("powf", y, expr, base),

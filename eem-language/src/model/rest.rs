@@ -6,6 +6,7 @@ use super::Lowering;
 use crate::ast::{self, Role};
 use crate::checked::Expr;
 use crate::message::expression::rest as message;
+use crate::units::excerpt;
 
 /// From here on a power of something that is zero has two derivatives.
 const SMOOTH: f64 = 2.0;
@@ -39,7 +40,10 @@ impl Lowering<'_> {
             return Some(());
         };
         let singular = at_rest == 0.0 && exponent < SMOOTH;
-        self.unless(singular, expr, &|| message::power(function, exponent))?;
+        let signed = self.sign(base).negative;
+        self.unless(singular, expr, &|| {
+            message::power(function, exponent, &excerpt(expr.original), signed)
+        })?;
         let negative = at_rest < 0.0 && function != Function::Cbrt.name();
         self.unless(negative, expr, &|| message::negative(function))
     }

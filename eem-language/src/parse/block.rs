@@ -25,10 +25,10 @@ pub(super) fn body<'a>(cx: &Ctxt, original: &'a Syntax) -> Block<'a> {
 /// Reads a block; reports every statement that is neither a `let` nor the value at the end.
 pub(super) fn block<'a>(cx: &Ctxt, original: &'a Syntax, block: &'a ExprBlock) -> Block<'a> {
     if let Some(label) = &block.label {
-        cx.error(label, &message::label_or_modifier());
+        cx.error(label, &message::not_allowed("a label"));
     }
     if let Some(attribute) = block.attrs.first() {
-        cx.error(attribute, &message::attribute());
+        cx.error(attribute, &message::not_allowed("an attribute"));
     }
     let (last, statements) = match block.block.stmts.split_last() {
         Some((last, statements)) if stands_for_value(last) => (Some(last), statements),
@@ -92,8 +92,8 @@ fn statement<'a>(cx: &Ctxt, block: &'a Syntax, statement: &'a Stmt) -> Binding<'
     let mut value = Expr::hole(block);
     match statement {
         Stmt::Local(local) => return binding(cx, block, local),
-        Stmt::Item(item) => cx.error(item, &message::item_in_block()),
-        Stmt::Macro(invocation) => cx.error(&invocation.mac.path, &message::invocation()),
+        Stmt::Item(item) => cx.error(item, &message::not_allowed("an item")),
+        Stmt::Macro(invocation) => cx.error(&invocation.mac.path, &message::not_allowed("a macro")),
         Stmt::Expr(syntax, _) => {
             value = expr(cx, syntax);
             // What is wrong in itself, such as an assignment, has been reported.
@@ -110,11 +110,11 @@ fn statement<'a>(cx: &Ctxt, block: &'a Syntax, statement: &'a Stmt) -> Binding<'
 
 fn binding<'a>(cx: &Ctxt, block: &'a Syntax, local: &'a Local) -> Binding<'a> {
     if let Some(attribute) = local.attrs.first() {
-        cx.error(attribute, &message::attribute());
+        cx.error(attribute, &message::not_allowed("an attribute"));
     }
     let pat = match &local.pat {
         Pat::Type(typed) => {
-            cx.error(&typed.ty, &message::let_type());
+            cx.error(&typed.ty, &message::not_allowed("a type"));
             &*typed.pat
         }
         pat => pat,
@@ -126,7 +126,7 @@ fn binding<'a>(cx: &Ctxt, block: &'a Syntax, local: &'a Local) -> Binding<'a> {
         return Binding { ident, value };
     };
     if let Some((token, _)) = &init.diverge {
-        cx.error(token, &message::let_else());
+        cx.error(token, &message::not_allowed("let … else"));
     }
     if let Some(closure) = helper::closure(&init.expr) {
         let helper = Helper {

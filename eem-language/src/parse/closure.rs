@@ -8,13 +8,14 @@ use super::name::plain_name;
 use crate::ast::{Argument, Joint, Role, Strain};
 use crate::ctxt::Ctxt;
 use crate::message::attribute as message;
+use crate::message::expression::syntax::not_allowed;
 use crate::nearest::nearest;
 
 /// The arguments whose names can be read; reports the others.
 pub(super) fn arguments<'a>(cx: &Ctxt, closure: &'a ExprClosure) -> Vec<Argument<'a>> {
-    check_modifiers(cx, closure, message::closure_modifier);
+    check_modifiers(cx, closure);
     if let ReturnType::Type(arrow, _) = &closure.output {
-        cx.error(arrow, &message::closure_output());
+        cx.error(arrow, &not_allowed("a return type"));
     }
     let arguments = closure.inputs.iter();
     arguments.filter_map(|pat| argument(cx, pat)).collect()

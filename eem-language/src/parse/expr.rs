@@ -30,7 +30,7 @@ pub(super) fn expr<'a>(cx: &Ctxt, original: &'a Syntax) -> Expr<'a> {
         }
     };
     if let Some(attribute) = attrs.first() {
-        cx.error(attribute, &message::attribute());
+        cx.error(attribute, &message::not_allowed("an attribute"));
     }
     Expr { original, kind }
 }
@@ -46,13 +46,20 @@ fn name<'a>(cx: &Ctxt, path: &'a syn::ExprPath) -> ExprKind<'a> {
     }
 }
 
-/// Whether a path of several names ends like that of a constant: `crate::gas::R`.
+/// Whether a path of several names ends like that of a constant: `crate::gas::R`. One into `consts` is meant to.
 fn is_constant(path: &syn::ExprPath) -> bool {
     let mut segments = path.path.segments.iter();
     let plain = segments.all(|segment| segment.arguments.is_none());
-    let last = path.path.segments.last();
-    let upper = last.is_some_and(|segment| is_upper_case(&segment.ident));
-    plain && upper && path.qself.is_none() && path.path.segments.len() > 1
+    let mut from_last = path
+        .path
+        .segments
+        .iter()
+        .rev()
+        .map(|segment| &segment.ident);
+    let upper = from_last.next().is_some_and(is_upper_case);
+    let module = from_last.next();
+    let named = module.is_some_and(|module| upper || module == "consts");
+    plain && named && path.qself.is_none()
 }
 
 /// `name[2]`
@@ -99,8 +106,8 @@ fn wrong<'a>(cx: &Ctxt, parts: impl IntoIterator<Item = &'a Syntax>) -> ExprKind
 fn negation<'a>(cx: &Ctxt, unary: &'a syn::ExprUnary) -> ExprKind<'a> {
     match unary.op {
         UnOp::Neg(_) => return ExprKind::Negate(Box::new(expr(cx, &unary.expr))),
-        UnOp::Not(token) => cx.error(token, &message::not_operator()),
-        UnOp::Deref(token) => cx.error(token, &message::dereference()),
+        UnOp::Not(token) => cx.error(token, &message::not_allowed("!")),
+        UnOp::Deref(token) => cx.error(token, &message::not_allowed("a `*` without a left factor")),
         other => cx.error(other, &message::unsupported()),
     }
     wrong(cx, [&*unary.expr])
@@ -143,7 +150,7 @@ fn method_call<'a>(cx: &Ctxt, call: &'a syn::ExprMethodCall) -> ExprKind<'a> {
     let mut arguments = vec![expr(cx, &call.receiver)];
     arguments.extend(call.args.iter().map(|argument| expr(cx, argument)));
     if let Some(generics) = &call.turbofish {
-        cx.error(generics, &message::generic_arguments());
+        cx.error(generics, &message::not_allowed("a type argument"));
     }
     ExprKind::Call(&call.method, arguments)
 }

@@ -5,7 +5,7 @@ use syn::{Expr as Syntax, ExprClosure, Pat, ReturnType};
 use super::modifiers::check_modifiers;
 use super::name::plain_name;
 use crate::ctxt::Ctxt;
-use crate::message::expression::helper as message;
+use crate::message::expression::{helper as message, syntax::not_allowed};
 
 /// The closure that a `let` binds, if it binds one.
 pub(super) fn closure(syntax: &Syntax) -> Option<&ExprClosure> {
@@ -24,9 +24,9 @@ pub(super) fn arguments<'a>(cx: &Ctxt, closure: &'a ExprClosure) -> Vec<Option<&
 }
 
 fn check(cx: &Ctxt, closure: &ExprClosure) {
-    check_modifiers(cx, closure, message::modifier);
+    check_modifiers(cx, closure);
     if let ReturnType::Type(_, ty) = &closure.output {
-        cx.error(ty, &message::types());
+        cx.error(ty, &not_allowed("a return type"));
     }
     if closure.inputs.is_empty() {
         cx.error(closure, &message::without_arguments());
@@ -35,7 +35,7 @@ fn check(cx: &Ctxt, closure: &ExprClosure) {
 
 fn argument<'a>(cx: &Ctxt, pat: &'a Pat) -> Option<&'a syn::Ident> {
     if let Pat::Type(typed) = pat {
-        cx.error(&typed.ty, &message::types());
+        cx.error(&typed.ty, &not_allowed("a type"));
         return argument(cx, &typed.pat);
     }
     plain_name(cx, pat, message::pattern)

@@ -5,13 +5,13 @@ use quote::ToTokens;
 use syn::ExprClosure;
 
 use crate::ctxt::Ctxt;
-use crate::message::Message;
+use crate::message::expression::syntax::not_allowed;
 
 /// Reports whatever stands before the arguments.
-pub(super) fn check_modifiers(cx: &Ctxt, closure: &ExprClosure, message: fn(&str) -> Message) {
+pub(super) fn check_modifiers(cx: &Ctxt, closure: &ExprClosure) {
     let refuse = |token: Option<TokenStream>, modifier: &str| {
         if let Some(token) = token {
-            cx.error(token, &message(modifier));
+            cx.error(token, &not_allowed(modifier));
         }
     };
     let tokens = |token: &dyn ToTokens| token.to_token_stream();

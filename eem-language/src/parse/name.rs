@@ -4,7 +4,7 @@ use syn::{Ident, Pat, PatIdent};
 
 use crate::ctxt::Ctxt;
 use crate::message::Message;
-use crate::message::expression::syntax::mutable;
+use crate::message::expression::syntax::not_allowed;
 
 /// The name of a pattern that is nothing but a name; what else there is, is reported as `other`.
 pub(super) fn plain_name<'a>(
@@ -24,7 +24,7 @@ pub(super) fn plain_name<'a>(
         return None;
     };
     if let Some(token) = mutability {
-        cx.error(token, &mutable());
+        cx.error(token, &not_allowed("mut"));
     }
     Some(ident)
 }

@@ -19,7 +19,7 @@ pub(super) fn literal<'a>(cx: &Ctxt, literal: &Lit) -> ExprKind<'a> {
         Lit::Int(int) => (int.base10_digits(), int.suffix()),
         Lit::Float(float) => (float.base10_digits(), float.suffix()),
         other => {
-            cx.error(other, &syntax::literal(kind(other)));
+            cx.error(other, &syntax::not_allowed(kind(other)));
             return ExprKind::Wrong(Vec::new());
         }
     };

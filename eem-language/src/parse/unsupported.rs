@@ -12,39 +12,39 @@ use crate::message::expression::syntax as message;
 pub(super) fn report<'a>(cx: &Ctxt, expr: &'a Expr) -> Vec<&'a Expr> {
     match expr {
         Expr::Assign(e) => {
-            cx.error(e.eq_token, &message::assignment("="));
+            cx.error(e.eq_token, &message::not_allowed("="));
             vec![&e.right]
         }
         Expr::Cast(e) => {
-            cx.error(e.as_token, &message::cast());
+            cx.error(e.as_token, &message::not_allowed("as"));
             vec![&e.expr]
         }
         Expr::Reference(e) => {
-            cx.error(e.and_token, &message::reference());
+            cx.error(e.and_token, &message::not_allowed("a reference"));
             vec![&e.expr]
         }
         Expr::RawAddr(e) => {
-            cx.error(e.and_token, &message::reference());
+            cx.error(e.and_token, &message::not_allowed("a reference"));
             vec![&e.expr]
         }
         Expr::Try(e) => {
-            cx.error(e.question_token, &message::question_mark());
+            cx.error(e.question_token, &message::not_allowed("?"));
             vec![&e.expr]
         }
         Expr::Await(e) => {
-            cx.error(e.await_token, &message::waiting());
+            cx.error(e.await_token, &message::not_allowed(".await"));
             vec![&e.base]
         }
         Expr::Array(e) => {
-            cx.error(e, &message::aggregate("an array"));
+            cx.error(e, &message::not_allowed("an array"));
             e.elems.iter().collect()
         }
         Expr::Tuple(e) => {
-            cx.error(e, &message::aggregate("a tuple"));
+            cx.error(e, &message::not_allowed("a tuple"));
             e.elems.iter().collect()
         }
         Expr::Range(e) => {
-            cx.error(e.limits, &message::range());
+            cx.error(e.limits, &message::not_allowed("a range"));
             e.start.iter().chain(&e.end).map(|end| &**end).collect()
         }
         other => {
@@ -57,24 +57,27 @@ pub(super) fn report<'a>(cx: &Ctxt, expr: &'a Expr) -> Vec<&'a Expr> {
 /// The kinds that contain no formula, or none worth reading before they are gone.
 fn report_opaque(cx: &Ctxt, expr: &Expr) {
     match expr {
-        Expr::If(e) => cx.error(e.if_token, &message::control_flow("if")),
-        Expr::Match(e) => cx.error(e.match_token, &message::control_flow("match")),
-        Expr::Let(e) => cx.error(e.let_token, &message::let_without_block()),
-        Expr::ForLoop(e) => cx.error(e.for_token, &message::repetition("for")),
-        Expr::While(e) => cx.error(e.while_token, &message::repetition("while")),
-        Expr::Loop(e) => cx.error(e.loop_token, &message::repetition("loop")),
-        Expr::Return(e) => cx.error(e.return_token, &message::jump("return")),
-        Expr::Break(e) => cx.error(e.break_token, &message::jump("break")),
-        Expr::Continue(e) => cx.error(e.continue_token, &message::jump("continue")),
-        Expr::Closure(e) => cx.error(e, &message::closure()),
-        Expr::Macro(e) => cx.error(&e.mac.path, &message::invocation()),
-        Expr::Repeat(e) => cx.error(e, &message::aggregate("an array")),
-        Expr::Struct(e) => cx.error(&e.path, &message::aggregate("a struct")),
-        Expr::Unsafe(e) => cx.error(e.unsafe_token, &message::label_or_modifier()),
-        Expr::Async(e) => cx.error(e.async_token, &message::label_or_modifier()),
-        Expr::Const(e) => cx.error(e.const_token, &message::label_or_modifier()),
-        Expr::TryBlock(e) => cx.error(e.try_token, &message::label_or_modifier()),
-        Expr::Infer(e) => cx.error(e, &message::placeholder()),
+        Expr::If(e) => cx.error(e.if_token, &message::not_allowed("if")),
+        Expr::Match(e) => cx.error(e.match_token, &message::not_allowed("match")),
+        Expr::Let(e) => cx.error(
+            e.let_token,
+            &message::not_allowed("a `let` without a block"),
+        ),
+        Expr::ForLoop(e) => cx.error(e.for_token, &message::not_allowed("for")),
+        Expr::While(e) => cx.error(e.while_token, &message::not_allowed("while")),
+        Expr::Loop(e) => cx.error(e.loop_token, &message::not_allowed("loop")),
+        Expr::Return(e) => cx.error(e.return_token, &message::not_allowed("return")),
+        Expr::Break(e) => cx.error(e.break_token, &message::not_allowed("break")),
+        Expr::Continue(e) => cx.error(e.continue_token, &message::not_allowed("continue")),
+        Expr::Closure(e) => cx.error(e, &message::not_allowed("an unnamed closure")),
+        Expr::Macro(e) => cx.error(&e.mac.path, &message::not_allowed("a macro")),
+        Expr::Repeat(e) => cx.error(e, &message::not_allowed("an array")),
+        Expr::Struct(e) => cx.error(&e.path, &message::not_allowed("a struct")),
+        Expr::Unsafe(e) => cx.error(e.unsafe_token, &message::not_allowed("an `unsafe` block")),
+        Expr::Async(e) => cx.error(e.async_token, &message::not_allowed("an `async` block")),
+        Expr::Const(e) => cx.error(e.const_token, &message::not_allowed("a `const` block")),
+        Expr::TryBlock(e) => cx.error(e.try_token, &message::not_allowed("a `try` block")),
+        Expr::Infer(e) => cx.error(e, &message::not_allowed("_")),
         Expr::Field(e) => report_field(cx, e),
         other => cx.error(other, &message::unsupported()),
     }
@@ -92,36 +95,26 @@ fn report_field(cx: &Ctxt, field: &syn::ExprField) {
 
 /// Reports an operator that is not one of the four.
 pub(super) fn report_operator(cx: &Ctxt, operator: BinOp) {
-    let text = operator.to_token_stream().to_string();
     let message = match operator {
         BinOp::BitXor(_) => message::caret(),
-        BinOp::Rem(_) => message::remainder(),
-        BinOp::Eq(_)
-        | BinOp::Lt(_)
-        | BinOp::Le(_)
-        | BinOp::Ne(_)
-        | BinOp::Ge(_)
-        | BinOp::Gt(_)
-        | BinOp::And(_)
-        | BinOp::Or(_) => message::comparison(&text),
-        BinOp::BitAnd(_) | BinOp::BitOr(_) | BinOp::Shl(_) | BinOp::Shr(_) => {
-            message::bit_operator(&text)
-        }
-        // The rest are `+=` and its relatives.
-        _ => message::assignment(&text),
+        _ => message::not_allowed(&operator.to_token_stream().to_string()),
     };
     cx.error(operator, &message);
 }
 
 /// Reports `a::b`, `a::<T>` and `<T>::a` where a bare name is expected.
 pub(super) fn report_path(cx: &Ctxt, path: &ExprPath) {
-    let last = path.path.segments.last();
-    let last = last.map_or_else(String::new, |segment| ast::name(&segment.ident));
-    let message = if path.path.segments.len() == 1 && path.qself.is_none() {
-        message::generic_arguments()
-    } else {
-        let text = path.to_token_stream().to_string().replace(' ', "");
-        message::path(&text, &last)
+    let mut segments = path.path.segments.iter();
+    let plain = segments.all(|segment| segment.arguments.is_none());
+    let message = match path.path.segments.last() {
+        Some(last) if plain && path.qself.is_none() => {
+            let text = path.to_token_stream().to_string().replace(' ', "");
+            message::path(&text, &ast::name(&last.ident))
+        }
+        _ if path.qself.is_some() || path.path.segments.len() > 1 => {
+            message::not_allowed("a path with `<…>`")
+        }
+        _ => message::not_allowed("a type argument"),
     };
     cx.error(path, &message);
 }

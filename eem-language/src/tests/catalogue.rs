@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use syn::{DeriveInput, Item};
 
+use crate::message::expression::syntax;
 use crate::message::written;
 
 /// The folders of the cases and the modules of the catalogue.
@@ -100,10 +101,12 @@ fn every_message_has_a_case_in_its_folder() {
     let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("../eem-ui/tests/ui");
     let catalogue = catalogue();
     let mut missing: BTreeSet<&String> = catalogue.values().collect();
+    let mut rows: Vec<Vec<String>> = syntax::rows().collect();
     for subject in SUBJECTS {
         written::take();
         for case in sources(&cases.join(subject)) {
             let expansion = expand_case(&case);
+            rows.retain(|row| !row.iter().any(|text| expansion.contains(text)));
             let shows = ["compile_error", "deprecated"].map(|word| expansion.contains(word));
             assert!(
                 shows != [false; 2],
@@ -125,5 +128,9 @@ fn every_message_has_a_case_in_its_folder() {
     assert!(
         missing.is_empty(),
         "without a case in eem-ui/tests/ui: {missing:?}"
+    );
+    assert!(
+        rows.is_empty(),
+        "rows of the table without a case: {rows:?}"
     );
 }

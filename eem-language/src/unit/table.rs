@@ -194,7 +194,7 @@ fn refused(symbol: &str) -> Option<&'static str> {
             "its zero is not that of the absolute temperature: give the value in `K`"
         }
         "deg" | "°" | "grad" => "its scale is irrational: give the value in `rad`, which is 1",
-        "%" | "ppm" => "a pure number has the unit `1`",
+        "%" | "ppm" => "the unit of what is dimensionless is `1`",
         "kp" | "kgf" | "lbf" | "dyn" => "give the value in `N`",
         "eV" | "cal" | "kcal" | "erg" | "BTU" => "give the value in `J`",
         "atm" | "psi" | "Torr" | "mmHg" => "give the value in `Pa`",

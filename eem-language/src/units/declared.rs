@@ -48,7 +48,7 @@ impl Units {
         }
     }
 
-    /// The unit of a parameter as it was written; a constant without one is a pure number, if units are
+    /// The unit of a parameter as it was written; a constant without one is dimensionless, if units are
     /// checked at all.
     pub(crate) fn of(&self, origin: Origin) -> Option<&str> {
         match (self.declaration(origin), origin) {

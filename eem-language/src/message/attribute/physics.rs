@@ -26,7 +26,7 @@ pub(crate) fn independent(variable: &Variable<'_>, measure: &str) -> Message {
                 Joint::Strain => format!("- 2 * branch * {name}"),
             };
             format!(
-                "the viscous strain does not act by it; add its term, for example `{term}`, or remove the argument"
+                "`{name}` has no effect on the viscous strain; add its term, for example `{term}`, or remove the argument"
             )
         }
         Role::Stretch => format!(
@@ -46,7 +46,7 @@ pub(crate) fn no_heat_capacity(theta: &Variable<'_>) -> Message {
     let name = ast::name(theta.ident);
     Message::new(
         format!(
-            "the free energy is linear in `{name}`: its heat capacity is zero, and no temperature belongs to an entropy"
+            "the free energy is linear in `{name}`: the heat capacity is zero, so that the temperature cannot be found from the entropy"
         ),
         format!(
             "add a heat capacity, for example `capacity * ({name} - {name} * ln({name} / theta_ref))`"
@@ -57,17 +57,20 @@ pub(crate) fn no_heat_capacity(theta: &Variable<'_>) -> Message {
 pub(crate) fn negative_heat_capacity(theta: &Variable<'_>) -> Message {
     let name = ast::name(theta.ident);
     Message::new(
-        "the heat capacity is nowhere positive",
+        "the heat capacity is never positive",
         format!(
-            "it is `-{name}` times the second derivative by `{name}`: check the signs; it usually comes from a term `-capacity * {name} * ln({name})`"
+            "it is `-{name}` times the second derivative with respect to `{name}`: check the signs; it usually comes from a term `-capacity * {name} * ln({name})`"
         ),
     )
 }
 
-pub(crate) fn no_viscosity() -> Message {
+/// `argument` is that of the dashpot; the dashpot of a `Stretch` has none of its own.
+pub(crate) fn no_viscosity(argument: Option<&str>) -> Message {
+    let and_argument =
+        argument.map_or_else(String::new, |name| format!(" and the argument `{name}`"));
     Message::new(
-        "this viscosity is nowhere positive",
-        "a dashpot needs one above zero; without it, remove the law, and a `Viscous` argument from the free energy",
+        "a viscosity must be positive",
+        format!("check the signs; to remove the dashpot, delete this law{and_argument}"),
     )
 }
 

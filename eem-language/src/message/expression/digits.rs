@@ -4,9 +4,7 @@ use crate::message::Message;
 
 pub(crate) fn logarithm(text: &str) -> Message {
     Message::new(
-        format!(
-            "`{text}` loses the digits of small strains: they are lost in the 1 of its argument"
-        ),
+        format!("`{text}` is inaccurate for small strains: adding 1 rounds their digits off"),
         "write `ln_1p(x)` for `ln(1 + x)`",
     )
 }
@@ -14,7 +12,7 @@ pub(crate) fn logarithm(text: &str) -> Message {
 pub(crate) fn difference(text: &str, help: &str) -> Message {
     Message::new(
         format!(
-            "`{text}` loses the digits of small strains: it is a difference of what is nearly equal"
+            "`{text}` is inaccurate for small strains: it subtracts numbers that are nearly equal"
         ),
         help,
     )

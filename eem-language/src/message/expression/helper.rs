@@ -7,20 +7,6 @@ use crate::message::Message;
 
 const FORM: &str = "write `let name = |x, y| …;`";
 
-pub(crate) fn modifier(modifier: &str) -> Message {
-    Message::new(
-        format!("a helper is not `{modifier}`"),
-        format!("remove `{modifier}`"),
-    )
-}
-
-pub(crate) fn types() -> Message {
-    Message::new(
-        "a helper has no types: all values are numbers of one kind",
-        FORM,
-    )
-}
-
 pub(crate) fn pattern() -> Message {
     Message::new("this argument of a helper is not a plain name", FORM)
 }
@@ -35,15 +21,18 @@ pub(crate) fn without_arguments() -> Message {
 pub(crate) fn calls_itself(helper: &Ident) -> Message {
     let name = ast::name(helper);
     Message::new(
-        format!("`{name}` calls itself, and a formula with it would never end"),
-        "a helper can call those before it; write a sum or a product out",
+        format!("`{name}` calls itself"),
+        "a helper can only call helpers that are defined before it; write a recursion out",
     )
 }
 
-pub(crate) fn too_many_calls(helper: &Ident) -> Message {
+/// More than `calls` of them, or one that is too deep in others.
+pub(crate) fn too_many_calls(helper: &Ident, calls: usize) -> Message {
     let name = ast::name(helper);
     Message::new(
-        format!("with this call of `{name}` the calls inside of one another are too many"),
-        "bind what is the same in several calls with `let`",
+        format!(
+            "this call of `{name}` expands to more than {calls} nested calls, or to calls nested too deeply"
+        ),
+        "bind what several calls have in common with `let`",
     )
 }

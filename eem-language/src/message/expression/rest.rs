@@ -3,7 +3,7 @@
 use crate::ast::{Joint, Role, Strain};
 use crate::message::Message;
 
-const AT_REST: &str = "where the solid is at rest and all strains are zero";
+const AT_REST: &str = "at rest, where all strains are zero";
 
 pub(crate) fn divisor(name: &str, strain: Role) -> Message {
     Message::new(
@@ -19,11 +19,18 @@ pub(crate) fn value(function: &str, domain: &str, name: &str, strain: Role) -> M
     )
 }
 
-pub(crate) fn power(function: &str, exponent: f64) -> Message {
+/// `argument` is as quoted; `signed` means that it can be negative.
+pub(crate) fn power(function: &str, exponent: f64, argument: &str, signed: bool) -> Message {
     let which = if exponent < 1.0 { "" } else { "second " };
+    let write = match function {
+        "powf" => format!("({argument} + c * c).powf({exponent})"),
+        "cbrt" if signed => "x / cbrt(x * x + c * c)".to_owned(),
+        _ if signed => "(x * x + c * c).powf(0.25)".to_owned(),
+        _ => format!("{function}({argument} + c * c)"),
+    };
     Message::new(
         format!("this `{function}` has no {which}derivative {AT_REST}: its argument is zero"),
-        "add a small constant to the argument",
+        format!("write `{write}` with a small parameter `c`"),
     )
 }
 

@@ -1,8 +1,130 @@
-//! Messages about Rust syntax that a free energy does not have.
+//! Messages about Rust syntax that a formula does not have.
 
 use crate::message::Message;
 
-const SMOOTH: &str = "a free energy must be one smooth expression; for a transition use a smooth function such as `tanh`";
+const SMOOTH: &str =
+    "use one smooth expression; for a transition, a smooth function such as `tanh`";
+const CONSTANT: &str = "values do not change: bind another name, `let y = x + …;`";
+const NUMBER: &str = "numbers are written `2`, `2.0` or `1e-3`";
+const BLOCK: &str = "write a plain block, `{ let …; value }`";
+const UNTYPED: &str = "remove it: all values are numbers of one kind";
+const OPERATORS: &str = "use `+`, `-`, `*`, `/`, functions and `let`";
+const EACH: &str = "bind each number with its own `let`";
+const REMOVE: &str = "remove it";
+
+/// What formulas do not have, and what to write instead. What begins with an article is said as it stands; all else are
+/// tokens.
+const TABLE: &[(&[&str], &str)] = &[
+    (
+        &["if", "match", "==", "!=", "<", "<=", ">", ">=", "&&", "||"],
+        SMOOTH,
+    ),
+    (&["for", "while", "loop"], "write the terms out"),
+    (
+        &["return", "break", "continue"],
+        "the value of a block is its last expression, without `;`",
+    ),
+    (
+        &["%"],
+        "it jumps; for something periodic use `sin` or `cos`",
+    ),
+    (
+        &["&", "|", "<<", ">>"],
+        "the operators are `+`, `-`, `*` and `/`",
+    ),
+    (
+        &[
+            "=", "+=", "-=", "*=", "/=", "%=", "^=", "&=", "|=", "<<=", ">>=",
+        ],
+        CONSTANT,
+    ),
+    (&["mut"], "remove it: values do not change"),
+    (&["!"], "for a negative write `-x`"),
+    (
+        &["a `*` without a left factor"],
+        "for a power write `x.powi(2)`; otherwise remove `*`",
+    ),
+    (&["a reference"], "remove `&`"),
+    (
+        &["as"],
+        "remove `as …`: all numbers are real, `1 / 2` is one half",
+    ),
+    (&["a type"], UNTYPED),
+    (&["a return type"], "remove `-> …`"),
+    (&["a type argument"], "remove `::<…>`"),
+    (&["an array", "a tuple", "a struct"], EACH),
+    (&["a truth value", "a character", "a string"], NUMBER),
+    (
+        &["a path with `<…>`"],
+        "a constant has a plain path, `crate::gas::R`; all else has a bare name",
+    ),
+    (
+        &["a range"],
+        "one `.` is a decimal point; a sum over a range is written out",
+    ),
+    (&["a macro"], "write its result"),
+    (&["_"], "write the expression that belongs here"),
+    (&["?", ".await", "async", "const", "move", "for<…>"], REMOVE),
+    (
+        &[
+            "an `async` block",
+            "a `const` block",
+            "a `try` block",
+            "an `unsafe` block",
+            "a label",
+        ],
+        BLOCK,
+    ),
+    (
+        &["an unnamed closure"],
+        "give it a name, `let f = |x| …;`, and call it; a derivative is `diff(expression, argument)`",
+    ),
+    (
+        &["a `let` without a block"],
+        "write `{ let name = value; … }`",
+    ),
+    (&["let … else"], "remove `else { … }`"),
+    (
+        &["an item"],
+        "use `let` for an intermediate value and a field for a parameter",
+    ),
+    (
+        &["an attribute"],
+        "remove it; to choose between two energies put `#[cfg_attr(…, free_energy(…))]` on the struct",
+    ),
+];
+
+/// Rust syntax that is no formula, by a name from the table.
+pub(crate) fn not_allowed(what: &str) -> Message {
+    let row = TABLE.iter().find(|(names, _)| names.contains(&what));
+    #[cfg(test)]
+    assert!(row.is_some(), "`{what}` is not in the table");
+    let help = row.map_or(OPERATORS, |(_, help)| help);
+    Message::new(text(what), help)
+}
+
+fn text(what: &str) -> String {
+    let said = ["a ", "an ", "this "]
+        .iter()
+        .any(|article| what.starts_with(article));
+    if said {
+        format!("{what} is not allowed in a formula")
+    } else {
+        format!("`{what}` is not allowed in a formula")
+    }
+}
+
+/// What the rows of the table can say, for the test that each has a case.
+#[cfg(test)]
+pub(crate) fn rows() -> impl Iterator<Item = Vec<String>> {
+    let texts = |names: &[&str]| names.iter().map(|what| text(what)).collect();
+    TABLE.iter().map(move |(names, _)| texts(names))
+}
+
+/// An expression of any other kind.
+pub(crate) fn unsupported() -> Message {
+    Message::new(text("this expression"), OPERATORS)
+}
 
 pub(crate) fn caret() -> Message {
     Message::new(
@@ -11,130 +133,18 @@ pub(crate) fn caret() -> Message {
     )
 }
 
-pub(crate) fn remainder() -> Message {
-    Message::new(
-        "`%` has jumps and so no derivative",
-        "use `sin` or `cos` for something periodic",
-    )
-}
-
-pub(crate) fn comparison(operator: &str) -> Message {
-    Message::new(
-        format!("`{operator}` compares, and nothing follows from it"),
-        SMOOTH,
-    )
-}
-
-pub(crate) fn bit_operator(operator: &str) -> Message {
-    Message::new(
-        format!("`{operator}` works on bits"),
-        "the operators are `+`, `-`, `*` and `/`",
-    )
-}
-
-pub(crate) fn assignment(operator: &str) -> Message {
-    Message::new(
-        format!("`{operator}` changes a value, and values do not change in a formula"),
-        "bind another name: `let y = x + …;`",
-    )
-}
-
-pub(crate) fn not_operator() -> Message {
-    Message::new("`!` works on bits", "for a negative write `-x`")
-}
-
-pub(crate) fn dereference() -> Message {
-    Message::new(
-        "`*` needs a factor on its left",
-        "for a power write `x.powi(2)`; there are no references to follow",
-    )
-}
-
-pub(crate) fn reference() -> Message {
-    Message::new("there are no references in a free energy", "remove `&`")
-}
-
-pub(crate) fn control_flow(keyword: &str) -> Message {
-    Message::new(format!("`{keyword}` is not part of a formula"), SMOOTH)
-}
-
-pub(crate) fn repetition(keyword: &str) -> Message {
-    Message::new(
-        format!("`{keyword}` is not part of a formula"),
-        "write the terms out",
-    )
-}
-
-pub(crate) fn jump(keyword: &str) -> Message {
-    Message::new(
-        format!("`{keyword}` is not part of a formula"),
-        "the value of a block is its last expression, without `;`",
-    )
-}
-
-pub(crate) fn cast() -> Message {
-    Message::new(
-        "`as` is not needed: all numbers are real",
-        "remove `as …`; `1 / 2` is one half",
-    )
-}
-
-pub(crate) fn closure() -> Message {
-    Message::new(
-        "a closure is not a value",
-        "give it a name, `let f = |x| …;`, and call it; a derivative is `diff(expression, argument)`",
-    )
-}
-
 pub(crate) fn index_of_value() -> Message {
     Message::new(
-        "this has no entries",
+        "this expression cannot be indexed",
         "a field can be an array, `stiffness: [f64; 3]`, with the entries `stiffness[0]` to `stiffness[2]`",
     )
 }
 
 pub(crate) fn index_is_not_a_literal() -> Message {
     Message::new(
-        "the index of an entry is a number that is written out, such as `2`",
-        "every entry is a parameter of its own; a sum over entries is written out",
+        "an index must be a number that is written out, such as `2`",
+        "every entry is a parameter of its own; write a sum over entries out",
     )
-}
-
-pub(crate) fn aggregate(what: &str) -> Message {
-    Message::new(
-        format!("{what} is not a number"),
-        "bind each number with its own `let`",
-    )
-}
-
-pub(crate) fn invocation() -> Message {
-    Message::new(
-        "a macro cannot be expanded inside a free energy",
-        "write its result",
-    )
-}
-
-pub(crate) fn waiting() -> Message {
-    Message::new("`.await` is not part of a formula", "remove `.await`")
-}
-
-pub(crate) fn range() -> Message {
-    Message::new(
-        "a range is not a number",
-        "one `.` is a decimal point; a sum over a range is written out",
-    )
-}
-
-pub(crate) fn placeholder() -> Message {
-    Message::new("`_` has no value", "write the expression that belongs here")
-}
-
-pub(crate) fn mutable() -> Message {
-    Message::new("values do not change in a formula", "remove `mut`")
-}
-
-pub(crate) fn question_mark() -> Message {
-    Message::new("`?` is not part of a formula", "remove `?`")
 }
 
 pub(crate) fn field_access(name: Option<&str>) -> Message {
@@ -142,16 +152,24 @@ pub(crate) fn field_access(name: Option<&str>) -> Message {
         Some(name) => format!("fields are used by bare name: write `{name}`"),
         None => "a parameter is a field of its own, used by bare name; a method has parentheses, `x.sqrt()`".to_owned(),
     };
-    Message::new("a field access is not part of a formula", help)
+    Message::new("a field access is not allowed in a formula", help)
 }
 
 pub(crate) fn path(path: &str, last: &str) -> Message {
     Message::new(
-        format!("`{path}` is outside of the free energy"),
-        format!(
-            "names of fields and functions are bare: write `{last}`; a path leads to a constant, whose name is in upper case"
-        ),
+        format!("`{path}` is not a constant: constants have names in upper case"),
+        format!("for a field, an argument or a function write the bare name, `{last}`"),
     )
+}
+
+/// A path into the constants of the standard library that leads to none.
+pub(crate) fn constant_of_std(path: &str, nearest: Option<&str>) -> Message {
+    let help = match nearest {
+        Some(nearest) => format!("did you mean `{nearest}`?"),
+        None => "`PI` is known by its bare name, others by paths such as `core::f64::consts::TAU`"
+            .to_owned(),
+    };
+    Message::new(format!("unknown constant `{path}`"), help)
 }
 
 /// What is written for constants that have short names on paper.
@@ -171,42 +189,10 @@ pub(crate) fn constant(name: &str, constant: &str) -> Message {
     )
 }
 
-pub(crate) fn generic_arguments() -> Message {
-    Message::new(
-        "functions of a free energy have no type arguments",
-        "remove `::<…>`",
-    )
-}
-
 pub(crate) fn callee() -> Message {
     Message::new(
         "this is not the name of a function",
         "for a product write `*`",
-    )
-}
-
-pub(crate) fn literal(what: &str) -> Message {
-    Message::new(
-        format!("{what} is not a number"),
-        "numbers are written `2`, `2.0` or `1e-3`",
-    )
-}
-
-pub(crate) fn attribute() -> Message {
-    Message::new(
-        "an attribute inside a free energy would be ignored",
-        "remove it; to choose between two energies put `#[cfg_attr(…, free_energy(…))]` on the struct",
-    )
-}
-
-pub(crate) fn label_or_modifier() -> Message {
-    Message::new("this is not a plain block", "write `{ let …; value }`")
-}
-
-pub(crate) fn unsupported() -> Message {
-    Message::new(
-        "this is not an arithmetic expression",
-        "use `+`, `-`, `*`, `/`, functions and `let`",
     )
 }
 
@@ -219,15 +205,8 @@ pub(crate) fn block_without_value() -> Message {
 
 pub(crate) fn semicolon_after_value() -> Message {
     Message::new(
-        "a `;` after the value of a block throws it away",
+        "a `;` after the last expression discards the value of the block",
         "remove `;`",
-    )
-}
-
-pub(crate) fn let_without_block() -> Message {
-    Message::new(
-        "a `let` needs a block around it",
-        "write `{ let name = value; … }`",
     )
 }
 
@@ -238,13 +217,6 @@ pub(crate) fn statement_without_effect() -> Message {
     )
 }
 
-pub(crate) fn item_in_block() -> Message {
-    Message::new(
-        "an item is not part of a formula",
-        "use `let` for an intermediate value and a field for a parameter",
-    )
-}
-
 pub(crate) fn let_pattern() -> Message {
     Message::new(
         "this pattern is not a plain name",
@@ -252,17 +224,6 @@ pub(crate) fn let_pattern() -> Message {
     )
 }
 
-pub(crate) fn let_type() -> Message {
-    Message::new(
-        "a `let` in a formula has no type",
-        "write `let name = value;`",
-    )
-}
-
 pub(crate) fn let_without_value() -> Message {
     Message::new("this `let` has no value", "write `let name = value;`")
-}
-
-pub(crate) fn let_else() -> Message {
-    Message::new("a formula has no other way out", "remove `else { … }`")
 }

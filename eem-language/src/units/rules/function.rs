@@ -1,4 +1,4 @@
-//! Functions and powers: pure numbers in, except where the exponent is known.
+//! Functions and powers: dimensionless arguments, except where the exponent is known.
 
 use eem_symbolic::Rational;
 
@@ -25,7 +25,7 @@ impl Rules<'_> {
         })
     }
 
-    /// The argument of a transcendental function is a pure number.
+    /// The argument of a transcendental function is dimensionless.
     pub(super) fn argument(&mut self, function: &str, inner: &Expr<'_>) -> Option<()> {
         let argument = self.quantity(inner)?;
         if argument.is_zero() || self.agree(inner, &argument.unit, &Unit::one())? {
@@ -44,7 +44,7 @@ impl Rules<'_> {
         None
     }
 
-    /// An exponent is a pure number, and one that the compiler knows unless the base is one too.
+    /// An exponent is dimensionless, and a number that the compiler knows unless the base is one too.
     pub(super) fn power(
         &mut self,
         expr: &Expr<'_>,

@@ -11,4 +11,11 @@ struct Model {
     k: f64,
 }
 
+#[derive(FreeEnergy)]
+#[free_energy(|lambda: Stretch, gamma: Viscous| k * (lambda - gamma).powi(2))]
+#[viscosity(gamma = k * zeta + exp(theta))]
+struct Isothermal {
+    k: f64,
+}
+
 fn main() {}

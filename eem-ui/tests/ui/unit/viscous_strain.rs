@@ -1,6 +1,6 @@
 use eem::FreeEnergy;
 
-// The viscous strain is a pure number, and its viscosities are in Pa s.
+// The viscous strain is dimensionless, and its viscosities are in Pa s.
 #[derive(FreeEnergy)]
 #[free_energy(|e2: StrainSquare, m3: ViscousStrain, m2: ViscousSquare, m1: ViscousTrace| {
     k * (e2 - 2 * m3 + m2) + force * m1.powi(2)
