@@ -9,6 +9,7 @@ mod blocks;
 mod cells;
 mod double_pendulums;
 mod explicit;
+mod explicit_momenta;
 mod free_bodies;
 mod generic;
 mod heat_in_solids;

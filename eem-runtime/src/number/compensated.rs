@@ -162,6 +162,12 @@ impl<S: Scalar> Sum<S> {
         Self { value, carry }
     }
 
+    /// `self − value`.
+    #[inline]
+    pub(crate) fn beyond(self, value: S) -> S {
+        (self.value - value) + self.carry
+    }
+
     /// `self − old`, to rounding of the difference.
     #[inline]
     pub(crate) fn change(self, old: Self) -> S {

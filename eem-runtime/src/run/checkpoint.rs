@@ -188,7 +188,7 @@ fn check_explicit<S: Real>(
     own: &SavedExplicit<S>,
     other: &SavedExplicit<S>,
 ) -> Result<(), RestoreError> {
-    expect_count("components", own.targets.len(), other.targets.len())?;
+    expect_count("targets", own.targets.len(), other.targets.len())?;
     let shares = own.shares.values().len();
     expect_count("shares of reservoirs", shares, other.shares.values().len())?;
     check_sums("shares of reservoirs", own.shares.sums())?;

@@ -131,7 +131,7 @@ impl<S: Real> Certificate<S> {
                 Kept::None | Kept::Angular(_) => [S::zero(); 2],
             },
             angular: [
-                largest(&motion.angular),
+                motion.angular.largest(),
                 motion.moments + motion.farthest * impulse,
             ],
             is_balanced: tally.is_balanced,

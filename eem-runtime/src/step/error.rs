@@ -169,9 +169,10 @@ pub enum StepFailure {
         /// The time at the end of the step, s.
         time: f64,
     },
-    /// Nothing can move in a way that gives an explicit step its energy.
+    /// A connected body has neither heat nor motion that could take up what an explicit step misses of its energy: it is
+    /// at rest, or turns rigidly.
     #[error(
-        "the explicit step to t = {time} s has {:.3e} J {}, and neither heat nor motion can {} it; take a shorter step",
+        "the explicit step to t = {time} s has {:.3e} J {}, which neither the heat nor the motion of this step can {}; take another step size, or an implicit scheme such as eem-temperature",
         defect.abs(), if *defect < 0.0 { "too much" } else { "too little" }, if *defect < 0.0 { "take" } else { "give" },
         time = Readable(*time))]
     NotClosed {

@@ -18,6 +18,7 @@ mod components;
 mod demand;
 mod error;
 mod guard;
+mod inertia;
 mod memory;
 mod past;
 mod prescribed;
@@ -77,8 +78,8 @@ pub(crate) struct Explicit<S: Real, const D: usize> {
     start: Sample<S, D>,
     end: Sample<S, D>,
     quadrature: Quadrature<S, D>,
-    books: Books<S>,
-    new_books: Books<S>,
+    books: Books<S, D>,
+    new_books: Books<S, D>,
     scratch: Scratch<S>,
     /// Energy defects are closed by motion before heat.
     is_motion_first: bool,

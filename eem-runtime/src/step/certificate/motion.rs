@@ -1,5 +1,6 @@
 //! What the nodes contribute to the certificate of a step: kinetic energy, work and momenta.
 
+use crate::algebra::bivector::Bivector;
 use crate::number::compensated::Total;
 use crate::number::scalar::Real;
 
@@ -15,7 +16,7 @@ pub(crate) struct Motion<S, const D: usize> {
     pub(super) linear: [S; D],
     pub(super) momenta: S,
     /// `Σ (q_m − o) × (Δp − hF) + Δq × p_m`, and `Σ |q_m − o||p|`, kg m²/s.
-    pub(super) angular: [S; 3],
+    pub(super) angular: Bivector<S, D>,
     pub(super) moments: S,
     /// The largest `|q_m − o|`, m.
     pub(super) farthest: S,
@@ -93,7 +94,7 @@ impl<S: Real, const D: usize> Motion<S, D> {
             amplitude: zero,
             linear: [zero; D],
             momenta: zero,
-            angular: [zero; 3],
+            angular: Bivector::zero(),
             moments: zero,
             farthest: zero,
         }
@@ -140,11 +141,7 @@ impl<S: Real, const D: usize> Motion<S, D> {
         }
         self.momenta += size;
         self.moments += length * size;
-        for (angular, [i, j]) in self.angular.iter_mut().zip([[0, 1], [0, 2], [1, 2]]) {
-            if j < D {
-                *angular -= arm[i] * impulse[j] - arm[j] * impulse[i];
-            }
-        }
+        self.angular.add(-S::one(), &Bivector::wedge(&arm, impulse));
     }
 
     fn see_momenta(&mut self, node: &NodeStep<'_, S, D>, load: &[S; D]) {
@@ -167,11 +164,8 @@ impl<S: Real, const D: usize> Motion<S, D> {
         self.farthest = self.farthest.maximum(length);
         self.momenta += size;
         self.moments += length * size;
-        for (angular, [i, j]) in self.angular.iter_mut().zip([[0, 1], [0, 2], [1, 2]]) {
-            if j < D {
-                let turned = |a: &[S; D], b: &[S; D]| a[i] * b[j] - a[j] * b[i];
-                *angular += turned(&arm, &net) + turned(node.displacement, &mean);
-            }
-        }
+        let mut change = Bivector::wedge(&arm, &net);
+        change.add(S::one(), &Bivector::wedge(node.displacement, &mean));
+        self.angular.add(S::one(), &change);
     }
 }

@@ -1,10 +1,12 @@
 //! One attempt at a step, which changes nothing until it is accepted.
 
+use super::components::Support;
 use super::demand::{Demand, Scales};
 use super::memory::{END, START};
 use super::stages::From;
 use super::tableau::STAGES;
 use super::{Explicit, ExplicitView};
+use crate::element::group::points;
 use crate::element::state::State;
 use crate::number::scalar::{Mask, Real};
 use crate::step::error::StepFailure;
@@ -200,28 +202,70 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let (mut residue, mut bound) = (S::zero(), S::zero());
         for index in 0..self.components.all.len() {
             let [defect, magnitude] = self.defect_of(index);
-            if !defect.abs().at_most(rounding * magnitude).all() {
-                return Err(StepFailure::LawNotKept {
-                    law: Law::Energy,
-                    defect: -defect.to_f64(),
-                    bound: (rounding * magnitude).to_f64(),
-                    element: None,
-                    time: time.to_f64(),
-                });
-            }
+            let magnitude = magnitude + self.scratch.progress[index].granularity;
+            expect(Law::Energy, [-defect, rounding * magnitude], time)?;
+            self.prove_momenta(index, time)?;
             residue -= defect;
             bound += rounding * magnitude;
         }
         self.new_books.largest_momentum = scales.momentum;
         self.new_books.residue = residue;
-        let scratch = &self.scratch;
-        let has_produced = scratch.least.less(S::MAX);
+        let (mut production, mut least) = (S::zero(), self.scratch.least);
+        for progress in &self.scratch.progress {
+            production += progress.production;
+            let has_produced = progress.least.less(S::MAX);
+            let closed = progress.least * progress.factor;
+            least = least.minimum(S::select(has_produced, closed, S::MAX));
+        }
+        let has_produced = least.less(S::MAX);
+        let least_production = S::select(has_produced, least, S::zero());
+        expect(
+            Law::Production,
+            [least_production.minimum(S::zero()), S::zero()],
+            time,
+        )?;
         Ok(Outcome {
             defect: residue - self.books.residue,
             bound,
-            production: scratch.production,
-            least_production: S::select(has_produced, scratch.least, S::zero()),
+            production,
+            least_production,
             correction,
         })
     }
+
+    /// The momenta of the state that a component keeps have to be their targets, in all planes.
+    fn prove_momenta(&self, index: usize, time: S) -> Result<(), StepFailure> {
+        let component = &self.components.all[index];
+        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
+        let origin = match component.support {
+            Support::Free => self.center(component, positions),
+            Support::Anchor(place) => positions[place],
+            Support::Several => return Ok(()),
+        };
+        let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
+        let (linear, angular) = self.missing_momenta(index);
+        // Sums of magnitudes are at most √D times a length.
+        let [momenta, moments] = self.momentum_terms(index, &origin);
+        let dimension = (0..D).fold(S::zero(), |sum, _| sum + S::one());
+        let moments = moments / dimension;
+        if component.support == Support::Free {
+            let largest = linear
+                .iter()
+                .fold(S::zero(), |most, x| most.maximum(x.abs()));
+            expect(Law::LinearMomentum, [largest, rounding * momenta], time)?;
+        }
+        expect(
+            Law::AngularMomentum,
+            [angular.largest(), rounding * moments],
+            time,
+        )
+    }
+}
+
+/// An error where a law is off by more than its bound, or by what is no number.
+fn expect<S: Real>(law: Law, [defect, bound]: [S; 2], time: S) -> Result<(), StepFailure> {
+    if defect.abs().at_most(bound).all() {
+        return Ok(());
+    }
+    Err(law.not_kept([defect, bound], None, time))
 }

@@ -3,6 +3,7 @@
 use super::guard::{PathRates, Weights, guarded};
 use super::scratch::Progress;
 use super::{Explicit, ExplicitView};
+use crate::algebra::bivector::planes;
 use crate::element::state::State;
 use crate::number::scalar::{Mask, Real};
 
@@ -16,7 +17,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.scratch.progress.fill(Progress::none());
         self.scratch.waits.fill(S::Mask::none());
         self.scratch.produced.fill(S::zero());
-        (self.scratch.production, self.scratch.least) = (S::zero(), S::MAX);
+        self.scratch.least = S::MAX;
         let weights = Weights::new(view.step);
         self.book_paths(&weights, next);
         self.book_dashpots(&weights, next);
@@ -32,13 +33,24 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     fn book_paths(&mut self, weights: &Weights<S>, next: &mut State<S>) {
         let slots = self.scratch.produced.len();
         let temperatures = &self.quadrature.temperatures;
+        let is_fixed = |end: usize| end >= slots || self.held.get(end) == Some(&true);
         for (path, kept) in self.components.paths.iter().zip(&mut self.scratch.paths) {
             let [a, b] = path.ends.map(|end| end as usize);
+            let element = self.components.elements[a] as usize;
+            let component = self.components.of_element[element] as usize;
+            let progress = &mut self.scratch.progress[component];
             let rates = PathRates::new(path.conductance, [&temperatures[a], &temperatures[b]]);
             let ([flow, production], _) = rates.guarded(weights);
             *kept = production;
-            self.scratch.production += production;
-            self.scratch.least = self.scratch.least.minimum(production);
+            progress.production += production;
+            // What no end takes up the closing does not change.
+            let closes = !(is_fixed(a) && is_fixed(b));
+            let least = if closes {
+                &mut progress.least
+            } else {
+                &mut self.scratch.least
+            };
+            *least = least.minimum(production);
             next.entropies.add(a, flow);
             // One by one: the production is far below the rounding of the flow where θ_b is near θ_a.
             for change in [-flow, production] {
@@ -63,8 +75,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 let (production, _) = guarded(sum);
                 next.entropies.add(slot, production);
                 self.scratch.produced[slot] += production;
-                self.scratch.production += production;
-                self.scratch.least = self.scratch.least.minimum(production);
+                let component = self.components.of_dashpot[dashpot] as usize;
+                let progress = &mut self.scratch.progress[component];
+                progress.production += production;
+                progress.least = progress.least.minimum(production);
             }
         }
         for (component, dashpots) in &self.components.losing {
@@ -92,8 +106,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             for (linear, &impulse) in target.linear.iter_mut().zip(&sums.impulse) {
                 linear.add(impulse);
             }
-            for (angular, torque) in target.angular.iter_mut().zip(sums.torque) {
-                angular.add(torque);
+            for plane in planes::<D>() {
+                target.angular.at_mut(plane).add(sums.torque.at(plane));
             }
         }
     }

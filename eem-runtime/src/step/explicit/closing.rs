@@ -21,7 +21,7 @@ use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
 use crate::element::group::ClosingView;
 use crate::element::state::State;
-use crate::number::scalar::{Mask, Real};
+use crate::number::scalar::Real;
 use crate::step::error::StepFailure;
 
 /// Changes of a component after which its closing is given up.
@@ -49,7 +49,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         next: &mut State<S>,
     ) -> Result<(), StepFailure> {
         for index in 0..self.components.all.len() {
-            self.turn_single_mass(index, !S::Mask::none());
+            self.restore_momenta(index);
         }
         self.scratch.open.fill(true);
         self.find_energies(next)?;

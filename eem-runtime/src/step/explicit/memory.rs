@@ -1,5 +1,6 @@
 //! What an explicit scheme keeps: rates, quadratures, targets.
 
+use crate::algebra::bivector::{Bivector, planes};
 use crate::element::group::Offsets;
 use crate::number::compensated::{Compensated, Sum};
 use crate::number::scalar::Real;
@@ -36,7 +37,7 @@ pub(super) struct LoadSums<S, const D: usize> {
     /// N s.
     pub(super) impulse: [S; D],
     /// N m s.
-    pub(super) torque: [S; 3],
+    pub(super) torque: Bivector<S, D>,
 }
 
 /// Integrals over a step, and what some of them consist of.
@@ -54,27 +55,22 @@ pub(super) struct Quadrature<S, const D: usize> {
 
 /// What energy and momenta of a component have to be, to twice the precision.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize, serde::Deserialize),
-    serde(deny_unknown_fields)
-)]
-pub(crate) struct Target<S> {
+pub(super) struct Target<S, const D: usize> {
     /// E, with the heat that reservoirs have received and that dashpots have lost, J.
-    pub(crate) energy: Sum<S>,
-    /// L, kg m/s, per axis, at most three.
-    pub(crate) linear: [Sum<S>; 3],
+    pub(super) energy: Sum<S>,
+    /// L, kg m/s.
+    pub(super) linear: [Sum<S>; D],
     /// J about the anchor, or about the centre of mass where there is none, kg m²/s.
-    pub(crate) angular: [Sum<S>; 3],
+    pub(super) angular: Bivector<Sum<S>, D>,
     /// Heat of dashpots in elements without temperature, J.
-    pub(crate) lost: Sum<S>,
+    pub(super) lost: Sum<S>,
 }
 
 /// What steps have booked.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Books<S> {
+pub(super) struct Books<S, const D: usize> {
     /// Per component.
-    pub(super) targets: Vec<Target<S>>,
+    pub(super) targets: Vec<Target<S, D>>,
     /// What each reservoir has received from each component, J/K.
     pub(super) shares: Compensated<S>,
     /// The energies of elements with thermostats, per thermal slot, J; empty without.
@@ -85,20 +81,30 @@ pub(super) struct Books<S> {
     pub(super) residue: S,
 }
 
-impl<S: Real> Target<S> {
+impl<S: Real, const D: usize> Target<S, D> {
     /// Zero.
     pub(super) fn none() -> Self {
         let zero = Sum::new(S::zero());
         Self {
             energy: zero,
-            linear: [zero; 3],
-            angular: [zero; 3],
+            linear: [zero; D],
+            angular: Bivector::filled(zero),
             lost: zero,
+        }
+    }
+
+    /// All its sums, as they are saved.
+    pub(super) fn each_mut(&mut self, mut visit: impl FnMut(&mut Sum<S>)) {
+        visit(&mut self.energy);
+        visit(&mut self.lost);
+        self.linear.iter_mut().for_each(&mut visit);
+        for plane in planes::<D>() {
+            visit(self.angular.at_mut(plane));
         }
     }
 }
 
-impl<S: Real> Books<S> {
+impl<S: Real, const D: usize> Books<S, D> {
     pub(super) fn new(components: &Components<S>, held: usize) -> Self {
         Self {
             targets: vec![Target::none(); components.all.len()],
@@ -136,7 +142,7 @@ impl<S: Real, const D: usize> LoadSums<S, D> {
         Self {
             work: S::zero(),
             impulse: [S::zero(); D],
-            torque: [S::zero(); 3],
+            torque: Bivector::zero(),
         }
     }
 }

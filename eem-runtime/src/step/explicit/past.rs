@@ -1,9 +1,8 @@
 //! What an explicit scheme keeps between steps, as it is saved.
 
-use crate::number::compensated::Compensated;
+use crate::number::compensated::{Compensated, Sum};
 use crate::number::digest::Digest;
 use crate::number::scalar::Real;
-use crate::step::explicit::memory::Target;
 
 /// Targets, what reservoirs have received from each component, and the rates of the present state, bit for
 /// bit.
@@ -19,7 +18,8 @@ pub(crate) struct SavedExplicit<S> {
     /// The state that it belongs to.
     pub(crate) state: Digest,
     pub(crate) is_motion_first: bool,
-    pub(crate) targets: Vec<Target<S>>,
+    /// All sums of each component.
+    pub(crate) targets: Vec<Sum<S>>,
     pub(crate) shares: Compensated<S>,
     pub(crate) held_energies: Vec<S>,
     pub(crate) largest_momentum: S,
@@ -35,20 +35,13 @@ pub(crate) struct SavedExplicit<S> {
 impl<S: Real> SavedExplicit<S> {
     /// All sums with their names.
     pub(crate) fn sums(&self) -> [(&'static str, impl Iterator<Item = (S, S)> + Clone + '_); 1] {
-        let of = |target: &Target<S>| {
-            let single = [target.energy, target.lost];
-            let all = single
-                .into_iter()
-                .chain(target.linear)
-                .chain(target.angular);
-            all.map(|sum| (sum.value, sum.carry))
-        };
-        [("targets", self.targets.iter().flat_map(of))]
+        let targets = self.targets.iter();
+        [("targets", targets.map(|sum| (sum.value, sum.carry)))]
     }
 
     /// Forgets what belongs to no state.
     pub(super) fn clear(&mut self) {
-        self.targets.fill(Target::none());
+        self.targets.fill(Sum::new(S::zero()));
         self.shares.write(|shares| shares.fill(S::zero()));
         (self.largest_momentum, self.residue) = (S::zero(), S::zero());
         let lists = [

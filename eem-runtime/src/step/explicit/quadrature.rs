@@ -4,7 +4,8 @@ use super::Explicit;
 use super::components::Support;
 use super::memory::{LoadSums, Sample};
 use super::tableau::{STAGES, WEIGHTED, WEIGHTS};
-use super::vector::{add, difference, dot, moment};
+use super::vector::{add, difference, dot};
+use crate::algebra::bivector::Bivector;
 use crate::element::group::points;
 use crate::number::scalar::Real;
 
@@ -83,8 +84,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             }
             if let Support::Anchor(place) = component.support {
                 // The angular momentum is about the anchor, wherever it goes.
-                let change = moment(&velocities[place], &momentum);
-                add(&mut sums.torque, -weight, &change);
+                let change = Bivector::wedge(&velocities[place], &momentum);
+                sums.torque.add(-weight, &change);
             }
         }
         for (anchor, (place, _)) in self.components.anchors().enumerate() {
@@ -121,6 +122,6 @@ impl<S: Real, const D: usize> LoadSums<S, D> {
     ) {
         self.work += weight * dot(&force, velocity);
         add(&mut self.impulse, weight, &load);
-        add(&mut self.torque, weight, &moment(arm, &turning));
+        self.torque.add(weight, &Bivector::wedge(arm, &turning));
     }
 }

@@ -1,9 +1,10 @@
 //! An explicit scheme is saved and goes on from what was saved.
 
 use super::Explicit;
-use super::memory::START;
+use super::memory::{START, Target};
 use super::past::SavedExplicit;
 use crate::element::state::State;
+use crate::number::compensated::Sum;
 use crate::number::scalar::Real;
 
 impl<S: Real, const D: usize> Explicit<S, D> {
@@ -14,7 +15,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             is_new: !self.is_ready,
             state: state.digest(),
             is_motion_first: self.is_motion_first,
-            targets: books.targets.clone(),
+            targets: saved_targets(&books.targets),
             shares: books.shares.clone(),
             held_energies: books.held_energies.clone(),
             largest_momentum: books.largest_momentum,
@@ -37,7 +38,14 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.is_ready = !saved.is_new;
         self.is_motion_first = saved.is_motion_first;
         let (books, start) = (&mut self.books, &mut self.start);
-        books.targets.copy_from_slice(&saved.targets);
+        let mut sums = saved.targets.iter();
+        for target in &mut books.targets {
+            target.each_mut(|own| {
+                if let Some(sum) = sums.next() {
+                    *own = *sum;
+                }
+            });
+        }
         books.shares.copy_from(&saved.shares);
         books.held_energies.copy_from_slice(&saved.held_energies);
         books.largest_momentum = saved.largest_momentum;
@@ -50,4 +58,12 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let reactions = start.reactions.as_flattened_mut();
         reactions.copy_from_slice(&saved.reactions);
     }
+}
+
+fn saved_targets<S: Real, const D: usize>(targets: &[Target<S, D>]) -> Vec<Sum<S>> {
+    let mut sums = Vec::new();
+    for target in targets {
+        { *target }.each_mut(|sum| sums.push(*sum));
+    }
+    sums
 }

@@ -20,6 +20,13 @@ pub(super) struct Progress<S: Real> {
     pub(super) correction: S,
     /// Heat that dashpots without temperature have lost in this step, J.
     pub(super) lost: S,
+    /// All production, and the smallest one before it was closed; the largest number without any, J/K.
+    pub(super) production: S,
+    pub(super) least: S,
+    /// By which factor the closing has changed every production.
+    pub(super) factor: S,
+    /// `Σ |F||q|` where nothing could give the energy that is missing; zero otherwise, J.
+    pub(super) granularity: S,
     /// Whether the energy is what it has to be, and whether forces have to be known to make it so.
     pub(super) is_closed: S::Mask,
     pub(super) is_asking: S::Mask,
@@ -49,8 +56,8 @@ pub(super) struct Scratch<S: Real> {
     pub(super) powers: Vec<S>,
     /// Π of the paths of heat, J/K.
     pub(super) paths: Vec<S>,
-    /// All production of the step and the smallest of them; the largest number without any, J/K.
-    pub(super) production: S,
+    /// The smallest production of paths of heat between thermostats and reservoirs; the largest number without any,
+    /// J/K.
     pub(super) least: S,
 }
 
@@ -63,6 +70,10 @@ impl<S: Real> Progress<S> {
             scale: S::zero(),
             correction: S::zero(),
             lost: S::zero(),
+            production: S::zero(),
+            least: S::MAX,
+            factor: S::one(),
+            granularity: S::zero(),
             is_closed: S::Mask::none(),
             is_asking: S::Mask::none(),
             is_rigid: false,
@@ -86,7 +97,6 @@ impl<S: Real> Scratch<S> {
             creep: vec![S::zero(); layout.viscous],
             powers: vec![S::zero(); layout.viscous],
             paths: vec![S::zero(); components.paths.len()],
-            production: S::zero(),
             least: S::MAX,
         }
     }

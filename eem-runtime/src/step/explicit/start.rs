@@ -5,8 +5,9 @@ use super::components::Support;
 use super::memory::Target;
 use super::memory::{END, START};
 use super::stages::From;
-use super::vector::{add, difference, moment};
+use super::vector::{add, difference};
 use super::{Explicit, ExplicitView};
+use crate::algebra::bivector::Bivector;
 use crate::element::group::{ComponentEnergy, points};
 use crate::element::state::State;
 use crate::number::compensated::Sum;
@@ -82,7 +83,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             for (sum, value) in target.linear.iter_mut().zip(linear) {
                 *sum = Sum::new(value);
             }
-            target.angular = angular.map(Sum::new);
+            target.angular = angular.map(Sum::new(S::zero()), Sum::new);
             self.books.targets[index] = target;
         }
     }
@@ -97,10 +98,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Linear momentum, and angular momentum about the anchor, or about the centre of mass.
-    pub(super) fn momenta_of(&self, component: &Component<S>) -> ([S; D], [S; 3]) {
+    pub(super) fn momenta_of(&self, component: &Component<S>) -> ([S; D], Bivector<S, D>) {
         let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
         let momenta = points::<S, D>(&self.y[self.offsets.momenta..self.offsets.viscous]);
-        let (mut linear, mut angular) = ([S::zero(); D], [S::zero(); 3]);
+        let (mut linear, mut angular) = ([S::zero(); D], Bivector::zero());
         let origin = match component.support {
             Support::Free => self.center(component, positions),
             Support::Anchor(place) => positions[place],
@@ -109,7 +110,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for place in component.masses.clone() {
             let arm = difference(&positions[place], &origin);
             add(&mut linear, S::one(), &momenta[place]);
-            add(&mut angular, S::one(), &moment(&arm, &momenta[place]));
+            angular.add(S::one(), &Bivector::wedge(&arm, &momenta[place]));
         }
         (linear, angular)
     }

@@ -63,15 +63,13 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     pub(in super::super) fn defect_of(&self, index: usize) -> [S; 2] {
         let [energy, magnitude] = self.energy_of(index);
         let target = self.new_books.targets[index].energy;
-        let defect = (target.value - energy) + target.carry;
-        [defect, magnitude + target.value.abs()]
+        [target.beyond(energy), magnitude + target.value.abs()]
     }
 
-    /// Puts momenta back, and then energy by heat as long as no element has to be evaluated for it.
+    /// Puts energy back by heat as long as no element has to be evaluated for it.
     ///
     /// Of several numbers each goes the way that it would go alone.
     pub(super) fn balance(&mut self, index: usize, next: &mut State<S>) -> Verdict {
-        self.restore_momenta(index);
         loop {
             let is_finite = self.look(index);
             let progress = &mut self.scratch.progress[index];
@@ -152,6 +150,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             next.dissipated.add(change);
             self.new_books.targets[index].lost.add(change);
         }
+        scratch.progress[index].factor *= S::one() + part;
         let mut is_small = !S::Mask::none();
         for at in self.slots_of(index) {
             let slot = self.components.slots[at] as usize;
@@ -183,7 +182,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let energy = *theta * entropy * (S::one() + half * ratio);
         next.entropies.add(slot, entropy);
         scratch.produced[slot] += entropy;
-        scratch.production += entropy;
+        scratch.progress[index].production += entropy;
         scratch.energies[index].value.add(energy);
         let element = self.components.elements[slot] as usize;
         next.energies[element].value += energy;

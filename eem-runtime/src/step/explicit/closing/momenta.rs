@@ -1,10 +1,16 @@
-//! The momenta of a component are put back by a rigid motion.
+//! The momenta of a body are put back to their targets by a rigid motion.
 
 use super::super::Explicit;
 use super::super::components::{Component, Support};
-use super::super::vector::{Eliminated, Inertia, add, difference, dot, length, spin};
+use super::super::inertia::turning::turning;
+use super::super::inertia::{Inertia, Moments};
+use super::super::vector::{add, difference, dot, size};
+use crate::algebra::bivector::{Bivector, planes};
 use crate::element::group::points;
 use crate::number::scalar::{Mask, Real, unless};
+
+/// Roundings of `Σ |q||p|` that are left to the momenta: positions turn only for more.
+const OWN_ROUNDINGS: f64 = 2.0;
 
 /// The rigid part of the motion of a component.
 #[derive(Clone, Copy, Debug)]
@@ -12,17 +18,17 @@ pub(super) struct Rigid<S, const D: usize> {
     /// The anchor or the centre of mass, m, and its velocity where it is that of the masses, m/s.
     pub(super) origin: [S; D],
     pub(super) velocity: [S; D],
-    /// ω, 1/s.
-    pub(super) omega: [S; 3],
+    /// The angular velocity, 1/s.
+    pub(super) omega: Bivector<S, D>,
 }
 
-/// A component that turns like a rigid body.
+/// A component as a rigid body.
 #[derive(Clone, Copy, Debug)]
 struct Body<S, const D: usize> {
     /// The anchor or the centre of mass, m.
     origin: [S; D],
     /// About it; none where nothing turns.
-    inertia: Option<Eliminated<S>>,
+    inertia: Option<Inertia<S, D>>,
 }
 
 impl<S: Real, const D: usize> Body<S, D> {
@@ -30,68 +36,26 @@ impl<S: Real, const D: usize> Body<S, D> {
     fn motion(
         &self,
         component: &Component<S>,
-        (linear, angular): (&[S; D], &[S; 3]),
+        (linear, angular): (&[S; D], &Bivector<S, D>),
     ) -> Rigid<S, D> {
         let is_free = component.support == Support::Free;
-        let turning = self.inertia.map(|inertia| inertia.solve::<D>(*angular));
+        let turning = self.inertia.as_ref();
+        let turning = turning.map(|inertia| inertia.solve(angular));
         let zero = S::zero();
         Rigid {
             origin: self.origin,
             velocity: linear.map(|p| if is_free { p / component.mass } else { zero }),
-            omega: turning.unwrap_or([zero; 3]),
+            omega: turning.unwrap_or(Bivector::zero()),
         }
     }
 }
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// Turns a single mass on an anchor so that its arm is perpendicular to its angular momentum: no
-    /// momentum gives it one along its arm. Of several numbers it turns only some.
-    pub(super) fn turn_single_mass(&mut self, index: usize, which: S::Mask) {
-        let component = &self.components.all[index];
-        let Support::Anchor(anchor) = component.support else {
-            return;
-        };
-        if D != 3 || component.masses.len() != 1 {
-            return;
-        }
-        let place = component.masses.start;
-        let offsets = self.offsets;
-        let (positions, momenta) = self.y[..offsets.viscous].split_at_mut(offsets.momenta);
-        let positions = positions.as_chunks_mut::<D>().0;
-        let momentum = &mut momenta.as_chunks_mut::<D>().0[place];
-        let target = self.new_books.targets[index].angular.map(|sum| sum.value);
-        let origin = positions[anchor];
-        let arm = difference(&positions[place], &origin);
-        let [along, far] = [length(&target), length(&arm)];
-        let axis = target.map(|component| component / along);
-        let direction = arm.map(|component| component / far);
-        let elevation = (0..D).fold(S::zero(), |sum, i| sum + axis[i] * direction[i]);
-        let turn = spin(&axis, &direction);
-        let sine = length(&turn);
-        let zero = S::zero();
-        let is_turning = zero.less(along) & zero.less(far) & zero.less(sine) & which;
-        if !is_turning.any() {
-            return;
-        }
-        // About J × q, by the elevation of the arm above the plane that it has to be in.
-        let mut about = [S::zero(); 3];
-        for (about, &turn) in about.iter_mut().zip(&turn) {
-            *about = turn / sine;
-        }
-        let angle = elevation.atan2(sine);
-        let turned = rotated(&arm, &about, angle);
-        let position = positions[place];
-        positions[place] =
-            core::array::from_fn(|i| S::select(is_turning, origin[i] + turned[i], position[i]));
-        let turned = rotated(momentum, &about, angle);
-        *momentum = core::array::from_fn(|i| S::select(is_turning, turned[i], momentum[i]));
-    }
-
-    /// The rigid motion that has these momenta, less what the component has already.
+    /// The rigid motion of a component with these momenta.
     pub(super) fn rigid(
         &self,
         component: &Component<S>,
-        momenta: (&[S; D], &[S; 3]),
+        momenta: (&[S; D], &Bivector<S, D>),
     ) -> Rigid<S, D> {
         self.body(component).motion(component, momenta)
     }
@@ -103,27 +67,43 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             origin: [S::zero(); D],
             inertia: None,
         };
-        match component.support {
-            Support::Free => body.origin = self.center(component, positions),
-            Support::Anchor(place) => body.origin = positions[place],
+        let lonely = match component.support {
+            Support::Free => {
+                body.origin = self.center(component, positions);
+                1
+            }
+            Support::Anchor(place) => {
+                body.origin = positions[place];
+                0
+            }
             Support::Several => return body,
-        }
-        let is_free_mass = component.support == Support::Free && component.masses.len() == 1;
-        if D < 2 || is_free_mass {
+        };
+        let count = component.masses.len();
+        if D < 2 || count <= lonely {
             return body;
         }
-        let mut inertia = Inertia::none();
-        let is_single = D == 3 && component.masses.len() == 1;
-        for place in component.masses.clone() {
-            let arm = difference(&positions[place], &body.origin);
-            if is_single {
-                inertia.add_sphere(self.masses[place] * dot(&arm, &arm));
-            } else {
-                inertia.add(self.masses[place], &arm);
-            }
-        }
-        body.inertia = Some(inertia.eliminate::<D>());
+        let arm = |place: usize| difference(&positions[place], &body.origin);
+        body.inertia = Some(if count == lonely + 1 {
+            // The other mass of a pair is on the same line through the centre.
+            let moment = component.masses.clone().fold(S::zero(), |sum, place| {
+                let arm = arm(place);
+                sum + self.masses[place] * dot(&arm, &arm)
+            });
+            Inertia::of_line(&arm(component.masses.start), moment)
+        } else {
+            Inertia::of_body(self.moments(component, &body.origin))
+        });
         body
+    }
+
+    fn moments(&self, component: &Component<S>, origin: &[S; D]) -> Moments<S, D> {
+        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
+        let mut moments = Moments::none();
+        for place in component.masses.clone() {
+            let arm = difference(&positions[place], origin);
+            moments.add(self.masses[place], &arm);
+        }
+        moments
     }
 
     /// Adds a rigid motion to the momenta that do not wait.
@@ -136,7 +116,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let momenta = momenta.as_chunks_mut::<D>().0;
         for place in component.masses.clone() {
             let arm = difference(&positions[place], &rigid.origin);
-            let turning = spin(&rigid.omega, &arm);
+            let turning = rigid.omega.turn(&arm);
             let mut momentum = momenta[place];
             add(&mut momentum, self.masses[place], &rigid.velocity);
             add(&mut momentum, self.masses[place], &turning);
@@ -146,72 +126,116 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Puts the momenta back to their targets; in space twice, since the first correction may be large
-    /// beside its rounding.
+    /// beside its rounding. Positions turn where momenta alone cannot do it.
     pub(super) fn restore_momenta(&mut self, index: usize) {
         if self.components.all[index].support == Support::Several {
             return;
         }
-        let body = self.body(&self.components.all[index]);
-        for _ in 0..if D == 3 { 2 } else { 1 } {
+        let mut body = self.body(&self.components.all[index]);
+        let is_weak = match &body.inertia {
+            Some(Inertia::Line { along, .. }) => self.leaves_plane(index, [&body.origin, along]),
+            Some(Inertia::General(_)) => true,
+            _ => false,
+        };
+        if is_weak && self.turn_body(index, &body.origin) {
+            body = self.body(&self.components.all[index]);
+        }
+        for _ in 0..if D < 3 { 1 } else { 2 } {
             let component = &self.components.all[index];
-            let (linear, angular) = self.momenta_of(component);
-            let target = &self.new_books.targets[index];
-            let mut missing = [S::zero(); D];
-            let sums = target.linear.iter().zip(linear);
-            for (missing, (sum, found)) in missing.iter_mut().zip(sums) {
-                *missing = (sum.value - found) + sum.carry;
-            }
-            let lacking: [S; 3] = core::array::from_fn(|axis| {
-                let sum = target.angular[axis];
-                (sum.value - angular[axis]) + sum.carry
-            });
-            let rigid = body.motion(component, (&missing, &lacking));
+            let (linear, angular) = self.missing_momenta(index);
+            let rigid = body.motion(component, (&linear, &angular));
             self.add_rigid(index, &rigid);
         }
     }
-}
 
-/// A vector turned about a unit vector (Rodrigues).
-pub(super) fn rotated<S: Real, const D: usize>(r: &[S; D], about: &[S; 3], angle: S) -> [S; D] {
-    let (sine, half) = (angle.sin(), (S::from_f64(0.5) * angle).sin());
-    // 1 − cos, without cancellation.
-    let versine = (half + half) * half;
-    let turned = spin(about, r);
-    let again = spin(about, &turned);
-    let mut result = *r;
-    add(&mut result, sine, &turned);
-    add(&mut result, versine, &again);
-    result
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::super::vector::moment;
-    use super::*;
-
-    #[test]
-    fn a_quarter_turn() {
-        let turned = rotated(
-            &[1.0, 0.0, 2.0],
-            &[0.0, 0.0, 1.0],
-            core::f64::consts::FRAC_PI_2,
-        );
-        let expected = [0.0, 1.0, 2.0];
-        assert!(
-            length(&difference(&turned, &expected)) < 1e-15,
-            "{turned:?}"
-        );
-        let flat = rotated(&[1.0, 2.0], &[0.0, 0.0, -1.0], core::f64::consts::PI);
-        assert!(
-            length(&difference(&flat, &[-1.0, -2.0])) < 1e-15,
-            "{flat:?}"
-        );
+    /// What linear and angular momentum of a component lack.
+    pub(in super::super) fn missing_momenta(&self, index: usize) -> ([S; D], Bivector<S, D>) {
+        let (linear, angular) = self.momenta_of(&self.components.all[index]);
+        let target = &self.new_books.targets[index];
+        let linear = core::array::from_fn(|axis| target.linear[axis].beyond(linear[axis]));
+        let mut lacking = Bivector::zero();
+        for plane in planes::<D>() {
+            *lacking.at_mut(plane) = target.angular.at(plane).beyond(angular.at(plane));
+        }
+        (linear, lacking)
     }
 
-    #[test]
-    fn moments_of_vectors_are_perpendicular() {
-        let (r, p) = ([1.0_f64, 2.0, 3.0], [-0.5, 0.3, 0.9]);
-        let momentum = moment(&r, &p);
-        assert!(dot(&momentum, &r).abs() < 1e-15);
+    /// `Σ |p|` and `Σ |q||p|` of a component by sums of magnitudes, with coordinates q or arms about a point, whichever
+    /// are larger: positions are rounded to ε of their coordinates.
+    pub(in super::super) fn momentum_terms(&self, index: usize, origin: &[S; D]) -> [S; 2] {
+        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
+        let momenta = points::<S, D>(&self.y[self.offsets.momenta..self.offsets.viscous]);
+        let masses = self.components.all[index].masses.clone();
+        masses.fold([S::zero(); 2], |[linear, angular], place| {
+            let momentum = size(&momenta[place]);
+            let arm = size(&difference(&positions[place], origin));
+            let arm = arm.maximum(size(&positions[place]));
+            [linear + momentum, angular + arm * momentum]
+        })
+    }
+
+    /// Whether the angular momentum that masses on a line have to get has a part in planes across the line, which no
+    /// momentum gives them.
+    fn leaves_plane(&self, index: usize, [origin, along]: [&[S; D]; 2]) -> bool {
+        let target = self.angular_target(index);
+        let mut across = target;
+        across.add(-S::one(), &Bivector::wedge(along, &target.turn(along)));
+        let [_, terms] = self.momentum_terms(index, origin);
+        let most = S::from_f64(OWN_ROUNDINGS) * S::EPSILON * terms;
+        !across.largest().at_most(most).all()
+    }
+
+    fn angular_target(&self, index: usize) -> Bivector<S, D> {
+        let target = &self.new_books.targets[index].angular;
+        target.map(S::zero(), |sum| sum.value)
+    }
+
+    /// Turns positions and momenta of a component so that its momenta can be put back; whether it has turned.
+    #[cold]
+    fn turn_body(&mut self, index: usize, origin: &[S; D]) -> bool {
+        let component = &self.components.all[index];
+        let moments = self.moments(component, origin);
+        let (linear, present) = self.momenta_of(component);
+        let target = self.angular_target(index);
+        let [_, terms] = self.momentum_terms(index, origin);
+        let rounding = S::from_f64(OWN_ROUNDINGS) * S::EPSILON * terms;
+        let waits = self.scratch.waits[index];
+        let moves = S::select(waits, S::zero(), S::one());
+        let change = |lane: usize| {
+            if moves.lane(lane) < 1.0 {
+                return None;
+            }
+            let of_lane = |momentum: &Bivector<S, D>| momentum.map(0.0, |j| j.lane(lane));
+            let momenta = [&of_lane(&present), &of_lane(&target)];
+            turning(&moments.lane(lane), momenta, rounding.lane(lane))
+        };
+        if (0..S::LANES).all(|lane| change(lane).is_none()) {
+            return false;
+        }
+        let change: [[S; D]; D] = core::array::from_fn(|i| {
+            core::array::from_fn(|j| S::pack(|lane| change(lane).map_or(0.0, |by| by[i][j])))
+        });
+        let is_free = component.support == Support::Free;
+        let velocity = linear.map(|p| {
+            if is_free {
+                p / component.mass
+            } else {
+                S::zero()
+            }
+        });
+        let (masses, offsets) = (component.masses.clone(), self.offsets);
+        let (positions, momenta) = self.y[..offsets.viscous].split_at_mut(offsets.momenta);
+        let positions = positions.as_chunks_mut::<D>().0;
+        let momenta = momenta.as_chunks_mut::<D>().0;
+        for place in masses {
+            let arm = difference(&positions[place], origin);
+            let mut own = momenta[place];
+            add(&mut own, -self.masses[place], &velocity);
+            for (row, change) in change.iter().enumerate() {
+                positions[place][row] += dot(change, &arm);
+                momenta[place][row] += dot(change, &own);
+            }
+        }
+        true
     }
 }

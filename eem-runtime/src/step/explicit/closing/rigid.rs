@@ -3,7 +3,8 @@
 use super::super::demand::{Demand, Scales};
 use super::super::vector::{add, difference, length};
 use super::super::{Explicit, ExplicitView};
-use super::momenta::{Rigid, rotated};
+use super::momenta::Rigid;
+use crate::algebra::bivector::Bivector;
 use crate::element::group::points;
 use crate::element::state::State;
 use crate::number::scalar::{Discord, Mask, Real};
@@ -57,15 +58,23 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         next.dissipated
             .add(-lost.change(self.books.targets[index].lost));
         *lost = self.books.targets[index].lost;
-        self.scratch.progress[index].is_rigid = true;
+        let progress = &mut self.scratch.progress[index];
+        progress.is_rigid = true;
+        progress.production = S::zero();
+        progress.factor = S::zero();
         self.scratch.waits[index] = S::Mask::none();
+        self.restore_momenta(index);
         self.scratch.open[index] = true;
         Ok(())
     }
 
-    /// Whether the old state, turned, is within a part of what the stages say; if so, positions and momenta
+    /// Whether the old state, turned about one plane, is within a part of what the stages say; if so, positions and momenta
     /// are there then.
     fn takes_turn(&mut self, index: usize, h: S, largest: S, scales: Scales<S>) -> bool {
+        if D > 3 {
+            // It may turn in several planes at once.
+            return false;
+        }
         core::mem::swap(&mut self.y, &mut self.y0);
         let component = &self.components.all[index];
         let (linear, angular) = self.momenta_of(component);
@@ -89,9 +98,12 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     fn turned(&self, place: usize, rigid: &Rigid<S, D>, h: S) -> [[S; D]; 2] {
         let positions = points::<S, D>(&self.y0[..self.offsets.momenta]);
         let momenta = points::<S, D>(&self.y0[self.offsets.momenta..self.offsets.viscous]);
-        let speed = length(&rigid.omega);
+        let speed = rigid.omega.square().sqrt();
         let is_turning = S::zero().less(speed).all();
-        let about = rigid.omega.map(|w| if is_turning { w / speed } else { w });
+        let zero = S::zero();
+        let about = rigid
+            .omega
+            .map(zero, |w| if is_turning { w / speed } else { w });
         let mut along = [S::zero(); D];
         add(&mut along, self.masses[place], &rigid.velocity);
         let arm = difference(&positions[place], &rigid.origin);
@@ -147,5 +159,42 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             see(self.y[at] - self.y0[at], self.y0[at]);
         }
         largest
+    }
+}
+
+/// A vector turned in a plane, that of a bivector of length one (Rodrigues).
+fn rotated<S: Real, const D: usize>(r: &[S; D], about: &Bivector<S, D>, angle: S) -> [S; D] {
+    let (sine, half) = (angle.sin(), (S::from_f64(0.5) * angle).sin());
+    // 1 − cos, without cancellation.
+    let versine = (half + half) * half;
+    let turned = about.turn(r);
+    let again = about.turn(&turned);
+    let mut result = *r;
+    add(&mut result, sine, &turned);
+    add(&mut result, versine, &again);
+    result
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quarter_turn() {
+        let mut about = Bivector::<f64, 3>::zero();
+        *about.at_mut([0, 1]) = 1.0;
+        let turned = rotated(&[1.0, 0.0, 2.0], &about, core::f64::consts::FRAC_PI_2);
+        let expected = [0.0, 1.0, 2.0];
+        assert!(
+            length(&difference(&turned, &expected)) < 1e-15,
+            "{turned:?}"
+        );
+        let mut about = Bivector::<f64, 2>::zero();
+        *about.at_mut([0, 1]) = -1.0;
+        let flat = rotated(&[1.0, 2.0], &about, core::f64::consts::PI);
+        assert!(
+            length(&difference(&flat, &[-1.0, -2.0])) < 1e-15,
+            "{flat:?}"
+        );
     }
 }

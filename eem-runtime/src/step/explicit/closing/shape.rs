@@ -1,7 +1,7 @@
 //! Energy by motion, by shape, and by entropy at last.
 
 use super::super::components::{Component, Support};
-use super::super::vector::{add, difference, dot, spin};
+use super::super::vector::{add, difference, dot};
 use super::super::{Explicit, ExplicitView};
 use super::momenta::Rigid;
 use super::{MOST_TURNS, Verdict};
@@ -73,8 +73,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         if shifts.any() {
             let share = unless(!shifts, S::zero(), share);
             self.shift(index, (view, &means), share, next);
-            self.turn_single_mass(index, shifts);
             self.scratch.waits[index] = self.scratch.waits[index] & !shifts;
+            self.restore_momenta(index);
         }
         let is_left = is_left & !shifts;
         if is_left.any() && !self.sinks(index, is_left, next)? {
@@ -105,8 +105,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// What is left is rounding, or nothing can give it.
     fn unless_rounding(&mut self, index: usize, is_left: S::Mask) -> Verdict {
+        let granularity = self.granularity(index);
         let progress = &mut self.scratch.progress[index];
-        let bound = S::from_f64(0.5 * FROZEN) * S::EPSILON * progress.scale;
+        progress.granularity = granularity;
+        let bound = S::from_f64(0.5 * FROZEN) * S::EPSILON * (progress.scale + granularity);
         let is_rounding = progress.defect.abs().at_most(bound);
         progress.is_closed = progress.is_closed | (is_left & is_rounding);
         if progress.is_closed.all() {
@@ -114,6 +116,17 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         } else {
             Verdict::Failed
         }
+    }
+
+    /// `Σ |F||q|`: times ε, by how much the rounding of positions changes the energy, J.
+    fn granularity(&self, index: usize) -> S {
+        let forces = points::<S, D>(&self.scratch.forces);
+        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
+        let masses = self.components.all[index].masses.clone();
+        masses.fold(S::zero(), |sum, place| {
+            let terms = forces[place].iter().zip(&positions[place]);
+            terms.fold(sum, |sum, (&force, &q)| sum + (force * q).abs())
+        })
     }
 
     fn means(&self, index: usize, view: &ExplicitView<'_, S, D>) -> Means<S, D> {
@@ -182,7 +195,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let mut own = momenta[place];
         let arm = difference(&positions[place], &rigid.origin);
         add(&mut own, -mass, &rigid.velocity);
-        add(&mut own, -mass, &spin(&rigid.omega, &arm));
+        add(&mut own, -mass, &rigid.omega.turn(&arm));
         own
     }
 
@@ -193,7 +206,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
         let (mass, rigid) = (self.masses[place], &means.rigid);
         let arm = difference(&positions[place], &rigid.origin);
-        let toward = spin(&rigid.omega, &spin(&rigid.omega, &arm));
+        let toward = rigid.omega.turn(&rigid.omega.turn(&arm));
         let mut force = forces[place];
         add(&mut force, -mass, &toward);
         add(&mut force, -mass, &means.drift);

@@ -1,0 +1,147 @@
+//! Bivectors: angular momenta, torques and angular velocities in any dimension.
+//!
+//! A bivector has one component per pair of axes `i < j`, `(r ∧ p)_ij = r_i p_j − r_j p_i`: none on a line, one in
+//! the plane, three in space (the components x, y and z of `r × p` are those of (1, 2), (2, 0) and (0, 1)), six in
+//! four dimensions.
+
+use crate::number::scalar::Real;
+
+/// A bivector. Only the entries above the diagonal are used.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Bivector<T, const D: usize>([[T; D]; D]);
+
+impl<T: Copy, const D: usize> Bivector<T, D> {
+    /// With the same value in every plane.
+    pub(crate) const fn filled(value: T) -> Self {
+        Self([[value; D]; D])
+    }
+
+    /// The component of the plane of two axes `i < j`.
+    #[inline]
+    pub(crate) const fn at(&self, [i, j]: [usize; 2]) -> T {
+        self.0[i][j]
+    }
+
+    /// The same, to be changed.
+    #[inline]
+    pub(crate) const fn at_mut(&mut self, [i, j]: [usize; 2]) -> &mut T {
+        &mut self.0[i][j]
+    }
+
+    /// With each component by its plane.
+    #[inline]
+    pub(crate) fn map<U: Copy>(&self, unused: U, mut of: impl FnMut(T) -> U) -> Bivector<U, D> {
+        let mut result = Bivector::filled(unused);
+        for plane in planes::<D>() {
+            *result.at_mut(plane) = of(self.at(plane));
+        }
+        result
+    }
+}
+
+/// All pairs of axes `i < j`.
+#[inline]
+pub(crate) fn planes<const D: usize>() -> impl Iterator<Item = [usize; 2]> {
+    (0..D).flat_map(|i| (i + 1..D).map(move |j| [i, j]))
+}
+
+impl<S: Real, const D: usize> Bivector<S, D> {
+    /// Zero.
+    #[inline]
+    pub(crate) fn zero() -> Self {
+        Self::filled(S::zero())
+    }
+
+    /// `r ∧ p`.
+    #[inline]
+    pub(crate) fn wedge(r: &[S; D], p: &[S; D]) -> Self {
+        let mut wedge = Self::zero();
+        for i in 0..D {
+            for j in i + 1..D {
+                wedge.0[i][j] = r[i] * p[j] - r[j] * p[i];
+            }
+        }
+        wedge
+    }
+
+    /// `self += factor · other`.
+    #[inline]
+    pub(crate) fn add(&mut self, factor: S, other: &Self) {
+        for i in 0..D {
+            for j in i + 1..D {
+                self.0[i][j] += factor * other.0[i][j];
+            }
+        }
+    }
+
+    /// The velocity of a point `r` that turns with this angular velocity, `v_j = Σ_i Ω_ij r_i` with `Ω_ji = −Ω_ij`;
+    /// in space `ω × r`.
+    #[inline]
+    pub(crate) fn turn(&self, r: &[S; D]) -> [S; D] {
+        let mut velocity = [S::zero(); D];
+        for i in 0..D {
+            for j in i + 1..D {
+                velocity[j] += self.0[i][j] * r[i];
+                velocity[i] -= self.0[i][j] * r[j];
+            }
+        }
+        velocity
+    }
+
+    /// `Σ J_ij²` over all planes.
+    #[inline]
+    pub(crate) fn square(&self) -> S {
+        planes::<D>().fold(S::zero(), |sum, plane| {
+            sum + self.at(plane) * self.at(plane)
+        })
+    }
+
+    /// The largest `|J_ij|`.
+    #[inline]
+    pub(crate) fn largest(&self) -> S {
+        planes::<D>().fold(S::zero(), |most, plane| most.maximum(self.at(plane).abs()))
+    }
+
+    /// `Σ_ij a_i J_ij b_j` over all i and j: the component of the plane of two unit vectors.
+    pub(crate) fn between(&self, a: &[S; D], b: &[S; D]) -> S {
+        let turned = self.turn(a);
+        let terms = turned.iter().zip(b);
+        terms.fold(S::zero(), |sum, (&turned, &b)| sum + turned * b)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn in_space_it_is_the_cross_product() {
+        let (r, p) = ([1.0, 2.0, 3.0], [-0.5, 0.25, 4.0]);
+        let wedge = Bivector::<f64, 3>::wedge(&r, &p);
+        let cross = [2.0 * 4.0 - 3.0 * 0.25, -1.5 - 4.0, 0.25 + 1.0];
+        let found = [wedge.at([1, 2]), -wedge.at([0, 2]), wedge.at([0, 1])];
+        assert_eq!(found.map(f64::to_bits), cross.map(f64::to_bits));
+        // ω × r for ω = e_z.
+        let mut spin = Bivector::<f64, 3>::zero();
+        *spin.at_mut([0, 1]) = 1.0;
+        assert_eq!(
+            spin.turn(&r).map(f64::to_bits),
+            [-2.0_f64, 1.0, 0.0].map(f64::to_bits)
+        );
+    }
+
+    #[test]
+    fn four_dimensions_have_six_planes() {
+        assert_eq!(planes::<4>().count(), 6);
+        let (r, p) = ([1.0, 0.0, 2.0, -1.0], [0.0, 3.0, 1.0, 2.0]);
+        let wedge = Bivector::<f64, 4>::wedge(&r, &p);
+        for [i, j] in planes::<4>() {
+            let unit = |axis: usize| core::array::from_fn(|k| f64::from(u8::from(k == axis)));
+            let expected = r[i] * p[j] - r[j] * p[i];
+            assert_eq!(
+                wedge.between(&unit(i), &unit(j)).to_bits(),
+                expected.to_bits()
+            );
+        }
+    }
+}

@@ -1,0 +1,297 @@
+//! How fast a body turns with an angular momentum, whatever its shape and the dimension of the scene.
+//!
+//! The angular momentum of a rigid rotation Ω is
+//!
+//! ```text
+//! J = M Ω + Ω M,     M = Σ m r rᵀ
+//! ```
+//!
+//! In the principal axes of M, with moments μ, it is `J_ab = (μ_a + μ_b) Ω_ab`. Masses on a line have no inertia
+//! about it: in the planes without inertia no momentum changes J, see [`turning`].
+
+mod principal;
+pub(super) mod turning;
+
+use super::vector::length;
+use crate::algebra::bivector::Bivector;
+use crate::number::scalar::{Mask, Real};
+use principal::Principal;
+
+/// The share of the trace of M below which the inertia in a plane is weak: the correction of momenta there would be
+/// ten times as large as in other planes and more, and the body is turned instead.
+const WEAK: f64 = 1e-2;
+
+/// The share below which it is rounding: ε^¾ in double precision.
+const NO_INERTIA: f64 = 1.8e-12;
+
+/// `M = Σ m r rᵀ`, kg m². Only the entries on and above the diagonal are used.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moments<S, const D: usize>([[S; D]; D]);
+
+/// What turns how fast.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Inertia<S, const D: usize> {
+    /// In the plane, or of masses that are all at their centre: `Σ m r²`.
+    Single(S),
+    /// One arm by construction, a single mass on an anchor or a free pair: its direction and `Σ m r²`.
+    Line { along: [S; D], moment: S },
+    /// In space, factors of the inertia tensor.
+    Space(Factors<S>),
+    /// Any other: nearly on a line, of more dimensions, or several lanes.
+    General(Moments<S, D>),
+}
+
+impl<S: Real, const D: usize> Moments<S, D> {
+    /// Of nothing.
+    pub(super) fn none() -> Self {
+        Self([[S::zero(); D]; D])
+    }
+
+    /// Adds a mass at the end of an arm.
+    #[inline]
+    pub(super) fn add(&mut self, mass: S, r: &[S; D]) {
+        for i in 0..D {
+            for j in i..D {
+                self.0[i][j] += mass * (r[i] * r[j]);
+            }
+        }
+    }
+
+    #[inline]
+    fn trace(&self) -> S {
+        (0..D).fold(S::zero(), |sum, axis| sum + self.0[axis][axis])
+    }
+
+    pub(super) fn lane(&self, lane: usize) -> Moments<f64, D> {
+        Moments(self.0.map(|row| row.map(|entry| entry.lane(lane))))
+    }
+}
+
+impl<S: Real, const D: usize> Inertia<S, D> {
+    /// Of a body with more than one arm.
+    pub(super) fn of_body(moments: Moments<S, D>) -> Self {
+        if D < 3 {
+            return Self::Single(moments.trace());
+        }
+        if D == 3
+            && S::LANES == 1
+            && let Some(factors) = Factors::of(&moments)
+        {
+            return Self::Space(factors);
+        }
+        Self::General(moments)
+    }
+
+    /// Of a body with one arm, given the arm of one of its masses and `Σ m r²`.
+    #[inline]
+    pub(super) fn of_line(arm: &[S; D], moment: S) -> Self {
+        if D < 3 {
+            return Self::Single(moment);
+        }
+        let far = length(arm);
+        let has_length = S::zero().less(far);
+        let along = arm.map(|component| S::select(has_length, component / far, S::zero()));
+        Self::Line { along, moment }
+    }
+
+    /// The slowest rotation with an angular momentum; none in planes without inertia.
+    #[inline]
+    pub(super) fn solve(&self, momentum: &Bivector<S, D>) -> Bivector<S, D> {
+        match self {
+            Self::Single(moment) => {
+                let is_none = moment.at_most(S::zero());
+                momentum.map(S::zero(), |j| S::select(is_none, S::zero(), j / *moment))
+            }
+            Self::Line { along, moment } => {
+                let is_none = moment.at_most(S::zero());
+                let turning = momentum.turn(along);
+                let speed = turning.map(|w| S::select(is_none, S::zero(), w / *moment));
+                Bivector::wedge(along, &speed)
+            }
+            Self::Space(factors) => factors.solve(momentum),
+            Self::General(moments) => {
+                let mut omega = Bivector::zero();
+                for plane in crate::algebra::bivector::planes::<D>() {
+                    *omega.at_mut(plane) = S::pack(|lane| {
+                        let momentum = momentum.map(0.0, |j| j.lane(lane));
+                        solve_lane(moments.lane(lane), &momentum).at(plane)
+                    });
+                }
+                omega
+            }
+        }
+    }
+}
+
+/// The same for one lane alone: with the bits that it has alone.
+fn solve_lane<const D: usize>(
+    moments: Moments<f64, D>,
+    momentum: &Bivector<f64, D>,
+) -> Bivector<f64, D> {
+    if D == 3
+        && let Some(factors) = Factors::of(&moments)
+    {
+        return factors.solve(momentum);
+    }
+    Principal::of(&moments).solve(momentum)
+}
+
+/// The inertia tensor of a body in space, `tr M − M`, eliminated with the largest diagonal entry that is left as
+/// pivot: its factors `L D Lᵀ`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Factors<S> {
+    matrix: [[S; 3]; 3],
+    order: [usize; 3],
+}
+
+impl<S: Real> Factors<S> {
+    /// Nothing if the body is weak about an axis.
+    fn of<const D: usize>(moments: &Moments<S, D>) -> Option<Self> {
+        let trace = moments.trace();
+        let entry = |i: usize, j: usize| moments.0[i.min(j)][i.max(j)];
+        let mut matrix: [[S; 3]; 3] = core::array::from_fn(|i| {
+            core::array::from_fn(|j| {
+                if i == j {
+                    trace - entry(i, i)
+                } else {
+                    -entry(i, j)
+                }
+            })
+        });
+        let least = S::from_f64(WEAK) * trace;
+        let mut order = [0, 1, 2];
+        for step in 0..3 {
+            let mut best = step;
+            for other in step + 1..3 {
+                let [own, found] = [order[other], order[best]].map(|axis| matrix[axis][axis]);
+                if found.less(own).all() {
+                    best = other;
+                }
+            }
+            order.swap(step, best);
+            let pivot = order[step];
+            if !least.less(matrix[pivot][pivot]).all() {
+                return None;
+            }
+            for &row in &order[step + 1..] {
+                let factor = matrix[row][pivot] / matrix[pivot][pivot];
+                for &column in &order[step + 1..] {
+                    matrix[row][column] -= factor * matrix[pivot][column];
+                }
+                // Not needed any more, but the factor is.
+                matrix[row][pivot] = factor;
+            }
+        }
+        Some(Self { matrix, order })
+    }
+
+    /// The rotation about the axes (1, 2), (2, 0) and (0, 1).
+    #[inline]
+    fn solve<const D: usize>(&self, momentum: &Bivector<S, D>) -> Bivector<S, D> {
+        let (matrix, order) = (&self.matrix, &self.order);
+        let mut right = [
+            momentum.at([1, 2]),
+            -momentum.at([0, 2]),
+            momentum.at([0, 1]),
+        ];
+        for step in 0..3 {
+            let pivot = order[step];
+            for &row in &order[step + 1..] {
+                right[row] -= matrix[row][pivot] * right[pivot];
+            }
+        }
+        let mut omega = [S::zero(); 3];
+        for step in (0..3).rev() {
+            let pivot = order[step];
+            let rest = order[step + 1..]
+                .iter()
+                .fold(right[pivot], |rest, &column| {
+                    rest - matrix[pivot][column] * omega[column]
+                });
+            omega[pivot] = rest / matrix[pivot][pivot];
+        }
+        let mut rotation = Bivector::zero();
+        *rotation.at_mut([1, 2]) = omega[0];
+        *rotation.at_mut([0, 2]) = -omega[1];
+        *rotation.at_mut([0, 1]) = omega[2];
+        rotation
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::vector::difference;
+    use super::*;
+    use crate::algebra::bivector::planes;
+
+    /// The angular momentum of masses 1, 2, … that turn, and their moments.
+    fn turning<const D: usize>(
+        arms: &[[f64; D]],
+        omega: &Bivector<f64, D>,
+    ) -> (Bivector<f64, D>, Moments<f64, D>) {
+        let (mut momentum, mut moments) = (Bivector::zero(), Moments::none());
+        for (mass, arm) in (1..).zip(arms) {
+            let mass = f64::from(mass);
+            momentum.add(mass, &Bivector::wedge(arm, &omega.turn(arm)));
+            moments.add(mass, arm);
+        }
+        (momentum, moments)
+    }
+
+    fn spin<const D: usize>() -> Bivector<f64, D> {
+        let mut omega = Bivector::zero();
+        for (value, plane) in [0.3, -0.7, 1.9, 0.2, 1.1, -0.4]
+            .into_iter()
+            .zip(planes::<D>())
+        {
+            *omega.at_mut(plane) = value;
+        }
+        omega
+    }
+
+    #[test]
+    fn the_rotation_of_a_body_follows_from_its_angular_momentum() {
+        let omega = spin::<3>();
+        let arms = [[1.0, 0.2, -0.3], [0.1, 2.0, 0.4], [0.3, -0.5, 1.1]];
+        let (momentum, moments) = turning(&arms, &omega);
+        let mut off = Inertia::of_body(moments).solve(&momentum);
+        off.add(-1.0, &omega);
+        assert!(off.largest() < 1e-15, "{off:?}");
+
+        let omega = spin::<4>();
+        let arms = [
+            [1.0, 0.2, -0.3, 0.5],
+            [0.1, 2.0, 0.4, -1.0],
+            [0.3, -0.5, 1.1, 0.0],
+        ];
+        let (momentum, moments) = turning(&arms, &omega);
+        let mut off = Inertia::of_body(moments).solve(&momentum);
+        off.add(-1.0, &omega);
+        assert!(off.largest() < 1e-14, "{off:?}");
+    }
+
+    // Also on a diagonal, where rounding leaves no entry zero.
+    #[test]
+    fn masses_on_a_line_turn_across_it_only() {
+        for line in [[1.0, 0.0, 0.0], [0.0, 0.0, 2.0], [0.3, 1.7, -0.9]] {
+            let arms = [line, line.map(|x: f64| 2.5 * x)];
+            let (momentum, moments) = turning(&arms, &spin::<3>());
+            let square = |r: &[f64; 3]| r.iter().map(|x| x * x).sum::<f64>();
+            let moment = square(&arms[0]) + 2.0 * square(&arms[1]);
+            let both = [Inertia::of_body(moments), Inertia::of_line(&line, moment)];
+            let found = both.map(|inertia| inertia.solve(&momentum));
+            for omega in &found {
+                let (again, _) = turning(&arms, omega);
+                let mut off = again;
+                off.add(-1.0, &momentum);
+                assert!(off.largest() < 1e-14 * momentum.largest(), "{off:?}");
+                // The slowest of all that have it: the axis is perpendicular to the line.
+                let axis = [omega.at([1, 2]), -omega.at([0, 2]), omega.at([0, 1])];
+                let along: f64 = axis.iter().zip(&line).map(|(a, b)| a * b).sum();
+                assert!(along.abs() < 1e-13, "{along}");
+            }
+            let [a, b] = found.map(|omega| omega.turn(&[1.0, 2.0, 3.0]));
+            assert!(length(&difference(&a, &b)) < 1e-13);
+        }
+    }
+}
