@@ -44,11 +44,11 @@
 //! (1995) 1–12. \[2\] Hryciów, Appl. Sci. 12 (2022) 12765. \[3\] ISO 8608:2016, geometric mean.
 //!
 //! What the example claims, and fails without: with every energy–entropy–momentum scheme and any
-//! step that sees the road, energy minus work minus heat is constant to rounding and no step loses
-//! entropy; the damper warms by more than 20 K in a minute, which shakes the body at least 10 %
-//! less and moves the suspension at least 10 % more than a damper of constant viscosity; the wheel
-//! stays on the road, which does within 10 % the work that a road of all wavelengths does,
-//! `π² G₀ n₀² v k_t`.
+//! step that sees the road, energy minus work minus heat is constant to rounding (in a minute, with
+//! the step of 0.005 s, to 1.3e-10 J of 1.5e5 J) and no step loses entropy; the damper warms by more
+//! than 20 K in a minute, which shakes the body at least 10 % less and moves the suspension at least
+//! 10 % more than a damper of constant viscosity; the wheel stays on the road, which does within 10 %
+//! the work that a road of all wavelengths does, `π² G₀ n₀² v k_t`.
 
 use std::error::Error;
 use std::path::Path;

@@ -1,6 +1,6 @@
 //! The ledger: what the road gave and what became of it, and the laws that it must keep.
 
-use super::car::{DAMPER, TRACK, TYRE};
+use super::car::{BODY, CLEARANCE, DAMPER, GRAVITY, TRACK, TYRE};
 use super::support::claims::Claims;
 use super::support::record::Record;
 use super::support::statistics::{Statistics, largest};
@@ -10,9 +10,13 @@ use super::support::{table, terminal};
 /// a few roundings of ε/2.
 const BALANCE_DEFECT: f64 = 2.0 * f64::EPSILON;
 
-/// What closing one step may leave of it, relative to c θ: a rounding. Those of N steps that know nothing of each
-/// other add up to √N of one, and are four times as large once in ten thousand drives.
-const STEP_DEFECT: f64 = 4.0 * 0.5 * f64::EPSILON;
+/// What one step may leave of it, J: four roundings of the energy `fλ` of the strut below the resting body. Those
+/// of N steps that know nothing of each other add up to √N of one.
+const STEP_DEFECT: f64 = 4.0 * 0.5 * f64::EPSILON * BODY * GRAVITY * CLEARANCE;
+
+/// Roundings that are alike in every step, relative to the work that becomes heat: those of the weights of a
+/// scheme of higher order, for one.
+const WORK_DEFECT: f64 = 8.0 * f64::EPSILON;
 
 /// What rounding may take from S in a step, J/K: two units in the last place, |S| < 128 J/K.
 const ENTROPY_LOSS: f64 = 2.0 * 64.0 * f64::EPSILON;
@@ -69,10 +73,12 @@ pub(crate) fn check(run: &Record, claims: &mut Claims) {
     let heat = DAMPER.capacity * temperatures.iter().copied().fold(0.0, f64::max);
     #[expect(clippy::cast_precision_loss, reason = "a number of steps")]
     let steps = run.column("balance").map_or(0, <[f64]>::len) as f64;
+    let work = run.column("work").and_then(<[f64]>::last).copied();
+    let work = work.unwrap_or_default().abs();
     claims.at_most(
         &format!("{scheme}: the defect of the balance (J)"),
         balance_defect(run),
-        (BALANCE_DEFECT + STEP_DEFECT * steps.sqrt()) * heat,
+        BALANCE_DEFECT * heat + STEP_DEFECT * steps.sqrt() + WORK_DEFECT * work,
     );
     claims.at_least(
         &format!("{scheme}: the smallest entropy increment (J/K)"),

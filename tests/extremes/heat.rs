@@ -3,13 +3,14 @@
 use super::findings::{contact, on_anchor, small_capacity};
 use super::models::{Hot, Lattice, ThermoViscoElastic, Thermoelastic};
 use super::tally::{Effort, Family, Tally};
-use super::watched::{EXACT, Watched};
+use super::watched::{EXACT, FORMS, Watched};
 use super::world::World;
 
 pub(crate) const FAMILIES: &[Family] = &[
     temperatures,
     heated_from_cold,
     conductances,
+    cooling,
     capacities,
     vanishing_capacities,
 ];
@@ -128,6 +129,48 @@ fn conductances(effort: Effort) -> Tally {
     tally
 }
 
+/// Roundings of the heat of a step that its energy may be off by: those of θ*, of Q and of the two entropies.
+const OF_HEAT: f64 = 8.0 * f64::EPSILON;
+
+/// Nothing but heat changes the energy: each step is off by roundings of that heat, however much more the
+/// spring contains.
+fn cooling(effort: Effort) -> Tally {
+    let mut tally = Tally::new("a spring at rest, from 400 K to air of 300 K, hκ/c = 1e-9 … 1e9");
+    let steps = effort.of([5, 20, 1000]);
+    let (h, air) = (0.1, 300.0);
+    for scheme in FORMS {
+        for exponent in -9..=9 {
+            let model = Thermoelastic {
+                coupling: 0.0,
+                ..Thermoelastic::ORDINARY
+            };
+            let conductance = 10.0_f64.powi(exponent) * model.capacity / h;
+            let spring = |world: &mut World<2>, ends| {
+                let spring = world.warm(model, ends, 400.0);
+                let air = world.reservoir(air);
+                world.cool(spring, air, conductance);
+            };
+            let world = on_anchor(spring, [model.length, 0.0], [0.0; 2]);
+            let mut watched = world.start(scheme, h).expect("a sound scene");
+            let label = format!("hκ/c = 1e{exponent}, {}", scheme.name());
+            for _ in 0..steps {
+                let old = watched.stored().reservoirs[0];
+                if watched.step().is_err() {
+                    break;
+                }
+                let heat = air * (watched.stored().reservoirs[0] - old).value();
+                let (defect, allowed) = (watched.record.defect, OF_HEAT * heat.abs());
+                tally.claim(
+                    defect.abs() <= allowed,
+                    format!("{label}: off by {defect:.1e} J, heat of {heat:.1e} J explains {allowed:.1e} J"),
+                );
+            }
+            tally.add_complete(&label, &watched.record);
+        }
+    }
+    tally
+}
+
 fn temperatures_of(watched: &Watched<2>) -> [f64; 2] {
     let temperatures = &watched.stored().temperatures;
     [temperatures[0], temperatures[1]]
@@ -217,6 +260,11 @@ mod tests {
     #[test]
     fn conduction_of_any_strength_ends_at_the_mean_temperature() {
         conductances(Effort::Short).assert();
+    }
+
+    #[test]
+    fn the_heat_of_a_step_keeps_its_digits() {
+        cooling(Effort::Short).assert();
     }
 
     #[test]

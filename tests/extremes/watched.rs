@@ -24,6 +24,8 @@ pub(crate) struct Record {
     pub(crate) iterations: usize,
     /// In one step.
     pub(crate) most_iterations: usize,
+    /// ΔE − work − heat of the last step by the judge, J.
+    pub(crate) defect: f64,
     /// The largest |defect|/bound by the judge.
     pub(crate) worst: f64,
     /// Steps that broke a law, and the words of the first ones.
@@ -116,6 +118,7 @@ impl<const D: usize> Watched<D> {
         } else {
             record.worst
         };
+        record.defect = defect;
         record.complain(broken);
         self.state = after;
     }

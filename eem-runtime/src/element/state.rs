@@ -55,6 +55,8 @@ pub(crate) struct Energy<S> {
     /// `|ψ| + θ|s| + cθ`, or an eighth of `θ Σ |terms of s|` where those cancel: times 8 ε, what rounding
     /// may do to it and to the temperature that is found from s.
     pub(crate) magnitude: S,
+    /// c, J/K: times ε, what rounding of the temperature does to an entropy that is found from it.
+    pub(crate) heat_capacity: S,
 }
 
 /// The share of the terms of an entropy that counts in the magnitude of an energy: their sum is known to
@@ -71,6 +73,7 @@ impl<S: Real> Energy<S> {
         Self {
             value: psi + theta * entropy,
             magnitude: sizes.maximum(terms),
+            heat_capacity: caloric.heat_capacity,
         }
     }
 
@@ -80,6 +83,7 @@ impl<S: Real> Energy<S> {
         Self {
             value: psi,
             magnitude: psi.abs(),
+            heat_capacity: S::zero(),
         }
     }
 
@@ -88,6 +92,7 @@ impl<S: Real> Energy<S> {
         Self {
             value: S::zero(),
             magnitude: S::zero(),
+            heat_capacity: S::zero(),
         }
     }
 }

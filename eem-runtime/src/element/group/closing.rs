@@ -322,8 +322,13 @@ where
     /// Σ h κ (θ_r − θ* + correction) = θ* Δs − heat
     /// ```
     ///
-    /// Rounding of θ* is a heat of `hκ ε θ`, which exceeds that of the right-hand side where conduction
-    /// is stiff; so heat follows from the side whose terms, and roundings, are smaller.
+    /// Rounding of θ* changes the left-hand side by `hκ ε θ`. Rounding changes the right-hand side by
+    /// `ε (cθ + |θ* Δs| + |heat|)`: Δs is between two temperatures, each of which is rounded. Heat follows from
+    /// the side that rounding changes less.
+    ///
+    /// The entropy `u + P` that the element books is `Q/(θ* − correction)`, so that a correction changes the
+    /// energy by `Q correction/θ*`. Where it is made, it is no more than roundings of θ*, and that no more than
+    /// roundings of Q.
     fn reservoir_correction(&self, view: &StepView<'_, S>, slot: usize, heat: S) -> S {
         if !C::EXACT || self.is_prescribed {
             return S::zero();
@@ -333,7 +338,8 @@ where
         let flow = view.conduction.reservoir_flow(slot, theta);
         let conducted = h * flow.conductance;
         let taken = theta * self.response[Self::ENTROPY];
-        let is_stiff = (taken.abs() + heat.abs()).less(conducted * theta);
+        let stored = theta * view.state.energies[self.element.index()].heat_capacity;
+        let is_stiff = (stored + taken.abs() + heat.abs()).less(conducted * theta);
         let correction = ((taken - heat) - h * flow.heat) / conducted;
         S::select(is_stiff, correction, S::zero())
     }

@@ -170,7 +170,8 @@ where
     }
 
     /// What the differences `θ_r − Θ` lack for the heat that the entropy of the element has taken, K; see
-    /// the same of elements with one set of forces.
+    /// the same of elements with one set of forces. The unknown here is hṡ, which no temperature rounds, so
+    /// that the heat capacity does not matter.
     fn reservoir_correction(
         &self,
         (stage, share): (usize, S),
