@@ -5,6 +5,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod bars;
 mod blocks;
 mod cook;
 mod logarithmic_stiffness;

@@ -108,6 +108,42 @@ fn mean_value_gradients_of_all_shapes_are_exact() {
     gradients_are_exact::<Hex20, 3>();
 }
 
+/// What rounding of the arms does to gradients, in units of ε of what they are computed from: at most some, also where
+/// strains vanish and nothing else is left of the gradient of E:E; and there not much less, so that nothing hides.
+fn rounding_of_gradients_has_its_size<H: Shape<D>, const D: usize>() {
+    let mut numbers = Numbers(3);
+    let mut largest = [0.0_f64; COUNT];
+    for trial in 0..60 {
+        let (reference, point) = point::<H, D>(&mut numbers);
+        let places = shifted(&reference, &mut numbers, [0.1, 1e-6, 0.0][trial % 3]);
+        let arms = arms::<H, D>(&places);
+        let mut rounded = arms;
+        for at in rounded.as_mut().as_flattened_mut() {
+            *at *= 1.0 + f64::EPSILON * numbers.next();
+        }
+        let measures = point.measure(&arms);
+        let sizes = point.slope_sizes(&arms, &measures);
+        let [exact, found] = [&arms, &rounded].map(|arms| point.gradient(arms, &measures));
+        for a in 0..COUNT {
+            let pairs = exact[a].as_ref().as_flattened().iter();
+            let pairs = pairs.zip(found[a].as_ref().as_flattened());
+            let change: f64 = pairs.map(|(exact, found)| (exact - found).abs()).sum();
+            largest[a] = largest[a].max(change / (f64::EPSILON * sizes[a]));
+        }
+    }
+    println!("{}: {largest:?}", H::NAME);
+    assert!(largest.iter().all(|&most| most <= 4.0), "{largest:?}");
+    assert!(largest[1] >= 0.01, "{largest:?}");
+}
+
+#[test]
+fn rounding_of_gradients_of_all_shapes_has_its_size() {
+    rounding_of_gradients_has_its_size::<Quad4, 2>();
+    rounding_of_gradients_has_its_size::<Quad8, 2>();
+    rounding_of_gradients_has_its_size::<Hex8, 3>();
+    rounding_of_gradients_has_its_size::<Hex20, 3>();
+}
+
 /// `Σ f_a gradient_a`, flat.
 fn pulled<A: AsRef<[[f64; D]]>, const D: usize>(gradients: &[A], force: &[f64; COUNT]) -> Vec<f64> {
     let mut sum = vec![0.0; gradients[0].as_ref().len() * D];

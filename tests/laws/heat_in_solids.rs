@@ -84,6 +84,58 @@ fn films_and_walls_are_resistances_in_a_row() {
     assert!((flow - known).abs() <= 1e-10 * known, "{flow} W");
 }
 
+/// A bar of four cells between walls of the temperatures 290 K and 310 K has two points per cell, d apart, of which
+/// `sin πx` is a mode: it decays with `Λ = (4k/cd²) sin²(πd/2)`, in steps h as `(1 − Λh/2)/(1 + Λh/2)`, to the linear
+/// profile. As `θ*Δs = c Δθ`, the temperature θ* of a point in a step is the logarithmic mean of its ends, which is
+/// `Δθ²/12θ` less than their half sum.
+#[test]
+fn bars_between_walls_go_to_a_linear_profile_as_their_cells_do() {
+    const STEPS: i32 = 40;
+    let (distance, step, amplitude) = (0.125, 0.05, 1.0);
+    let linear = |x: f64| 290.0 + 20.0 * x;
+    let rate = 4.0 * 10.0 / 100.0 * f64::powi(f64::sin(0.5 * PI * distance) / distance, 2);
+    let factor = (1.0 - 0.5 * rate * step) / (1.0 + 0.5 * rate * step);
+    for scheme in [Scheme::EemTemperature, Scheme::EemEntropy] {
+        let warm = |[x, ..]: [f64; 3]| linear(x) + amplitude * f64::sin(PI * x);
+        let (mut scene, body, places) = cube([4, 1, 1], warm);
+        let [cold, hot] = [290.0, 310.0].map(|theta| scene.reservoir(theta));
+        let ends = [0.0, 1.0].map(|end| body.mesh().face(|[x, ..]| x == end).unwrap());
+        scene.wall(&body, &ends[0], cold);
+        scene.wall(&body, &ends[1], hot);
+        let mut run = Simulation::new(scene, scheme, step).unwrap();
+        for at in 1..=STEPS {
+            run.step().unwrap();
+            let share = amplitude * factor.powi(at);
+            // Δθ is at most Λh times the amplitude; its square goes with sin², of which a step conducts 2Λh.
+            let change = rate * step * amplitude;
+            let mean = f64::from(at) * 2.0 * rate * step * change * change / (12.0 * 290.0);
+            // The rounding of temperatures, of which steps add up.
+            let rounding = 4.0 * f64::from(at) * f64::EPSILON * 310.0;
+            for (&point, &[x, ..]) in body.points().iter().zip(&places) {
+                let known = linear(x) + share * f64::sin(PI * x);
+                let error = (run.temperature(point).unwrap() - known).abs();
+                assert!(
+                    error <= mean + rounding,
+                    "{scheme} {at} {x}: {error:e} K, {mean:e}"
+                );
+            }
+        }
+        // All modes, with Λ to 4k/cd², fall by a third in a step: to 1e-14 in 80.
+        let most = 4.0 * 10.0 / 100.0 / (distance * distance);
+        run.set_step_size(2.0 / f64::sqrt(rate * most)).unwrap();
+        for _ in 0..80 {
+            run.step().unwrap();
+        }
+        for (&point, &[x, ..]) in body.points().iter().zip(&places) {
+            let error = (run.temperature(point).unwrap() - linear(x)).abs();
+            assert!(
+                error <= 64.0 * f64::EPSILON * 310.0,
+                "{scheme} {x}: {error:e} K"
+            );
+        }
+    }
+}
+
 /// The first node of each cell, m, and the temperatures of its points, K, in the order of these nodes.
 type ByCell = Vec<([f64; 3], Vec<f64>)>;
 

@@ -54,7 +54,7 @@ where
     /// their change:
     ///
     /// ```text
-    /// h Σ_π |∂π/∂r| (|f*| + Σ |∂f*/∂x_j| |x_j|) (1 + |Δr|/ℓ)
+    /// h Σ_π (|∂²π/∂r²| |r| |f*| + |∂π/∂r| Σ |∂f*/∂x_j| |x_j|) (1 + |Δr|/ℓ)
     /// ```
     #[cold]
     pub(super) fn add_magnitude(
@@ -129,9 +129,11 @@ where
         let sizes = self.sizes(r1, &self.x);
         let [old, new] = [&self.start.x0, &self.x].map(measures_in::<K, S, D>);
         let slopes = self.kinematics.slopes(r1, &new);
+        let slope_sizes = self.kinematics.slope_sizes(r1, &new);
         let mut sum = S::zero();
         for a in 0..M::MEASURES {
-            sum += slopes[a] * (self.pull_of_row(a).abs() + self.resolution_of_row(a, &sizes));
+            sum += slope_sizes[a] * self.pull_of_row(a).abs();
+            sum += slopes[a] * self.resolution_of_row(a, &sizes);
         }
         let lengths = [old, new].map(|measures| self.kinematics.length(&measures));
         sum * (S::one() + motion / lengths[0].minimum(lengths[1]))

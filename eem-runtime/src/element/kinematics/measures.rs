@@ -77,6 +77,16 @@ pub trait Kinematics<S: Real, const D: usize>:
     fn slopes(&self, r: &Arms<Self, S, D>, measures: &Measures<Self, S, D>)
     -> Measures<Self, S, D>;
 
+    /// The magnitude of the terms of `∂π/∂r`, `|∂²π/∂r²| |r|`: times ε, the rounding of the gradient. It is the
+    /// gradient itself unless its terms cancel.
+    fn slope_sizes(
+        &self,
+        r: &Arms<Self, S, D>,
+        measures: &Measures<Self, S, D>,
+    ) -> Measures<Self, S, D> {
+        self.slopes(r, measures)
+    }
+
     /// Stress and strain with these arms under conjugates of the measures; none of a spring.
     fn solid_state(&self, _: &Arms<Self, S, D>, _: &Measures<Self, S, D>) -> Option<SolidState<S>> {
         None

@@ -128,6 +128,19 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
         tensor
     }
 
+    /// The magnitude of the terms of F, `Σ |r_i| ⊗ |B_i|`.
+    pub(super) fn terms_of_deformation(&self, r: &PerArm<H, S, D>) -> Tensor<S, D> {
+        let mut terms = [[S::zero(); D]; D];
+        for (arm, gradient) in r.as_ref().iter().zip(self.gradients.as_ref()) {
+            for (row, component) in terms.iter_mut().zip(arm) {
+                for (entry, slope) in row.iter_mut().zip(gradient) {
+                    *entry += component.abs() * slope.abs();
+                }
+            }
+        }
+        terms
+    }
+
     /// `F A B_i` of all arms.
     #[inline]
     pub(super) fn pulled(&self, tensor: &Tensor<S, D>, by: &H::Tensor<S>) -> PerArm<H, S, D> {

@@ -8,9 +8,9 @@ use crate::element::kinematics::shape::Shape;
 use crate::element::kinematics::solid::{PerArm, PerPair, SolidPoint, Strains};
 use crate::element::kinematics::solid_state::SolidState;
 use crate::element::kinematics::strain::Measure;
-use crate::element::kinematics::tensor::{Symmetric, dot};
+use crate::element::kinematics::tensor::{Symmetric, dot, plus, pushed};
 use crate::material::free_energy::{Array, Entry};
-use crate::number::scalar::{Mask, Real};
+use crate::number::scalar::{Mask, Real, Scalar};
 
 impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
     for SolidPoint<H, S, N, D>
@@ -70,6 +70,33 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
         gradient.map(|arms| {
             let entries = arms.as_ref().iter().flatten();
             entries.fold(S::zero(), |sum, entry| sum + entry.abs())
+        })
+    }
+
+    // Of E⁰ + E¹, the slope of E:E, nothing is left where strains vanish, but the rounding of its terms
+    // ½(FᵀF + 1) remains. It acts in all directions, also in those without force.
+    fn slope_sizes(&self, r: &PerArm<H, S, D>, _: &[S; N]) -> [S; N] {
+        let tensor = self.deformation(r);
+        let between = Strains::<H, S, D>::new([&tensor, &tensor]);
+        let terms = self.terms_of_deformation(r);
+        let strain = plus(
+            &H::Tensor::<S>::green_lagrange(&terms),
+            S::one(),
+            &H::Tensor::<S>::unit(),
+        );
+        self.measures.each_ref().map(|measure| {
+            let mut slope = match measure {
+                Measure::Square => plus(&strain, S::one(), &strain),
+                _ => between.slope(measure),
+            };
+            for entry in slope.as_mut() {
+                *entry = entry.abs();
+            }
+            let sizes = self.gradients.as_ref().iter().flat_map(|b| {
+                let b = b.map(Scalar::abs);
+                pushed(&terms, &slope.applied(&b))
+            });
+            sizes.fold(S::zero(), |sum, size| sum + size)
         })
     }
 

@@ -39,12 +39,14 @@ impl<S: Real, const D: usize> Solver<S, D> {
                     (self.coupling).impulse((moving, node), &self.trial, twice_per_step);
                 let found = remembering.impulse_mut(at);
                 let magnitude = self.magnitudes.get(at).copied();
-                let magnitude = magnitude.unwrap_or(S::zero());
+                // The forces of all directions leave their rounding in each.
+                let sizes = impulse.iter().map(|impulse| impulse.abs());
+                let magnitude = sizes.fold(magnitude.unwrap_or(S::zero()), |sum, size| sum + size);
                 for axis in 0..D {
                     let residual = impulse[axis] - found[axis];
                     largest.see(residual);
                     if is_exact {
-                        tally.balance(residual, impulse[axis].abs() + terms[axis] + magnitude);
+                        tally.balance(residual, magnitude + terms[axis]);
                     }
                 }
                 *found = impulse;

@@ -37,15 +37,20 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 let inertia = inertias[set] * moving.place.mass;
                 let change = moving.change(&self.trial);
                 let impulse = stages.combined(node, weights);
+                let gained = change.map(|change| inertia * change);
                 let magnitude = self.magnitudes.get(node).copied();
+                let mut magnitude = magnitude.unwrap_or(S::zero());
+                // The forces of all directions leave their rounding in each.
                 for axis in 0..D {
-                    let gained = inertia * change[axis];
-                    largest.see(gained - impulse[axis]);
-                    let mut terms = gained.abs() + magnitude.unwrap_or(S::zero());
+                    magnitude += gained[axis].abs();
                     for (&weight, impulse) in weights.iter().zip(&stages.impulses[node]) {
-                        terms += (S::from_f64(weight) * impulse[axis]).abs();
+                        magnitude += (S::from_f64(weight) * impulse[axis]).abs();
                     }
-                    tally.balance(gained - impulse[axis], terms);
+                }
+                for axis in 0..D {
+                    let residual = gained[axis] - impulse[axis];
+                    largest.see(residual);
+                    tally.balance(residual, magnitude);
                 }
             }
         }
