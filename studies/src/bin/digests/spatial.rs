@@ -1,0 +1,147 @@
+//! Scenes in space.
+
+use eem::kinematics::Hex8;
+use eem::prelude::*;
+use eem::{FreeEnergy, Real, StrainEnergy};
+use eem_studies::build::Build;
+use eem_studies::models::Elastic;
+use eem_studies::published::{Double, LOGARITHMIC, SPRING};
+
+use crate::matrix::Entry;
+use crate::planar::{RUBBER, SOLID};
+use crate::watch::{Case, Drive};
+
+#[derive(Clone, Copy)]
+pub(crate) enum Spatial {
+    Romero,
+    Krueger,
+    Log,
+    FreePair,
+    FreeLine,
+    Tetrahedron,
+    Block,
+    WarmBlock,
+}
+
+const fn entry(name: &'static str, case: Spatial, step: f64, drive: Drive) -> Entry<Spatial> {
+    Entry {
+        name,
+        case,
+        step,
+        drive,
+        in_lanes: true,
+    }
+}
+
+const fn large(name: &'static str, case: Spatial, step: f64, steps: usize) -> Entry<Spatial> {
+    Entry {
+        in_lanes: false,
+        ..entry(name, case, step, Drive::Steps(steps))
+    }
+}
+
+pub(crate) const SPATIAL: [Entry<Spatial>; 9] = [
+    entry("romero", Spatial::Romero, 0.3, Drive::Steps(30)),
+    entry("krueger", Spatial::Krueger, 0.1, Drive::Steps(30)),
+    entry("log", Spatial::Log, 0.05, Drive::Steps(30)),
+    entry("free-pair-3d", Spatial::FreePair, 0.05, Drive::Steps(50)),
+    entry("free-line-3d", Spatial::FreeLine, 0.02, Drive::Steps(30)),
+    entry("tetrahedron", Spatial::Tetrahedron, 0.02, Drive::Steps(20)),
+    entry(
+        "control-3d",
+        Spatial::FreePair,
+        0.05,
+        Drive::Controlled(1e-3, 20),
+    ),
+    large("block", Spatial::Block, 0.05, 5),
+    large("warm-block", Spatial::WarmBlock, 0.01, 3),
+];
+
+const HOOKE: Elastic = Elastic {
+    stiffness: 100.0,
+    length: 1.0,
+};
+
+impl Case<3> for Spatial {
+    fn build<S: Real>(self, factor: S) -> Build<3, S> {
+        let mut build = Build::new(factor);
+        let scene = &mut build;
+        match self {
+            Self::Romero => return Double::ROMERO.build(factor),
+            Self::Krueger => return Double::KRUEGER.build(factor),
+            Self::Log => return Double::LOG.build(factor),
+            Self::FreePair => {
+                let ends = [
+                    scene.mass(1.0, [0.1, 0.2, 0.3], [0.5, -1.0, 0.2]),
+                    scene.mass(3.0, [1.1, 0.5, -0.2], [-0.5, 2.0, 1.0]),
+                ];
+                scene.spring(HOOKE, ends);
+            }
+            Self::FreeLine => {
+                let masses =
+                    [0.0, 1.0, 2.1].map(|x| scene.mass(1.0 + x, [x, 0.0, 0.0], [0.1, x, 1.0 - x]));
+                scene.spring(HOOKE, [masses[0], masses[1]]);
+                scene.warm(SPRING, [masses[1], masses[2]], 310.0);
+            }
+            Self::Tetrahedron => tetrahedron(scene),
+            Self::Block => {
+                block(scene, SOLID, &Bulk::new(S::from_f64(10.0)));
+            }
+            Self::WarmBlock => {
+                let bulk = Bulk::new(S::from_f64(10.0)).conductivity(20.0);
+                for (point, warmth) in block(scene, RUBBER, &bulk).into_iter().zip((0..11).cycle())
+                {
+                    let temperature = S::from_f64(300.0 + f64::from(warmth));
+                    scene.scene.set_temperature(point, temperature);
+                }
+            }
+        }
+        build
+    }
+}
+
+/// Four free masses and six springs of three kinds, two of them in contact.
+fn tetrahedron<S: Real>(scene: &mut Build<3, S>) {
+    let places = [
+        [1.1, 0.0, 0.0],
+        [-0.5, 0.9, 0.0],
+        [-0.5, -0.9, 0.1],
+        [0.1, 0.0, 1.3],
+    ];
+    let velocities = [
+        [0.0, 0.5, 0.1],
+        [-0.4, -0.2, 0.0],
+        [0.4, -0.1, -0.2],
+        [0.1, 0.0, 0.3],
+    ];
+    let masses = [1.0, 2.0, 1.5, 0.5];
+    let [a, b, c, d] = [0, 1, 2, 3].map(|i| scene.mass(masses[i], places[i], velocities[i]));
+    let first = scene.warm(LOGARITHMIC, [a, b], 300.0);
+    let second = scene.warm(SPRING, [b, c], 310.0);
+    scene.conduct(first, second, 10.0);
+    scene.warm(SPRING, [c, a], 290.0);
+    for ends in [[a, d], [b, d], [c, d]] {
+        scene.spring(HOOKE, ends);
+    }
+}
+
+/// A free block of a few cells, and its points.
+fn block<S: Real, M, const N: usize>(
+    scene: &mut Build<3, S>,
+    model: M,
+    bulk: &Bulk<3, S>,
+) -> Vec<Element>
+where
+    M: FreeEnergy<S> + StrainEnergy<N> + Send + Sync + 'static,
+{
+    let mesh = Mesh::<Hex8, 3>::block([3, 2, 2], [[0.0, 3.0], [0.0, 2.0], [0.0, 2.0]]);
+    let mesh = mesh.unwrap_or_else(|error| panic!("{error}"));
+    let body = scene.scene.solid(model, &mesh, bulk);
+    for (&node, &[x, y, z]) in body.nodes().iter().zip(mesh.nodes()) {
+        let velocity = scene.scaled([(0.7 * x + y).sin(), (x - 0.3 * z).cos(), 0.2 * y]);
+        scene.scene.set_velocity(node, velocity);
+    }
+    scene.handles.nodes.extend(body.nodes());
+    scene.handles.elements.extend(body.points());
+    body.points().to_vec()
+}

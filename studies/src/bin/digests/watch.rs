@@ -1,0 +1,178 @@
+//! Runs a scene as it is to be run, and digests how it ends.
+
+use eem::prelude::*;
+use eem::{Experiment, MemberFailure, Members, Outputs, Real};
+use eem_studies::build::{Build, Handles};
+use xxhash_rust::xxh3::xxh3_64;
+
+/// How a scene is run.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Drive {
+    /// So many steps.
+    Steps(usize),
+    /// So many steps under control, with a relative tolerance.
+    Controlled(f64, usize),
+    /// Until the first coordinate of the last node changes its sign, until a time (s) at the latest.
+    Event(f64),
+}
+
+/// A scene whose initial velocities are multiplied by a factor.
+pub(crate) trait Case<const D: usize>: Copy + Sync {
+    fn build<S: Real>(self, factor: S) -> Build<D, S>;
+}
+
+/// How a run ended.
+#[derive(Clone)]
+pub(crate) struct Seen {
+    pub(crate) steps: usize,
+    pub(crate) iterations: usize,
+    /// The name of the error that ended it, if one did.
+    pub(crate) error: String,
+    /// Of the last state.
+    pub(crate) digest: u64,
+}
+
+/// The name of an error, without what it says.
+pub(crate) fn name_of(error: &impl core::fmt::Debug) -> String {
+    let text = format!("{error:?}");
+    let name = text.split(|letter: char| !letter.is_alphanumeric());
+    name.take(1).collect()
+}
+
+/// A digest of numbers, which tells all of them apart.
+pub(crate) fn digest(numbers: impl Iterator<Item = u64>) -> u64 {
+    xxh3_64(&numbers.flat_map(u64::to_le_bytes).collect::<Vec<_>>())
+}
+
+/// All numbers of the present state, and of its ledger.
+fn numbers<const D: usize, S: Real>(run: &Simulation<D, S>, handles: &Handles) -> Vec<S> {
+    let mut numbers = vec![run.time(), run.step_size()];
+    for &node in &handles.nodes {
+        let vectors = [run.position(node), run.momentum(node), run.velocity(node)];
+        numbers.extend(vectors.iter().flatten().flat_map(|vector| vector.iter()));
+    }
+    for &element in &handles.elements {
+        let values = [
+            run.force(element),
+            run.internal_energy(element),
+            run.temperature(element),
+            run.entropy(element),
+            run.entropy_production(element),
+            run.viscous_stretch(element, 0),
+            run.viscous_stretch(element, 1),
+        ];
+        numbers.extend(values.into_iter().flatten());
+    }
+    let reservoirs = handles.reservoirs.iter();
+    numbers.extend(reservoirs.flat_map(|&reservoir| run.reservoir_entropy(reservoir)));
+    let ledger = run.ledger();
+    numbers.extend([
+        ledger.kinetic_energy,
+        ledger.potential_energy,
+        ledger.internal_energy,
+        ledger.reservoir_heat,
+        ledger.lost_heat,
+        ledger.energy,
+        ledger.work,
+        ledger.heat,
+        ledger.balance,
+        ledger.element_entropy,
+        ledger.element_entropy_of_state,
+        ledger.reservoir_entropy,
+        ledger.thermostat_entropy,
+        ledger.entropy,
+    ]);
+    numbers.extend(ledger.linear_momentum.iter());
+    numbers.extend(ledger.angular_momentum.iter());
+    numbers
+}
+
+/// Steps a simulation; how many steps and iterations were made is counted also if one fails.
+fn drive<const D: usize, S: Real>(
+    run: &mut Simulation<D, S>,
+    drive: Drive,
+    last: Option<Node>,
+    [steps, iterations]: [&mut usize; 2],
+) -> Result<(), MemberFailure> {
+    let mut count = |report: &StepReport<S>| {
+        *steps += 1;
+        *iterations += report.iterations;
+    };
+    match (drive, last) {
+        (Drive::Event(end), Some(node)) => {
+            let mut events = [Event::crossing(move |run: &Simulation<D, S>| {
+                Ok(run.position(node)?[0])
+            })];
+            run.run_until_event_with(S::from_f64(end), &mut events, |_, report| {
+                count(report);
+                ControlFlow::Continue(())
+            })?;
+        }
+        (Drive::Steps(steps) | Drive::Controlled(_, steps), _) => {
+            if let Drive::Controlled(tolerance, _) = drive {
+                run.control_steps(Tolerance::new(S::from_f64(tolerance)))?;
+            }
+            for _ in 0..steps {
+                count(&run.step()?);
+            }
+        }
+        (Drive::Event(_), None) => {}
+    }
+    Ok(())
+}
+
+/// Runs a scene; all numbers of its last state, and how it ended but for their digest.
+///
+/// Members that move together fail together: then the error is returned, so that they are run one by one.
+pub(crate) fn watch<const D: usize, S: Real>(
+    run: &mut Simulation<D, S>,
+    handles: &Handles,
+    how: Drive,
+) -> Result<(Vec<S>, Seen), MemberFailure> {
+    let (mut steps, mut iterations) = (0, 0);
+    let last = handles.nodes.last().copied();
+    let error = match drive(run, how, last, [&mut steps, &mut iterations]) {
+        Ok(()) => String::new(),
+        Err(failure) if S::LANES > 1 => return Err(failure),
+        Err(MemberFailure::Step(error)) => name_of(&error.failure),
+        Err(MemberFailure::Scene(error)) => name_of(&error),
+        Err(other) => name_of(&other),
+    };
+    let seen = Seen {
+        steps,
+        iterations,
+        error,
+        digest: 0,
+    };
+    Ok((numbers(run, handles), seen))
+}
+
+/// A case as an experiment, whose inputs are the factors.
+pub(crate) struct Watched<C> {
+    pub(crate) case: C,
+    pub(crate) drive: Drive,
+}
+
+impl<const D: usize, C: Case<D>> Experiment<D> for Watched<C> {
+    type Input = f64;
+    type Handles = Handles;
+    type Output = Seen;
+
+    fn build<S: Real>(&self, members: Members<'_, f64, S>) -> (Scene<D, S>, Handles) {
+        let build = self.case.build(members.number(|&factor| factor));
+        (build.scene, build.handles)
+    }
+
+    fn observe<S: Real>(
+        &self,
+        run: &mut Simulation<D, S>,
+        handles: Handles,
+        members: Members<'_, f64, S>,
+    ) -> Result<Outputs<Seen>, MemberFailure> {
+        let (numbers, seen) = watch(run, &handles, self.drive)?;
+        Ok(members.outputs(|_, of| Seen {
+            digest: digest(numbers.iter().map(|&number| of(number).to_bits())),
+            ..seen.clone()
+        }))
+    }
+}

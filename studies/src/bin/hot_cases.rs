@@ -1,0 +1,81 @@
+//! Some steps of a published case, to count instructions of: `hot_cases CASE STEPS`.
+//!
+//! Prints the numbers of steps and of Newton iterations; see `studies/README.md`.
+
+use std::error::Error;
+
+use clap::{Parser, ValueEnum};
+use eem::prelude::*;
+use eem_studies::published::{self as single_pendulum, Double, single};
+
+#[path = "../../../examples/satellite/scene.rs"]
+#[allow(dead_code, reason = "the example uses all of it")]
+mod satellite;
+
+/// Steps of a hot case.
+#[derive(Debug, Parser)]
+struct Options {
+    /// What is stepped.
+    case: Case,
+    /// How many steps are made.
+    steps: usize,
+    /// Their size in s, instead of the one that is measured.
+    #[arg(long, value_name = "H")]
+    step: Option<f64>,
+}
+
+/// A scheme and a scene.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Case {
+    ExplicitSingle,
+    ExplicitKrueger,
+    ExplicitLog,
+    TemperatureSingle,
+    TemperatureLog,
+    EntropySingle,
+    EntropyLog,
+    Satellite,
+}
+
+/// Steps of one size: how many, and the iterations that they took.
+fn go<const D: usize>(
+    scene: Scene<D>,
+    scheme: Scheme,
+    step: f64,
+    steps: usize,
+) -> Result<(), Box<dyn Error>> {
+    let mut run = Simulation::new(scene, scheme, step)?;
+    let mut iterations = 0;
+    for _ in 0..steps {
+        iterations += run.step()?.iterations;
+    }
+    println!("{steps} {iterations}");
+    Ok(())
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    use Scheme::{EemEntropy, EemExplicit, EemTemperature};
+    let Options { case, steps, step } = Options::parse();
+    let single = |scheme, size| go(single(1.0).scene, scheme, step.unwrap_or(size), steps);
+    let double = |case: &Double, scheme, size| {
+        go(case.build(1.0).scene, scheme, step.unwrap_or(size), steps)
+    };
+    match case {
+        Case::ExplicitSingle => single(EemExplicit, 0.05),
+        Case::ExplicitKrueger => double(&Double::KRUEGER, EemExplicit, 0.1),
+        Case::ExplicitLog => double(&Double::LOG, EemExplicit, 0.05),
+        Case::TemperatureSingle => single(EemTemperature, 0.01),
+        Case::TemperatureLog => double(&Double::LOG, EemTemperature, 0.01),
+        Case::EntropySingle => single(EemEntropy, 0.01),
+        Case::EntropyLog => double(&Double::LOG, EemEntropy, 0.01),
+        Case::Satellite => {
+            let scene = satellite::satellite(satellite::Axis::Z, false)?.scene;
+            go(
+                scene,
+                EemTemperature,
+                step.unwrap_or(satellite::STEP),
+                steps,
+            )
+        }
+    }
+}
