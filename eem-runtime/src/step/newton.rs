@@ -193,3 +193,12 @@ mod tests {
         assert!(!is_last(f64::NAN, Some(1e-3), 1e-8));
     }
 }
+
+/// One iteration of Newton's method.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NewtonIteration {
+    /// The largest residual of the momentum balances before the update, N s.
+    pub residual: f64,
+    /// The largest update, in units of the longest stretch and of the temperatures.
+    pub update: f64,
+}

@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::algebra::memory::TooLarge;
 use crate::element::error::StateError;
 use crate::element::group::Misfit;
 use crate::element::handle::Element;
@@ -92,6 +93,9 @@ pub enum RestoreError {
         /// What is said to be missing of it.
         carry: f64,
     },
+    /// The scheme of the checkpoint, or that to which a run returns, takes more memory than it may.
+    #[error(transparent)]
+    Memory(#[from] TooLarge),
     /// The scenes have other numbers: the parameters of a material, a mass, a conductance.
     #[error(
         "the checkpoint is one of a scene with other {kind}: build the scene with the numbers that it had"
