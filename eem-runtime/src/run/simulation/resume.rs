@@ -3,7 +3,7 @@
 use super::Simulation;
 use crate::element::state::State;
 use crate::number::scalar::Real;
-use crate::run::checkpoint::{Checkpoint, Outline, RestoreError};
+use crate::run::checkpoint::{Checkpoint, Outline, RestoreError, Seals};
 use crate::step::outcome::Corrections;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
@@ -41,7 +41,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             },
             past,
             explicit,
+            seals: Seals::none(),
         }
+        .sealed_up()
     }
 
     /// Goes back, or on, to a saved state, of this simulation or of one of the same scene in another
