@@ -27,6 +27,16 @@ pub(super) struct Progress<S: Real> {
     pub(super) is_rigid: bool,
 }
 
+/// Sums of rows of matrices, which say how fast the fastest motion can be.
+#[derive(Clone, Debug)]
+pub(super) struct RowSums<S> {
+    /// `ω²` per node of the scene, 1/s².
+    pub(super) squares: Vec<S>,
+    /// c per thermal slot, J/K, and its share of conduction, 1/s.
+    pub(super) capacities: Vec<S>,
+    pub(super) flows: Vec<S>,
+}
+
 /// Working memory of the closing of a step.
 #[derive(Clone, Debug)]
 pub(super) struct Scratch<S: Real> {
@@ -52,6 +62,7 @@ pub(super) struct Scratch<S: Real> {
     /// All production of the step and the smallest of them; the largest number without any, J/K.
     pub(super) production: S,
     pub(super) least: S,
+    pub(super) stability: RowSums<S>,
 }
 
 impl<S: Real> Progress<S> {
@@ -71,7 +82,12 @@ impl<S: Real> Progress<S> {
 }
 
 impl<S: Real> Scratch<S> {
-    pub(super) fn new(components: &Components<S>, layout: &Layout, coordinates: usize) -> Self {
+    /// For so many nodes of the scene, and so many coordinates of those that the scheme moves.
+    pub(super) fn new(
+        components: &Components<S>,
+        layout: &Layout,
+        [nodes, coordinates]: [usize; 2],
+    ) -> Self {
         let (count, thermal) = (components.all.len(), layout.thermal);
         Self {
             progress: vec![Progress::none(); count],
@@ -88,6 +104,11 @@ impl<S: Real> Scratch<S> {
             paths: vec![S::zero(); components.paths.len()],
             production: S::zero(),
             least: S::MAX,
+            stability: RowSums {
+                squares: vec![S::zero(); nodes],
+                capacities: vec![S::zero(); thermal],
+                flows: vec![S::zero(); thermal],
+            },
         }
     }
 }
