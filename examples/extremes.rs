@@ -22,7 +22,8 @@
 //! | `θ_r`, `σ_r` | temperature (K) and received entropy (J/K) of a reservoir |
 //! | ε | 2⁻⁵² |
 //!
-//! The tests `tests/extremes` run the same families of runs in a short form.
+//! The tests `tests/extremes` run the same families of runs in a short form. The subcommand `campaign` makes many
+//! fresh steps of every exact scheme, each few of them in another random scene, and prints a table of its own.
 //!
 //! What the example claims, and fails without: all laws hold in every step that an exact scheme takes,
 //! and whatever else a family of runs asks for, for instance that stiff cases complete.
@@ -31,8 +32,10 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{Parser, Subcommand};
 
+#[path = "extremes/campaign.rs"]
+mod campaign;
 #[path = "../tests/extremes/suite.rs"]
 mod extremes;
 #[path = "extremes/report.rs"]
@@ -52,7 +55,11 @@ const TABLE: &str = "extremes.md";
 
 /// What is tried, and where the table goes.
 #[derive(Clone, Debug, Parser)]
+#[command(args_conflicts_with_subcommands = true)]
 struct Arguments {
+    /// Something else than kinds of extremes.
+    #[command(subcommand)]
+    instead: Option<Instead>,
     /// The counts of the tests in the place of those of the published table.
     #[arg(long)]
     short: bool,
@@ -68,6 +75,11 @@ struct Arguments {
     /// Anything here asks for a glance of a few seconds, as the other examples understand an early end.
     #[arg(long, value_name = "T")]
     end: Option<f64>,
+}
+
+#[derive(Clone, Debug, Subcommand)]
+enum Instead {
+    Campaign(campaign::Campaign),
 }
 
 impl Arguments {
@@ -124,6 +136,9 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<Claims, Box<dyn Error>> {
+    if let Some(Instead::Campaign(asked)) = &arguments.instead {
+        return campaign::run(asked);
+    }
     let kinds = arguments.kinds()?;
     let out = arguments.out.as_deref().map(prepare).transpose()?;
     let families = kinds.iter().map(|(_, kind)| kind.families.len()).sum();
