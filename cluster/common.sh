@@ -26,8 +26,8 @@ debian() {
 
 # PROGRAM skips the build, such as for a site that has the program already.
 if [ -z "${PROGRAM:-}" ]; then
-    cargo build --locked --quiet --release -p eem --features lanes,arrow --example sweep
-    PROGRAM="${CARGO_TARGET_DIR:-target}/release/examples/sweep"
+    cargo build --locked --quiet --release -p eem-studies --features lanes,arrow --bin sweep
+    PROGRAM="${CARGO_TARGET_DIR:-target}/release/sweep"
 fi
 PROGRAM="$(realpath "$PROGRAM")"
 

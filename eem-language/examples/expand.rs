@@ -1,5 +1,5 @@
 //! Prints what `#[derive(FreeEnergy)]` generates for the structs of a file:
-//! `cargo run -p eem-language --example expand -- examples/single_pendulum.rs`.
+//! `cargo run -p eem-language --example expand -- examples/src/bin/single_pendulum.rs`.
 //!
 //! With names behind the file, for the structs of these names only. Mistakes in a model are printed
 //! where the compiler would show them, as `compile_error!` in front of an empty implementation.

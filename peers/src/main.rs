@@ -1,4 +1,4 @@
-//! Solvers of other crates in the pictures of eem's example `work_precision`: see the README.
+//! Solvers of other crates in the pictures of eem's study `work_precision`: see the README.
 //!
 //! The modules:
 //!
@@ -10,7 +10,7 @@
 //! | `study` | errors, energy defects and wall times |
 //! | `rows`, `summary`, `pictures` | CSV, table and pictures |
 //!
-//! Scenes, numbers, command line and drawing are those of the library's examples, included as they are.
+//! Command line, tables and drawing are those of `eem-studies`; scenes and numbers are its files, included as they are.
 
 use std::error::Error;
 use std::path::PathBuf;
@@ -19,31 +19,29 @@ use std::process::ExitCode;
 use clap::Parser;
 
 mod cases;
-#[path = "../../examples/double_pendulum/cases.rs"]
+#[path = "../../studies/src/bin/double_pendulum/cases.rs"]
 mod double_pendulum;
 mod inversion;
 mod pictures;
 mod reference;
 mod rows;
-#[path = "../../examples/single_pendulum/scene.rs"]
+#[path = "../../studies/src/bin/single_pendulum/scene.rs"]
 mod single_pendulum;
 mod solvers;
 mod springs;
 mod study;
 mod summary;
-#[path = "../../examples/support/mod.rs"]
-mod support;
 mod systems;
 #[cfg(test)]
 mod tests;
 
 use cases::CaseName;
 use rows::Row;
-use support::{command_line, output, terminal};
+use eem_studies::{command_line, output, terminal};
 
-const ABOUT: &str = "Solvers of other crates on the cases of eem's example work_precision";
+const ABOUT: &str = "Solvers of other crates on the cases of eem's study work_precision";
 
-/// The file of the example `work_precision`.
+/// The file of the study `work_precision`.
 const LIBRARY_FILE: &str = "work_precision.csv";
 
 #[derive(Debug, Parser)]
@@ -54,7 +52,7 @@ struct Options {
     /// Time at which the runs end, in seconds.
     #[arg(long, value_name = "T", default_value_t = 5.0)]
     end: f64,
-    /// Directory for peers.csv, and for the pictures if the example `work_precision` has left its CSV there.
+    /// Directory for peers.csv, and for the pictures if the study `work_precision` has left its CSV there.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }

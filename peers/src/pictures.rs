@@ -5,9 +5,9 @@ use std::path::Path;
 
 use crate::rows::Row;
 use crate::summary::lines;
-use crate::support::comparison;
-use crate::support::figures::look::OPEN;
-use crate::support::figures::{Axes, Curve, Figure};
+use eem_studies::comparison;
+use eem_studies::figures::look::OPEN;
+use eem_studies::figures::{Axes, Curve, Figure};
 
 /// Errors above it are not drawn: what is off by its own size ten times is no solution.
 const LOST: f64 = 10.0;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use eem::StudyReport;
 
-use crate::support::output;
+use eem_studies::output;
 
 /// What a setting costs, and how accurate it is.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -7,7 +7,7 @@ use crate::cases::CaseName;
 use crate::reference::Reference;
 use crate::rows::Row;
 use crate::solvers::{Solver, Task};
-use crate::support::terminal;
+use eem_studies::terminal;
 use crate::systems::{Double, Single, System, Variables, larger};
 
 /// By decades from 10⁻² to 10⁻¹¹.

@@ -1,132 +1,112 @@
-//! The published pendulums. Equations and sources are in the examples `single_pendulum` and `double_pendulum`.
+//! Published figures: which quantities of which schemes a figure of a paper shows.
 
-use eem::Real;
+use std::error::Error;
+use std::path::Path;
 
-use crate::build::Build;
-use crate::models::{Creeping, Thermoelastic};
+use eem::Scheme;
 
-/// The spring of the single pendulum.
-pub const SPRING: Creeping = Creeping {
-    natural_length: 1.0,
-    theta_ref: 300.0,
-    k0: 100.0,
-    k1: 0.5,
-    thermal_coupling: 4.0,
-    capacity: 1.0,
-    viscous_coupling: 0.1,
-    mu0: 5.0,
-    mu1: 0.1,
-    eta0: 100.0,
-    a: 10.0,
-};
+use super::comparison::{self, Comparison};
+use super::figures::{Axes, Curve, Figure};
+use super::record::Record;
+use super::statistics;
 
-/// García Orden & Romero (2012), §4.1.
-pub fn single<S: Real>(factor: S) -> Build<2, S> {
-    let mut build = Build::new(factor);
-    let pivot = build.anchor([0.0, 0.0]);
-    let bob = build.mass(1.0, [3.0, 0.0], [0.0, 1.0]);
-    let spring = build.warm(SPRING, [pivot, bob], 380.0);
-    let air = build.reservoir(300.0);
-    build.conduct(spring, air, 10.0);
-    build
+/// A curve of a run: its points (t, value).
+type Points = fn(&Record) -> Vec<(f64, f64)>;
+
+/// A figure of a paper, drawn from our runs.
+#[derive(Clone, Copy, Debug)]
+pub struct Published {
+    /// Name of the file, without extension: paper, year, number, subject.
+    pub file: &'static str,
+    /// Title of the picture: paper, number, subject.
+    pub title: &'static str,
+    /// Quantity and unit of the vertical axis.
+    pub y_label: &'static str,
+    /// The schemes that the figure shows.
+    pub schemes: &'static [Scheme],
+    /// What it shows of each: symbol and points; one quantity needs no symbol.
+    pub quantities: &'static [(&'static str, Points)],
+    /// Against what.
+    pub against: Against,
+    /// How the axes are divided.
+    pub axes: Axes,
 }
 
-/// A double pendulum of Conde Martín, Betsch & García Orden (2016).
-#[derive(Clone, Debug)]
-pub struct Double {
-    springs: [Thermoelastic; 2],
-    masses: [f64; 2],
-    positions: [[f64; 3]; 2],
-    velocities: [[f64; 3]; 2],
-    temperatures: [f64; 2],
-    conductance: f64,
+/// What the reference does in a figure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Against {
+    /// It is not shown.
+    Nothing,
+    /// It is drawn, too.
+    Reference,
+    /// It is subtracted.
+    Deviation,
 }
 
-const SOFT: Thermoelastic = Thermoelastic {
-    stiffness: 0.1,
-    softening: 0.0,
-    coupling: 0.2,
-    capacity: 5.0,
-    length: 2.0,
-    theta_ref: 300.0,
-};
+/// Writes one SVG file per figure that shows at least one of the runs.
+pub fn write(
+    comparison: Comparison<'_>,
+    directory: &Path,
+    figures: &[Published],
+) -> Result<(), Box<dyn Error>> {
+    for published in figures {
+        let curves = published.curves(comparison);
+        if curves.is_empty() {
+            continue;
+        }
+        let figure = Figure {
+            title: published.title.to_owned(),
+            x_label: "time (s)".to_owned(),
+            y_label: published.y_label.to_owned(),
+            axes: published.axes,
+            curves,
+        };
+        figure.write_svg(&directory.join(format!("{}.svg", published.file)))?;
+    }
+    Ok(())
+}
 
-const STIFF: Thermoelastic = Thermoelastic {
-    stiffness: 100.0,
-    capacity: 1000.0,
-    ..SOFT
-};
+impl Published {
+    /// The curves; none when no run is of the figure's schemes.
+    fn curves(&self, comparison: Comparison<'_>) -> Vec<Curve> {
+        let Comparison {
+            reference, runs, ..
+        } = comparison;
+        let shown = |run: &&Record| self.schemes.iter().any(|own| own.name() == run.scheme);
+        let runs: Vec<&Record> = runs.iter().filter(shown).collect();
+        if runs.is_empty() {
+            return Vec::new();
+        }
+        let drawn = reference.filter(|_| self.against == Against::Reference);
+        let mut curves: Vec<Curve> = drawn.into_iter().flat_map(|run| self.of(run, 0)).collect();
+        for (place, run) in runs.iter().enumerate() {
+            let mut own = self.of(run, place);
+            if let Some(exact) = reference.filter(|_| self.against == Against::Deviation) {
+                for (curve, (_, points)) in own.iter_mut().zip(self.quantities) {
+                    curve.points = statistics::deviations(&curve.points, &points(exact));
+                }
+            }
+            curves.extend(own);
+        }
+        curves
+    }
 
-/// The first spring of the case `log`.
-pub const LOGARITHMIC: Thermoelastic = Thermoelastic {
-    stiffness: 5000.0,
-    softening: 50.0,
-    coupling: 20.0,
-    capacity: 5000.0,
-    ..SOFT
-};
-
-impl Double {
-    /// The case named after Romero (2009).
-    pub const ROMERO: Self = Self {
-        springs: [
-            SOFT,
-            Thermoelastic {
-                stiffness: 1.0,
-                length: 1.0,
-                ..SOFT
-            },
-        ],
-        masses: [1.0, 2.0],
-        positions: [[1.0, 0.0, 0.0], [2.2, 0.0, 0.0]],
-        velocities: [[0.0, 2.0, 0.0], [0.5, 0.0, 0.0]],
-        temperatures: [380.0, 310.0],
-        conductance: 300.0,
-    };
-
-    /// That of Krüger, Groß & Betsch (2011).
-    pub const KRUEGER: Self = Self {
-        springs: [
-            STIFF,
-            Thermoelastic {
-                length: 1.0,
-                ..STIFF
-            },
-        ],
-        velocities: [[0.0, 1.0, 0.0], [0.0, 2.2, 0.0]],
-        conductance: 10.0,
-        ..Self::ROMERO
-    };
-
-    /// That with a stiffness logarithmic in the temperature.
-    pub const LOG: Self = Self {
-        springs: [
-            LOGARITHMIC,
-            Thermoelastic {
-                stiffness: 10_000.0,
-                softening: 60.0,
-                capacity: 2000.0,
-                length: 1.0,
-                ..LOGARITHMIC
-            },
-        ],
-        masses: [10.0, 20.0],
-        positions: [[3.0, 0.0, 0.5], [3.0, 1.0, 1.0]],
-        velocities: [[0.0, 1.0, 0.0], [0.0, 0.0, -1.0]],
-        temperatures: [380.0, 298.0],
-        conductance: 300.0,
-    };
-
-    /// Its scene.
-    pub fn build<S: Real>(&self, factor: S) -> Build<3, S> {
-        let mut build = Build::new(factor);
-        let pivot = build.anchor([0.0; 3]);
-        let masses =
-            [0, 1].map(|i| build.mass(self.masses[i], self.positions[i], self.velocities[i]));
-        let ends = [[pivot, masses[0]], masses];
-        let springs =
-            [0, 1].map(|i| build.warm(self.springs[i].clone(), ends[i], self.temperatures[i]));
-        build.conduct(springs[0], springs[1], self.conductance);
-        build
+    /// All quantities of a run, the `place`-th of its kind. The first has the scheme's look, a
+    /// second one a look that no scheme has.
+    fn of(&self, run: &Record, place: usize) -> Vec<Curve> {
+        let looks = [
+            comparison::look(&run.scheme),
+            comparison::look_beside_schemes(place),
+        ];
+        let quantities = self.quantities.iter().zip(looks.into_iter().cycle());
+        let curve = |(&(symbol, points), look): (&(&str, Points), usize)| {
+            let curve = comparison::curve(run, points(run), look, self.axes);
+            let label = format!("{} {symbol}", curve.label);
+            Curve {
+                label: label.trim_end().to_owned(),
+                ..curve
+            }
+        };
+        quantities.map(curve).collect()
     }
 }

@@ -1,5 +1,9 @@
 //! A scene drawn at random: masses on a random graph of springs of all kinds, with loads and heat.
 
+mod fresh;
+
+pub(crate) use fresh::Pace;
+
 use core::f64::consts::PI;
 
 use super::graph::{self, Node, Spring};
@@ -26,7 +30,7 @@ const MISSED: f64 = 1.1;
 /// A scene before it is built.
 pub(crate) struct Drawing<const D: usize> {
     nodes: Vec<Node<D>>,
-    springs: Vec<Spring>,
+    springs: Vec<Spring<D>>,
     paths: Vec<([usize; 2], f64)>,
     /// The spring, `θ_r` and κ.
     air: Vec<(usize, f64, f64)>,
@@ -39,6 +43,10 @@ pub(crate) struct Drawing<const D: usize> {
     kept: Option<usize>,
     /// s.
     pub(crate) step: f64,
+    /// What it is made of, in words; empty where that does not matter.
+    pub(crate) label: String,
+    /// Whether a force in it ends in a singularity.
+    pub(crate) is_singular: bool,
 }
 
 impl<const D: usize> Drawing<D> {
@@ -46,7 +54,24 @@ impl<const D: usize> Drawing<D> {
         let wild = class == Class::Wild;
         let nodes = graph::nodes::<D>(random, wild, most);
         let springs = graph::springs(random, wild, &nodes);
-        let mut drawing = Self {
+        let mut drawing = Self::of(nodes, springs);
+        let period = drawing.smallest_period();
+        let share = if wild {
+            random.decades(1e-3, 1e3)
+        } else {
+            random.uniform(0.02, 0.5)
+        };
+        drawing.step = share * period;
+        drawing.give_velocities(random, wild);
+        drawing.add_heat(random, wild);
+        drawing.prescribe_a_temperature(random);
+        drawing.add_loads(random, wild);
+        drawing
+    }
+
+    /// Nodes and springs, without anything else.
+    fn of(nodes: Vec<Node<D>>, springs: Vec<Spring<D>>) -> Self {
+        Self {
             nodes,
             springs,
             paths: Vec::new(),
@@ -56,18 +81,14 @@ impl<const D: usize> Drawing<D> {
             shaken: None,
             kept: None,
             step: 0.0,
-        };
-        let period = 2.0 * PI / (drawing.largest_frequency() * MISSED);
-        let share = if wild {
-            random.decades(1e-3, 1e3)
-        } else {
-            random.uniform(0.02, 0.5)
-        };
-        drawing.step = share * period;
-        drawing.give_velocities(random, wild);
-        drawing.add_heat(random, wild);
-        drawing.add_loads(random, wild);
-        drawing
+            label: String::new(),
+            is_singular: false,
+        }
+    }
+
+    /// At most the smallest period of the linearised scene, s.
+    fn smallest_period(&self) -> f64 {
+        2.0 * PI / (self.largest_frequency() * MISSED)
     }
 
     /// Speeds that stretch the softest spring of a mass by up to a third, if nothing else does.
@@ -78,8 +99,7 @@ impl<const D: usize> Drawing<D> {
                 .springs
                 .iter()
                 .filter(|spring| spring.ends.contains(&index));
-            let speed =
-                own.map(|spring| spring.length * (spring.material.stiffness() / mass).sqrt());
+            let speed = own.map(|spring| spring.length * (spring.material.stiffness / mass).sqrt());
             let speed = speed.fold(f64::INFINITY, f64::min);
             let share = if wild {
                 random.decades(1e-3, 10.0)
@@ -95,15 +115,15 @@ impl<const D: usize> Drawing<D> {
     /// Paths of heat with κh/c up to 10, or up to 1e6.
     fn add_heat(&mut self, random: &mut Random, wild: bool) {
         let thermal: Vec<usize> = (0..self.springs.len())
-            .filter(|&index| self.springs[index].material.capacity().is_some())
+            .filter(|&index| self.springs[index].material.capacity.is_some())
             .collect();
         let strongest = if wild { 1e6 } else { 10.0 };
         for (place, &a) in thermal.iter().enumerate() {
-            let capacity = self.springs[a].material.capacity().unwrap_or(1.0);
+            let capacity = self.springs[a].material.capacity.unwrap_or(1.0);
             let largest = strongest * capacity / self.step;
             if place > 0 && random.chance(0.5) {
                 let b = thermal[random.below(place)];
-                let other = self.springs[b].material.capacity().unwrap_or(1.0);
+                let other = self.springs[b].material.capacity.unwrap_or(1.0);
                 let most = largest * (other / capacity).min(1.0);
                 self.paths.push(([a, b], random.decades(1e-6, 1.0) * most));
             }
@@ -113,16 +133,20 @@ impl<const D: usize> Drawing<D> {
                     .push((a, theta, random.decades(1e-6, 1.0) * largest));
             }
         }
+    }
+
+    fn prescribe_a_temperature(&mut self, random: &mut Random) {
+        let thermal = |spring: &Spring<D>| spring.material.capacity.is_some();
         if random.chance(0.1) {
-            self.kept = thermal.first().copied();
+            self.kept = self.springs.iter().position(thermal);
         }
     }
 
     /// Weight and forces that stretch the softest spring by a tenth, a shaken anchor.
     fn add_loads(&mut self, random: &mut Random, wild: bool) {
-        let softest = |index: usize, springs: &[Spring]| {
+        let softest = |index: usize, springs: &[Spring<D>]| {
             let own = springs.iter().filter(|spring| spring.ends.contains(&index));
-            let force = own.map(|spring| spring.material.stiffness() * spring.length);
+            let force = own.map(|spring| spring.material.stiffness * spring.length);
             force.fold(f64::INFINITY, f64::min)
         };
         let share = if wild {
@@ -187,7 +211,7 @@ impl<const D: usize> Drawing<D> {
         square.sqrt()
     }
 
-    fn direction(&self, spring: &Spring) -> [f64; D] {
+    fn direction(&self, spring: &Spring<D>) -> [f64; D] {
         let [a, b] = spring.ends.map(|end| self.nodes[end].position);
         let arm: [f64; D] = core::array::from_fn(|i| b[i] - a[i]);
         let length = arm.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -195,7 +219,7 @@ impl<const D: usize> Drawing<D> {
     }
 
     /// The stiffness along the spring, and across it.
-    fn stiffness_of(&self, spring: &Spring) -> [f64; 2] {
+    fn stiffness_of(&self, spring: &Spring<D>) -> [f64; 2] {
         let [a, b] = spring.ends.map(|end| self.nodes[end].position);
         let length = (0..D).map(|i| (b[i] - a[i]).powi(2)).sum::<f64>().sqrt();
         let (force, along) = spring.material.slope(length, spring.theta);

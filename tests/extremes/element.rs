@@ -54,6 +54,14 @@ pub(crate) fn has_cold_dashpots<const D: usize>(facts: &Facts<D>) -> bool {
     facts.springs.iter().any(|spring| is_cold(&*spring.body))
 }
 
+/// How many dashpots and paths of heat produce entropy.
+pub(crate) fn count_parts<const D: usize>(facts: &Facts<D>) -> f64 {
+    let dashpots: usize = facts.springs.iter().map(|own| own.body.dashpots()).sum();
+    #[expect(clippy::cast_precision_loss, reason = "small numbers")]
+    let parts = (dashpots + facts.paths) as f64;
+    parts
+}
+
 impl Ends<'_> {
     /// (λ, γ …, θ) at one end.
     fn doubles(&self, end: usize) -> Vec<f64> {
@@ -101,14 +109,17 @@ impl Ends<'_> {
         self.lambda[0].value().max(self.lambda[1].value())
     }
 
-    /// What the element contributes to `A + A⁺`.
-    pub(crate) fn amplitude(&self, step: f64) -> f64 {
-        let at_ends = self.amplitude_at(0) + self.amplitude_at(1);
-        at_ends + self.dissipation(step) + self.work_of_arguments()
+    /// What the element contributes to `A + A⁺` besides its [`energies`](Self::energies).
+    pub(crate) fn way(&self, step: f64) -> f64 {
+        self.dissipation(step) + self.work_of_arguments()
     }
 
-    /// `|f| λ + Σ |g γ| + |ψ| + θ |s| + c θ`.
-    fn amplitude_at(&self, end: usize) -> f64 {
+    /// `Σ over both ends (|f| λ + Σ |g γ| + |ψ| + θ |s| + c θ)`.
+    pub(crate) fn energies(&self) -> f64 {
+        self.energies_at(0) + self.energies_at(1)
+    }
+
+    fn energies_at(&self, end: usize) -> f64 {
         let x = self.doubles(end);
         let gradient = self.body.gradient(&x);
         let mechanical = x.len() - usize::from(self.theta.is_some());

@@ -1,6 +1,6 @@
 //! Masses and anchors at random places, and a random graph of springs between them.
 
-use super::material::Material;
+use super::material::{Material, Ranges};
 use super::random::Random;
 
 /// A mass or an anchor.
@@ -12,9 +12,9 @@ pub(crate) struct Node<const D: usize> {
 }
 
 /// A spring and its state.
-pub(crate) struct Spring {
+pub(crate) struct Spring<const D: usize> {
     pub(crate) ends: [usize; 2],
-    pub(crate) material: Material,
+    pub(crate) material: Material<D>,
     pub(crate) theta: f64,
     pub(crate) length: f64,
 }
@@ -67,7 +67,7 @@ pub(crate) fn springs<const D: usize>(
     random: &mut Random,
     wild: bool,
     nodes: &[Node<D>],
-) -> Vec<Spring> {
+) -> Vec<Spring<D>> {
     let mut ends: Vec<[usize; 2]> = (1..nodes.len()).map(|b| [random.below(b), b]).collect();
     for _ in 0..random.below(nodes.len() + 1) {
         let (a, b) = (random.below(nodes.len()), random.below(nodes.len()));
@@ -90,7 +90,12 @@ pub(crate) fn springs<const D: usize>(
         } else {
             random.uniform(250.0, 400.0)
         };
-        let material = Material::at_random(random, wild, length, theta);
+        let ranges = if wild {
+            &Ranges::WILD
+        } else {
+            &Ranges::ORDINARY
+        };
+        let material = Material::at_random(random, ranges, length, theta);
         Spring {
             ends,
             material,

@@ -1,7 +1,9 @@
 //! The judge sees what he is for.
 
+use super::super::models::Hooke;
 use super::super::published::{LOGARITHMIC, double_pendulum, single_pendulum};
 use super::super::watched::{EXACT, FORMS};
+use super::super::world::World;
 use super::*;
 
 /// A step of the single pendulum before and after, with its report.
@@ -38,6 +40,34 @@ fn a_spoilt_momentum_is_seen() {
 fn a_spoilt_temperature_is_seen_where_energy_does_not_see_it() {
     let spoilt = complaint(|state| state.temperatures[0] *= 1.0 + 1e-12);
     assert!(spoilt.contains("kept entropy"), "{spoilt}");
+}
+
+/// Momenta of two masses, changed by opposite amounts across their arm.
+#[test]
+fn a_spoilt_rotation_is_seen_in_every_plane() {
+    let planes = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
+    for [along, across] in planes {
+        let mut world = World::<4>::new();
+        let mut at = [1.0; 4];
+        let first = world.mass(1.0, at, [0.3; 4]);
+        at[along] += 1.1;
+        let second = world.mass(3.0, at, [0.0; 4]);
+        let (stiffness, length) = (100.0, 1.0);
+        world.spring(Hooke { stiffness, length }, [first, second]);
+        let mut watched = world.start(FORMS[0], 0.01).expect("a sound scene");
+        let before = watched.stored().clone();
+        let report = watched.step().expect("a small step");
+        assert!(watched.record.is_lawful(), "{:?}", watched.record.broken);
+        let mut after = watched.stored().clone();
+        for (node, sign) in [(0, 1.0), (1, -1.0)] {
+            let own = &mut after.momenta[4 * node + across];
+            *own = *own + Digits::from(sign * 1e-12);
+        }
+        let broken = check_step(&watched.facts, &before, &after, &report).broken;
+        let is_seen = broken.iter().any(|law| law.contains("angular momentum"));
+        let is_linear = broken.iter().any(|law| law.contains("linear momentum"));
+        assert!(is_seen && !is_linear, "{along}, {across}: {broken:?}");
+    }
 }
 
 #[test]

@@ -1,8 +1,10 @@
 //! Springs of all kinds with random data.
 
+use std::sync::Arc;
+
 use eem::prelude::*;
 
-use super::model::Body;
+use super::model::{Body, Model};
 use super::models::{
     Hencky, Hooke, LogarithmicStiffness, Maxwell, Morse, ThermoViscoElastic, Thermoelastic,
     TwoDashpots, TwoLinearDashpots,
@@ -10,70 +12,84 @@ use super::models::{
 use super::random::Random;
 use super::world::World;
 
-/// One of the models.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Material {
-    Hooke(Hooke),
-    Hencky(Hencky),
-    Morse(Morse),
-    Maxwell(Maxwell),
-    Thermoelastic(Thermoelastic),
-    Logarithmic(LogarithmicStiffness),
-    Published(ThermoViscoElastic),
-    TwoDashpots(TwoDashpots),
-    TwoLinearDashpots(TwoLinearDashpots),
+/// What can be put into a scene, whichever model it is.
+pub(crate) trait Law<const D: usize>: Body {
+    fn put(&self, world: &mut World<D>, ends: [Node; 2], theta: f64) -> Element;
 }
 
-/// Calls an expression with the model, whichever it is.
-macro_rules! with {
-    ($material:expr, $model:ident => $body:expr) => {
-        match $material {
-            Material::Hooke($model) => $body,
-            Material::Hencky($model) => $body,
-            Material::Morse($model) => $body,
-            Material::Maxwell($model) => $body,
-            Material::Thermoelastic($model) => $body,
-            Material::Logarithmic($model) => $body,
-            Material::Published($model) => $body,
-            Material::TwoDashpots($model) => $body,
-            Material::TwoLinearDashpots($model) => $body,
+impl<M: Model, const D: usize> Law<D> for M {
+    fn put(&self, world: &mut World<D>, ends: [Node; 2], theta: f64) -> Element {
+        if M::THERMAL {
+            world.warm(self.clone(), ends, theta)
+        } else {
+            world.spring(self.clone(), ends)
         }
+    }
+}
+
+/// A model with its data.
+#[derive(Clone)]
+pub(crate) struct Material<const D: usize> {
+    law: Arc<dyn Law<D>>,
+    /// In the natural state, about, N/m.
+    pub(crate) stiffness: f64,
+    /// c of the natural length, J/K, if there is a temperature.
+    pub(crate) capacity: Option<f64>,
+}
+
+/// Between what the data lie.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ranges {
+    /// N/m.
+    pub(crate) stiffness: [f64; 2],
+    /// N s/m.
+    pub(crate) eta: [f64; 2],
+    /// In units of `k l²/θ`: heat of the size of the elastic energy then changes θ by as much as it is large.
+    pub(crate) capacity: [f64; 2],
+}
+
+impl Ranges {
+    /// Stiffness about 100 N/m, η of about a second of relaxation.
+    pub(crate) const ORDINARY: Self = Self {
+        stiffness: [30.0, 300.0],
+        eta: [0.1, 1e3],
+        capacity: [1.0, 1.0],
+    };
+    /// Many decades.
+    pub(crate) const WILD: Self = Self {
+        stiffness: [1e-2, 1e8],
+        eta: [1e-9, 1e9],
+        capacity: [1e-3, 1e3],
     };
 }
 
 /// What the models have in common.
 #[derive(Clone, Copy, Debug)]
-struct Data {
+pub(crate) struct Data {
     /// N/m.
-    stiffness: f64,
-    branch: f64,
+    pub(crate) stiffness: f64,
+    pub(crate) branch: f64,
     /// N m, for logarithmic strains.
-    modulus: f64,
-    eta: f64,
-    capacity: f64,
+    pub(crate) modulus: f64,
+    pub(crate) eta: f64,
+    pub(crate) capacity: f64,
     /// N/K.
-    coupling: f64,
-    length: f64,
-    theta_ref: f64,
+    pub(crate) coupling: f64,
+    pub(crate) length: f64,
+    pub(crate) theta_ref: f64,
 }
 
 impl Data {
-    /// Stiffness about 100 N/m, or of many decades; η of about a second of relaxation, or anything.
-    fn at_random(random: &mut Random, wild: bool, length: f64, theta: f64) -> Self {
-        let decades = |random: &mut Random, ordinary: [f64; 2], all: [f64; 2]| {
-            let [low, high] = if wild { all } else { ordinary };
-            random.decades(low, high)
-        };
-        let stiffness = decades(random, [30.0, 300.0], [1e-2, 1e8]);
-        // Heat of the size of the elastic energy changes θ by a percent.
-        let capacity =
-            stiffness * length * length / theta * decades(random, [1.0, 1.0], [1e-3, 1e3]);
+    pub(crate) fn at_random(random: &mut Random, ranges: &Ranges, length: f64, theta: f64) -> Self {
+        let mut within = |[low, high]: [f64; 2]| random.decades(low, high);
+        let stiffness = within(ranges.stiffness);
+        let capacity = stiffness * length * length / theta * within(ranges.capacity);
         let theta_ref = theta * random.uniform(0.9, 1.1);
         Self {
             stiffness,
             branch: stiffness * random.decades(0.1, 1.0),
             modulus: stiffness * length * length,
-            eta: decades(random, [0.1, 1e3], [1e-9, 1e9]),
+            eta: random.decades(ranges.eta[0], ranges.eta[1]),
             capacity,
             // Thermal strain of a percent at 10 % more than the reference.
             coupling: 0.1 * stiffness * length / theta_ref * random.uniform(-1.0, 1.0),
@@ -83,158 +99,51 @@ impl Data {
     }
 }
 
-impl Material {
+/// Makes a model from data.
+type Kind<const D: usize> = fn(&Data) -> Arc<dyn Law<D>>;
+
+impl<const D: usize> Material<D> {
     /// Any of the models.
-    pub(crate) fn at_random(random: &mut Random, wild: bool, length: f64, theta: f64) -> Self {
-        let data = Data::at_random(random, wild, length, theta);
-        match random.below(9) {
-            kind @ 0..=3 => Self::without_temperature(kind, data),
-            kind => Self::with_temperature(kind, data),
-        }
+    pub(crate) fn at_random(random: &mut Random, ranges: &Ranges, length: f64, theta: f64) -> Self {
+        let data = Data::at_random(random, ranges, length, theta);
+        let kinds: [Kind<D>; 9] = [
+            hooke,
+            hencky,
+            morse,
+            maxwell,
+            thermoelastic,
+            logarithmic,
+            published,
+            two_dashpots,
+            two_linear_dashpots,
+        ];
+        Self::new(kinds[random.below(kinds.len())](&data), &data, theta)
     }
 
-    fn without_temperature(kind: usize, data: Data) -> Self {
-        let Data {
-            stiffness,
-            branch,
-            modulus,
-            eta,
-            length,
-            ..
-        } = data;
-        match kind {
-            0 => Self::Hooke(Hooke { stiffness, length }),
-            1 => Self::Hencky(Hencky {
-                stiffness: modulus,
-                length,
-            }),
-            2 => {
-                let steepness = 1.0 / length;
-                Self::Morse(Morse {
-                    depth: 0.5 * modulus,
-                    steepness,
-                    length,
-                })
-            }
-            _ => Self::Maxwell(Maxwell {
-                stiffness,
-                branch,
-                length,
-                eta,
-            }),
-        }
+    /// A law about its natural length.
+    pub(crate) fn new(law: Arc<dyn Law<D>>, data: &Data, theta: f64) -> Self {
+        let mut material = Self {
+            law,
+            stiffness: data.stiffness,
+            capacity: None,
+        };
+        let is_thermal = material.law.thermal();
+        material.capacity = is_thermal.then(|| material.capacity_at(data.length, theta));
+        material
     }
 
-    fn with_temperature(kind: usize, data: Data) -> Self {
-        let Data {
-            stiffness,
-            branch,
-            modulus,
-            eta,
-            capacity,
-            coupling,
-            length,
-            theta_ref,
-        } = data;
-        match kind {
-            4 => Self::Thermoelastic(Thermoelastic {
-                stiffness,
-                length,
-                coupling,
-                capacity,
-                theta_ref,
-            }),
-            5 => Self::Logarithmic(LogarithmicStiffness {
-                stiffness: modulus,
-                softening: 0.2 * modulus / theta_ref,
-                coupling: coupling * length,
-                capacity,
-                length,
-                theta_ref,
-            }),
-            6 => Self::Published(ThermoViscoElastic {
-                k0: modulus,
-                k1: 0.1 * modulus / theta_ref,
-                ratio: 0.1,
-                coupling: coupling * length,
-                capacity,
-                mu0: 0.05 * stiffness,
-                mu1: 0.005 * stiffness / theta_ref,
-                eta0: eta,
-                a: 0.1 * theta_ref,
-                length,
-                theta_ref,
-            }),
-            7 => Self::TwoDashpots(TwoDashpots {
-                stiffness: modulus,
-                first: branch * length * length,
-                second: 0.7 * branch * length * length,
-                coupling: coupling * length,
-                capacity,
-                length,
-                theta_ref,
-                // Their stretches are strains.
-                eta1: eta * length * length,
-                eta2: 3.0 * eta * length * length,
-                a: theta_ref,
-                n: 1.5,
-            }),
-            _ => Self::TwoLinearDashpots(TwoLinearDashpots {
-                stiffness,
-                first: branch,
-                second: 0.7 * branch,
-                coupling,
-                capacity,
-                length,
-                theta_ref,
-                eta1: eta,
-                eta2: 0.1 * eta,
-            }),
-        }
-    }
-
-    fn body(&self) -> &dyn Body {
-        with!(self, model => model)
-    }
-
-    /// c, J/K, if there is a temperature.
-    pub(crate) fn capacity(&self) -> Option<f64> {
-        match self {
-            Self::Hooke(_) | Self::Hencky(_) | Self::Morse(_) | Self::Maxwell(_) => None,
-            Self::Thermoelastic(model) => Some(model.capacity),
-            Self::Logarithmic(model) => Some(model.capacity),
-            Self::Published(model) => Some(model.capacity),
-            Self::TwoDashpots(model) => Some(model.capacity),
-            Self::TwoLinearDashpots(model) => Some(model.capacity),
-        }
-    }
-
-    /// About the stiffness in the natural state, N/m.
-    pub(crate) fn stiffness(&self) -> f64 {
-        match self {
-            Self::Hooke(model) => model.stiffness,
-            Self::Hencky(model) => model.stiffness / model.length.powi(2),
-            Self::Morse(model) => 2.0 * model.depth * model.steepness.powi(2),
-            Self::Maxwell(model) => model.stiffness,
-            Self::Thermoelastic(model) => model.stiffness,
-            Self::Logarithmic(model) => model.stiffness / model.length.powi(2),
-            Self::Published(model) => model.k0 / model.length.powi(2),
-            Self::TwoDashpots(model) => model.stiffness / model.length.powi(2),
-            Self::TwoLinearDashpots(model) => model.stiffness,
-        }
+    /// c, J/K.
+    pub(crate) fn capacity_at(&self, lambda: f64, theta: f64) -> f64 {
+        let x = at(&*self.law, lambda, theta);
+        self.law.caloric(&x).heat_capacity
     }
 
     /// f and the stiffness at constant γ = 0 and entropy.
     pub(crate) fn slope(&self, lambda: f64, theta: f64) -> (f64, f64) {
-        let body = self.body();
-        let mut x = vec![lambda];
-        x.resize(1 + body.dashpots(), 0.0);
-        if body.thermal() {
-            x.push(theta);
-        }
-        let (gradient, hessian) = (body.gradient(&x), body.hessian(&x));
+        let x = at(&*self.law, lambda, theta);
+        let (gradient, hessian) = (self.law.gradient(&x), self.law.hessian(&x));
         let last = x.len() - 1;
-        let adiabatic = if body.thermal() {
+        let adiabatic = if self.law.thermal() {
             hessian[0][last].powi(2) / hessian[last][last].abs()
         } else {
             0.0
@@ -242,17 +151,129 @@ impl Material {
         (gradient[0], hessian[0][0].abs() + adiabatic)
     }
 
-    pub(crate) fn put<const D: usize>(
-        &self,
-        world: &mut World<D>,
-        ends: [Node; 2],
-        theta: f64,
-    ) -> Element {
-        let thermal = self.body().thermal();
-        with!(*self, model => if thermal {
-            world.warm(model, ends, theta)
-        } else {
-            world.spring(model, ends)
-        })
+    /// The fastest relaxation of its dashpots, 1/s.
+    pub(crate) fn relaxation(&self, lambda: f64, theta: f64) -> f64 {
+        let hessian = self.law.hessian(&at(&*self.law, lambda, theta));
+        let viscosities = self.law.viscosities(theta);
+        let rates = (1..).zip(&viscosities).map(|(k, eta)| hessian[k][k] / eta);
+        rates.fold(0.0, f64::max)
     }
+
+    pub(crate) fn put(&self, world: &mut World<D>, ends: [Node; 2], theta: f64) -> Element {
+        self.law.put(world, ends, theta)
+    }
+}
+
+/// (λ, 0 …, θ).
+fn at(body: &(impl Body + ?Sized), lambda: f64, theta: f64) -> Vec<f64> {
+    let mut x = vec![lambda];
+    x.resize(1 + body.dashpots(), 0.0);
+    x.extend(body.thermal().then_some(theta));
+    x
+}
+
+pub(crate) fn hooke<const D: usize>(data: &Data) -> Arc<dyn Law<D>> {
+    let &Data {
+        stiffness, length, ..
+    } = data;
+    Arc::new(Hooke { stiffness, length })
+}
+
+pub(crate) fn hencky<const D: usize>(data: &Data) -> Arc<dyn Law<D>> {
+    Arc::new(Hencky {
+        stiffness: data.modulus,
+        length: data.length,
+    })
+}
+
+pub(crate) fn morse<const D: usize>(data: &Data) -> Arc<dyn Law<D>> {
+    Arc::new(Morse {
+        depth: 0.5 * data.modulus,
+        steepness: 1.0 / data.length,
+        length: data.length,
+    })
+}
+
+pub(crate) fn maxwell<const D: usize>(data: &Data) -> Arc<dyn Law<D>> {
+    Arc::new(Maxwell {
+        stiffness: data.stiffness,
+        branch: data.branch,
+        length: data.length,
+        eta: data.eta,
+    })
+}
+
+pub(crate) fn thermoelastic<const D: usize>(data: &Data) -> Arc<dyn Law<D>> {
+    Arc::new(Thermoelastic {
+        stiffness: data.stiffness,
+        length: data.length,
+        coupling: data.coupling,
+        capacity: data.capacity,
+        theta_ref: data.theta_ref,
+    })
+}
+
+pub(crate) fn logarithmic<const D: usize>(data: &Data) -> Arc<dyn Law<D>> {
+    Arc::new(LogarithmicStiffness {
+        stiffness: data.modulus,
+        softening: 0.2 * data.modulus / data.theta_ref,
+        coupling: data.coupling * data.length,
+        capacity: data.capacity,
+        length: data.length,
+        theta_ref: data.theta_ref,
+    })
+}
+
+pub(crate) fn published<const D: usize>(data: &Data) -> Arc<dyn Law<D>> {
+    let &Data {
+        stiffness,
+        modulus,
+        theta_ref,
+        ..
+    } = data;
+    Arc::new(ThermoViscoElastic {
+        k0: modulus,
+        k1: 0.1 * modulus / theta_ref,
+        ratio: 0.1,
+        coupling: data.coupling * data.length,
+        capacity: data.capacity,
+        mu0: 0.05 * stiffness,
+        mu1: 0.005 * stiffness / theta_ref,
+        eta0: data.eta,
+        a: 0.1 * theta_ref,
+        length: data.length,
+        theta_ref,
+    })
+}
+
+pub(crate) fn two_dashpots<const D: usize>(data: &Data) -> Arc<dyn Law<D>> {
+    let square = data.length * data.length;
+    Arc::new(TwoDashpots {
+        stiffness: data.modulus,
+        first: data.branch * square,
+        second: 0.7 * data.branch * square,
+        coupling: data.coupling * data.length,
+        capacity: data.capacity,
+        length: data.length,
+        theta_ref: data.theta_ref,
+        // Their stretches are strains.
+        eta1: data.eta * square,
+        eta2: 3.0 * data.eta * square,
+        a: data.theta_ref,
+        n: 1.5,
+    })
+}
+
+pub(crate) fn two_linear_dashpots<const D: usize>(data: &Data) -> Arc<dyn Law<D>> {
+    Arc::new(TwoLinearDashpots {
+        stiffness: data.stiffness,
+        first: data.branch,
+        second: 0.7 * data.branch,
+        coupling: data.coupling,
+        capacity: data.capacity,
+        length: data.length,
+        theta_ref: data.theta_ref,
+        eta1: data.eta,
+        eta2: 0.1 * data.eta,
+    })
 }

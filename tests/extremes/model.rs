@@ -35,7 +35,7 @@ macro_rules! model {
             #[allow(unreachable_code, reason = "a formula without `diff` comes first")]
             fn psi(&self, x: &[$crate::extremes::jet::Jet]) -> $crate::extremes::jet::Jet {
                 #[allow(unused_imports, reason = "not every formula needs every function")]
-                use $crate::extremes::jet::{exp, exp_m1, ln};
+                use $crate::extremes::jet::{exp, exp_m1, ln, ln_1p, log10, sinh, tanh};
                 let &[$($argument),*] = x else { panic!("one number per variable") };
                 $(let $field = $crate::extremes::jet::Jet::from(self.$field);)*
                 model!(@one $body $(or $plain)?)

@@ -1,4 +1,6 @@
-//! The free energies of the suite.
+//! The free energies of the suite; `wide.rs` has those of the random campaign.
+
+pub(crate) mod wide;
 
 use super::model::model;
 

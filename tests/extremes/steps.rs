@@ -4,7 +4,7 @@ use eem::prelude::*;
 
 use super::published::{self, Case, Published};
 use super::tally::{Effort, Family, Tally};
-use super::watched::{Record, is_exact};
+use super::watched::{EXACT, Record};
 
 pub(crate) const FAMILIES: &[Family] = &[
     single_pendulum,
@@ -48,7 +48,7 @@ fn sizes((name, published, build): &Published, effort: Effort) -> Tally {
                 largest = step;
             }
             let label = format!("h = {step:.1e}, {}", scheme.name());
-            if is_exact(scheme) && step <= *published {
+            if EXACT.contains(&scheme) && step <= *published {
                 tally.add_complete(label, &record);
             } else {
                 tally.add(label, &record);

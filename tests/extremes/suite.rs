@@ -8,10 +8,13 @@ pub(crate) mod element;
 pub(crate) mod jet;
 pub(crate) mod judge;
 pub(crate) mod model;
+pub(crate) mod rounding;
 pub(crate) mod stored;
 
 // What is tried.
+pub(crate) mod campaign;
 pub(crate) mod drawing;
+pub(crate) mod families;
 pub(crate) mod graph;
 pub(crate) mod material;
 pub(crate) mod models;
@@ -29,6 +32,8 @@ pub(crate) mod kinds;
 pub(crate) mod lengths;
 pub(crate) mod long;
 pub(crate) mod phases;
+#[cfg(test)]
+pub(crate) mod reports;
 pub(crate) mod rest;
 pub(crate) mod scenes;
 pub(crate) mod steps;

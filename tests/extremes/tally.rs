@@ -5,6 +5,7 @@ use std::fmt::Display;
 
 use eem::prelude::*;
 
+use super::rounding::worse;
 use super::watched::Record;
 
 /// Iterations that a step of a stiff case may take with the default settings; a staggered step is two
@@ -49,6 +50,14 @@ pub(crate) struct Tally {
     pub(crate) most_iterations: usize,
     /// The largest |defect|/bound.
     pub(crate) worst: f64,
+    /// The largest |ΔE|/bound by reports, and defect of a momentum in ε of its terms.
+    pub(crate) worst_reported: f64,
+    pub(crate) worst_momentum: f64,
+    /// Steps in which it is above 64.
+    pub(crate) loose: usize,
+    /// Steps whose bound is far above the rounding of their energies, and those that broke a law.
+    pub(crate) wide: usize,
+    pub(crate) broken: usize,
     /// How many runs ended with which error.
     pub(crate) refused: BTreeMap<String, usize>,
     /// What else is worth knowing.
@@ -71,9 +80,12 @@ impl Tally {
         self.steps += record.steps;
         self.iterations += record.iterations;
         self.most_iterations = self.most_iterations.max(record.most_iterations);
-        // A NaN stays.
-        let is_worse = record.worst > self.worst || record.worst.is_nan();
-        self.worst = if is_worse { record.worst } else { self.worst };
+        self.worst = worse(self.worst, record.worst);
+        self.worst_reported = worse(self.worst_reported, record.worst_reported);
+        self.worst_momentum = worse(self.worst_momentum, record.worst_momentum);
+        self.loose += record.loose;
+        self.wide += record.wide;
+        self.broken += record.broken_steps;
         match &record.refused {
             Some(_) => *self.refused.entry(record.refusal()).or_default() += 1,
             None => self.completed += 1,
@@ -114,6 +126,28 @@ impl Tally {
                 "{label}: {mean:.1} iterations per step, {most} at most"
             ));
         }
+    }
+
+    /// These runs and others of the same kind.
+    #[must_use]
+    pub(crate) fn and(mut self, other: Self) -> Self {
+        self.runs += other.runs;
+        self.completed += other.completed;
+        self.steps += other.steps;
+        self.iterations += other.iterations;
+        self.most_iterations = self.most_iterations.max(other.most_iterations);
+        self.worst = worse(self.worst, other.worst);
+        self.worst_reported = worse(self.worst_reported, other.worst_reported);
+        self.worst_momentum = worse(self.worst_momentum, other.worst_momentum);
+        self.loose += other.loose;
+        self.wide += other.wide;
+        self.broken += other.broken;
+        for (name, count) in other.refused {
+            *self.refused.entry(name).or_default() += count;
+        }
+        self.notes.extend(other.notes);
+        self.wrong.extend(other.wrong);
+        self
     }
 
     /// Something that has to hold.

@@ -1,8 +1,11 @@
 //! A run whose steps are judged one by one, and the record of it.
 
+use eem::Checkpoint;
 use eem::prelude::*;
+use serde_json::Value;
 
 use super::judge::{self, Verdict};
+use super::rounding::{ROUNDINGS, share, worse};
 use super::stored::Stored;
 use super::world::Facts;
 
@@ -28,6 +31,14 @@ pub(crate) struct Record {
     pub(crate) defect: f64,
     /// The largest |defect|/bound by the judge.
     pub(crate) worst: f64,
+    /// The largest |ΔE|/bound by the report.
+    pub(crate) worst_reported: f64,
+    /// The largest defect of a momentum, in ε of its terms.
+    pub(crate) worst_momentum: f64,
+    /// Steps in which it is above 64, as rounding of forces explains.
+    pub(crate) loose: usize,
+    /// Steps whose bound is far above the rounding of their energies.
+    pub(crate) wide: usize,
     /// Steps that broke a law, and the words of the first ones.
     pub(crate) broken_steps: usize,
     pub(crate) broken: Vec<String>,
@@ -35,13 +46,8 @@ pub(crate) struct Record {
     pub(crate) refused: Option<StepError>,
 }
 
-/// Whether a scheme is held to the laws here.
-pub(crate) fn is_exact(scheme: Scheme) -> bool {
-    EXACT.contains(&scheme)
-}
-
-/// The schemes that are held to the laws here: those of at most second order, with their one force at the middle of a
-/// step, by which the judge counts loads. Those of higher order are in `tests/laws`.
+/// The exact schemes of at most second order, with their one force at the middle of a step, by which the judge counts
+/// loads: those that the kinds of extremes are tried with. All exact ones are held to the laws.
 pub(crate) const EXACT: [Scheme; 3] = [
     Scheme::EemEntropy,
     Scheme::EemTemperature,
@@ -71,7 +77,7 @@ impl<const D: usize> Watched<D> {
                 Ok(report)
             }
             Err(error) => {
-                if self.run.checkpoint() != saved {
+                if essence(&self.run.checkpoint()) != essence(&saved) {
                     self.record
                         .complain(vec![format!("{error}: the state has changed")]);
                 }
@@ -96,28 +102,25 @@ impl<const D: usize> Watched<D> {
         record.steps += 1;
         record.iterations += report.iterations;
         record.most_iterations = record.most_iterations.max(report.iterations);
-        if !is_exact(self.run.scheme()) {
+        if !self.run.scheme().is_exact() {
             return;
         }
         let after = Stored::of(&self.run);
+        let is_controlled = self.run.tolerance().is_some();
+        self.facts.has_halves = is_controlled && self.run.scheme_in_use() != Scheme::EemExplicit;
         let Verdict {
             defect,
             bound,
+            momentum,
+            is_wide,
             broken,
             ..
         } = judge::check_step(&self.facts, &self.state, &after, report);
-        let share = (defect / bound).abs();
-        // Nothing moved and nothing is there: 0/0 is no defect.
-        let share = if defect.abs() > 0.0 || defect.is_nan() {
-            share
-        } else {
-            0.0
-        };
-        record.worst = if share > record.worst || share.is_nan() {
-            share
-        } else {
-            record.worst
-        };
+        record.worst = worse(record.worst, share(defect, bound));
+        record.worst_reported = worse(record.worst_reported, share(defect, report.bound));
+        record.worst_momentum = worse(record.worst_momentum, momentum);
+        record.loose += usize::from(momentum > ROUNDINGS);
+        record.wide += usize::from(is_wide);
         record.defect = defect;
         record.complain(broken);
         self.state = after;
@@ -127,6 +130,15 @@ impl<const D: usize> Watched<D> {
     pub(crate) fn stored(&self) -> &Stored {
         &self.state
     }
+}
+
+/// What a step that fails must leave as it was: all but what step control counts.
+fn essence(checkpoint: &Checkpoint) -> Value {
+    let mut text = serde_json::to_value(checkpoint).expect("a checkpoint can be written");
+    if let Some(Value::Object(control)) = text.get_mut("control") {
+        control.remove("statistics");
+    }
+    text
 }
 
 impl Record {

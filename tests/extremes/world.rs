@@ -5,7 +5,7 @@ use std::sync::Arc;
 use eem::prelude::*;
 
 use super::model::{Body, Model};
-use super::watched::Watched;
+use super::watched::{EXACT, Watched};
 
 /// A force as a function of time.
 type OfTime<const D: usize> = Arc<dyn Fn(f64) -> [f64; D] + Send + Sync>;
@@ -32,6 +32,12 @@ pub(crate) struct Facts<const D: usize> {
     pub(crate) has_moved_anchors: bool,
     /// The springs that thermostats keep at a temperature.
     pub(crate) kept: Vec<usize>,
+    /// Paths of heat.
+    pub(crate) paths: usize,
+    /// Whether the impulses of its loads are known: those of a force at the middle of a step, or none.
+    pub(crate) has_known_impulses: bool,
+    /// Whether a step is reported as its two halves: their energies between are not seen, and their bounds are added.
+    pub(crate) has_halves: bool,
 }
 
 /// A spring, by the indices of its ends.
@@ -50,6 +56,9 @@ impl<const D: usize> World<D> {
             forces: Vec::new(),
             has_moved_anchors: false,
             kept: Vec::new(),
+            paths: 0,
+            has_known_impulses: true,
+            has_halves: false,
         };
         Self {
             scene: Scene::new(),
@@ -103,11 +112,13 @@ impl<const D: usize> World<D> {
 
     /// Conduction between two springs.
     pub(crate) fn conduct(&mut self, ends: [Element; 2], conductance: f64) {
+        self.facts.paths += 1;
         self.scene.conduct(ends[0], ends[1], conductance);
     }
 
     /// Conduction to a reservoir.
     pub(crate) fn cool(&mut self, element: Element, reservoir: Reservoir, conductance: f64) {
+        self.facts.paths += 1;
         self.scene.conduct(element, reservoir, conductance);
     }
 
@@ -146,7 +157,10 @@ impl<const D: usize> World<D> {
     }
 
     /// Ready to be stepped, and watched while it is.
-    pub(crate) fn start(self, scheme: Scheme, step: f64) -> Result<Watched<D>, SceneError> {
+    pub(crate) fn start(mut self, scheme: Scheme, step: f64) -> Result<Watched<D>, SceneError> {
+        let is_loaded =
+            !self.facts.forces.is_empty() || self.facts.gravity.iter().any(|g| g.abs() > 0.0);
+        self.facts.has_known_impulses = !is_loaded || EXACT.contains(&scheme);
         Ok(Watched::new(
             Simulation::new(self.scene, scheme, step)?,
             self.facts,

@@ -99,9 +99,10 @@ fn bars_between_walls_go_to_a_linear_profile_as_their_cells_do() {
         let warm = |[x, ..]: [f64; 3]| linear(x) + amplitude * f64::sin(PI * x);
         let (mut scene, body, places) = cube([4, 1, 1], warm);
         let [cold, hot] = [290.0, 310.0].map(|theta| scene.reservoir(theta));
-        let ends = [0.0, 1.0].map(|end| body.mesh().face(|[x, ..]| x == end).unwrap());
-        scene.wall(&body, &ends[0], cold);
-        scene.wall(&body, &ends[1], hot);
+        let left = body.mesh().face(|[x, ..]| x <= 0.0).unwrap();
+        let right = body.mesh().face(|[x, ..]| x >= 1.0).unwrap();
+        scene.wall(&body, &left, cold);
+        scene.wall(&body, &right, hot);
         let mut run = Simulation::new(scene, scheme, step).unwrap();
         for at in 1..=STEPS {
             run.step().unwrap();

@@ -18,6 +18,25 @@ fn no_step_after_the_first_allocates() {
     }
 }
 
+// The choice of a scheme looks at the fastest motion from time to time.
+#[test]
+fn no_controlled_step_after_the_first_allocates() {
+    let controlled = Scheme::ALL
+        .into_iter()
+        .filter(|scheme| scheme.may_change_steps());
+    for scheme in controlled.chain([Scheme::Auto]) {
+        let Pendulum { mut run, .. } = single_pendulum(scheme, 0.01);
+        run.control_steps(Tolerance::default()).unwrap();
+        run.step().unwrap();
+        let counted = allocation_counter::measure(|| {
+            for _ in 0..50 {
+                run.step().unwrap();
+            }
+        });
+        assert_eq!(counted.count_total, 0, "{}: {counted:?}", scheme.name());
+    }
+}
+
 // Sparse elimination too works in memory that it has from the start.
 #[test]
 fn no_step_of_a_long_chain_after_the_first_allocates() {

@@ -1,5 +1,5 @@
-//! Every example keeps the claims that it checks itself, prints no "NaN", keeps its texts within its pictures, and
-//! refuses options without effect.
+//! Every example and every study keeps the claims that it checks itself and prints no "NaN"; studies keep the texts of
+//! their pictures within them, and refuse options without effect.
 //!
 //! Running them takes minutes, so that only the gate (`.ci/run`) asks for it.
 
@@ -13,24 +13,52 @@ use std::thread;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
-/// Runs an example.
-fn example(name: &str, arguments: &[&str]) -> Output {
+/// Runs a program of a package.
+fn run(package: &str, name: &str, arguments: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO"));
     // With the features that the gate has built it with.
-    command.args(["run", "--quiet", "-p", "eem", "--example", name, "--"]);
+    command.args(["run", "--quiet", "-p", package, "--bin", name, "--"]);
     command.args(arguments).current_dir(ROOT).output().unwrap()
+}
+
+fn study(name: &str, arguments: &[&str]) -> Output {
+    run("eem-studies", name, arguments)
+}
+
+/// The programs of a package, by the names of their files or folders.
+fn programs(package: &str) -> Vec<String> {
+    let folder = Path::new(ROOT).join(package).join("src/bin");
+    let files = fs::read_dir(folder).unwrap();
+    let name = |path: &Path| path.file_stem().unwrap().to_str().unwrap().to_owned();
+    files.map(|file| name(&file.unwrap().path())).collect()
+}
+
+#[test]
+#[ignore = "runs examples; the gate asks for it"]
+fn examples_keep_their_claims() {
+    for name in programs("examples") {
+        // Built with another feature, and run by the tests of `eem-sweep`.
+        if name == "sweep" {
+            continue;
+        }
+        let output = run("eem-examples", &name, &[]);
+        let said = String::from_utf8(output.stdout).unwrap();
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{name}: {said}{errors}");
+        assert!(!said.contains("NaN"), "{name}: {said}");
+    }
 }
 
 #[test]
 #[ignore = "runs examples; the gate asks for it"]
 fn options_without_effect_are_refused() {
     for arguments in [["--scheme", "gauss-4"], ["--step", "0.1"]] {
-        let output = example("describe", &arguments);
+        let output = study("describe", &arguments);
         assert!(!output.status.success(), "{arguments:?}");
         let said = String::from_utf8(output.stderr).unwrap();
         assert!(said.contains(arguments[0]), "{said}");
     }
-    let none = example("ensemble", &["--members", "0"]);
+    let none = study("ensemble", &["--members", "0"]);
     let said = String::from_utf8(none.stderr).unwrap();
     assert!(
         !none.status.success() && said.contains("--members"),
@@ -38,7 +66,7 @@ fn options_without_effect_are_refused() {
     );
 }
 
-/// With what an example is run: its first seconds, or what else does not take long without optimisation.
+/// With what a study is run: its first seconds, or what else does not take long without optimisation.
 fn runs(name: &str) -> &'static [&'static [&'static str]] {
     match name {
         // At rest, so that options about steps have no effect.
@@ -59,14 +87,12 @@ const WITHOUT_PICTURES: [&str; 4] = ["describe", "extremes", "paper_tables", "sw
 
 #[test]
 #[ignore = "runs examples; the gate asks for it"]
-fn examples_keep_their_claims_and_their_pictures_hold_their_texts() {
+fn studies_keep_their_claims_and_their_pictures_hold_their_texts() {
     let mut left = Vec::new();
-    for file in fs::read_dir(Path::new(ROOT).join("examples")).unwrap() {
-        let path = file.unwrap().path();
-        if path.extension().is_some_and(|extension| extension == "rs") {
-            let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
-            left.extend(runs(&name).iter().map(|&options| (name.clone(), options)));
-        }
+    let measuring = ["digests", "hot_cases"];
+    let studies = programs("studies").into_iter();
+    for name in studies.filter(|name| !measuring.contains(&name.as_str())) {
+        left.extend(runs(&name).iter().map(|&options| (name.clone(), options)));
     }
     assert!(left.len() > 15);
     let left = Mutex::new(left);
@@ -82,12 +108,12 @@ fn examples_keep_their_claims_and_their_pictures_hold_their_texts() {
     });
 }
 
-/// A run of an example succeeds, which it does if its claims hold, and what it prints and draws can be looked at.
+/// A run of a study succeeds, which it does if its claims hold, and what it prints and draws can be looked at.
 fn assert_run(name: &str, options: &[&str]) {
-    let folder = format!("example-{name}{}", options.concat());
+    let folder = format!("study-{name}{}", options.concat());
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(folder);
     let _ = fs::remove_dir_all(&folder);
-    let output = example(
+    let output = study(
         name,
         &[options, &["--out", folder.to_str().unwrap()]].concat(),
     );

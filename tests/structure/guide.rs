@@ -1,5 +1,7 @@
 //! What the guide quotes of the compiler is what the compiler says in the compile-fail tests.
 
+#![allow(clippy::unwrap_used, reason = "a test: what is missing is a failure")]
+
 use std::fs;
 use std::path::Path;
 

@@ -22,6 +22,11 @@ pub(crate) struct MemoryLimit(Option<u64>);
     "the tangent of {unknowns} unknowns and its factors take {needed} bytes, {}: use fewer cells, cells with fewer nodes, a larger limit (`Scene::limit_memory`) or a machine with more memory",
     available.map_or_else(|| "which the system refuses".to_owned(), |most| format!("and {most} are available"))
 )]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
 pub struct TooLarge {
     /// Rows of the matrix.
     pub unknowns: usize,

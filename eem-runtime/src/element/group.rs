@@ -36,6 +36,7 @@ mod member;
 mod misfit;
 mod point;
 mod pose;
+mod recounting;
 mod respond;
 mod scatter;
 mod settle;
@@ -46,7 +47,9 @@ mod stages;
 mod view;
 
 pub(crate) use arms::points;
-pub(crate) use explicit::{ClosingView, ComponentEnergy, Offsets, PlaceOf, StageRates, StageView};
+pub(crate) use explicit::{
+    ClosingView, ComponentEnergy, Offsets, PlaceOf, StageRates, StageView, UnkeptEntropy, is_met,
+};
 pub(crate) use interface::{Elements, ExplicitGroup, Group, Loose};
 pub(crate) use loose::LooseElements;
 pub(crate) use misfit::Misfit;

@@ -57,11 +57,19 @@ pub(crate) struct Energy<S> {
     pub(crate) magnitude: S,
     /// c, J/K: times ε, what rounding of the temperature does to an entropy that is found from it.
     pub(crate) heat_capacity: S,
+    /// `|ψ| + θ|s| + cθ + Σ|f||π| + Σ|g||γ|` of this state.
+    pub(crate) terms: S,
+    /// What the bound of the energy counts beside `magnitude`, J: `Σ|f||π| + Σ|g||γ|` for the rounding of the
+    /// arguments of ψ; where energies are kept by their values, also for the rounding of these.
+    pub(crate) excess: S,
 }
 
 /// The share of the terms of an entropy that counts in the magnitude of an energy: their sum is known to
 /// 8 ε of them, and the bound of the energy is 64 ε of its magnitude.
 const SHARE_OF_TERMS: f64 = 0.125;
+
+/// The share of the terms of ψ: its value is known to 8 ε of them, and what is closed with it to as much.
+const SHARE_OF_VALUES: f64 = 0.25;
 
 impl<S: Real> Energy<S> {
     /// That of an element with the free energy ψ, the temperature θ and the kept entropy s, given what the
@@ -74,6 +82,8 @@ impl<S: Real> Energy<S> {
             value: psi + theta * entropy,
             magnitude: sizes.maximum(terms),
             heat_capacity: caloric.heat_capacity,
+            terms: sizes,
+            excess: S::zero(),
         }
     }
 
@@ -84,7 +94,22 @@ impl<S: Real> Energy<S> {
             value: psi,
             magnitude: psi.abs(),
             heat_capacity: S::zero(),
+            terms: psi.abs(),
+            excess: S::zero(),
         }
+    }
+
+    /// Adds `Σ|f||π| + Σ|g||γ|` of this state, J.
+    #[inline]
+    pub(crate) fn add_forces(&mut self, forces: S) {
+        self.terms += forces;
+        self.excess += forces;
+    }
+
+    /// Adds what rounding does to values of ψ with terms of this magnitude, J.
+    #[inline]
+    pub(crate) fn add_values(&mut self, magnitude: S) {
+        self.excess += S::from_f64(SHARE_OF_VALUES) * magnitude;
     }
 
     /// None.
@@ -93,6 +118,8 @@ impl<S: Real> Energy<S> {
             value: S::zero(),
             magnitude: S::zero(),
             heat_capacity: S::zero(),
+            terms: S::zero(),
+            excess: S::zero(),
         }
     }
 }

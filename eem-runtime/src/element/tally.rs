@@ -100,6 +100,24 @@ impl<S: Real> Tally<S> {
         self.least = self.least.minimum(entropy);
     }
 
+    /// What the balance of a node is off by, N s, given its impulse, terms of each direction, and the magnitude of
+    /// what the forces of its elements are computed from: forces of all directions leave their rounding in each.
+    #[inline]
+    pub(crate) fn balance_node<const D: usize>(
+        &mut self,
+        residual: &[S; D],
+        [impulse, terms]: [&[S; D]; 2],
+        magnitude: S,
+    ) {
+        let mut flowing = magnitude;
+        for impulse in impulse {
+            flowing += impulse.abs();
+        }
+        for (&residual, &terms) in residual.iter().zip(terms) {
+            self.balance(residual, flowing + terms);
+        }
+    }
+
     /// What a balance is off by, and the magnitude of its terms.
     #[inline]
     pub(crate) fn balance(&mut self, residual: S, magnitude: S) {

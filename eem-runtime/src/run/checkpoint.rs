@@ -8,6 +8,7 @@ mod numbers;
 mod outline;
 #[cfg(feature = "serde")]
 mod scheme_name;
+mod seals;
 
 use crate::element::state::State;
 use crate::number::compensated::{Compensated, Sum};
@@ -23,6 +24,8 @@ pub use error::RestoreError;
 use expect::{expect_all, expect_count};
 pub(crate) use numbers::Numbers;
 pub(crate) use outline::Outline;
+use seals::Sealed;
+pub(crate) use seals::Seals;
 
 /// A state of a [`Simulation`](crate::Simulation) to go on from later: values, what rounding took
 /// from them, time, step size and Newton settings.
@@ -35,7 +38,8 @@ pub(crate) use outline::Outline;
 /// A checkpoint may come from a file that somebody has edited.
 /// [`restore`](crate::Simulation::restore) refuses a state that no run can have: entropies that are not those of
 /// the temperatures, anchors that are not where they must be, more carried over than rounding
-/// leaves.
+/// leaves. What follows from the steps so far cannot be edited: work and heat, what step control has learnt, and the
+/// rates of an explicit scheme; that is [`RestoreError::Edited`].
 ///
 /// With the feature `serde` it can be written to a file and read back. The text must give back
 /// every bit of a float; for `serde_json` that is its feature `float_roundtrip`.
@@ -91,6 +95,7 @@ pub struct Checkpoint<S = f64> {
         serde(default = "Option::default", skip_serializing_if = "Option::is_none")
     )]
     pub(crate) explicit: Option<SavedExplicit<S>>,
+    pub(crate) seals: Seals,
 }
 
 impl<S: Copy> Checkpoint<S> {
@@ -163,9 +168,26 @@ impl<S: Real> Checkpoint<S> {
             })?;
         }
         self.check_past(past)?;
-        match (&self.explicit, explicit) {
-            (Some(own), Some(other)) => check_explicit(own, other),
-            _ => Ok(()),
+        if let (Some(own), Some(other)) = (&self.explicit, explicit) {
+            check_explicit(own, other)?;
+        }
+        self.seals.check(self.sealed())
+    }
+
+    /// The same with digests of what follows from the steps.
+    pub(crate) fn sealed_up(self) -> Self {
+        let seals = Seals::of(self.sealed());
+        Self { seals, ..self }
+    }
+
+    /// What follows from the steps.
+    fn sealed(&self) -> Sealed<'_, S> {
+        Sealed {
+            state: &self.state,
+            past: &self.past,
+            control: self.control.as_ref(),
+            choice: self.choice.as_ref(),
+            explicit: self.explicit.as_ref(),
         }
     }
 

@@ -6,26 +6,44 @@
 //! R = Σ v̄·Δp + Σ Δe + Σ θ_r Δσ_r + heat lost − work − heat,     v̄ = (p⁰ + p¹)/2m
 //! ```
 //!
-//! is what the step has gained of energy. No force and no divided difference enters it: with the force
-//! that moved the momenta in the place of Δe, any force would pass. Rounding explains
+//! is what the step has gained of energy. Δe is a difference of values of ψ: with the force that moved the
+//! momenta in its place, any force would pass.
+//!
+//! **What decides.** Rounding explains
 //!
 //! ```text
-//! B = 64 ε (A + A⁺)
-//! A  = Σ over both ends (T + |ψ| + θ|s| + cθ) + Σ |f*|(λ⁰ + λ¹) + Σ |g*|(|γ⁰| + |γ¹|)
+//! B* = 64 ε (A* + A⁺)
+//! A* = Σ over both ends (T + |ψ| + θ|s| + cθ) + Σ |f*|(λ⁰ + λ¹) + Σ |g*|(|γ⁰| + |γ¹|)
 //!      + ε Σ (|T_λλ| λ² + |T_γγ| γ²) + Σ η Δγ²/h + Σ |Q| + |work| + |heat|
 //! A⁺ = Σ |T_ij| |x_j| |Δx_i|          T: tangent of (f*, −g*, θ*),  x = (λ, γ, θ),  Δx = (Δλ, Δγ, Δs)
 //! ```
 //!
-//! A has the terms of the balance, A⁺ the work of the rounding of the arguments of the forces; it is found
-//! only where A is not enough. Where the terms of an entropy cancel, the temperature that is found from it,
+//! A* has the terms of the balance, A⁺ the work of the rounding of the arguments of the forces; it is found
+//! only where A* is not enough. Where the terms of an entropy cancel, the temperature that is found from it,
 //! and with it the stored energy, is known to 8 ε of them: an eighth of `θ Σ |terms of s|` replaces smaller
 //! values of `|ψ| + θ|s| + cθ`.
 //!
 //! Of what forces contribute, 0.4 of the digits count at most: ε^−0.4 times the other terms and
 //! `√ε Σ m (ℓ/h)²`, with the shortest element ℓ of each node; of their impulses ε^−0.4 times
-//! `Σ |p| + m ℓ/h`. Every term carries some roundings; 64 is eight times the largest `|R|/(ε (A + A⁺))` that
+//! `Σ |p| + m ℓ/h`. Every term carries some roundings; 64 is eight times the largest `|R|/(ε (A* + A⁺))` that
 //! a right step has shown, near an anchor. Momenta and productions are judged beside the energy.
+//!
+//! Where values of ψ have more rounding than B*, because its terms cancel, and R is within `B* + 4 ε M`, with
+//! `M = Σ |terms of ψ|` at both ends, R decides nothing. Then Δe by discrete derivatives between the stored
+//! states, formed anew, takes its place in the decision.
+//!
+//! **What is reported.** R as it is, from values, and with the forces at the ends
+//!
+//! ```text
+//! B = B* + 64 ε Σ over both ends (|f|λ + Σ |g||γ|)  + 16 ε M
+//! ```
+//!
+//! The rounding of λ and γ costs ψ the second term, which near a singular force is far above `|f*|λ`; the
+//! evaluation of ψ costs 8 ε M. M is found where values are too rough to decide. Nothing of B is cut off, so
+//! that the true ΔE of the stored states is within B. Where B exceeds 100 times 64 ε of `T + |ψ| + θ|s| + cθ +
+//! |f|λ + Σ|g||γ|` at both ends, the report says that its bound is wide.
 
+mod internal;
 mod motion;
 
 use crate::element::handle::Element;
@@ -35,6 +53,7 @@ use crate::number::scalar::{Mask, Real};
 use crate::step::error::StepFailure;
 use crate::step::law::Law;
 
+pub(crate) use internal::Internal;
 pub(crate) use motion::{Kept, Motion, NodeStep, Speeds};
 
 /// Roundings that the certificate itself may be off by: those of the values of ψ and θs at both ends. What
@@ -54,6 +73,13 @@ const MOST_DIGITS: f64 = 0.4;
 /// Roundings of the largest terms of a free energy, in the evaluation of which several add up.
 const VALUE_ROUNDINGS: f64 = 4.0;
 
+/// Roundings of the terms of ψ in the reported bound: 4 by which values and differences may disagree, 8 of the
+/// values, and 4 for what values and differences round together.
+const REPORTED_VALUE_ROUNDINGS: f64 = 16.0;
+
+/// A bound above so many times 64 ε of the terms of the energies is wide.
+const WIDE: f64 = 100.0;
+
 /// What moves if every node covers its shortest element in a step: where nothing else does, forces are
 /// measured by it.
 #[derive(Clone, Copy, Debug)]
@@ -71,6 +97,10 @@ pub(crate) struct Certificate<S: Real> {
     pub(crate) defect: S,
     /// B, J.
     pub(crate) bound: S,
+    /// The terms of the energies at both ends, J.
+    terms: S,
+    /// What decides: R, or the same with differences in the place of values, and B*, J.
+    judged: [S; 2],
     /// Σ over dashpots and paths of heat, J/K.
     pub(crate) production: S,
     /// The smallest of them; zero without any, J/K.
@@ -97,17 +127,17 @@ impl<S: Real> Reach<S> {
 }
 
 impl<S: Real> Certificate<S> {
-    /// From the motion of the nodes, what the elements say, and the energy `Σ Δe + Σ θ_r Δσ_r + heat lost −
-    /// heat` with the magnitude of its terms; and how far nodes reach, if it is asked for.
+    /// From the motion of the nodes, what the elements say, and the energies of the stored states; and how far
+    /// nodes reach, if it is asked for.
     pub(crate) fn new<const D: usize>(
         motion: &Motion<S, D>,
         tally: &Tally<S>,
-        [internal, magnitude]: [S; 2],
+        internal: &Internal<S>,
         reach: impl Fn() -> Reach<S>,
     ) -> Self {
         let mut energy = motion.energy;
-        energy.add(internal);
-        let terms = motion.amplitude + tally.heat + magnitude;
+        energy.add(internal.change);
+        let terms = motion.amplitude + tally.heat + internal.magnitude;
         let most = S::EPSILON.recip().powf(S::from_f64(MOST_DIGITS));
         let mut forces = tally.forces;
         if !forces.at_most(most * terms).all() {
@@ -118,12 +148,15 @@ impl<S: Real> Certificate<S> {
         if !impulse.at_most(most * motion.momenta).all() {
             impulse = impulse.minimum(most * (motion.momenta + reach().momentum));
         }
-        let amplitude = terms + forces;
+        let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
+        let defect = energy.value();
         let has_produced = tally.least.less(S::MAX);
         let largest = |of: &[S]| of.iter().fold(S::zero(), |most, x| most.maximum(x.abs()));
         Self {
-            defect: energy.value(),
-            bound: S::from_f64(ROUNDINGS) * S::EPSILON * amplitude,
+            defect,
+            bound: rounding * (terms + tally.forces + internal.excess),
+            terms: motion.amplitude + internal.terms,
+            judged: [defect, rounding * (terms + forces)],
             production: tally.production,
             least_production: S::select(has_produced, tally.least, S::zero()),
             linear: match motion.kept {
@@ -138,15 +171,21 @@ impl<S: Real> Certificate<S> {
         }
     }
 
-    /// The same where the energies have been counted anew, if their values are less sharp than the bound
+    /// The same where the energies have been counted anew: they decide if values are less sharp than the bound
     /// and their roundings explain the difference.
     pub(crate) fn recounted(mut self, recount: &Recount<S>) -> Self {
+        let [defect, bound] = self.judged;
         let rounding = S::from_f64(VALUE_ROUNDINGS) * S::EPSILON * recount.magnitude;
-        let is_explained =
-            self.bound.less(rounding) & self.defect.abs().at_most(self.bound + rounding);
-        let recounted = self.defect + recount.correction;
-        self.defect = S::select(is_explained, recounted, self.defect);
+        let is_explained = bound.less(rounding) & defect.abs().at_most(bound + rounding);
+        let recounted = defect + recount.correction;
+        self.judged[0] = S::select(is_explained, recounted, defect);
+        self.bound += S::from_f64(REPORTED_VALUE_ROUNDINGS) * S::EPSILON * recount.magnitude;
         self
+    }
+
+    /// Whether the bound is far above the rounding of the energies, or not a number.
+    pub(crate) fn is_bound_wide(&self) -> bool {
+        is_wide(self.bound, self.terms)
     }
 
     /// Two parts of a step, one after the other.
@@ -154,6 +193,7 @@ impl<S: Real> Certificate<S> {
         Self {
             defect: self.defect + later.defect,
             bound: self.bound + later.bound,
+            terms: self.terms + later.terms,
             production: self.production + later.production,
             least_production: self.least_production.minimum(later.least_production),
             ..later
@@ -199,14 +239,18 @@ impl<S: Real> Certificate<S> {
     /// Where the energy is as sharp as another iteration would make it.
     #[inline]
     pub(crate) fn has_enough_energy(&self) -> S::Mask {
-        let enough = S::from_f64(ENOUGH) * self.bound;
-        self.defect.abs().at_most(enough)
+        let [defect, bound] = self.judged;
+        defect.abs().at_most(S::from_f64(ENOUGH) * bound)
     }
 
     /// This one where a mask holds and another elsewhere; both of the same step.
     pub(crate) fn or(mut self, is_own: S::Mask, other: &Self) -> Self {
         self.defect = S::select(is_own, self.defect, other.defect);
         self.bound = S::select(is_own, self.bound, other.bound);
+        self.terms = S::select(is_own, self.terms, other.terms);
+        for (own, other) in self.judged.iter_mut().zip(other.judged) {
+            *own = S::select(is_own, *own, other);
+        }
         self.is_balanced = (self.is_balanced & is_own) | (other.is_balanced & !is_own);
         self
     }
@@ -214,13 +258,14 @@ impl<S: Real> Certificate<S> {
     /// The first law that is broken, with what it is off by and what rounding explains.
     pub(crate) fn broken_law(&self) -> Option<(Law, [S; 2])> {
         let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
+        let [energy, bound] = self.judged;
         let [linear, momenta] = self.linear;
         let [angular, moments] = self.angular;
         let laws = [
             (
                 Law::Energy,
-                self.defect,
-                S::from_f64(1.0 - OWN_ROUNDINGS / ROUNDINGS) * self.bound,
+                energy,
+                S::from_f64(1.0 - OWN_ROUNDINGS / ROUNDINGS) * bound,
             ),
             (Law::LinearMomentum, linear, rounding * momenta),
             (Law::AngularMomentum, angular, rounding * moments),
@@ -236,6 +281,12 @@ impl<S: Real> Certificate<S> {
             .find(|(_, defect, bound)| !defect.abs().at_most(*bound).all());
         broken.map(|(law, defect, bound)| (law, [defect, bound]))
     }
+}
+
+/// Whether a bound is far above the rounding of these terms of energies, J, or not a number.
+pub(crate) fn is_wide<S: Real>(bound: S, terms: S) -> bool {
+    let most = S::from_f64(WIDE * ROUNDINGS) * S::EPSILON * terms;
+    !bound.at_most(most).all()
 }
 
 impl Law {

@@ -5,11 +5,13 @@
 
 use thiserror::Error;
 
+use crate::algebra::memory::TooLarge;
 use crate::element::error::StateError;
 use crate::element::handle::{Element, Node};
 use crate::number::readable::Readable;
 use crate::number::scalar::Discord;
 use crate::step::law::Law;
+use crate::step::newton::NewtonIteration;
 
 /// Why a step found no new state.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -188,12 +190,14 @@ pub enum StepFailure {
         value: f64,
     },
     /// Step control would need smaller steps than it may take.
-    #[error("steps of less than {smallest} s would be needed: {limit}", smallest = Readable(*smallest))]
+    #[error("steps of less than {smallest} s would be needed: {limit}{}", too_large.map_or_else(String::new, |error| format!("; no other scheme could be tried: {error}")), smallest = Readable(*smallest))]
     TooSmall {
         /// The smallest step that is allowed, s.
         smallest: f64,
         /// Why the last one was rejected.
         limit: StepLimit,
+        /// What another scheme would have taken that [`Scheme::Auto`](crate::Scheme::Auto) could not try.
+        too_large: Option<TooLarge>,
     },
     /// A run cannot end then.
     #[error("the end time is {end} s, it must be a number and not lie before the present time", end = Readable(*end))]
@@ -338,13 +342,4 @@ pub struct StepError {
     /// What each iteration of each attempt did; [`NewtonSettings::max_iterations`](crate::NewtonSettings)
     /// is the limit of one attempt.
     pub history: Box<[NewtonIteration]>,
-}
-
-/// One iteration of Newton's method.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct NewtonIteration {
-    /// The largest residual of the momentum balances before the update, N s.
-    pub residual: f64,
-    /// The largest update, in units of the longest stretch and of the temperatures.
-    pub update: f64,
 }

@@ -143,6 +143,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let temperatures = offsets.size - offsets.temperatures;
         let dashpot_slots = dashpot_slots(site.layout, temperatures);
         let produces = produces(&components, site.layout, &dashpot_slots);
+        let sizes = [site.masses.len(), components.nodes.len() * D];
         Self {
             per_mass: per_mass.collect(),
             masses,
@@ -159,7 +160,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             start: sample,
             books: Books::new(&components, held.len()),
             new_books: Books::new(&components, held.len()),
-            scratch: Scratch::new(&components, site.layout, components.nodes.len() * D),
+            scratch: Scratch::new(&components, site.layout, sizes),
             dashpot_slots,
             groups,
             components,

@@ -54,19 +54,30 @@ pub struct StepReport<S> {
     pub update: S,
     /// The largest residual of the momentum balances at the new state, N s.
     pub residual: S,
-    /// `ΔE − work − heat` of the step, formed with energies of the stored states, J. See
-    /// [`bound`](Self::bound). In the first step after a checkpoint was restored its last roundings may be
-    /// others, as the energies of the old state are evaluated anew.
+    /// `ΔE − work − heat` of the step, J: the energies are values of ψ at the stored states, never forces or
+    /// differences of the scheme. See [`bound`](Self::bound). In the first step after a checkpoint was restored
+    /// its last roundings may be others, as the energies of the old state are evaluated anew.
     pub defect: S,
-    /// What rounding may do to [`defect`](Self::defect): `64 ε` times the magnitudes of all terms of
-    /// the balance and of their arguments, J. A step of an exact scheme beyond it is an error,
-    /// [`StepFailure::LawNotKept`](crate::StepFailure::LawNotKept).
+    /// What rounding may do to the energy of the step, J: the true `ΔE − work − heat` of the stored states, which
+    /// [`defect`](Self::defect) rounds, is within it in every step of an exact scheme. A step beyond it is an
+    /// error, [`StepFailure::LawNotKept`](crate::StepFailure::LawNotKept).
     ///
-    /// It says what the proof is worth: a length is known to `ε` of the coordinates, so that a body of the
-    /// stiffness k far stiffer than its energies need has them to `ε k q²` only. Where the bound is no smaller than
-    /// the energies of interest, the step proves nothing about them; coordinates nearer to zero, or softer bodies,
-    /// do.
+    /// It is `64 ε` times the terms of the balance, `|ψ| + θ|s| + cθ`, `|f|λ` and `|g||γ|` with the forces at
+    /// both ends among them, and the work of what rounding of their arguments does to the forces. Where the
+    /// terms of ψ cancel, what rounding does to its values is added.
+    ///
+    /// It says what the proof is worth: a length is known to `ε λ`, so that a body of the stiffness k far
+    /// stiffer than its energies need, or near a singular force, has them to `ε k λ²` only.
     pub bound: S,
+    /// Whether [`bound`](Self::bound) exceeds 100 times `64 ε` of `T + |ψ| + θ|s| + cθ + |f|λ + |g||γ|` at both
+    /// ends: the step keeps its laws as far as rounding lets it say, but less sharply than the energies are
+    /// stored. That is so where internal variables answer to the rounding of a length far more than the energies
+    /// do, or where terms of ψ cancel.
+    ///
+    /// If the bound is too wide for the purpose, measure ψ from where its terms do not cancel (`ln_1p`, `exp_m1`,
+    /// a square in the place of a difference of squares), replace a body that is far too stiff by a rigid one, or
+    /// keep away from the singularity of the force.
+    pub is_bound_wide: bool,
     /// The entropy that dashpots and conduction produced, J/K.
     pub production: S,
     /// The smallest production of a single dashpot or path of heat, J/K; never negative in an exact
@@ -91,6 +102,7 @@ impl<S: Real> StepReport<S> {
             residual: self.residual.maximum(later.residual),
             defect: self.defect + later.defect,
             bound: self.bound + later.bound,
+            is_bound_wide: self.is_bound_wide | later.is_bound_wide,
             production: self.production + later.production,
             least_production: self.least_production.minimum(later.least_production),
             error: self.error.maximum(later.error),
@@ -192,4 +204,13 @@ mod tests {
         assert!(!is_last::<f64>(3e-3, Some(4e-3), 1e-8));
         assert!(!is_last(f64::NAN, Some(1e-3), 1e-8));
     }
+}
+
+/// One iteration of Newton's method.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NewtonIteration {
+    /// The largest residual of the momentum balances before the update, N s.
+    pub residual: f64,
+    /// The largest update, in units of the longest stretch and of the temperatures.
+    pub update: f64,
 }

@@ -9,6 +9,7 @@ pub(crate) struct Outcome<S> {
     /// `ΔE − work − heat`, and what rounding explains of it, J.
     pub(crate) defect: S,
     pub(crate) bound: S,
+    pub(crate) is_bound_wide: bool,
     /// Σ over dashpots and paths of heat, and the smallest of them, J/K.
     pub(crate) production: S,
     pub(crate) least_production: S,
@@ -22,6 +23,7 @@ impl<S: Real> From<Certificate<S>> for Outcome<S> {
         Self {
             defect: certificate.defect,
             bound: certificate.bound,
+            is_bound_wide: certificate.is_bound_wide(),
             production: certificate.production,
             least_production: certificate.least_production,
             correction: S::zero(),

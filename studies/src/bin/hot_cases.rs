@@ -6,9 +6,9 @@ use std::error::Error;
 
 use clap::{Parser, ValueEnum};
 use eem::prelude::*;
-use eem_studies::published::{self as single_pendulum, Double, single};
+use eem_studies::pendulums::{self as single_pendulum, Double, single};
 
-#[path = "../../../examples/satellite/scene.rs"]
+#[path = "satellite/scene.rs"]
 #[allow(dead_code, reason = "the example uses all of it")]
 mod satellite;
 

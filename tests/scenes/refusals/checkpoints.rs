@@ -226,6 +226,60 @@ fn another_time_or_an_infinite_energy() {
     assert!(matches!(error, RestoreError::Total { .. }), "{error}");
 }
 
+/// Bookings, what step control has learnt, and the rates of an explicit scheme.
+#[test]
+fn what_follows_from_the_steps() {
+    let controlled = |scheme| {
+        let mut run = build(scheme, &NUMBERS);
+        run.control_steps(Tolerance::new(1e-4)).unwrap();
+        for _ in 0..20 {
+            run.step().unwrap();
+        }
+        run
+    };
+    let common = [
+        ("/state/heat/0", "heat"),
+        ("/state/work/0", "work"),
+        ("/state/thermostat_entropy/0", "thermostat entropy"),
+        ("/state/reservoir_entropies/0/0", "reservoir entropies"),
+        ("/state/dissipated/0", "lost heat"),
+        ("/control/smallest", "the smallest step"),
+        ("/control/largest", "the largest step"),
+        ("/control/largest_momentum", "the largest momentum"),
+        ("/control/controller/last/0", "the last step under control"),
+    ];
+    let newton = [("/past/forces/0/0", "forces")];
+    let explicit = [
+        ("/explicit/rates/0", "rates"),
+        ("/explicit/powers/0", "powers of dashpots"),
+        ("/explicit/supply/1", "powers of thermostats"),
+        ("/explicit/reactions/0", "reactions of anchors"),
+        ("/explicit/held_energies/1", "energies of thermostats"),
+        ("/explicit/targets/0/0", "targets"),
+        ("/explicit/largest_momentum", "the largest momentum"),
+        ("/explicit/residue", "what the energy is off by"),
+    ];
+    for (scheme, own) in [
+        (Scheme::EemEntropy, &newton[..]),
+        (Scheme::EemExplicit, &explicit[..]),
+    ] {
+        for &(path, entry) in common.iter().chain(own) {
+            for edited in [1e3, 1e300] {
+                let mut run = controlled(scheme);
+                let mut value = serde_json::to_value(run.checkpoint()).unwrap();
+                let number = value.pointer_mut(path).unwrap();
+                *number = json!(edited);
+                let checkpoint: Checkpoint = serde_json::from_value(value).unwrap();
+                run.step().unwrap();
+                let before = format!("{:?}", run.checkpoint());
+                let error = run.restore(&checkpoint).unwrap_err();
+                assert_eq!(error, RestoreError::Edited { entry }, "{scheme}: {path}");
+                assert_eq!(before, format!("{:?}", run.checkpoint()));
+            }
+        }
+    }
+}
+
 #[test]
 fn a_scene_with_other_numbers() {
     let saved = run(Scheme::EemEntropy).checkpoint();

@@ -77,3 +77,62 @@ fn the_simulation_is_as_it_was_and_goes_on() {
         }
     }
 }
+
+/// Those of [`bits`] that say what the next steps do: what an explicit scheme foretells has no effect on them.
+fn effective(run: &Simulation<2>) -> String {
+    bits(run).split("past:").next().unwrap().to_owned()
+}
+
+/// Two runs that know nothing of each other, after two steps.
+fn two_of(scheme: Scheme) -> [Simulation<2>; 2] {
+    let off = Arc::new(AtomicBool::new(false));
+    [0, 1].map(|_| {
+        let mut run = driven(scheme, "none", &off);
+        run.step().unwrap();
+        run.step().unwrap();
+        run
+    })
+}
+
+#[test]
+fn an_observer_that_panics_within_a_step_leaves_the_run_at_its_end() {
+    for scheme in Scheme::ALL.into_iter().chain([Scheme::Auto]) {
+        let [mut run, mut calm] = two_of(scheme);
+        let start = run.time();
+        let times = [start + 1e-3, start + 5.0];
+        let sampling = AssertUnwindSafe(|| {
+            run.sample_at(&times, |run| {
+                assert!(run.time() >= start + 5.0, "an observer of the test");
+                ControlFlow::Continue(())
+            })
+        });
+        assert!(catch_unwind(sampling).is_err(), "{scheme}");
+        calm.step().unwrap();
+        assert_eq!(effective(&run), effective(&calm), "{scheme}");
+        for run in [&mut run, &mut calm] {
+            run.step().unwrap();
+        }
+        assert_eq!(effective(&run), effective(&calm), "{scheme}");
+    }
+}
+
+#[test]
+fn an_event_that_panics_leaves_the_run_before_the_step() {
+    for scheme in Scheme::ALL.into_iter().chain([Scheme::Auto]) {
+        // At the end of the step, and in the search for a change of sign within it.
+        for sign in [1.0, -1.0] {
+            let [mut run, calm] = two_of(scheme);
+            let start = run.time();
+            let mut calls = 0;
+            let event = Event::crossing(move |run: &Simulation<2>| {
+                calls += 1;
+                assert!(sign < 0.0 && calls < 3 || calls < 2, "an event of the test");
+                Ok(if run.time() > start { sign } else { 1.0 })
+            });
+            let mut events = [event];
+            let looking = AssertUnwindSafe(|| run.run_until_event(start + 5.0, &mut events));
+            assert!(catch_unwind(looking).is_err(), "{scheme}");
+            assert_eq!(effective(&run), effective(&calm), "{scheme}, {sign}");
+        }
+    }
+}

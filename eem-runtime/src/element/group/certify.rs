@@ -1,47 +1,16 @@
 //! What the elements contribute to the certificate of a step.
 
-use super::arms::{along, arms_in, measures_in};
+use super::arms::measures_in;
 use super::member::Member;
 use super::point::Point;
 use super::site::Contact;
 use crate::element::conjugates::ElementScheme;
-use crate::element::group::element_group::ElementGroup;
 use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::{Arms, Ends, Kinematics};
-use crate::element::recount::Recount;
-use crate::element::state::State;
+use crate::element::kinematics::{Arms, Kinematics};
+use crate::element::state::Energy;
 use crate::element::tally::{Care, Received, Tally};
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::FreeEnergy;
 use crate::number::scalar::Real;
-
-impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
-{
-    /// See [`Group::recount`](super::Group::recount).
-    pub(super) fn recount_all(&self, ends: [&State<S>; 2], recount: &mut Recount<S>) {
-        for member in &self.members {
-            for point in member.points.as_ref() {
-                let own = point.balance_between(&member.site.nodes, ends);
-                let found = Point::<S, M, K, C, D>::change_of(&point.response, &own.increments);
-                recount.element(point.element, own.by_values, own.by_differences, found);
-            }
-        }
-    }
-}
-
-/// The change of the energy of a point between two states.
-pub(super) struct EnergyChange<S: Real, M: FreeEnergy<S>> {
-    /// By its values, with the magnitude of their terms, J.
-    pub(super) by_values: [S; 2],
-    /// By discrete derivatives, J.
-    pub(super) by_differences: S,
-    /// `(Δλ, Δγ, Δs)`.
-    increments: M::Variables,
-}
 
 impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
 where
@@ -76,25 +45,6 @@ where
             }
         }
     }
-}
-
-/// The change of the arms of an element between two states, from what they are stored as.
-fn change_between<K: Kinematics<S, D>, S: Real, const D: usize>(
-    nodes: &K::PerNode<u32>,
-    [old, new]: [&State<S>; 2],
-) -> Arms<K, S, D> {
-    let mut change = Arms::<K, S, D>::filled([S::zero(); D]);
-    let nodes = nodes.as_ref();
-    for (arm, &node) in change.as_mut().iter_mut().zip(&nodes[1..]) {
-        for (axis, component) in arm.iter_mut().enumerate() {
-            let moved = |node: u32| {
-                new.positions
-                    .change(node as usize * D + axis, &old.positions)
-            };
-            *component = moved(node) - moved(nodes[0]);
-        }
-    }
-    change
 }
 
 /// What the variables of a point are computed from, and what the certificate asks of it.
@@ -167,41 +117,77 @@ where
         sum
     }
 
-    /// What its forces contribute to A and, with care, to A⁺, J:
+    /// What its forces contribute to A and, with care, to A⁺, and `Σ|f||π| + Σ|g||γ|` of the new state, J:
     ///
     /// ```text
     /// |f*|(λ⁰ + λ¹) + Σ |g*|(|γ⁰| + |γ¹|) + ε (|T_λλ| λ² + Σ |T_γγ| γ²)
     /// Σ_ij |T_ij| |x_j| |Δx_i|,     Δx = (Δλ, Δγ, Δs)
+    /// |f* + Σ T_λj Δx_j| λ¹ + Σ |g* + Σ T_γj Δx_j| |γ¹|
     /// ```
     ///
     /// The part with ε is what rounding of a state at the bottom of a well does. The measures of a solid are
     /// ratios, whose sizes have nothing to do with the motion: its forces always need the care.
+    ///
+    /// `f* + Σ T_λj Δx_j` over the mechanical variables is the force of the new state, since f* is a divided
+    /// difference: where only λ changes, `T_λλ = (f¹ − f*)/Δλ`. It is exact for energies that are quadratic in them;
+    /// as to the temperature, it is the mean of the forces at both.
     #[inline]
-    pub(super) fn amplitude(&self, [r0, r1]: [&Arms<K, S, D>; 2], care: Care) -> S {
+    pub(super) fn amplitude(&self, [r0, r1]: [&Arms<K, S, D>; 2], care: Care) -> [S; 2] {
         let (sizes0, sizes1) = (self.sizes(r0, &self.start.x0), self.sizes(r1, &self.x));
-        let mut sum = S::zero();
+        let (mut sum, mut at_end) = (S::zero(), S::zero());
         for row in 0..M::MEASURES + M::DASHPOTS {
             let size = sizes1[row].abs();
             let rounding = S::EPSILON * size * size;
             sum += self.pull_of_row(row).abs() * (sizes0[row].abs() + size);
             sum += self.slopes[row][row].abs() * rounding;
+            let slopes = &self.slopes[row].as_ref()[..M::MEASURES + M::DASHPOTS];
+            let slopes = slopes.iter().enumerate();
+            let force = slopes.fold(self.response[row], |force, (column, &slope)| {
+                force + slope * self.increment_of(column)
+            });
+            at_end += force.abs() * size;
         }
         if K::IS_SPRING && matches!(care, Care::Quick) {
-            return sum;
+            return [sum, at_end];
         }
-        sum + self.work_of_arguments(&sizes1)
+        [sum + self.work_of_arguments(&sizes1), at_end]
+    }
+
+    /// Adds what the bounds of the next step ask of a state with these arms. Schemes with discrete derivatives do
+    /// not keep energies by their values.
+    #[cold]
+    pub(super) fn add_bounds(&self, r: &Arms<K, S, D>, x: &M::Variables, energy: &mut Energy<S>) {
+        energy.add_forces(self.work_of(&self.model.gradient(x), r, x));
+        if !C::EXACT {
+            energy.add_values(self.model.energy_magnitude(x));
+        }
+    }
+
+    /// `Σ|f||π| + Σ|g||γ|` of forces in a state with these arms, J.
+    #[inline]
+    pub(super) fn work_of(&self, forces: &M::Variables, r: &Arms<K, S, D>, x: &M::Variables) -> S {
+        let sizes = self.sizes(r, x);
+        let forces = forces.as_ref()[..M::MEASURES + M::DASHPOTS].iter();
+        forces
+            .zip(sizes.as_ref())
+            .fold(S::zero(), |sum, (&force, &size)| sum + (force * size).abs())
+    }
+
+    /// Δλ or Δγ.
+    #[inline]
+    fn increment_of(&self, row: usize) -> S {
+        if row < M::MEASURES {
+            self.x[row] - self.start.x0[row]
+        } else {
+            self.creep[row - M::MEASURES]
+        }
     }
 
     #[cold]
     fn work_of_arguments(&self, sizes: &M::Variables) -> S {
         let mut sum = S::zero();
         for row in 0..M::MEASURES + M::DASHPOTS {
-            let change = if row < M::MEASURES {
-                self.x[row] - self.start.x0[row]
-            } else {
-                self.creep[row - M::MEASURES]
-            };
-            sum += self.magnitude_of_row(row, sizes) * change.abs();
+            sum += self.magnitude_of_row(row, sizes) * self.increment_of(row).abs();
         }
         if M::THERMAL {
             let change = self.response[Self::ENTROPY];
@@ -256,76 +242,5 @@ where
             let terms = self.known_to(Self::TEMPERATURE, r1, tally.care);
             tally.balance(trial.seen.values()[slot] - theta, terms);
         }
-    }
-
-    /// The change of its energy between two states, given its nodes.
-    pub(super) fn balance_between(
-        &self,
-        nodes: &K::PerNode<u32>,
-        ends: [&State<S>; 2],
-    ) -> EnergyChange<S, M> {
-        let [r0, r1] = ends.map(|state| arms_in::<K, S, D>(nodes, &state.positions));
-        let change = change_between::<K, S, D>(nodes, ends);
-        let at = self.element.index();
-        let by_values = ends[1].energies[at].value - ends[0].energies[at].value;
-        let x = [
-            self.variables_in(&r0, ends[0]),
-            self.variables_in(&r1, ends[1]),
-        ];
-        let increments = self.increments_between([&r0, &r1], &change, &x, ends);
-        let magnitude = x.map(|x| self.model.energy_magnitude(&x));
-        EnergyChange {
-            by_values: [by_values, magnitude[0] + magnitude[1]],
-            by_differences: self.energy_change(&x, &increments),
-            increments,
-        }
-    }
-
-    /// `(Δλ, Δγ, Δs)` between two states, from what they are stored as.
-    fn increments_between(
-        &self,
-        [r0, r1]: [&Arms<K, S, D>; 2],
-        change: &Arms<K, S, D>,
-        [x0, x1]: &[M::Variables; 2],
-        [old, new]: [&State<S>; 2],
-    ) -> M::Variables {
-        let mut increments = M::Variables::filled(S::zero());
-        let ends = Ends {
-            r0: *r0,
-            r1: *r1,
-            measures0: measures_in::<K, S, D>(x0),
-            measures1: measures_in::<K, S, D>(x1),
-        };
-        let gradient = self.kinematics.discrete_gradient(&ends);
-        for (a, row) in gradient.as_ref().iter().enumerate() {
-            increments[a] = along::<K, S, D>(row, change);
-        }
-        let slots = self.slots();
-        for k in 0..M::DASHPOTS {
-            increments[M::MEASURES + k] = new.viscous.change(slots.viscous + k, &old.viscous);
-        }
-        if let Some(slot) = slots.thermal {
-            increments[Self::TEMPERATURE] = new.entropies.change(slot, &old.entropies);
-        }
-        increments
-    }
-
-    /// `f*Δλ − Σ g*Δγ + θ*Δs`, J.
-    fn change_of(response: &M::Response, increments: &M::Variables) -> S {
-        let mut sum = S::zero();
-        for row in 0..Self::VARIABLES {
-            let is_dashpot = (M::MEASURES..Self::TEMPERATURE).contains(&row);
-            let term = response[row] * increments[row];
-            sum += if is_dashpot { -term } else { term };
-        }
-        sum
-    }
-
-    /// `Δe` between two states by discrete derivatives that are formed anew: the values of a free energy
-    /// whose terms cancel have more rounding than its differences.
-    fn energy_change(&self, [x0, x1]: &[M::Variables; 2], increments: &M::Variables) -> S {
-        let old = self.model.temperature_form_old(x0);
-        let response = self.model.temperature_form_response(&old, x1);
-        Self::change_of(&response, increments)
     }
 }

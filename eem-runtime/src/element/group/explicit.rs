@@ -13,7 +13,11 @@ mod closing;
 mod group;
 mod rates;
 mod stiffness;
+mod temperature;
 pub(super) mod view;
 
 pub(crate) use group::FreeGroup;
-pub(crate) use view::{ClosingView, ComponentEnergy, Offsets, PlaceOf, StageRates, StageView};
+pub(crate) use temperature::is_met;
+pub(crate) use view::{
+    ClosingView, ComponentEnergy, Offsets, PlaceOf, StageRates, StageView, UnkeptEntropy,
+};

@@ -42,7 +42,7 @@ where
             for point in member.points.as_ref() {
                 let x = point.variables_in(&r, state);
                 let psi = point.model.free_energy(&x);
-                let energy = match point.slots().thermal {
+                let mut energy = match point.slots().thermal {
                     None => Energy::without_temperature(psi),
                     Some(slot) => {
                         let theta = state.temperatures[slot];
@@ -50,6 +50,7 @@ where
                         Energy::new(psi, [theta, entropy], &point.model.caloric(&x))
                     }
                 };
+                point.add_bounds(&r, &x, &mut energy);
                 state.energies[point.element.index()] = energy;
             }
         }
@@ -143,8 +144,9 @@ where
         self.find_viscosities(theta)?;
         self.find_drag_viscosity(theta)?;
         let caloric = self.model.caloric(&x);
-        let energy = self.energy_at(&x, caloric)?;
+        let mut energy = self.energy_at(&x, caloric)?;
         check_gradient::<S, M>(self.element, &self.model.gradient(&x))?;
+        self.add_bounds(r, &x, &mut energy);
         state.energies[self.element.index()] = energy;
         let Some(slot) = slot else {
             return Ok(());

@@ -37,10 +37,12 @@ where
                     point.book_thermostat(view, [entropy, received.entropy], next);
                 }
                 if C::EXACT {
-                    let forces = point.amplitude([&member.r0, &r1], tally.care);
+                    let [forces, at_end] = point.amplitude([&member.r0, &r1], tally.care);
                     tally.force(forces);
                     tally.exchange(view.step * point.largest_pull(&r1));
-                    let magnitude = next.energies[point.element.index()].magnitude + forces;
+                    let energy = &mut next.energies[point.element.index()];
+                    energy.add_forces(at_end);
+                    let magnitude = energy.magnitude + forces;
                     point.judge(view, (contact, trial), &r1, (received, magnitude), tally);
                 }
             }

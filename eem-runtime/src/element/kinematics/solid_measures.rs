@@ -10,7 +10,7 @@ use crate::element::kinematics::solid_state::SolidState;
 use crate::element::kinematics::strain::Measure;
 use crate::element::kinematics::tensor::{Symmetric, dot, plus, pushed};
 use crate::material::free_energy::{Array, Entry};
-use crate::number::scalar::{Mask, Real, Scalar};
+use crate::number::scalar::{Mask, Real};
 
 impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
     for SolidPoint<H, S, N, D>
@@ -79,11 +79,12 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
         let tensor = self.deformation(r);
         let between = Strains::<H, S, D>::new([&tensor, &tensor]);
         let terms = self.terms_of_deformation(r);
-        let strain = plus(
-            &H::Tensor::<S>::green_lagrange(&terms),
-            S::one(),
-            &H::Tensor::<S>::unit(),
-        );
+        let unit = H::Tensor::<S>::unit();
+        let strain = plus(&H::Tensor::green_lagrange(&terms), S::one(), &unit);
+        let mut steepness = [S::zero(); D];
+        for (sum, b) in (0..D).cycle().zip(self.gradients.as_ref().as_flattened()) {
+            steepness[sum] += b.abs();
+        }
         self.measures.each_ref().map(|measure| {
             let mut slope = match measure {
                 Measure::Square => plus(&strain, S::one(), &strain),
@@ -92,11 +93,8 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
             for entry in slope.as_mut() {
                 *entry = entry.abs();
             }
-            let sizes = self.gradients.as_ref().iter().flat_map(|b| {
-                let b = b.map(Scalar::abs);
-                pushed(&terms, &slope.applied(&b))
-            });
-            sizes.fold(S::zero(), |sum, size| sum + size)
+            let sizes = pushed(&terms, &slope.applied(&steepness));
+            sizes.iter().fold(S::zero(), |sum, &size| sum + size)
         })
     }
 

@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use crate::algebra::memory::TooLarge;
 use crate::element::error::StateError;
 use crate::element::group::Misfit;
 use crate::element::handle::Element;
@@ -92,6 +93,17 @@ pub enum RestoreError {
         /// What is said to be missing of it.
         carry: f64,
     },
+    /// An entry is not what the run has saved, though it follows from the steps and not from the state.
+    #[error(
+        "the checkpoint has been edited: {entry} must be what the run has saved; change positions, momenta, viscous stretches and temperatures with their entropies, and everything else by methods of the simulation"
+    )]
+    Edited {
+        /// What has been edited.
+        entry: &'static str,
+    },
+    /// The scheme of the checkpoint, or that to which a run returns, takes more memory than it may.
+    #[error(transparent)]
+    Memory(#[from] TooLarge),
     /// The scenes have other numbers: the parameters of a material, a mass, a conductance.
     #[error(
         "the checkpoint is one of a scene with other {kind}: build the scene with the numbers that it had"

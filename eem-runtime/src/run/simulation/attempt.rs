@@ -72,6 +72,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             residual: self.effort.end.residual,
             defect: outcome.defect,
             bound: outcome.bound,
+            is_bound_wide: outcome.is_bound_wide,
             production: outcome.production,
             least_production: outcome.least_production,
             correction: outcome.correction.abs(),

@@ -5,13 +5,16 @@ use super::control_memory::Control;
 use super::groups::Groups;
 use super::stepper::{Parts, Stepper};
 use super::{Simulation, Tried};
+use crate::algebra::memory::TooLarge;
 use crate::element::group::Placed;
 use crate::number::scalar::Real;
 use crate::run::checkpoint::{Checkpoint, RestoreError, SavedChoice};
 use crate::step::automatic::{CANDIDATES, Verdict, implicit};
 use crate::step::error::{StepError, StepFailure};
+use crate::step::explicit::SavedExplicit;
 use crate::step::newton::StepReport;
 use crate::step::scheme::{Closing, Scheme};
+use crate::step::solver::SavedPast;
 use crate::step::systems::Systems;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
@@ -41,27 +44,29 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         end: S,
     ) -> Result<StepReport<S>, StepError> {
         let (own, usual) = (self.in_use, self.step);
-        let failed = match self.counted_step(control, end) {
+        let mut failed = match self.counted_step(control, end) {
             Ok(report) => return Ok(report),
             Err(error) => error,
         };
-        if !matches!(failed.failure, StepFailure::TooSmall { .. }) {
+        let StepFailure::TooSmall { too_large, .. } = &mut failed.failure else {
             return Err(failed);
-        }
+        };
         let past = self.stepper.past(&self.state);
         for scheme in CANDIDATES {
-            if scheme == own || !self.is_candidate(scheme, control) {
+            if scheme == own
+                || !self.is_candidate(scheme, control)
+                || !self.goes_over_to(scheme, control)
+            {
                 continue;
             }
-            self.go_over_to(scheme, control);
             self.step = usual;
             if let Ok(report) = self.counted_step(control, end) {
                 self.gone_on(control, usual);
                 return Ok(report);
             }
         }
-        self.go_over_to(own, control);
-        self.stepper.restore(&past.0, past.1.as_ref());
+        self.return_to_scheme(own, &past, control);
+        *too_large = control.memory.statistics.too_large;
         Err(failed)
     }
 
@@ -102,7 +107,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         if !automatic.choice.looks() {
             return;
         }
-        if let Stepper::Explicit(explicit) = &self.stepper {
+        if let Stepper::Explicit(explicit) = &mut self.stepper {
             let view = explicit_view!(self);
             let failures = control.memory.statistics.failures();
             let share = explicit.share_of_stable_step(&view);
@@ -130,7 +135,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         let (own, usual) = (self.in_use, self.step);
         let past = self.stepper.past(&self.state);
-        self.go_over_to(scheme, control);
+        if !self.goes_over_to(scheme, control) {
+            self.wait_longer();
+            return Ok(None);
+        }
         let tried = self.attempt(control, size);
         if let Ok(Tried::Made(report)) = tried {
             self.count(0, report.step.to_f64());
@@ -146,12 +154,16 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             Err(error) => _ = statistics.note_failure(&error.failure),
             Ok(_) => statistics.rejected_by_error += 1,
         }
-        self.go_over_to(own, control);
-        self.stepper.restore(&past.0, past.1.as_ref());
+        self.return_to_scheme(own, &past, control);
+        self.wait_longer();
+        Ok(None)
+    }
+
+    /// The next trial waits twice as long as this one did.
+    fn wait_longer(&mut self) {
         if let Some(automatic) = &mut self.automatic {
             automatic.choice.wait_longer();
         }
-        Ok(None)
     }
 
     /// Goes over to the explicit scheme for some steps, if it is time to try it.
@@ -165,10 +177,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         };
         let size = self.step.to_f64();
         if automatic.choice.tries_explicit(size) {
-            let size = automatic.choice.begin_trial(size);
-            automatic.previous = self.in_use;
-            self.go_over_to(explicit, control);
-            self.step = S::from_f64(size).minimum(self.step);
+            let previous = self.in_use;
+            if !self.goes_over_to(explicit, control) {
+                return self.wait_longer();
+            }
+            if let Some(automatic) = &mut self.automatic {
+                automatic.previous = previous;
+                let size = automatic.choice.begin_trial(size);
+                self.step = S::from_f64(size).minimum(self.step);
+            }
         }
     }
 
@@ -182,8 +199,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             Verdict::Keep => control.memory.statistics.changes_of_scheme += 1,
             Verdict::Return(size) => {
                 let scheme = automatic.previous;
-                self.go_over_to(scheme, control);
-                self.step = S::from_f64(size);
+                // Without the memory that it had, the explicit scheme is gone on with, whose steps have their size.
+                if self.goes_over_to(scheme, control) {
+                    self.step = S::from_f64(size);
+                }
             }
         }
     }
@@ -196,24 +215,41 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// Steps the elements by another scheme from now on.
-    fn go_over_to(&mut self, scheme: Scheme, control: &mut Control<S>) {
-        self.use_scheme(scheme);
-        *control = self.control_of(control.memory.after_change());
+    /// Steps the elements by another scheme from now on; false, with a note in the statistics, if there is no memory
+    /// for it.
+    fn goes_over_to(&mut self, scheme: Scheme, control: &mut Control<S>) -> bool {
+        match self.use_scheme(scheme) {
+            Ok(()) => {
+                *control = self.control_of(control.memory.after_change());
+                true
+            }
+            Err(too_large) => {
+                control.memory.statistics.too_large = Some(too_large);
+                false
+            }
+        }
     }
 
-    /// The same while nothing controls the steps.
-    pub(super) fn use_scheme(&mut self, scheme: Scheme) {
+    /// Steps by the scheme from before a trial again, with what it knew; a note says so if its memory is gone.
+    fn return_to_scheme(
+        &mut self,
+        scheme: Scheme,
+        (past, explicit): &(SavedPast<S>, Option<SavedExplicit<S>>),
+        control: &mut Control<S>,
+    ) {
+        if self.in_use == scheme || self.goes_over_to(scheme, control) {
+            self.stepper.restore(past, explicit.as_ref());
+        }
+    }
+
+    /// The same while nothing controls the steps; an error, and nothing has changed, if there is no memory for it.
+    pub(super) fn use_scheme(&mut self, scheme: Scheme) -> Result<(), TooLarge> {
         let Some(automatic) = &mut self.automatic else {
-            return;
+            return Ok(());
         };
         let elements = (&automatic.elements[..], &self.layout);
         let (rockets, limit) = (self.loads.rocket_lines(), automatic.memory_limit);
-        let systems = Systems::new(scheme, elements, &self.conduction, &rockets, limit);
-        // Without the memory for another scheme it stays with the present one.
-        let Ok(systems) = systems else {
-            return;
-        };
+        let systems = Systems::new(scheme, elements, &self.conduction, &rockets, limit)?;
         automatic.evaluations += self.stepper.evaluations();
         let parts = Parts {
             scheme,
@@ -235,6 +271,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.stepper.each_mut(|group| group.find_energies(state));
         self.in_use = scheme;
         self.has_stepped = false;
+        Ok(())
     }
 
     /// What a checkpoint keeps of the choice of a scheme.

@@ -224,7 +224,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             // Also where it is not a number.
             if !smallest.at_most(next).all() {
                 let smallest = smallest.to_f64();
-                return Err(self.failed(StepFailure::TooSmall { smallest, limit }));
+                let too_large = control.memory.statistics.too_large;
+                return Err(self.failed(StepFailure::TooSmall {
+                    smallest,
+                    limit,
+                    too_large,
+                }));
             }
             self.step = next;
         }

@@ -18,12 +18,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub(super) fn remember(&mut self, memory: Memory<S>) {
         self.step = memory.step;
         let choice = memory.choice;
+        let mut too_large = None;
         if let Some(saved) = choice.filter(|saved| saved.scheme != self.in_use) {
-            self.use_scheme(saved.scheme);
+            // Where the memory of that scheme is gone, the present one is gone on with.
+            too_large = self.use_scheme(saved.scheme).err();
             self.go_on_with(memory.control);
         }
         if let (Some(own), Some(before)) = (&mut self.control, memory.control) {
             own.memory = before;
+            own.memory.statistics.too_large = too_large.or(before.statistics.too_large);
         }
         self.restore_choice(choice);
     }

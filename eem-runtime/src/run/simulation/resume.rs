@@ -3,7 +3,7 @@
 use super::Simulation;
 use crate::element::state::State;
 use crate::number::scalar::Real;
-use crate::run::checkpoint::{Checkpoint, Outline, RestoreError};
+use crate::run::checkpoint::{Checkpoint, Outline, RestoreError, Seals};
 use crate::step::outcome::Corrections;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
@@ -41,7 +41,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             },
             past,
             explicit,
+            seals: Seals::none(),
         }
+        .sealed_up()
     }
 
     /// Goes back, or on, to a saved state, of this simulation or of one of the same scene in another
@@ -59,16 +61,18 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let own = (self.in_use, self.stepper.past(&self.state));
         let saved = self.choice_in(checkpoint)?;
         if let Some(saved) = saved.filter(|saved| saved.scheme != own.0) {
-            self.use_scheme(saved.scheme);
+            self.use_scheme(saved.scheme).inspect_err(|_| self.part())?;
         }
-        self.restore_in_scheme(checkpoint).inspect_err(|_| {
-            self.part();
-            let (scheme, past) = own;
-            if self.in_use != scheme {
-                self.use_scheme(scheme);
-                self.stepper.restore(&past.0, past.1.as_ref());
-            }
-        })
+        let Err(error) = self.restore_in_scheme(checkpoint) else {
+            return Ok(());
+        };
+        self.part();
+        let (scheme, past) = own;
+        if self.in_use != scheme {
+            self.use_scheme(scheme)?;
+            self.stepper.restore(&past.0, past.1.as_ref());
+        }
+        Err(error)
     }
 
     /// The same where the scheme of the checkpoint is in use.

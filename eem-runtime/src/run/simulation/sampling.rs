@@ -3,10 +3,15 @@
 use core::ops::ControlFlow;
 
 use super::Simulation;
+use super::control_memory::Memory;
 use super::run::RunEnd;
 use crate::element::state::State;
 use crate::number::scalar::{Discord, Mask, Real};
 use crate::step::error::{StepError, StepFailure};
+use crate::step::explicit::SavedExplicit;
+use crate::step::newton::StepReport;
+use crate::step::outcome::Corrections;
+use crate::step::solver::SavedPast;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// Runs until the last of these times, s, in the steps of [`run_until`](Self::run_until), and calls `observer` at
@@ -86,20 +91,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         times: &[S],
         observer: &mut impl FnMut(&Self) -> ControlFlow<()>,
     ) -> Result<ControlFlow<()>, StepError> {
-        let after = State::clone(&self.state);
-        let past = self.stepper.past(&self.state);
-        let memory = self.memory();
-        let counted = (self.worst, self.corrections);
-        self.undo();
-        let seen = self.sample_on_the_way(times, observer);
-        if matches!(seen, Ok(ControlFlow::Break(()))) {
-            return seen;
-        }
-        self.state.copy_all_from(&after);
-        self.stepper.restore(&past.0, past.1.as_ref());
-        self.remember(memory);
-        (self.worst, self.corrections) = counted;
-        self.has_stepped = false;
+        let mut sampled = Sampled::new(self);
+        sampled.run.undo();
+        let seen = sampled.run.sample_on_the_way(times, observer);
+        sampled.stays = matches!(seen, Ok(ControlFlow::Break(())));
         seen
     }
 
@@ -118,5 +113,43 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             }
         }
         Ok(ControlFlow::Continue(()))
+    }
+}
+
+/// A simulation that looks into its last step. It gets back the state after the step, also where the observer or a
+/// load panics, unless it is to stay where it is.
+struct Sampled<'a, const D: usize, S: Real> {
+    run: &'a mut Simulation<D, S>,
+    after: State<S>,
+    past: (SavedPast<S>, Option<SavedExplicit<S>>),
+    memory: Memory<S>,
+    counted: (Option<StepReport<S>>, Corrections<S>),
+    stays: bool,
+}
+
+impl<'a, const D: usize, S: Real> Sampled<'a, D, S> {
+    fn new(run: &'a mut Simulation<D, S>) -> Self {
+        Self {
+            after: State::clone(&run.state),
+            past: run.stepper.past(&run.state),
+            memory: run.memory(),
+            counted: (run.worst, run.corrections),
+            stays: false,
+            run,
+        }
+    }
+}
+
+impl<const D: usize, S: Real> Drop for Sampled<'_, D, S> {
+    fn drop(&mut self) {
+        if self.stays {
+            return;
+        }
+        let run = &mut *self.run;
+        run.state.copy_all_from(&self.after);
+        run.stepper.restore(&self.past.0, self.past.1.as_ref());
+        run.remember(self.memory);
+        (run.worst, run.corrections) = self.counted;
+        run.has_stepped = false;
     }
 }

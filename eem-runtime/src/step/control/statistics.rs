@@ -1,5 +1,6 @@
 //! What step control has done so far.
 
+use crate::algebra::memory::TooLarge;
 use crate::step::error::StepFailure;
 
 /// Steps of a run with [`control_steps`](crate::Simulation::control_steps), and why others were not taken.
@@ -26,6 +27,10 @@ pub struct StepStatistics {
     /// How often [`Scheme::Auto`](crate::Scheme::Auto) has gone on with another scheme.
     #[cfg_attr(feature = "serde", serde(default))]
     pub changes_of_scheme: u64,
+    /// What a scheme would have taken that [`Scheme::Auto`](crate::Scheme::Auto) wanted to try, or to return to, and
+    /// for which there was no memory; the last one. Steps may then be far shorter than they have to be.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub too_large: Option<TooLarge>,
 }
 
 impl StepStatistics {

@@ -6,9 +6,10 @@ use super::memory::{END, START};
 use super::stages::From;
 use super::tableau::STAGES;
 use super::{Explicit, ExplicitView};
-use crate::element::group::points;
+use crate::element::group::{UnkeptEntropy, points};
 use crate::element::state::State;
 use crate::number::scalar::{Mask, Real};
+use crate::step::certificate::is_wide;
 use crate::step::error::StepFailure;
 use crate::step::law::Law;
 use crate::step::outcome::{Attempt, Outcome};
@@ -80,7 +81,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.finish()?;
         self.conclude_thermostats(view.state, next);
         self.store(view.state, next);
-        let outcome = self.prove(scales, correction, time + h)?;
+        let outcome = self.prove(scales, correction, (view.state, time + h))?;
         Ok(Attempt {
             error,
             outcome: Some(outcome),
@@ -196,18 +197,31 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         &mut self,
         scales: Scales<S>,
         correction: S,
-        time: S,
+        (start, time): (&State<S>, S),
     ) -> Result<Outcome<S>, StepFailure> {
+        if let Some(UnkeptEntropy { element, sizes }) = self.scratch.unkept {
+            let sizes = sizes.map(S::from_f64);
+            return Err(Law::KeptEntropy.not_kept(sizes, Some(element), time));
+        }
         let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
-        let (mut residue, mut bound) = (S::zero(), S::zero());
+        let [old, mut terms] = self
+            .books
+            .terms
+            .unwrap_or_else(|| self.terms_at_start(start));
+        let (mut residue, mut counted, mut own) = (S::zero(), S::zero(), S::zero());
         for index in 0..self.components.all.len() {
-            let [defect, magnitude] = self.defect_of(index);
+            let [defect, magnitude, motion] = self.defect_of(index);
             let magnitude = magnitude + self.scratch.progress[index].granularity;
             expect(Law::Energy, [-defect, rounding * magnitude], time)?;
             self.prove_momenta(index, time)?;
             residue -= defect;
-            bound += rounding * magnitude;
+            let energy = &self.scratch.energies[index];
+            counted += magnitude + energy.excess;
+            own += motion + energy.terms;
         }
+        terms += own;
+        let bound = rounding * (old + counted);
+        self.new_books.terms = Some([counted, own]);
         self.new_books.largest_momentum = scales.momentum;
         self.new_books.residue = residue;
         let (mut production, mut least) = (S::zero(), self.scratch.least);
@@ -227,6 +241,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         Ok(Outcome {
             defect: residue - self.books.residue,
             bound,
+            is_bound_wide: is_wide(bound, terms),
             production,
             least_production,
             correction,

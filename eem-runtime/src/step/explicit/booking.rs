@@ -17,6 +17,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.scratch.progress.fill(Progress::none());
         self.scratch.waits.fill(S::Mask::none());
         self.scratch.produced.fill(S::zero());
+        self.scratch.unkept = None;
         self.scratch.least = S::MAX;
         let weights = Weights::new(view.step);
         self.book_paths(&weights, next);

@@ -105,6 +105,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             temperatures,
             held: &self.held,
             capacities: &mut self.scratch.capacities,
+            bends: &mut self.scratch.bends,
+            unkept: &mut self.scratch.unkept,
             next,
             energies: &mut self.scratch.energies,
         };

@@ -9,24 +9,17 @@
 //! In the principal axes of M, with moments μ, it is `J_ab = (μ_a + μ_b) Ω_ab`. Masses on a line have no inertia
 //! about it: in the planes without inertia no momentum changes J, see [`turning`].
 
+mod moments;
 mod principal;
 pub(super) mod turning;
 
 use super::vector::length;
 use crate::algebra::bivector::Bivector;
 use crate::number::scalar::{Mask, Real};
+use moments::WEAK;
 use principal::Principal;
 
-/// The share of the trace of M below which the inertia in a plane is weak: the correction of momenta there would be
-/// ten times as large as in other planes and more, and the body is turned instead.
-const WEAK: f64 = 1e-2;
-
-/// The share below which it is rounding: ε^¾ in double precision.
-const NO_INERTIA: f64 = 1.8e-12;
-
-/// `M = Σ m r rᵀ`, kg m². Only the entries on and above the diagonal are used.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Moments<S, const D: usize>([[S; D]; D]);
+pub(super) use moments::Moments;
 
 /// What turns how fast.
 #[derive(Clone, Copy, Debug)]
@@ -39,32 +32,6 @@ pub(super) enum Inertia<S, const D: usize> {
     Space(Factors<S>),
     /// Any other: nearly on a line, of more dimensions, or several lanes.
     General(Moments<S, D>),
-}
-
-impl<S: Real, const D: usize> Moments<S, D> {
-    /// Of nothing.
-    pub(super) fn none() -> Self {
-        Self([[S::zero(); D]; D])
-    }
-
-    /// Adds a mass at the end of an arm.
-    #[inline]
-    pub(super) fn add(&mut self, mass: S, r: &[S; D]) {
-        for i in 0..D {
-            for j in i..D {
-                self.0[i][j] += mass * (r[i] * r[j]);
-            }
-        }
-    }
-
-    #[inline]
-    fn trace(&self) -> S {
-        (0..D).fold(S::zero(), |sum, axis| sum + self.0[axis][axis])
-    }
-
-    pub(super) fn lane(&self, lane: usize) -> Moments<f64, D> {
-        Moments(self.0.map(|row| row.map(|entry| entry.lane(lane))))
-    }
 }
 
 impl<S: Real, const D: usize> Inertia<S, D> {

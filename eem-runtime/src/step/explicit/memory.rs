@@ -79,6 +79,9 @@ pub(super) struct Books<S, const D: usize> {
     pub(super) largest_momentum: S,
     /// E less its targets, of all components, J.
     pub(super) residue: S,
+    /// What the bound of a step counts of this state, and the terms of its energies, J; `None` where no step has led
+    /// to it.
+    pub(super) terms: Option<[S; 2]>,
 }
 
 impl<S: Real, const D: usize> Target<S, D> {
@@ -112,6 +115,7 @@ impl<S: Real, const D: usize> Books<S, D> {
             held_energies: vec![S::zero(); held],
             largest_momentum: S::zero(),
             residue: S::zero(),
+            terms: None,
         }
     }
 
@@ -122,6 +126,7 @@ impl<S: Real, const D: usize> Books<S, D> {
         self.held_energies.copy_from_slice(&other.held_energies);
         self.largest_momentum = other.largest_momentum;
         self.residue = other.residue;
+        self.terms = other.terms;
     }
 }
 

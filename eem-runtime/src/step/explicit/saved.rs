@@ -50,6 +50,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         books.held_energies.copy_from_slice(&saved.held_energies);
         books.largest_momentum = saved.largest_momentum;
         books.residue = saved.residue;
+        books.terms = None;
         self.rows[START][..self.offsets.size].copy_from_slice(&saved.rates);
         start.powers.copy_from_slice(&saved.powers);
         start.supply.copy_from_slice(&saved.supply);

@@ -1,6 +1,6 @@
 //! Working memory of the closing of a step.
 
-use crate::element::group::ComponentEnergy;
+use crate::element::group::{ComponentEnergy, UnkeptEntropy};
 use crate::element::layout::Layout;
 use crate::number::scalar::{Mask, Real};
 use crate::step::explicit::components::Components;
@@ -34,6 +34,16 @@ pub(super) struct Progress<S: Real> {
     pub(super) is_rigid: bool,
 }
 
+/// Sums of rows of matrices, which say how fast the fastest motion can be.
+#[derive(Clone, Debug)]
+pub(super) struct RowSums<S> {
+    /// `ω²` per node of the scene, 1/s².
+    pub(super) squares: Vec<S>,
+    /// c per thermal slot, J/K, and its share of conduction, 1/s.
+    pub(super) capacities: Vec<S>,
+    pub(super) flows: Vec<S>,
+}
+
 /// Working memory of the closing of a step.
 #[derive(Clone, Debug)]
 pub(super) struct Scratch<S: Real> {
@@ -48,6 +58,10 @@ pub(super) struct Scratch<S: Real> {
     /// c per thermal slot, and what it has produced itself in this step, J/K.
     pub(super) capacities: Vec<S>,
     pub(super) produced: Vec<S>,
+    /// `|∂c/∂ ln θ|` per thermal slot, J/K.
+    pub(super) bends: Vec<S>,
+    /// An entropy that the closing has not met.
+    pub(super) unkept: Option<UnkeptEntropy>,
     /// Entropy that an element with a thermostat has received otherwise, J/K.
     pub(super) received: Vec<S>,
     /// The forces of the elements, `γ̇` and `g γ̇`, where they are asked for, N, m/s and W.
@@ -59,6 +73,7 @@ pub(super) struct Scratch<S: Real> {
     /// The smallest production of paths of heat between thermostats and reservoirs; the largest number without any,
     /// J/K.
     pub(super) least: S,
+    pub(super) stability: RowSums<S>,
 }
 
 impl<S: Real> Progress<S> {
@@ -82,7 +97,12 @@ impl<S: Real> Progress<S> {
 }
 
 impl<S: Real> Scratch<S> {
-    pub(super) fn new(components: &Components<S>, layout: &Layout, coordinates: usize) -> Self {
+    /// For so many nodes of the scene, and so many coordinates of those that the scheme moves.
+    pub(super) fn new(
+        components: &Components<S>,
+        layout: &Layout,
+        [nodes, coordinates]: [usize; 2],
+    ) -> Self {
         let (count, thermal) = (components.all.len(), layout.thermal);
         Self {
             progress: vec![Progress::none(); count],
@@ -92,12 +112,19 @@ impl<S: Real> Scratch<S> {
             waits: vec![S::Mask::none(); count],
             capacities: vec![S::zero(); thermal],
             produced: vec![S::zero(); thermal],
+            bends: vec![S::zero(); thermal],
+            unkept: None,
             received: vec![S::zero(); thermal],
             forces: vec![S::zero(); coordinates],
             creep: vec![S::zero(); layout.viscous],
             powers: vec![S::zero(); layout.viscous],
             paths: vec![S::zero(); components.paths.len()],
             least: S::MAX,
+            stability: RowSums {
+                squares: vec![S::zero(); nodes],
+                capacities: vec![S::zero(); thermal],
+                flows: vec![S::zero(); thermal],
+            },
         }
     }
 }

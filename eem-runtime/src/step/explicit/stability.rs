@@ -1,5 +1,6 @@
 //! Why an explicit step failed: it is longer than the fastest motion allows, or an element is too cold.
 
+use super::scratch::RowSums;
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
 use crate::number::scalar::{Mask, Real};
@@ -18,7 +19,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// The reason behind a failure, if the step is too long to be stable.
     #[cold]
     pub(crate) fn explain(
-        &self,
+        &mut self,
         failure: StepFailure,
         view: &ExplicitView<'_, S, D>,
     ) -> StepFailure {
@@ -53,7 +54,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// The step as a share of the longest one that is stable.
-    pub(crate) fn share_of_stable_step(&self, view: &ExplicitView<'_, S, D>) -> f64 {
+    pub(crate) fn share_of_stable_step(&mut self, view: &ExplicitView<'_, S, D>) -> f64 {
         let rates = self.fastest(view).into_iter();
         let shares = rates.zip(LIMITS).map(|(rate, limit)| rate / limit);
         view.step.to_f64() * shares.fold(0.0, f64::max)
@@ -61,27 +62,33 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// The fastest vibration, conduction and dashpot, by bounds of the eigenvalues: sums of rows of the
     /// matrices that are symmetric in `√m q` and `√c θ`, 1/s.
-    fn fastest(&self, view: &ExplicitView<'_, S, D>) -> [f64; 3] {
-        let nodes = view.masses.len();
-        let per_root = |mass: Option<S>| mass.map_or(S::zero(), |mass| mass.sqrt().recip());
-        let per_root: Vec<S> = view.masses.iter().map(per_root).collect();
-        let mut squares = vec![S::zero(); nodes];
-        let mut capacities = vec![S::zero(); view.state.temperatures.len()];
+    fn fastest(&mut self, view: &ExplicitView<'_, S, D>) -> [f64; 3] {
+        let RowSums {
+            squares,
+            capacities,
+            flows,
+        } = &mut self.scratch.stability;
+        for rows in [&mut *squares, &mut *capacities, &mut *flows] {
+            rows.fill(S::zero());
+        }
+        let per_root = |node: usize| {
+            let mass = view.masses.get(node);
+            mass.map_or(S::zero(), |mass| mass.sqrt().recip())
+        };
         let mut relaxation = S::zero();
         for group in &self.groups {
             group.stiffness(view.state, &mut |element| {
                 let [a, b] = element.nodes;
-                let both = per_root[a] + per_root[b];
-                squares[a] += element.stiffness * per_root[a] * both;
-                squares[b] += element.stiffness * per_root[b] * both;
+                let [by_a, by_b] = [a, b].map(per_root);
+                let both = by_a + by_b;
+                squares[a] += element.stiffness * by_a * both;
+                squares[b] += element.stiffness * by_b * both;
                 relaxation = relaxation.maximum(element.relaxation);
                 if let Some((slot, capacity)) = element.capacity {
                     capacities[slot] = capacity;
                 }
             });
         }
-        let largest = |values: &[S]| values.iter().fold(S::zero(), |most, &x| most.maximum(x));
-        let mut flows = vec![S::zero(); capacities.len()];
         for path in &self.components.paths {
             let ends = path.ends.map(|end| end as usize);
             let per_root = |end: usize| {
@@ -95,8 +102,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 }
             }
         }
-        let vibration = largest(&squares).sqrt();
-        [vibration, largest(&flows), relaxation].map(Real::to_f64)
+        let largest = |values: &[S]| values.iter().fold(S::zero(), |most, &x| most.maximum(x));
+        let vibration = largest(squares).sqrt();
+        [vibration, largest(flows), relaxation].map(Real::to_f64)
     }
 
     /// The element without an admissible temperature, as it was at the start of the step.

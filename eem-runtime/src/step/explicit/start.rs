@@ -66,6 +66,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     fn set_targets(&mut self, state: &State<S>) {
         self.books.shares.write(|shares| shares.fill(S::zero()));
         (self.books.largest_momentum, self.books.residue) = (S::zero(), S::zero());
+        self.books.terms = None;
         self.new_books.copy_from(&self.books);
         self.sum_energies(state);
         for slot in 0..self.held.len() {
@@ -75,7 +76,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for index in 0..self.components.all.len() {
             self.books.targets[index] = Target::none();
             self.new_books.targets[index] = Target::none();
-            let [energy, _] = self.energy_of(index);
+            let [energy, ..] = self.energy_of(index);
             let component = &self.components.all[index];
             let (linear, angular) = self.momenta_of(component);
             let mut target = Target::none();

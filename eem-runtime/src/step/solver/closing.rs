@@ -13,7 +13,7 @@ use crate::element::recount::Recount;
 use crate::element::state::State;
 use crate::element::tally::{Care, Tally};
 use crate::number::scalar::{Mask, Real};
-use crate::step::certificate::{Certificate, Kept, Motion, NodeStep, Reach, Speeds};
+use crate::step::certificate::{Certificate, Internal, Kept, Motion, NodeStep, Reach, Speeds};
 use crate::step::error::StepFailure;
 use crate::step::scheme::Closing;
 
@@ -35,8 +35,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         Ok(certificate.or(is_enough, &thorough))
     }
 
-    /// The same with all that rounding explains, and with energies by differences where those by values
-    /// are not sharp enough.
+    /// The same with all that rounding explains; energies by differences decide where those by values are not
+    /// sharp enough.
     #[cold]
     fn close_thoroughly(
         &mut self,
@@ -87,9 +87,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
         for group in groups.iter_mut() {
             group.close(view, &self.trial, next, &mut tally)?;
         }
-        let internal = energy_change(&view.conduction.reservoirs, [view.state, next]);
+        let internal = Internal::new(&view.conduction.reservoirs, [view.state, next]);
         let reach = || self.reach(view.step);
-        Ok(Certificate::new(&motion, &tally, internal, reach))
+        Ok(Certificate::new(&motion, &tally, &internal, reach))
     }
 
     /// With the shortest element of each node.
@@ -244,20 +244,4 @@ fn carry<S: Real, const D: usize>(
     };
     motion.see(&step, load.as_ref(), view.step);
     step.energies()[0]
-}
-
-/// `Σ Δe + Σ θ_r Δσ_r + heat lost − heat`, and the magnitude of its terms, J.
-pub(super) fn energy_change<S: Real>(reservoirs: &[S], [old, next]: [&State<S>; 2]) -> [S; 2] {
-    let (mut change, mut magnitude) = (S::zero(), S::zero());
-    for (old, new) in old.energies.iter().zip(&next.energies) {
-        change += new.value - old.value;
-        magnitude += old.magnitude + new.magnitude;
-    }
-    for (index, &theta) in reservoirs.iter().enumerate() {
-        let sums = &next.reservoir_entropies;
-        change += theta * sums.change(index, &old.reservoir_entropies);
-    }
-    let heat = next.heat.change(old.heat);
-    change += next.dissipated.change(old.dissipated) - heat;
-    [change, magnitude + heat.abs()]
 }

@@ -1,8 +1,7 @@
 //! How hard a step tries, and what it did.
 
 use crate::number::scalar::{Mask, Real, unless};
-use crate::step::error::NewtonIteration;
-use crate::step::newton::NewtonSettings;
+use crate::step::newton::{NewtonIteration, NewtonSettings};
 
 /// Parts of a step through which a solution is followed when it is not found at once.
 pub(super) const CONTINUATION_STEPS: u8 = 8;

@@ -2,6 +2,7 @@
 
 mod matrix;
 mod planar;
+mod solids;
 mod spatial;
 mod table;
 mod watch;

@@ -6,7 +6,8 @@ use eem::prelude::*;
 use eem::{MemberFailure, Real};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use crate::planar::PLANAR;
+use crate::planar::{LARGE, PLANAR};
+use crate::solids::{BLOCKS, SHEETS};
 use crate::spatial::SPATIAL;
 use crate::table::Row;
 use crate::watch::{Case, Drive, Seen, Watched, digest, name_of, watch};
@@ -18,8 +19,6 @@ pub(crate) struct Entry<C> {
     /// s
     pub(crate) step: f64,
     pub(crate) drive: Drive,
-    /// Whether members of it may move together; if not, running several of them would say nothing.
-    pub(crate) in_lanes: bool,
 }
 
 /// Of initial velocities, one per member: four that move together, and one alone.
@@ -40,16 +39,34 @@ pub(crate) fn rows(scene: &str) -> Result<Vec<Row>, Box<dyn Error>> {
     let threads = [pool(1)?, pool(4)?];
     let mut rows = Vec::new();
     for entry in PLANAR.iter().filter(|entry| entry.name.contains(scene)) {
-        add::<2, _>(entry, &threads, &mut rows);
+        add(entry, &threads, &mut rows, |scheme| {
+            Some(together::<2, _>(entry, scheme))
+        });
+    }
+    for entry in LARGE.iter().filter(|entry| entry.name.contains(scene)) {
+        add::<2, _>(entry, &threads, &mut rows, |_| None);
     }
     for entry in SPATIAL.iter().filter(|entry| entry.name.contains(scene)) {
-        add::<3, _>(entry, &threads, &mut rows);
+        add(entry, &threads, &mut rows, |scheme| {
+            Some(together::<3, _>(entry, scheme))
+        });
+    }
+    for entry in SHEETS.iter().filter(|entry| entry.name.contains(scene)) {
+        add::<2, _>(entry, &threads, &mut rows, |_| None);
+    }
+    for entry in BLOCKS.iter().filter(|entry| entry.name.contains(scene)) {
+        add::<3, _>(entry, &threads, &mut rows, |_| None);
     }
     Ok(rows)
 }
 
-/// All rows of a scene.
-fn add<const D: usize, C: Case<D>>(entry: &Entry<C>, threads: &[Threads], rows: &mut Vec<Row>) {
+/// All rows of a scene; in lanes if it can be run there.
+fn add<const D: usize, C: Case<D>>(
+    entry: &Entry<C>,
+    threads: &[Threads],
+    rows: &mut Vec<Row>,
+    in_lanes: impl Fn(Scheme) -> Option<Outcome> + Sync,
+) {
     for scheme in Scheme::ALL.into_iter().chain([Scheme::Auto]) {
         for Threads { number, pool } in threads {
             let mut add = |scalar, outcome: Outcome| {
@@ -65,8 +82,8 @@ fn add<const D: usize, C: Case<D>>(entry: &Entry<C>, threads: &[Threads], rows: 
             };
             add("f64", pool.install(|| alone::<D, f64, _>(entry, scheme)));
             add("f32", pool.install(|| alone::<D, f32, _>(entry, scheme)));
-            if entry.in_lanes {
-                add("lanes", pool.install(|| together(entry, scheme)));
+            if let Some(outcome) = pool.install(|| in_lanes(scheme)) {
+                add("lanes", outcome);
             }
         }
     }

@@ -1,11 +1,10 @@
 //! Scenes in the plane.
 
-use eem::kinematics::Quad4;
+use eem::Real;
 use eem::prelude::*;
-use eem::{FreeEnergy, Real, StrainEnergy};
 use eem_studies::build::{Build, vector};
-use eem_studies::models::{Elastic, Solid, Thermoelastic, TwoDashpots, Voigt, WarmSolid};
-use eem_studies::published::{LOGARITHMIC, SPRING, single};
+use eem_studies::models::{Elastic, Thermoelastic, TwoDashpots, Voigt};
+use eem_studies::pendulums::{LOGARITHMIC, SPRING, single};
 
 use crate::matrix::Entry;
 use crate::watch::{Case, Drive};
@@ -27,8 +26,6 @@ pub(crate) enum Planar {
     Chain,
     LongChain,
     Rockets,
-    Sheet,
-    WarmSheet,
 }
 
 const fn entry(name: &'static str, case: Planar, step: f64, drive: Drive) -> Entry<Planar> {
@@ -37,18 +34,10 @@ const fn entry(name: &'static str, case: Planar, step: f64, drive: Drive) -> Ent
         case,
         step,
         drive,
-        in_lanes: true,
     }
 }
 
-const fn large(name: &'static str, case: Planar, step: f64, steps: usize) -> Entry<Planar> {
-    Entry {
-        in_lanes: false,
-        ..entry(name, case, step, Drive::Steps(steps))
-    }
-}
-
-pub(crate) const PLANAR: [Entry<Planar>; 21] = [
+pub(crate) const PLANAR: [Entry<Planar>; 18] = [
     entry("elastic", Planar::Elastic, 0.05, Drive::Steps(50)),
     entry(
         "thermoelastic",
@@ -73,10 +62,7 @@ pub(crate) const PLANAR: [Entry<Planar>; 21] = [
         Drive::Steps(50),
     ),
     entry("chain", Planar::Chain, 0.02, Drive::Steps(10)),
-    large("long-chain", Planar::LongChain, 0.01, 2),
     entry("rockets", Planar::Rockets, 0.05, Drive::Steps(30)),
-    large("sheet", Planar::Sheet, 0.05, 5),
-    large("warm-sheet", Planar::WarmSheet, 0.01, 3),
     entry("control", Planar::Single, 0.05, Drive::Controlled(1e-4, 20)),
     entry(
         "control-free",
@@ -86,6 +72,14 @@ pub(crate) const PLANAR: [Entry<Planar>; 21] = [
     ),
     entry("event", Planar::Single, 0.05, Drive::Event(2.0)),
 ];
+
+/// Too large for lanes.
+pub(crate) const LARGE: [Entry<Planar>; 1] = [entry(
+    "long-chain",
+    Planar::LongChain,
+    0.01,
+    Drive::Steps(2),
+)];
 
 impl Case<2> for Planar {
     fn build<S: Real>(self, factor: S) -> Build<2, S> {
@@ -138,17 +132,6 @@ impl Case<2> for Planar {
             }
             Self::Chain => chain(scene, 12),
             Self::LongChain => chain(scene, 600),
-            Self::Sheet => {
-                sheet(scene, SOLID, &Bulk::new(S::from_f64(10.0)));
-            }
-            Self::WarmSheet => {
-                let bulk = Bulk::new(S::from_f64(10.0)).conductivity(20.0);
-                for (point, warmth) in sheet(scene, RUBBER, &bulk).into_iter().zip((0..11).cycle())
-                {
-                    let temperature = S::from_f64(300.0 + f64::from(warmth));
-                    scene.scene.set_temperature(point, temperature);
-                }
-            }
         }
         build
     }
@@ -180,19 +163,6 @@ const VOIGT: Voigt = Voigt {
     eta: 1.5,
     activation: 800.0,
 };
-pub(crate) const SOLID: Solid = Solid {
-    lame: 2000.0,
-    shear: 1000.0,
-};
-pub(crate) const RUBBER: WarmSolid = WarmSolid {
-    shear: 1000.0,
-    softening: 2.0,
-    lame: 2000.0,
-    expansion: 3.0,
-    capacity: 100.0,
-    theta_ref: 300.0,
-};
-
 /// The ends of the spring of a pendulum that swings.
 fn pendulum<S: Real>(scene: &mut Build<2, S>) -> [Node; 2] {
     let pivot = scene.anchor([0.0, 0.0]);
@@ -277,25 +247,4 @@ fn chain<S: Real>(scene: &mut Build<2, S>, springs: u32) {
             scene.conduct(before, spring, 10.0);
         }
     }
-}
-
-/// A sheet with more cells than are evaluated at a time, and its points.
-fn sheet<S: Real, M, const N: usize>(
-    scene: &mut Build<2, S>,
-    model: M,
-    bulk: &Bulk<2, S>,
-) -> Vec<Element>
-where
-    M: FreeEnergy<S> + StrainEnergy<N> + Send + Sync + 'static,
-{
-    let mesh = Mesh::<Quad4, 2>::block([9, 5], [[0.0, 9.0], [0.0, 5.0]]);
-    let mesh = mesh.unwrap_or_else(|error| panic!("{error}"));
-    let body = scene.scene.solid(model, &mesh, bulk);
-    for (&node, &[x, y]) in body.nodes().iter().zip(mesh.nodes()) {
-        let velocity = scene.scaled([(0.7 * x + y).sin(), (x - 0.3 * y).cos()]);
-        scene.scene.set_velocity(node, velocity);
-    }
-    scene.handles.nodes.extend(body.nodes());
-    scene.handles.elements.extend(body.points());
-    body.points().to_vec()
 }

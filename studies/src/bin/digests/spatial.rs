@@ -1,14 +1,11 @@
 //! Scenes in space.
 
-use eem::kinematics::Hex8;
-use eem::prelude::*;
-use eem::{FreeEnergy, Real, StrainEnergy};
+use eem::Real;
 use eem_studies::build::Build;
 use eem_studies::models::Elastic;
-use eem_studies::published::{Double, LOGARITHMIC, SPRING};
+use eem_studies::pendulums::{Double, LOGARITHMIC, SPRING};
 
 use crate::matrix::Entry;
-use crate::planar::{RUBBER, SOLID};
 use crate::watch::{Case, Drive};
 
 #[derive(Clone, Copy)]
@@ -19,8 +16,6 @@ pub(crate) enum Spatial {
     FreePair,
     FreeLine,
     Tetrahedron,
-    Block,
-    WarmBlock,
 }
 
 const fn entry(name: &'static str, case: Spatial, step: f64, drive: Drive) -> Entry<Spatial> {
@@ -29,18 +24,10 @@ const fn entry(name: &'static str, case: Spatial, step: f64, drive: Drive) -> En
         case,
         step,
         drive,
-        in_lanes: true,
     }
 }
 
-const fn large(name: &'static str, case: Spatial, step: f64, steps: usize) -> Entry<Spatial> {
-    Entry {
-        in_lanes: false,
-        ..entry(name, case, step, Drive::Steps(steps))
-    }
-}
-
-pub(crate) const SPATIAL: [Entry<Spatial>; 9] = [
+pub(crate) const SPATIAL: [Entry<Spatial>; 7] = [
     entry("romero", Spatial::Romero, 0.3, Drive::Steps(30)),
     entry("krueger", Spatial::Krueger, 0.1, Drive::Steps(30)),
     entry("log", Spatial::Log, 0.05, Drive::Steps(30)),
@@ -53,8 +40,6 @@ pub(crate) const SPATIAL: [Entry<Spatial>; 9] = [
         0.05,
         Drive::Controlled(1e-3, 20),
     ),
-    large("block", Spatial::Block, 0.05, 5),
-    large("warm-block", Spatial::WarmBlock, 0.01, 3),
 ];
 
 const HOOKE: Elastic = Elastic {
@@ -84,17 +69,6 @@ impl Case<3> for Spatial {
                 scene.warm(SPRING, [masses[1], masses[2]], 310.0);
             }
             Self::Tetrahedron => tetrahedron(scene),
-            Self::Block => {
-                block(scene, SOLID, &Bulk::new(S::from_f64(10.0)));
-            }
-            Self::WarmBlock => {
-                let bulk = Bulk::new(S::from_f64(10.0)).conductivity(20.0);
-                for (point, warmth) in block(scene, RUBBER, &bulk).into_iter().zip((0..11).cycle())
-                {
-                    let temperature = S::from_f64(300.0 + f64::from(warmth));
-                    scene.scene.set_temperature(point, temperature);
-                }
-            }
         }
         build
     }
@@ -123,25 +97,4 @@ fn tetrahedron<S: Real>(scene: &mut Build<3, S>) {
     for ends in [[a, d], [b, d], [c, d]] {
         scene.spring(HOOKE, ends);
     }
-}
-
-/// A free block of a few cells, and its points.
-fn block<S: Real, M, const N: usize>(
-    scene: &mut Build<3, S>,
-    model: M,
-    bulk: &Bulk<3, S>,
-) -> Vec<Element>
-where
-    M: FreeEnergy<S> + StrainEnergy<N> + Send + Sync + 'static,
-{
-    let mesh = Mesh::<Hex8, 3>::block([3, 2, 2], [[0.0, 3.0], [0.0, 2.0], [0.0, 2.0]]);
-    let mesh = mesh.unwrap_or_else(|error| panic!("{error}"));
-    let body = scene.scene.solid(model, &mesh, bulk);
-    for (&node, &[x, y, z]) in body.nodes().iter().zip(mesh.nodes()) {
-        let velocity = scene.scaled([(0.7 * x + y).sin(), (x - 0.3 * z).cos(), 0.2 * y]);
-        scene.scene.set_velocity(node, velocity);
-    }
-    scene.handles.nodes.extend(body.nodes());
-    scene.handles.elements.extend(body.points());
-    body.points().to_vec()
 }

@@ -2,7 +2,7 @@
 
 use crate::element::kinematics::{Arms, Gradient, Kinematics};
 use crate::material::free_energy::{Array, FreeEnergy, Rates};
-use crate::number::scalar::{Mask, Real};
+use crate::number::scalar::{Mask, Real, unless};
 
 /// What was found of a point when it was closed last.
 #[derive(Clone, Copy)]
@@ -13,6 +13,46 @@ pub(super) struct Closed<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D
     /// η and dη/dθ.
     pub(super) viscosities: (M::Viscosities, M::Viscosities),
     pub(super) gradient: Gradient<K, S, D>,
+    pub(super) values: Values<S>,
+}
+
+/// The magnitude of the terms of ψ, and that of the terms of the energy where it was evaluated, J.
+#[derive(Clone, Copy)]
+pub(super) struct Values<S> {
+    magnitude: S,
+    terms: S,
+}
+
+/// A change of the terms of an energy after which the magnitude of ψ is evaluated again.
+const CHANGE: f64 = 2.0;
+
+/// Up to this multiple of the terms of the energy, the magnitude of ψ adds nothing to the bound that matters:
+/// 8 ε of it are below 64 ε of the terms.
+const UNIMPORTANT: f64 = 8.0;
+
+impl<S: Real> Values<S> {
+    /// Never evaluated.
+    const fn none(zero: S) -> Self {
+        Self {
+            magnitude: zero,
+            terms: zero,
+        }
+    }
+
+    /// Evaluates the magnitude of ψ where it may matter, given the terms of the energy; otherwise it is the last
+    /// one that was found.
+    #[inline]
+    pub(super) fn update(&mut self, terms: S, magnitude: impl FnOnce() -> S) -> S {
+        let change = S::from_f64(CHANGE);
+        let is_near = terms.at_most(change * self.terms) & self.terms.at_most(change * terms);
+        let is_small = self.magnitude.at_most(S::from_f64(UNIMPORTANT) * terms);
+        let is_known = is_near & is_small;
+        if !is_known.all() {
+            self.magnitude = unless(is_known, self.magnitude, magnitude());
+            self.terms = unless(is_known, self.terms, terms);
+        }
+        self.magnitude
+    }
 }
 
 impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> Closed<S, M, K, D> {
@@ -29,6 +69,7 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> Closed<S, M
             },
             viscosities: (viscosities, viscosities),
             gradient: Gradient::<K, S, D>::filled(nowhere),
+            values: Values::none(S::zero()),
         }
     }
 
@@ -44,6 +85,8 @@ impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> Closed<S, M
     fn keep(&mut self, waits: S::Mask, old: &Self) {
         let keep = |new: &mut S, old: S| *new = S::select(waits, old, *new);
         keep(&mut self.theta, old.theta);
+        keep(&mut self.values.magnitude, old.values.magnitude);
+        keep(&mut self.values.terms, old.values.terms);
         for index in 0..M::Variables::LEN {
             keep(&mut self.rates.forces[index], old.rates.forces[index]);
             keep(&mut self.rates.slopes[index], old.rates.slopes[index]);

@@ -7,22 +7,13 @@ use crate::element::group::arms::add_scaled;
 use crate::element::group::explicit::closed::Closed;
 use crate::element::group::explicit::group::FreeGroup;
 use crate::element::group::explicit::rates::{Found, arms_of, pull_nodes};
+use crate::element::group::explicit::temperature::Settled;
 use crate::element::group::explicit::view::{ClosingView, StageRates, StageView};
 use crate::element::group::point::Point;
 use crate::element::kinematics::{Arms, Kinematics};
-use crate::material::free_energy::{Array, FreeEnergy, Rates};
-use crate::material::inversion::temperature_near;
-use crate::number::scalar::{Mask, Real, unless};
-
-/// Evaluations of a temperature after which the safeguarded search takes over. Newton's method from the
-/// temperature of the stages needs one or two.
-const MOST_EVALUATIONS: usize = 6;
-
-/// A correction of ln θ for which the guess is not nearly right.
-const LARGEST_CORRECTION: f64 = 0.25;
-
-/// The temperature at which a model was evaluated last, the corrected one, and what was evaluated.
-type Settled<S, M, T> = (S, S, (Rates<<M as FreeEnergy<S>>::Variables>, T));
+use crate::element::state::Energy;
+use crate::material::free_energy::{Array, FreeEnergy};
+use crate::number::scalar::{Real, unless};
 
 impl<S, M, K, const D: usize> FreeGroup<S, M, K, D>
 where
@@ -128,20 +119,19 @@ where
         if !self.kinematics.is_admissible(r, &measures) {
             return Err(self.kinematics.refusal(self.element, r));
         }
+        let waits = view.waits[component as usize];
         let theta = self.temperature_in(view.temperatures);
         let x = self.variables_at(&measures, view.viscous, theta);
         let at = self.model.rates_at(x);
         let thermal = self.slots().thermal;
-        let is_held = thermal.is_some_and(|slot| view.held.get(slot).copied().unwrap_or(false));
-        let (theta, settled, (rates, [entropy, psi])) = match thermal {
-            Some(slot) if !is_held => {
-                let entropy = view.next.entropies.values()[slot];
-                self.temperature_of(&x, &at, [entropy, theta])?
-            }
-            _ => (theta, theta, at(theta)),
+        let free = thermal.filter(|&slot| !view.held.get(slot).copied().unwrap_or(false));
+        let settled = match free.map(|slot| view.next.entropies.values()[slot]) {
+            Some(entropy) => self.temperature_of(&x, &at, [entropy, theta], view.unkept)?,
+            None => Settled::given(theta, at(theta)),
         };
-        let waits = view.waits[component as usize];
-        let found = Closed {
+        let theta = settled.theta;
+        let (rates, [entropy, psi]) = settled.evaluated;
+        let mut found = Closed {
             theta,
             rates,
             viscosities: match M::DASHPOTS {
@@ -149,93 +139,60 @@ where
                 _ => self.model.viscosity(theta),
             },
             gradient: self.kinematics.gradient(r, &measures),
+            values: closed.values,
         };
-        closed.replace(waits, found);
         self.unless_infinite(psi)?;
-        let (mut energy, mut magnitude) = (psi, psi.abs());
-        let keep = |old: S, new: S| unless(waits, old, new);
+        let mut energy = Energy::without_temperature(psi);
         if let Some(slot) = thermal {
-            let kept = view.next.entropies.values()[slot];
-            if is_held {
-                view.next.entropies.set(slot, keep(kept, entropy));
+            let mut kept = view.next.entropies.values()[slot];
+            if free.is_none() {
+                kept = unless(waits, kept, entropy);
+                view.next.entropies.set(slot, kept);
             }
-            let kept = view.next.entropies.values()[slot];
             let capacity = rates.forces[Self::TEMPERATURE];
             Infeasible::unless_stable(capacity, theta)
                 .map_err(|infeasible| infeasible.of(self.element))?;
             // Stationary in θ at the kept entropy: the last correction of θ does not change it.
-            energy = psi + theta * kept;
-            magnitude = energy.abs() + theta * (kept.abs() + capacity);
-            view.temperatures[slot] = keep(view.temperatures[slot], settled);
-            view.capacities[slot] = keep(view.capacities[slot], capacity);
+            energy.value = psi + theta * kept;
+            let heat = theta * (kept.abs() + capacity);
+            energy.magnitude = energy.value.abs() + heat;
+            energy.terms += heat;
+            view.keep_heat(slot, waits, [settled.corrected, capacity, settled.bend]);
         }
-        let sum = &mut view.energies[component as usize];
-        sum.add(waits, [energy, magnitude]);
-        let stored = &mut view.next.energies[self.element.index()];
-        stored.value = keep(stored.value, energy);
-        stored.magnitude = keep(stored.magnitude, magnitude);
+        self.add_bounds_of(r, x, &mut found, &mut energy);
+        closed.replace(waits, found);
+        self.write_energy(component, &energy, view);
         Ok(())
     }
 
-    /// The temperature of an entropy near a guess by Newton's method in ln θ: the one at which the model
-    /// was last evaluated, the corrected one, and what was evaluated.
-    ///
-    /// Of several numbers each stops where it would alone, and waits for the others.
+    /// Adds what the bounds ask of a state with these arms, whose temperature and forces have been found.
     #[inline]
-    fn temperature_of<T>(
+    fn add_bounds_of(
         &self,
-        x: &M::Variables,
-        at: &impl Fn(S) -> (Rates<M::Variables>, T),
-        [entropy, guess]: [S; 2],
-    ) -> Result<Settled<S, M, T>, StateError>
-    where
-        T: Copy + AsRef<[S]>,
-    {
-        // √u, whose square is a rounding.
-        let enough = (S::from_f64(0.5) * S::EPSILON).sqrt();
-        let mut theta = guess;
-        let (mut is_settled, mut is_lost) = (S::Mask::none(), S::Mask::none());
-        for _ in 0..MOST_EVALUATIONS {
-            let (rates, values) = at(theta);
-            let capacity = rates.forces[Self::TEMPERATURE];
-            let correction = (entropy - values.as_ref()[0]) / capacity;
-            let size = correction.abs();
-            let is_near = S::zero().less(capacity) & size.at_most(S::from_f64(LARGEST_CORRECTION));
-            is_lost = is_lost | !is_near;
-            is_settled = (is_settled | size.at_most(enough)) & !is_lost;
-            if is_settled.all() {
-                return Ok((theta, theta + theta * correction, (rates, values)));
+        r: &Arms<K, S, D>,
+        mut x: M::Variables,
+        found: &mut Closed<S, M, K, D>,
+        energy: &mut Energy<S>,
+    ) {
+        energy.add_forces(self.work_of(&found.rates.forces, r, &x));
+        let theta = found.theta;
+        energy.add_values(found.values.update(energy.terms, || {
+            if M::THERMAL {
+                x[Self::TEMPERATURE] = theta;
             }
-            if (is_settled | is_lost).all() {
-                break;
-            }
-            let next = theta * correction.exp();
-            theta = unless(is_settled | is_lost, theta, next);
-        }
-        self.search(x, at, [entropy, guess], (is_settled, theta))
+            self.model.energy_magnitude(&x)
+        }));
     }
 
-    /// The same from a guess that is not nearly right; for several numbers only where Newton's method has not
-    /// settled on a temperature.
-    #[cold]
-    fn search<T: Copy + AsRef<[S]>>(
-        &self,
-        x: &M::Variables,
-        at: &impl Fn(S) -> (Rates<M::Variables>, T),
-        [entropy, guess]: [S; 2],
-        (is_settled, settled): (S::Mask, S),
-    ) -> Result<Settled<S, M, T>, StateError> {
-        let caloric_at = self.model.caloric_at(*x);
-        let enough = S::from_f64(0.5) * S::EPSILON.sqrt();
-        let found = temperature_near(|theta| (caloric_at(theta).0, []), entropy, guess, enough);
-        let (found, []) = found.map_err(|source| {
-            let entropy = entropy.to_f64();
-            Infeasible::Entropy { entropy, source }.of(self.element)
-        })?;
-        let theta = S::select(is_settled, settled, found);
-        let (rates, values) = at(theta);
-        let correction = (entropy - values.as_ref()[0]) / rates.forces[Self::TEMPERATURE];
-        let corrected = S::select(is_settled, theta + theta * correction, theta);
-        Ok((theta, corrected, (rates, values)))
+    /// Writes the energy in a new state and adds it to that of the component, except for numbers that wait.
+    #[inline]
+    fn write_energy(&self, component: u32, energy: &Energy<S>, view: &mut ClosingView<'_, S>) {
+        let waits = view.waits[component as usize];
+        view.energies[component as usize].add(waits, energy);
+        let stored = &mut view.next.energies[self.element.index()];
+        stored.value = unless(waits, stored.value, energy.value);
+        stored.magnitude = unless(waits, stored.magnitude, energy.magnitude);
+        stored.terms = unless(waits, stored.terms, energy.terms);
+        stored.excess = unless(waits, stored.excess, energy.excess);
     }
 }

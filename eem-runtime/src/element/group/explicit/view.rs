@@ -1,7 +1,8 @@
 //! What elements see of an explicit scheme.
 
+use crate::element::handle::Element;
 use crate::element::layout::Layout;
-use crate::element::state::State;
+use crate::element::state::{Energy, State};
 use crate::number::compensated::Total;
 use crate::number::scalar::{Real, unless};
 
@@ -74,10 +75,37 @@ pub(crate) struct ClosingView<'a, S: Real> {
     pub(crate) held: &'a [bool],
     /// c per thermal slot, J/K.
     pub(crate) capacities: &'a mut [S],
+    /// `|∂c/∂ ln θ|` per thermal slot, J/K.
+    pub(crate) bends: &'a mut [S],
+    /// The first entropy that is not that of the temperature found for it.
+    pub(crate) unkept: &'a mut Option<UnkeptEntropy>,
     /// Its entropies are given, except where the temperature is held; its energies are written.
     pub(crate) next: &'a mut State<S>,
     /// Per component.
     pub(crate) energies: &'a mut [ComponentEnergy<S>],
+}
+
+impl<S: Real> ClosingView<'_, S> {
+    /// Writes θ, c and `|∂c/∂ ln θ|` of a thermal slot, except for numbers that wait.
+    #[inline]
+    pub(crate) fn keep_heat(
+        &mut self,
+        slot: usize,
+        waits: S::Mask,
+        [theta, capacity, bend]: [S; 3],
+    ) {
+        self.temperatures[slot] = unless(waits, self.temperatures[slot], theta);
+        self.capacities[slot] = unless(waits, self.capacities[slot], capacity);
+        self.bends[slot] = unless(waits, self.bends[slot], bend);
+    }
+}
+
+/// An entropy that is kept and differs from `s(λ, γ, θ)`.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct UnkeptEntropy {
+    pub(crate) element: Element,
+    /// The difference, and what rounding explains of it, J/K.
+    pub(crate) sizes: [f64; 2],
 }
 
 /// The internal energy of the elements of a component.
@@ -87,6 +115,9 @@ pub(crate) struct ComponentEnergy<S> {
     pub(crate) value: Total<S>,
     /// `Σ (|e| + θ (|s| + c))`, J: times ε, what rounding does to it.
     pub(crate) magnitude: S,
+    /// See [`Energy`], J.
+    pub(crate) terms: S,
+    pub(crate) excess: S,
 }
 
 impl<S: Real> ComponentEnergy<S> {
@@ -95,14 +126,19 @@ impl<S: Real> ComponentEnergy<S> {
         Self {
             value: Total::new(),
             magnitude: S::zero(),
+            terms: S::zero(),
+            excess: S::zero(),
         }
     }
 
-    /// Adds the energy of an element and its magnitude, except for numbers that wait.
+    /// Adds the energy of an element, except for numbers that wait.
     #[inline]
-    pub(crate) fn add(&mut self, waits: S::Mask, [energy, magnitude]: [S; 2]) {
-        self.value.add(unless(waits, S::zero(), energy));
-        self.magnitude += unless(waits, S::zero(), magnitude);
+    pub(crate) fn add(&mut self, waits: S::Mask, energy: &Energy<S>) {
+        let added = |value: S| unless(waits, S::zero(), value);
+        self.value.add(added(energy.value));
+        self.magnitude += added(energy.magnitude);
+        self.terms += added(energy.terms);
+        self.excess += added(energy.excess);
     }
 
     /// Of no elements, except for numbers that wait.
@@ -111,6 +147,8 @@ impl<S: Real> ComponentEnergy<S> {
         if S::LANES > 1 {
             cleared.value = Total::select(waits, self.value, cleared.value);
             cleared.magnitude = S::select(waits, self.magnitude, cleared.magnitude);
+            cleared.terms = S::select(waits, self.terms, cleared.terms);
+            cleared.excess = S::select(waits, self.excess, cleared.excess);
         }
         *self = cleared;
     }

@@ -299,8 +299,10 @@ where
         if let Some(entropy) = own.settle(r1, view, near, next)? {
             member.book_thermostat(rule, &booked, entropy, next);
         }
-        let energy = next.energies[own.element.index()].magnitude;
-        member.certify(own, rule, (view, trial), (&booked, energy), tally);
+        let energy = &mut next.energies[own.element.index()];
+        energy.terms += member.forces_at_end();
+        let magnitude = energy.magnitude;
+        member.certify(own, rule, (view, trial), (&booked, magnitude), tally);
         Ok(())
     }
 

@@ -9,6 +9,7 @@ use core::ops::ControlFlow;
 use super::bracket::Bracket;
 use super::{Event, Simulation};
 use crate::number::scalar::{Discord, Mask, Real};
+use crate::run::simulation::control_memory::Memory;
 use crate::run::simulation::run::RunEnd;
 use crate::step::error::{StepError, StepFailure};
 use crate::step::newton::StepReport;
@@ -93,11 +94,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.check_end(end)?;
         self.start_looking(events)?;
         while self.is_before(end)? {
-            let memory = self.memory();
-            let whole = self.step_towards(end)?;
-            let looked = self.look_for(events, whole, end);
-            // After an error as if the step had never been made.
-            let report = looked.inspect_err(|_| self.remember(memory))?;
+            let report = self.step_with_events(events, end)?;
             let stopped = observer(self, &report).is_break();
             if let Some(first) = events.iter().position(Event::has_happened) {
                 return Ok(RunEnd::Event(first));
@@ -107,6 +104,23 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             }
         }
         Ok(RunEnd::Reached)
+    }
+
+    /// One step, which ends at the first event in it.
+    fn step_with_events(
+        &mut self,
+        events: &mut [Event<'_, D, S>],
+        end: S,
+    ) -> Result<StepReport<S>, StepError> {
+        let before = self.memory();
+        let whole = self.step_towards(end)?;
+        let mut looking = Looking {
+            run: self,
+            before: Some(before),
+        };
+        let report = looking.run.look_for(events, whole, end)?;
+        looking.before = None;
+        Ok(report)
     }
 
     /// The functions at the present state.
@@ -215,10 +229,44 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// The function of an event at the present state; if there is none, the last step is undone.
     fn value(&mut self, event: &mut Event<'_, D, S>, place: usize) -> Result<S, StepError> {
-        event.value(place, self).map_err(|failure| {
-            self.undo();
-            self.failed(failure)
-        })
+        let mut made = Made {
+            run: self,
+            is_kept: false,
+        };
+        let value = event.value(place, made.run);
+        made.is_kept = value.is_ok();
+        drop(made);
+        value.map_err(|failure| self.failed(failure))
+    }
+}
+
+/// A simulation that looks for events in its last step. Where that fails, and where a function panics, it goes on as if
+/// the step had never been made.
+struct Looking<'a, const D: usize, S: Real> {
+    run: &'a mut Simulation<D, S>,
+    /// What was remembered before the step, unless that is kept.
+    before: Option<Memory<S>>,
+}
+
+impl<const D: usize, S: Real> Drop for Looking<'_, D, S> {
+    fn drop(&mut self) {
+        if let Some(before) = self.before.take() {
+            self.run.remember(before);
+        }
+    }
+}
+
+/// A simulation with a step that is undone unless it is kept, also where the function of an event panics.
+struct Made<'a, const D: usize, S: Real> {
+    run: &'a mut Simulation<D, S>,
+    is_kept: bool,
+}
+
+impl<const D: usize, S: Real> Drop for Made<'_, D, S> {
+    fn drop(&mut self) {
+        if !self.is_kept {
+            self.run.undo();
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::super::Explicit;
 use super::Verdict;
-use crate::element::group::points;
+use crate::element::group::{is_met, points};
 use crate::element::state::State;
 use crate::number::compensated::Total;
 use crate::number::scalar::{Mask, Real, unless};
@@ -18,13 +18,13 @@ const HEAT_TURNS: usize = 3;
 const ENOUGH: f64 = 2.0;
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// The energy of a component and the magnitude of its terms, J.
-    pub(in super::super) fn energy_of(&self, index: usize) -> [S; 2] {
+    /// The energy of a component, the magnitude of its terms and the kinetic energy among them, J.
+    pub(in super::super) fn energy_of(&self, index: usize) -> [S; 3] {
         let component = &self.components.all[index];
         let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
         let momenta = points::<S, D>(&self.y[self.offsets.momenta..self.offsets.viscous]);
         let (mut energy, half) = (Total::new(), S::from_f64(0.5));
-        let mut magnitude = self.scratch.energies[index].magnitude;
+        let (mut magnitude, mut motion) = (self.scratch.energies[index].magnitude, S::zero());
         for place in component.masses.clone() {
             let mut square = S::zero();
             for p in momenta[place] {
@@ -33,6 +33,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             let kinetic = half * square * self.per_mass[place];
             energy.add(kinetic);
             magnitude += kinetic;
+            motion += kinetic;
             if let Some(gravity) = &self.gravity {
                 for (&g, &q) in gravity.iter().zip(&positions[place]) {
                     let potential = -self.masses[place] * g * q;
@@ -56,14 +57,34 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             energy.add(theta * sum.carry);
             magnitude += (theta * sum.value).abs();
         }
-        [energy.value(), magnitude]
+        [energy.value(), magnitude, motion]
     }
 
-    /// What the energy of a component lacks, and the magnitude of its terms, J.
-    pub(in super::super) fn defect_of(&self, index: usize) -> [S; 2] {
-        let [energy, magnitude] = self.energy_of(index);
+    /// What the bound of a step counts of the state that it starts from, and the terms of the energies there, J.
+    #[cold]
+    pub(in super::super) fn terms_at_start(&self, state: &State<S>) -> [S; 2] {
+        let momenta = &self.y0[self.offsets.momenta..self.offsets.viscous];
+        let mut motion = S::zero();
+        for (p, &per_mass) in points::<S, D>(momenta).iter().zip(&self.per_mass) {
+            let square = p.iter().fold(S::zero(), |square, &p| square + p * p);
+            motion += S::from_f64(0.5) * square * per_mass;
+        }
+        let energies = state.energies.iter();
+        energies.fold([motion; 2], |[counted, terms], energy| {
+            let own = energy.magnitude + energy.excess;
+            [counted + own, terms + energy.terms]
+        })
+    }
+
+    /// What the energy of a component lacks, the magnitude of its terms and the kinetic energy, J.
+    pub(in super::super) fn defect_of(&self, index: usize) -> [S; 3] {
+        let [energy, magnitude, motion] = self.energy_of(index);
         let target = self.new_books.targets[index].energy;
-        [target.beyond(energy), magnitude + target.value.abs()]
+        [
+            target.beyond(energy),
+            magnitude + target.value.abs(),
+            motion,
+        ]
     }
 
     /// Puts energy back by heat as long as no element has to be evaluated for it.
@@ -95,7 +116,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// Looks at the energy of a component; whether it is a number.
     fn look(&mut self, index: usize) -> bool {
-        let [defect, magnitude] = self.defect_of(index);
+        let [defect, magnitude, _] = self.defect_of(index);
         let progress = &mut self.scratch.progress[index];
         progress.defect = defect;
         let begins = progress.scale.equal(S::zero());
@@ -167,7 +188,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Gives entropy to an element as if it had produced it: `θ (1 + r + r²/2)` with `r = x/c`, and
-    /// `e + θ x (1 + r/2)`. Whether that is exact to rounding.
+    /// `e + θ x (1 + r/2)`. Whether that is exact to rounding, and θ to what the entropy that is kept asks.
     pub(super) fn warm(
         &mut self,
         index: usize,
@@ -178,7 +199,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let half = S::from_f64(0.5);
         let theta = &mut self.y[self.offsets.temperatures + slot];
         let scratch = &mut self.scratch;
-        let ratio = entropy / scratch.capacities[slot];
+        let capacity = scratch.capacities[slot];
+        let ratio = entropy / capacity;
         let energy = *theta * entropy * (S::one() + half * ratio);
         next.entropies.add(slot, entropy);
         scratch.produced[slot] += entropy;
@@ -189,6 +211,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         *theta += *theta * ratio * (S::one() + half * ratio);
         // 2 √u: what is left out is the cube, and the second order of forces.
         let small = (S::EPSILON + S::EPSILON).sqrt();
-        ratio.abs().less(small)
+        ratio.abs().less(small) & is_met(ratio, [capacity, scratch.bends[slot]])
     }
 }

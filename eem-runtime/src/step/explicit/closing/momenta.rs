@@ -207,7 +207,12 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             }
             let of_lane = |momentum: &Bivector<S, D>| momentum.map(0.0, |j| j.lane(lane));
             let momenta = [&of_lane(&present), &of_lane(&target)];
-            turning(&moments.lane(lane), momenta, rounding.lane(lane))
+            let moments = moments.lane(lane);
+            if matches!(Inertia::of_body(moments), Inertia::Space(_)) {
+                // Nothing is weak: the momenta do it, as they do for this lane alone.
+                return None;
+            }
+            turning(&moments, momenta, rounding.lane(lane))
         };
         if (0..S::LANES).all(|lane| change(lane).is_none()) {
             return false;

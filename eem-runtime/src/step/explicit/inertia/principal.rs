@@ -1,6 +1,6 @@
 //! Principal axes of a body, by Jacobi's method of rotations.
 
-use super::{Moments, NO_INERTIA};
+use super::moments::{Moments, NO_INERTIA};
 use crate::algebra::bivector::{Bivector, planes};
 
 /// Sweeps over all pairs of axes; convergence is quadratic, so that a handful do.

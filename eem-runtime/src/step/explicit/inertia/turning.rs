@@ -13,8 +13,8 @@
 //!
 //! and the smallest that change it by δ are `φ_ba = δ T_bc/s`, `φ_bc = δ T_ab/s` with `s = Σ_b (T_bc² + T_ab²)`.
 
+use super::moments::{Moments, NO_INERTIA, WEAK};
 use super::principal::Principal;
-use super::{Moments, NO_INERTIA, WEAK};
 use crate::algebra::bivector::{Bivector, planes};
 
 /// Rounds of corrections. With a single plane each squares what is left; several take turns.
@@ -137,7 +137,7 @@ fn slopes<const D: usize>(
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Inertia, Moments};
+    use super::super::Inertia;
     use super::*;
 
     /// Masses with one, two or three arms, a target that is a little off, and what is left of it after turning and a
@@ -159,7 +159,9 @@ mod tests {
         let target = sum(&others, momenta);
         let moments = |arms: &[[f64; D]]| {
             let mut moments = Moments::none();
-            arms.iter().for_each(|r| moments.add(1.0, r));
+            for r in arms {
+                moments.add(1.0, r);
+            }
             moments
         };
         let change = turning(&moments(arms), [&sum(arms, momenta), &target], 1e-16);

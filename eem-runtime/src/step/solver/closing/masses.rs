@@ -1,5 +1,7 @@
 //! The nodes at the end of a step: new positions and momenta.
 
+use core::array;
+
 use crate::element::group::{StepView, points};
 use crate::element::state::State;
 use crate::element::tally::Tally;
@@ -38,16 +40,14 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 let [impulse, terms] =
                     (self.coupling).impulse((moving, node), &self.trial, twice_per_step);
                 let found = remembering.impulse_mut(at);
-                let magnitude = self.magnitudes.get(at).copied();
-                // The forces of all directions leave their rounding in each.
-                let sizes = impulse.iter().map(|impulse| impulse.abs());
-                let magnitude = sizes.fold(magnitude.unwrap_or(S::zero()), |sum, size| sum + size);
-                for axis in 0..D {
-                    let residual = impulse[axis] - found[axis];
+                let residual = array::from_fn(|axis| impulse[axis] - found[axis]);
+                for &residual in &residual {
                     largest.see(residual);
-                    if is_exact {
-                        tally.balance(residual, magnitude + terms[axis]);
-                    }
+                }
+                if is_exact {
+                    let magnitude = self.magnitudes.get(at).copied();
+                    let magnitude = magnitude.unwrap_or(S::zero());
+                    tally.balance_node(&residual, [&impulse, &terms], magnitude);
                 }
                 *found = impulse;
             }

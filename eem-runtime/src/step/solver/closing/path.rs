@@ -38,20 +38,18 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 let change = moving.change(&self.trial);
                 let impulse = stages.combined(node, weights);
                 let gained = change.map(|change| inertia * change);
+                let residual = array::from_fn(|axis| gained[axis] - impulse[axis]);
+                for &residual in &residual {
+                    largest.see(residual);
+                }
                 let magnitude = self.magnitudes.get(node).copied();
                 let mut magnitude = magnitude.unwrap_or(S::zero());
-                // The forces of all directions leave their rounding in each.
-                for axis in 0..D {
-                    magnitude += gained[axis].abs();
-                    for (&weight, impulse) in weights.iter().zip(&stages.impulses[node]) {
-                        magnitude += (S::from_f64(weight) * impulse[axis]).abs();
+                for (&weight, impulse) in weights.iter().zip(&stages.impulses[node]) {
+                    for &impulse in impulse {
+                        magnitude += (S::from_f64(weight) * impulse).abs();
                     }
                 }
-                for axis in 0..D {
-                    let residual = gained[axis] - impulse[axis];
-                    largest.see(residual);
-                    tally.balance(residual, magnitude);
-                }
+                tally.balance_node(&residual, [&gained, &[S::zero(); D]], magnitude);
             }
         }
         self.final_residual = largest.found();

@@ -106,6 +106,20 @@ where
         sum
     }
 
+    /// `|f|λ + Σ|g||γ|` of the new state, which the amplitude has for both ends, J.
+    pub(super) fn forces_at_end(&self) -> S {
+        let own = &self.own;
+        (0..M::MEASURES + M::DASHPOTS).fold(S::zero(), |sum, index| {
+            let work = (own.end_slopes[1][index] * own.end[index]).abs();
+            // λ ∂e/∂λ = 2 C ∂ê/∂C
+            sum + if index < M::MEASURES {
+                work + work
+            } else {
+                work
+            }
+        })
+    }
+
     /// `h Σ b |F|`, N s.
     fn impulse(&self, rule: &Tableau, step: S) -> S {
         let mut sum = S::zero();

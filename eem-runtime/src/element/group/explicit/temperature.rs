@@ -1,0 +1,173 @@
+//! The temperature of an element that closes a step, from the entropy that is kept.
+
+use crate::element::conjugates::{Infeasible, Variational};
+use crate::element::error::StateError;
+use crate::element::group::explicit::view::UnkeptEntropy;
+use crate::element::group::point::Point;
+use crate::element::kinematics::Kinematics;
+use crate::material::free_energy::{FreeEnergy, Rates};
+use crate::material::inversion::temperature_near;
+use crate::number::scalar::{Mask, Real, unless};
+
+/// Evaluations of a temperature after which the safeguarded search takes over. Newton's method from the
+/// temperature of the stages needs one or two.
+const MOST_EVALUATIONS: usize = 6;
+
+/// A correction of ln θ for which the guess is not nearly right.
+const LARGEST_CORRECTION: f64 = 0.25;
+
+/// Roundings, in ε, of the terms of an entropy that it may differ by from the one that is kept.
+const KEPT_ROUNDINGS: f64 = 4.0;
+
+/// The temperature of an entropy.
+pub(super) struct Settled<S, M, T>
+where
+    S: Real,
+    M: FreeEnergy<S>,
+{
+    /// Where the model was evaluated last, and what was found there, K.
+    pub(super) theta: S,
+    pub(super) evaluated: (Rates<M::Variables>, T),
+    /// The corrected one, K.
+    pub(super) corrected: S,
+    /// `|∂c/∂ ln θ|`, J/K.
+    pub(super) bend: S,
+}
+
+impl<S: Real, M: FreeEnergy<S>, T> Settled<S, M, T> {
+    /// A temperature that needs no correction, and what was found there.
+    #[inline]
+    pub(super) fn given(theta: S, evaluated: (Rates<M::Variables>, T)) -> Self {
+        Self {
+            theta,
+            evaluated,
+            corrected: theta,
+            bend: S::zero(),
+        }
+    }
+}
+
+/// Whether a change δ of ln θ by `δ = Δs/c` meets the entropy, given c and `|∂c/∂ ln θ|`: what it leaves of Δs is
+///
+/// ```text
+/// ½ |∂c/∂ ln θ| δ²  ≤  ¼ ε c
+/// ```
+///
+/// a sixteenth of what the law of the kept entropy allows, so that several changes have room. A transition of
+/// the width w has `|∂c/∂ ln θ| = c θ/w`.
+#[inline]
+pub(crate) fn is_met<S: Real>(change: S, [capacity, bend]: [S; 2]) -> S::Mask {
+    let half = S::from_f64(0.5);
+    (bend * change * change).at_most(half * S::EPSILON * capacity)
+}
+
+impl<S, M, K, const D: usize> Point<S, M, K, Variational, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+{
+    /// The temperature of an entropy near a guess by Newton's method in ln θ.
+    ///
+    /// Of several numbers each stops where it would alone, and waits for the others.
+    #[inline]
+    pub(super) fn temperature_of<T>(
+        &self,
+        x: &M::Variables,
+        at: &impl Fn(S) -> (Rates<M::Variables>, T),
+        [entropy, guess]: [S; 2],
+        unkept: &mut Option<UnkeptEntropy>,
+    ) -> Result<Settled<S, M, T>, StateError>
+    where
+        T: Copy + AsRef<[S]>,
+    {
+        // √u, whose square is a rounding.
+        let enough = (S::from_f64(0.5) * S::EPSILON).sqrt();
+        let mut theta = guess;
+        let (mut is_settled, mut is_lost) = (S::Mask::none(), S::Mask::none());
+        for _ in 0..MOST_EVALUATIONS {
+            let (rates, values) = at(theta);
+            let capacity = rates.forces[Self::TEMPERATURE];
+            let correction = (entropy - values.as_ref()[0]) / capacity;
+            let size = correction.abs();
+            let is_near = S::zero().less(capacity) & size.at_most(S::from_f64(LARGEST_CORRECTION));
+            is_lost = is_lost | !is_near;
+            let is_last = size.at_most(enough);
+            if is_last.any() {
+                let bend = self.bend(x, [theta, capacity]);
+                let is_last = is_last & is_met(correction, [capacity, bend]);
+                is_settled = (is_settled | is_last) & !is_lost;
+                if is_settled.all() {
+                    return Ok(Settled {
+                        theta,
+                        evaluated: (rates, values),
+                        corrected: theta + theta * correction,
+                        bend,
+                    });
+                }
+            }
+            if (is_settled | is_lost).all() {
+                break;
+            }
+            let next = theta * correction.exp();
+            theta = unless(is_settled | is_lost, theta, next);
+        }
+        self.search(x, at, [entropy, guess], (is_settled, theta), unkept)
+    }
+
+    /// `|∂c/∂ ln θ| = |c + θ² ∂²s/∂θ²|`, J/K.
+    #[inline]
+    fn bend(&self, x: &M::Variables, [theta, capacity]: [S; 2]) -> S {
+        let mut x = *x;
+        x[Self::TEMPERATURE] = theta;
+        let second = self.model.entropy_hessian(&x)[Self::TEMPERATURE][Self::TEMPERATURE];
+        (capacity + theta * theta * second).abs()
+    }
+
+    /// The same from a guess that is not nearly right; for several numbers only where Newton's method has not
+    /// settled on a temperature. Where it does not meet the entropy, it says so.
+    #[cold]
+    fn search<T: Copy + AsRef<[S]>>(
+        &self,
+        x: &M::Variables,
+        at: &impl Fn(S) -> (Rates<M::Variables>, T),
+        [entropy, guess]: [S; 2],
+        (is_settled, settled): (S::Mask, S),
+        unkept: &mut Option<UnkeptEntropy>,
+    ) -> Result<Settled<S, M, T>, StateError> {
+        let caloric_at = self.model.caloric_at(*x);
+        // ε^¾: as sharp as in the schemes that keep no forces of their own.
+        let root = S::EPSILON.sqrt();
+        let enough = root * root.sqrt();
+        let found = temperature_near(|theta| (caloric_at(theta).0, []), entropy, guess, enough);
+        let (found, []) = found.map_err(|source| {
+            let entropy = entropy.to_f64();
+            Infeasible::Entropy { entropy, source }.of(self.element)
+        })?;
+        let theta = S::select(is_settled, settled, found);
+        let (rates, values) = at(theta);
+        let capacity = rates.forces[Self::TEMPERATURE];
+        let lacking = entropy - values.as_ref()[0];
+        let slopes = rates.slopes.as_ref()[..Self::TEMPERATURE].iter();
+        let slopes = slopes.zip(x.as_ref());
+        let terms = slopes.fold(
+            caloric_at(theta).0.magnitude + capacity,
+            |sum, (&slope, &x)| sum + (slope * x).abs(),
+        );
+        let bound = S::from_f64(KEPT_ROUNDINGS) * S::EPSILON * terms;
+        let left = unless(is_settled, S::zero(), lacking.abs());
+        if !left.at_most(bound).all() && unkept.is_none() {
+            *unkept = Some(UnkeptEntropy {
+                element: self.element,
+                sizes: [left.to_f64(), bound.to_f64()],
+            });
+        }
+        let correction = lacking / capacity;
+        Ok(Settled {
+            theta,
+            evaluated: (rates, values),
+            corrected: S::select(is_settled, theta + theta * correction, theta),
+            bend: self.bend(x, [theta, capacity]),
+        })
+    }
+}

@@ -1,0 +1,138 @@
+//! The energies of elements between two states, counted anew where their values do not decide.
+
+use super::arms::{along, arms_in, measures_in};
+use super::point::Point;
+use crate::element::conjugates::ElementScheme;
+use crate::element::group::element_group::ElementGroup;
+use crate::element::kinematics::{Arms, Ends, Kinematics};
+use crate::element::recount::Recount;
+use crate::element::state::State;
+use crate::material::free_energy::{Array, FreeEnergy};
+use crate::number::scalar::Real;
+
+impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// See [`Group::recount`](super::Group::recount).
+    pub(super) fn recount_all(&self, ends: [&State<S>; 2], recount: &mut Recount<S>) {
+        for member in &self.members {
+            for point in member.points.as_ref() {
+                let own = point.balance_between(&member.site.nodes, ends);
+                let found = Point::<S, M, K, C, D>::change_of(&point.response, &own.increments);
+                recount.element(point.element, own.by_values, own.by_differences, found);
+            }
+        }
+    }
+}
+
+/// The change of the energy of a point between two states.
+pub(super) struct EnergyChange<S: Real, M: FreeEnergy<S>> {
+    /// By its values, with the magnitude of their terms, J.
+    pub(super) by_values: [S; 2],
+    /// By discrete derivatives, J.
+    pub(super) by_differences: S,
+    /// `(Δλ, Δγ, Δs)`.
+    increments: M::Variables,
+}
+
+/// The change of the arms of an element between two states, from what they are stored as.
+fn change_between<K: Kinematics<S, D>, S: Real, const D: usize>(
+    nodes: &K::PerNode<u32>,
+    [old, new]: [&State<S>; 2],
+) -> Arms<K, S, D> {
+    let mut change = Arms::<K, S, D>::filled([S::zero(); D]);
+    let nodes = nodes.as_ref();
+    for (arm, &node) in change.as_mut().iter_mut().zip(&nodes[1..]) {
+        for (axis, component) in arm.iter_mut().enumerate() {
+            let moved = |node: u32| {
+                new.positions
+                    .change(node as usize * D + axis, &old.positions)
+            };
+            *component = moved(node) - moved(nodes[0]);
+        }
+    }
+    change
+}
+
+impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: ElementScheme<S, M>,
+{
+    /// The change of its energy between two states, given its nodes.
+    pub(super) fn balance_between(
+        &self,
+        nodes: &K::PerNode<u32>,
+        ends: [&State<S>; 2],
+    ) -> EnergyChange<S, M> {
+        let [r0, r1] = ends.map(|state| arms_in::<K, S, D>(nodes, &state.positions));
+        let change = change_between::<K, S, D>(nodes, ends);
+        let at = self.element.index();
+        let by_values = ends[1].energies[at].value - ends[0].energies[at].value;
+        let x = [
+            self.variables_in(&r0, ends[0]),
+            self.variables_in(&r1, ends[1]),
+        ];
+        let increments = self.increments_between([&r0, &r1], &change, &x, ends);
+        let magnitude = x.map(|x| self.model.energy_magnitude(&x));
+        EnergyChange {
+            by_values: [by_values, magnitude[0] + magnitude[1]],
+            by_differences: self.energy_change(&x, &increments),
+            increments,
+        }
+    }
+
+    /// `(Δλ, Δγ, Δs)` between two states, from what they are stored as.
+    fn increments_between(
+        &self,
+        [r0, r1]: [&Arms<K, S, D>; 2],
+        change: &Arms<K, S, D>,
+        [x0, x1]: &[M::Variables; 2],
+        [old, new]: [&State<S>; 2],
+    ) -> M::Variables {
+        let mut increments = M::Variables::filled(S::zero());
+        let ends = Ends {
+            r0: *r0,
+            r1: *r1,
+            measures0: measures_in::<K, S, D>(x0),
+            measures1: measures_in::<K, S, D>(x1),
+        };
+        let gradient = self.kinematics.discrete_gradient(&ends);
+        for (a, row) in gradient.as_ref().iter().enumerate() {
+            increments[a] = along::<K, S, D>(row, change);
+        }
+        let slots = self.slots();
+        for k in 0..M::DASHPOTS {
+            increments[M::MEASURES + k] = new.viscous.change(slots.viscous + k, &old.viscous);
+        }
+        if let Some(slot) = slots.thermal {
+            increments[Self::TEMPERATURE] = new.entropies.change(slot, &old.entropies);
+        }
+        increments
+    }
+
+    /// `f*Δλ − Σ g*Δγ + θ*Δs`, J.
+    fn change_of(response: &M::Response, increments: &M::Variables) -> S {
+        let mut sum = S::zero();
+        for row in 0..Self::VARIABLES {
+            let is_dashpot = (M::MEASURES..Self::TEMPERATURE).contains(&row);
+            let term = response[row] * increments[row];
+            sum += if is_dashpot { -term } else { term };
+        }
+        sum
+    }
+
+    /// `Δe` between two states by discrete derivatives that are formed anew: the values of a free energy
+    /// whose terms cancel have more rounding than its differences.
+    fn energy_change(&self, [x0, x1]: &[M::Variables; 2], increments: &M::Variables) -> S {
+        let old = self.model.temperature_form_old(x0);
+        let response = self.model.temperature_form_response(&old, x1);
+        Self::change_of(&response, increments)
+    }
+}

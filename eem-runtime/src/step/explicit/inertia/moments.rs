@@ -1,0 +1,40 @@
+//! Second moments of the masses of a body.
+
+use crate::number::scalar::Real;
+
+/// The share of the trace of M below which the inertia in a plane is weak: the correction of momenta there would be
+/// ten times as large as in other planes and more, and the body is turned instead.
+pub(super) const WEAK: f64 = 1e-2;
+
+/// The share below which it is rounding: ε^¾ in double precision.
+pub(super) const NO_INERTIA: f64 = 1.8e-12;
+
+/// `M = Σ m r rᵀ`, kg m². Only the entries on and above the diagonal are used.
+#[derive(Clone, Copy, Debug)]
+pub(in super::super) struct Moments<S, const D: usize>(pub(super) [[S; D]; D]);
+
+impl<S: Real, const D: usize> Moments<S, D> {
+    /// Of nothing.
+    pub(in super::super) fn none() -> Self {
+        Self([[S::zero(); D]; D])
+    }
+
+    /// Adds a mass at the end of an arm.
+    #[inline]
+    pub(in super::super) fn add(&mut self, mass: S, r: &[S; D]) {
+        for i in 0..D {
+            for j in i..D {
+                self.0[i][j] += mass * (r[i] * r[j]);
+            }
+        }
+    }
+
+    #[inline]
+    pub(super) fn trace(&self) -> S {
+        (0..D).fold(S::zero(), |sum, axis| sum + self.0[axis][axis])
+    }
+
+    pub(in super::super) fn lane(&self, lane: usize) -> Moments<f64, D> {
+        Moments(self.0.map(|row| row.map(|entry| entry.lane(lane))))
+    }
+}

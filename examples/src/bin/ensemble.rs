@@ -1,0 +1,77 @@
+//! Two hundred dampers that differ in their viscosity: which one stops a mass soonest?
+//!
+//! ```text
+//! ψ(λ, γ) = ½ k (λ − l)² + ½ b (λ − l − γ)²,     γ̇ = b (λ − l − γ)/η
+//! ```
+//!
+//! Neither a soft nor a stiff dashpot takes much energy: in the first the force is small, in the second the motion.
+//! What it claims: the best viscosity lies between, near b/ω, and every member keeps its balance of energy.
+
+use eem::prelude::*;
+
+/// A spring beside a dashpot in series with a second spring.
+#[derive(FreeEnergy)]
+#[free_energy(|lambda: Stretch, gamma: Viscous| {
+    let extension = lambda - length;
+    0.5 * stiffness * extension.powi(2) + 0.5 * branch * (extension - gamma).powi(2)
+})]
+#[viscosity(gamma = eta)]
+struct Damper {
+    #[unit("N/m")]
+    stiffness: f64,
+    #[unit("N/m")]
+    branch: f64,
+    #[unit("m")]
+    length: f64,
+    #[unit("N s/m")]
+    eta: f64,
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let viscosities: Vec<f64> = (0..200)
+        .map(|i| 10_f64.powf(-1.0 + 0.02 * f64::from(i)))
+        .collect();
+
+    // One scene per viscosity; with the feature `parallel` on all cores.
+    let left = Ensemble::new(Scheme::EemTemperature, 0.01).run(
+        &viscosities,
+        |&eta| {
+            let mut scene = Scene::<1>::new();
+            let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.2], [0.0])];
+            let (stiffness, branch, length) = (100.0, 100.0, 1.0);
+            scene.spring(
+                Damper {
+                    stiffness,
+                    branch,
+                    length,
+                    eta,
+                },
+                ends,
+            );
+            (scene, ())
+        },
+        |run, (), _| {
+            let start = run.ledger().balance;
+            run.run_until(3.0)?;
+            let end = run.ledger();
+            assert!((end.balance - start).abs() < 1e-13);
+            // What is not heat yet, J.
+            Ok(end.energy - end.lost_heat)
+        },
+    );
+
+    let mut best = (f64::INFINITY, 0.0);
+    for (place, (eta, left)) in viscosities.iter().zip(left).enumerate() {
+        let left = left?;
+        if left < best.0 {
+            best = (left, *eta);
+        }
+        if place % 25 == 0 {
+            println!("η = {eta:8.3} N s/m   {left:10.3e} J are left after 3 s");
+        }
+    }
+    println!("least with η = {:.2} N s/m: {:.1e} J", best.1, best.0);
+    // b/ω of the mass on the first spring alone is 10 N s/m, on both 7 N s/m.
+    assert!((5.0..15.0).contains(&best.1));
+    Ok(())
+}

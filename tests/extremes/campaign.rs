@@ -1,0 +1,288 @@
+//! Fresh steps at random: every exact scheme, at fixed steps and under step control, a few steps in each of many
+//! small scenes, which are drawn anew from a seed.
+
+use eem::Tolerance;
+use eem::prelude::*;
+
+use super::drawing::{Drawing, Pace};
+use super::families::{self, Family};
+use super::random::Random;
+use super::tally::Tally;
+use super::watched::Watched;
+
+/// Steps that are tried in each scene; more by the scheme that chooses among others, which looks every tenth step.
+const STEPS: usize = 4;
+const STEPS_OF_CHOICE: usize = 40;
+
+/// Refused calm steps that are told.
+const TOLD: usize = 8;
+
+/// Steps of the calm row that may be refused, and steps of scenes without singular forces whose bound may be wide.
+const REFUSED: f64 = 1e-4;
+const WIDE: f64 = 0.01;
+
+/// What is tried: a row of the table.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Row {
+    pub(crate) scheme: Scheme,
+    pub(crate) steps: Steps,
+}
+
+/// How the sizes of steps come about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Steps {
+    Fixed,
+    /// By a tolerance from 1e-2 to 1e-8.
+    Controlled,
+    /// Fixed, below half of what is stable, in scenes without singular forces.
+    Calm,
+}
+
+/// All rows: each scheme at fixed steps and under control, the default, and calm explicit steps.
+pub(crate) fn rows() -> Vec<Row> {
+    let schemes = Scheme::ALL.into_iter().filter(|scheme| scheme.is_exact());
+    let row = |scheme, steps| Row { scheme, steps };
+    let both = |scheme| [Steps::Fixed, Steps::Controlled].map(|steps| row(scheme, steps));
+    let mut rows: Vec<Row> = schemes.flat_map(both).collect();
+    // It controls its steps by itself.
+    rows.push(row(Scheme::Auto, Steps::Controlled));
+    rows.push(row(Scheme::EemExplicit, Steps::Calm));
+    rows
+}
+
+/// What came of a row.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Outcome {
+    /// Of scenes without and with forces that end in a singularity.
+    pub(crate) tallies: [Tally; 2],
+}
+
+impl Outcome {
+    /// The two together.
+    #[must_use]
+    pub(crate) fn and(self, other: Self) -> Self {
+        let [regular, singular] = self.tallies;
+        let [regular_too, singular_too] = other.tallies;
+        Self {
+            tallies: [regular.and(regular_too), singular.and(singular_too)],
+        }
+    }
+
+    pub(crate) fn all(&self) -> Tally {
+        let [regular, singular] = self.tallies.clone();
+        regular.and(singular)
+    }
+}
+
+impl Row {
+    /// `eem-entropy, fixed`.
+    pub(crate) fn name(self) -> String {
+        let steps = match self.steps {
+            Steps::Fixed => "fixed",
+            Steps::Controlled => "controlled",
+            Steps::Calm => "calm",
+        };
+        format!("{}, {steps}", self.scheme.name())
+    }
+
+    /// Steps that are tried in each scene.
+    pub(crate) fn steps_of_scene(self) -> usize {
+        if self.scheme == Scheme::Auto {
+            STEPS_OF_CHOICE
+        } else {
+            STEPS
+        }
+    }
+
+    /// The scenes of some seeds.
+    pub(crate) fn run(self, seeds: impl Iterator<Item = u64>) -> Outcome {
+        let mut outcome = Outcome::default();
+        for seed in seeds {
+            // Equal seeds give equal scenes to all schemes of a kind. Space has most of the families.
+            let mut random = Random::new(seed);
+            let tallies = &mut outcome.tallies;
+            match random.below(6) {
+                0 => self.scene::<1>(seed, random, &families::everywhere(), tallies),
+                1 => self.scene::<2>(seed, random, &families::everywhere(), tallies),
+                2 => self.scene::<4>(seed, random, &families::everywhere(), tallies),
+                _ => self.scene::<3>(seed, random, &families::IN_SPACE, tallies),
+            }
+        }
+        outcome
+    }
+
+    fn scene<const D: usize>(
+        self,
+        seed: u64,
+        mut random: Random,
+        families: &[Family<D>],
+        tallies: &mut [Tally; 2],
+    ) {
+        let is_calm = self.steps == Steps::Calm;
+        let pace = match (self.steps, self.scheme) {
+            (Steps::Calm, _) => Pace::Calm,
+            (Steps::Fixed, Scheme::EemExplicit) => Pace::Explicit,
+            _ => Pace::Any,
+        };
+        let regular: Vec<Family<D>>;
+        let families = if is_calm {
+            let own = families.iter().filter(|family| !family.is_singular);
+            regular = own.copied().collect();
+            &regular
+        } else {
+            families
+        };
+        let drawing = Drawing::fresh(&mut random, families, pace);
+        let tally = &mut tallies[usize::from(drawing.is_singular)];
+        let label = format!("{}, seed {seed}: {}", self.name(), drawing.label);
+        let Ok(mut watched) = drawing.world().start(self.scheme, drawing.step) else {
+            // A model may have no state where it was drawn.
+            *tally.refused.entry(NO_SCENE.to_owned()).or_default() += 1;
+            return;
+        };
+        if self.steps == Steps::Controlled
+            && let Err(error) = control(&mut random, &mut watched)
+        {
+            tally.claim(false, format!("{label}: {error}"));
+            return;
+        }
+        for _ in 0..self.steps_of_scene() {
+            let is_over = is_calm && !drawing.is_calm(&watched);
+            if is_over || watched.step().is_err() {
+                break;
+            }
+        }
+        tally.add(&label, &watched.record);
+        if let (true, Some(error)) = (is_calm, &watched.record.refused) {
+            tally.note(format!("{label}: {error}"));
+        }
+    }
+
+    /// What has to hold of a row besides the laws.
+    pub(crate) fn complaints(self, outcome: &Outcome) -> Vec<String> {
+        let mut complaints = Vec::new();
+        let regular = &outcome.tallies[0];
+        let wide = ratio(regular.wide, regular.steps);
+        if wide > WIDE {
+            complaints.push(format!(
+                "{}: {:.2} % of the steps without singular forces have a bound far above rounding",
+                self.name(),
+                100.0 * wide
+            ));
+        }
+        let refused = refused(regular);
+        if self.steps == Steps::Calm && ratio(refused, refused + regular.steps) >= REFUSED {
+            let taken = regular.steps;
+            complaints.push(format!("{}: {refused} refused, {taken} taken", self.name()));
+            complaints.extend(regular.notes.iter().take(TOLD).cloned());
+        }
+        complaints
+    }
+}
+
+/// The entry of scenes that cannot start.
+const NO_SCENE: &str = "no scene";
+
+/// Steps that were refused.
+pub(crate) fn refused(tally: &Tally) -> usize {
+    let steps = tally.refused.iter().filter(|(name, _)| *name != NO_SCENE);
+    steps.map(|(_, count)| count).sum()
+}
+
+pub(crate) fn ratio(part: usize, whole: usize) -> f64 {
+    #[expect(clippy::cast_precision_loss, reason = "for a share")]
+    let [part, whole] = [part as f64, whole as f64];
+    part / whole.max(1.0)
+}
+
+/// Lets a run control its steps by any tolerance that its scheme can be asked for.
+fn control<const D: usize>(
+    random: &mut Random,
+    watched: &mut Watched<D>,
+) -> Result<(), SceneError> {
+    let relative = random.decades(1e-8, 1e-2);
+    match watched.run.control_steps(Tolerance::new(relative)) {
+        Err(SceneError::Tolerance { floor, .. }) => {
+            let relative = floor * random.decades(1.0, 100.0);
+            watched.run.control_steps(Tolerance::new(relative))
+        }
+        other => other,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Steps of each row in the gate.
+    const SAMPLE: u64 = 640;
+
+    fn sample(scheme: Scheme, steps: &[Steps]) {
+        let mut wrong = Vec::new();
+        for &steps in steps {
+            let row = Row { scheme, steps };
+            let scenes = SAMPLE / row.steps_of_scene() as u64;
+            let outcome = row.run(0..scenes);
+            let all = outcome.all();
+            println!(
+                "{}: {} steps, refused {:?}, ≤ {:.2} of the reported bound, {:.1} ε Σ|q||p|, {} wide",
+                row.name(),
+                all.steps,
+                all.refused,
+                all.worst_reported,
+                all.worst_momentum,
+                all.wide
+            );
+            wrong.extend(all.wrong);
+            wrong.extend(row.complaints(&outcome));
+        }
+        assert!(
+            wrong.is_empty(),
+            "{} complaints:\n{}",
+            wrong.len(),
+            wrong.join("\n")
+        );
+    }
+
+    const BOTH: [Steps; 2] = [Steps::Fixed, Steps::Controlled];
+
+    #[test]
+    fn fresh_steps_of_the_entropy_form_keep_the_laws() {
+        sample(Scheme::EemEntropy, &BOTH);
+    }
+
+    #[test]
+    fn fresh_steps_of_the_temperature_form_keep_the_laws() {
+        sample(Scheme::EemTemperature, &BOTH);
+    }
+
+    #[test]
+    fn fresh_staggered_steps_keep_the_laws() {
+        sample(Scheme::Staggered, &BOTH);
+    }
+
+    #[test]
+    fn fresh_steps_of_fourth_order_keep_the_laws() {
+        sample(Scheme::EemEntropy4, &BOTH);
+    }
+
+    #[test]
+    fn fresh_steps_of_sixth_order_keep_the_laws() {
+        sample(Scheme::EemEntropy6, &BOTH);
+    }
+
+    #[test]
+    fn fresh_explicit_steps_keep_the_laws() {
+        sample(Scheme::EemExplicit, &BOTH);
+    }
+
+    #[test]
+    fn fresh_steps_of_the_default_scheme_keep_the_laws() {
+        sample(Scheme::Auto, &[Steps::Controlled]);
+    }
+
+    #[test]
+    fn explicit_steps_well_below_the_limit_of_stability_are_not_refused() {
+        sample(Scheme::EemExplicit, &[Steps::Calm]);
+    }
+}
