@@ -32,8 +32,27 @@ impl<T: Copy, const D: usize> Bivector<T, D> {
     #[inline]
     pub(crate) fn map<U: Copy>(&self, unused: U, mut of: impl FnMut(T) -> U) -> Bivector<U, D> {
         let mut result = Bivector::filled(unused);
-        for plane in planes::<D>() {
-            *result.at_mut(plane) = of(self.at(plane));
+        for i in 0..D {
+            for j in i + 1..D {
+                result.0[i][j] = of(self.0[i][j]);
+            }
+        }
+        result
+    }
+
+    /// With each component by those of two in its plane.
+    #[inline]
+    pub(crate) fn zip<V: Copy, U: Copy>(
+        &self,
+        other: &Bivector<V, D>,
+        unused: U,
+        of: impl Fn(T, V) -> U,
+    ) -> Bivector<U, D> {
+        let mut result = Bivector::filled(unused);
+        for i in 0..D {
+            for j in i + 1..D {
+                result.0[i][j] = of(self.0[i][j], other.0[i][j]);
+            }
         }
         result
     }
@@ -99,7 +118,13 @@ impl<S: Real, const D: usize> Bivector<S, D> {
     /// The largest `|J_ij|`.
     #[inline]
     pub(crate) fn largest(&self) -> S {
-        planes::<D>().fold(S::zero(), |most, plane| most.maximum(self.at(plane).abs()))
+        let mut most = S::zero();
+        for i in 0..D {
+            for j in i + 1..D {
+                most = most.maximum(self.0[i][j].abs());
+            }
+        }
+        most
     }
 
     /// `Σ_ij a_i J_ij b_j` over all i and j: the component of the plane of two unit vectors.

@@ -13,13 +13,13 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 
 use wide::f64x4;
 
-use crate::number::scalar::{Mask, Real, Scalar, Sealed};
+use crate::number::scalar::{MOST_LANES, Mask, Real, Scalar, Sealed};
 use forward::forward;
 pub(crate) use mask::LaneMask;
 
 /// How many numbers move together. Wider ones gain nothing with the instructions that every
 /// processor has.
-const LANES: usize = 4;
+const LANES: usize = MOST_LANES;
 
 /// See the module.
 #[derive(Clone, Copy, Debug)]

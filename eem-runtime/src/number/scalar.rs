@@ -14,4 +14,4 @@ pub(crate) use number::natural_power;
 #[cfg(feature = "lanes")]
 pub(crate) use real::sealed::Sealed;
 pub use real::{Discord, Mask, Real};
-pub(crate) use real::{is_positive, unless};
+pub(crate) use real::{MOST_LANES, is_positive, unless};

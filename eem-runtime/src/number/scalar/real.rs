@@ -80,6 +80,9 @@ impl Mask for bool {
     }
 }
 
+/// The largest [`Real::LANES`].
+pub(crate) const MOST_LANES: usize = 4;
+
 /// Keeps [`Real`] closed: what a step decides by masks is known to be right for these types only.
 pub(crate) mod sealed {
     pub trait Sealed {}

@@ -8,6 +8,7 @@ use super::tableau::STAGES;
 use super::{Explicit, ExplicitView};
 use crate::element::group::{UnkeptEntropy, points};
 use crate::element::state::State;
+use crate::number::compensated::Total;
 use crate::number::scalar::{Mask, Real};
 use crate::step::certificate::is_wide;
 use crate::step::error::StepFailure;
@@ -44,7 +45,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     ) -> Result<Attempt<S>, StepFailure> {
         self.was_ready = self.is_ready;
         let attempt = self.attempt_ready(view, demand, next);
-        if attempt.is_err() {
+        let is_made = attempt.as_ref().is_ok_and(|attempt| attempt.outcome.is_some());
+        if !is_made {
             // As it was before, also if nothing was known of the state.
             self.is_ready = self.was_ready;
         }
@@ -124,17 +126,28 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             return Err(StepFailure::Time { value });
         }
         let moving = &self.y[..self.offsets.viscous];
-        let Some(at) = moving.iter().position(|value| !value.is_finite()) else {
+        // Zero, unless some number is infinite or none.
+        let rest = moving.iter().fold(S::zero(), |rest, &x| rest + (x - x));
+        if rest.equal(S::zero()).all() {
             return Ok(());
-        };
+        }
+        Err(self.unbounded())
+    }
+
+    /// Which number of the state before closing is infinite or none.
+    #[cold]
+    fn unbounded(&self) -> StepFailure {
+        let moving = &self.y[..self.offsets.viscous];
+        let at = moving.iter().position(|value| !value.is_finite());
+        let at = at.unwrap_or(0);
         let is_position = at < self.offsets.momenta;
         let place = at % self.offsets.momenta / D;
-        Err(StepFailure::Unbounded {
+        StepFailure::Unbounded {
             node: self.components.nodes[place] as usize,
             axis: at % D,
             quantity: if is_position { "position" } else { "momentum" },
             value: moving[at].to_f64(),
-        })
+        }
     }
 
     /// The largest first defect of all components, which has to be small.
@@ -210,7 +223,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             .unwrap_or_else(|| self.terms_at_start(start));
         let (mut residue, mut counted, mut own) = (S::zero(), S::zero(), S::zero());
         for index in 0..self.components.all.len() {
-            let [defect, magnitude, motion] = self.defect_of(index);
+            let seen = self.scratch.progress[index].seen;
+            let [defect, magnitude, motion] = seen.unwrap_or_else(|| self.defect_of(index));
             let magnitude = magnitude + self.scratch.progress[index].granularity;
             expect(Law::Energy, [-defect, rounding * magnitude], time)?;
             self.prove_momenta(index, time)?;
@@ -224,9 +238,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.new_books.terms = Some([counted, own]);
         self.new_books.largest_momentum = scales.momentum;
         self.new_books.residue = residue;
-        let (mut production, mut least) = (S::zero(), self.scratch.least);
+        let (mut production, mut least) = (Total::new(), self.scratch.least);
         for progress in &self.scratch.progress {
-            production += progress.production;
+            production.add_total(progress.production);
             let has_produced = progress.least.less(S::MAX);
             let closed = progress.least * progress.factor;
             least = least.minimum(S::select(has_produced, closed, S::MAX));
@@ -242,7 +256,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             defect: residue - self.books.residue,
             bound,
             is_bound_wide: is_wide(bound, terms),
-            production,
+            production: production.value(),
             least_production,
             correction,
         })

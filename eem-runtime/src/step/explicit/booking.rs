@@ -43,7 +43,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             let rates = PathRates::new(path.conductance, [&temperatures[a], &temperatures[b]]);
             let ([flow, production], _) = rates.guarded(weights);
             *kept = production;
-            progress.production += production;
+            progress.production.add(production);
             // What no end takes up the closing does not change.
             let closes = !(is_fixed(a) && is_fixed(b));
             let least = if closes {
@@ -78,7 +78,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 self.scratch.produced[slot] += production;
                 let component = self.components.of_dashpot[dashpot] as usize;
                 let progress = &mut self.scratch.progress[component];
-                progress.production += production;
+                progress.production.add(production);
                 progress.least = progress.least.minimum(production);
             }
         }

@@ -14,12 +14,12 @@ mod principal;
 pub(super) mod turning;
 
 use super::vector::length;
-use crate::algebra::bivector::Bivector;
+use crate::algebra::bivector::{Bivector, planes};
 use crate::number::scalar::{Mask, Real};
 use moments::WEAK;
-use principal::Principal;
 
 pub(super) use moments::Moments;
+pub(super) use principal::Principal;
 
 /// What turns how fast.
 #[derive(Clone, Copy, Debug)]
@@ -30,8 +30,10 @@ pub(super) enum Inertia<S, const D: usize> {
     Line { along: [S; D], moment: S },
     /// In space, factors of the inertia tensor.
     Space(Factors<S>),
-    /// Any other: nearly on a line, of more dimensions, or several lanes.
-    General(Moments<S, D>),
+    /// Nearly on a line, or of more dimensions.
+    Principal(Principal<D>),
+    /// Of several lanes, each with a shape of its own.
+    Lanes(Moments<S, D>),
 }
 
 impl<S: Real, const D: usize> Inertia<S, D> {
@@ -40,13 +42,15 @@ impl<S: Real, const D: usize> Inertia<S, D> {
         if D < 3 {
             return Self::Single(moments.trace());
         }
+        if S::LANES > 1 {
+            return Self::Lanes(moments);
+        }
         if D == 3
-            && S::LANES == 1
             && let Some(factors) = Factors::of(&moments)
         {
             return Self::Space(factors);
         }
-        Self::General(moments)
+        Self::Principal(Principal::of(&moments.lane(0)))
     }
 
     /// Of a body with one arm, given the arm of one of its masses and `Σ m r²`.
@@ -76,31 +80,22 @@ impl<S: Real, const D: usize> Inertia<S, D> {
                 Bivector::wedge(along, &speed)
             }
             Self::Space(factors) => factors.solve(momentum),
-            Self::General(moments) => {
+            Self::Principal(principal) => {
+                let omega = principal.solve(&momentum.map(0.0, |j| j.lane(0)));
+                omega.map(S::zero(), S::from_f64)
+            }
+            Self::Lanes(moments) => {
                 let mut omega = Bivector::zero();
-                for plane in crate::algebra::bivector::planes::<D>() {
+                for plane in planes::<D>() {
                     *omega.at_mut(plane) = S::pack(|lane| {
-                        let momentum = momentum.map(0.0, |j| j.lane(lane));
-                        solve_lane(moments.lane(lane), &momentum).at(plane)
+                        let own = Inertia::of_body(moments.lane(lane));
+                        own.solve(&momentum.map(0.0, |j| j.lane(lane))).at(plane)
                     });
                 }
                 omega
             }
         }
     }
-}
-
-/// The same for one lane alone: with the bits that it has alone.
-fn solve_lane<const D: usize>(
-    moments: Moments<f64, D>,
-    momentum: &Bivector<f64, D>,
-) -> Bivector<f64, D> {
-    if D == 3
-        && let Some(factors) = Factors::of(&moments)
-    {
-        return factors.solve(momentum);
-    }
-    Principal::of(&moments).solve(momentum)
 }
 
 /// The inertia tensor of a body in space, `tr M − M`, eliminated with the largest diagonal entry that is left as
@@ -189,7 +184,6 @@ impl<S: Real> Factors<S> {
 mod tests {
     use super::super::vector::difference;
     use super::*;
-    use crate::algebra::bivector::planes;
 
     /// The angular momentum of masses 1, 2, … that turn, and their moments.
     fn turning<const D: usize>(

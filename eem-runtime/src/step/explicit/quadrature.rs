@@ -23,6 +23,7 @@ const WEIGHT_OF: [Option<usize>; STAGES] = {
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// Keeps of a stage what paths and dashpots produce from, and adds it to all integrals of loads, at the
     /// present stage vector.
+    #[inline]
     pub(super) fn gather(&mut self, stage: usize, h: S) {
         let Some(at) = WEIGHT_OF[stage] else {
             return;
@@ -34,11 +35,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         };
         let quadrature = &mut self.quadrature;
         let temperatures = &y[self.offsets.temperatures..self.offsets.reservoirs];
-        for (slot, &theta) in temperatures.iter().enumerate() {
-            quadrature.temperatures[slot][at] = theta;
+        for (kept, &theta) in quadrature.temperatures.iter_mut().zip(temperatures) {
+            kept[at] = theta;
         }
-        for (dashpot, &power) in sample.powers.iter().enumerate() {
-            quadrature.powers[dashpot][at] = power;
+        for (kept, &power) in quadrature.powers.iter_mut().zip(&sample.powers) {
+            kept[at] = power;
         }
         if quadrature.is_closed() {
             return;
@@ -56,6 +57,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Work, impulse and torque of loads and moved anchors.
+    #[inline(never)]
     fn gather_loads(&mut self, stage: usize, weight: S) {
         // Taken out, as all else is read.
         let mut loads = core::mem::take(&mut self.quadrature.loads);

@@ -2,6 +2,7 @@
 
 use crate::element::group::{ComponentEnergy, UnkeptEntropy};
 use crate::element::layout::Layout;
+use crate::number::compensated::Total;
 use crate::number::scalar::{Mask, Real};
 use crate::step::explicit::components::Components;
 
@@ -14,6 +15,8 @@ pub(super) struct Progress<S: Real> {
     pub(super) has_heated: S::Mask,
     /// What is missing of the energy, J.
     pub(super) defect: S,
+    /// The last look at the energy, see `defect_of`, while nothing has changed since.
+    pub(super) seen: Option<[S; 3]>,
     /// The magnitude of the terms of the energy where the closing began; zero before, J.
     pub(super) scale: S,
     /// The first defect over the scale.
@@ -21,7 +24,7 @@ pub(super) struct Progress<S: Real> {
     /// Heat that dashpots without temperature have lost in this step, J.
     pub(super) lost: S,
     /// All production, and the smallest one before it was closed; the largest number without any, J/K.
-    pub(super) production: S,
+    pub(super) production: Total<S>,
     pub(super) least: S,
     /// By which factor the closing has changed every production.
     pub(super) factor: S,
@@ -82,10 +85,11 @@ impl<S: Real> Progress<S> {
             turns: 0,
             has_heated: S::Mask::none(),
             defect: S::zero(),
+            seen: None,
             scale: S::zero(),
             correction: S::zero(),
             lost: S::zero(),
-            production: S::zero(),
+            production: Total::new(),
             least: S::MAX,
             factor: S::one(),
             granularity: S::zero(),

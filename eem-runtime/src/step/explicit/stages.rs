@@ -162,9 +162,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 From::Closing => group.finish(&view, &mut rates)?,
             }
         }
-        let forces = rates.row[offsets.momenta..].as_chunks_mut::<D>().0;
-        for (anchor, reaction) in self.end.reactions.iter_mut().enumerate() {
-            let force = &mut forces[self.components.masses + anchor];
+        let forces = &mut rates.row[offsets.momenta..].as_chunks_mut::<D>().0;
+        let anchored = forces[self.components.masses..].iter_mut();
+        for (reaction, force) in self.end.reactions.iter_mut().zip(anchored) {
             *reaction = core::mem::replace(force, [S::zero(); D]);
         }
         Ok(())
@@ -179,8 +179,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let momenta = points::<S, D>(&self.y[offsets.momenta..offsets.viscous]);
         // Those of anchors stay zero, unless they are moved.
         let masses = &self.per_mass[..self.components.masses];
-        for (place, &per_mass) in masses.iter().enumerate() {
-            velocities[place] = momenta[place].map(|p| p * per_mass);
+        let moving = velocities.iter_mut().zip(momenta).zip(masses);
+        for ((velocity, momentum), &per_mass) in moving {
+            for axis in 0..D {
+                velocity[axis] = momentum[axis] * per_mass;
+            }
         }
         if self.prescribed.moves() {
             for (place, node) in self.components.anchors() {

@@ -116,8 +116,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// Looks at the energy of a component; whether it is a number.
     fn look(&mut self, index: usize) -> bool {
-        let [defect, magnitude, _] = self.defect_of(index);
+        let seen = self.defect_of(index);
         let progress = &mut self.scratch.progress[index];
+        progress.seen = Some(seen);
+        let [defect, magnitude, _] = seen;
         progress.defect = defect;
         let begins = progress.scale.equal(S::zero());
         if begins.any() {
@@ -172,6 +174,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             self.new_books.targets[index].lost.add(change);
         }
         scratch.progress[index].factor *= S::one() + part;
+        scratch.progress[index].seen = None;
         let mut is_small = !S::Mask::none();
         for at in self.slots_of(index) {
             let slot = self.components.slots[at] as usize;
@@ -204,7 +207,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let energy = *theta * entropy * (S::one() + half * ratio);
         next.entropies.add(slot, entropy);
         scratch.produced[slot] += entropy;
-        scratch.progress[index].production += entropy;
+        scratch.progress[index].production.add(entropy);
         scratch.energies[index].value.add(energy);
         let element = self.components.elements[slot] as usize;
         next.energies[element].value += energy;

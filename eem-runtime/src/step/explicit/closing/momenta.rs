@@ -5,9 +5,10 @@ use super::super::components::{Component, Support};
 use super::super::inertia::turning::turning;
 use super::super::inertia::{Inertia, Moments};
 use super::super::vector::{add, difference, dot, size};
-use crate::algebra::bivector::{Bivector, planes};
+use crate::algebra::bivector::Bivector;
 use crate::element::group::points;
-use crate::number::scalar::{Mask, Real, unless};
+use crate::number::compensated::Sum;
+use crate::number::scalar::{MOST_LANES, Mask, Real, unless};
 
 /// Roundings of `Σ |q||p|` that are left to the momenta: positions turn only for more.
 const OWN_ROUNDINGS: f64 = 2.0;
@@ -134,10 +135,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let mut body = self.body(&self.components.all[index]);
         let is_weak = match &body.inertia {
             Some(Inertia::Line { along, .. }) => self.leaves_plane(index, [&body.origin, along]),
-            Some(Inertia::General(_)) => true,
+            Some(Inertia::Principal(_) | Inertia::Lanes(_)) => true,
             _ => false,
         };
-        if is_weak && self.turn_body(index, &body.origin) {
+        if is_weak && self.turn_body(index, &body) {
             body = self.body(&self.components.all[index]);
         }
         for _ in 0..if D < 3 { 1 } else { 2 } {
@@ -153,11 +154,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let (linear, angular) = self.momenta_of(&self.components.all[index]);
         let target = &self.new_books.targets[index];
         let linear = core::array::from_fn(|axis| target.linear[axis].beyond(linear[axis]));
-        let mut lacking = Bivector::zero();
-        for plane in planes::<D>() {
-            *lacking.at_mut(plane) = target.angular.at(plane).beyond(angular.at(plane));
-        }
-        (linear, lacking)
+        let angular = target.angular.zip(&angular, S::zero(), Sum::beyond);
+        (linear, angular)
     }
 
     /// `Σ |p|` and `Σ |q||p|` of a component by sums of magnitudes, with coordinates q or arms about a point, whichever
@@ -192,9 +190,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// Turns positions and momenta of a component so that its momenta can be put back; whether it has turned.
     #[cold]
-    fn turn_body(&mut self, index: usize, origin: &[S; D]) -> bool {
-        let component = &self.components.all[index];
-        let moments = self.moments(component, origin);
+    fn turn_body(&mut self, index: usize, body: &Body<S, D>) -> bool {
+        let (component, origin) = (&self.components.all[index], &body.origin);
         let (linear, present) = self.momenta_of(component);
         let target = self.angular_target(index);
         let [_, terms] = self.momentum_terms(index, origin);
@@ -207,18 +204,25 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             }
             let of_lane = |momentum: &Bivector<S, D>| momentum.map(0.0, |j| j.lane(lane));
             let momenta = [&of_lane(&present), &of_lane(&target)];
-            let moments = moments.lane(lane);
-            if matches!(Inertia::of_body(moments), Inertia::Space(_)) {
+            let own = match body.inertia {
+                Some(Inertia::Principal(principal)) => Inertia::Principal(principal),
+                _ => Inertia::of_body(self.moments(component, origin).lane(lane)),
+            };
+            match own {
+                Inertia::Principal(principal) => turning(&principal, momenta, rounding.lane(lane)),
                 // Nothing is weak: the momenta do it, as they do for this lane alone.
-                return None;
+                _ => None,
             }
-            turning(&moments, momenta, rounding.lane(lane))
         };
-        if (0..S::LANES).all(|lane| change(lane).is_none()) {
+        let changes: [_; MOST_LANES] = core::array::from_fn(|lane| {
+            let is_lane = lane < S::LANES;
+            is_lane.then(|| change(lane)).flatten()
+        });
+        if changes.iter().all(Option::is_none) {
             return false;
         }
         let change: [[S; D]; D] = core::array::from_fn(|i| {
-            core::array::from_fn(|j| S::pack(|lane| change(lane).map_or(0.0, |by| by[i][j])))
+            core::array::from_fn(|j| S::pack(|lane| changes[lane].map_or(0.0, |by| by[i][j])))
         });
         let is_free = component.support == Support::Free;
         let velocity = linear.map(|p| {

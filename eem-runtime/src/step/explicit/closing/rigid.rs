@@ -7,6 +7,7 @@ use super::momenta::Rigid;
 use crate::algebra::bivector::Bivector;
 use crate::element::group::points;
 use crate::element::state::State;
+use crate::number::compensated::Total;
 use crate::number::scalar::{Discord, Mask, Real};
 use crate::step::error::StepFailure;
 
@@ -48,8 +49,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         for share in self.components.all[index].shares.clone() {
             let reservoir = self.components.shares[share].reservoir as usize;
-            let booked = self.new_books.shares.change(share, &self.books.shares);
-            next.reservoir_entropies.add(reservoir, -booked);
+            // One by one: their difference would be rounded to ε of what is taken back.
+            let [new, old] = [&self.new_books, &self.books].map(|books| books.shares.sum(share));
+            for change in [-new.value, old.value, -new.carry, old.carry] {
+                next.reservoir_entropies.add(reservoir, change);
+            }
             self.new_books
                 .shares
                 .advance(share, &self.books.shares, S::zero());
@@ -60,7 +64,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         *lost = self.books.targets[index].lost;
         let progress = &mut self.scratch.progress[index];
         progress.is_rigid = true;
-        progress.production = S::zero();
+        progress.seen = None;
+        progress.production = Total::new();
         progress.factor = S::zero();
         self.scratch.waits[index] = S::Mask::none();
         self.restore_momenta(index);

@@ -21,6 +21,10 @@ const REST_OF_HEAT: f64 = 1e-9;
 /// Turns in which the shape changes.
 const SHAPE_TURNS: usize = 5;
 
+/// Roundings, in ε, of what an element has produced that are never taken back: each of its up to [`MOST_TURNS`] changes,
+/// and the share of each path of heat, is rounded once.
+const ROUNDED: f64 = 16.0;
+
 /// Roundings, in u = ε/2, that a component may lack where nothing can give them.
 const FROZEN: f64 = 16.0;
 
@@ -44,6 +48,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         view: &ExplicitView<'_, S, D>,
         next: &mut State<S>,
     ) -> Result<Verdict, Discord> {
+        self.scratch.progress[index].seen = None;
         let progress = self.scratch.progress[index];
         let (defect, turns) = (progress.defect, progress.turns);
         if !defect.is_finite() {
@@ -288,7 +293,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             if !S::zero().less(produced).decide()? {
                 return Ok(false);
             }
-            self.heat(index, (defect / produced).maximum(-S::one()), next);
+            let most = S::one() - S::from_f64(ROUNDED) * S::EPSILON;
+            self.heat(index, (defect / produced).maximum(-most), next);
             return Ok(true);
         }
         let slots = self

@@ -8,7 +8,7 @@ const MOST_SWEEPS: usize = 40;
 
 /// Principal axes and moments.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Principal<const D: usize> {
+pub(in super::super) struct Principal<const D: usize> {
     /// Unit vectors.
     pub(super) axes: [[f64; D]; D],
     /// `Σ m r_a²`, not negative, kg m².
@@ -16,7 +16,7 @@ pub(super) struct Principal<const D: usize> {
 }
 
 impl<const D: usize> Principal<D> {
-    pub(super) fn of(moments: &Moments<f64, D>) -> Self {
+    pub(in super::super) fn of(moments: &Moments<f64, D>) -> Self {
         let mut matrix = moments.0;
         for [i, j] in planes::<D>() {
             matrix[j][i] = matrix[i][j];
@@ -70,17 +70,18 @@ fn rotate<const D: usize>(
         return false;
     }
     let ratio = (b - a) / (2.0 * entry);
-    let tangent = ratio.signum() / (ratio.abs() + ratio.hypot(1.0));
-    let cosine = tangent.hypot(1.0).recip();
+    let tangent = ratio.signum() / (ratio.abs() + (ratio * ratio + 1.0).sqrt());
+    let cosine = (tangent * tangent + 1.0).sqrt().recip();
     let sine = tangent * cosine;
     for row in matrix.iter_mut() {
         let [x, y] = [row[i], row[j]];
         (row[i], row[j]) = (cosine * x - sine * y, sine * x + cosine * y);
     }
-    for rows in [matrix, axes] {
+    for rows in [&mut *matrix, axes] {
         let [x, y] = [rows[i], rows[j]];
         rows[i] = core::array::from_fn(|k| cosine * x[k] - sine * y[k]);
         rows[j] = core::array::from_fn(|k| sine * x[k] + cosine * y[k]);
     }
+    (matrix[i][j], matrix[j][i]) = (0.0, 0.0);
     true
 }

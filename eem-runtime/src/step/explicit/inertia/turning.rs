@@ -13,7 +13,7 @@
 //!
 //! and the smallest that change it by δ are `φ_ba = δ T_bc/s`, `φ_bc = δ T_ab/s` with `s = Σ_b (T_bc² + T_ab²)`.
 
-use super::moments::{Moments, NO_INERTIA, WEAK};
+use super::moments::{NO_INERTIA, WEAK};
 use super::principal::Principal;
 use crate::algebra::bivector::{Bivector, planes};
 
@@ -66,11 +66,10 @@ impl<const D: usize> Turned<D> {
 /// target by small changes of its momenta; nothing where that is so to `rounding`, or cannot be.
 #[cold]
 pub(in super::super) fn turning<const D: usize>(
-    moments: &Moments<f64, D>,
+    principal: &Principal<D>,
     [present, target]: [&Bivector<f64, D>; 2],
     rounding: f64,
 ) -> Option<[[f64; D]; D]> {
-    let principal = Principal::of(moments);
     let trace = principal.trace();
     let axes = principal.axes;
     let mut turned = Turned {
@@ -137,7 +136,7 @@ fn slopes<const D: usize>(
 
 #[cfg(test)]
 mod tests {
-    use super::super::Inertia;
+    use super::super::{Inertia, Moments};
     use super::*;
 
     /// Masses with one, two or three arms, a target that is a little off, and what is left of it after turning and a
@@ -164,7 +163,7 @@ mod tests {
             }
             moments
         };
-        let change = turning(&moments(arms), [&sum(arms, momenta), &target], 1e-16);
+        let change = turning(&Principal::of(&moments(arms)), [&sum(arms, momenta), &target], 1e-16);
         let change = change.expect("is off");
         let turn = |r: &[f64; D]| -> [f64; D] {
             core::array::from_fn(|i| r[i] + (0..D).map(|j| change[i][j] * r[j]).sum::<f64>())
