@@ -41,6 +41,16 @@
 //!
 //! With the feature `parallel`, large matrices are factored on all threads of the current rayon pool;
 //! every bit of the result is the same on any number of them.
+//!
+//! # Where to change what
+//!
+//! | to | look in |
+//! |---|---|
+//! | change the order of elimination | `dissection.rs`, `fronts.rs` |
+//! | change the factors | `branch.rs`, `gathering.rs`, `elimination.rs` |
+//! | change what counts as a solution | `refinement.rs`; `solver.rs` for the fallback |
+//! | change the memory of factors | `analysis.rs` |
+//! | change the threads | `threads.rs`, `division.rs` |
 
 // Each module imports only from those above it.
 mod compact;

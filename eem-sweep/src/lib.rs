@@ -26,6 +26,16 @@
 //! all. The name of a part has a digest of its contents, so that nothing but the same bytes can take its place, and what
 //! is damaged is found when it is read; a table gets its name by a hard link, which fails where the name is taken. A
 //! member is *reported* when its part has its name. There are no locks that a killed process could leave behind.
+//!
+//! # Where to change what
+//!
+//! | to | look in |
+//! |---|---|
+//! | change inputs, or which members a process takes | `inputs`, `selection.rs`; `engine.rs` for `--shard auto` |
+//! | change files, or what a kill can lose | `files.rs` (naming), `part.rs`, `manifest.rs`, `walk.rs` (which record counts), `begun.rs` (members that kill processes); `tests/sweeps/kills.rs` |
+//! | write another format | `format` |
+//! | try an engine | the scripts in `cluster` |
+
 #![warn(missing_docs)]
 #![allow(
     clippy::cast_precision_loss,
