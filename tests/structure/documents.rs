@@ -121,7 +121,10 @@ fn programs_are_whole() {
             if !language.starts_with("rust") {
                 continue;
             }
-            if program.lines().any(|line| line == "#" || line.starts_with("# ")) {
+            if program
+                .lines()
+                .any(|line| line == "#" || line.starts_with("# "))
+            {
                 faults.push(format!("{name}: a hidden line"));
             }
             if !program.contains("fn main() -> ") {
