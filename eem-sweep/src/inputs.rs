@@ -17,8 +17,8 @@ pub use row::Row;
 
 /// The inputs of all members: a number per member and named column, and an id per member.
 ///
-/// Ids are the numbers 0, 1, 2 … of the members, but those of a column `id` in a CSV file. Rows of grids and
-/// Latin hypercubes are computed when they are needed, by every process alike.
+/// Ids are 0, 1, 2 …, or come from the column `id` of a CSV file. Rows of grids and Latin hypercubes are computed when
+/// they are needed, with the same result in every process.
 ///
 /// ```
 /// use eem::sweep::Inputs;
