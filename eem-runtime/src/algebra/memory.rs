@@ -7,7 +7,7 @@
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MemoryLimit(Option<u64>);
 
-/// A linear system that takes more memory than it may.
+/// A linear system needs more memory than available or allowed.
 ///
 /// ```
 /// let refused = eem::TooLarge {

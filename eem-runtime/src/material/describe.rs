@@ -1,4 +1,4 @@
-//! What a model is, in print: its arguments, parameters, formulas and costs as static text.
+//! The description of a model as static text: arguments, parameters, formulas and costs.
 
 use core::fmt::{self, Display, Formatter};
 

@@ -78,10 +78,9 @@ pub struct Rates<V> {
     pub slopes: V,
 }
 
-/// A Helmholtz free energy `ψ(x)` and all that the schemes need of it.
+/// A Helmholtz free energy `ψ(x)` with everything that the schemes need.
 ///
-/// Derived, never written by hand: `#[derive(FreeEnergy)]` generates every
-/// method as straight-line code. The variables are
+/// `#[derive(FreeEnergy)]` generates every method as straight-line code; do not implement it by hand. The variables are
 ///
 /// ```text
 /// x = (π₁ … π_M, γ₁ … γ_K, θ)      N = M + K + T components

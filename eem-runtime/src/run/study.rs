@@ -39,7 +39,7 @@ const ACCURACIES: [f64; 3] = [1e-2, 1e-4, 1e-6];
 /// Runs one scene with many settings, compares the states at the end time with two independent references, and
 /// recommends a setting.
 ///
-/// Five lines for a scene of your own:
+/// For your own scene:
 ///
 /// ```
 /// use eem::prelude::*;

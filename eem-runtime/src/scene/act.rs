@@ -12,7 +12,7 @@ use crate::scene::error::SceneError;
 use crate::scene::loads::Rocket;
 use crate::scene::rocket_error::RocketError;
 
-/// # Loads and prescribed quantities
+/// # Loads, supports and thermostats
 impl<const D: usize, S: Real> Scene<D, S> {
     /// Gravity: the acceleration of all masses, m/s²; zero by default. Its potential energy `−Σ m g·q` is part of
     /// the ledger.

@@ -16,10 +16,9 @@ use crate::scene::solid_error::SolidError;
 use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
 
-/// # Looking at the state
+/// # The present state
 ///
-/// Every question about a handle fails with [`SceneError::ForeignHandle`] if the handle is not of
-/// this scene.
+/// All functions return [`SceneError::ForeignHandle`] for a handle of another scene.
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// The step so far with the largest `|defect|/bound`. `None` before the first step and after
     /// [`restore`](Self::restore).
