@@ -1,4 +1,4 @@
-//! Runtime of `eem`: scenes, schemes, Newton's method, ledger.
+//! The runtime of `eem`: scenes, schemes, Newton's method, certificate, ledger.
 //!
 //! Each folder uses only those before it:
 //!
