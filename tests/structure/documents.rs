@@ -78,7 +78,9 @@ fn links_lead_to_files_and_to_pages_of_rustdoc() {
                 faults.push(format!("{name}: there is no {target}"));
             }
             // Of a picture rustdoc shows the description.
-            let is_picture = target.ends_with(".svg");
+            let is_picture = Path::new(target)
+                .extension()
+                .is_some_and(|end| end == "svg");
             if !is_picture && !own.iter().any(|(name, _)| *name == label) {
                 faults.push(format!("{name}: rustdoc does not know [{label}]"));
             }
