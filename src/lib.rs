@@ -14,6 +14,14 @@
 //!
 #![doc = include_str!("../README.md")]
 
+pub use eem_derive::FreeEnergy;
+pub use eem_runtime::*;
+/// Parameter sweeps in many processes; see also [`sweeps`].
+#[cfg(feature = "sweep")]
+pub use eem_sweep as sweep;
+/// The linear algebra crate: vectors of positions and momenta, matrices of [`Generic`].
+pub use nalgebra;
+
 // To change something, look in
 //
 // - a page: `README.md`, `docs`; a new page is a module below. `tests/structure/documents.rs` checks form and links,
@@ -26,14 +34,6 @@
 // - benchmarks: `benches`, and `benches/README.md`
 // - limits on files, functions and imports: `tests/structure`
 // - the gate: `.ci/run`
-
-pub use eem_derive::FreeEnergy;
-pub use eem_runtime::*;
-/// Parameter sweeps in many processes; see the page [`sweeps`].
-#[cfg(feature = "sweep")]
-pub use eem_sweep as sweep;
-/// The linear algebra crate: vectors of positions and momenta, matrices of [`Generic`].
-pub use nalgebra;
 
 /// What most programs need: `use eem::prelude::*`.
 ///
