@@ -25,7 +25,7 @@ pub use nalgebra;
 // To change something, look in
 //
 // - a page: `README.md`, `docs`; a new page is a module below. `tests/structure/documents.rs` checks form and links,
-//   `followed.rs` there builds and runs the programs
+//   `followed.rs` there runs those programs that print something
 // - an example: a file in `examples/src/bin`, its name in `examples/Cargo.toml`; a study: `studies/src/lib.rs` says more
 // - a test across crates: `tests`, a file in the folder of its subject
 // - extremes, or fresh random steps: `tests/extremes`, a file per kind; `models.rs`, `families.rs`, `judge.rs`
