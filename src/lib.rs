@@ -1,7 +1,9 @@
-// The first definition of a link counts: these, which lead to the pages below, and not those at the
-// end of the README, which lead to the files. The picture is embedded.
+// The first definition of a link counts: the links of the README and of the pages lead to the modules below in rustdoc,
+// and to the files on a forge. Pictures are shown on a forge only; rustdoc shows their description.
 //! [tutorial]: crate::tutorial
-//! [guide]: crate::guide
+//! [materials]: crate::guide::materials
+//! [solids]: crate::guide::solids
+//! [running]: crate::guide::running
 //! [choosing]: crate::choosing
 //! [accuracy]: crate::accuracy
 //! [performance]: crate::performance
@@ -9,7 +11,6 @@
 //! [reproducible]: crate::reproducible
 //! [sweeps]: crate::sweeps
 //! [scale]: crate::scale
-#![doc = include_str!("../docs/energy.link.md")]
 //!
 #![doc = include_str!("../README.md")]
 
@@ -18,10 +19,23 @@ pub use eem_runtime::*;
 /// Parameter sweeps in many processes; see also [`sweeps`].
 #[cfg(feature = "sweep")]
 pub use eem_sweep as sweep;
-/// Vectors and matrices of positions, momenta and of [`Generic`].
+/// The linear algebra crate: vectors of positions and momenta, matrices of [`Generic`].
 pub use nalgebra;
 
-/// Everything that a program which builds and steps scenes needs, for `use eem::prelude::*`.
+// To change something, look in
+//
+// - a page: `README.md`, `docs`; a new page is a module below. `tests/structure/documents.rs` checks form and links,
+//   `followed.rs` there runs those programs that print something
+// - an example: a file in `examples/src/bin`, its name in `examples/Cargo.toml`; a study: `studies/src/lib.rs` says more
+// - a test across crates: `tests`, a file in the folder of its subject
+// - extremes, or fresh random steps: `tests/extremes`, a file per kind; `models.rs`, `families.rs`, `judge.rs`
+// - a free energy that is compared with all oracles: a `specimen!` in `tests/materials/zoo/families`
+// - fuzzing of the front end and of the mathematics: `fuzz`
+// - benchmarks: `benches`, and `benches/README.md`
+// - limits on files, functions and imports: `tests/structure`
+// - the gate: `.ci/run`
+
+/// What most programs need: `use eem::prelude::*`.
 ///
 /// ```
 /// use eem::prelude::*;
@@ -40,27 +54,47 @@ pub mod prelude {
     };
 }
 
-/// Guide: how a material is written, in stages, and how it is checked.
-///
-/// [choosing]: crate::choosing
-///
-#[doc = include_str!("../docs/guide.md")]
-pub mod guide {}
+/// The guide in three pages: materials, solids, and running a scene.
+pub mod guide {
+    /// How to write a material: springs, temperature, units, dashpots, and checks before you trust it.
+    ///
+    /// [solids]: crate::guide::solids
+    /// [running]: crate::guide::running
+    ///
+    #[doc = include_str!("../docs/materials.md")]
+    pub mod materials {}
 
-/// Choosing a scheme: what each costs and keeps, by scene and accuracy.
-#[doc = include_str!("../docs/choosing.md")]
-pub mod choosing {}
+    /// How to write and mesh a solid, load it, heat it and let it creep.
+    ///
+    /// [materials]: crate::guide::materials
+    ///
+    #[doc = include_str!("../docs/solids.md")]
+    pub mod solids {}
+
+    /// How to run a scene: loads, thermostats, recording, events, checkpoints, ensembles, step control.
+    ///
+    /// [materials]: crate::guide::materials
+    /// [choosing]: crate::choosing
+    /// [sweeps]: crate::sweeps
+    ///
+    #[doc = include_str!("../docs/running.md")]
+    pub mod running {}
+}
 
 /// Tutorial: from an empty folder to a picture of energy and temperature, in ten minutes.
 ///
-/// [guide]: crate::guide
+/// [materials]: crate::guide::materials
+/// [running]: crate::guide::running
 /// [choosing]: crate::choosing
-#[doc = include_str!("../docs/tutorial.link.md")]
 ///
 #[doc = include_str!("../docs/tutorial.md")]
 pub mod tutorial {}
 
-/// Accuracy: tables of all schemes, roundings, and a stiffness that is logarithmic in the temperature.
+/// Choosing a scheme and a step: what each costs, by scene and accuracy.
+#[doc = include_str!("../docs/choosing.md")]
+pub mod choosing {}
+
+/// Accuracy: errors of all schemes, and what rounding does to the laws.
 ///
 /// [extremes]: crate::extremes
 ///
@@ -74,21 +108,21 @@ pub mod accuracy {}
 #[doc = include_str!("../docs/performance.md")]
 pub mod performance {}
 
-/// Sweeps: thousands of members in many processes, on engines that users have.
+/// Sweeps: parameter studies with thousands of runs in many processes.
 ///
 /// [scale]: crate::scale
 ///
 #[doc = include_str!("../docs/sweeps.md")]
 pub mod sweeps {}
 
-/// Scale: what a million and a billion members cost, and which limit comes first.
+/// Scale: what a million and a billion runs cost, and which limit comes first.
 ///
 /// [sweeps]: crate::sweeps
 ///
 #[doc = include_str!("../docs/scale.md")]
 pub mod scale {}
 
-/// Extremes: what was tried to break the laws, what completes and what is refused.
+/// Extremes: attempts to break the laws, and what came of them.
 #[doc = include_str!("../docs/extremes.md")]
 #[allow(
     clippy::doc_markdown,
@@ -96,14 +130,14 @@ pub mod scale {}
 )]
 pub mod extremes {}
 
-/// Reproducible: which bits depend on the machine, and the feature `portable`.
+/// Reproducible results: which bits depend on the machine, and the feature `portable`.
 ///
 /// [sweeps]: crate::sweeps
 ///
 #[doc = include_str!("../docs/reproducible.md")]
 pub mod reproducible {}
 
-/// What generated code names. Not part of the public interface.
+/// Names for generated code. Not part of the public interface.
 #[doc(hidden)]
 pub mod __private {
     pub use core;

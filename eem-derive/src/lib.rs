@@ -1,7 +1,7 @@
-//! `#[derive(FreeEnergy)]`: the macro over [`eem_language`], which reads, checks and prints.
+//! The macro `#[derive(FreeEnergy)]`. The implementation is in [`eem_language`].
 //!
-//! A crate of procedural macros can export nothing but macros. What they do is therefore in a library of its own,
-//! which tests, fuzz targets and programs can call.
+//! A proc-macro crate can export only macros, so the implementation is an ordinary library that tests, fuzz targets
+//! and other programs can call.
 
 use proc_macro::TokenStream;
 use syn::{DeriveInput, parse_macro_input};

@@ -1,11 +1,11 @@
 //! The language of free energies: from the tokens of a struct to straight-line Rust.
 //!
 //! The input is a struct whose fields are the parameters of a material and whose attribute is its free energy. The
-//! output is one `impl FreeEnergy`, for solids with one `impl StrainEnergy`. [`derive()`] is all that there is to call;
-//! `eem-derive` makes the macro `#[derive(FreeEnergy)]` of it, whose documentation describes the language.
+//! output is one `impl FreeEnergy`, and for solids one `impl StrainEnergy`. The only entry point is [`derive()`];
+//! `eem-derive` turns it into the macro `#[derive(FreeEnergy)]`, whose documentation describes the language.
 //!
-//! This crate does no mathematics. It reads tokens, checks them, hands a model to [`eem_symbolic`] and prints the
-//! programs that come back. The phases:
+//! This crate does no mathematics. It reads and checks tokens, passes a model to [`eem_symbolic`], and prints the
+//! resulting programs. The phases:
 //!
 //! | phase | module | from → to |
 //! |---|---|---|
@@ -13,13 +13,12 @@
 //! | check | `check` | `ast` → `checked`: names resolved, roles and laws complete |
 //! | units | `units` | `checked` → the units of its fields, every operation in order |
 //! | model | `model` | `checked` → [`eem_symbolic::Model`]: every subexpression has a value |
-//! | physics | `physics` | the model can be one of a material |
+//! | physics | `physics` | checks that the model can be a material |
 //! | expand | `expand` | programs → tokens |
 //!
-//! A phase leaves a hole where it reports something, and the phases after it look at the rest: the
-//! mistakes of all phases come out together, and none of them causes a second message. Beside them
-//! stands an implementation that does nothing, from `fallback`, so that uses of a wrong model cause
-//! no messages either. `message` is the catalogue of all messages.
+//! A phase that reports an error leaves a hole, and later phases check the rest. So the errors of all phases appear
+//! together, and none causes a second message. With the errors `fallback` emits an empty implementation, so that uses
+//! of the model cause no further messages. `message` is the catalogue of all messages.
 //!
 //! ```
 //! let input = syn::parse_quote! {
@@ -31,6 +30,18 @@
 //! let tokens = eem_language::derive(&input).to_string();
 //! assert!(tokens.contains("unknown name `stifness`"));
 //! ```
+//!
+//! # Where to change what
+//!
+//! | to | look in |
+//! |---|---|
+//! | change the syntax or a message | `parse`, `check`, `message`; a case per message in `eem-ui/tests/ui`; the reference is `eem-derive/src/free_energy.md` |
+//! | add a unit, or a rule for units | `unit/table.rs`, `units/rules` |
+//! | add a role of an argument | `Role` and `Strain` in `ast.rs`; the compiler lists the phases that lack it. Synonyms in `parse/closure.rs`, unit in `units/quantities.rs`, bound in `model/domain.rs` |
+//! | change constants, arrays or helpers | `constants.rs`, `parameters.rs`, `helpers.rs` in `check`; `Origin` in `checked.rs` |
+//! | change what a solid may do at rest | `model/rest.rs` |
+//! | change the generated code | `expand`; `expand/description.rs` for `Describe` |
+//! | see the generated code | `cargo run -p eem-language --example expand -- FILE` |
 
 // For `ctxt`, which asks whether a compiler runs it.
 extern crate proc_macro;

@@ -1,4 +1,4 @@
-//! Runtime of `eem`: scenes, schemes, Newton's method, ledger.
+//! The runtime of `eem`: scenes, schemes, Newton's method, certificate, ledger.
 //!
 //! Each folder uses only those before it:
 //!
@@ -18,6 +18,32 @@
 //! | h | step | s | |
 //!
 //! Index 0 is the old, 1 the new state of a step, `m` their mean, `*` an algorithmic quantity.
+//!
+//! # Where to change what
+//!
+//! | to | look in |
+//! |---|---|
+//! | add a scheme | a row in `step/scheme.rs`; a `Tableau` in `step/rule` for one with stages; other conjugates in `element/conjugates` or a `Source` in `element/group/stages` |
+//! | change what a step proves | `step/certificate.rs`, `element/group/certify.rs`, `step/solver/closing` |
+//! | change Newton's method: start, convergence, end | `step/newton.rs`; `begin.rs`, `past.rs`, `converge.rs`, `conclusion.rs`, `progress.rs` in `step/solver` |
+//! | change step control | `step/control`; `attempt.rs`, `control.rs`, `halves.rs` in `run/simulation`; `step/explicit/error.rs` |
+//! | change when `Scheme::Auto` switches | `step/automatic.rs`, `run/simulation/automatic.rs` |
+//! | change the explicit scheme | `step/explicit`: `stages.rs`, `tableau.rs`, `closing`, `inertia`, `guard.rs`; `element/group/explicit` |
+//! | solve the linear systems differently | `algebra/system.rs`; `algebra/lu` for small ones; `step/solver/kept_factors.rs` for factors that are reused |
+//! | reject what does not fit in memory | `algebra/memory.rs`, `step/systems.rs` |
+//! | add a strain measure | `strain.rs`, `between.rs`, `plane.rs`, `space.rs`, `stiffness.rs` in `element/kinematics`; its role in `eem-language` |
+//! | change viscous strain tensors | `joint.rs`, `component_energy.rs` in `material` |
+//! | change the dashpot in parallel with a spring | `element/group/kelvin_voigt.rs`; `Scheme::takes_drag` |
+//! | add a shape of cell | a file in `element/kinematics/shape` |
+//! | change solids, meshes and their checks | `mesh`, `bulk.rs`, `body.rs`, `meshed_solid.rs`, `body_loads.rs`, `body_heat.rs`, `cell.rs`, `gmsh.rs` in `scene` |
+//! | add a load, a support or a thermostat | `scene/loads.rs`, `scene/act.rs`, `step/loads.rs`; `step/solver/rockets.rs` if it follows the motion; the ledger |
+//! | add a conserved quantity | `run/ledger.rs` |
+//! | record, stop or resume a run | `run/recorder`, `run/vtk.rs`, `run/checkpoint.rs`; `run.rs` and `event` in `run/simulation` |
+//! | reject a scene, state or checkpoint | `scene/check.rs`, `scene/start.rs`, `run/simulation/audit.rs`, `element/group/audit.rs`; messages in each `error.rs` |
+//! | run many scenes at once | `run/ensemble`, `number/lanes.rs`, `element/group/settled.rs` |
+//! | compare schemes differently | `run/study`: `reference.rs`, `statement.rs`, `advice.rs` |
+//! | use more threads in one scene | `algebra/threads.rs`, `element/group/evaluate.rs`; `eem-sparse` for elimination |
+//! | check a material before use | `material/domain` |
 
 mod algebra;
 mod element;

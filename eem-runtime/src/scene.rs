@@ -39,7 +39,7 @@ use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
 use entry::{ElementEntry, NodeEntry};
 
-/// Masses on springs that heat up, in `D` dimensions.
+/// A scene in `D` dimensions: masses, anchors, springs, solids, reservoirs and loads.
 ///
 /// ```
 /// use eem::Scene;
@@ -69,7 +69,7 @@ pub struct Scene<const D: usize, S: Real = f64> {
 }
 
 impl<const D: usize> Scene<D> {
-    /// An empty scene in double precision; [`Scene::default`] for any other scalar.
+    /// An empty scene in double precision. Use [`Scene::default`] for other number types.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
@@ -130,9 +130,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
 
     /// A spring between two nodes, made of the material `model`.
     ///
-    /// Springs of one model type are kept and stepped together; any number of
-    /// types can be mixed. A model with a temperature needs
-    /// [`set_temperature`](Self::set_temperature); viscous stretches start at zero.
+    /// Springs of different materials can be mixed in a scene. A material with a temperature needs
+    /// [`set_temperature`](Self::set_temperature). Viscous stretches are zero at first.
     pub fn spring<M>(&mut self, model: M, nodes: [Node; 2]) -> Element
     where
         M: FreeEnergy<S> + Send + Sync + 'static,
@@ -187,16 +186,16 @@ impl<const D: usize, S: Real> Scene<D, S> {
         (group, set)
     }
 
-    /// The initial temperature of an element, K. Every element with a temperature needs one, also where a thermostat
-    /// [keeps it](Self::prescribe_temperature) from there on; the last call counts.
+    /// The initial temperature of an element, K. Every element with a temperature needs one, also if a thermostat
+    /// [prescribes it](Self::prescribe_temperature). The last call counts.
     pub fn set_temperature(&mut self, element: Element, temperature: S) {
         if self.expect_own(&element) {
             self.elements[element.index()].temperature = Some(temperature);
         }
     }
 
-    /// The initial viscous stretch of a dashpot (from 0) of an element, m; zero unless set. A viscous strain that
-    /// is a tensor has [a function of its own](Self::set_viscous_strain).
+    /// The initial viscous stretch of a dashpot (from 0) of an element, m; zero by default. For a viscous strain
+    /// tensor use [`set_viscous_strain`](Self::set_viscous_strain).
     pub fn set_viscous_stretch(&mut self, element: Element, dashpot: usize, stretch: S) {
         if self.expect_own(&element) {
             let entry = &mut self.elements[element.index()];
@@ -223,8 +222,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// Fourier conduction with conductance κ (W/K) from an element to another or to a reservoir:
     /// the element receives the heat flow `κ (θ_partner − θ_element)`.
     ///
-    /// Every call adds a path of heat. Paths between the same two are parallel, so that their
-    /// conductances add; which of two elements is named first makes no difference.
+    /// Conductances of several calls for the same two partners add, in either order of the partners.
     ///
     /// ```
     /// use eem::prelude::*;

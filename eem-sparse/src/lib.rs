@@ -1,4 +1,4 @@
-//! Solves `A x = b` for sparse square matrices with a symmetric structure, again and again.
+//! Repeated solution of `A x = b` for sparse square matrices with a symmetric structure.
 //!
 //! The structure is analysed once. Each new set of values then takes an elimination in dense blocks,
 //! without allocation, and every solution is checked before it is returned.
@@ -9,11 +9,10 @@
 //! b       ─▶ x ─▶ check ─▶ refinement ─▶ pivoting  Factored::solve
 //! ```
 //!
-//! The elimination looks for pivots only inside of the diagonal block of a front, which keeps the fill-in
-//! small and is enough for most matrices with large entries near the diagonal. For all others there are
-//! refinement and an elimination with partial pivoting. The measure is the componentwise
-//! backward error, see [`Factored::solve`]: a solution is within a bound of a few roundings, or it is
-//! an [`Error`].
+//! The elimination searches for pivots only inside the diagonal block of a front. This keeps the fill-in small and is
+//! enough for most matrices with large entries near the diagonal. For the others there are refinement and partial
+//! pivoting. Every solution has a componentwise backward error of a few roundings, see [`Factored::solve`], or is an
+//! [`Error`].
 //!
 //! ```
 //! use eem_sparse::{Pattern, Solver};
@@ -41,6 +40,16 @@
 //!
 //! With the feature `parallel`, large matrices are factored on all threads of the current rayon pool;
 //! every bit of the result is the same on any number of them.
+//!
+//! # Where to change what
+//!
+//! | to | look in |
+//! |---|---|
+//! | change the order of elimination | `dissection.rs`, `fronts.rs` |
+//! | change the factors | `branch.rs`, `gathering.rs`, `elimination.rs` |
+//! | change what counts as a solution | `refinement.rs`; `solver.rs` for the fallback |
+//! | change the memory of factors | `analysis.rs` |
+//! | change the threads | `threads.rs`, `division.rs` |
 
 // Each module imports only from those above it.
 mod compact;

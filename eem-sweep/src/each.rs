@@ -9,9 +9,9 @@ use crate::sweep::Sweep;
 use crate::walk::walk;
 
 impl Sweep<'_> {
-    /// Visits the records that have been reported, in ascending order of ids, each once: the inputs of a member, and
-    /// its outputs in the order of [`Record::COLUMNS`](crate::Record::COLUMNS) or its failure. They are the rows of
-    /// the merged table, whether it has been written or not; [`merge`](Self::merge) proves that none is missing.
+    /// Visits the reported records, each once, in ascending order of ids: the inputs of a member, and its outputs
+    /// in the order of [`Record::COLUMNS`](crate::Record::COLUMNS), or its failure. These are the rows of the
+    /// merged table, written or not. Only [`merge`](Self::merge) verifies that none is missing.
     ///
     /// ```
     /// use eem::prelude::*;

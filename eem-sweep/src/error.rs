@@ -9,14 +9,14 @@ use thiserror::Error;
 use crate::engine::EngineError;
 use crate::inputs::InputError;
 
-/// Why a sweep does not go on. Records that were reported before stay on disk.
+/// Why a sweep stops. Records that were reported stay on disk.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SweepError {
     /// A file cannot be written or read.
     #[error("cannot {action} {}: {source}{}", path.display(), advice(action, source))]
     File {
-        /// What was tried.
+        /// The action that failed.
         action: &'static str,
         /// The file or directory.
         path: PathBuf,
@@ -30,7 +30,7 @@ pub enum SweepError {
     Different {
         /// The directory.
         directory: PathBuf,
-        /// What differs.
+        /// The differences.
         differences: Vec<Difference>,
     },
     /// There is no sweep in the directory.
@@ -53,12 +53,12 @@ pub enum SweepError {
         /// The digest of this sweep.
         expected: String,
     },
-    /// A file is not what this crate has written.
+    /// A file was changed, or was not written by this crate.
     #[error("{} is damaged: {reason}; move it away and run its members again", path.display())]
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The damage.
         reason: String,
     },
     /// The file that says what all processes agree on is not what this crate has written.
@@ -70,7 +70,7 @@ pub enum SweepError {
     DamagedManifest {
         /// The file.
         path: PathBuf,
-        /// What is wrong with it.
+        /// The reason.
         reason: String,
     },
     /// Two processes have run the same member and got different bits.
@@ -94,20 +94,20 @@ pub enum SweepError {
     Incomplete {
         /// The directory.
         directory: PathBuf,
-        /// How many are missing.
+        /// The number of missing members.
         missing: usize,
-        /// How many there should be.
+        /// The number of all members.
         members: usize,
-        /// The ids that are missing, the first ones of many.
+        /// The missing ids, possibly shortened.
         which: String,
     },
-    /// The file to be written exists, and is none that this sweep has merged.
+    /// The file to be written exists and was not merged by this sweep.
     #[error("{} exists and was not merged from this sweep; move it away, or choose another name with --into", path.display())]
     Exists {
         /// The file.
         path: PathBuf,
     },
-    /// What the table should be written to is no file.
+    /// The target of the table is not a file.
     #[error("{} is no regular file; choose another name with --into", path.display())]
     NoFile {
         /// What is there.
@@ -124,7 +124,7 @@ pub enum SweepError {
         /// The folder of the sweep.
         folder: PathBuf,
     },
-    /// No member has an id in the range that was asked for.
+    /// No member has an id in the requested range.
     #[error("no member has an id from {start} to below {end}; ids go from {first} to {last}")]
     NoMembers {
         /// The first id that was asked for.
@@ -136,7 +136,7 @@ pub enum SweepError {
         /// The largest id that there is.
         last: u64,
     },
-    /// A member that was asked for does not exist.
+    /// A requested member does not exist.
     #[error("there is no member {member}; ids go from {first} to {last}")]
     UnknownMember {
         /// The id.
@@ -146,12 +146,12 @@ pub enum SweepError {
         /// The largest id.
         last: u64,
     },
-    /// There are not so many shards.
+    /// There are fewer shards.
     #[error("there is no shard {index}/{count}: {}", shards(*count))]
     NoShard {
         /// The shard.
         index: u64,
-        /// How many there are.
+        /// The number of shards.
         count: u64,
     },
     /// The program cannot read or write Arrow files.
@@ -159,10 +159,10 @@ pub enum SweepError {
         "the format `arrow` needs the feature `arrow` of the crate `eem`; build with it, or take --format csv"
     )]
     NoArrow,
-    /// The shard cannot be told from the environment.
+    /// The environment does not determine the shard.
     #[error(transparent)]
     Engine(#[from] EngineError),
-    /// The inputs cannot be used.
+    /// The inputs are invalid.
     #[error(transparent)]
     Input(#[from] InputError),
 }
@@ -193,14 +193,14 @@ impl SweepError {
     }
 }
 
-/// Something in which a process and the directory that it was given disagree.
+/// A difference between a process and the directory it was given.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Difference {
-    /// What it is: `program`, `inputs`, the name of a setting …
+    /// Its subject: `program`, `inputs`, the name of a setting, …
     pub what: String,
-    /// What the directory says.
+    /// The value in the directory.
     pub there: String,
-    /// What this process says.
+    /// The value in this process.
     pub here: String,
 }
 

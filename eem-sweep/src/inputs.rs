@@ -15,10 +15,10 @@ use table::Table;
 pub use error::InputError;
 pub use row::Row;
 
-/// The inputs of all members: a number per member and named column, and an id per member.
+/// The inputs of all members: one number per member and named column, and an id per member.
 ///
-/// Ids are the numbers 0, 1, 2 … of the members, but those of a column `id` in a CSV file. Rows of grids and
-/// Latin hypercubes are computed when they are needed, by every process alike.
+/// Ids are 0, 1, 2 …, or come from the column `id` of a CSV file. Rows of grids and Latin hypercubes are computed when
+/// they are needed, with the same result in every process.
 ///
 /// ```
 /// use eem::sweep::Inputs;
@@ -44,11 +44,11 @@ enum Source {
 }
 
 impl Inputs {
-    /// All combinations of the values of some axes; the last axis changes from one member to the next.
+    /// All combinations of values on some axes; the last axis varies fastest.
     ///
     /// # Errors
     ///
-    /// [`InputError`] if an axis has no value, names are not different, or there are 2³² members.
+    /// [`InputError`] if an axis has no value, two names are equal, or there are 2³² members.
     pub fn grid<N: Into<String>>(
         axes: impl IntoIterator<Item = (N, Vec<f64>)>,
     ) -> Result<Self, InputError> {
@@ -65,12 +65,12 @@ impl Inputs {
         Self::checked(columns, Source::Grid(axes))
     }
 
-    /// A Latin hypercube: each of n members has a layer of its own among n equal layers of every range, in random
-    /// order, and a random place in it. The same seed draws the same members on every machine.
+    /// A Latin hypercube: every range is divided into n equal layers, one per member in random order, with a random
+    /// value in the layer. The same seed gives the same members on every machine.
     ///
-    /// It takes 4 bytes of memory per member and column. For a quantity of which only the order of magnitude is known,
-    /// take its logarithm as the column, `("log10 stiffness", 3.0..6.0)`, and let the function that makes inputs of
-    /// rows take the power: powers differ in the last bit from one machine to another, rows must not.
+    /// It takes 4 bytes of memory per member and column. If only the order of magnitude of a quantity is known, use
+    /// its logarithm as the column, `("log10 stiffness", 3.0..6.0)`, and compute the power in the function that
+    /// makes inputs from rows: powers differ in the last bit between machines, and rows must not.
     ///
     /// ```
     /// use eem::sweep::Inputs;
@@ -87,8 +87,8 @@ impl Inputs {
     ///
     /// # Errors
     ///
-    /// [`InputError`] if there is no member or no range, a range has no width, names are not different, or there
-    /// are 2³² members.
+    /// [`InputError`] if there is no member or no range, a range is empty, two names are equal, or there are 2³²
+    /// members.
     pub fn latin_hypercube<N: Into<String>>(
         members: usize,
         seed: u64,
@@ -111,11 +111,11 @@ impl Inputs {
         Self::checked(columns, Source::Latin(Latin::new(count, seed, ranges)))
     }
 
-    /// Rows that the caller has made; all are kept in memory.
+    /// Given rows, kept in memory.
     ///
     /// # Errors
     ///
-    /// [`InputError`] if there is no row, one has another length, or names are not different.
+    /// [`InputError`] if there is no row, rows have different lengths, or two names are equal.
     pub fn rows<N: Into<String>, R: AsRef<[f64]>>(
         columns: impl IntoIterator<Item = N>,
         rows: impl IntoIterator<Item = R>,
@@ -137,13 +137,12 @@ impl Inputs {
         Self::checked(columns, Source::Table(Table { ids, values }))
     }
 
-    /// The rows of a CSV file with a head, in ascending order of the column `id` if there is one; all are kept in
-    /// memory.
+    /// The rows of a CSV file with a header, kept in memory, in ascending order of the column `id` if there is one.
     ///
     /// # Errors
     ///
-    /// [`InputError`] if the file cannot be read, a cell is no number, an id is there twice, there is no row, or
-    /// names are not different.
+    /// [`InputError`] if the file cannot be read, a cell is not a number, an id occurs twice, there is no row, or
+    /// two names are equal.
     pub fn csv(path: impl AsRef<Path>) -> Result<Self, InputError> {
         let (columns, table) = Table::read(path.as_ref())?;
         Self::checked(columns, Source::Table(table))
@@ -158,7 +157,7 @@ impl Inputs {
         Ok(inputs)
     }
 
-    /// How many members there are.
+    /// The number of members.
     #[must_use]
     pub fn members(&self) -> usize {
         match &self.source {
@@ -168,7 +167,7 @@ impl Inputs {
         }
     }
 
-    /// The names of the columns.
+    /// The column names.
     #[must_use]
     pub fn columns(&self) -> &[String] {
         &self.columns
@@ -212,12 +211,12 @@ impl Inputs {
         }
     }
 
-    /// The row of a member, by its place in the ascending order of ids, from 0; `values` is where its numbers are
-    /// kept.
+    /// The row of a member, by its index in the ascending order of ids, from 0. `values` is the buffer for its
+    /// numbers.
     ///
     /// # Panics
     ///
-    /// If there are not so many members.
+    /// If the index is too large.
     pub fn row<'a>(&'a self, place: usize, values: &'a mut Vec<f64>) -> Row<'a> {
         values.clear();
         self.push_values(place, values);

@@ -1,31 +1,41 @@
-//! Parameter sweeps over many processes, of one machine or of a cluster.
+//! Parameter sweeps in many processes, on one machine or on a cluster.
 //!
-//! [`Ensemble`](eem_runtime::Ensemble) fills one machine. Beyond it there are engines: Slurm, PBS, HyperQueue, GNU
-//! parallel, MPI. Members do not talk to each other, so that this crate brings no engine and fits all of them: every
-//! process is the same program with another `--shard`, and all that they share is a directory.
+//! [`Ensemble`](eem_runtime::Ensemble) fills one machine. For more, use an engine: Slurm, PBS, HyperQueue, GNU parallel or
+//! MPI. The members of a sweep are independent, so this crate works with all of them: every process runs the same program
+//! with another `--shard`, and all processes share one directory.
 //!
-//! | what | where |
+//! | subject | types |
 //! |---|---|
-//! | what members differ in | [`Inputs`], [`Row`] |
-//! | what is kept of them | [`Record`], [`Failure`] |
+//! | inputs of the members | [`Inputs`], [`Row`] |
+//! | results | [`Record`], [`Failure`] |
 //! | the sweep | [`Plan`], [`Sweep`] |
 //! | the command line | [`main`](fn@main), [`Command`] |
 //!
 //! Files of a sweep:
 //!
-//! | file in the directory | what it has |
+//! | file in the directory | contents |
 //! |---|---|
-//! | `sweep.json` | what all processes agree on: digests of program and inputs, settings, columns; written by the first |
-//! | `parts/FIRST-LAST.MEMBERS.gGENERATION.SWEEP.CONTENT.csv` | records that a thread has reported, a second of work each; SWEEP and CONTENT are digests |
-//! | `progress/SHARD.json` | how far a process is |
-//! | `progress/SHARD.PROCESS-CHANCE.begun` | members that a thread is at |
-//! | `tables/DIGEST` | empty; a table that was merged, and may be replaced |
-//! | `merged.csv`, `merged.csv.json` | the table of all members, and what `merge` has found |
+//! | `sweep.json` | digests of program and inputs, settings, columns; written by the first process, checked by all others |
+//! | `parts/FIRST-LAST.MEMBERS.gGENERATION.SWEEP.CONTENT.csv` | records of one batch, about a second of work; SWEEP and CONTENT are digests |
+//! | `progress/SHARD.json` | progress of a process |
+//! | `progress/SHARD.PROCESS-CHANCE.begun` | members that a thread is working on |
+//! | `tables/DIGEST` | empty; marks a merged table that may be replaced |
+//! | `merged.csv`, `merged.csv.json` | the table of all members, and what `merge` has verified |
 //!
-//! A file is written under a temporary name, brought to disk, and only then given its name: it is there whole or not at
-//! all. The name of a part has a digest of its contents, so that nothing but the same bytes can take its place, and what
-//! is damaged is found when it is read; a table gets its name by a hard link, which fails where the name is taken. A
-//! member is *reported* when its part has its name. There are no locks that a killed process could leave behind.
+//! A file is written under a temporary name, synced to disk and then renamed, so it is complete or absent. The name of a
+//! part contains a digest of its contents: only the same bytes can replace it, and damage is detected on reading. A table
+//! gets its name by a hard link, which fails if the name is taken. A member is *reported* when its part has its final
+//! name. There are no lock files.
+//!
+//! # Where to change what
+//!
+//! | to | look in |
+//! |---|---|
+//! | change inputs, or which members a process takes | `inputs`, `selection.rs`; `engine.rs` for `--shard auto` |
+//! | change files, or what a kill can lose | `files.rs` (naming), `part.rs`, `manifest.rs`, `walk.rs` (which record counts), `begun.rs` (members that kill processes); `tests/sweeps/kills.rs` |
+//! | write another format | `format` |
+//! | try an engine | the scripts in `cluster` |
+
 #![warn(missing_docs)]
 #![allow(
     clippy::cast_precision_loss,

@@ -18,40 +18,40 @@ use crate::status::named;
 use crate::sweep::{Opened, Sweep};
 use crate::walk::walk;
 
-/// What was merged.
+/// The result of a merge.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Merged {
-    /// The table. The note beside it does not repeat its name, so that both can be moved.
+    /// The table. The note next to it does not contain its name, so both can be moved.
     #[serde(skip)]
     pub path: PathBuf,
-    /// The digest of program, inputs and settings that all parts have.
+    /// The digest of program, inputs and settings, common to all parts.
     pub sweep: String,
-    /// A digest of the table, which is the same for any number of processes.
+    /// A digest of the table; it is the same for any number of processes.
     pub table: String,
-    /// Members, each of which has one row.
+    /// Number of members, each with one row.
     pub members: usize,
-    /// Members that have failed.
+    /// Number of failed members.
     pub failed: usize,
-    /// Records that a later run has superseded.
+    /// Number of records replaced by a later run.
     pub superseded: usize,
-    /// Records that were there more than once, with the same bits.
+    /// Number of records found more than once, with identical bits.
     pub repeated: usize,
 }
 
 impl Sweep<'_> {
     /// Merges all parts into one table, `into` or `merged.csv` in the directory, in ascending order of ids.
     ///
-    /// It proves that every member has a record of a program, inputs and settings with one digest, takes the last
-    /// record of each, and compares those that are there twice. Beside the table it writes what it has found, with
-    /// `.json` added to the name. Of a directory that can only be read it merges `into` another one, once. It can be
-    /// killed and repeated at any time; temporary files that killed processes have left behind are removed when they
-    /// are an hour old.
+    /// It verifies that every member has a record with the same digest of program, inputs and settings, takes the
+    /// latest record of each, and compares duplicates. A note with the findings is written next to the table, with
+    /// `.json` added to the name. A read-only directory can be merged `into` another one, once. A merge can be
+    /// killed and repeated at any time; it removes temporary files of killed processes once they are an hour old.
     ///
     /// # Errors
     ///
-    /// [`SweepError::Incomplete`] if members are missing, [`SweepError::Conflict`] if a member has different bits
-    /// in two parts, [`SweepError::Damaged`] if a part is not what was written, [`SweepError::Exists`] if the file
-    /// exists and is none of this sweep, and others if files cannot be read or written. Nothing is written then.
+    /// [`SweepError::Incomplete`] if members are missing, [`SweepError::Conflict`] if a member has different
+    /// records in two parts, [`SweepError::Damaged`] if a part was changed, [`SweepError::Exists`] if the file
+    /// exists and does not belong to this sweep, and others if files cannot be read or written. Nothing is written
+    /// then.
     pub fn merge(&self, directory: &Path, into: Option<&Path>) -> Result<Merged, SweepError> {
         let opened = self.open(directory, None, false)?;
         let shelf = opened.shelf();

@@ -3,7 +3,7 @@
 use eem_runtime::{MemberFailure, StepFailure};
 use serde::{Deserialize, Serialize};
 
-/// An output of a member as numbers in named columns.
+/// The result of a member: numbers in named columns.
 ///
 /// ```
 /// use eem::sweep::Record;
@@ -26,10 +26,10 @@ use serde::{Deserialize, Serialize};
 /// assert_eq!(row, [5.0, 1.0]);
 /// ```
 pub trait Record {
-    /// The heads of the columns: names, with units in parentheses.
+    /// The column names, with units in parentheses.
     const COLUMNS: &'static [&'static str];
 
-    /// Fills a row with a number per column.
+    /// Fills a row with one number per column.
     fn write(&self, row: &mut [f64]);
 }
 
@@ -42,7 +42,7 @@ impl Record for f64 {
     }
 }
 
-/// Why a member has no output, in a form that files keep.
+/// Why a member has no result, as stored in files.
 ///
 /// ```
 /// use eem::MemberFailure;
@@ -54,17 +54,17 @@ impl Record for f64 {
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Failure {
-    /// What kind of failure it is.
+    /// The kind of failure.
     pub kind: FailureKind,
-    /// When the step began that failed, s; none if no step failed.
+    /// The time at which the failed step began, s; `None` if no step failed.
     pub time: Option<f64>,
-    /// The message of the error, in one line.
+    /// The error message, in one line.
     pub message: String,
 }
 
 macro_rules! kinds {
     ($($(#[doc = $doc:literal])+ $kind:ident = $name:literal,)+) => {
-        /// Kinds of failures, with the names that they have in tables.
+        /// Kinds of failures, with their names in tables.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
         #[serde(rename_all = "kebab-case")]
         #[non_exhaustive]
@@ -88,7 +88,7 @@ macro_rules! kinds {
                 }
             }
 
-            /// The kind of this name.
+            /// The kind with this name.
             #[must_use]
             pub fn from_name(name: &str) -> Option<Self> {
                 match name {

@@ -10,7 +10,7 @@ use crate::places::Places;
 /// The most ids of a list, which is kept in memory: 128 MB.
 const LONGEST: u64 = 1 << 24;
 
-/// Which members a process runs. Whatever is chosen, bits and merged tables are the same.
+/// The members that a process runs. Results and merged tables do not depend on it.
 ///
 /// ```
 /// use eem::sweep::Selection;
@@ -26,11 +26,11 @@ pub enum Selection {
     /// All members.
     #[default]
     All,
-    /// One of `count` shards with as many members, to within one; counted from 0.
+    /// One of `count` shards of equal size, to within one member; counted from 0.
     Shard {
-        /// Which one.
+        /// The index of the shard.
         index: u64,
-        /// How many there are.
+        /// The number of shards.
         count: u64,
     },
     /// The members whose ids are in a range.
@@ -44,7 +44,7 @@ impl Selection {
     ///
     /// # Errors
     ///
-    /// What is expected instead.
+    /// The expected form.
     pub fn shard(text: &str) -> Result<Self, String> {
         let numbers = text.split_once('/').map(|(i, n)| (i.parse(), n.parse()));
         match numbers {
@@ -58,7 +58,7 @@ impl Selection {
     ///
     /// # Errors
     ///
-    /// What is expected instead.
+    /// The expected form.
     pub fn range(text: &str) -> Result<Self, String> {
         let numbers = text.split_once("..").map(|(a, b)| (a.parse(), b.parse()));
         match numbers {
@@ -67,11 +67,11 @@ impl Selection {
         }
     }
 
-    /// Ids and ranges of ids with both ends, as Slurm and `cut` write them.
+    /// Ids and inclusive ranges of ids, as in Slurm and `cut`.
     ///
     /// # Errors
     ///
-    /// What is expected instead.
+    /// The expected form.
     pub fn list(text: &str) -> Result<Self, String> {
         let mut ids = Vec::new();
         for piece in text.split(',') {

@@ -16,29 +16,29 @@ use crate::walk::walk;
 /// Ranges that a message names; the others are counted.
 const NAMED: usize = 8;
 
-/// How much of a sweep has been reported.
+/// The progress of a sweep.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Status {
-    /// Members of the sweep.
+    /// Number of members.
     pub members: usize,
-    /// Members with a record.
+    /// Number of members with a record.
     pub reported: usize,
-    /// Members whose last record is a failure.
+    /// Number of members whose latest record is a failure.
     pub failed: usize,
-    /// Records that a later run has superseded.
+    /// Number of records replaced by a later run.
     pub superseded: usize,
-    /// Records that are there more than once, with the same bits.
+    /// Number of records found more than once, with identical bits.
     pub repeated: usize,
-    /// The ids without a record, the first ones of many; empty if there are none.
+    /// The ids without a record, possibly shortened; empty if there are none.
     pub missing: String,
-    /// Those of them that some process has begun: it is at work on them, or has ended there.
+    /// The ids among these that a process has begun: it is working on them, or has died there.
     pub begun: String,
-    /// What processes have told last.
+    /// The latest reports of all processes.
     pub processes: Vec<ShardProgress>,
 }
 
 impl Sweep<'_> {
-    /// Counts what has been reported, while others may be running.
+    /// Counts the reported members; other processes may be running.
     ///
     /// # Errors
     ///

@@ -20,9 +20,9 @@ use crate::record::Record;
 /// Members of an experiment that move together with the feature `lanes`.
 const LANES: usize = 4;
 
-/// A sweep as data: inputs, scheme, step and settings. With an experiment it is a [`Sweep`].
+/// The data of a sweep: inputs, scheme, step and settings. Together with an experiment it is a [`Sweep`].
 ///
-/// Pendulums on springs of different stiffness, whose bits do not depend on who has run them:
+/// Pendulums on springs of different stiffness. The results have the same bits for any division among processes:
 ///
 /// ```
 /// use eem::prelude::*;
@@ -76,7 +76,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// A sweep over `inputs` whose members are stepped by `scheme` with the time step `step`, s.
+    /// A sweep over `inputs` with this scheme and step, s.
     pub fn new(name: impl Into<String>, inputs: Inputs, scheme: Scheme, step: f64) -> Self {
         Self {
             name: name.into(),
@@ -91,21 +91,22 @@ impl Plan {
         }
     }
 
-    /// How hard the steps of all members try.
+    /// The settings of Newton's method for all members.
     #[must_use]
     pub fn newton(mut self, settings: NewtonSettings<f64>) -> Self {
         self.stepping.newton = settings;
         self
     }
 
-    /// Something else on which results depend, such as the end time: shards with another value are refused.
+    /// Adds another setting on which the results depend, such as the end time. A process with another value is
+    /// rejected.
     #[must_use]
     pub fn setting(mut self, name: impl Into<String>, value: impl fmt::Display) -> Self {
         self.settings.insert(name.into(), value.to_string());
         self
     }
 
-    /// What identifies the program, in place of a digest of the executable: the caller promises that programs of
+    /// Identifies the program by a version instead of a digest of the executable. You promise that programs with
     /// the same version compute the same bits.
     #[must_use]
     pub fn program(mut self, version: impl Into<String>) -> Self {
@@ -113,8 +114,8 @@ impl Plan {
         self
     }
 
-    /// The sweep that runs an experiment, whose inputs `input` makes from rows. With the feature `lanes` four
-    /// members move together, see [`Ensemble::run_experiment`](eem_runtime::Ensemble::run_experiment).
+    /// A sweep that runs an experiment. `input` makes its inputs from rows. With the feature `lanes` four members
+    /// run together, see [`Ensemble::run_experiment`](eem_runtime::Ensemble::run_experiment).
     pub fn experiment<'a, const D: usize, E>(
         self,
         experiment: E,
@@ -134,8 +135,8 @@ impl Plan {
         self.with(job, E::Output::COLUMNS)
     }
 
-    /// The sweep that runs a pair of closures, as [`Ensemble::run`](eem_runtime::Ensemble::run) does; `input`
-    /// makes their inputs from rows.
+    /// A sweep that runs two closures like [`Ensemble::run`](eem_runtime::Ensemble::run). `input` makes their
+    /// inputs from rows.
     pub fn closures<'a, const D: usize, I, H, T>(
         self,
         input: impl Fn(Row<'_>) -> Result<I, InputError> + Send + Sync + 'a,
@@ -162,8 +163,8 @@ impl Plan {
     }
 }
 
-/// A sweep that can be run, in as many processes as one likes: each takes some members, and what they leave in
-/// one directory is merged.
+/// A sweep that can run in any number of processes. Each runs some of the members; the results in their common
+/// directory are merged.
 ///
 /// See [`Plan`] for an example, and [`main`](fn@crate::main) for the command line.
 pub struct Sweep<'a> {

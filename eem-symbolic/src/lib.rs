@@ -24,6 +24,17 @@
 //! let secant = divided_difference(&mut graph, e, x, a, b);
 //! assert_eq!(format(&graph, secant), "0.5*((a + b)*ln[a, b] + ln(a) + ln(b))");
 //! ```
+//!
+//! # Where to change what
+//!
+//! | to | look in |
+//! |---|---|
+//! | add an elementary function | its row in `function.rs`; the compiler lists the passes that lack it. Then its kernel in `eem-runtime/src/number/kernel` |
+//! | change what is generated | `programs.rs`, `discrete`; the printer is `expand` in `eem-language` |
+//! | compute several values in one call | an `Operation` in `operation.rs`, chosen in `joint.rs` |
+//! | change the order of operations, or what is shared | `schedule`, `factor.rs`; `discrete/logarithm.rs` for what an iteration can reuse |
+//! | detect impossible models | `flaw.rs`, `sign.rs`, `range.rs` |
+//! | change the bound for the rounding of ψ | `magnitude.rs` |
 
 #![forbid(unsafe_code)]
 

@@ -1,6 +1,15 @@
-//! What all studies share, so that the files of each are about its physics:
-//! command line, record of a run, table, CSV files, figures, progress bar and claims; and free energies and scenes for
-//! numbers of any type.
+//! The shared part of all studies: command line, record of a run, tables, CSV files, figures, progress bar and claims; free
+//! energies and scenes for numbers of any type.
+//!
+//! # Where to change what
+//!
+//! | to | look in |
+//! |---|---|
+//! | add a study | `bin/NAME/main.rs` with the physics; scene and pictures beside it |
+//! | draw a deformed solid | `deformed.rs`; `Mesh::outlines` gives the faces |
+//! | draw the figure of a paper | `figures.rs` in the folder of the study; `published.rs` |
+//! | fit a model to records | `bin/fit_damper/fit.rs` |
+//! | check that a change keeps all bits, or count instructions | `README.md` |
 
 #![allow(
     clippy::must_use_candidate,

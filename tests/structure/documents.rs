@@ -1,5 +1,5 @@
-//! The README and the pages of `docs`: every link leads somewhere, on disk and in rustdoc, and what is
-//! embedded is the file it stands for.
+//! The README and the pages of `docs`: every page has a title, every program can be copied as it stands, and every link
+//! leads somewhere, on disk and in rustdoc.
 
 #![allow(clippy::unwrap_used, reason = "a test: what is missing is a failure")]
 
@@ -13,10 +13,7 @@ fn documents() -> Vec<(PathBuf, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let pages = fs::read_dir(root.join("docs")).unwrap();
     let pages = pages.map(|page| page.unwrap().path());
-    let is_page = |path: &PathBuf| {
-        let name = path.file_name().unwrap().to_string_lossy();
-        name.ends_with(".md") && !name.ends_with(".link.md")
-    };
+    let is_page = |path: &PathBuf| path.extension().is_some_and(|end| end == "md");
     let mut paths: Vec<_> = pages.filter(is_page).collect();
     paths.push(root.join("README.md"));
     let read = |path: PathBuf| {
@@ -44,7 +41,8 @@ fn definitions(text: &str) -> Vec<(&str, &str)> {
         let end = rest.find("]: ")?;
         Some((1 + end, 1 + end + 3))
     };
-    let lines = text.lines().map(|line| line.trim_start_matches("//! "));
+    let lines = text.lines().map(str::trim_start);
+    let lines = lines.map(|line| line.trim_start_matches("//! ").trim_start_matches("/// "));
     let parts = lines.filter_map(|line| {
         let (end, start) = definition(line)?;
         Some((&line[1..end], line[start..].trim()))
@@ -53,7 +51,7 @@ fn definitions(text: &str) -> Vec<(&str, &str)> {
 }
 
 fn is_elsewhere(target: &str) -> bool {
-    ["https://", "http://", "crate::", "#"]
+    ["https://", "http://", "#"]
         .iter()
         .any(|start| target.starts_with(start))
 }
@@ -79,9 +77,11 @@ fn links_lead_to_files_and_to_pages_of_rustdoc() {
             if !folder.join(target).exists() {
                 faults.push(format!("{name}: there is no {target}"));
             }
-            let stem = Path::new(target).file_stem().unwrap().to_string_lossy();
-            let is_embedded = LIBRARY.contains(&format!("docs/{stem}.link.md"));
-            if !is_embedded && !own.iter().any(|(name, _)| *name == label) {
+            // Of a picture rustdoc shows the description.
+            let is_picture = Path::new(target)
+                .extension()
+                .is_some_and(|end| end == "svg");
+            if !is_picture && !own.iter().any(|(name, _)| *name == label) {
                 faults.push(format!("{name}: rustdoc does not know [{label}]"));
             }
         }
@@ -100,57 +100,42 @@ fn every_page_is_a_module_of_rustdoc() {
     }
 }
 
-/// Definitions that embed pictures: the link, the picture.
-const EMBEDDED: [(&str, &str); 2] = [("energy", "energy"), ("picture", "tutorial")];
-
 #[test]
-fn embedded_pictures_are_those_of_the_files() {
-    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
-    for (label, picture) in EMBEDDED {
-        let svg = fs::read(docs.join(format!("{picture}.svg"))).unwrap();
-        let expected = format!("[{label}]: data:image/svg+xml;base64,{}\n", base64(&svg));
-        let path = docs.join(format!("{picture}.link.md"));
-        if std::env::var_os("EEM_BLESS").is_some() {
-            fs::write(&path, &expected).unwrap();
-        }
-        let embedded = fs::read_to_string(&path).unwrap();
-        assert!(
-            embedded == expected,
-            "{picture}.svg has changed; EEM_BLESS=1 embeds it anew"
-        );
+fn every_page_begins_with_its_title() {
+    for (path, text) in documents() {
+        assert!(text.starts_with("# "), "{} has no title", path.display());
+        let titles = prose(&text)
+            .lines()
+            .filter(|line| line.starts_with("# "))
+            .count();
+        assert_eq!(titles, 1, "titles of {}", path.display());
     }
 }
 
-/// RFC 4648, section 4.
-fn base64(bytes: &[u8]) -> String {
-    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::new();
-    for chunk in bytes.chunks(3) {
-        let mut three = [0; 3];
-        three[..chunk.len()].copy_from_slice(chunk);
-        let bits = u32::from_be_bytes([0, three[0], three[1], three[2]]);
-        for place in 0..4 {
-            if place > chunk.len() {
-                text.push('=');
-            } else {
-                let digit = (bits >> (18 - 6 * place)) & 63;
-                text.push(char::from(DIGITS[digit as usize]));
+/// A forge shows all lines of a block, and rustdoc alone knows which of them to hide.
+#[test]
+fn programs_are_whole() {
+    let mut faults = Vec::new();
+    for (path, text) in documents() {
+        let name = path.display();
+        for block in text.split("```").skip(1).step_by(2) {
+            let (language, program) = block.split_once('\n').unwrap();
+            if !language.starts_with("rust") {
+                continue;
+            }
+            if program
+                .lines()
+                .any(|line| line == "#" || line.starts_with("# "))
+            {
+                faults.push(format!("{name}: a hidden line"));
+            }
+            if !program.contains("fn main() -> ") {
+                faults.push(format!("{name}: a program without `main`"));
             }
         }
+        if prose(&text).contains("](crate::") {
+            faults.push(format!("{name}: a link that only rustdoc knows"));
+        }
     }
-    text
-}
-
-#[test]
-fn base64_is_that_of_the_standard() {
-    let pairs = [
-        ("", ""),
-        ("f", "Zg=="),
-        ("fo", "Zm8="),
-        ("foo", "Zm9v"),
-        ("foob", "Zm9vYg=="),
-    ];
-    for (plain, coded) in pairs {
-        assert_eq!(base64(plain.as_bytes()), coded);
-    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
 }

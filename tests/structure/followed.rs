@@ -1,11 +1,10 @@
-//! README, tutorial and guide followed to the letter, from crates outside of the workspace.
+//! The programs of README and pages, copied from the Markdown into crates outside of the workspace.
 //!
-//! The blocks are copied, built and run, and what they print is compared. Building takes a minute, so that
+//! They are built and run, and what they print is compared with the page. Building takes a minute, so that
 //! these tests are ignored in an ordinary run; the gate (`.ci/run`) asks for them.
 
 #![allow(clippy::unwrap_used, reason = "a test: what is missing is a failure")]
 
-use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -109,66 +108,34 @@ fn the_tutorial_can_be_followed_to_its_picture() {
     fs::remove_dir_all(krate.parent().unwrap()).unwrap();
 }
 
+/// Pages with programs that print something. That all programs compile and run as they stand is seen by rustdoc.
+const PAGES: [(&str, &str); 2] = [
+    ("materials", include_str!("../../docs/materials.md")),
+    ("running", include_str!("../../docs/running.md")),
+];
+
 #[test]
 #[ignore = "builds a crate; the gate runs it"]
-fn the_programs_of_the_guide_can_be_followed() {
-    let page = include_str!("../../docs/guide.md");
-    let blocks = blocks(page);
-    let krate = folder("chapters");
-    manifest(
-        &krate,
-        "[dependencies]\neem = { path = \"../eem\", features = [\"serde\"] }\nserde_json = { version = \"1\", features = [\"float_roundtrip\"] }\n",
-    );
+fn the_programs_of_the_pages_print_what_is_shown() {
+    let krate = folder("pages");
+    let dependencies = "[dependencies]\neem = { path = \"../eem\" }\n";
+    manifest(&krate, dependencies);
+    fs::create_dir(krate.join("src/bin")).unwrap();
     let mut programs = Vec::new();
-    for (index, block) in blocks
-        .iter()
-        .enumerate()
-        .filter(|(_, block)| block.language == "rust")
-    {
-        let name = format!("chapter{index:02}");
-        let path = krate.join("src").join(format!("{name}.rs"));
-        fs::write(path, program(block.text)).unwrap();
-        let printed = blocks.get(index + 1).filter(|next| next.before == "prints");
-        programs.push((name, printed.map(|next| next.text)));
-    }
-    assert!(programs.len() > 10);
-    let names = programs.iter().map(|(name, _)| name.as_str());
-    fs::write(krate.join("src/main.rs"), one_of(names)).unwrap();
-    for (name, printed) in programs {
-        let output = cargo(&krate, &["run", "--quiet", "--", &name]);
-        if let Some(printed) = printed {
-            assert_eq!(output, printed, "{name}");
+    for (page, text) in PAGES {
+        let blocks = blocks(text);
+        let pairs = blocks.windows(2).enumerate();
+        for (index, pair) in pairs.filter(|(_, pair)| pair[1].before == "prints") {
+            let name = format!("{page}_{index}");
+            let path = krate.join(format!("src/bin/{name}.rs"));
+            fs::write(path, pair[0].text).unwrap();
+            programs.push((name, pair[1].text));
         }
     }
+    assert_eq!(programs.len(), 3);
+    for (name, printed) in programs {
+        let output = cargo(&krate, &["run", "--quiet", "--bin", &name]);
+        assert_eq!(output, printed, "{name}");
+    }
     fs::remove_dir_all(krate.parent().unwrap()).unwrap();
-}
-
-/// A program that runs the one of these modules that its argument names: one binary is compiled for all
-/// chapters, and what they share once.
-fn one_of<'a>(modules: impl Iterator<Item = &'a str>) -> String {
-    let (mut declared, mut arms) = (String::new(), String::new());
-    for module in modules {
-        writeln!(declared, "mod {module};").unwrap();
-        writeln!(arms, "        \"{module}\" => {module}::main(),").unwrap();
-    }
-    format!(
-        "{declared}\nfn main() {{\n    match &*std::env::args().nth(1).unwrap() {{\n{arms}        \
-         other => panic!(\"no chapter {{other}}\"),\n    }}\n}}\n"
-    )
-}
-
-/// What rustdoc makes of a block: hidden lines are shown, and all is the body of `main`.
-fn program(block: &str) -> String {
-    let shown = block
-        .lines()
-        .map(|line| line.strip_prefix("# ").unwrap_or(line));
-    let body: Vec<&str> = shown.filter(|line| *line != "#").collect();
-    let body = body.join("\n");
-    let start = "#![allow(dead_code, unused)]\n";
-    if body.contains("Ok::<()") {
-        let wrapped = "pub fn main() { fn run() -> Result<(), impl core::fmt::Debug> {\n";
-        format!("{start}{wrapped}{body}\n}} run().unwrap() }}\n")
-    } else {
-        format!("{start}pub fn main() {{\n{body}\n}}\n")
-    }
 }

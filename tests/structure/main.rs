@@ -9,7 +9,6 @@ mod circles;
 mod documents;
 mod examples;
 mod followed;
-mod guide;
 mod imports;
 mod sizes;
 mod sources;

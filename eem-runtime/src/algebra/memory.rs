@@ -7,7 +7,7 @@
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MemoryLimit(Option<u64>);
 
-/// A linear system that takes more memory than it may.
+/// A linear system needs more memory than available or allowed.
 ///
 /// ```
 /// let refused = eem::TooLarge {
@@ -30,10 +30,10 @@ pub(crate) struct MemoryLimit(Option<u64>);
 pub struct TooLarge {
     /// Rows of the matrix.
     pub unknowns: usize,
-    /// What it and its factors take, bytes.
+    /// Memory needed by the matrix and its factors, bytes.
     pub needed: u64,
-    /// What there is, or the [limit](crate::Scene::limit_memory), bytes; `None` where the machine had it available and
-    /// refused it all the same.
+    /// Memory available, or the [limit](crate::Scene::limit_memory), bytes; `None` if the allocation failed
+    /// although there seemed to be enough.
     pub available: Option<u64>,
 }
 

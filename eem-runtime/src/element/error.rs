@@ -6,12 +6,12 @@ use crate::element::handle::{Element, Node};
 use crate::material::inversion::InversionError;
 use crate::number::readable::Readable;
 
-/// Why an element cannot be in a state.
+/// Why an element cannot have a state.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StateError {
-    /// The nodes of an element coincide, or are so near or far that the square of their distance,
-    /// of which the stretch is the root, underflows or overflows.
+    /// The nodes of an element coincide, or are so near or far that the square of their distance underflows or
+    /// overflows.
     #[error(
         "the stretch of {element} is {value} m, it must lie between {:.1e} m and {:.1e} m, so that its square neither underflows nor overflows",
         least, most, value = Readable(*value)
@@ -21,12 +21,12 @@ pub enum StateError {
         element: Element,
         /// The stretch, m.
         value: f64,
-        /// The smallest stretch that the scalar of the scene allows, m.
+        /// The smallest stretch in the number type of the scene, m.
         least: f64,
-        /// The largest one, m.
+        /// The largest stretch, m.
         most: f64,
     },
-    /// A solid is inside out at a point, or its deformation is not finite.
+    /// A solid is inverted at a point, or its deformation is not finite.
     #[error(
         "det F of the solid at {element} is {value}, it must be positive and finite, and so must the squares of its strains: a smaller step or a finer mesh may help",
         value = Readable(*value)
@@ -37,8 +37,8 @@ pub enum StateError {
         /// `det F`.
         value: f64,
     },
-    /// The line along which a rocket pushes has no direction: its ends coincide, or are so near or far that
-    /// the square of their distance underflows or overflows.
+    /// The line of a rocket has no direction: its ends coincide, or are so near or far that the square of their
+    /// distance underflows or overflows.
     #[error(
         "the rocket at {node} has no direction: {tail} and {head} are {value} m apart in the mean of the step, a smaller step may help",
         value = Readable(*value)
@@ -46,9 +46,9 @@ pub enum StateError {
     NoDirection {
         /// The node that it pushes.
         node: Node,
-        /// Where the line begins.
+        /// The beginning of the line.
         tail: Node,
-        /// Where it ends.
+        /// The end of the line.
         head: Node,
         /// The distance, m.
         value: f64,
@@ -76,8 +76,8 @@ pub enum StateError {
         /// The temperature, K.
         value: f64,
     },
-    /// The mean temperature that a stage of a step sees is not positive and finite: the temperature of the
-    /// element changes too much in the step.
+    /// The mean temperature in a stage of a step is not positive and finite: the temperature of the element changes
+    /// too much in the step.
     #[error("the mean temperature of {element} at a stage of the step is {value} K, it must be positive and finite; a smaller step may do", value = Readable(*value))]
     MeanTemperature {
         /// The element.
@@ -120,7 +120,7 @@ pub enum StateError {
         /// The temperature, K, if the model has one.
         temperature: Option<f64>,
     },
-    /// The viscosity of the dashpot beside a spring is not positive and finite.
+    /// The viscosity of a dashpot in parallel with a spring is not positive and finite.
     #[error(
         "the viscosity of the stretch of {element} is {value} {unit}{}, it must be positive and finite",
         temperature.as_ref().map_or_else(String::new, |theta| format!(" at {} K", Readable(*theta))), value = Readable(*value))]
@@ -134,7 +134,7 @@ pub enum StateError {
         /// The temperature, K, if the model has one.
         temperature: Option<f64>,
     },
-    /// No temperature has the entropy that the element must have.
+    /// No temperature has the required entropy.
     #[error("{element}: {source}")]
     NoSuchTemperature {
         /// The element.

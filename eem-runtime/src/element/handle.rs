@@ -78,8 +78,8 @@ handle! {
     Reservoir, "reservoir"
 }
 
-/// A spring of a scene, or a point of a solid. Shown as `element 0 (Spring)`: counted in the order of creation, and
-/// the name of its model.
+/// A spring of a scene, or an integration point of a solid. Printed as `element 0 (Spring)`: number in the order of
+/// creation, and name of the material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Element {
     scene: SceneId,
@@ -130,7 +130,7 @@ impl Handle for Element {
     }
 }
 
-/// What an element can exchange heat with.
+/// A partner for heat conduction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum HeatPartner {
     /// Another element.

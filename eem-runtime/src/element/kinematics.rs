@@ -1,8 +1,7 @@
-//! How the positions of an element's nodes measure its deformation.
+//! Measures of the deformation of an element from the positions of its nodes.
 //!
-//! A measure `π(q)` is a function of a measure that is at most quadratic in
-//! the positions: the stretch is the root of `λ² = r·r`, a Green–Lagrange strain is
-//! quadratic itself. For such measures the mean-value gradient
+//! A measure `π(q)` is a function of a quantity that is at most quadratic in the positions: the stretch is the root
+//! of `λ² = r·r`, a Green–Lagrange strain is quadratic. For such measures the mean-value gradient
 //!
 //! ```text
 //! D*π = ∂π(q⁰, q¹):   D*π (q¹ − q⁰) = π¹ − π⁰   exactly
@@ -10,8 +9,8 @@
 //!
 //! is linear in the mean position `q_m`.
 //!
-//! Measures do not change in a translation. So an element is described by its *arms*, the vectors
-//! from its first node to the others,
+//! Measures do not change in a translation. So an element is described by its *arms*, the edge vectors from its
+//! first node to the others,
 //!
 //! ```text
 //! r_i = q_i − q_0,   ∂π/∂q_i = ∂π/∂r_i,   ∂π/∂q_0 = −Σ_i ∂π/∂r_i
@@ -20,8 +19,7 @@
 //! and the force `Σ f_a D*π_a` on node i is `Σ_j A_ij r_m,j` with a symmetric matrix A of numbers, one
 //! per pair of arms, that only depends on `f`, `π⁰` and `π¹`.
 //!
-//! Everything is an array over arms or measures whose length the kinematics knows, so that loops
-//! over an element have no bounds but those of its arrays.
+//! All arrays have fixed lengths.
 
 mod between;
 pub(crate) mod integrals;

@@ -1,11 +1,11 @@
-//! What a model is, in print: its arguments, parameters, formulas and costs as static text.
+//! The description of a model as static text: arguments, parameters, formulas and costs.
 
 use core::fmt::{self, Display, Formatter};
 
-/// A model that can say what it is.
+/// A model that can print itself.
 ///
-/// `#[derive(FreeEnergy)]` implements this trait, too. The description does not depend on the
-/// scalar, and costs nothing until it is asked for.
+/// `#[derive(FreeEnergy)]` implements this trait too. The description does not depend on the number type and is
+/// static text.
 ///
 /// ```
 /// use eem::{Describe, Description, describe};
@@ -25,11 +25,11 @@ use core::fmt::{self, Display, Formatter};
 /// assert!(description.to_string().contains("lambda"));
 /// ```
 pub trait Describe {
-    /// What the model is.
+    /// The description of the model.
     const DESCRIPTION: Description;
 }
 
-/// A model in print; `Display` shows all of it.
+/// The description of a model; `Display` prints all of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Description {
     /// The name of the type.
@@ -40,10 +40,10 @@ pub struct Description {
     pub parameters: &'static [Parameter],
     /// ψ, s, e, f, g, c and η, as far as the model has them; per volume in a solid.
     pub formulas: &'static [Formula],
-    /// The divided differences that discrete derivatives are made of: of ψ and s along measures and
-    /// viscous variables, of e and s along the temperature, `F[x⁰, x¹] = (F(x¹) − F(x⁰))/(x¹ − x⁰)`.
+    /// The divided differences in the discrete derivatives: of ψ and s along measures and viscous variables, of e
+    /// and s along the temperature, `F[x⁰, x¹] = (F(x¹) − F(x⁰))/(x¹ − x⁰)`.
     pub divided_differences: &'static [Formula],
-    /// The generated functions and what they cost.
+    /// The generated functions and their costs.
     pub costs: &'static [Cost],
 }
 
@@ -71,7 +71,7 @@ pub struct Parameter {
 /// A formula.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Formula {
-    /// What the formula is for: `ψ`, `f`, `g_2`, `s[theta]`.
+    /// The symbol that the formula defines: `ψ`, `f`, `g_2`, `s[theta]`.
     pub symbol: &'static str,
     /// Both sides; a long one is broken into lines.
     pub equation: &'static str,
@@ -79,8 +79,8 @@ pub struct Formula {
     pub unit: &'static str,
 }
 
-/// What a generated function costs, in operations: additions, multiplications, divisions,
-/// elementary functions and their divided differences each count one.
+/// The cost of a generated function in operations: additions, multiplications, divisions, elementary functions and
+/// divided differences each count one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cost {
     /// The function of [`FreeEnergy`](crate::FreeEnergy).
@@ -92,7 +92,7 @@ pub struct Cost {
 }
 
 impl Description {
-    /// The description of a model about which no more than its name is known.
+    /// A description with nothing but a name.
     #[must_use]
     pub const fn new(name: &'static str) -> Self {
         Self {

@@ -50,10 +50,10 @@ impl<S: Real> Domain<S> {
         Self::of(Kind::Spring, vec![range])
     }
 
-    /// All strains of a solid between two each, in the order of the arguments of its free energy.
+    /// A box of strains of a solid, in the order of the arguments of its free energy.
     ///
-    /// The strains of a body are not independent, and a box has states that no body can be in; what
-    /// is said about them may be left alone.
+    /// The strains of a body are not independent, so the box contains impossible states. You can ignore errors
+    /// about those.
     #[must_use]
     pub fn of_strains(ranges: impl IntoIterator<Item = [S; 2]>) -> Self {
         Self::of(Kind::Solid, ranges.into_iter().collect())
@@ -98,26 +98,23 @@ impl<S: Real> Domain<S> {
     }
 }
 
-/// Looks for a state of a box in which a model is not a sound material.
+/// Searches a box for states in which a model is not a valid material.
 ///
-/// In every state that is looked at
+/// In every state that is evaluated
 ///
 /// ```text
 /// ψ, ∂ψ/∂x, ∂²ψ/∂x²  finite,    C = θ ∂s/∂θ > 0,    η_k(θ) > 0
 /// ```
 ///
-/// must hold; what a model without temperature or without dashpots does not have is not asked for.
-/// Looked at are the corners of the box, `samples` points of a sequence that fills it evenly
-/// (lengths and temperatures in their logarithm), and what a search downhill from the smallest heat
-/// capacities and viscosities meets. The result is the same in every run.
+/// must hold; conditions on a temperature or dashpots apply if the model has them. The states are the corners of
+/// the box, `samples` points of a sequence that fills it evenly (lengths and temperatures in their logarithm), and
+/// the path of a descent from the smallest heat capacities and viscosities. The result is the same in every run.
 ///
-/// A report is evidence, not a proof: a dip between the points that no slope leads to stays unseen.
-/// More samples see narrower dips.
+/// A report is evidence, not a proof: a dip between the points can be missed. More samples find narrower dips.
 ///
 /// # Errors
 ///
-/// [`DomainError`] with the first state that is found where something does not hold, and its value;
-/// or that the box does not fit the model.
+/// [`DomainError`] with the first invalid state and its value, or if the box does not fit the model.
 ///
 /// # Example
 ///

@@ -5,10 +5,10 @@ use core::ops::{Index, IndexMut};
 
 use crate::number::scalar::Scalar;
 
-/// A fixed-size array, named by its element type only.
+/// A fixed-size array, named only by its element type.
 ///
-/// Implemented for `[T; N]`. The lengths of a model's arrays depend on its
-/// variables, so that the trait [`FreeEnergy`] leaves them to associated types.
+/// Implemented for `[T; N]`. The lengths of the arrays of a model depend on its variables, so the trait
+/// [`FreeEnergy`] leaves them to associated types.
 ///
 /// ```
 /// use eem::Array;
@@ -42,7 +42,7 @@ pub trait Array<T>:
     }
 }
 
-/// What an array can hold. Implemented for everything that qualifies.
+/// Elements of an array. Implemented for every type that qualifies.
 pub trait Entry: Copy + Debug + Send + Sync + 'static {}
 
 impl<T: Copy + Debug + Send + Sync + 'static> Entry for T {}
@@ -63,26 +63,24 @@ pub struct Caloric<S> {
     pub entropy: S,
     /// `C = θ ∂S/∂θ`, J/K.
     pub heat_capacity: S,
-    /// The sum of the absolute values of the terms of `S`, J/K: times ε it is
-    /// what rounding may have done to `entropy`.
+    /// The sum of the absolute values of the terms of `S`, J/K; times ε it bounds the rounding of `entropy`.
     pub magnitude: S,
 }
 
-/// What the rates of a state follow from. `V` is an array with an entry per variable of
-/// `x = (π₁ … π_M, γ₁ … γ_K, θ)`.
+/// Forces and slopes that determine the rates of a state. `V` is an array with an entry per variable of `x = (π₁ …
+/// π_M, γ₁ … γ_K, θ)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rates<V> {
-    /// `(f₁ … f_M, g₁ … g_K, c)` with `f = ∂ψ/∂π`, `g = −∂ψ/∂γ` and `c = θ ∂s/∂θ`, J/K; without c where
-    /// there is no temperature.
+    /// `(f₁ … f_M, g₁ … g_K, c)` with `f = ∂ψ/∂π`, `g = −∂ψ/∂γ` and `c = θ ∂s/∂θ`, J/K; without c if there is no
+    /// temperature.
     pub forces: V,
     /// `(∂s/∂π₁ … ∂s/∂π_M, ∂s/∂γ₁ … ∂s/∂γ_K, 0)`; all zero without temperature.
     pub slopes: V,
 }
 
-/// A Helmholtz free energy `ψ(x)` and all that the schemes need of it.
+/// A Helmholtz free energy `ψ(x)` with everything that the schemes need.
 ///
-/// Derived, never written by hand: `#[derive(FreeEnergy)]` generates every
-/// method as straight-line code. The variables are
+/// `#[derive(FreeEnergy)]` generates every method as straight-line code; do not implement it by hand. The variables are
 ///
 /// ```text
 /// x = (π₁ … π_M, γ₁ … γ_K, θ)      N = M + K + T components
@@ -112,10 +110,10 @@ pub trait FreeEnergy<S: Scalar> {
     const DASHPOTS: usize;
     /// Whether there is a temperature, T.
     const THERMAL: bool;
-    /// Whether it is one per reference volume, a function of strains: all that stands below in J, N and
-    /// J/K is then per m³. See [`StrainEnergy`](crate::StrainEnergy).
+    /// Whether ψ is per reference volume, a function of strains; then all units with J, N and J/K below are per m³.
+    /// See [`StrainEnergy`](crate::StrainEnergy).
     const PER_VOLUME: bool = false;
-    /// How many of its dashpots, the last ones, are components of a viscous strain that is a tensor.
+    /// The number of dashpots, the last ones, that are components of a viscous strain tensor.
     const VISCOUS_STRAIN: usize = 0;
     /// The name of the struct.
     const MODEL: &'static str;
@@ -128,7 +126,7 @@ pub trait FreeEnergy<S: Scalar> {
     type Hessian: Array<Self::Variables>;
     /// `[S; K]`; one or two more for the flows of a viscous strain, see [`JointEnergy`](crate::JointEnergy).
     type Viscosities: Array<S>;
-    /// `[S; 1]` if a dashpot stands beside the spring (Kelvin–Voigt), else `[S; 0]`.
+    /// `[S; 1]` with a dashpot in parallel with the spring (Kelvin–Voigt), else `[S; 0]`.
     type Drag: Array<S>;
     /// `[S; 2(N − 1)]`, `[S; 0]` without temperature.
     type Corners: Array<S>;
@@ -136,12 +134,12 @@ pub trait FreeEnergy<S: Scalar> {
     type Response: Array<S>;
     /// `[[S; N]; R]`.
     type Tangent: Array<Self::Variables>;
-    /// What the entropy form keeps of the old state; parameters stay in the model.
+    /// Values of the old state that the entropy form reuses.
     type EntropyFormOld: Array<S>;
-    /// What the temperature form keeps of the old state; parameters stay in the model.
+    /// Values of the old state that the temperature form reuses.
     type TemperatureFormOld: Array<S>;
 
-    /// The same material once more, for a copy of its scene. The derive clones all fields.
+    /// A copy of the material, for a copy of its scene. The derive clones all fields.
     #[must_use]
     fn duplicate(&self) -> Self
     where
@@ -153,17 +151,16 @@ pub trait FreeEnergy<S: Scalar> {
     /// `ψ(x)`, J.
     fn free_energy(&self, x: &Self::Variables) -> S;
 
-    /// `Σ |terms of ψ|`, J: times ε it is what rounding may have done to
-    /// [`free_energy`](Self::free_energy).
+    /// `Σ |terms of ψ|`, J; times ε it bounds the rounding of [`free_energy`](Self::free_energy),
     ///
     /// ```text
     /// |ψ_computed − ψ_exact| ≤ 8 ε · energy_magnitude      |ψ| ≤ energy_magnitude
     /// ```
     ///
-    /// to first order in ε, for the given x and parameters. Rounding inside of functions, powers
-    /// and products counts with its effect on ψ: `ln(λ/l)` contributes `1 + |ln(λ/l)|`, because
-    /// the quotient is rounded. Where the terms of ψ cancel, the magnitude is far above |ψ|, and
-    /// differences of energies below ε times the magnitude say nothing.
+    /// to first order in ε, for the given x and parameters. Rounding inside functions, powers and products counts
+    /// with its effect on ψ: `ln(λ/l)` contributes `1 + |ln(λ/l)|`, because the quotient is rounded. If terms of ψ
+    /// cancel, the magnitude is far above |ψ|, and differences of energies below ε times the magnitude are
+    /// meaningless.
     fn energy_magnitude(&self, x: &Self::Variables) -> S;
 
     /// `e(x) = ψ − θ ∂ψ/∂θ`, J.
@@ -178,10 +175,9 @@ pub trait FreeEnergy<S: Scalar> {
     /// Entropy and heat capacity; zero without temperature.
     fn caloric(&self, x: &Self::Variables) -> Caloric<S>;
 
-    /// [`caloric`](Self::caloric) and [`free_energy`](Self::free_energy) as functions of the
-    /// temperature, with the other variables of `x`: for inversions, which evaluate them several
-    /// times. What does not depend on the temperature is computed once. The results differ by
-    /// rounding.
+    /// [`caloric`](Self::caloric) and [`free_energy`](Self::free_energy) as functions of the temperature with the
+    /// other variables of `x`, for inversions with several evaluations. Everything independent of the temperature
+    /// is computed once. Results differ by rounding.
     fn caloric_at(&self, x: Self::Variables) -> impl Fn(S) -> (Caloric<S>, S) {
         move |theta| {
             let mut x = x;
@@ -204,7 +200,7 @@ pub trait FreeEnergy<S: Scalar> {
         self.caloric_at(x0.beginning_as(x1, new))
     }
 
-    /// Forces, heat capacity and the slopes of the entropy, of which the rates of a state consist.
+    /// Forces, heat capacity and the slopes of the entropy.
     fn rates(&self, x: &Self::Variables) -> Rates<Self::Variables> {
         let (gradient, hessian) = self.hessian(x);
         let mut rates = Rates {
@@ -224,9 +220,9 @@ pub trait FreeEnergy<S: Scalar> {
         rates
     }
 
-    /// [`rates`](Self::rates) with `[s, ψ]`, J/K and J, as functions of the temperature, with the other
-    /// variables of `x`. What does not depend on the temperature is computed once. Without temperature
-    /// the argument does not matter, and s is zero.
+    /// [`rates`](Self::rates) with `[s, ψ]`, J/K and J, as functions of the temperature with the other variables of
+    /// `x`. Everything independent of the temperature is computed once. Without temperature the argument is
+    /// ignored, and s is zero.
     fn rates_at(&self, x: Self::Variables) -> impl Fn(S) -> (Rates<Self::Variables>, [S; 2]) {
         move |theta| {
             let mut x = x;
@@ -240,17 +236,16 @@ pub trait FreeEnergy<S: Scalar> {
         }
     }
 
-    /// `∂²s/∂x²`, what the ordinary rules in temperature variables need for their tangent; zero
-    /// without temperature.
+    /// `∂²s/∂x²`, for the tangent of the classical schemes in temperature variables; zero without temperature.
     fn entropy_hessian(&self, x: &Self::Variables) -> Self::Hessian;
 
     /// `η_k(θ)` and `dη_k/dθ`, N s/m and N s/(m K).
     fn viscosity(&self, theta: S) -> (Self::Viscosities, Self::Viscosities);
 
-    /// `η(θ)` and `dη/dθ` of the dashpot beside the spring, whose force is `η λ̇`, N s/m and N s/(m K).
+    /// `η(θ)` and `dη/dθ` of the dashpot in parallel with the spring, whose force is `η λ̇`, N s/m and N s/(m K).
     fn drag(&self, theta: S) -> (Self::Drag, Self::Drag);
 
-    /// What [`entropy_form`](Self::entropy_form) needs of the old state.
+    /// The values of the old state for [`entropy_form`](Self::entropy_form).
     fn entropy_form_old(&self, x0: &Self::Variables) -> Self::EntropyFormOld;
 
     /// The response in entropy form and its tangent `∂(response)/∂x¹`.
@@ -266,8 +261,7 @@ pub trait FreeEnergy<S: Scalar> {
         corners: &Self::Corners,
     ) -> (Self::Response, Self::Tangent);
 
-    /// The response of [`entropy_form`](Self::entropy_form) without the tangent: the same bits, for
-    /// less work.
+    /// The response of [`entropy_form`](Self::entropy_form) without the tangent, with the same bits and less work.
     fn entropy_form_response(
         &self,
         old: &Self::EntropyFormOld,
@@ -277,7 +271,7 @@ pub trait FreeEnergy<S: Scalar> {
         self.entropy_form(old, x1, corners).0
     }
 
-    /// What [`temperature_form`](Self::temperature_form) needs of the old state.
+    /// The values of the old state for [`temperature_form`](Self::temperature_form).
     fn temperature_form_old(&self, x0: &Self::Variables) -> Self::TemperatureFormOld;
 
     /// The response in temperature form and its tangent `∂(response)/∂x¹`
@@ -289,8 +283,8 @@ pub trait FreeEnergy<S: Scalar> {
         x1: &Self::Variables,
     ) -> (Self::Response, Self::Tangent);
 
-    /// The response of [`temperature_form`](Self::temperature_form) without the tangent: the same
-    /// bits, for less work.
+    /// The response of [`temperature_form`](Self::temperature_form) without the tangent, with the same bits and
+    /// less work.
     fn temperature_form_response(
         &self,
         old: &Self::TemperatureFormOld,
@@ -300,7 +294,7 @@ pub trait FreeEnergy<S: Scalar> {
     }
 }
 
-/// A free energy that elements can keep. Implemented for everything that qualifies.
+/// A free energy that a scene can use. Implemented for every type that qualifies.
 ///
 /// ```
 /// use eem::{FreeEnergy, Material};

@@ -38,26 +38,23 @@ pub struct Inversion<S> {
 /// x = ln θ,   S(eˣ) = s,   dS/dx = C,   x ← x − (S − s)/C
 /// ```
 ///
-/// The stable branch is the connected set of temperatures with `C > 0` around
-/// the start, normally the last accepted temperature; `S` increases on it, so
-/// that there is at most one solution. `evaluate` returns entropy, heat capacity and
-/// the sum of |terms of S|, which tells rounding noise from a residual; any
-/// units. The entropy is met to a few ε of that sum. Warm starts take 2 to 5
-/// evaluations, starts that are off by hundreds of orders of magnitude 10 to 20.
+/// The stable branch is the connected set of temperatures with `C > 0` around the start, normally the last accepted
+/// temperature. `S` increases on it, so there is at most one solution. `evaluate` returns the entropy, the heat
+/// capacity and the sum of |terms of S|, which separates rounding from a residual, in any units. The entropy is met
+/// to a few ε of that sum. A good start takes 2 to 5 evaluations, a start that is wrong by hundreds of orders of
+/// magnitude 10 to 20.
 ///
-/// The branch is known where the entropy is evaluated: an unstable range is noticed when
-/// an evaluation falls into it or finds the entropy lower behind it, but not when a step leads
-/// across it to a branch of larger entropy. Steps that are not enclosed by two
-/// evaluations begin with a factor e in the temperature at most.
+/// An unstable range is noticed if an evaluation falls into it or finds a lower entropy behind it, but not if a
+/// step jumps over it to a branch with larger entropy. Until two evaluations enclose the solution, a step changes
+/// the temperature at most by a factor e.
 ///
-/// Where plain Newton would leave what is known of the solution or stops gaining on it,
-/// a bisection takes its place (Dekker 1969; Brent 1973); where the entropy behaves
-/// like a power of the temperature, Newton's method is applied to `ln S`.
+/// Where Newton's method would leave the enclosing interval or stagnates, bisection replaces it (Dekker 1969; Brent
+/// 1973). Where the entropy behaves like a power of the temperature, Newton's method is applied to `ln S`.
 ///
 /// # Errors
 ///
-/// [`InversionError`] if the entropy is not finite, the start is not a stable
-/// temperature, or the branch does not reach the entropy.
+/// [`InversionError`] if the entropy is not finite, the start is not on a stable branch, or the branch does not
+/// reach the entropy.
 ///
 /// ```
 /// use eem::{Caloric, invert};

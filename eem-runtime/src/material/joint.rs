@@ -20,7 +20,7 @@ pub(crate) const COMPONENTS: usize = 6;
 /// Components of one without a trace.
 pub(crate) const DEVIATORIC: usize = 5;
 
-/// An invariant of the viscous strain Γ, and of E and Γ together.
+/// An invariant of the viscous strain Γ, or of E and Γ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Joint {
     /// `tr Γ`; role `ViscousTrace`.
@@ -31,8 +31,8 @@ pub enum Joint {
     Strain,
 }
 
-/// A free energy of joint invariants, which are the last of its measures. Its last viscosities are that of
-/// the deviatoric flow and, where there is a trace, that of the volumetric one.
+/// A free energy of joint invariants, which are the last of its measures. Its last viscosities are those of the
+/// deviatoric flow and, with a trace, of the volumetric flow.
 ///
 /// `#[derive(FreeEnergy)]` implements it where an argument of the formula has the role `ViscousStrain`.
 ///

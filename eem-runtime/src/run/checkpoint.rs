@@ -27,22 +27,20 @@ pub(crate) use outline::Outline;
 use seals::Sealed;
 pub(crate) use seals::Seals;
 
-/// A state of a [`Simulation`](crate::Simulation) to go on from later: values, what rounding took
-/// from them, time, step size and Newton settings.
+/// A saved state of a [`Simulation`](crate::Simulation), to resume it later: values with their compensated rounding,
+/// time, step size and settings.
 ///
-/// A run that is resumed from a checkpoint has the same bits as one that was never interrupted. The
-/// scene itself is not part of it: models, masses, conductances and loads come from the
-/// program that builds the scene again. Functions of time must then depend on nothing else. Digests
-/// of all numbers of the scene tell whether it is the same one.
+/// A resumed run has the same bits as one that was never interrupted. The scene is not part of the checkpoint: your
+/// program builds it again, with the same materials, masses, conductances and loads. Functions of time must depend on
+/// the time only. Digests of all numbers of the scene detect another scene.
 ///
-/// A checkpoint may come from a file that somebody has edited.
-/// [`restore`](crate::Simulation::restore) refuses a state that no run can have: entropies that are not those of
-/// the temperatures, anchors that are not where they must be, more carried over than rounding
-/// leaves. What follows from the steps so far cannot be edited: work and heat, what step control has learnt, and the
-/// rates of an explicit scheme; that is [`RestoreError::Edited`].
+/// A checkpoint may come from an edited file. [`restore`](crate::Simulation::restore) rejects states that no run can
+/// have: entropies that do not match the temperatures, anchors in wrong places, compensations larger than rounding.
+/// Work and heat, the history of step control and the rates of the explicit scheme cannot be edited
+/// ([`RestoreError::Edited`]).
 ///
-/// With the feature `serde` it can be written to a file and read back. The text must give back
-/// every bit of a float; for `serde_json` that is its feature `float_roundtrip`.
+/// With the feature `serde` it can be written to a file and read back. The format must preserve every bit of a
+/// number; `serde_json` does with its feature `float_roundtrip`.
 ///
 /// ```
 /// use eem::{Scene, Scheme, Simulation};

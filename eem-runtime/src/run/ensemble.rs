@@ -22,11 +22,10 @@ pub use experiment::{Experiment, Members, Outputs};
 use bundle::Bundles;
 use progress::{Progress, Watch};
 
-/// Runs of the same kind that know nothing of each other: parameter sweeps, random starts.
+/// Many independent runs: parameter sweeps, random initial states.
 ///
-/// One member of the ensemble is one scene, built from one input. With the feature `parallel` the
-/// members are spread over all cores, without it they run one by one; as no number passes from one
-/// member to another, every bit of every result is the same, for any number of threads.
+/// Each member is one scene, built from one input. With the feature `parallel` members run on all cores, otherwise
+/// one after the other. The results have the same bits for any number of threads.
 ///
 /// Stones thrown at different speeds, one of them by mistake:
 ///
@@ -78,7 +77,7 @@ impl<S: Real> fmt::Debug for Ensemble<'_, S> {
 }
 
 impl<S: Real> Ensemble<'_, S> {
-    /// An ensemble whose members are stepped by `scheme` with the time step `step`, s.
+    /// An ensemble with this scheme and step, s.
     #[must_use]
     pub fn new(scheme: Scheme, step: S) -> Self {
         Self {
@@ -90,32 +89,30 @@ impl<S: Real> Ensemble<'_, S> {
         }
     }
 
-    /// How many threads work on members; with 1 it is the calling one. Default 0: those of rayon's
-    /// pool, one for each core unless the program or `RAYON_NUM_THREADS` says otherwise. A large
-    /// scene may ask the pool for help with its own elimination, whatever is chosen here.
+    /// The number of threads; 1 is the calling thread. The default 0 means rayon's pool: one thread per core unless
+    /// the program or `RAYON_NUM_THREADS` sets it. A large scene may use more threads of the pool for its own
+    /// elimination.
     ///
-    /// Results do not depend on it. Without the feature `parallel`, or where the system refuses the
-    /// threads, it is always one.
+    /// Results do not depend on it. Without the feature `parallel`, or if the system refuses threads, it is always
+    /// one.
     #[must_use]
     pub fn threads(mut self, threads: usize) -> Self {
         self.threads = threads;
         self
     }
 
-    /// How hard the steps of all members try. Settings that cannot work are the failure of every
-    /// member.
+    /// The settings of Newton's method for all members. Invalid settings make every member fail.
     #[must_use]
     pub fn newton(mut self, settings: NewtonSettings<S>) -> Self {
         self.newton = settings;
         self
     }
 
-    /// Calls `watch` with the number of finished members and that of all members, each time one
-    /// has finished or failed: 1, 2, 3 … in this order, one call at a time, but from any thread.
+    /// Calls `watch` with the number of finished members and of all members whenever one has finished or failed: 1,
+    /// 2, 3 … in order, one call at a time, from any thread.
     ///
-    /// It decides with [`ControlFlow`] whether members that have not begun still do; those that do
-    /// not fail with [`MemberFailure::Stopped`], and those at work finish first. With several
-    /// threads it depends on chance which these are.
+    /// If it returns [`ControlFlow::Break`], members that have not begun fail with [`MemberFailure::Stopped`];
+    /// running ones finish first. With several threads it is a matter of chance which these are.
     #[must_use]
     pub fn watch<'v>(
         self,
@@ -130,23 +127,21 @@ impl<S: Real> Ensemble<'_, S> {
         }
     }
 
-    /// Runs one member for each input and returns the results in the order of the inputs.
+    /// Runs one member per input and returns the results in the order of the inputs.
     ///
-    /// `build` makes the scene of an input, and with it whatever `observe` needs to find its way
-    /// in it: the handles, or `()`. `observe` steps the simulation and returns what is to be kept of
-    /// it. Its errors are [`MemberFailure`]s, into which `?` turns those of this crate, and
-    /// [`MemberFailure::other`] any error of the caller's own.
+    /// `build` makes the scene of an input and returns it with whatever `observe` needs, usually handles, or `()`.
+    /// `observe` steps the simulation and returns a result. Its errors are [`MemberFailure`]s: `?` converts those
+    /// of this crate, and [`MemberFailure::other`] any other error.
     ///
     /// # Errors
     ///
-    /// [`MemberError`] in the place of a member whose scene is refused, whose run fails, or which
-    /// never began. The others do not notice.
+    /// [`MemberError`] for a member whose scene is rejected, whose run fails, or which never began. Other members
+    /// are not affected.
     ///
     /// # Panics
     ///
-    /// When a closure does: the panic goes on in the caller as soon as all threads have left the
-    /// members they were at. Members that had not begun may then be left out, and the other results
-    /// are lost.
+    /// If a closure panics: the panic continues in the caller once all threads have finished their present members.
+    /// Members that had not begun may be left out, and all results are lost.
     pub fn run<const D: usize, I, H, T>(
         self,
         inputs: &[I],
@@ -177,21 +172,20 @@ impl<S: Real> Ensemble<'_, S> {
 }
 
 impl Ensemble<'_> {
-    /// Runs an experiment once for each input and returns the outputs in the order of the inputs.
+    /// Runs an experiment once per input and returns the outputs in the order of the inputs.
     ///
-    /// Its results and errors are those of [`run`](Self::run) with the same scenes, to the last bit. With
-    /// the feature `lanes` four members move together, one per SIMD lane, which takes half the time as
-    /// Cargo builds by default, and less with `-C target-cpu=native`.
+    /// Results and errors are the same as those of [`run`](Self::run), to the last bit. With the feature `lanes`
+    /// four members run together in SIMD lanes, in half the time with default compiler settings, and less with `-C
+    /// target-cpu=native`.
     ///
-    /// Members that move together may need different numbers of Newton iterations. But if one of them
-    /// fails, if a correction leads it beyond the admissible states, if its elimination needs other
-    /// pivots, or if the caller asks for a decision ([`Mask::decide`]) in which they differ, all four are
-    /// run again one by one; that costs time and nothing else. Scenes of more than twelve unknowns,
+    /// Members in lanes may need different numbers of Newton iterations. If one of them fails, needs another order
+    /// of elimination, leaves the admissible states in a correction, or takes another branch ([`Mask::decide`]),
+    /// all four are run again one by one, which costs only time. Scenes with more than twelve unknowns,
     /// [`Scheme::Variational4`], recorders and events always run one by one.
     ///
     /// [`Mask::decide`]: crate::Mask::decide
     ///
-    /// Pendulums on springs of different stiffness, which is a field of the material:
+    /// Pendulums on springs whose stiffness, a field of the material, differs:
     ///
     /// ```
     /// use eem::prelude::*;

@@ -17,10 +17,10 @@ use crate::number::scalar::Real;
 
 /// The balance sheet of a scene.
 ///
-/// The schemes in entropy form, and [`EemTemperature`](crate::Scheme::EemTemperature), keep the entropy s of
-/// an element as a sum of what it receives, and find the temperature from it. That S never decreases is
-/// a statement about these sums; that they are entropies is one about the state, whose own entropies are
-/// `s(λ, γ, θ)`. Both are here, and differ by rounding:
+/// The schemes in entropy form and [`EemTemperature`](crate::Scheme::EemTemperature) store the entropy s of an
+/// element as a sum of what it receives, and compute the temperature from it. The ledger contains these sums, of
+/// which the total never falls, and also the entropies `s(λ, γ, θ)` of the model at the present state. The two
+/// differ by rounding:
 ///
 /// ```text
 /// |Σ s(λ, γ, θ) − Σ s| ≤ 4 ε Σ (|s| + Σ |∂s/∂x| |x| + c),     x = λ, γ,   c = θ ∂s/∂θ
@@ -48,32 +48,30 @@ pub struct Ledger<const D: usize, S: Real = f64> {
     pub kinetic_energy: S,
     /// `−Σ m g·q`, J.
     pub potential_energy: S,
-    /// `Σ (ψ + θ s)` of the elements, with ψ and θ of the state and the kept entropy s, J.
+    /// `Σ (ψ + θ s)` of the elements, with ψ and θ of the state and the stored entropy s, J.
     pub internal_energy: S,
-    /// Heat that the reservoirs received since the start, `Σ θ_r σ_r`, from the kept `σ_r`, J.
+    /// Heat received by the reservoirs since the start, `Σ θ_r σ_r`, with the stored `σ_r`, J.
     pub reservoir_heat: S,
-    /// Heat that dashpots of elements without temperature gave away since the start, as booked by the
-    /// steps, J.
+    /// Heat given away by dashpots of elements without temperature since the start, J.
     pub lost_heat: S,
-    /// The sum of all energies, E, J. Constant by the first law unless loads do work or
-    /// thermostats give heat.
+    /// The sum of all energies, E, J. Constant unless loads do work or thermostats supply heat.
     pub energy: S,
-    /// Work that loads and moved anchors have done since the start, as booked by the steps, J.
+    /// Work of loads and moved anchors since the start, J.
     pub work: S,
-    /// Heat that thermostats have given since the start, as booked by the steps, J.
+    /// Heat supplied by thermostats since the start, J.
     pub heat: S,
     /// `E − work − heat`, J. Constant by the first law.
     pub balance: S,
-    /// `Σ s` of the elements as kept by the steps, J/K.
+    /// `Σ s` of the elements as stored, J/K.
     pub element_entropy: S,
-    /// `Σ s(λ, γ, θ)`, the entropies of the elements that the model has in the state, J/K.
+    /// `Σ s(λ, γ, θ)` of the elements, evaluated at the present state, J/K.
     pub element_entropy_of_state: S,
-    /// `Σ σ_r`, entropy that the reservoirs received since the start, as kept by the steps, J/K.
+    /// `Σ σ_r`, the stored entropy received by the reservoirs since the start, J/K.
     pub reservoir_entropy: S,
-    /// Entropy that thermostats have received since the start, as booked by the steps, J/K.
+    /// Entropy received by the thermostats since the start, J/K.
     pub thermostat_entropy: S,
-    /// The sum of all kept entropies, S, J/K, with what rounding has taken from each of them. Never decreasing
-    /// by the second law, but for two roundings of this sum and of what was exchanged in the step.
+    /// The sum of all stored entropies, S, J/K, with compensated rounding. It never falls, except for two roundings
+    /// of this sum and of the exchange in a step.
     pub entropy: S,
     /// `Σ p`, kg m/s.
     pub linear_momentum: SVector<S, D>,

@@ -19,11 +19,11 @@ pub use quantity::{CustomQuantity, Quantity};
 /// The name of the first column.
 const TIME: &str = "time";
 
-/// Keeps the values of quantities while a simulation runs.
+/// Records quantities while a simulation runs.
 ///
-/// The first column is the time, s; the first row the state when the recorder was made. Values are
-/// in double precision whatever the scalar of the scene. Memory grows with the rows;
-/// [`reserve`](Self::reserve) asks for it beforehand.
+/// The first column is the time, s; the first row is the state when the recorder was made. Values are in double
+/// precision for every number type. Memory grows with the number of rows; [`reserve`](Self::reserve) reserves it in
+/// advance.
 ///
 /// ```
 /// use eem::{Quantity, Recorder, Scene, Scheme, Simulation};
@@ -80,7 +80,7 @@ impl Column {
         &self.name
     }
 
-    /// The unit of the values; empty for numbers without one, and where it is not known.
+    /// The unit of the values; empty if there is none or it is unknown.
     #[must_use]
     pub const fn unit(&self) -> &'static str {
         self.unit
@@ -106,7 +106,7 @@ impl Column {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RecordError {
-    /// A quantity is none of the simulation.
+    /// The simulation has no such quantity.
     #[error("quantity `{name}`: {source}")]
     Quantity {
         /// The name that it was given.
@@ -123,7 +123,7 @@ pub enum RecordError {
 }
 
 impl<const D: usize, S: Real> Recorder<D, S> {
-    /// A recorder of named quantities of `run`, which keeps the present state and then every step.
+    /// A recorder of named quantities of `run`. It records the present state, and then every step.
     ///
     /// # Errors
     ///
@@ -178,7 +178,7 @@ impl<const D: usize, S: Real> Recorder<D, S> {
         Ok(())
     }
 
-    /// The same, but keeping only every `stride`-th step; 0 is taken for 1.
+    /// Records only every `stride`-th step; 0 counts as 1.
     #[must_use]
     pub fn every(mut self, stride: usize) -> Self {
         self.stride = stride.max(1);
@@ -192,11 +192,10 @@ impl<const D: usize, S: Real> Recorder<D, S> {
         }
     }
 
-    /// Sees a step, and keeps it if its turn has come: an observer for
-    /// [`run_until`](Simulation::run_until).
+    /// Records a step if it is due. Use it as an observer in [`run_until_with`](Simulation::run_until_with).
     ///
-    /// Goes on unless `run` is not of the scene of the simulation that the recorder was made for, but of another one or
-    /// of a copy; nothing is kept then, and [`record`](Self::record) says why.
+    /// If `run` belongs to another scene or to a copy, nothing is recorded and the run stops;
+    /// [`record`](Self::record) returns the reason.
     pub fn observe(&mut self, run: &Simulation<D, S>, report: &StepReport<S>) -> ControlFlow<()> {
         self.steps += 1;
         self.iterations = self.iterations.saturating_add(report.iterations);
@@ -209,14 +208,13 @@ impl<const D: usize, S: Real> Recorder<D, S> {
         }
     }
 
-    /// Keeps the present state, whether or not its turn has come; the next turn is a full stride
-    /// later. Where the last row has this time already and no step was seen since, it is replaced: a run
-    /// may be closed with this call, whatever its stride.
+    /// Records the present state, due or not. The next step is due a full stride later. If the last row has the
+    /// same time and no step was observed since, it is replaced; so you can call this at the end of a run with any
+    /// stride.
     ///
     /// # Errors
     ///
-    /// [`SceneError::ForeignHandle`] if `run` is not of the scene of the simulation that the recorder was made
-    /// for. Nothing is kept then.
+    /// [`SceneError::ForeignHandle`] if `run` belongs to another scene than the recorder. Nothing is recorded then.
     pub fn record(&mut self, run: &Simulation<D, S>) -> Result<(), SceneError> {
         // A row has one value per quantity.
         run.part();
@@ -246,13 +244,13 @@ impl<const D: usize, S: Real> Recorder<D, S> {
         Ok(())
     }
 
-    /// All columns, as long as each other: time, then the quantities in their order.
+    /// All columns, of equal length: time, then the quantities in their order.
     #[must_use]
     pub fn columns(&self) -> &[Column] {
         &self.columns
     }
 
-    /// The values of the column of this name.
+    /// The values of the column with this name.
     #[must_use]
     pub fn column(&self, name: &str) -> Option<&[f64]> {
         let mut columns = self.columns.iter();

@@ -53,9 +53,9 @@ use control_memory::Control;
 use start::{begin_groups, initial_state, places_in, systems_of};
 use stepper::{Parts, Stepper};
 
-/// A scene that is stepped through time by one scheme.
+/// A run: a scene, a scheme and the present state.
 ///
-/// A step either succeeds, or returns an error and leaves everything as it was.
+/// A step either succeeds, or returns an error and leaves everything unchanged.
 pub struct Simulation<const D: usize, S: Real = f64> {
     scene: Lineage,
     scheme: Scheme,
@@ -108,15 +108,15 @@ impl<const D: usize, S: Real> fmt::Debug for Simulation<D, S> {
 }
 
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// Checks a scene and makes it ready to be stepped by `scheme` with the time step `step`, s.
+    /// Checks a scene and prepares it for steps of the size `step`, s, with `scheme`.
     ///
-    /// Steps have this size until [`control_steps`](Self::control_steps) is called. Those of [`Scheme::Auto`] follow
-    /// from an accuracy at once, [`Tolerance::default`] unless another one is asked for; `step` is the first that is
-    /// tried.
+    /// Steps have this size unless [`control_steps`](Self::control_steps) is called. [`Scheme::Auto`] uses step
+    /// control from the start, with [`Tolerance::default`] unless you set another; `step` is then the first size to
+    /// try.
     ///
     /// # Errors
     ///
-    /// Everything that is wrong with the scene, its initial state, the scheme or the step, and the scene as it was.
+    /// Everything that is wrong with the scene, its initial state, the scheme or the step, together with the scene.
     pub fn new(
         mut scene: Scene<D, S>,
         scheme: Scheme,
@@ -188,12 +188,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(run)
     }
 
-    /// One step of the present size, or of the one that [step control](Self::control_steps) finds.
+    /// Makes one step of the present size, or of the size that [step control](Self::control_steps) chooses.
     ///
     /// # Errors
     ///
-    /// [`StepError`] if the scheme has no new state, or Newton's method does not find it. The
-    /// simulation is then as it was before.
+    /// [`StepError`] if there is no new state, or Newton's method does not find it. The simulation is unchanged
+    /// then.
     pub fn step(&mut self) -> Result<StepReport<S>, StepError> {
         if self.control.is_some() {
             return self.controlled_step(S::from_f64(f64::INFINITY));
@@ -245,13 +245,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.scheme
     }
 
-    /// The scheme of the next step, which [`Scheme::Auto`] chooses on the way; else the scheme.
+    /// The scheme of the next step; it differs from [`scheme`](Self::scheme) for [`Scheme::Auto`].
     #[must_use]
     pub const fn scheme_in_use(&self) -> Scheme {
         self.in_use
     }
 
-    /// Number of unknowns of the global system of one Newton iteration; none for an explicit scheme.
+    /// Number of unknowns of the linear system in a Newton iteration; 0 for the explicit scheme.
     #[must_use]
     pub fn unknowns(&self) -> usize {
         self.stepper.sets() * self.layout.unknowns

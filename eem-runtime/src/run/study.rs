@@ -36,10 +36,10 @@ const REFINEMENT: u32 = 32;
 /// What is recommended for: errors that show in a picture, those of a good simulation, those of a reference.
 const ACCURACIES: [f64; 3] = [1e-2, 1e-4, 1e-6];
 
-/// Runs one scene with many settings, compares their states at the end time with two independent references,
-/// and says which setting to take.
+/// Runs one scene with many settings, compares the states at the end time with two independent references, and
+/// recommends a setting.
 ///
-/// Five lines for a scene of your own:
+/// For your own scene:
 ///
 /// ```
 /// use eem::prelude::*;
@@ -72,14 +72,14 @@ const ACCURACIES: [f64; 3] = [1e-2, 1e-4, 1e-6];
 /// # Ok::<(), eem::StudyError>(())
 /// ```
 ///
-/// Errors are relative, one for each kind of quantity, with those of the first reference below:
+/// Errors are relative, one per kind of quantity, measured from the first reference:
 ///
 /// ```text
 /// max |Δq|/|q|₂,   max |Δp|/|p|₂,   max |Δθ|/θ,   max |Δγ|/|γ|₂
 /// ```
 ///
 /// An error is stated only if the references differ by at most a hundredth of it, see
-/// [`Statement`](crate::Statement). All of the report but its wall times has the same bits in every run.
+/// [`Statement`](crate::Statement). Everything in the report except wall times has the same bits in every run.
 pub struct Study<'a, const D: usize> {
     build: Box<Build<'a, D, f64>>,
     single: Option<Box<Build<'a, D, f32>>>,
@@ -105,8 +105,8 @@ impl<const D: usize> fmt::Debug for Study<'_, D> {
 }
 
 impl<'a, const D: usize> Study<'a, D> {
-    /// A study of the scene that `build` makes, from its start to the time `end`, s. It is built anew for every
-    /// run, and has to be the same each time.
+    /// A study of the scene that `build` makes, from its start to the time `end`, s. Every run builds it again, so
+    /// it must be the same each time.
     pub fn new(build: impl Fn() -> Scene<D> + 'a, end: f64) -> Self {
         Self {
             build: Box::new(build),
@@ -121,76 +121,75 @@ impl<'a, const D: usize> Study<'a, D> {
         }
     }
 
-    /// The same scene with `f32`, for settings in single precision. A function that is generic in the scalar
-    /// makes both.
+    /// The same scene with `f32`, for settings in single precision. Write one function that is generic in the
+    /// number type.
     #[must_use]
     pub fn single(mut self, build: impl Fn() -> Scene<D, f32> + 'a) -> Self {
         self.single = Some(Box::new(build));
         self
     }
 
-    /// One more run.
+    /// Adds a setting.
     #[must_use]
     pub fn setting(self, setting: Setting) -> Self {
         self.settings([setting])
     }
 
-    /// More runs.
+    /// Adds settings.
     #[must_use]
     pub fn settings(mut self, settings: impl IntoIterator<Item = Setting>) -> Self {
         self.settings.extend(settings);
         self
     }
 
-    /// How often each setting is run for the clock, besides the run that is compared; 0 is taken for 1.
-    /// Default 3.
+    /// How often each setting is timed, in addition to the run that is compared; 0 counts as 1. The default is 3.
     #[must_use]
     pub const fn repeats(mut self, repeats: usize) -> Self {
         self.repeats = repeats;
         self
     }
 
-    /// How many times smaller than the smallest step of all settings those of the references may become.
-    /// Default 32. The first are 4 times smaller with schemes of fourth order, and 16 times with those of
-    /// second order, which scenes with solids need; each next pair halves the step.
+    /// How many times smaller than the smallest step the steps of the references may become; 32 by default. They
+    /// start 4 times smaller with schemes of order 4, and 16 times with schemes of order 2, which solids need; each
+    /// refinement halves the step.
     #[must_use]
     pub const fn refinement(mut self, factor: u32) -> Self {
         self.refinement = factor;
         self
     }
 
-    /// The accuracies to recommend settings for, as relative errors. Default 10⁻², 10⁻⁴ and 10⁻⁶.
+    /// The accuracies for which to recommend settings, as relative errors. By default 10⁻², 10⁻⁴ and 10⁻⁶.
     #[must_use]
     pub fn accuracies(mut self, accuracies: impl IntoIterator<Item = f64>) -> Self {
         self.accuracies = accuracies.into_iter().collect();
         self
     }
 
-    /// Two states at the end time to measure errors against, instead of computing them. They should come from
-    /// methods that have nothing in common: their difference is all that is known of their errors.
+    /// Uses two given states at the end time as references. They should come from independent methods, because
+    /// their difference is all that is known about their errors.
     #[must_use]
     pub fn reference(mut self, states: [EndState; 2]) -> Self {
         self.reference = Some(states);
         self
     }
 
-    /// Calls `watch` after every run with the number of steps made and of those planned. More are planned when
-    /// the references have to be refined.
+    /// Calls `watch` after every run with the number of steps made and planned. More are planned when the
+    /// references must be refined.
     #[must_use]
     pub fn watch(mut self, watch: impl FnMut(u64, u64) + 'a) -> Self {
         self.watch = Some(Box::new(watch));
         self
     }
 
-    /// Runs everything, one after the other.
+    /// Runs everything, one run after the other.
     ///
-    /// A step that fails is an outcome, not an error: its setting has no error at the end time.
+    /// A failed step is not an error of the study: its setting has no error at the end time.
     ///
     /// # Errors
     ///
-    /// [`StudyError`] if there are no settings, a step or the end time is not positive and finite, no whole
-    /// number of steps hits the end, or the scene is refused; nothing is run then, unless it is a scheme that
-    /// refuses it.
+    /// [`StudyError`] if there are no settings, a step or the end time is not positive and finite, no whole number
+    /// of steps ends at the end time, or the scene is rejected. Nothing has run then, unless a scheme rejects the
+    /// scene.
     pub fn run(mut self) -> Result<StudyReport, StudyError> {
         let courses = self.check()?;
         let mut progress = Progress::new(self.watch.take());

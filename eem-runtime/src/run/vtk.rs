@@ -19,15 +19,15 @@ use cell::{Cell, SCALARS, TENSORS, cells};
 use error::{SeriesError, at};
 use file::Grid;
 
-/// A series of states of a run in files of the Visualization Toolkit, for ParaView: one `.vtu` per time, and a `.pvd`
-/// that names them with their times. Open the latter.
+/// Writes states of a run for ParaView: one `.vtu` file per time, and a `.pvd` file that lists them. Open the
+/// latter.
 ///
-/// Points are the nodes where they are now, with `displacement` (m) from where the scene has them and `velocity` (m/s).
-/// Cells are springs, cells of solids with means over their points, and nodes that belong to neither: `temperature` (K),
-/// `internal_energy` (J, the sum), `entropy_production` (W/K, the sum), of springs `stretch` (m) and `force` (N), of solids
-/// `strain_trace` (tr E), `dilatation` (J − 1) and `von_mises` (Pa), and the tensors `strain` (E), `stress` (Cauchy's, Pa)
-/// and `viscous_strain` (Γ). What an element does not have is not a number there, and tensors that none has are left out.
-/// Scenes have at most three dimensions; values have all their digits.
+/// Points are the nodes, with `displacement` (m) relative to the scene and `velocity` (m/s). Cells are springs,
+/// cells of solids with means over their integration points, and nodes that belong to neither. Data: `temperature`
+/// (K), `internal_energy` (J, sum), `entropy_production` (W/K, sum); for springs `stretch` (m) and `force` (N); for
+/// solids `strain_trace` (tr E), `dilatation` (J − 1), `von_mises` (Pa) and the tensors `strain` (E), `stress`
+/// (Cauchy, Pa) and `viscous_strain` (Γ). Missing values are NaN; tensors that no cell has are left out. Scenes
+/// have at most three dimensions. Values have all their digits.
 ///
 /// ```no_run
 /// use eem::prelude::*;
@@ -59,8 +59,8 @@ pub struct VtkSeries<const D: usize> {
 }
 
 impl<const D: usize> VtkSeries<D> {
-    /// Files `NAME.pvd` and `NAME_00000.vtu`, … in a folder, which is made if there is none. Those of an earlier run of
-    /// the program are replaced. The scene has to have all nodes, springs and solids already.
+    /// Files `NAME.pvd` and `NAME_00000.vtu`, … in a folder, which is created if necessary. Files of an earlier run
+    /// of the program are replaced. Make the series when the scene is complete.
     pub fn new<S: Real>(
         scene: &Scene<D, S>,
         folder: impl Into<PathBuf>,
@@ -83,7 +83,7 @@ impl<const D: usize> VtkSeries<D> {
         }
     }
 
-    /// Writes the present state, and the list of all times so far.
+    /// Writes the present state and updates the list of times.
     ///
     /// ```
     /// use eem::prelude::*;
@@ -104,9 +104,9 @@ impl<const D: usize> VtkSeries<D> {
     ///
     /// # Errors
     ///
-    /// Those of the files, with their paths. [`io::ErrorKind::InvalidInput`] if `run` is not of the scene, or has nodes
-    /// or elements that the scene did not have when the series was made; if the name is empty or has a `/` or a `\`; if
-    /// another series of the program, also an earlier one, has written files of this name to the folder.
+    /// File errors, with paths. [`io::ErrorKind::InvalidInput`] if `run` belongs to another scene, or to one that
+    /// had fewer nodes or elements when the series was made; if the name is empty or contains `/` or `\`; if
+    /// another series of this program has written files with this name to the folder.
     pub fn write<S: Real>(&mut self, run: &Simulation<D, S>) -> io::Result<()> {
         self.check(run)?;
         let grid = self.grid(run).map_err(SeriesError::from)?;

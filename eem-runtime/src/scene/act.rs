@@ -12,15 +12,15 @@ use crate::scene::error::SceneError;
 use crate::scene::loads::Rocket;
 use crate::scene::rocket_error::RocketError;
 
-/// # Loads and prescribed quantities
+/// # Loads, supports and thermostats
 impl<const D: usize, S: Real> Scene<D, S> {
-    /// The acceleration of free fall that all masses feel, m/s²; zero unless set. Its potential
-    /// energy `−Σ m g·q` enters the ledger.
+    /// Gravity: the acceleration of all masses, m/s²; zero by default. Its potential energy `−Σ m g·q` is part of
+    /// the ledger.
     pub fn set_gravity(&mut self, gravity: [S; D]) {
         self.loads.gravity = gravity.into();
     }
 
-    /// A constant force on a mass, N. Its work is booked.
+    /// A constant force on a mass, N. The ledger counts its work.
     pub fn dead_load(&mut self, node: Node, force: [S; D]) {
         if let Some(axis) = force.iter().position(|component| !component.is_finite()) {
             let value = force[axis].to_f64();
@@ -30,11 +30,10 @@ impl<const D: usize, S: Real> Scene<D, S> {
         self.force(node, move |_| force);
     }
 
-    /// A force on a mass as a function of time, N of s. Its work is booked.
+    /// A force on a mass as a function of time, N of s. The ledger counts its work.
     ///
-    /// Several forces on one mass add up. Over a step the force is that in the middle of the
-    /// step; the variational integrator of fourth order takes it at both ends too, and other schemes with
-    /// stages at those.
+    /// Several forces on one mass add up. A step uses the force at its middle. Schemes with stages also use it at
+    /// the times of the stages.
     pub fn force(&mut self, node: Node, force: impl Fn(S) -> [S; D] + Send + Sync + 'static) {
         if self.expect_kind(node, true, "a force") {
             let force = move |time| SVector::from(force(time));
@@ -42,15 +41,14 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
     }
 
-    /// A rocket: a force on a mass or a node of a solid, of a size in N as a function of time in s, along the line
-    /// from one node to another, which it follows. Its work is booked.
+    /// A rocket: a force on a mass or a node of a solid along the line from one node to another, N as a function of
+    /// time in s. It turns with the line. The ledger counts its work.
     ///
     /// ```text
     /// f = F(t_m) n,   n = r_m/|r_m|,   r_m = mean of q_head − q_tail over the step
     /// ```
     ///
-    /// Over a step the thrust is that in its middle. Momenta change by what rockets and other loads give.
-    /// It is for schemes with one stage, [`EemEntropy`](crate::Scheme::EemEntropy),
+    /// A step uses the thrust at its middle. Schemes: [`EemEntropy`](crate::Scheme::EemEntropy),
     /// [`EemTemperature`](crate::Scheme::EemTemperature), [`Staggered`](crate::Scheme::Staggered) and the midpoint
     /// and trapezoidal rules.
     ///
@@ -94,18 +92,17 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
     }
 
-    /// The position of an anchor as a function of time, m of s: a road, a shaking table. The work
-    /// of the support is booked. It is asked at the ends of steps.
+    /// The position of an anchor as a function of time, m of s, for example of a shaking table. The ledger counts
+    /// the work of the support.
     ///
-    /// Where there are solids with consistent mass, anchors have velocities, which move what is beside them. They are
-    /// those of the cubic through the positions before and after a step and at its thirds, off by `O(h³)` and by
-    /// 15ε|x|/h of roundings. The first one is the derivative at t = 0, found from positions at several times within the
-    /// first step; [`SolidError::AnchorSpeed`](crate::SolidError::AnchorSpeed) says where there is none. A jump in a step leaves a velocity that depends on
-    /// where in the step it is: let what moves fast do so within several steps.
+    /// The function is evaluated at the end of each step. At t = 0 it must return the initial position of the
+    /// anchor, to rounding; otherwise the error is [`SceneError::AnchorJump`].
     ///
-    /// At t = 0 it must be where the anchor was created, to rounding: an anchor that jumps in the
-    /// first step would do work on the scene before anything moves.
-    /// [`SceneError::AnchorJump`] says by how much it is off.
+    /// Next to a solid with consistent mass an anchor also has a velocity, which accelerates neighbouring nodes. It
+    /// is the derivative of the cubic through the positions before and after a step and at its thirds; its error is
+    /// `O(h³)`, plus 15ε|x|/h of rounding. The initial velocity is the derivative at t = 0, or
+    /// [`SolidError::AnchorSpeed`](crate::SolidError::AnchorSpeed) if there is none. After a jump within a step the
+    /// velocity depends on the position of the jump in the step, so resolve fast motions by several steps.
     pub fn move_anchor(
         &mut self,
         anchor: Node,
@@ -117,18 +114,18 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
     }
 
-    /// Replaces the initial velocity of a mass by its momentum, kg m/s.
+    /// Sets the initial momentum of a mass, kg m/s, instead of its velocity.
     pub fn set_momentum(&mut self, node: Node, momentum: [S; D]) {
         if self.expect_kind(node, true, "a momentum") {
             self.nodes[node.index].momentum = Some(momentum.into());
         }
     }
 
-    /// The temperature of an element as a function of time, K of s, kept by a thermostat. The heat
-    /// and the entropy that it gives are booked.
+    /// Prescribes the temperature of an element as a function of time, K of s (a thermostat). The ledger counts the
+    /// heat and the entropy that the thermostat supplies.
     ///
-    /// The initial temperature still has to be set; it must be the prescribed one at t = 0, to
-    /// rounding. [`SceneError::TemperatureJump`] says by how much it is off.
+    /// The initial temperature must be set as well, and must equal the prescribed one at t = 0 to rounding;
+    /// otherwise the error is [`SceneError::TemperatureJump`].
     pub fn prescribe_temperature(
         &mut self,
         element: Element,
@@ -141,8 +138,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
     }
 
-    /// A constant temperature of an element, K, at which it begins and which a thermostat keeps. The heat and the
-    /// entropy that it gives are booked.
+    /// Sets the initial temperature of an element, K, and holds it there (a thermostat). The ledger counts the heat
+    /// and the entropy that the thermostat supplies.
     ///
     /// ```
     /// use eem::prelude::*;

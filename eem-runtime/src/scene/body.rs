@@ -4,8 +4,8 @@ use crate::element::handle::{Element, Node};
 use crate::element::kinematics::Shape;
 use crate::scene::mesh::{Mesh, MeshError, distance};
 
-/// A solid of a scene: its mesh, with the handles of its nodes and of the points where its free energy is
-/// evaluated. It stays with the reference configuration.
+/// A solid of a scene: its mesh and the handles of its nodes and integration points, in the reference
+/// configuration.
 #[derive(Clone, Debug)]
 pub struct Body<H: Shape<D>, const D: usize> {
     pub(super) mesh: Mesh<H, D>,
@@ -38,7 +38,7 @@ impl<H: Shape<D>, const D: usize> Body<H, D> {
         &self.mesh
     }
 
-    /// Its nodes, as in the mesh.
+    /// The handles of its nodes, in the order of the mesh.
     ///
     /// ```
     /// use eem::kinematics::Hex8;
@@ -60,7 +60,7 @@ impl<H: Shape<D>, const D: usize> Body<H, D> {
         &self.nodes
     }
 
-    /// Its points, cell after cell, the first coordinate of a cell fastest.
+    /// The handles of its integration points, cell by cell; the first coordinate of a cell varies fastest.
     ///
     /// ```
     /// use eem::kinematics::Hex8;
@@ -94,7 +94,7 @@ impl<H: Shape<D>, const D: usize> Body<H, D> {
         self.conductivity
     }
 
-    /// The nodes where a condition holds in the reference configuration.
+    /// The nodes whose position in the reference configuration satisfies a condition.
     ///
     /// ```
     /// use eem::kinematics::Hex8;
@@ -117,7 +117,7 @@ impl<H: Shape<D>, const D: usize> Body<H, D> {
         found.map(|(_, &node)| node).collect()
     }
 
-    /// The node that is at a place of the reference configuration, m, or not farther away than `within`.
+    /// The node nearest to a position of the reference configuration, m, at most `within` away.
     ///
     /// ```
     /// use eem::kinematics::Hex8;
@@ -139,7 +139,8 @@ impl<H: Shape<D>, const D: usize> Body<H, D> {
     ///
     /// # Errors
     ///
-    /// [`MeshError::NoNodeAt`] says where the nearest node is; [`MeshError::Distance`] if `within` is no distance.
+    /// [`MeshError::NoNodeAt`] contains the position of the nearest node. [`MeshError::Distance`] if `within` is
+    /// invalid.
     pub fn node_at(&self, place: [f64; D], within: f64) -> Result<Node, MeshError> {
         if within.is_nan() || within < 0.0 {
             return Err(MeshError::Distance { within });

@@ -13,16 +13,15 @@ use crate::scene::solid_error::SolidError;
 
 /// # Heat of solids
 impl<const D: usize, S: Real> Scene<D, S> {
-    /// Conducts heat between two solids, across all faces of cells that they share: whose nodes are all the
-    /// same, as [`Bulk::joined_to`](crate::Bulk::joined_to) makes them. Contact is perfect: there is no
-    /// resistance between the solids.
+    /// Conducts heat between two solids across the cell faces they share, that is, faces with all nodes in common,
+    /// as made by [`Bulk::joined_to`](crate::Bulk::joined_to). There is no contact resistance.
     ///
     /// ```text
     /// κ = t_a t_b/(t_a + t_b),   t = k |A·d|/d²     per pair of points, d from a point's centre to the face
     /// ```
     ///
-    /// Both solids need a conductivity, W/(m K). Solids of different shapes of cells share no whole face.
-    /// Every call adds paths of heat: a second one for the same two solids doubles the conductance.
+    /// Both solids need a conductivity, W/(m K), and cells of the same shape. Calling this twice for the same two
+    /// solids doubles the conductance.
     ///
     /// ```
     /// use eem::kinematics::Hex8;
@@ -98,14 +97,14 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
     }
 
-    /// Heat between some faces of a solid and a reservoir through a film with the coefficient α,
-    /// W/(m² K), and the halves of the cells behind it.
+    /// Conducts heat between some faces of a solid and a reservoir, through a film with the coefficient α, W/(m²
+    /// K), and half of the cell behind it.
     ///
     /// ```text
     /// 1/κ = 1/(α |A|) + 1/t,   t = k |A·d|/d²     per point, d from its centre to the surface
     /// ```
     ///
-    /// The solid has to have a conductivity, [`Bulk::conductivity`](crate::Bulk::conductivity).
+    /// The solid needs a conductivity, [`Bulk::conductivity`](crate::Bulk::conductivity).
     ///
     /// ```
     /// use eem::kinematics::Hex8;
@@ -157,13 +156,13 @@ impl<const D: usize, S: Real> Scene<D, S> {
         });
     }
 
-    /// Heat between some faces of a solid and a wall that has the temperature of a reservoir.
+    /// Conducts heat between some faces of a solid and a wall with the temperature of a reservoir.
     ///
     /// ```text
     /// κ = t = k |A·d|/d²     per point, d from its centre to the surface
     /// ```
     ///
-    /// The solid has to have a conductivity, [`Bulk::conductivity`](crate::Bulk::conductivity).
+    /// The solid needs a conductivity, [`Bulk::conductivity`](crate::Bulk::conductivity).
     ///
     /// ```
     /// use eem::kinematics::Hex8;

@@ -15,8 +15,8 @@ type Density<S, const D: usize> = Arc<dyn Fn(S) -> [S; D] + Send + Sync>;
 
 /// # Loads of solids
 impl<const D: usize, S: Real> Scene<D, S> {
-    /// A traction on some faces of a solid, N/m² of the reference configuration, as a function of time. It
-    /// keeps its direction; its work is booked. On fixed nodes it does nothing.
+    /// A traction on some faces of a solid, N/m² of the reference configuration, as a function of time. Its
+    /// direction does not follow the body. The ledger counts its work. It has no effect on fixed nodes.
     ///
     /// ```
     /// use eem::kinematics::Hex8;
@@ -55,8 +55,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
         self.distribute(shares.collect(), &(Arc::new(traction) as _));
     }
 
-    /// A force per volume of the reference configuration, N/m³, as a function of time. Its work is booked. On
-    /// fixed nodes it does nothing. Weights are [`set_gravity`](Self::set_gravity).
+    /// A force per reference volume, N/m³, as a function of time. The ledger counts its work. It has no effect on
+    /// fixed nodes. For weight use [`set_gravity`](Self::set_gravity).
     ///
     /// ```
     /// use eem::kinematics::Quad8;

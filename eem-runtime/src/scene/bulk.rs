@@ -5,7 +5,7 @@ use crate::number::scalar::Real;
 use crate::scene::body::Body;
 use crate::scene::joints::Joint;
 
-/// What a solid is besides its material and its mesh.
+/// The properties of a solid besides its material and mesh: density, thickness, fibres, conduction, joints.
 ///
 /// ```
 /// use eem::Bulk;
@@ -27,7 +27,7 @@ pub struct Bulk<const D: usize, S = f64> {
 }
 
 impl<const D: usize, S: Real> Bulk<D, S> {
-    /// Of some density, kg/m³, in the plane 1 m thick.
+    /// A solid with a density, kg/m³; in the plane 1 m thick.
     #[must_use]
     pub fn new(density: S) -> Self {
         Self {
@@ -41,10 +41,9 @@ impl<const D: usize, S: Real> Bulk<D, S> {
         }
     }
 
-    /// Fourier's law with a conductivity, W/(m K): paths of heat between all neighbouring points, in the
-    /// reference configuration. Without it points are insulated from each other.
+    /// Fourier's law with a conductivity, W/(m K). Without it the integration points are thermally insulated.
     ///
-    /// Cells have to be nearly rectangular, see [`Mesh::skew_faces`](crate::Mesh::skew_faces); if they are not, the scene is refused with
+    /// Cells must be nearly rectangular, see [`Mesh::skew_faces`](crate::Mesh::skew_faces); otherwise the error is
     /// [`SolidError::SkewCells`](crate::SolidError::SkewCells).
     #[must_use]
     pub fn conductivity(mut self, conductivity: f64) -> Self {
@@ -52,14 +51,15 @@ impl<const D: usize, S: Real> Bulk<D, S> {
         self
     }
 
-    /// Conducts also where cells are skew. Heat then flows along the lines of the mesh and not against the gradient
-    /// of the temperature, however fine the mesh is:
+    /// Allows conduction in skew cells. Heat then flows along the lines of the mesh instead of down the gradient of
+    /// the temperature, and refining the mesh does not help:
     ///
     /// ```text
     /// Q = −K ∇θ,   K = k Σ d̂ ⊗ d̂     d̂ the unit vectors along the lines of the mesh
     /// ```
     ///
-    /// In cells sheared by 0.3, K has 0.28 k off its diagonal. Energy is kept and entropy grows as they should.
+    /// In cells sheared by 0.3, K has off-diagonal entries of 0.28 k. Energy is still conserved and entropy still
+    /// grows.
     ///
     /// ```
     /// use eem::kinematics::Quad4;
@@ -94,25 +94,24 @@ impl<const D: usize, S: Real> Bulk<D, S> {
         self
     }
 
-    /// The direction of the next fibre, for the next argument of the role `FibreStrain`. Its length means
-    /// nothing.
+    /// The direction of the next fibre, for the next argument with the role `FibreStrain`. Its length is ignored.
     #[must_use]
     pub fn fibre(mut self, direction: [S; D]) -> Self {
         self.fibres.push(direction);
         self
     }
 
-    /// A mass per node that couples no others, instead of the consistent one: sums of rows for shapes with
-    /// corners only, shares like the diagonal for the others. It changes moments of inertia: that of a cube
-    /// of n cells per side, of corners only, is 1 + 2/n² times as large.
+    /// Uses a lumped mass instead of the consistent one: row sums for cells with corner nodes only, otherwise
+    /// masses proportional to the diagonal. This changes moments of inertia: that of a cube with n cells per side
+    /// (corner nodes only) becomes 1 + 2/n² times as large.
     #[must_use]
     pub fn lumped(mut self) -> Self {
         self.lumped = true;
         self
     }
 
-    /// Makes nodes that are at most a distance, m, away from a node of another solid that node, the nearest: joints
-    /// that transmit forces and no torques.
+    /// Joins this solid to another: a node within the distance `within`, m, of a node of the other solid becomes
+    /// that node (the nearest). Such joints transmit forces and no torques.
     ///
     /// ```
     /// use eem::kinematics::Quad4;
@@ -144,10 +143,12 @@ impl<const D: usize, S: Real> Bulk<D, S> {
     ///
     /// # Errors
     ///
-    /// [`Simulation::new`](crate::Simulation::new) returns [`SolidError::JointDistance`](crate::SolidError::JointDistance)
-    /// if the distance is none; [`SolidError::NotJoined`](crate::SolidError::NotJoined) if no node is near enough;
-    /// [`SolidError::JoinedNodes`](crate::SolidError::JoinedNodes) if cells are damaged, as two of their nodes become
-    /// one; [`SolidError::JoinedCell`](crate::SolidError::JoinedCell) if a cell would be on one of the other solid.
+    /// [`Simulation::new`](crate::Simulation::new) returns
+    /// [`SolidError::JointDistance`](crate::SolidError::JointDistance) for an invalid distance,
+    /// [`SolidError::NotJoined`](crate::SolidError::NotJoined) if no node is near enough,
+    /// [`SolidError::JoinedNodes`](crate::SolidError::JoinedNodes) if two nodes of a cell would become one, and
+    /// [`SolidError::JoinedCell`](crate::SolidError::JoinedCell) if a cell would coincide with one of the other
+    /// solid.
     #[must_use]
     pub fn joined_to<H: Shape<D>>(mut self, other: &Body<H, D>, within: f64) -> Self {
         self.joints.push(Joint::new(other, within));
@@ -156,7 +157,7 @@ impl<const D: usize, S: Real> Bulk<D, S> {
 }
 
 impl<S: Real> Bulk<2, S> {
-    /// Out of the plane, m.
+    /// The thickness out of the plane, m.
     #[must_use]
     pub fn thickness(mut self, thickness: f64) -> Self {
         self.thickness = thickness;

@@ -7,7 +7,7 @@ use crate::scene::rocket_error::RocketError;
 use crate::scene::solid_error::SolidError;
 use thiserror::Error;
 
-/// Why a scene cannot be simulated.
+/// Why a scene is rejected.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SceneError {
@@ -17,20 +17,20 @@ pub enum SceneError {
         /// The handle as text.
         handle: String,
     },
-    /// A solid is stepped by a scheme that is not for solids.
+    /// The scheme cannot step solids.
     #[error(
         "{scheme} is not for solids: their masses couple nodes, {why}; use eem-entropy or eem-temperature"
     )]
     NotForSolids {
         /// The name of the scheme.
         scheme: &'static str,
-        /// What is in the way.
+        /// The reason.
         why: &'static str,
     },
-    /// A rocket pushes in a way that makes no sense, or by a scheme that is not for rockets.
+    /// A rocket is invalid, or the scheme does not support rockets.
     #[error(transparent)]
     Rocket(#[from] RocketError),
-    /// A dashpot stands beside a spring, and the scheme has no force for it.
+    /// The scheme does not support a dashpot in parallel with a spring.
     #[error(
         "{scheme} does not step the viscosity of the stretch that {element} has; use eem-entropy or eem-temperature"
     )]
@@ -43,17 +43,17 @@ pub enum SceneError {
     /// The matrix of Newton's method and its factors do not fit in memory.
     #[error(transparent)]
     TooLarge(#[from] crate::algebra::memory::TooLarge),
-    /// A solid cannot be as it is described.
+    /// A solid is invalid.
     #[error(transparent)]
     Solid(#[from] SolidError),
-    /// Something is asked of a node of a solid that only a point mass has.
+    /// A node of a solid does not have a property of point masses.
     #[error(
         "{node} belongs to a solid, whose mass couples nodes, and cannot have {quantity}; {instead}"
     )]
     NodeOfSolid {
         /// The node.
         node: Node,
-        /// What was asked for.
+        /// The requested property.
         quantity: &'static str,
         /// What to do.
         instead: &'static str,
@@ -63,7 +63,7 @@ pub enum SceneError {
     NotASpring {
         /// The point.
         element: Element,
-        /// What was asked for.
+        /// The requested quantity.
         quantity: &'static str,
     },
     /// A coordinate is not finite.
@@ -76,14 +76,14 @@ pub enum SceneError {
         /// The coordinate, m.
         value: f64,
     },
-    /// An anchor was given what only a mass can have, or the other way round.
+    /// An anchor cannot have a property of masses, or the other way round.
     #[error("{node} cannot be given {quantity}: it is {kind}")]
     WrongKind {
         /// The node.
         node: Node,
-        /// What it was given.
+        /// The property.
         quantity: &'static str,
-        /// What it is.
+        /// The kind of the node.
         kind: &'static str,
     },
     /// The acceleration of gravity is not finite.
@@ -142,7 +142,7 @@ pub enum SceneError {
         /// The conductance, W/K.
         value: f64,
     },
-    /// A spring has no length.
+    /// Both ends of a spring are the same node.
     #[error("{element} connects {node} with itself")]
     SelfSpring {
         /// The spring.
@@ -166,19 +166,19 @@ pub enum SceneError {
         /// The element.
         element: Element,
     },
-    /// Something thermal was asked of an element whose model has no temperature.
+    /// An element has no temperature.
     #[error("{element} has no temperature: its free energy has no `Temperature` argument")]
     NotThermal {
         /// The element.
         element: Element,
     },
-    /// An element was never given a temperature.
+    /// An element has no initial temperature.
     #[error("{element} was never given a temperature, call `set_temperature`")]
     MissingTemperature {
         /// The element.
         element: Element,
     },
-    /// A viscous stretch was given for a dashpot that the model does not have.
+    /// The model does not have this dashpot.
     #[error("{element} has {dashpots} dashpot{}, there is no dashpot {dashpot}", if *dashpots == 1 { "" } else { "s" })]
     NoSuchDashpot {
         /// The element.
@@ -194,25 +194,25 @@ pub enum SceneError {
         /// The step, s.
         value: f64,
     },
-    /// A relative tolerance that is none, or that rounding does not let the scheme reach.
+    /// A relative tolerance outside (0, 1), or below the rounding floor of the scheme.
     #[error("the relative tolerance is {relative}, it must be less than 1 and, for this scheme, at least {floor:.0e}", relative = Readable(*relative))]
     Tolerance {
         /// The tolerance.
         relative: f64,
-        /// The smallest one that the scheme can be asked for.
+        /// The smallest tolerance of the scheme.
         floor: f64,
     },
     /// An absolute tolerance is negative or not finite.
     #[error("the absolute tolerance of {quantity} is {value} {unit}, it must be finite and not negative", value = Readable(*value))]
     AbsoluteTolerance {
-        /// Of what.
+        /// The quantity.
         quantity: &'static str,
         /// The tolerance.
         value: f64,
         /// Its unit.
         unit: &'static str,
     },
-    /// Limits of steps that are none, or that there is no step control to keep.
+    /// Limits of steps are invalid, or step control is off.
     #[error("steps from {smallest} to {largest} s: the smallest must be positive, the largest finite and not below it{}",
         if *is_controlled { "" } else { ", and steps must be controlled: call `control_steps` first" },
         smallest = Readable(*smallest), largest = Readable(*largest))]
@@ -221,10 +221,10 @@ pub enum SceneError {
         smallest: f64,
         /// The largest step, s.
         largest: f64,
-        /// Whether steps are controlled.
+        /// Whether step control is on.
         is_controlled: bool,
     },
-    /// The steps of the scheme must all have one size.
+    /// The scheme does not support step control.
     #[error(
         "the steps of {scheme} must have one size: its energy stays near its value only then; eem-entropy and eem-temperature keep it with any"
     )]
@@ -232,7 +232,7 @@ pub enum SceneError {
         /// The scheme.
         scheme: &'static str,
     },
-    /// Settings with which no step can succeed, or every step would.
+    /// Newton settings are invalid.
     #[error(
         "{max_iterations} iterations to a tolerance of {tolerance}: at least one iteration and a tolerance between 0 and 1 are needed", tolerance = Readable(*tolerance))]
     NewtonSettings {
@@ -276,7 +276,7 @@ pub enum SceneError {
         /// The component, N.
         value: f64,
     },
-    /// An initial flow of heat or of its entropy, or that of all paths to an element together, is not finite.
+    /// The initial heat flow or entropy flow of a conductance, or the sum at an element, is not finite.
     #[error(
         "the {quantity} from {partner} to {element} at t = 0 s is {value} {unit}, it must be finite, and so must the sum of all flows to an element",
         value = Readable(*value)
@@ -293,7 +293,7 @@ pub enum SceneError {
         /// Its unit.
         unit: &'static str,
     },
-    /// A sum over the whole scene in its initial state is not finite, though each term is.
+    /// A sum over the scene in its initial state is not finite, although each term is.
     #[error(
         "the {quantity} of the scene at t = 0 s is {value} {unit}, it must be finite: the terms of its sum are too large",
         value = Readable(*value)
@@ -306,7 +306,7 @@ pub enum SceneError {
         /// Its unit.
         unit: &'static str,
     },
-    /// The motion of an anchor does not begin where the anchor was created.
+    /// The prescribed motion of an anchor does not begin where the anchor was created.
     #[error(
         "coordinate {axis} of the motion of {node} is {prescribed} m at t = 0 s, but the anchor was created at {created} m: create it where its motion begins",
         created = Readable(*created), prescribed = Readable(*prescribed)
@@ -334,7 +334,7 @@ pub enum SceneError {
         /// The temperature that is prescribed at t = 0, K.
         prescribed: f64,
     },
-    /// The same thing is prescribed twice.
+    /// Something is prescribed twice.
     #[error("{quantity} of {handle} is prescribed twice")]
     PrescribedTwice {
         /// The handle as text.

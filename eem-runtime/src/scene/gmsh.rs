@@ -20,11 +20,10 @@ const HEX20: [usize; 20] = [
     0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15,
 ];
 
-/// What a file of Gmsh holds: nodes and elements, by the tags of the entities to which they belong. Needs the
-/// feature `gmsh`.
+/// The contents of a Gmsh file: nodes, and elements by the tags of their entities. Needs the feature `gmsh`.
 ///
-/// Read is format 4.1 in ASCII, which `gmsh -3 -format msh41 part.geo` writes. Entities have the tags that Gmsh shows;
-/// names of physical groups are not read.
+/// The format is 4.1 in ASCII, which `gmsh -3 -format msh41 part.geo` writes. Tags of entities are those shown by
+/// Gmsh; names of physical groups are not read.
 ///
 /// ```
 /// use eem::kinematics::Quad4;
@@ -52,10 +51,9 @@ impl Msh {
     ///
     /// # Errors
     ///
-    /// [`MshError::Read`] if there is none; [`MshError::Format`] if it is not of format 4.1 in ASCII;
-    /// [`MshError::Section`], [`MshError::SecondSection`], [`MshError::Unended`] or [`MshError::Outside`] if its
-    /// sections are damaged; [`MshError::Line`] for a line that is not what it has to be, also where sections hold
-    /// something else than they say of themselves.
+    /// [`MshError::Read`] if the file cannot be read; [`MshError::Format`] if it is not format 4.1 in ASCII;
+    /// [`MshError::Section`], [`MshError::SecondSection`], [`MshError::Unended`] or [`MshError::Outside`] for
+    /// damaged sections; [`MshError::Line`] for an invalid line, or a section that contradicts its header.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, MshError> {
         let path = path.as_ref();
         let bytes = std::fs::read(path).map_err(|error| MshError::Read {
@@ -76,20 +74,20 @@ impl Msh {
         Ok(Self { nodes, blocks })
     }
 
-    /// All cells of a shape; lengths in the file are m.
+    /// All cells of a shape. Lengths in the file are in m.
     ///
     /// # Errors
     ///
-    /// [`MshError::WrongElement`] if some elements of its dimension have another shape, [`MshError::NoElements`] if
-    /// there are none; [`MshError::NoNode`] and [`MshError::Orphan`] for nodes without place or element;
-    /// [`MshError::Plane`] for a mesh in the plane that is not in one of constant z; what is wrong with a
-    /// [`Mesh`] as [`MshError::Element`], [`MshError::Elements`], [`MshError::Duplicate`] or [`MshError::Mesh`].
+    /// [`MshError::WrongElement`] for elements of the same dimension with another shape; [`MshError::NoElements`]
+    /// if there are none; [`MshError::NoNode`] and [`MshError::Orphan`] for nodes without position or element;
+    /// [`MshError::Plane`] for a plane mesh that does not have a constant z; errors of the [`Mesh`] as
+    /// [`MshError::Element`], [`MshError::Elements`], [`MshError::Duplicate`] or [`MshError::Mesh`].
     pub fn mesh<H: Shape<D>, const D: usize>(&self) -> Result<Mesh<H, D>, MshError> {
         self.check_orphans()?;
         self.mesh_from(|_| true, None)
     }
 
-    /// The cells of a shape that belong to some volumes, in the plane surfaces, with these tags.
+    /// The cells of a shape that belong to the volumes (in the plane, surfaces) with these tags.
     ///
     /// ```
     /// use eem::kinematics::Quad4;
@@ -125,11 +123,12 @@ impl Msh {
         )
     }
 
-    /// The faces of the surface of a mesh of this file that belong to a surface, in the plane a line, with a tag.
+    /// The faces on the surface of a mesh of this file that belong to the surface (in the plane, line) with this
+    /// tag.
     ///
     /// # Errors
     ///
-    /// [`MshError::NoFace`] if there are none, also if the mesh has been moved since it was read.
+    /// [`MshError::NoFace`] if there are none, or if the mesh has been moved since it was read.
     pub fn face<H: Shape<D>, const D: usize>(
         &self,
         mesh: &Mesh<H, D>,
@@ -247,7 +246,7 @@ impl Msh {
 }
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
-    /// All cells of this shape of a file of Gmsh, whose lengths are m; [`Msh`] has parts of it and its faces. Needs the
+    /// All cells of this shape in a Gmsh file, whose lengths are in m. For parts and faces use [`Msh`]. Needs the
     /// feature `gmsh`.
     ///
     /// ```

@@ -5,11 +5,12 @@ use crate::number::scalar::Real;
 use crate::scene::Scene;
 
 impl<const D: usize, S: Real> Scene<D, S> {
-    /// The most memory, bytes, that the matrix of Newton's method and its factors may take each time they are needed;
-    /// without a limit, what the machine has available when the simulation begins.
+    /// Limits the memory of the matrix of Newton's method and its factors, bytes. Without a limit it is the memory
+    /// available when the simulation begins.
     ///
-    /// Factors of solids in space take by far the most of all: about 16 GB for a block of 50³ cells of eight nodes.
-    /// What does not fit is refused before it is reserved, as [`SceneError::TooLarge`](crate::SceneError::TooLarge).
+    /// The factors of solids in space need most: about 16 GB for a block of 50³ cells with eight nodes. A scene
+    /// that does not fit is rejected before memory is reserved, with
+    /// [`SceneError::TooLarge`](crate::SceneError::TooLarge).
     ///
     /// ```
     /// use eem::TooLarge;

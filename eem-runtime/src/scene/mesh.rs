@@ -27,15 +27,16 @@ use nalgebra::{Rotation, SVector};
 
 use crate::element::kinematics::Shape;
 
-/// Cells of the shape `H` in `D` dimensions: [`Quad4`](crate::kinematics::Quad4),
-/// [`Quad8`](crate::kinematics::Quad8), [`Hex8`](crate::kinematics::Hex8) or
-/// [`Hex20`](crate::kinematics::Hex20). It is sound: `det ∂X/∂ξ` of every cell is positive at its points and its
-/// nodes, every node belongs to a cell, no two are in one place, no two cells have the same nodes, and at most two,
-/// from either side, share a face (in the plane an edge).
+/// A mesh of cells of the shape `H` in `D` dimensions: [`Quad4`](crate::kinematics::Quad4),
+/// [`Quad8`](crate::kinematics::Quad8), [`Hex8`](crate::kinematics::Hex8) or [`Hex20`](crate::kinematics::Hex20).
 ///
-/// Middles of edges may be off the centre, as long as `det ∂X/∂ξ` stays positive at the nodes, up to a quarter of the
-/// edge on one that is straight. *At* a quarter it is zero at the corner: such cells, which have singular strain
-/// there, are refused, as are corners where two edges go on in one line.
+/// Every mesh is valid: `det ∂X/∂ξ` of every cell is positive at its integration points and nodes, every node
+/// belongs to a cell, no two nodes coincide, no two cells have the same nodes, and at most two cells share a face
+/// (in the plane an edge), one on each side.
+///
+/// Mid-side nodes may be off the middle as long as `det ∂X/∂ξ` stays positive at the nodes: on a straight edge by
+/// less than a quarter of its length. Quarter-point cells, with singular strain at the corner, are rejected, as are
+/// corners of 180°.
 ///
 /// ```
 /// use eem::kinematics::Hex20;
@@ -56,7 +57,7 @@ pub struct Mesh<H: Shape<D>, const D: usize> {
 }
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
-    /// Nodes, m, and for each cell the indices of its nodes in the order of VTK.
+    /// A mesh from nodes, m, and for each cell the indices of its nodes in the order of VTK.
     ///
     /// ```
     /// use eem::kinematics::Quad4;
@@ -72,7 +73,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     ///
     /// # Errors
     ///
-    /// [`MeshError`] names the first node or cell that is wrong.
+    /// [`MeshError`] names the first invalid node or cell.
     pub fn new(nodes: Vec<[f64; D]>, cells: Vec<H::PerNode<usize>>) -> Result<Self, MeshError> {
         check::check::<H, D>(&nodes, &cells)?;
         let digest = Digest::of(&nodes, &cells);
@@ -83,7 +84,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         })
     }
 
-    /// Where the nodes are, m.
+    /// The positions of the nodes, m.
     #[must_use]
     pub fn nodes(&self) -> &[[f64; D]] {
         &self.nodes
@@ -95,16 +96,16 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         &self.cells
     }
 
-    /// The same, moved by a vector, m.
+    /// The mesh moved by a vector, m.
     ///
     /// # Errors
     ///
-    /// If a place is not finite, or two places become one by rounding.
+    /// If a coordinate is not finite, or two nodes coincide after rounding.
     pub fn translated(&self, by: [f64; D]) -> Result<Self, MeshError> {
         self.mapped(|place| core::array::from_fn(|axis| place[axis] + by[axis]))
     }
 
-    /// The same, turned about the origin.
+    /// The mesh rotated about the origin.
     ///
     /// ```
     /// use core::f64::consts::PI;
@@ -120,12 +121,12 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     ///
     /// # Errors
     ///
-    /// If two places become one by rounding.
+    /// If two nodes coincide after rounding.
     pub fn rotated(&self, by: &Rotation<f64, D>) -> Result<Self, MeshError> {
         self.mapped(|place| (by.matrix() * SVector::from(place)).into())
     }
 
-    /// The same with every place mapped to another one.
+    /// The mesh with every node moved by a function.
     ///
     /// ```
     /// use eem::kinematics::Quad4;
@@ -140,13 +141,13 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     ///
     /// # Errors
     ///
-    /// If a cell becomes inside out, a place is not finite, or two become one.
+    /// If a cell becomes inverted, a coordinate is not finite, or two nodes coincide.
     pub fn mapped(&self, map: impl Fn([f64; D]) -> [f64; D]) -> Result<Self, MeshError> {
         let nodes = self.nodes.iter().map(|&place| map(place)).collect();
         Self::new(nodes, self.cells.clone())
     }
 
-    /// The cells whose centre, the mean of their nodes, satisfies a condition, and their nodes.
+    /// The cells whose centre, the mean of their nodes, satisfies a condition; the rest is cut away.
     ///
     /// ```
     /// use eem::kinematics::Quad4;
@@ -160,7 +161,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     ///
     /// # Errors
     ///
-    /// [`MeshError::Empty`] if there are none.
+    /// [`MeshError::Empty`] if there are no such cells.
     pub fn kept(&self, condition: impl Fn([f64; D]) -> bool) -> Result<Self, MeshError> {
         let cells = self
             .cells

@@ -20,10 +20,10 @@ use crate::scene::solid_error::SolidError;
 
 /// # Solids from meshes
 impl<const D: usize, S: Real> Scene<D, S> {
-    /// A solid at rest, free of strain where its mesh is: in space, or in plane strain.
+    /// A solid with this mesh, strain-free and at rest; in the plane in plane strain.
     ///
-    /// Every point has a temperature and viscous strains of its own; handles of points are what
-    /// [`conduct`](Self::conduct) and [`set_temperature`](Self::set_temperature) take. Schemes are those of
+    /// Each integration point has its own temperature and viscous strains; its handle is for
+    /// [`conduct`](Self::conduct), [`set_temperature`](Self::set_temperature) and others. The schemes are those for
     /// a [`quadrilateral`](Scene::quadrilateral).
     ///
     /// ```
@@ -162,7 +162,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         Ok(())
     }
 
-    /// Replaces the initial velocity of a node, m/s, or its momentum. Anchors have none.
+    /// Sets the initial velocity of a node, m/s, instead of its momentum. Not for anchors.
     ///
     /// ```
     /// use eem::kinematics::Hex8;
@@ -200,10 +200,10 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
     }
 
-    /// Makes a node an anchor, which stays where it is unless it is [moved](Self::move_anchor).
+    /// Makes a node an anchor, which stays in place unless [`move_anchor`](Self::move_anchor) moves it.
     ///
-    /// Its mass, and what it has in common with nodes that move, stays that of the solid: half of the weight of a cell
-    /// that stands on four fixed nodes hangs on the others, and to move it takes work.
+    /// Its mass remains part of the solid: half of the weight of a cell that stands on four fixed nodes is carried
+    /// by the others, and moving the node takes work.
     ///
     /// ```
     /// use eem::kinematics::Hex8;

@@ -10,11 +10,11 @@ use crate::scene::error::SceneError;
 /// The message names so many errors, and how many more there are.
 const MOST_NAMED: usize = 20;
 
-/// A scene that [`Simulation::new`](crate::Simulation::new) refuses, and what is wrong with it: of every part (the
-/// parameters of an element, its initial state, a section) the first error. Initial states are looked at once all
-/// numbers are right.
+/// A scene that [`Simulation::new`](crate::Simulation::new) rejects, and its errors: the first error of each part
+/// (the parameters of an element, its initial state, a section). Initial states are checked once all numbers are
+/// valid.
 ///
-/// The first error stands for all where a [`SceneError`] is wanted, so that `?` turns one into the other.
+/// `?` converts it to its first [`SceneError`].
 ///
 /// ```
 /// use eem::prelude::*;
@@ -45,7 +45,7 @@ impl<const D: usize, S: Real> RefusedScene<D, S> {
         Self { scene, errors }
     }
 
-    /// What is wrong, one error at least.
+    /// All errors, at least one.
     #[must_use]
     pub fn errors(&self) -> &[SceneError] {
         &self.errors

@@ -7,24 +7,23 @@ use crate::material::free_energy::FreeEnergy;
 use crate::number::scalar::Real;
 use crate::scene::cell::Stuff;
 
-/// What a solid in the plane is besides its material and its corners.
+/// The properties of a quadrilateral besides its material and corners.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Section<S = f64> {
     /// ρ, kg/m³.
     pub density: S,
-    /// Out of the plane, m.
+    /// Thickness out of the plane, m.
     pub thickness: S,
 }
 
 /// # Nodes of solids
 impl<const D: usize, S: Real> Scene<D, S> {
-    /// A node that moves and has no mass of its own: solids give it theirs. Position in m, velocity in m/s.
+    /// A node that moves and gets its mass from solids. Position in m, velocity in m/s.
     pub fn node(&mut self, position: [S; D], velocity: [S; D]) -> Node {
         self.push_node(Some(S::zero()), position, velocity)
     }
 
-    /// Replaces the initial position of a node, m. Solids keep the shape that they were created with,
-    /// so that they start deformed.
+    /// Sets the initial position of a node, m. Solids keep their reference shape, so they start deformed.
     pub fn set_position(&mut self, node: Node, position: [S; D]) {
         if self.expect_own(&node) {
             self.nodes[node.index].position = position.into();
@@ -34,16 +33,15 @@ impl<const D: usize, S: Real> Scene<D, S> {
 
 /// # Solids in the plane
 impl<S: Real> Scene<2, S> {
-    /// A quadrilateral of a solid in plane strain, whose corners are nodes, against the clock; returns its
-    /// points, at each of which the free energy per volume is evaluated, the first coordinate fastest.
+    /// A quadrilateral of a solid in plane strain with four nodes as corners, counterclockwise. Returns its
+    /// integration points; the first coordinate varies fastest.
     ///
-    /// Where the nodes are now it is free of strain. A point has a temperature and viscous strains of its
-    /// own, and handles of points are what [`conduct`](Self::conduct) and
-    /// [`set_temperature`](Self::set_temperature) take. Its mass is consistent, `∫ ρ N_a N_b dV`: it
-    /// couples nodes, so that [`Scheme::EemEntropy`](crate::Scheme::EemEntropy),
-    /// [`EemTemperature`](crate::Scheme::EemTemperature),
-    /// [`Staggered`](crate::Scheme::Staggered) and the midpoint and trapezoidal rules can step it.
-    /// Corners may be anchors; those stay where they are.
+    /// The present positions of the nodes are the strain-free shape. Each point has its own temperature and viscous
+    /// strains; its handle is for [`conduct`](Self::conduct), [`set_temperature`](Self::set_temperature) and
+    /// others. The mass is consistent, `∫ ρ N_a N_b dV`, so it couples nodes:
+    /// [`Scheme::EemEntropy`](crate::Scheme::EemEntropy), [`EemTemperature`](crate::Scheme::EemTemperature),
+    /// [`Staggered`](crate::Scheme::Staggered) and the midpoint and trapezoidal rules can step it. Corners may be
+    /// anchors.
     ///
     /// ```
     /// use eem::prelude::*;

@@ -6,7 +6,7 @@ use crate::element::handle::{Element, Node};
 use crate::number::readable::Readable;
 use crate::scene::mesh::MeshError;
 
-/// Why a solid cannot be as it is described.
+/// Why a solid is rejected.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SolidError {
@@ -24,7 +24,7 @@ pub enum SolidError {
         /// The element.
         element: Element,
     },
-    /// A cell of a solid is inside out at a point of its reference configuration, or has no volume there.
+    /// A cell is inverted or has no volume at a point of its reference configuration.
     #[error(
         "det dX/dxi of the solid at {element} is {value} {unit}, it must be positive and finite: give its {order}",
         value = Readable(*value)
@@ -39,19 +39,19 @@ pub enum SolidError {
         /// How nodes are ordered.
         order: &'static str,
     },
-    /// A solid has more or fewer directions of fibres than its free energy has strains of fibres.
+    /// The number of fibre directions does not match the free energy.
     #[error(
         "the free energy of the solid at {element} has {needed} strains of fibres, and {given} directions are given: add the mesh by `Scene::solid` with one `Bulk::fibre` each"
     )]
     Fibres {
         /// Its first point.
         element: Element,
-        /// How many the free energy has.
+        /// The number in the free energy.
         needed: usize,
-        /// How many are given.
+        /// The number of directions.
         given: usize,
     },
-    /// A motion that a solid follows has no velocity at t = 0.
+    /// The prescribed motion of a node of a solid has no velocity at t = 0.
     #[error(
         "coordinate {axis} of the motion of {node} has no finite velocity at t = 0 s, which the solid there needs: give it finite positions from t = 0 s on"
     )]
@@ -61,13 +61,13 @@ pub enum SolidError {
         /// The axis, from 0.
         axis: usize,
     },
-    /// Heat is to pass the surface of a solid that conducts none.
+    /// A solid with heat exchange through its surface has no conductivity.
     #[error("the solid at {element} has no conductivity: give it one by `Bulk::conductivity`")]
     NoConductivity {
         /// Its first point.
         element: Element,
     },
-    /// A solid has a conductivity and no temperature.
+    /// A solid has a conductivity but no temperature.
     #[error(
         "the solid at {element} has a conductivity, but no temperature: leave `Bulk::conductivity` out, or take a free energy with an argument `Temperature`"
     )]
@@ -75,23 +75,23 @@ pub enum SolidError {
         /// Its first point.
         element: Element,
     },
-    /// Cells of a solid that conducts are so skew that heat would flow in wrong directions.
+    /// The cells of a conducting solid are too skew: heat would flow in wrong directions.
     #[error(
         "the cells of the solid at {element} are too skew for its conductivity: heat crosses {skew} of {faces} faces between points at a cosine |A·d|/(|A||d|) below 0.95, the worst in cell {cell} at {cosine:.3}, and one in twenty may; use cells that are nearly rectangular, or accept wrong directions of heat by `Bulk::allow_skew_cells`"
     )]
     SkewCells {
         /// Its first point.
         element: Element,
-        /// How many faces between points are skew.
+        /// The number of skew faces between points.
         skew: usize,
-        /// How many there are.
+        /// The number of all faces between points.
         faces: usize,
-        /// The cosine between the worst one's normal and its path of heat.
+        /// The cosine between the normal and the heat path of the worst face.
         cosine: f64,
-        /// The cell, from 0, of the worst one.
+        /// The cell with the worst face, from 0.
         cell: usize,
     },
-    /// Heat is to pass between two solids that share no whole face.
+    /// Two solids with heat conduction between them share no whole face.
     #[error(
         "the solids at {first} and {second} share no whole face that heat could pass: join all nodes of a face by `Bulk::joined_to`, and give both the same cells there",
         first = elements[0], second = elements[1]
@@ -100,7 +100,7 @@ pub enum SolidError {
         /// Their first points.
         elements: [Element; 2],
     },
-    /// Nodes of a solid are to be joined within what is no distance.
+    /// The distance for a joint is invalid.
     #[error(
         "the solid at {first} is joined to that at {second} within {within} m (`Bulk::joined_to`), which must be finite and not negative",
         first = elements[0], second = elements[1], within = Readable(*within)
@@ -111,7 +111,7 @@ pub enum SolidError {
         /// m.
         within: f64,
     },
-    /// No node of a solid is near enough to another one to be joined to it.
+    /// No node is near enough to join two solids.
     #[error(
         "no node of the solid at {first} is within {within} m of one of the solid at {second}, to which it is joined (`Bulk::joined_to`): the nearest are {nearest} m apart; move its mesh, or join within a larger distance",
         first = elements[0], second = elements[1], within = Readable(*within), nearest = Readable(*nearest)
@@ -124,7 +124,7 @@ pub enum SolidError {
         /// The least distance of two of their nodes, m.
         nearest: f64,
     },
-    /// Cells of a solid are damaged where its nodes become those of others.
+    /// Joining would damage cells of a solid.
     #[error(
         "the solid at {element} is joined within {within} m (`Bulk::joined_to`), and with its nodes where those are that they become, {error}: join within a smaller distance, or move its mesh",
         within = Readable(*within)
@@ -134,10 +134,10 @@ pub enum SolidError {
         element: Element,
         /// m, the largest if there are several.
         within: f64,
-        /// What is wrong with its mesh then.
+        /// The error of the joined mesh.
         error: MeshError,
     },
-    /// A cell of a solid is on one of a solid that it is joined to.
+    /// Joining would put a cell onto one of the other solid.
     #[error(
         "cell {cell} of the solid at {first} is joined (`Bulk::joined_to`) to all nodes of the cell at {second}, and would be in its place: move its mesh",
         first = elements[0], second = elements[1]
@@ -148,7 +148,7 @@ pub enum SolidError {
         /// The first points of the solid, and of the other cell.
         elements: [Element; 2],
     },
-    /// A face is not of the mesh of a solid.
+    /// A face does not belong to the mesh of the solid.
     #[error(
         "the face is not of the mesh of the solid at {element}: take it from its own mesh, by `Body::mesh` and `Mesh::face`; a mesh that has been moved or refined has faces of its own"
     )]
@@ -156,25 +156,25 @@ pub enum SolidError {
         /// Its first point.
         element: Element,
     },
-    /// A direction of a fibre has no finite length but zero.
+    /// The direction of a fibre is zero or not finite.
     #[error("the direction of a fibre of the solid at {element} must be finite and not zero")]
     Fibre {
         /// Its first point.
         element: Element,
     },
-    /// A density, a thickness, a conductivity or the coefficient of a film is not positive and finite.
+    /// A density, thickness, conductivity or film coefficient is not positive and finite.
     #[error("the {quantity} of the solid at {element} is {value} {unit}, it must be positive and finite", value = Readable(*value))]
     Section {
         /// Its first point.
         element: Element,
-        /// Which one.
+        /// The quantity.
         quantity: &'static str,
         /// Its value.
         value: f64,
         /// Its unit.
         unit: &'static str,
     },
-    /// A viscous strain is not symmetric, or in plane strain leaves the plane.
+    /// A viscous strain is not symmetric, or has shear out of the plane in plane strain.
     #[error(
         "the viscous strain of {element} has {first} in row {row}, column {column} and {second} across the diagonal: it must be symmetric{plane}",
         row = place[0], column = place[1], first = Readable(values[0]), second = Readable(values[1]),
@@ -185,9 +185,9 @@ pub enum SolidError {
         element: Element,
         /// Row and column, from 0.
         place: [usize; 2],
-        /// There and across the diagonal.
+        /// The two values that must be equal.
         values: [f64; 2],
-        /// Whether the strain is plane.
+        /// Whether this is plane strain.
         is_plane: bool,
     },
 }

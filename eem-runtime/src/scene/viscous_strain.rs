@@ -6,12 +6,12 @@ use crate::material::joint::components;
 use crate::number::scalar::{Mask, Real};
 use crate::scene::solid_error::SolidError;
 
-/// # Solids whose shape flows
+/// # Viscous strains of solids
 impl<const D: usize, S: Real> Scene<D, S> {
-    /// The initial viscous strain Γ at a point of a solid; zero unless set. Only its symmetric part counts and,
-    /// without a volumetric viscosity, only its deviator, as Γ has no trace then.
+    /// The initial viscous strain Γ at a point of a solid; zero by default. Only its symmetric part counts and,
+    /// without a volumetric viscosity, only its deviator.
     ///
-    /// The free energy needs an argument with the role `ViscousStrain`; otherwise the scene is refused with
+    /// The free energy needs an argument with the role `ViscousStrain`; otherwise the error is
     /// [`SolidError::NoViscousStrain`].
     ///
     /// ```

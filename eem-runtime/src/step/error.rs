@@ -13,7 +13,7 @@ use crate::number::scalar::Discord;
 use crate::step::law::Law;
 use crate::step::newton::NewtonIteration;
 
-/// Why a step found no new state.
+/// Why a step failed.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StepFailure {
@@ -37,7 +37,7 @@ pub enum StepFailure {
         /// The largest scaled update of the last iteration.
         update: f64,
     },
-    /// The step that was found breaks a law of its scheme by more than rounding can.
+    /// The step violates a law of its scheme by more than rounding explains.
     #[error(
         "{law} at t = {time} s is off by {defect:.3e} {unit}, where rounding explains {bound:.1e} {unit}{}; a smaller step may do",
         element.map_or_else(String::new, |element| format!(" (most of it in {element})")),
@@ -45,19 +45,19 @@ pub enum StepFailure {
     LawNotKept {
         /// The law.
         law: Law,
-        /// By how much it is broken, in the unit of the law.
+        /// The violation, in the unit of the law.
         defect: f64,
-        /// What rounding explains, in the same unit.
+        /// The bound for rounding, in the same unit.
         bound: f64,
         /// The element that contributes most, if the law holds element by element.
         element: Option<Element>,
         /// The time at the end of the step, s.
         time: f64,
     },
-    /// The energy of the new state is infinite or not a number, in a scheme that promises no law.
+    /// The energy of the new state is infinite or NaN, in a scheme that proves no law.
     #[error("the energy at t = {} s is off by {value} J", Readable(*time))]
     Energy {
-        /// What the balance of energy is off by, J.
+        /// The defect of the energy balance, J.
         value: f64,
         /// The time at the end of the step, s.
         time: f64,
@@ -128,11 +128,11 @@ pub enum StepFailure {
         /// The time, s.
         time: f64,
     },
-    /// The step of an explicit scheme is longer than the fastest motion allows.
+    /// The step is beyond the stability limit of the explicit scheme.
     #[error(
         "{rate} is {product:.1} in the explicit step to t = {time} s, it is stable up to {limit}; take a step of at most {longest:.1e} s, or the implicit scheme {scheme}", time = Readable(*time))]
     Unstable {
-        /// What is fast: `ωh` of a vibration, `κh/c` of conduction, `kh/η` of a dashpot.
+        /// The fastest process: `ωh` of a vibration, `κh/c` of conduction, `kh/η` of a dashpot.
         rate: &'static str,
         /// Its rate times the step.
         product: f64,
@@ -155,30 +155,30 @@ pub enum StepFailure {
         heat_capacity: f64,
         /// Its temperature at the start of the step, K.
         temperature: f64,
-        /// The name of a scheme that may do.
+        /// The name of a scheme that may work.
         scheme: &'static str,
         /// The time at the end of the step, s.
         time: f64,
     },
-    /// An explicit step misses the energy by more than its accuracy explains.
+    /// The energy error of an explicit step is larger than its accuracy explains.
     #[error(
         "the explicit step to t = {time} s misses the energy by {correction:.1e} of its terms, {limit:.0e} is allowed; take a shorter step", time = Readable(*time))]
     Correction {
-        /// What the energy was off by, relative to its terms.
+        /// The energy error, relative to the energy terms.
         correction: f64,
         /// The largest that is allowed.
         limit: f64,
         /// The time at the end of the step, s.
         time: f64,
     },
-    /// A connected body has neither heat nor motion that could take up what an explicit step misses of its energy: it is
-    /// at rest, or turns rigidly.
+    /// A connected body has neither heat nor motion for the energy correction of an explicit step: it is at rest,
+    /// or rotates rigidly.
     #[error(
         "the explicit step to t = {time} s has {:.3e} J {}, which neither the heat nor the motion of this step can {}; take another step size, or an implicit scheme such as eem-temperature",
         defect.abs(), if *defect < 0.0 { "too much" } else { "too little" }, if *defect < 0.0 { "take" } else { "give" },
         time = Readable(*time))]
     NotClosed {
-        /// What is missing, J.
+        /// The missing energy, J.
         defect: f64,
         /// The time at the end of the step, s.
         time: f64,
@@ -189,42 +189,42 @@ pub enum StepFailure {
         /// The time, s.
         value: f64,
     },
-    /// Step control would need smaller steps than it may take.
+    /// Step control needs a smaller step than allowed.
     #[error("steps of less than {smallest} s would be needed: {limit}{}", too_large.map_or_else(String::new, |error| format!("; no other scheme could be tried: {error}")), smallest = Readable(*smallest))]
     TooSmall {
         /// The smallest step that is allowed, s.
         smallest: f64,
         /// Why the last one was rejected.
         limit: StepLimit,
-        /// What another scheme would have taken that [`Scheme::Auto`](crate::Scheme::Auto) could not try.
+        /// Memory needed by another scheme that [`Scheme::Auto`](crate::Scheme::Auto) could not try.
         too_large: Option<TooLarge>,
     },
-    /// A run cannot end then.
+    /// The end time of a run is invalid.
     #[error("the end time is {end} s, it must be a number and not lie before the present time", end = Readable(*end))]
     End {
         /// The end time, s.
         end: f64,
     },
-    /// An event cannot be located so sharply.
+    /// The tolerance of an event is invalid.
     #[error("the tolerance of event {event} is {value} s, it must not be negative", value = Readable(*value))]
     EventTolerance {
-        /// Its place in the list.
+        /// Its index in the list.
         event: usize,
         /// The tolerance, s.
         value: f64,
     },
-    /// The function whose change of sign is an event has no sign.
+    /// The function of an event is not a number.
     #[error(
         "the function of event {event} is not a number, it must be one in every state of the run"
     )]
     EventFunction {
-        /// Its place in the list.
+        /// Its index in the list.
         event: usize,
     },
-    /// The function whose change of sign is an event has failed.
+    /// The function of an event returned an error.
     #[error("the function of event {event} failed: {reason}")]
     EventError {
-        /// Its place in the list.
+        /// Its index in the list.
         event: usize,
         /// The message of its error.
         reason: String,
@@ -237,11 +237,11 @@ pub enum StepFailure {
         /// How many there are.
         expected: usize,
     },
-    /// Members that are stepped together would go on differently, or one of them has failed before; the
-    /// ensemble runs them one by one.
+    /// Members in SIMD lanes take different branches, or one of them has failed before; the ensemble runs them one
+    /// by one.
     #[error(transparent)]
     Discord(#[from] Discord),
-    /// An element has no admissible state where Newton's method leads.
+    /// Newton's method leads to an inadmissible state of an element.
     #[error(transparent)]
     State(#[from] StateError),
 }
@@ -312,7 +312,7 @@ impl core::fmt::Display for StepError {
 
 impl core::error::Error for StepError {}
 
-/// Why step control has rejected a step.
+/// Why step control rejected a step.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum StepLimit {
@@ -322,24 +322,24 @@ pub enum StepLimit {
         /// In units of the tolerance.
         error: f64,
     },
-    /// There was no new state, or it did not prove its laws.
+    /// There was no new state, or the step did not prove its laws.
     #[error("{0}")]
     Failure(Box<StepFailure>),
 }
 
-/// A step that failed. The simulation is as it was before.
+/// A failed step. The simulation is unchanged.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepError {
     /// The time at which the step began, s.
     pub time: f64,
     /// The time step, s.
     pub step: f64,
-    /// Why it failed; the message has it, so that it is no `source` of its own.
+    /// Why it failed. It is part of the message, so it is not the `source`.
     pub failure: StepFailure,
-    /// A shorter step, s, that can be made instead, found by trying; none if steps are controlled, if the failure is
-    /// not one of a step, or if none of its halves down to a thousandth can be made.
+    /// A shorter step, s, that was tried and works; `None` with step control, if no step failed, or if none of the
+    /// halves down to a thousandth works.
     pub shorter: Option<f64>,
-    /// What each iteration of each attempt did; [`NewtonSettings::max_iterations`](crate::NewtonSettings)
-    /// is the limit of one attempt.
+    /// The iterations of all attempts. [`NewtonSettings::max_iterations`](crate::NewtonSettings) is the limit of
+    /// one attempt.
     pub history: Box<[NewtonIteration]>,
 }

@@ -1,6 +1,6 @@
 //! What exact schemes keep in every step.
 
-/// A law that an exact scheme keeps in every step.
+/// A law that an exact scheme proves in every step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Law {
@@ -10,9 +10,9 @@ pub enum Law {
     LinearMomentum,
     /// The balance of angular momentum of the scene, kg m²/s.
     AngularMomentum,
-    /// Every dashpot and every path of heat produces entropy, J/K.
+    /// Every dashpot and every conductance produces entropy, J/K.
     Production,
-    /// The entropy that is kept is that of the temperature, `s = s(λ, γ, θ)`, J/K.
+    /// The stored entropy matches the temperature, `s = s(λ, γ, θ)`, J/K.
     KeptEntropy,
 }
 

@@ -2,11 +2,10 @@
 
 use crate::number::scalar::{Mask, Real};
 
-/// How hard a step tries.
+/// Settings of Newton's method.
 ///
-/// The tolerance decides when a trial is looked at as a solution. An exact scheme then takes it only if
-/// what is closed from there [proves its laws](StepReport::defect), and iterates on otherwise: a looser
-/// tolerance cannot break them.
+/// The tolerance decides when a trial counts as a solution. An exact scheme accepts it only if the step [proves its
+/// laws](StepReport::defect), and otherwise continues to iterate. A looser tolerance therefore cannot break them.
 ///
 /// ```
 /// use eem::NewtonSettings;
@@ -22,13 +21,13 @@ use crate::number::scalar::{Mask, Real};
     serde(deny_unknown_fields)
 )]
 pub struct NewtonSettings<S> {
-    /// Iterations after which an attempt is given up. Default 50. More only helps steps that are far
-    /// too large. Where the first attempt fails, an exact scheme makes several, from other starts and
-    /// in parts of the step; reports and errors count the iterations of all.
+    /// The maximum number of iterations of an attempt, 50 by default. More helps only steps that are far too large.
+    /// If the first attempt fails, an exact scheme makes several, from other initial guesses and in parts of the
+    /// step; reports and errors count all iterations.
     pub max_iterations: usize,
-    /// The largest update, in units of the shortest stretch at each node and of the temperatures, that may
-    /// be the last one. Default √ε, 1.5·10⁻⁸ in double precision: the error after the update is its
-    /// square. Smaller costs iterations and gains nothing.
+    /// The largest update that can be the last one, relative to the shortest stretch at each node and to the
+    /// temperatures. The default is √ε, 1.5·10⁻⁸ in double precision; the error after the update is its square. A
+    /// smaller tolerance costs iterations and gains nothing.
     pub tolerance: S,
 }
 
@@ -41,7 +40,7 @@ impl<S: Real> Default for NewtonSettings<S> {
     }
 }
 
-/// What Newton's method needed for one step, and what the step proves of itself.
+/// The result of a step: what Newton's method needed, and what the step proves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepReport<S> {
     /// The time at the end of the step, s.
@@ -50,44 +49,44 @@ pub struct StepReport<S> {
     pub step: S,
     /// Newton iterations.
     pub iterations: usize,
-    /// The last scaled update, the largest of the phases of a staggered step.
+    /// The last scaled update; for a staggered step the larger of its two parts.
     pub update: S,
     /// The largest residual of the momentum balances at the new state, N s.
     pub residual: S,
-    /// `ΔE − work − heat` of the step, J: the energies are values of ψ at the stored states, never forces or
-    /// differences of the scheme. See [`bound`](Self::bound). In the first step after a checkpoint was restored
-    /// its last roundings may be others, as the energies of the old state are evaluated anew.
+    /// `ΔE − work − heat` of the step, J, computed from values of ψ at the stored states, never from forces. See
+    /// [`bound`](Self::bound). In the first step after a restored checkpoint its last digits may differ, because
+    /// the energies of the old state are evaluated again.
     pub defect: S,
-    /// What rounding may do to the energy of the step, J: the true `ΔE − work − heat` of the stored states, which
-    /// [`defect`](Self::defect) rounds, is within it in every step of an exact scheme. A step beyond it is an
-    /// error, [`StepFailure::LawNotKept`](crate::StepFailure::LawNotKept).
+    /// The bound for the effect of rounding on the energy of the step, J. The true `ΔE − work − heat` of the stored
+    /// states, of which [`defect`](Self::defect) is the rounded value, is within this bound in every step of an
+    /// exact scheme. Beyond it the step is the error [`StepFailure::LawNotKept`](crate::StepFailure::LawNotKept).
     ///
-    /// It is `64 ε` times the terms of the balance, `|ψ| + θ|s| + cθ`, `|f|λ` and `|g||γ|` with the forces at
-    /// both ends among them, and the work of what rounding of their arguments does to the forces. Where the
-    /// terms of ψ cancel, what rounding does to its values is added.
+    /// It is `64 ε` times the terms of the balance, which are `|ψ| + θ|s| + cθ`, `|f|λ` and `|g||γ|` with the
+    /// forces at both ends, and the effect of rounding in the arguments of the forces. If terms of ψ cancel, the
+    /// rounding of ψ is added.
     ///
-    /// It says what the proof is worth: a length is known to `ε λ`, so that a body of the stiffness k far
-    /// stiffer than its energies need, or near a singular force, has them to `ε k λ²` only.
+    /// It tells how much the proof is worth. A length is known to `ε λ`; so a body with a stiffness k much larger
+    /// than its energies need, or near a singular force, has its energy to `ε k λ²` only.
     pub bound: S,
     /// Whether [`bound`](Self::bound) exceeds 100 times `64 ε` of `T + |ψ| + θ|s| + cθ + |f|λ + |g||γ|` at both
-    /// ends: the step keeps its laws as far as rounding lets it say, but less sharply than the energies are
-    /// stored. That is so where internal variables answer to the rounding of a length far more than the energies
-    /// do, or where terms of ψ cancel.
+    /// ends. The step then satisfies its laws as far as rounding can tell, but less precisely than the energies are
+    /// stored. This happens if internal variables depend much more on the rounding of a length than the energies
+    /// do, or if terms of ψ cancel.
     ///
-    /// If the bound is too wide for the purpose, measure ψ from where its terms do not cancel (`ln_1p`, `exp_m1`,
-    /// a square in the place of a difference of squares), replace a body that is far too stiff by a rigid one, or
-    /// keep away from the singularity of the force.
+    /// If the bound is too wide for your purpose, write ψ without cancelling terms (`ln_1p`, `exp_m1`, a square
+    /// instead of a difference of squares), replace a very stiff body by a rigid one, or keep away from the
+    /// singularity of the force.
     pub is_bound_wide: bool,
-    /// The entropy that dashpots and conduction produced, J/K.
+    /// Entropy produced by dashpots and conduction, J/K.
     pub production: S,
-    /// The smallest production of a single dashpot or path of heat, J/K; never negative in an exact
-    /// scheme. Zero without any.
+    /// The smallest production of a single dashpot or conductance, J/K; never negative in an exact scheme. Zero if
+    /// there is none.
     pub least_production: S,
-    /// The estimated error of the step in units of its tolerance, below 1.2; zero where [step
-    /// control](crate::Simulation::control_steps) is off.
+    /// The estimated error of the step relative to its tolerance, below 1.2; zero without [step
+    /// control](crate::Simulation::control_steps).
     pub error: S,
-    /// By how much an explicit step missed the energy before it was closed, relative to the magnitude of the
-    /// terms of the energy; zero for other schemes. See [`Simulation::corrections`](crate::Simulation::corrections).
+    /// The energy error of an explicit step before its correction, relative to the magnitude of the energy terms;
+    /// zero for other schemes. See [`Simulation::corrections`](crate::Simulation::corrections).
     pub correction: S,
 }
 

@@ -31,17 +31,18 @@ impl<S: Real> From<Certificate<S>> for Outcome<S> {
     }
 }
 
-/// By how much the energy of explicit steps has been corrected, relative to its terms.
+/// Energy corrections of explicit steps, relative to the energy terms.
 ///
-/// [`StepReport::correction`](crate::StepReport::correction) of all steps of a simulation so far. At
-/// small steps it falls with the ninth power of the step; if it falls with the first, a force is wrong.
+/// They summarise [`StepReport::correction`](crate::StepReport::correction) over all steps of a simulation. For
+/// small steps the correction is proportional to the ninth power of the step; if it is proportional to the step, a
+/// force is wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corrections<S> {
-    /// The largest.
+    /// The largest correction.
     pub largest: S,
     /// `Σ |correction|`.
     pub total: S,
-    /// `Σ correction`, positive where energy was missing.
+    /// `Σ correction`, positive if energy was missing.
     pub signed: S,
 }
 

@@ -4,7 +4,7 @@ use crate::element::conjugates::Conjugates;
 use crate::step::control::{Accuracy, Estimate};
 use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
 
-/// The time integration schemes. [`Auto`](Self::Auto), the default, chooses among them.
+/// The time integration schemes. The default, [`Auto`](Self::Auto), chooses among them.
 ///
 /// | scheme | first law | second law | momenta | order |
 /// |---|---|---|---|---|
@@ -22,13 +22,15 @@ use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
 /// | `Gauss4` | no | no | nearly | 4 |
 /// | `Auto` | exact | exact | exact | 8 or less |
 ///
-/// "Exact" is to rounding, at every step and for any step size: a step that does not prove it is an error,
-/// see [`StepReport::defect`](crate::StepReport::defect). `Variational4` is stable where vibrations
-/// are resolved, `ωh < √8`. The schemes of order 4 solve for twice as many unknowns, that of order 6 for
-/// three times as many; none of them is for solids. `EemEntropy4` and `EemEntropy6` see mean temperatures of
-/// the path of an element through a step. One that is not positive is an error; it is positive where no
-/// temperature changes by more than a factor of 13.9 or 7.2 within a step. Dashpots and conduction far
-/// faster than a step decay slowly, as with any Gauss collocation.
+/// "Exact" means to rounding, in every step of any size. The schemes that are exact in all three columns prove it
+/// in every step, or return an error; see [`StepReport::defect`](crate::StepReport::defect). The others prove
+/// nothing: they report the same numbers and do not fail.
+///
+/// `Variational4` is stable if vibrations are resolved, `ωh < √8`. The schemes of order 4 have twice as many
+/// unknowns, that of order 6 three times as many; they are for springs only. `EemEntropy4` and `EemEntropy6` use
+/// mean temperatures along the step. One that is not positive is an error; they are positive if no temperature
+/// changes by more than a factor of 13.9 or 7.2 within a step. Dashpots and conduction much faster than a step
+/// decay slowly, as with any Gauss collocation.
 ///
 /// ```
 /// use eem::Scheme;
@@ -44,8 +46,8 @@ pub enum Scheme {
     /// Energy–entropy–momentum scheme in temperature form (Conde Martín, Betsch & García Orden
     /// 2016, eqs. 37–39).
     EemTemperature,
-    /// Explicit Runge–Kutta stages of order 8 (DOP853), entropies by quadrature, and energy and momenta put
-    /// back at the end of every step. For accuracy, where vibrations are resolved: `ωh < 5.96`.
+    /// Explicit Runge–Kutta stages of order 8 (DOP853), entropies by quadrature, and one correction of energy and
+    /// momenta per step. For accuracy if vibrations are resolved: `ωh < 5.96`.
     EemExplicit,
     /// Variational integrator with thermacies (Kern, Romero, Conde Martín & García Orden 2021,
     /// §III.A).
@@ -64,21 +66,21 @@ pub enum Scheme {
     TrapezoidalTemperature,
     /// Gauss collocation of two stages on positions, momenta, viscous stretches and entropies.
     Gauss4,
-    /// Energy–entropy–momentum scheme of order 4: Gauss collocation of two stages with forces, dashpot forces
-    /// and temperatures projected in time (Groß & Betsch 2011; strain assumed in time: Betsch &
-    /// Steinmann 2001).
+    /// Energy–entropy–momentum scheme of order 4: Gauss collocation with two stages; forces, dashpot forces and
+    /// temperatures are projected in time (Groß & Betsch 2011; strain assumed in time: Betsch & Steinmann 2001).
     EemEntropy4,
-    /// The same of order 6, with three stages.
+    /// Energy–entropy–momentum scheme of order 6, with three stages.
     EemEntropy6,
-    /// That of the exact ones above which takes least for a [tolerance](crate::Simulation::control_steps):
-    /// `EemExplicit`, unless stability limits its steps more than accuracy does, and `EemTemperature` for solids and
-    /// dashpots beside springs. Laws hold when the [scheme in use](crate::Simulation::scheme_in_use) changes.
+    /// Chooses the cheapest exact scheme for a [tolerance](crate::Simulation::control_steps): `EemExplicit`, unless
+    /// stability limits its steps more than accuracy does, and `EemTemperature` for solids and for dashpots in
+    /// parallel with springs. The laws also hold when the [scheme in use](crate::Simulation::scheme_in_use)
+    /// changes.
     #[default]
     Auto,
 }
 
 impl Scheme {
-    /// All schemes but [`Auto`](Self::Auto), which is none of its own.
+    /// All schemes except [`Auto`](Self::Auto), which uses these.
     pub const ALL: [Self; 13] = [
         Self::EemEntropy,
         Self::EemTemperature,
@@ -235,7 +237,7 @@ impl Scheme {
         self.rule().closing
     }
 
-    /// The order p: errors of a given time go with `hᵖ`.
+    /// The order p: errors at a given time are proportional to `hᵖ`.
     ///
     /// ```
     /// use eem::Scheme;
@@ -248,10 +250,9 @@ impl Scheme {
         self.rule().order
     }
 
-    /// Whether its steps may change their size, as [step control](crate::Simulation::control_steps) makes them.
+    /// Whether [step control](crate::Simulation::control_steps) can be used.
     ///
-    /// The energy of a variational scheme stays near its value only while all steps have one size: with others
-    /// it drifts.
+    /// Not for variational schemes: their energy is bounded only at constant step size, and drifts otherwise.
     ///
     /// ```
     /// use eem::Scheme;
@@ -275,7 +276,7 @@ impl Scheme {
         }
     }
 
-    /// Whether every step keeps energy, entropy and momenta, or is an error.
+    /// Whether every step proves energy, entropy and momenta, or is an error.
     ///
     /// ```
     /// use eem::Scheme;

@@ -36,7 +36,7 @@ pub struct Ends<K: Kinematics<S, D>, S: Real, const D: usize> {
     pub measures1: Measures<K, S, D>,
 }
 
-/// The measures at a point of an element as functions of its arms in `D` dimensions.
+/// The measures at a point of an element as functions of its edge vectors from node 0 (arms), in `D` dimensions.
 pub trait Kinematics<S: Real, const D: usize>:
     Copy + Send + Sync + core::fmt::Debug + 'static
 {

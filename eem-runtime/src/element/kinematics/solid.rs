@@ -19,8 +19,8 @@ use crate::number::scalar::{Mask, Real};
 /// D*π = F_m P B_i,   P:ΔE = Δπ
 /// ```
 ///
-/// with the arms `r_i` and shape functions `N_i`. A turn of the body stores nothing, and the torque of the
-/// forces is zero, as P is symmetric (Simó & Tarnow 1992; García Orden & Romero 2012).
+/// with the edge vectors `r_i` from node 0 and shape functions `N_i`. A rotation of the body stores no energy, and the
+/// forces have no torque because P is symmetric (Simó & Tarnow 1992; García Orden & Romero 2012).
 ///
 /// ```
 /// use eem::kinematics::{Kinematics, Measure, Quad4, SolidPoint};

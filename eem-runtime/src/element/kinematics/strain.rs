@@ -6,7 +6,7 @@ use crate::number::scalar::{Mask, Real};
 /// A measure of the strain at a point of a solid: an invariant of the Green–Lagrange strain
 /// `E = ½(FᵀF − 1)` with the deformation gradient F.
 ///
-/// Nothing in it is a difference from one, so that small strains keep their digits.
+/// All are zero at rest, so small strains keep their digits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Strain {
     /// `tr E`; role `StrainTrace`.
@@ -28,7 +28,7 @@ pub enum Strain {
     Component(usize),
 }
 
-/// A measure of the strain at a point of a solid whose fibres have directions.
+/// A measure of the strain at a point of a solid, with the directions of fibres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Measure<S, const D: usize> {
     /// `tr E`.
@@ -86,7 +86,7 @@ fn unit<S: Real, const D: usize>(direction: &[S; D]) -> Option<[S; D]> {
 
 /// A free energy per reference volume, J/m³, that depends on N measures of strain.
 ///
-/// `#[derive(FreeEnergy)]` implements it where the arguments of the formula have roles of strains.
+/// `#[derive(FreeEnergy)]` implements it for formulas with strain arguments.
 ///
 /// ```
 /// use eem::{Strain, StrainEnergy};

@@ -5,11 +5,11 @@ use thiserror::Error;
 use crate::material::domain::state::DomainPoint;
 use crate::number::readable::Readable;
 
-/// Why a model is not a sound material in a box of states, or cannot be checked there.
+/// Why a model is not valid in a box of states, or cannot be checked there.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum DomainError {
-    /// The box has not the variables of the model.
+    /// The box does not have the variables of the model.
     #[error("the model has {expected} of role `{role}`, the domain {given}")]
     Variables {
         /// `Stretch`, `Viscous` or `Temperature`; `Strain…` stands for all roles of strains.
@@ -24,11 +24,11 @@ pub enum DomainError {
     Range {
         /// The variable.
         variable: String,
-        /// Where the interval begins.
+        /// The lower end.
         low: f64,
-        /// Where it ends.
+        /// The upper end.
         high: f64,
-        /// Finite, or positive and finite.
+        /// The requirement: finite, or positive and finite.
         kind: &'static str,
     },
     /// The free energy or a derivative of it is not finite.

@@ -6,7 +6,7 @@ use super::error::DomainError;
 use super::state::{DomainPoint, Kind};
 use crate::number::readable::Readable;
 
-/// The smallest value that was found, and where.
+/// The smallest value found, and its state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Least {
     /// The value.
@@ -15,16 +15,16 @@ pub struct Least {
     pub point: DomainPoint,
 }
 
-/// What a check of a domain found where nothing is wrong.
+/// The result of a check without errors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DomainReport {
-    /// How many states were looked at.
+    /// The number of evaluated states.
     pub evaluations: usize,
     /// The smallest heat capacity, J/K or J/(K m³), if the model has a temperature.
     pub heat_capacity: Option<Least>,
     /// The smallest viscosity of each dashpot, N s/m or Pa s.
     pub viscosities: Vec<Least>,
-    /// The smallest viscosity of the dashpot beside the spring, N s/m, if there is one.
+    /// The smallest viscosity of the dashpot in parallel with the spring, N s/m, if there is one.
     pub drag: Option<Least>,
 }
 

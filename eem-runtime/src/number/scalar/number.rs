@@ -2,10 +2,10 @@
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-/// A number that free energies and divided differences are evaluated on.
+/// A number type for evaluating free energies and divided differences.
 ///
-/// Implemented for `f64` and `f32`. The methods have the meaning and the names
-/// of the inherent methods of `f64`, except [`minimum`](Self::minimum) and
+/// Implemented for `f64` and `f32`. The methods have the names and the meaning of
+/// the methods of `f64`, except [`minimum`](Self::minimum) and
 /// [`maximum`](Self::maximum), which keep a NaN, and [`powi`](Self::powi),
 /// which is the same sequence of multiplications on every platform.
 ///

@@ -5,15 +5,15 @@ use core::ops::{BitAnd, BitOr, Not};
 
 use super::number::Scalar;
 
-/// Several numbers in one would decide differently, so that they cannot take one branch together.
+/// Numbers in SIMD lanes take different branches.
 ///
-/// A single number never does. An [`Ensemble`](crate::Ensemble) runs the members of a bundle one by one
-/// when this error reaches it, by `?`, from an [`Experiment`](crate::Experiment).
+/// A single number never returns this error. If an [`Experiment`](crate::Experiment) returns it with `?`, the
+/// [`Ensemble`](crate::Ensemble) runs its members one by one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("members that are stepped together would decide differently")]
 pub struct Discord;
 
-/// The result of a comparison: `bool`, or one `bool` for each of several numbers that move together.
+/// The result of a comparison: a `bool`, or one `bool` per lane.
 ///
 /// ```
 /// use eem::Mask;
@@ -35,18 +35,17 @@ pub trait Mask:
     /// False everywhere.
     fn none() -> Self;
 
-    /// True everywhere. A branch on it must be right for every number, also for those whose own answer
-    /// is another one: as in "an error of one number is an error of all".
+    /// True everywhere. A branch on it must be correct for every lane, including those where the mask is false.
     fn all(self) -> bool;
 
-    /// True somewhere. A branch on it must be right for every number, as for [`all`](Self::all).
+    /// True somewhere. A branch on it must be correct for every lane, as for [`all`](Self::all).
     fn any(self) -> bool;
 
-    /// The one decision of all numbers, for a branch that differs between them.
+    /// The common value of all lanes, for a branch.
     ///
     /// # Errors
     ///
-    /// [`Discord`] if it is true for some numbers and false for others.
+    /// [`Discord`] if it is true in some lanes and false in others.
     #[inline]
     fn decide(self) -> Result<bool, Discord> {
         let all = self.all();
@@ -91,16 +90,14 @@ pub(crate) mod sealed {
     impl Sealed for f32 {}
 }
 
-/// A real number that a time step can take decisions on: `f64`, `f32`.
+/// A number type for time steps: `f64`, `f32`.
 ///
-/// An [`Ensemble`](crate::Ensemble) puts several `f64` in the place of one, one for each of so many
-/// scenes. Such numbers have no order: comparisons ([`equal`](Scalar::equal), [`less`](Scalar::less),
-/// [`at_most`](Self::at_most)) return a [`Mask`], from which [`select`](Self::select) takes the right
-/// value for each scene, and [`Mask::decide`] one branch for all of them, or the error that they differ.
-/// `==` says whether all of them are equal; a branch on it hides that they differ.
+/// An [`Ensemble`](crate::Ensemble) also uses several `f64` in SIMD lanes, one per scene. These have no order:
+/// comparisons ([`equal`](Scalar::equal), [`less`](Scalar::less), [`at_most`](Self::at_most)) return a [`Mask`].
+/// [`select`](Self::select) chooses a value per lane, and [`Mask::decide`] a common branch, or an error if lanes
+/// differ. `==` compares all lanes at once; do not branch on it.
 ///
-/// The trait is sealed: `f64`, `f32` and the numbers of a bundle are all there are. A number for
-/// evaluating formulas, as a dual number, implements [`Scalar`].
+/// The trait is sealed. A number type for evaluating formulas only, such as dual numbers, implements [`Scalar`].
 ///
 /// ```
 /// use eem::Real;
@@ -119,13 +116,13 @@ pub trait Real: Scalar<Mask: Mask> + sealed::Sealed {
     /// The smallest positive number of full precision; smaller ones are subnormal.
     const MIN_POSITIVE: Self;
 
-    /// Of how many numbers it consists.
+    /// The number of lanes.
     const LANES: usize = 1;
 
-    /// The value in double precision, for messages and records; NaN for several numbers that differ.
+    /// The value in double precision, for messages and records; NaN if lanes differ.
     fn to_f64(self) -> f64;
 
-    /// Neither infinite nor NaN, for every number.
+    /// Neither infinite nor NaN, in every lane.
     fn is_finite(self) -> bool;
 
     /// `self <= other`.
@@ -138,14 +135,14 @@ pub trait Real: Scalar<Mask: Mask> + sealed::Sealed {
         Self::branch(mask, || then, || otherwise)
     }
 
-    /// The numbers of the lanes `0, 1, …` in one.
+    /// Packs one number per lane `0, 1, …`.
     #[inline]
     #[must_use]
     fn pack(mut number: impl FnMut(usize) -> f64) -> Self {
         Self::from_f64(number(0))
     }
 
-    /// The number of one lane: to be put out, not to decide about the others.
+    /// The number of one lane, for output.
     #[inline]
     fn lane(self, _: usize) -> f64 {
         self.to_f64()

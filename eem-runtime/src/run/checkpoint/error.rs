@@ -10,8 +10,7 @@ use crate::number::readable::Readable;
 use crate::scene::error::SceneError;
 use crate::step::scheme::Scheme;
 
-/// What differs between a checkpoint and the simulation that should go on from it, or is wrong
-/// with the checkpoint itself. The simulation is as it was before.
+/// How a checkpoint differs from the simulation, or what is wrong with the checkpoint. The simulation is unchanged.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RestoreError {
@@ -32,7 +31,7 @@ pub enum RestoreError {
         "number of {quantity}: the checkpoint has {checkpoint}, the simulation has {simulation}"
     )]
     Count {
-        /// Of what.
+        /// The quantity.
         quantity: &'static str,
         /// How many the checkpoint has.
         checkpoint: usize,
@@ -67,17 +66,17 @@ pub enum RestoreError {
         /// Whether it has one in the checkpoint.
         in_checkpoint: bool,
     },
-    /// The Newton settings of the checkpoint are none that a simulation can have.
+    /// The Newton settings of the checkpoint are invalid.
     #[error(transparent)]
     Settings(#[from] SceneError),
-    /// A value in the checkpoint is none that a simulation can have.
+    /// A value in the checkpoint is invalid.
     #[error("the checkpoint has {value} among its values of {quantity}, they must be {required}", value = Readable(*value))]
     Value {
-        /// Of what.
+        /// The quantity.
         quantity: &'static str,
         /// The value.
         value: f64,
-        /// What it must be.
+        /// The requirement.
         required: &'static str,
     },
     /// More is missing of a sum than rounding takes.
@@ -86,11 +85,11 @@ pub enum RestoreError {
         value = Readable(*value), carry = Readable(*carry)
     )]
     Carry {
-        /// Of what.
+        /// The quantity.
         quantity: &'static str,
         /// The rounded sum.
         value: f64,
-        /// What is said to be missing of it.
+        /// The stored compensation of its rounding.
         carry: f64,
     },
     /// An entry is not what the run has saved, though it follows from the steps and not from the state.
@@ -98,10 +97,10 @@ pub enum RestoreError {
         "the checkpoint has been edited: {entry} must be what the run has saved; change positions, momenta, viscous stretches and temperatures with their entropies, and everything else by methods of the simulation"
     )]
     Edited {
-        /// What has been edited.
+        /// The edited entry.
         entry: &'static str,
     },
-    /// The scheme of the checkpoint, or that to which a run returns, takes more memory than it may.
+    /// The scheme of the checkpoint, or the one that the run returns to, needs more memory than allowed.
     #[error(transparent)]
     Memory(#[from] TooLarge),
     /// The scenes have other numbers: the parameters of a material, a mass, a conductance.
@@ -112,7 +111,7 @@ pub enum RestoreError {
         /// Which numbers differ.
         kind: &'static str,
     },
-    /// An element cannot be in the state of the checkpoint.
+    /// An element cannot have the state in the checkpoint.
     #[error("in the checkpoint, {0}")]
     State(StateError),
     /// The entropy of an element is not that of its temperature.
@@ -142,7 +141,7 @@ pub enum RestoreError {
         node: usize,
         /// The axis, from 0.
         axis: usize,
-        /// The coordinate in the checkpoint, with what is carried over, m.
+        /// The coordinate in the checkpoint, with its compensation, m.
         checkpoint: f64,
         /// Where the anchor was created, or where its motion puts it, m.
         simulation: f64,

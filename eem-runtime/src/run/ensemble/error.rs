@@ -14,7 +14,7 @@ use crate::step::error::StepError;
 pub struct MemberError {
     /// The index of its input, from 0.
     pub member: usize,
-    /// Why it has no result; the message has it, so that it is no `source` of its own.
+    /// Why it has no result. It is part of the message, so it is not the `source`.
     pub failure: MemberFailure,
 }
 
@@ -22,21 +22,20 @@ pub struct MemberError {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MemberFailure {
-    /// The scene, the step or the settings of Newton's method are refused, or what was asked of
-    /// the simulation does not exist.
+    /// The scene, the step or the settings are rejected, or a requested quantity does not exist.
     #[error(transparent)]
     Scene(#[from] SceneError),
     /// A step failed.
     #[error(transparent)]
     Step(Box<StepError>),
-    /// Members that are stepped together would go on differently. The ensemble then runs them one by one,
-    /// so that it is no result of [`Ensemble::run_experiment`](crate::Ensemble::run_experiment).
+    /// Members in SIMD lanes take different branches. The ensemble then runs them one by one, so
+    /// [`Ensemble::run_experiment`](crate::Ensemble::run_experiment) never returns it.
     #[error(transparent)]
     Discord(#[from] Discord),
     /// The ensemble was stopped before the member began.
     #[error("the ensemble was stopped before it began")]
     Stopped,
-    /// An error of the caller's own.
+    /// An error of the caller.
     #[error(transparent)]
     Other(Box<dyn Error + Send + Sync>),
 }
@@ -48,7 +47,7 @@ impl From<StepError> for MemberFailure {
 }
 
 impl MemberFailure {
-    /// A failure that this crate does not know, from an error or a text.
+    /// A failure from any error or text of the caller.
     ///
     /// ```
     /// use eem::MemberFailure;

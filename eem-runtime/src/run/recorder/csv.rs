@@ -6,10 +6,9 @@ use super::{Column, Recorder};
 use crate::number::scalar::Real;
 
 impl<const D: usize, S: Real> Recorder<D, S> {
-    /// Writes a head of names and units, and a line per row, separated by commas (RFC 4180).
+    /// Writes a header with names and units, then one line per row, separated by commas (RFC 4180).
     ///
-    /// Values have 17 significant digits, which identify a double; Newton iterations are whole
-    /// numbers.
+    /// Values have 17 significant digits, enough to restore a double. Newton iterations are integers.
     ///
     /// # Errors
     ///
@@ -33,11 +32,11 @@ impl<const D: usize, S: Real> Recorder<D, S> {
         self.write_rows(0, writer)
     }
 
-    /// Writes the lines that follow those of a run that was interrupted: without the head, and without the first row,
-    /// which is the state that this recorder began with and the last line of the earlier run.
+    /// Continues the file of an interrupted run: writes the rows without the header and without the first row,
+    /// which is the last row of the earlier run.
     ///
-    /// The recorder of the earlier run has to [`record`](Self::record) the state of the checkpoint before it writes its
-    /// lines.
+    /// For this the recorder of the earlier run must [`record`](Self::record) the state of the checkpoint before it
+    /// writes.
     ///
     /// # Errors
     ///

@@ -59,10 +59,10 @@ pub enum Quantity<const D: usize, S: Real = f64> {
     LinearMomentum,
     /// The angular momentum of the ledger, kg m²/s.
     AngularMomentum,
-    /// Any other entry of the ledger. Its unit is not known: for a column with one take
-    /// [`custom_in`](Self::custom_in).
+    /// Any other field of the ledger. Its unit is unknown; use [`custom_in`](Self::custom_in) for a column with a
+    /// unit.
     Ledger(fn(&Ledger<D, S>) -> S),
-    /// Newton iterations since the row before; 0 in the first row.
+    /// Newton iterations since the previous row; 0 in the first row.
     NewtonIterations,
     /// A function of the simulation.
     Custom(CustomQuantity<D, S>),
@@ -91,7 +91,7 @@ impl<const D: usize, S: Real> Quantity<D, S> {
         Self::custom_in("", function)
     }
 
-    /// The same with a unit for the head of its column.
+    /// A function of the simulation with a unit for the header of its column.
     ///
     /// ```
     /// use eem::{Quantity, Recorder, Scene, Scheme, Simulation};
@@ -113,7 +113,7 @@ impl<const D: usize, S: Real> Quantity<D, S> {
         Self::Custom(CustomQuantity { function, unit })
     }
 
-    /// The unit of its values; empty for numbers without one, and where it is not known.
+    /// The unit of its values; empty if there is none or it is unknown.
     #[must_use]
     pub const fn unit(&self) -> &'static str {
         match self {

@@ -14,15 +14,15 @@ use crate::step::newton::StepReport;
 
 /// # Step control
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// From now on the steps have the size that an accuracy needs; the present size is the first one tried.
+    /// Switches step control on: steps get the size that the tolerance requires. The present size is tried first.
     ///
-    /// Steps that are not accurate, that fail, or that do not prove their laws are made again with a
-    /// smaller size. [`step`](Self::step), [`run_until`](Self::run_until), events, recorders and
-    /// checkpoints work as with steps of one size; a report is that of both halves of a step.
+    /// A step that fails, is not accurate or does not prove its laws is repeated with a smaller size.
+    /// [`step`](Self::step), [`run_until`](Self::run_until), events, recorders and checkpoints work as with
+    /// constant steps. A report covers both halves of a step.
     ///
     /// # Errors
     ///
-    /// [`SceneError::Tolerance`] or [`SceneError::AbsoluteTolerance`] if a tolerance is none, or less than the
+    /// [`SceneError::Tolerance`] or [`SceneError::AbsoluteTolerance`] if a tolerance is invalid, or below what the
     /// scheme can reach; [`SceneError::FixedSteps`] for the variational schemes.
     ///
     /// ```
@@ -100,13 +100,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// From now on all steps have the [present size](Self::step_size), and are those of the
-    /// [scheme in use](Self::scheme_in_use).
+    /// Switches step control off: all further steps have the [present size](Self::step_size) and use the [scheme in
+    /// use](Self::scheme_in_use).
     pub fn fix_steps(&mut self) {
         self.control = None;
     }
 
-    /// The accuracy that is asked of steps; none while all have one size.
+    /// The tolerance of step control; `None` if it is off.
     #[must_use]
     pub fn tolerance(&self) -> Option<Tolerance<S>> {
         self.control
@@ -114,7 +114,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             .map(|control| control.memory.tolerance)
     }
 
-    /// What step control has done so far; none while all steps have one size.
+    /// Statistics of step control; `None` if it is off.
     #[must_use]
     pub fn step_statistics(&self) -> Option<StepStatistics> {
         self.control
@@ -122,14 +122,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             .map(|control| control.memory.statistics)
     }
 
-    /// The smallest and the largest step that step control may take, s. Default are 16 ε times the size at which
-    /// control began, and no limit; never less than 16 ε times the time. Where nothing moves steps grow without
-    /// limit: one that knows how soon a load sets in should be given.
+    /// Limits the size of controlled steps, s: smallest and largest. By default the smallest is 16 ε times the
+    /// first size, and there is no largest. The smallest is never below 16 ε times the time. Where nothing moves,
+    /// steps grow without limit: set the largest step if a load sets in later.
     ///
     /// # Errors
     ///
-    /// [`SceneError::StepLimits`] unless both are positive and finite, the first is not above the second, and
-    /// steps are [controlled](Self::control_steps); the old ones then stay.
+    /// [`SceneError::StepLimits`] unless both are positive and finite, the first is not above the second, and steps
+    /// are [controlled](Self::control_steps). The old limits remain.
     pub fn limit_steps(&mut self, [smallest, largest]: [S; 2]) -> Result<(), SceneError> {
         let is_range = S::zero().less(smallest) & smallest.at_most(largest) & largest.less(S::MAX);
         match &mut self.control {

@@ -25,9 +25,9 @@ type Function<'f, const D: usize, S> = dyn FnMut(&Simulation<D, S>) -> Value<S> 
 
 /// An event of a run: a function of the simulation changes its sign.
 ///
-/// The function may fail, so that `?` can be used in it; its error ends the run
-/// ([`StepFailure::EventError`](crate::StepFailure::EventError)). An event is located as sharply as times can be told
-/// apart, or [`within`](Self::within) a tolerance. [`Simulation::run_until_event`] looks for it.
+/// The function may use `?`; an error ends the run with
+/// [`StepFailure::EventError`](crate::StepFailure::EventError). The event is located as precisely as times can be
+/// distinguished, or [`within`](Self::within) a tolerance. See [`Simulation::run_until_event`].
 ///
 /// ```
 /// use eem::prelude::*;
@@ -57,19 +57,19 @@ pub struct Event<'f, const D: usize, S: Real = f64> {
 }
 
 impl<'f, const D: usize, S: Real> Event<'f, D, S> {
-    /// Where the function changes its sign.
+    /// An event where the function changes its sign.
     #[must_use]
     pub fn crossing(function: impl FnMut(&Simulation<D, S>) -> Value<S> + 'f) -> Self {
         Self::new(Sense::Either, function)
     }
 
-    /// Where the function becomes positive or zero.
+    /// An event where the function becomes positive or zero.
     #[must_use]
     pub fn rising(function: impl FnMut(&Simulation<D, S>) -> Value<S> + 'f) -> Self {
         Self::new(Sense::Rising, function)
     }
 
-    /// Where the function becomes negative or zero.
+    /// An event where the function becomes negative or zero.
     #[must_use]
     pub fn falling(function: impl FnMut(&Simulation<D, S>) -> Value<S> + 'f) -> Self {
         Self::new(Sense::Falling, function)
@@ -86,14 +86,15 @@ impl<'f, const D: usize, S: Real> Event<'f, D, S> {
         }
     }
 
-    /// The same event, at most so long (s) after the change of sign; zero unless set.
+    /// Accepts a time up to `tolerance`, s, after the change of sign; zero by default.
     #[must_use]
     pub fn within(mut self, tolerance: S) -> Self {
         self.tolerance = tolerance;
         self
     }
 
-    /// Whether the run that looked for it last ended with it. Several events can happen at one time.
+    /// Whether this event happened at the end of the last run that searched for it. Several events can happen at
+    /// the same time.
     #[must_use]
     pub const fn has_happened(&self) -> bool {
         self.has_happened

@@ -11,7 +11,7 @@ use crate::number::compensated::Compensated;
 use crate::number::scalar::Real;
 use crate::step::scheme::Scheme;
 
-/// The two gradients and the two matrices of `ż = L ∇E + M ∇S`.
+/// The GENERIC form of a scene: the two gradients and the two matrices of `ż = L ∇E + M ∇S`.
 ///
 /// ```text
 /// z = (q, p of the masses; γ of all dashpots; s of all elements; σ of all reservoirs)

@@ -6,15 +6,15 @@ use crate::element::group::EntropySlopes;
 use crate::number::scalar::Real;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// Gradients and matrices at the present state with the temperatures of the elements in the place of their
-    /// entropies (Conde Martín, Betsch & García Orden 2016, eqs. 21–23):
+    /// The GENERIC form at the present state with temperatures instead of entropies as variables (Conde Martín,
+    /// Betsch & García Orden 2016, eqs. 21–23):
     ///
     /// ```text
     /// z = (q, p of the masses; γ of all dashpots; θ of all elements; σ of all reservoirs)
     /// ∇_θ = Jᵀ ∇_s,   L_θ = J⁻¹ L_s J⁻ᵀ,   M_θ = J⁻¹ M_s J⁻ᵀ,   J = ∂(q, p, γ, s, σ)/∂(q, p, γ, θ, σ)
     /// ```
     ///
-    /// Now L depends on the state and couples momenta with temperatures.
+    /// L then depends on the state and couples momenta with temperatures.
     ///
     /// ```
     /// use eem::prelude::*;

@@ -16,20 +16,19 @@ use crate::scene::solid_error::SolidError;
 use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
 
-/// # Looking at the state
+/// # The present state
 ///
-/// Every question about a handle fails with [`SceneError::ForeignHandle`] if the handle is not of
-/// this scene.
+/// All functions return [`SceneError::ForeignHandle`] for a handle of another scene.
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// The step so far that came closest to its bound, or exceeded it by most: the one with the
-    /// largest `|defect|/bound`. `None` before the first step; [`restore`](Self::restore) forgets it.
+    /// The step so far with the largest `|defect|/bound`. `None` before the first step and after
+    /// [`restore`](Self::restore).
     #[must_use]
     pub const fn worst_step(&self) -> Option<&StepReport<S>> {
         self.worst.as_ref()
     }
 
-    /// By how much the energy of all steps so far was corrected; zero for a scheme that is not explicit.
-    /// [`restore`](Self::restore) forgets it.
+    /// The energy corrections of all steps so far; zero unless the scheme is explicit. [`restore`](Self::restore)
+    /// resets them.
     #[must_use]
     pub const fn corrections(&self) -> &Corrections<S> {
         &self.corrections
@@ -45,7 +44,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(vector(self.state.positions.values(), node.index))
     }
 
-    /// The momentum of a node, kg m/s; zero for an anchor, unless it is a node of a solid.
+    /// The momentum of a node, kg m/s. Zero for an anchor, unless it is a node of a solid.
     ///
     /// # Errors
     ///
@@ -55,7 +54,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(vector(self.state.momenta.values(), node.index))
     }
 
-    /// The velocity of a node, m/s; that of an anchor is zero, unless it is moved in a scene that has solids with
+    /// The velocity of a node, m/s. Zero for an anchor, unless it is moved in a scene that has solids with
     /// consistent mass.
     ///
     /// # Errors
@@ -93,7 +92,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(self.view(element)?.force)
     }
 
-    /// Stress and strain at a point of a solid.
+    /// Stress and strain at an integration point of a solid.
     ///
     /// # Errors
     ///
@@ -155,10 +154,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(self.state.entropies.values()[self.thermal_slot(element)?])
     }
 
-    /// The entropy that an element produces now, W/K: `g²/(η θ)` of its dashpots, and of the heat that it conducts
-    /// `κ (θ' − θ)²/(θ θ')`, one half of it where θ' is that of another element, which counts the other half.
+    /// The present entropy production of an element, W/K: `g²/(η θ)` of its dashpots, and `κ (θ' − θ)²/(θ θ')` of
+    /// the heat it conducts; half of the latter if the partner is another element, which counts the other half.
     ///
-    /// Anchors that move are taken to rest in the rate of a viscosity of the stretch.
+    /// For a dashpot in parallel with a spring, moved anchors count as resting.
     ///
     /// # Errors
     ///

@@ -9,8 +9,8 @@ use crate::step::error::{StepError, StepFailure};
 
 /// Residual and tangent of a step at a trial state.
 ///
-/// Internal variables are eliminated: they take the values that their own equations give them at
-/// the trial state, and the tangent is the total derivative.
+/// Internal variables are eliminated: their own equations determine them at the trial state, and the tangent is the
+/// total derivative.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepTangent<S> {
     /// `R(u)`: momentum balances in N s, then `Θ − θ*` in K for elements that conduct heat to
@@ -40,8 +40,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// # Errors
     ///
-    /// [`StepError`] if an element has no admissible state there, or the number of unknowns is
-    /// another one ([`StepFailure::Unknowns`]).
+    /// [`StepError`] if an element has no admissible state there, or if the number of unknowns is wrong
+    /// ([`StepFailure::Unknowns`]).
     pub fn linearize(&mut self, unknowns: &[S]) -> Result<StepTangent<S>, StepError> {
         // The elements look at another configuration than that of their last step.
         self.has_stepped = false;

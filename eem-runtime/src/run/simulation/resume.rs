@@ -7,7 +7,7 @@ use crate::run::checkpoint::{Checkpoint, Outline, RestoreError, Seals};
 use crate::step::outcome::Corrections;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// The present state, with all that the next steps depend on.
+    /// The present state with everything the next steps depend on.
     ///
     /// ```
     /// use eem::{Scene, Scheme, Simulation};
@@ -46,17 +46,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         .sealed_up()
     }
 
-    /// Goes back, or on, to a saved state, of this simulation or of one of the same scene in another
-    /// process: nodes, elements and reservoirs must have been created in the same order.
+    /// Restores a saved state, of this simulation or of one of the same scene in another process. Nodes, elements
+    /// and reservoirs must have been created in the same order.
     ///
     /// # Errors
     ///
-    /// [`RestoreError`] if the checkpoint is one of another scheme, of a scene of another shape or with
-    /// other numbers (materials, masses, conductances, reservoirs, gravity), or has a state that no
-    /// run of this scene can have: an entropy that is not that of the temperature, an anchor
-    /// elsewhere, a value that is not finite. The simulation is then as it was before.
+    /// [`RestoreError`] if the checkpoint has another scheme, belongs to another scene (shape, materials, masses,
+    /// conductances, reservoirs, gravity), or contains a state that no run of this scene can have: an entropy that
+    /// does not match the temperature, an anchor in another place, a value that is not finite. The simulation is
+    /// unchanged then.
     ///
-    /// Motions and thermostats are evaluated at the time of the checkpoint to compare.
+    /// Prescribed motions and temperatures are evaluated at the time of the checkpoint for this comparison.
     pub fn restore(&mut self, checkpoint: &Checkpoint<S>) -> Result<(), RestoreError> {
         let own = (self.in_use, self.stepper.past(&self.state));
         let saved = self.choice_in(checkpoint)?;

@@ -15,9 +15,9 @@ use crate::step::newton::StepReport;
 pub enum RunEnd {
     /// At the end time.
     Reached,
-    /// Where the observer stopped it.
+    /// The observer stopped it.
     Stopped,
-    /// At the event with this place in the list that [`Simulation::run_until_event`] was given.
+    /// At the event with this index in the list given to [`Simulation::run_until_event`].
     Event(usize),
 }
 
@@ -29,14 +29,14 @@ const END_ROUNDINGS: f64 = 2.0;
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// Steps until the time `end`, s.
     ///
-    /// The last step is shortened so that the time is then `end` to the last bit; the step size
-    /// stays what it is. An end that lies a whole number of steps ahead, up to rounding, is reached
-    /// by full steps only. The run itself allocates nothing.
+    /// The last step is shortened so that the time is exactly `end`; the step size for later steps does not change.
+    /// If `end` is a whole number of steps ahead, up to rounding, only full steps are made. The run itself
+    /// allocates nothing.
     ///
     /// # Errors
     ///
-    /// The error of the step that failed, with the simulation as it was before that step;
-    /// [`StepFailure::End`] if `end` is not a number or lies before the present time.
+    /// The error of the failed step, with the simulation as it was before that step; [`StepFailure::End`] if `end`
+    /// is not a number or lies in the past.
     ///
     /// ```
     /// use eem::{Scene, Scheme, Simulation};
@@ -54,10 +54,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(())
     }
 
-    /// The same, and calls `observer` after every step.
+    /// Like [`run_until`](Self::run_until), and calls `observer` after every step.
     ///
-    /// The observer decides with [`ControlFlow`] whether the run goes on; a
-    /// [`Recorder`](crate::Recorder) is one. The end may be infinite for a run that the observer stops.
+    /// The observer returns [`ControlFlow`] to continue or stop the run; a [`Recorder`](crate::Recorder) can be
+    /// one. The end may be infinite if the observer stops the run.
     ///
     /// # Errors
     ///
@@ -101,16 +101,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(RunEnd::Reached)
     }
 
-    /// Steps until each of these times in turn, s, and calls `observer` there: output at times that the steps know
-    /// nothing of.
+    /// Steps to each of these times in turn, s, and calls `observer` there.
     ///
-    /// Each time is hit to the last bit by a shorter step, after which the steps have the size that they had
-    /// before. The states that the observer sees are therefore states of the scheme, which obey the laws; those
-    /// of an interpolation between steps do not. [`sample_at`](Self::sample_at) leaves the steps as they are.
+    /// Each time is met exactly by a shorter step; then steps have their previous size again. The observer sees
+    /// states of the scheme, which obey the laws; an interpolation between steps would not.
+    /// [`sample_at`](Self::sample_at) leaves the steps unchanged.
     ///
     /// # Errors
     ///
-    /// As [`run_until`](Self::run_until), of which each time is an end.
+    /// As for [`run_until`](Self::run_until) with each of the times.
     ///
     /// ```
     /// use core::ops::ControlFlow;

@@ -14,22 +14,21 @@ use crate::step::outcome::Corrections;
 use crate::step::solver::SavedPast;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// Runs until the last of these times, s, in the steps of [`run_until`](Self::run_until), and calls `observer` at
-    /// each of them.
+    /// Runs to the last of these times, s, with the same steps as [`run_until`](Self::run_until), and calls
+    /// `observer` at each of them.
     ///
-    /// A time between the ends of a step is reached by a step of the scheme from its beginning, or from the time before;
-    /// these are then taken back, so that the run has the bits that it has without. What the observer sees are states of
-    /// the scheme, as accurate as the others, which obey the laws; those of an interpolation between steps would not.
-    /// Entropy may fall by the error of the steps from the last time within a step to the next one behind its end, which
-    /// is reached on another way. Each time costs a step.
-    /// [`run_at`](Self::run_at) makes the steps end at the times instead, which is cheaper where they are rare, and
-    /// the way to meet a load that jumps.
+    /// For a time within a step, the scheme makes an additional step from the beginning of that step, or from the
+    /// previous time, and undoes it afterwards; so the run has the same bits as without. The observer sees states
+    /// of the scheme, as accurate as the others, which obey the laws; an interpolation would not. The entropy at
+    /// the end of a step can be lower than that of the last sample in it, by the error of the step. Each time costs
+    /// a step. [`run_at`](Self::run_at) ends steps at the times instead. This is cheaper for a few times, and right
+    /// for discontinuous loads.
     ///
-    /// Where the observer stops the run, it stays at the state that the observer has seen.
+    /// If the observer stops the run, the simulation stays at the state it has seen.
     ///
     /// # Errors
     ///
-    /// As [`run_until`](Self::run_until), of which each time is an end; times must not fall.
+    /// As for [`run_until`](Self::run_until) with each of the times, which must not decrease.
     ///
     /// ```
     /// use core::ops::ControlFlow;

@@ -13,19 +13,18 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.step
     }
 
-    /// Changes the size of the next steps, s. All laws hold step by step, so that it may change
-    /// at any time.
+    /// Changes the size of the next steps, s. This is allowed at any time, as all laws hold step by step.
     ///
     /// # Errors
     ///
-    /// [`SceneError::Step`] if it is not positive and finite; the old size then stays.
+    /// [`SceneError::Step`] if it is not positive and finite; the old size remains.
     pub fn set_step_size(&mut self, step: S) -> Result<(), SceneError> {
         check_step(step).inspect_err(|_| self.part())?;
         self.step = step;
         Ok(())
     }
 
-    /// Whether the explicit scheme gives a step the energy that it misses by motion before heat.
+    /// Whether the explicit scheme corrects the energy of a step by motion before heat.
     #[must_use]
     pub fn is_motion_first(&self) -> bool {
         let automatic = self.automatic.as_ref();
@@ -34,9 +33,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         })
     }
 
-    /// Changes what the explicit scheme takes to give a step the energy that it misses: heat first, as is
-    /// usual, or motion first. Heat is more accurate, and changes at most 0.3 % of what elements produce in
-    /// the step; motion leaves productions as they are. It has no effect on other schemes.
+    /// Selects how the explicit scheme corrects the energy of a step: first by heat (default), or first by motion.
+    /// Heat is more accurate and changes the entropy production of elements in the step by at most 0.3 %; motion
+    /// leaves it unchanged. No effect on other schemes.
     pub fn set_motion_first(&mut self, is_motion_first: bool) {
         self.stepper.set_motion_first(is_motion_first);
         if let Some(automatic) = &mut self.automatic {
@@ -44,18 +43,18 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// How hard a step tries.
+    /// The settings of Newton's method.
     #[must_use]
     pub const fn newton_settings(&self) -> NewtonSettings<S> {
         self.effort.settings
     }
 
-    /// Changes how hard a step tries.
+    /// Changes the settings of Newton's method.
     ///
     /// # Errors
     ///
-    /// [`SceneError::NewtonSettings`] unless there is at least one iteration and the tolerance lies
-    /// between 0 and 1; the old settings then stay.
+    /// [`SceneError::NewtonSettings`] unless there is at least one iteration and the tolerance lies between 0 and
+    /// 1; the old settings remain.
     pub fn set_newton_settings(&mut self, settings: NewtonSettings<S>) -> Result<(), SceneError> {
         let NewtonSettings {
             max_iterations,

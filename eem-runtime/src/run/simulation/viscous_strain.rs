@@ -12,8 +12,8 @@ use crate::scene::error::SceneError;
 use crate::scene::solid_error::SolidError;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// The viscous strain Γ at a point of a solid, in three dimensions also in plane strain, where Γ₃₃ flows as
-    /// well.
+    /// The viscous strain Γ at a point of a solid. It has three dimensions also in plane strain, where Γ₃₃ flows
+    /// too.
     ///
     /// # Errors
     ///

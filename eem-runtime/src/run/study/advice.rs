@@ -8,25 +8,25 @@ use super::report::{StudyReport, StudyRow};
 use super::statement::{DOUBT, largest};
 use crate::number::readable::Readable;
 
-/// Which setting to take for an accuracy; `Display` says it in words.
+/// A recommendation for an accuracy; `Display` prints it in words.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Recommendation<'a> {
-    /// The largest relative error that is wanted, of every kind of quantity at the end time.
+    /// The largest relative error that is allowed, in every kind of quantity at the end time.
     pub accuracy: f64,
-    /// What to take.
+    /// The advice.
     pub advice: Advice<'a>,
 }
 
-/// What to take for an accuracy.
+/// The advice for an accuracy.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Advice<'a> {
-    /// Settings whose errors, with the doubt about the reference added, are within the accuracy.
+    /// These settings are accurate enough, even with the uncertainty of the reference added to their errors.
     Take {
-        /// The fastest of all.
+        /// The fastest of all settings.
         fastest: &'a StudyRow,
-        /// The fastest of the schemes whose every step proves energy, entropy and momenta.
+        /// The fastest setting whose scheme proves energy, entropy and momenta in every step.
         lawful: Option<&'a StudyRow>,
     },
     /// No setting is accurate enough.
@@ -34,17 +34,17 @@ pub enum Advice<'a> {
         /// The most accurate one.
         closest: Option<&'a StudyRow>,
     },
-    /// The accuracy cannot be judged: the references differ by more than a hundredth of it.
+    /// The accuracy cannot be judged because the references differ by more than a hundredth of it.
     Refused {
-        /// Where they differ most.
+        /// The quantity in which they differ most.
         quantity: StateQuantity,
-        /// By how much.
+        /// Their difference.
         doubt: f64,
     },
 }
 
 impl StudyReport {
-    /// The fastest settings whose errors at the end time are at most `accuracy`, in every kind of quantity.
+    /// The fastest settings with errors of at most `accuracy` in every kind of quantity at the end time.
     ///
     /// # Errors
     ///

@@ -6,7 +6,7 @@ use crate::number::scalar::Real;
 use crate::run::simulation::Simulation;
 use crate::run::simulation::values::Values;
 
-/// A kind of quantity of a state, for which a study states an error of its own.
+/// A kind of quantity with an error of its own in a study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum StateQuantity {
     /// q of all masses.
@@ -59,7 +59,7 @@ impl fmt::Display for StateQuantity {
 /// A number for each kind of quantity that the scene has.
 pub(super) type PerQuantity = [Option<f64>; 4];
 
-/// A state in double precision, to be compared with others of the same scene.
+/// A state in double precision, for comparison with others of the same scene.
 ///
 /// ```
 /// use eem::{EndState, Scene, Scheme, Simulation, StateQuantity};
@@ -98,15 +98,15 @@ impl EndState {
         &self.values[quantity.index()]
     }
 
-    /// How much this state differs from `exact` in one kind of quantity:
+    /// The relative difference of this state from `exact` in one kind of quantity:
     ///
     /// ```text
     /// max |Δq|/|q|₂,   max |Δp|/|p|₂,   max |Δθ|/θ,   max |Δγ|/|γ|₂
     /// ```
     ///
-    /// with the largest component of the difference above and the Euclidean norm of all components of
-    /// `exact` below; temperatures are compared one by one. `None` without such a quantity, or with another
-    /// number of values. Two states without any difference differ by zero, also where all values vanish.
+    /// with the largest component of the difference in the numerator and the Euclidean norm of all components of
+    /// `exact` in the denominator; temperatures are compared one by one. `None` if there is no such quantity, or if
+    /// the numbers of values differ. Equal states differ by zero, also if all values vanish.
     #[must_use]
     pub fn difference(&self, exact: &Self, quantity: StateQuantity) -> Option<f64> {
         let [values, exact] = [self, exact].map(|state| state.values(quantity));

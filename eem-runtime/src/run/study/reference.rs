@@ -46,22 +46,22 @@ const HELPS: f64 = 0.5;
 pub enum ReferenceEnd {
     /// They agree to a hundredth of every error.
     Agreed,
-    /// Smaller steps bring them no closer: rounding, grown along the motion, is all there is between them. A
-    /// chaotic motion ends here with a large difference, any other with one of rounding.
+    /// Smaller steps do not bring them closer: the remaining difference is rounding, amplified along the motion.
+    /// For a chaotic motion it is large.
     Floor,
     /// The steps are as small as [`Study::refinement`](crate::Study::refinement) allows.
     Limit,
-    /// One of them failed in its smallest steps.
+    /// One of them failed with its smallest steps.
     Failed(StepError),
     /// They were given.
     Given,
 }
 
-/// The two solutions that errors are measured against, and how much they differ.
+/// The two reference solutions and their difference.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct StudyReference {
-    /// Their states at the end time; errors are differences from the first. None if they failed.
+    /// The states at the end time; errors are differences from the first. `None` if they failed.
     pub states: Option<[EndState; 2]>,
     /// Their schemes, unless they were given.
     pub schemes: Option<[Scheme; 2]>,
@@ -82,8 +82,8 @@ impl StudyReference {
         }
     }
 
-    /// How much the two differ, relative to the first as errors are; infinite if they failed. `None` if the
-    /// scene has no such quantity.
+    /// The relative difference of the two references; infinite if they failed. `None` if the scene has no such
+    /// quantity.
     #[must_use]
     pub fn doubt(&self, quantity: StateQuantity) -> Option<f64> {
         match &self.states {

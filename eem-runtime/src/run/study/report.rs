@@ -8,30 +8,29 @@ use super::statement::{Statement, largest};
 use crate::step::error::StepError;
 use crate::step::scheme::Scheme;
 
-/// What one setting does and costs.
+/// The results and costs of one setting.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct StudyRow {
     /// The setting.
     pub setting: Setting,
-    /// Why the run did not reach the end time; laws, steps and times are then those of the steps before.
+    /// Why the run did not reach the end time; the other numbers then cover the steps before.
     pub failure: Option<StepError>,
-    /// The largest `|B − B₀|/|E₀|` of the run with the balance `B = E − work − heat`, which is E where nothing
-    /// does work or gives heat.
+    /// The largest `|B − B₀|/|E₀|` of the run, with the balance `B = E − work − heat`.
     pub energy_defect: f64,
-    /// What rounding may do to that in one step: the largest [`StepReport::bound`](crate::StepReport::bound)
-    /// over `|E₀|`.
+    /// The bound for rounding in a single step: the largest [`StepReport::bound`](crate::StepReport::bound) divided
+    /// by `|E₀|`.
     pub step_bound: f64,
-    /// The smallest ΔS of a step, J/K; the second law demands that it is not negative but for rounding.
-    /// Infinite without steps.
+    /// The smallest ΔS of a step, J/K. By the second law it is not negative, except for rounding. Infinite without
+    /// steps.
     pub least_entropy_change: f64,
-    /// Steps that were taken.
+    /// Accepted steps.
     pub steps: u32,
-    /// Steps that were tried and not taken, for whatever reason. None where all steps have one size.
+    /// Rejected steps. Zero with constant steps.
     pub rejected: u32,
     /// Newton iterations.
     pub iterations: usize,
-    /// Evaluations of the forces of all elements, once for each stage of a scheme with several.
+    /// Evaluations of the forces of all elements, one per stage.
     pub evaluations: u64,
     /// Wall time of the steps alone, the minimum of all repeats, s.
     pub seconds: f64,
@@ -73,7 +72,7 @@ impl StudyRow {
         }
     }
 
-    /// What is said about the error of one kind of quantity at the end time, see
+    /// The statement about the error of one kind of quantity at the end time, see
     /// [`EndState::difference`](crate::EndState::difference).
     #[must_use]
     pub fn statement(&self, quantity: StateQuantity) -> Statement {
@@ -90,8 +89,7 @@ impl StudyRow {
         self.statement(quantity).stated()
     }
 
-    /// What is said about the largest error of all kinds. It can be stated although a much smaller one is
-    /// refused.
+    /// The statement about the largest error of all kinds. It can be stated even if a much smaller one is not.
     #[must_use]
     pub fn largest_error(&self) -> Statement {
         match (largest(&self.differences), largest(&self.doubts)) {
@@ -101,7 +99,7 @@ impl StudyRow {
     }
 }
 
-/// What [`Study::run`](crate::Study::run) returns.
+/// The result of [`Study::run`](crate::Study::run).
 ///
 /// `Display` prints a table, the reference and a recommendation for each accuracy.
 ///
@@ -138,15 +136,15 @@ pub struct StudyReport {
     pub end: f64,
     /// A row per setting, in their order.
     pub rows: Vec<StudyRow>,
-    /// What errors are measured against.
+    /// The references.
     pub reference: StudyReference,
     /// The accuracies that `Display` recommends settings for.
     pub accuracies: Vec<f64>,
 }
 
 impl StudyReport {
-    /// The rows that no other row beats in both time and largest error: the Pareto front, from the fastest to
-    /// the most accurate.
+    /// The Pareto front: the rows that no other row beats in both time and largest error, from the fastest to the
+    /// most accurate.
     #[must_use]
     pub fn front(&self) -> Vec<&StudyRow> {
         let stated = |row| Some((row, StudyRow::largest_error(row).stated()?));
@@ -164,8 +162,8 @@ impl StudyReport {
         rows.into_iter().map(|(row, _)| row).collect()
     }
 
-    /// The order that a scheme shows in double precision with one kind of quantity: the slope between the two
-    /// smallest steps whose errors are stated.
+    /// The observed order of a scheme in double precision for one kind of quantity: the slope between the two
+    /// smallest steps with stated errors.
     ///
     /// ```text
     /// ln(error₁/error₂) / ln(h₁/h₂)

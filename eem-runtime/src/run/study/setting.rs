@@ -6,17 +6,17 @@ use core::iter;
 use crate::number::readable::Readable;
 use crate::step::scheme::Scheme;
 
-/// How large the steps of a run are.
+/// The sizes of the steps of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum StepChoice {
-    /// All of this size, s.
+    /// Constant, s.
     Fixed(f64),
-    /// Those that this relative tolerance needs, see [`Tolerance`](crate::Tolerance).
+    /// Chosen by step control for this relative tolerance, see [`Tolerance`](crate::Tolerance).
     Tolerance(f64),
 }
 
-/// The scalar of a run.
+/// The number type of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Precision {
     /// `f64`.
@@ -41,9 +41,9 @@ pub enum Precision {
 pub struct Setting {
     /// The scheme.
     pub scheme: Scheme,
-    /// How large its steps are.
+    /// The sizes of its steps.
     pub steps: StepChoice,
-    /// The scalar.
+    /// The number type.
     pub precision: Precision,
 }
 
@@ -72,7 +72,7 @@ impl Setting {
         steps.map(move |(_, step)| Self::fixed(scheme, step))
     }
 
-    /// A scheme with the steps that a relative tolerance needs, in double precision.
+    /// A scheme with step control for a relative tolerance, in double precision.
     ///
     /// ```
     /// use eem::{Scheme, Setting};
@@ -104,7 +104,7 @@ impl Setting {
         divisors.map(move |divisor| Self::controlled(scheme, largest / divisor))
     }
 
-    /// The same in `f32`; the study then needs [`Study::single`](crate::Study::single).
+    /// The same setting in `f32`; the study then needs [`Study::single`](crate::Study::single).
     #[must_use]
     pub const fn in_single_precision(self) -> Self {
         Self {
@@ -113,7 +113,7 @@ impl Setting {
         }
     }
 
-    /// The size of all steps, s; `None` where the run chooses them.
+    /// The constant step, s; `None` with step control.
     #[must_use]
     pub const fn step(&self) -> Option<f64> {
         match self.steps {
@@ -122,7 +122,7 @@ impl Setting {
         }
     }
 
-    /// The tolerance of the run's own choice of steps; `None` where all have one size.
+    /// The tolerance of step control; `None` with constant steps.
     #[must_use]
     pub const fn tolerance(&self) -> Option<f64> {
         match self.steps {
@@ -148,7 +148,7 @@ impl Setting {
         format!("{}{suffix}", self.scheme)
     }
 
-    /// The line of a picture that the setting belongs to: its name, and whether its steps are controlled.
+    /// The name of the curve in a picture: the name of the setting, and whether it uses step control.
     ///
     /// ```
     /// use eem::{Scheme, Setting};

@@ -5,21 +5,21 @@ use super::quantity::PerQuantity;
 /// An error is stated if the references differ by at most this share of it.
 pub(super) const DOUBT: f64 = 0.01;
 
-/// What a study says about one error at the end time.
+/// The statement of a study about one error at the end time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Statement {
     /// The relative error: the two references differ by at most a hundredth of it.
     Stated(f64),
-    /// No error. The references differ by `doubt`, more than a hundredth of the difference between the run and
-    /// one of them: the motion is chaotic, or rounding is all there is.
+    /// No error is stated. The references differ by `doubt`, more than a hundredth of the difference between the
+    /// run and one of them: the motion is chaotic, or only rounding is left.
     Refused {
-        /// The difference between the run and the first reference; not a number without references.
+        /// The difference between the run and the first reference; NaN without references.
         difference: f64,
         /// The difference between the references; infinite without references.
         doubt: f64,
     },
-    /// The scene has no such quantity, or the run no end.
+    /// The scene has no such quantity, or the run did not reach the end.
     Absent,
 }
 

@@ -9,7 +9,7 @@ use super::sides;
 use crate::element::kinematics::Shape;
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
-    /// The faces of the surface whose nodes all satisfy a condition.
+    /// The surface faces whose nodes all satisfy a condition.
     ///
     /// ```
     /// use eem::kinematics::Hex8;

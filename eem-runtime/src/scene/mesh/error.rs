@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::number::readable::Readable;
 
-/// Why there is no such mesh, or no such part of it.
+/// Why a mesh, or a part of it, is invalid.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MeshError {
@@ -39,11 +39,11 @@ pub enum MeshError {
         "{cells} cells have {nodes} nodes, which take {bytes} bytes, and no more than 4294967295 nodes can be numbered: use fewer cells"
     )]
     TooMany {
-        /// Cells; [`u128::MAX`] stands for that or more, here and below.
+        /// The number of cells; [`u128::MAX`] stands for that or more, here and below.
         cells: u128,
-        /// Their nodes.
+        /// The number of nodes.
         nodes: u128,
-        /// What both take while the mesh is made and checked.
+        /// Memory needed to make and check the mesh.
         bytes: u128,
     },
     /// A mesh takes more memory than there is.
@@ -52,13 +52,14 @@ pub enum MeshError {
         available.map_or_else(|| "which the system refuses".to_owned(), |most| format!("and {most} are available"))
     )]
     TooLarge {
-        /// Cells.
+        /// The number of cells.
         cells: u128,
-        /// Their nodes.
+        /// The number of nodes.
         nodes: u128,
-        /// What both take while the mesh is made and checked.
+        /// Memory needed to make and check the mesh.
         bytes: u128,
-        /// What there is, bytes; `None` where the machine had it available, or does not say, and refused it.
+        /// Memory available, bytes; `None` if unknown, or if the allocation failed although there seemed to be
+        /// enough.
         available: Option<u64>,
     },
     /// Two sides of a polygon cross or touch.
@@ -74,10 +75,10 @@ pub enum MeshError {
         cell: usize,
         /// The node, from 0.
         node: usize,
-        /// How many there are.
+        /// The number of nodes.
         nodes: usize,
     },
-    /// A cell names a node twice.
+    /// A cell has a node twice.
     #[error("cell {cell} has node {node} twice")]
     Repeated {
         /// The cell, from 0.
@@ -91,7 +92,7 @@ pub enum MeshError {
         /// The node, from 0.
         node: usize,
     },
-    /// Two nodes are in the same place.
+    /// Two nodes coincide.
     #[error("nodes {first} and {second} are in the same place", first = nodes[0], second = nodes[1])]
     Duplicate {
         /// The nodes, from 0.
@@ -145,7 +146,7 @@ pub enum MeshError {
     Scale {
         /// The cell, from 0.
         cell: usize,
-        /// What is computed for `det ∂X/∂ξ`.
+        /// The computed value of `det ∂X/∂ξ`.
         value: f64,
         /// Its unit, m² or m³.
         unit: &'static str,
@@ -178,21 +179,21 @@ pub enum MeshError {
         /// The corners of the face, from 0.
         nodes: Vec<usize>,
     },
-    /// A node is looked for within what is no distance.
+    /// The distance in the search for a node is invalid.
     #[error("a node is looked for within {within} m, which must be zero or positive", within = Readable(*within))]
     Distance {
         /// m.
         within: f64,
     },
-    /// No node is in a place.
+    /// There is no node at a position.
     #[error("no node is at {place:?} m: the nearest is at {nearest:?} m")]
     NoNodeAt {
-        /// The place, m.
+        /// The position, m.
         place: Vec<f64>,
-        /// That of the nearest node, m.
+        /// The position of the nearest node, m.
         nearest: Vec<f64>,
     },
-    /// No face of the surface satisfies a condition.
+    /// No surface face satisfies a condition.
     #[error("no face of the surface has all its nodes where the condition holds")]
     NoFace,
 }

@@ -9,7 +9,7 @@ use crate::element::kinematics::{Hex8, Hex20, Quad4, Quad8, Shape};
 use crate::material::free_energy::Array;
 
 impl Mesh<Hex8, 3> {
-    /// A mesh in the plane, extruded along z through these heights, m: a layer of hexahedra between each two.
+    /// Extrudes a plane mesh along z through these heights, m: one layer of hexahedra between two heights.
     ///
     /// ```
     /// use eem::Mesh;
@@ -24,14 +24,14 @@ impl Mesh<Hex8, 3> {
     ///
     /// # Errors
     ///
-    /// [`MeshError::Cut`] if heights do not ascend, [`MeshError::Empty`] if there are fewer than two.
+    /// [`MeshError::Cut`] if the heights do not ascend, [`MeshError::Empty`] if there are fewer than two.
     pub fn extruded(profile: &Mesh<Quad4, 2>, heights: &[f64]) -> Result<Self, MeshError> {
         extruded(profile, heights)
     }
 }
 
 impl Mesh<Hex20, 3> {
-    /// A mesh in the plane, extruded along z through these heights, m: a layer of hexahedra between each two.
+    /// Extrudes a plane mesh along z through these heights, m: one layer of hexahedra between two heights.
     ///
     /// ```
     /// use eem::Mesh;
@@ -50,7 +50,7 @@ impl Mesh<Hex20, 3> {
     ///
     /// # Errors
     ///
-    /// [`MeshError::Cut`] if heights do not ascend, [`MeshError::Empty`] if there are fewer than two.
+    /// [`MeshError::Cut`] if the heights do not ascend, [`MeshError::Empty`] if there are fewer than two.
     pub fn extruded(profile: &Mesh<Quad8, 2>, heights: &[f64]) -> Result<Self, MeshError> {
         extruded(profile, heights)
     }

@@ -2,8 +2,8 @@
 
 use super::digest::Digest;
 
-/// Some faces of the surface of a mesh, from [`Mesh::face`](crate::Mesh::face). They are also those of its copies and
-/// of meshes that are equal to it, but not of one that has been moved, mapped or refined.
+/// Some faces on the surface of a mesh, from [`Mesh::face`](crate::Mesh::face). They are valid for copies of the
+/// mesh and for equal meshes, but not after it has been moved, mapped or refined.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Face {
     /// That of the mesh.
@@ -22,11 +22,11 @@ impl Face {
     }
 }
 
-/// A line of nodes around a part of a mesh, from [`Mesh::outlines`](crate::Mesh::outlines).
+/// A closed line of nodes, from [`Mesh::outlines`](crate::Mesh::outlines).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Outline {
     /// The cell, from 0.
     pub cell: usize,
-    /// Its nodes, from 0, one after the other around it; the first follows the last.
+    /// Its nodes, from 0, in order; the last is connected to the first.
     pub nodes: Vec<usize>,
 }

@@ -7,7 +7,7 @@ use crate::element::kinematics::Shape;
 use crate::material::free_energy::Array;
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
-    /// A box between two ends along each axis, m, cut into equal cells. The first coordinate runs fastest.
+    /// A box between two coordinates per axis, m, divided into equal cells. The first coordinate varies fastest.
     ///
     /// ```
     /// use eem::kinematics::Hex8;
@@ -21,9 +21,9 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     ///
     /// # Errors
     ///
-    /// [`MeshError::Empty`] if there are no cells along an axis, [`MeshError::Range`] if its ends do not ascend;
-    /// [`MeshError::TooMany`] and [`MeshError::TooLarge`], before any memory is taken, if nodes cannot be numbered or
-    /// do not fit in the memory. The latter needs the feature `sparse` to know what is available.
+    /// [`MeshError::Empty`] if an axis has no cells, [`MeshError::Range`] if its coordinates do not ascend;
+    /// [`MeshError::TooMany`] and [`MeshError::TooLarge`], before memory is reserved, if there are too many nodes
+    /// or too little memory. The latter needs the feature `sparse`.
     pub fn block(cells: [usize; D], ranges: [[f64; 2]; D]) -> Result<Self, MeshError> {
         for (axis, [from, to]) in ranges.into_iter().enumerate() {
             if !(from.is_finite() && to.is_finite() && from < to) {
@@ -53,7 +53,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         Self::on_lattice(&lattice, cuts)
     }
 
-    /// A box that is cut at these places along each axis, m.
+    /// A box divided at these coordinates along each axis, m.
     ///
     /// ```
     /// use eem::kinematics::Quad8;
@@ -68,7 +68,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     ///
     /// # Errors
     ///
-    /// [`MeshError::Empty`] if there are no cells along an axis, [`MeshError::Cut`] if cuts do not ascend;
+    /// [`MeshError::Empty`] if an axis has no cells, [`MeshError::Cut`] if its coordinates do not ascend;
     /// [`MeshError::TooMany`] and [`MeshError::TooLarge`] as for a [`block`](Self::block).
     pub fn grid(cuts: [&[f64]; D]) -> Result<Self, MeshError> {
         check_cuts(cuts)?;

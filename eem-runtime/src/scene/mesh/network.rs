@@ -35,18 +35,17 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         (pairs.into_iter().map(link).collect(), skewness)
     }
 
-    /// How many of the faces that heat passes between points are skew, `|A·d| < 0.95 |A| |d|`, and how many
-    /// there are.
+    /// The number of skew faces between integration points, `|A·d| < 0.95 |A| |d|`, and the number of all of them.
     ///
-    /// Conduction is that of Fourier's law where the lines between points are normal to the faces. Where they are
-    /// not, heat flows along them all the same, however fine the mesh: with the tensor of conductivity
+    /// Conduction follows Fourier's law where the lines between points are normal to the faces. Elsewhere heat
+    /// flows along these lines, however fine the mesh is, with the conductivity tensor
     ///
     /// ```text
     /// K = k Σ d̂ ⊗ d̂     d̂ the unit vectors along the lines of the mesh
     /// ```
     ///
-    /// in the place of k 1. Where more than one face in twenty is skew, a solid with a conductivity is refused,
-    /// unless [`Bulk::allow_skew_cells`](crate::Bulk::allow_skew_cells) is called.
+    /// instead of k 1. If more than one face in twenty is skew, a solid with a conductivity is rejected, unless
+    /// [`Bulk::allow_skew_cells`](crate::Bulk::allow_skew_cells) is called.
     ///
     /// ```
     /// use eem::kinematics::Quad4;

@@ -5,8 +5,8 @@ use super::face::Outline;
 use crate::element::kinematics::Shape;
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
-    /// What there is to draw: around each cell in the plane, in space around each face of the surface, against the
-    /// clock seen from outside. Middles of edges lie between their corners.
+    /// Lines for drawing the mesh: around each cell in the plane, around each surface face in space,
+    /// counterclockwise seen from outside. Mid-side nodes lie between their corners.
     ///
     /// ```
     /// use eem::Mesh;

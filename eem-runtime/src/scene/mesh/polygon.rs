@@ -8,13 +8,11 @@ use super::geometry::{mean, power_of_two};
 use crate::element::kinematics::Quad4;
 
 impl Mesh<Quad4, 2> {
-    /// A polygon with these corners, m, one after the other in either sense. It may have re-entrant corners, but no
-    /// holes.
+    /// A polygon with these corners, m, in order, clockwise or not. It may have re-entrant corners, but no holes.
     ///
-    /// It is cut into triangles between its corners, and each of them into three quadrilaterals between a corner,
-    /// the middles of two sides and its centre: three cells per corner, less six. They are far from rectangular;
-    /// [`refined`](Self::refined) makes them smaller. For conduction a mesh of rectangles is better, where there is
-    /// one.
+    /// It is divided into triangles between its corners, and each triangle into three quadrilaterals: in total
+    /// three cells per corner, less six. The cells are far from rectangular; [`refined`](Self::refined) makes them
+    /// smaller. For conduction prefer a mesh of rectangles.
     ///
     /// ```
     /// use eem::kinematics::Quad4;
@@ -32,9 +30,9 @@ impl Mesh<Quad4, 2> {
     ///
     /// # Errors
     ///
-    /// [`MeshError::Place`] if a corner is nowhere, [`MeshError::Crossing`] if two sides cross or touch,
-    /// [`MeshError::Empty`] if there are fewer than three corners or all are on a line; [`MeshError::Scale`] if areas
-    /// are too large or too small for numbers.
+    /// [`MeshError::Place`] if a corner is not finite, [`MeshError::Crossing`] if two sides cross or touch,
+    /// [`MeshError::Empty`] if there are fewer than three corners or all are on a line; [`MeshError::Scale`] if
+    /// areas overflow or underflow.
     pub fn polygon(corners: &[[f64; 2]]) -> Result<Self, MeshError> {
         check_places(corners)?;
         // Areas of what is very large or very small are no numbers.
@@ -61,7 +59,7 @@ impl Mesh<Quad4, 2> {
         Self::new(nodes, cells)
     }
 
-    /// The same with each cell cut into four, at the middles of its edges.
+    /// The same mesh with each cell divided into four at the middles of its edges.
     ///
     /// ```
     /// use eem::Mesh;
@@ -76,7 +74,7 @@ impl Mesh<Quad4, 2> {
     ///
     /// # Errors
     ///
-    /// If two places become one by rounding.
+    /// If two nodes coincide after rounding.
     pub fn refined(&self) -> Result<Self, MeshError> {
         let mut nodes = self.nodes.clone();
         let mut middles = Middles::default();

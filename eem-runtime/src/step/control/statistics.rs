@@ -3,9 +3,9 @@
 use crate::algebra::memory::TooLarge;
 use crate::step::error::StepFailure;
 
-/// Steps of a run with [`control_steps`](crate::Simulation::control_steps), and why others were not taken.
+/// Statistics of [`control_steps`](crate::Simulation::control_steps): accepted steps, and rejected ones by cause.
 ///
-/// Those that were tried on the way to an error are counted too; they are all that a failed step leaves behind.
+/// Steps that were tried before an error are counted too.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(
     feature = "serde",
@@ -14,21 +14,21 @@ use crate::step::error::StepFailure;
 )]
 #[non_exhaustive]
 pub struct StepStatistics {
-    /// Steps that were taken.
+    /// Accepted steps.
     pub accepted: u64,
-    /// Rejected since their error exceeded the tolerance.
+    /// Rejected because their error exceeded the tolerance.
     pub rejected_by_error: u64,
-    /// Rejected since Newton's method did not find a new state.
+    /// Rejected because Newton's method found no new state.
     pub rejected_by_newton: u64,
-    /// Rejected since an element cannot be where they led.
+    /// Rejected because an element had no admissible state.
     pub rejected_by_domain: u64,
-    /// Rejected since they did not prove their laws.
+    /// Rejected because they did not prove their laws.
     pub rejected_by_law: u64,
-    /// How often [`Scheme::Auto`](crate::Scheme::Auto) has gone on with another scheme.
+    /// How often [`Scheme::Auto`](crate::Scheme::Auto) has switched to another scheme.
     #[cfg_attr(feature = "serde", serde(default))]
     pub changes_of_scheme: u64,
-    /// What a scheme would have taken that [`Scheme::Auto`](crate::Scheme::Auto) wanted to try, or to return to, and
-    /// for which there was no memory; the last one. Steps may then be far shorter than they have to be.
+    /// Memory that was missing for a scheme that [`Scheme::Auto`](crate::Scheme::Auto) wanted to try or return to;
+    /// the last case. Steps may then be much shorter than necessary.
     #[cfg_attr(feature = "serde", serde(default))]
     pub too_large: Option<TooLarge>,
 }
@@ -59,7 +59,7 @@ impl StepStatistics {
         self.rejected() - self.rejected_by_error
     }
 
-    /// All that were rejected.
+    /// All rejected steps.
     #[must_use]
     pub const fn rejected(&self) -> u64 {
         self.rejected_by_error

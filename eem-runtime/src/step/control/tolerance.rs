@@ -8,27 +8,26 @@ use crate::step::control::accuracy::Accuracy;
 /// Numbers whose rounding is coarser are of single precision.
 const SINGLE: f64 = 1e-12;
 
-/// The accuracy that a run asks of its steps.
+/// The tolerance of step control.
 ///
-/// Positions are compared with `|q|₂`, momenta with the largest `|p|₂` of the run so far, and each temperature
-/// with itself:
+/// Errors of positions are relative to `|q|₂`, of momenta to the largest `|p|₂` of the run so far, and of each
+/// temperature to itself:
 ///
 /// ```text
 /// error = max(|δq|/(r |q|₂ + a_q), |δγ|/(r |q|₂ + a_q), |δp|/(r max |p|₂ + a_p), |δθ|/(r θ + a_θ))
 /// ```
 ///
-/// Viscous strains of solids have no length; they are compared with `r + a_q`. Momenta of nodes that are moved follow
-/// from their motion and are not compared.
+/// Viscous strains of solids are dimensionless and compared with `r + a_q`. Momenta of prescribed nodes are ignored.
 ///
-/// The relative tolerance r stands for the accuracy of the state after the time in which the motion changes
-/// by as much as it is large, and errors go with its first power: a scheme of order p takes a step whose error
-/// is `r^(1 + 1/p)`, of which `r^(−1/p)` make up that time (Söderlind & Wang 2006, *Adaptive time-stepping and
-/// computational stability*, §4, call this tolerance proportionality). The explicit scheme, whose estimate is
-/// that of a formula of lower order, takes r as it is. Errors grow with time as the motion lets them; a
+/// The relative tolerance r is the accuracy of the state after the time scale of the motion, in which the state
+/// changes by its own size. Errors are proportional to r: a scheme of order p makes steps with an error of
+/// `r^(1 + 1/p)`, and `r^(−1/p)` of them make up that time (tolerance proportionality; Söderlind & Wang 2006,
+/// *Adaptive time-stepping and computational stability*, §4). The explicit scheme, whose estimate has a lower
+/// order than the scheme, uses r directly. How errors grow with time depends on the motion; a
 /// [`Study`](crate::Study) measures them.
 ///
-/// Absolute tolerances are zero unless given, and matter only where something passes through zero that is
-/// small beside all else.
+/// Absolute tolerances are zero by default. They matter only for quantities that pass through zero and are small
+/// compared with all others.
 ///
 /// ```
 /// use eem::Tolerance;
@@ -44,13 +43,13 @@ const SINGLE: f64 = 1e-12;
 )]
 #[non_exhaustive]
 pub struct Tolerance<S = f64> {
-    /// r.
+    /// The relative tolerance r.
     pub relative: S,
-    /// `a_q`, m: of positions and viscous stretches.
+    /// The absolute tolerance `a_q` of positions and viscous stretches, m.
     pub position: S,
-    /// `a_p`, kg m/s.
+    /// The absolute tolerance `a_p` of momenta, kg m/s.
     pub momentum: S,
-    /// `a_θ`, K.
+    /// The absolute tolerance `a_θ` of temperatures, K.
     pub temperature: S,
 }
 
@@ -63,7 +62,7 @@ impl<S: Real> Default for Tolerance<S> {
 }
 
 impl<S: Real> Tolerance<S> {
-    /// A relative tolerance.
+    /// A relative tolerance, without absolute ones.
     #[must_use]
     pub fn new(relative: S) -> Self {
         Self {
@@ -74,19 +73,19 @@ impl<S: Real> Tolerance<S> {
         }
     }
 
-    /// With an absolute tolerance of positions and viscous stretches, m.
+    /// Sets the absolute tolerance of positions and viscous stretches, m.
     #[must_use]
     pub fn with_position(self, position: S) -> Self {
         Self { position, ..self }
     }
 
-    /// With an absolute tolerance of momenta, kg m/s.
+    /// Sets the absolute tolerance of momenta, kg m/s.
     #[must_use]
     pub fn with_momentum(self, momentum: S) -> Self {
         Self { momentum, ..self }
     }
 
-    /// With an absolute tolerance of temperatures, K.
+    /// Sets the absolute tolerance of temperatures, K.
     #[must_use]
     pub fn with_temperature(self, temperature: S) -> Self {
         Self {

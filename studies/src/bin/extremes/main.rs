@@ -1,4 +1,4 @@
-//! What holds at the extremes, tried kind by kind; writes the published table `docs/extremes.md`.
+//! Attempts to break the laws at extremes, kind by kind; writes `docs/extremes.md`.
 //!
 //! An exact scheme keeps the laws in every step, to rounding, or it refuses the step with a typed
 //! error. This example tries to break that: step sizes of 18 decades, ratios of stiffness of 12, heat

@@ -1,4 +1,4 @@
-//! The table of what was tried and what came of it, as Markdown.
+//! The page `docs/extremes.md`: cases and results as Markdown.
 
 use std::fmt::Write as _;
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -6,20 +6,21 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use super::extremes::kinds::Kind;
 use super::extremes::tally::Tally;
 
-/// What stands above the tables.
+/// The head of the page.
 const HEAD: &str = "\
-# What holds at the extremes
+# Extremes
 
-Every step of an exact scheme (`eem-entropy`, `eem-temperature`, `staggered`) keeps the laws to
-rounding, or is refused with a typed error that leaves the state as it was. This page is what was
-tried to break that. A judge forms the laws of every step from the stored states, with 32 digits and by
-code that shares nothing with the schemes; the head of
-`tests/extremes/judge.rs` has its formulas and bounds.
+Every step of an exact scheme (`eem-entropy`, `eem-temperature`, `staggered`) keeps the laws to rounding, or is rejected with a
+typed error that leaves the state unchanged. This page lists attempts to break that. A judge evaluates the laws of every step
+from the stored states, with 32 digits and with code that shares nothing with the schemes; `tests/extremes/judge.rs` documents
+its formulas and bounds.
 
-*Worst* is the largest energy defect of a step over what rounding explains, 64 ε (A + A⁺): 1 is the
-limit, and 0.007 an ordinary rounding error. *Iterations* are the mean per step and the most of one.
-*Refused* are runs that ended with the error named. Momenta, the production of entropy and the kept
-entropies were judged in every step, too; a line *broken* would name what did not hold.
+- *Worst* is the largest energy defect of a step divided by its bound for rounding, 64 ε (A + A⁺). The limit is 1; a usual value
+  is 0.007.
+- *Iterations* are the mean and the maximum per step.
+- *Errors* count the runs that ended with the error named.
+
+Momenta, entropy production and stored entropies were checked in every step, too. A line *Broken* would name a violated law.
 ";
 
 /// The whole page.
@@ -39,7 +40,7 @@ fn section(text: &mut String, number: usize, kind: &Kind, tallies: &[Tally]) -> 
     writeln!(text, "\n## {number}. {}\n", kind.question)?;
     writeln!(
         text,
-        "| tried | runs | complete | steps | worst | iterations | refused |"
+        "| case | runs | complete | steps | worst | iterations | errors |"
     )?;
     writeln!(text, "|---|---|---|---|---|---|---|")?;
     for tally in tallies {

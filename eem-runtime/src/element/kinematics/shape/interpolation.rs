@@ -10,8 +10,8 @@ use crate::number::scalar::Real;
 /// The shape of a cell in `D` dimensions: [`Quad4`](super::Quad4), [`Quad8`](super::Quad8),
 /// [`Hex8`](super::Hex8) or [`Hex20`](super::Hex20).
 ///
-/// Nodes are in the order of VTK: corners, then middles of edges. The points at which the free energy is
-/// evaluated are Gauss points; the first coordinate runs fastest.
+/// Nodes are in the order of VTK: corners, then mid-side nodes. The integration points are Gauss points; the first
+/// coordinate varies fastest.
 ///
 /// ```
 /// use eem::kinematics::{Hex20, Shape};
