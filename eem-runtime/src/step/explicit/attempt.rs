@@ -1,5 +1,6 @@
 //! One attempt at a step, which changes nothing until it is accepted.
 
+use super::closing::FROZEN;
 use super::components::Support;
 use super::demand::{Demand, Scales};
 use super::memory::{END, START};
@@ -45,7 +46,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     ) -> Result<Attempt<S>, StepFailure> {
         self.was_ready = self.is_ready;
         let attempt = self.attempt_ready(view, demand, next);
-        let is_made = attempt.as_ref().is_ok_and(|attempt| attempt.outcome.is_some());
+        let is_made = attempt
+            .as_ref()
+            .is_ok_and(|attempt| attempt.outcome.is_some());
         if !is_made {
             // As it was before, also if nothing was known of the state.
             self.is_ready = self.was_ready;
@@ -110,10 +113,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// All stages, and the end of the step before it is closed.
     fn go_through_stages(&mut self, view: &ExplicitView<'_, S, D>) -> Result<(), StepFailure> {
-        self.gather(0, view.step);
-        for stage in 1..STAGES {
-            self.go_to(stage, view.step);
-            self.evaluate(stage, view)?;
+        for stage in 0..STAGES {
+            if stage > 0 {
+                self.go_to(stage, view.step);
+                self.evaluate(stage, view)?;
+            }
             self.gather(stage, view.step);
         }
         self.go_to(STAGES, view.step);
@@ -225,7 +229,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for index in 0..self.components.all.len() {
             let seen = self.scratch.progress[index].seen;
             let [defect, magnitude, motion] = seen.unwrap_or_else(|| self.defect_of(index));
-            let magnitude = magnitude + self.scratch.progress[index].granularity;
+            let granularity = self.scratch.progress[index].granularity;
+            let magnitude = magnitude + S::from_f64(FROZEN / ROUNDINGS) * granularity;
             expect(Law::Energy, [-defect, rounding * magnitude], time)?;
             self.prove_momenta(index, time)?;
             residue -= defect;
@@ -266,17 +271,15 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     fn prove_momenta(&self, index: usize, time: S) -> Result<(), StepFailure> {
         let component = &self.components.all[index];
         let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
-        let origin = match component.support {
-            Support::Free => self.center(component, positions),
-            Support::Anchor(place) => positions[place],
-            Support::Several => return Ok(()),
+        let Some(origin) = self.origin(component, positions) else {
+            return Ok(());
         };
         let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
         let (linear, angular) = self.missing_momenta(index);
         // Sums of magnitudes are at most √D times a length.
         let [momenta, moments] = self.momentum_terms(index, &origin);
         let dimension = (0..D).fold(S::zero(), |sum, _| sum + S::one());
-        let moments = moments / dimension;
+        let (momenta, moments) = (momenta / dimension.sqrt(), moments / dimension);
         if component.support == Support::Free {
             let largest = linear
                 .iter()

@@ -79,7 +79,13 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 let component = self.components.of_dashpot[dashpot] as usize;
                 let progress = &mut self.scratch.progress[component];
                 progress.production.add(production);
-                progress.least = progress.least.minimum(production);
+                // What a thermostat takes up the closing does not change.
+                let least = if self.held.get(slot) == Some(&true) {
+                    &mut self.scratch.least
+                } else {
+                    &mut progress.least
+                };
+                *least = least.minimum(production);
             }
         }
         for (component, dashpots) in &self.components.losing {

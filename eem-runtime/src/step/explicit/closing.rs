@@ -27,6 +27,9 @@ use crate::step::error::StepFailure;
 /// Changes of a component after which its closing is given up.
 const MOST_TURNS: usize = 10;
 
+/// Roundings, in ε, that a component may lack where nothing can give them.
+pub(super) const FROZEN: f64 = 8.0;
+
 /// What a look at the energy of a component says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Verdict {

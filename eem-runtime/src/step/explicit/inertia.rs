@@ -16,9 +16,8 @@ pub(super) mod turning;
 use super::vector::length;
 use crate::algebra::bivector::{Bivector, planes};
 use crate::number::scalar::{Mask, Real};
-use moments::WEAK;
 
-pub(super) use moments::Moments;
+pub(super) use moments::{Moments, WEAK};
 pub(super) use principal::Principal;
 
 /// What turns how fast.

@@ -4,7 +4,7 @@ use super::Explicit;
 use super::components::Support;
 use super::memory::{LoadSums, Sample};
 use super::tableau::{STAGES, WEIGHTED, WEIGHTS};
-use super::vector::{add, difference, dot};
+use super::vector::{Origin, add, dot};
 use crate::algebra::bivector::Bivector;
 use crate::element::group::points;
 use crate::number::scalar::Real;
@@ -68,14 +68,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let velocities = &self.rates(stage)[..self.offsets.momenta];
         let velocities = points::<S, D>(velocities);
         for (sums, component) in loads.iter_mut().zip(&self.components.all) {
-            let origin = match component.support {
-                Support::Free => self.center(component, positions),
-                Support::Anchor(place) => positions[place],
-                Support::Several => [S::zero(); D],
-            };
+            let origin = self.origin(component, positions);
+            let origin = origin.unwrap_or(Origin::at(&[S::zero(); D]));
             let mut momentum = [S::zero(); D];
             for place in component.masses.clone() {
-                let arm = difference(&positions[place], &origin);
+                let arm = origin.arm(&positions[place]);
                 let node = self.components.nodes[place] as usize;
                 sums.add(
                     weight,

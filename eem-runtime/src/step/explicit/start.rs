@@ -5,7 +5,7 @@ use super::components::Support;
 use super::memory::Target;
 use super::memory::{END, START};
 use super::stages::From;
-use super::vector::{add, difference};
+use super::vector::{Origin, add};
 use super::{Explicit, ExplicitView};
 use crate::algebra::bivector::Bivector;
 use crate::element::group::{ComponentEnergy, points};
@@ -89,13 +89,22 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// The centre of mass, m.
-    pub(super) fn center(&self, component: &Component<S>, positions: &[[S; D]]) -> [S; D] {
-        let mut sum = [S::zero(); D];
-        for place in component.masses.clone() {
-            add(&mut sum, self.masses[place], &positions[place]);
+    /// The point about which a component keeps its angular momentum: its anchor or its centre of mass; none with
+    /// several anchors.
+    pub(super) fn origin(
+        &self,
+        component: &Component<S>,
+        positions: &[[S; D]],
+    ) -> Option<Origin<S, D>> {
+        match component.support {
+            Support::Free => {
+                let masses = component.masses.clone();
+                let masses = masses.map(|place| (self.masses[place], &positions[place]));
+                Some(Origin::center(masses, component.mass))
+            }
+            Support::Anchor(place) => Some(Origin::at(&positions[place])),
+            Support::Several => None,
         }
-        sum.map(|moment| moment / component.mass)
     }
 
     /// Linear momentum, and angular momentum about the anchor, or about the centre of mass.
@@ -103,13 +112,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
         let momenta = points::<S, D>(&self.y[self.offsets.momenta..self.offsets.viscous]);
         let (mut linear, mut angular) = ([S::zero(); D], Bivector::zero());
-        let origin = match component.support {
-            Support::Free => self.center(component, positions),
-            Support::Anchor(place) => positions[place],
-            Support::Several => return (linear, angular),
+        let Some(origin) = self.origin(component, positions) else {
+            return (linear, angular);
         };
         for place in component.masses.clone() {
-            let arm = difference(&positions[place], &origin);
+            let arm = origin.arm(&positions[place]);
             add(&mut linear, S::one(), &momenta[place]);
             angular.add(S::one(), &Bivector::wedge(&arm, &momenta[place]));
         }

@@ -3,8 +3,8 @@
 use super::super::Explicit;
 use super::super::components::{Component, Support};
 use super::super::inertia::turning::turning;
-use super::super::inertia::{Inertia, Moments};
-use super::super::vector::{add, difference, dot, size};
+use super::super::inertia::{Inertia, Moments, WEAK};
+use super::super::vector::{Origin, add, dot, size};
 use crate::algebra::bivector::Bivector;
 use crate::element::group::points;
 use crate::number::compensated::Sum;
@@ -17,7 +17,7 @@ const OWN_ROUNDINGS: f64 = 2.0;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rigid<S, const D: usize> {
     /// The anchor or the centre of mass, m, and its velocity where it is that of the masses, m/s.
-    pub(super) origin: [S; D],
+    pub(super) origin: Origin<S, D>,
     pub(super) velocity: [S; D],
     /// The angular velocity, 1/s.
     pub(super) omega: Bivector<S, D>,
@@ -27,7 +27,7 @@ pub(super) struct Rigid<S, const D: usize> {
 #[derive(Clone, Copy, Debug)]
 struct Body<S, const D: usize> {
     /// The anchor or the centre of mass, m.
-    origin: [S; D],
+    origin: Origin<S, D>,
     /// About it; none where nothing turns.
     inertia: Option<Inertia<S, D>>,
 }
@@ -64,26 +64,21 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// A component as it would turn as a rigid body.
     fn body(&self, component: &Component<S>) -> Body<S, D> {
         let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
+        let origin = self.origin(component, positions);
         let mut body = Body {
-            origin: [S::zero(); D],
+            origin: origin.unwrap_or(Origin::at(&[S::zero(); D])),
             inertia: None,
         };
         let lonely = match component.support {
-            Support::Free => {
-                body.origin = self.center(component, positions);
-                1
-            }
-            Support::Anchor(place) => {
-                body.origin = positions[place];
-                0
-            }
+            Support::Free => 1,
+            Support::Anchor(_) => 0,
             Support::Several => return body,
         };
         let count = component.masses.len();
         if D < 2 || count <= lonely {
             return body;
         }
-        let arm = |place: usize| difference(&positions[place], &body.origin);
+        let arm = |place: usize| body.origin.arm(&positions[place]);
         body.inertia = Some(if count == lonely + 1 {
             // The other mass of a pair is on the same line through the centre.
             let moment = component.masses.clone().fold(S::zero(), |sum, place| {
@@ -97,26 +92,25 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         body
     }
 
-    fn moments(&self, component: &Component<S>, origin: &[S; D]) -> Moments<S, D> {
+    fn moments(&self, component: &Component<S>, origin: &Origin<S, D>) -> Moments<S, D> {
         let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
         let mut moments = Moments::none();
         for place in component.masses.clone() {
-            let arm = difference(&positions[place], origin);
+            let arm = origin.arm(&positions[place]);
             moments.add(self.masses[place], &arm);
         }
         moments
     }
 
-    /// Adds a rigid motion to the momenta that do not wait.
-    fn add_rigid(&mut self, index: usize, rigid: &Rigid<S, D>) {
+    /// Adds a rigid motion to the momenta, except for numbers that wait.
+    fn add_rigid(&mut self, index: usize, rigid: &Rigid<S, D>, waits: S::Mask) {
         let component = &self.components.all[index];
-        let waits = self.scratch.waits[index];
         let offsets = self.offsets;
         let (positions, momenta) = self.y[..offsets.viscous].split_at_mut(offsets.momenta);
         let positions = points::<S, D>(positions);
         let momenta = momenta.as_chunks_mut::<D>().0;
         for place in component.masses.clone() {
-            let arm = difference(&positions[place], &rigid.origin);
+            let arm = rigid.origin.arm(&positions[place]);
             let turning = rigid.omega.turn(&arm);
             let mut momentum = momenta[place];
             add(&mut momentum, self.masses[place], &rigid.velocity);
@@ -126,27 +120,47 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// Puts the momenta back to their targets; in space twice, since the first correction may be large
-    /// beside its rounding. Positions turn where momenta alone cannot do it.
+    /// Puts the momenta back to their targets; in space once more where the rounding of the first correction matters.
+    /// Positions turn where momenta alone cannot do it.
     pub(super) fn restore_momenta(&mut self, index: usize) {
         if self.components.all[index].support == Support::Several {
             return;
         }
         let mut body = self.body(&self.components.all[index]);
         let is_weak = match &body.inertia {
-            Some(Inertia::Line { along, .. }) => self.leaves_plane(index, [&body.origin, along]),
+            Some(Inertia::Line { along, .. }) => self.leaves_plane(index, (&body.origin, along)),
             Some(Inertia::Principal(_) | Inertia::Lanes(_)) => true,
             _ => false,
         };
         if is_weak && self.turn_body(index, &body) {
             body = self.body(&self.components.all[index]);
         }
-        for _ in 0..if D < 3 { 1 } else { 2 } {
-            let component = &self.components.all[index];
-            let (linear, angular) = self.missing_momenta(index);
-            let rigid = body.motion(component, (&linear, &angular));
-            self.add_rigid(index, &rigid);
+        let mut waits = self.scratch.waits[index];
+        let angular = self.correct_momenta(index, &body, waits);
+        if D < 3 {
+            return;
         }
+        // The rotation is known to ε/WEAK of itself.
+        let [_, terms] = self.momentum_terms(index, &body.origin);
+        waits = waits | angular.largest().at_most(S::from_f64(WEAK) * terms);
+        if !waits.all() {
+            self.correct_momenta(index, &body, waits);
+        }
+    }
+
+    /// Adds the rigid motion with what the momenta lack, except for numbers that wait; the angular momentum that they
+    /// lacked.
+    fn correct_momenta(
+        &mut self,
+        index: usize,
+        body: &Body<S, D>,
+        waits: S::Mask,
+    ) -> Bivector<S, D> {
+        let component = &self.components.all[index];
+        let (linear, angular) = self.missing_momenta(index);
+        let rigid = body.motion(component, (&linear, &angular));
+        self.add_rigid(index, &rigid, waits);
+        angular
     }
 
     /// What linear and angular momentum of a component lack.
@@ -160,13 +174,13 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// `Σ |p|` and `Σ |q||p|` of a component by sums of magnitudes, with coordinates q or arms about a point, whichever
     /// are larger: positions are rounded to ε of their coordinates.
-    pub(in super::super) fn momentum_terms(&self, index: usize, origin: &[S; D]) -> [S; 2] {
+    pub(in super::super) fn momentum_terms(&self, index: usize, origin: &Origin<S, D>) -> [S; 2] {
         let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
         let momenta = points::<S, D>(&self.y[self.offsets.momenta..self.offsets.viscous]);
         let masses = self.components.all[index].masses.clone();
         masses.fold([S::zero(); 2], |[linear, angular], place| {
             let momentum = size(&momenta[place]);
-            let arm = size(&difference(&positions[place], origin));
+            let arm = size(&origin.arm(&positions[place]));
             let arm = arm.maximum(size(&positions[place]));
             [linear + momentum, angular + arm * momentum]
         })
@@ -174,7 +188,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// Whether the angular momentum that masses on a line have to get has a part in planes across the line, which no
     /// momentum gives them.
-    fn leaves_plane(&self, index: usize, [origin, along]: [&[S; D]; 2]) -> bool {
+    fn leaves_plane(&self, index: usize, (origin, along): (&Origin<S, D>, &[S; D])) -> bool {
         let target = self.angular_target(index);
         let mut across = target;
         across.add(-S::one(), &Bivector::wedge(along, &target.turn(along)));
@@ -237,7 +251,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let positions = positions.as_chunks_mut::<D>().0;
         let momenta = momenta.as_chunks_mut::<D>().0;
         for place in masses {
-            let arm = difference(&positions[place], origin);
+            let arm = origin.arm(&positions[place]);
             let mut own = momenta[place];
             add(&mut own, -self.masses[place], &velocity);
             for (row, change) in change.iter().enumerate() {

@@ -111,10 +111,10 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             .map(zero, |w| if is_turning { w / speed } else { w });
         let mut along = [S::zero(); D];
         add(&mut along, self.masses[place], &rigid.velocity);
-        let arm = difference(&positions[place], &rigid.origin);
-        let mut position = rotated(&arm, &about, speed * h);
-        add(&mut position, S::one(), &rigid.origin);
-        add(&mut position, h, &rigid.velocity);
+        let arm = rigid.origin.arm(&positions[place]);
+        let mut way = rotated(&arm, &about, speed * h);
+        add(&mut way, h, &rigid.velocity);
+        let position = rigid.origin.moved(&way);
         let own = difference(&momenta[place], &along);
         let mut momentum = rotated(&own, &about, speed * h);
         add(&mut momentum, S::one(), &along);

@@ -1,10 +1,10 @@
 //! Energy by motion, by shape, and by entropy at last.
 
 use super::super::components::{Component, Support};
-use super::super::vector::{add, difference, dot};
+use super::super::vector::{add, dot};
 use super::super::{Explicit, ExplicitView};
 use super::momenta::Rigid;
-use super::{MOST_TURNS, Verdict};
+use super::{FROZEN, MOST_TURNS, Verdict};
 use crate::element::group::points;
 use crate::element::state::State;
 use crate::number::scalar::{Discord, Mask, Real, unless};
@@ -24,9 +24,6 @@ const SHAPE_TURNS: usize = 5;
 /// Roundings, in ε, of what an element has produced that are never taken back: each of its up to [`MOST_TURNS`] changes,
 /// and the share of each path of heat, is rounded once.
 const ROUNDED: f64 = 16.0;
-
-/// Roundings, in u = ε/2, that a component may lack where nothing can give them.
-const FROZEN: f64 = 16.0;
 
 /// What can give a component energy, J.
 #[derive(Clone, Copy, Debug)]
@@ -113,7 +110,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let granularity = self.granularity(index);
         let progress = &mut self.scratch.progress[index];
         progress.granularity = granularity;
-        let bound = S::from_f64(0.5 * FROZEN) * S::EPSILON * (progress.scale + granularity);
+        let bound = S::from_f64(FROZEN) * S::EPSILON * (progress.scale + granularity);
         let is_rounding = progress.defect.abs().at_most(bound);
         progress.is_closed = progress.is_closed | (is_left & is_rounding);
         if progress.is_closed.all() {
@@ -198,7 +195,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let momenta = points::<S, D>(&self.y[self.offsets.momenta..self.offsets.viscous]);
         let mass = self.masses[place];
         let mut own = momenta[place];
-        let arm = difference(&positions[place], &rigid.origin);
+        let arm = rigid.origin.arm(&positions[place]);
         add(&mut own, -mass, &rigid.velocity);
         add(&mut own, -mass, &rigid.omega.turn(&arm));
         own
@@ -210,7 +207,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let forces = points::<S, D>(&self.scratch.forces);
         let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
         let (mass, rigid) = (self.masses[place], &means.rigid);
-        let arm = difference(&positions[place], &rigid.origin);
+        let arm = rigid.origin.arm(&positions[place]);
         let toward = rigid.omega.turn(&rigid.omega.turn(&arm));
         let mut force = forces[place];
         add(&mut force, -mass, &toward);

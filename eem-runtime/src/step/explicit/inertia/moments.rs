@@ -4,7 +4,7 @@ use crate::number::scalar::Real;
 
 /// The share of the trace of M below which the inertia in a plane is weak: the correction of momenta there would be
 /// a hundred times as large as in other planes and more, and the body is turned instead.
-pub(super) const WEAK: f64 = 1e-4;
+pub(in super::super) const WEAK: f64 = 1e-4;
 
 /// The share below which it is rounding: ε^¾ in double precision.
 pub(super) const NO_INERTIA: f64 = 1.8e-12;

@@ -163,7 +163,11 @@ mod tests {
             }
             moments
         };
-        let change = turning(&Principal::of(&moments(arms)), [&sum(arms, momenta), &target], 1e-16);
+        let change = turning(
+            &Principal::of(&moments(arms)),
+            [&sum(arms, momenta), &target],
+            1e-16,
+        );
         let change = change.expect("is off");
         let turn = |r: &[f64; D]| -> [f64; D] {
             core::array::from_fn(|i| r[i] + (0..D).map(|j| change[i][j] * r[j]).sum::<f64>())
