@@ -85,15 +85,16 @@ impl Ends<'_> {
         self.psi(end).value + heat.unwrap_or(Digits::ZERO)
     }
 
-    /// `|s(λ, γ, θ) − s|` at the end of the step, and `|s| + Σ |∂s/∂x| |x| + c`.
+    /// `|s(λ, γ, θ) − s|` at the end of the step, and `|s|₊ + Σ |∂s/∂x| |x| + c` with the magnitude of the terms of s.
     pub(crate) fn kept_entropy(&self) -> (f64, f64) {
         let defect = (self.psi(1).slope + self.entropy[1]).value().abs();
         let x = self.doubles(1);
         let hessian = self.body.hessian(&x);
         let last = x.len() - 1;
         let slopes: f64 = (0..last).map(|j| (hessian[last][j] * x[j]).abs()).sum();
-        let capacity = self.body.caloric(&x).heat_capacity.abs();
-        (defect, self.entropy[1].value().abs() + slopes + capacity)
+        let caloric = self.body.caloric(&x);
+        let terms = caloric.magnitude.max(self.entropy[1].value().abs());
+        (defect, terms + slopes + caloric.heat_capacity.abs())
     }
 
     /// The largest of `|f|` at both ends and `|f*|`.

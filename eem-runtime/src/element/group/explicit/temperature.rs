@@ -50,15 +50,15 @@ impl<S: Real, M: FreeEnergy<S>, T> Settled<S, M, T> {
 /// Whether a change δ of ln θ by `δ = Δs/c` meets the entropy, given c and `|∂c/∂ ln θ|`: what it leaves of Δs is
 ///
 /// ```text
-/// ½ |∂c/∂ ln θ| δ²  ≤  ¼ ε c
+/// ½ |∂c/∂ ln θ| δ²  ≤  ε c/16
 /// ```
 ///
-/// a sixteenth of what the law of the kept entropy allows, so that several changes have room. A transition of
+/// a 64th of what the law of the kept entropy allows, so that several changes have room. A transition of
 /// the width w has `|∂c/∂ ln θ| = c θ/w`.
 #[inline]
 pub(crate) fn is_met<S: Real>(change: S, [capacity, bend]: [S; 2]) -> S::Mask {
-    let half = S::from_f64(0.5);
-    (bend * change * change).at_most(half * S::EPSILON * capacity)
+    let eighth = S::from_f64(0.125);
+    (bend * change * change).at_most(eighth * S::EPSILON * capacity)
 }
 
 impl<S, M, K, const D: usize> Point<S, M, K, Variational, D>

@@ -13,6 +13,9 @@ use crate::number::scalar::{MOST_LANES, Mask, Real, unless};
 /// Roundings of `Σ |q||p|` that are left to the momenta: positions turn only for more.
 const OWN_ROUNDINGS: f64 = 2.0;
 
+/// Corrections of momenta after the first one.
+const MOST_CORRECTIONS: usize = 3;
+
 /// The rigid part of the motion of a component.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rigid<S, const D: usize> {
@@ -120,7 +123,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
     }
 
-    /// Puts the momenta back to their targets; in space once more where the rounding of the first correction matters.
+    /// Puts the momenta back to their targets; in space again where the rounding of a correction matters.
     /// Positions turn where momenta alone cannot do it.
     pub(super) fn restore_momenta(&mut self, index: usize) {
         if self.components.all[index].support == Support::Several {
@@ -136,15 +139,18 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             body = self.body(&self.components.all[index]);
         }
         let mut waits = self.scratch.waits[index];
-        let angular = self.correct_momenta(index, &body, waits);
+        let mut angular = self.correct_momenta(index, &body, waits);
         if D < 3 {
             return;
         }
-        // The rotation is known to ε/WEAK of itself.
         let [_, terms] = self.momentum_terms(index, &body.origin);
-        waits = waits | angular.largest().at_most(S::from_f64(WEAK) * terms);
-        if !waits.all() {
-            self.correct_momenta(index, &body, waits);
+        for _ in 0..MOST_CORRECTIONS {
+            // The rotation is known to ε/WEAK of itself.
+            waits = waits | angular.largest().at_most(S::from_f64(WEAK) * terms);
+            if waits.all() {
+                return;
+            }
+            angular = self.correct_momenta(index, &body, waits);
         }
     }
 

@@ -291,7 +291,12 @@ impl<S: Real, const D: usize> Explicit<S, D> {
                 return Ok(false);
             }
             let most = S::one() - S::from_f64(ROUNDED) * S::EPSILON;
-            self.heat(index, (defect / produced).maximum(-most), next);
+            let part = defect / produced;
+            self.heat(index, part.maximum(-most), next);
+            if part.at_most(-most).decide()? {
+                // What is left is rounding, of which no part is known.
+                self.scratch.progress[index].factor = S::zero();
+            }
             return Ok(true);
         }
         let slots = self

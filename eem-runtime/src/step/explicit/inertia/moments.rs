@@ -6,8 +6,8 @@ use crate::number::scalar::Real;
 /// a hundred times as large as in other planes and more, and the body is turned instead.
 pub(in super::super) const WEAK: f64 = 1e-4;
 
-/// The share below which it is rounding: ε^¾ in double precision.
-pub(super) const NO_INERTIA: f64 = 1.8e-12;
+/// The share below which it is rounding: 64 ε in double precision.
+pub(super) const NO_INERTIA: f64 = 1.4e-14;
 
 /// `M = Σ m r rᵀ`, kg m². Only the entries on and above the diagonal are used.
 #[derive(Clone, Copy, Debug)]
