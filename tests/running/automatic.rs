@@ -133,11 +133,7 @@ fn a_resumed_run_has_the_same_bits_whatever_scheme_it_was_using() {
         other.restore(&read).unwrap();
         assert_eq!(bits(&other), bits(&run));
         for _ in 0..40 {
-            let [mut resumed, whole] = [other.step().unwrap(), run.step().unwrap()];
-            // Magnitudes of the old state are found anew in the first step: they agree to some digits.
-            assert!((resumed.bound / whole.bound - 1.0).abs() < 1e-6);
-            resumed.bound = whole.bound;
-            assert_eq!(resumed, whole);
+            assert_eq!(other.step().unwrap(), run.step().unwrap());
         }
         assert_eq!(bits(&other), bits(&run));
         // And back.

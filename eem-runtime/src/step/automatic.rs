@@ -142,7 +142,8 @@ impl Choice {
     /// All numbers, none of which is ever negative or infinite.
     pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> {
         let pairs = [self.recent, self.before, [self.spent, self.due]];
-        let single = [Some(self.tried), self.wait];
+        let on_trial = f64::from(u8::from(self.is_on_trial));
+        let single = [Some(self.tried), self.wait, Some(on_trial)];
         pairs
             .into_iter()
             .flatten()

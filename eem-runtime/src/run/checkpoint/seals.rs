@@ -121,11 +121,20 @@ fn of_choice(saved: &SavedChoice) -> Entry {
 fn of_explicit<S: Real>(explicit: &SavedExplicit<S>) -> Vec<Entry> {
     let of_sums = explicit.sums().map(|(name, all)| sums(name, all));
     let lists = explicit.lists();
+    let flags = [explicit.is_new, explicit.is_motion_first];
     let lists = lists.map(|(name, list)| entry(name, list.iter().copied()));
     let booked = [
         sums("shares of reservoirs", explicit.shares.sums()),
         entry("the largest momentum", [explicit.largest_momentum]),
         entry("what the energy is off by", [explicit.residue]),
+        entry(
+            "the terms of the energy",
+            explicit.terms.into_iter().flatten(),
+        ),
+        entry(
+            "whether a step begins anew",
+            flags.map(|flag| S::from_f64(f64::from(u8::from(flag)))),
+        ),
     ];
     of_sums.into_iter().chain(lists).chain(booked).collect()
 }
