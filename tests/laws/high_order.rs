@@ -3,7 +3,7 @@
 
 use eem::prelude::*;
 
-use crate::support::dashpots::{OneDashpot, TwoDashpots};
+use crate::support::dashpots::{ONE_DASHPOT, TwoDashpots};
 use crate::support::orders::{exact_row, slope, step_to};
 use crate::support::{
     DoublePendulum, Hencky, Laws, ThermoViscoElastic, pendulums_in_contact, reference,
@@ -284,7 +284,7 @@ fn several_dashpots_and_springs_without_temperature_keep_all_laws() {
         let places = [[0.0; 3], [1.1, 0.0, 0.0], [0.4, 0.9, 0.0], [0.3, 0.2, 0.8]];
         let nodes = places.map(|at| scene.mass(1.0, at, [0.2 - at[1], at[0], 0.1]));
         let viscous = scene.spring(TwoDashpots::DATA, [nodes[0], nodes[1]]);
-        let hot = scene.spring(OneDashpot::DATA, [nodes[1], nodes[2]]);
+        let hot = scene.spring(ONE_DASHPOT, [nodes[1], nodes[2]]);
         let hencky = || Hencky {
             stiffness: 40.0,
             natural_length: 1.0,
@@ -367,7 +367,7 @@ fn a_mean_temperature_that_is_not_positive_is_refused_with_the_reason() {
         let mut scene = Scene::<2>::new();
         let pivot = scene.anchor([0.0, 0.0]);
         let bob = scene.mass(1.0, [1.0, 0.0], [0.0, 0.0]);
-        let spring = scene.spring(OneDashpot::DATA, [pivot, bob]);
+        let spring = scene.spring(ONE_DASHPOT, [pivot, bob]);
         scene.set_temperature(spring, theta);
         let cold = scene.reservoir(10.0);
         scene.conduct(spring, cold, 1e3);

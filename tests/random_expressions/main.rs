@@ -5,17 +5,14 @@
 //! values of the expression itself with 512 bits, which needs neither.
 
 mod kernels;
-#[path = "../../eem-symbolic/tests/support/mod.rs"]
-mod symbolic;
 
-use astro_float::BigFloat;
 use eem_symbolic::{
     Arithmetic, Bounded, ExprId, Graph, Input, Operation, Program, Stage, Symbol, Value, diff,
     divided_difference, schedule,
 };
+use eem_testkit::precise::{BigFloat, Precise, error, to_f64};
+use eem_testkit::random::{Random, expression};
 use kernels::{BoundedKernels, Kernels};
-use symbolic::precise::{Precise, error, to_f64};
-use symbolic::random::{Random, expression};
 
 /// Random expressions, of which at least [`ENOUGH`] are of moderate size.
 const EXPRESSIONS: u64 = 1700;

@@ -2,11 +2,11 @@
 
 use crate::support::precise::{Precise, error, to_f64};
 use crate::support::random::{Random, expression};
-use astro_float::BigFloat;
 use eem_symbolic::{
     Arithmetic, Bounded, ExprId, F64, Graph, Input, Instruction, Operation, Program, RunningError,
     Stage, Symbol, Value, diff, divided_difference, schedule,
 };
+use eem_testkit::precise::BigFloat;
 
 const EXPRESSIONS: u64 = 2000;
 const DEPTH: usize = 6;

@@ -153,6 +153,9 @@ pub(crate) trait Specimen {
     /// Response, then tangent by rows.
     fn entropy_form(&self, x0: &[f64], x1: &[f64], corners: &[f64]) -> Vec<f64>;
     fn temperature_form(&self, x0: &[f64], x1: &[f64]) -> Vec<f64>;
+    /// Responses without tangents.
+    fn entropy_response(&self, x0: &[f64], x1: &[f64], corners: &[f64]) -> Vec<f64>;
+    fn temperature_response(&self, x0: &[f64], x1: &[f64]) -> Vec<f64>;
 
     fn spring(&self, scene: &mut Scene<2>, ends: [Node; 2]) -> Element;
     fn check_domain(&self, domain: &Domain, samples: usize) -> Result<DomainReport, DomainError>;
@@ -275,6 +278,18 @@ impl<F: Formula> Specimen for F {
         let old = self.temperature_form_old(&array(x0));
         let (response, tangent) = FreeEnergy::temperature_form(self, &old, &array(x1));
         flat(response.as_ref(), &tangent)
+    }
+
+    fn entropy_response(&self, x0: &[f64], x1: &[f64], corners: &[f64]) -> Vec<f64> {
+        let old = self.entropy_form_old(&array(x0));
+        let response = self.entropy_form_response(&old, &array(x1), &array(corners));
+        response.as_ref().to_vec()
+    }
+
+    fn temperature_response(&self, x0: &[f64], x1: &[f64]) -> Vec<f64> {
+        let old = self.temperature_form_old(&array(x0));
+        let response = self.temperature_form_response(&old, &array(x1));
+        response.as_ref().to_vec()
     }
 
     fn spring(&self, scene: &mut Scene<2>, ends: [Node; 2]) -> Element {
