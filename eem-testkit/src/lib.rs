@@ -6,12 +6,17 @@
 
 #![allow(missing_docs, reason = "fields are named as in the formulas")]
 #![allow(
+    clippy::missing_errors_doc,
     clippy::missing_panics_doc,
     clippy::unwrap_used,
     reason = "a test fails by panicking"
 )]
 
+#[cfg(feature = "scenes")]
+pub mod compiled;
 pub mod precise;
 pub mod random;
 #[cfg(feature = "scenes")]
 pub mod scenes;
+#[cfg(feature = "scenes")]
+pub mod table;

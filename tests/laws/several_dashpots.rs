@@ -5,7 +5,7 @@ use core::fmt::Debug;
 use eem::prelude::*;
 
 use crate::support::Laws;
-use crate::support::dashpots::{ONE_DASHPOT, OneDashpot, ThreeDashpots, TwoDashpots};
+use crate::support::dashpots::{ONE_DASHPOT, ThreeDashpots, TwoDashpots};
 
 /// As in `laws.rs`: a dozen roundings of the energies in the sum, and two of the entropy.
 const ENERGY_TOLERANCE: f64 = 4e-15;

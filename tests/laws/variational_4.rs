@@ -1,6 +1,9 @@
 //! What the variational integrator of fourth order keeps, and how its errors shrink.
 
+use std::sync::Arc;
+
 use eem::prelude::*;
+use eem_testkit::table;
 
 use crate::support::orders::{exact_row, slope, step_to};
 use crate::support::{
@@ -228,7 +231,7 @@ fn a_dashpot_without_temperature_keeps_the_order() {
         let mut scene = Scene::<2>::new();
         let pivot = scene.anchor([0.0, 0.0]);
         let bob = scene.mass(1.0, [1.4, 0.0], [0.0, 1.0]);
-        let spring = scene.spring(Isothermal {}, [pivot, bob]);
+        let spring = table::spring(&mut scene, Arc::new(Isothermal {}), [pivot, bob]);
         let mut run = Simulation::new(scene, SCHEME, step).unwrap();
         assert_eq!(run.unknowns(), 2 * 2);
         let first = run.ledger();

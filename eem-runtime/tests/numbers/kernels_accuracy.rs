@@ -186,7 +186,7 @@ fn reciprocal_and_roots() {
 
 #[test]
 fn integer_powers() {
-    for n in [2, 3, 4, 5, 7, 12, 20, -1, -2, -3, -4, -5, -8, -13] {
+    for n in [2_i32, 3, 4, 5, 7, 12, 20, -1, -2, -3, -4, -5, -8, -13] {
         let limit = 0.5 * f64::from(n.abs()) + 1.0;
         let case = Case::new(
             &format!("powi {n}"),

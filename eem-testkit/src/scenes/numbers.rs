@@ -1,7 +1,7 @@
 //! Numbers that look random and are always the same.
 
 /// Numbers between −1 and 1 from a counter (Knuth's multiplicative hash).
-pub struct Numbers(pub(crate) u32);
+pub struct Numbers(pub u32);
 
 impl Numbers {
     pub fn next(&mut self) -> f64 {

@@ -1,6 +1,7 @@
 //! A short run of every specimen in both energy–entropy–momentum forms: what the laws say.
 
 use eem::prelude::*;
+use eem_testkit::table;
 
 use crate::zoo::families::{self, springs};
 use crate::zoo::specimen::{Formula as _, Specimen};
@@ -39,7 +40,7 @@ impl Run {
         let mut scene = Scene::<2>::new();
         let pivot = scene.anchor([0.0, 0.0]);
         let bob = scene.mass(1.0, [x[0], 0.0], [0.6 * speed, 0.8 * speed]);
-        let spring = specimen.spring(&mut scene, [pivot, bob]);
+        let spring = table::spring(&mut scene, specimen.table(), [pivot, bob]);
         for (dashpot, &gamma) in x[1..=specimen.dashpots()].iter().enumerate() {
             scene.set_viscous_stretch(spring, dashpot, gamma);
         }
