@@ -14,6 +14,7 @@
 
 #[cfg(feature = "scenes")]
 pub mod compiled;
+pub mod length;
 pub mod precise;
 pub mod random;
 #[cfg(feature = "scenes")]

@@ -12,7 +12,7 @@ use crate::FreeEnergy;
 ///
 /// let spring = Hooke { stiffness: 100.0, natural_length: 1.0 };
 /// // Two newtons pull it two centimetres out.
-/// let [force] = spring.gradient(&[1.02]);
+/// let [force]: [f64; 1] = spring.gradient(&[1.02]);
 /// assert!((force - 2.0).abs() < 1e-12);
 /// ```
 #[derive(Clone, Copy, Debug, FreeEnergy)]

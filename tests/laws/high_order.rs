@@ -2,6 +2,7 @@
 //! of every step.
 
 use eem::prelude::*;
+use eem_testkit::length::at_length;
 
 use crate::support::dashpots::{ONE_DASHPOT, TwoDashpots};
 use crate::support::orders::{exact_row, slope, step_to};
@@ -159,7 +160,7 @@ fn double_pendulums_keep_all_laws() {
             for fraction in [1.0, 0.5] {
                 let mut run = case.simulation(scheme, fraction * case.step).run;
                 println!("{}", case.name);
-                let laws = watch(&mut run, case.duration.min(25.0));
+                let laws = watch(&mut run, case.duration.min(at_length(25.0, 10.0)));
                 assert_lawful(&laws, NETWORK_MOMENTUM_TOLERANCE);
             }
         }
@@ -376,7 +377,7 @@ fn a_mean_temperature_that_is_not_positive_is_refused_with_the_reason() {
         let error = run.step().unwrap_err().to_string();
         println!("{error}");
         assert!(error.contains(
-            "the mean temperature of element 0 (OneDashpot) at a stage of the step is -"
+            "the mean temperature of element 0 (MaxwellDamper) at a stage of the step is -"
         ));
         assert_eq!(run.ledger(), before);
         assert_eq!(run.position(bob).unwrap().x.to_bits(), 1.0_f64.to_bits());

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use eem::prelude::*;
+use eem_testkit::length::at_length;
 use eem_testkit::table;
 
 use crate::support::orders::{exact_row, slope, step_to};
@@ -86,7 +87,9 @@ fn double_pendulums_keep_momenta_and_the_second_law_and_stay_near_their_energies
     ];
     for (case, step, energy) in bounds {
         println!("{}", case.name);
-        let laws = watch(&mut case.simulation(SCHEME, step).run, case.duration);
+        // The chaotic one takes ten times as long as all others together.
+        let duration = case.duration.min(at_length(f64::INFINITY, 50.0));
+        let laws = watch(&mut case.simulation(SCHEME, step).run, duration);
         assert_momenta_and_entropy(&laws);
         assert!(laws.energy <= energy);
     }
