@@ -2,12 +2,11 @@
 
 #![allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 
-#[path = "../tests/support/mod.rs"]
-mod support;
-
 use divan::Bencher;
 use eem::prelude::*;
-use support::{DoublePendulum, Hencky, LogarithmicStiffness, ThermoViscoElastic, single_pendulum};
+use eem_testkit::scenes::{
+    DoublePendulum, Hencky, LogarithmicStiffness, ThermoViscoElastic, single_pendulum,
+};
 
 /// Runs per line; the fastest is the one to look at on a busy machine.
 const RUNS: u32 = 20;

@@ -3,14 +3,11 @@
 
 #![allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 
-#[path = "../tests/support/mod.rs"]
-mod support;
-
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use eem::prelude::*;
 use eem::{Experiment, MemberFailure, Members, Outputs, Real};
-use support::ThermoViscoElastic;
+use eem_testkit::scenes::ThermoViscoElastic;
 
 /// Members of the ensemble.
 const MEMBERS: u32 = 10_000;

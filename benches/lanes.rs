@@ -7,15 +7,12 @@
 mod packed;
 #[path = "lanes/pendulum.rs"]
 mod pendulum;
-#[path = "../tests/support/mod.rs"]
-mod support;
-
 use divan::{Bencher, black_box};
 use eem::__private::Scalar;
 use eem::{FreeEnergy, Scheme, invert};
+use eem_testkit::scenes::{ThermoViscoElastic, single_pendulum};
 use packed::{Eight, Four, FourByLibrary};
 use pendulum::{Law, State};
-use support::{ThermoViscoElastic, single_pendulum};
 
 /// Every line is the work for so many elements, whatever the lanes.
 const ELEMENTS: usize = 8;

@@ -4,9 +4,6 @@
 
 #[path = "networks/scenes.rs"]
 mod scenes;
-#[path = "../tests/support/mod.rs"]
-mod support;
-
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use eem::prelude::*;

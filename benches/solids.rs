@@ -7,9 +7,6 @@
 mod networks;
 #[path = "solids/scenes.rs"]
 mod scenes;
-#[path = "../tests/support/mod.rs"]
-mod support;
-
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use eem::prelude::*;

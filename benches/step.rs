@@ -2,12 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 
-#[path = "../tests/support/mod.rs"]
-mod support;
-
 use divan::{Bencher, black_box};
 use eem::{FreeEnergy, Scheme, invert, kernel};
-use support::{Pendulum, ThermoViscoElastic, single_pendulum};
+use eem_testkit::scenes::{Pendulum, ThermoViscoElastic, single_pendulum};
 
 /// 10 ms: small enough for every scheme to complete the run.
 const STEP: f64 = 0.01;

@@ -14,8 +14,12 @@
 //!
 #![doc = include_str!("../README.md")]
 
+// What the derive generates begins with `::eem`; here that is this crate.
+extern crate self as eem;
+
 pub use eem_derive::FreeEnergy;
 pub use eem_runtime::*;
+pub mod materials;
 /// Parameter sweeps in many processes; see also [`sweeps`].
 #[cfg(feature = "sweep")]
 pub use eem_sweep as sweep;

@@ -2,8 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-#[path = "../support/mod.rs"]
-mod support;
+use eem_testkit::scenes as support;
 
 mod bars;
 mod blocks;
@@ -21,4 +20,3 @@ mod same_bits;
 #[cfg(feature = "sparse")]
 mod satellite;
 mod step_tangent;
-mod variational_4_equations;

@@ -282,49 +282,40 @@ impl core::iter::Sum for Digits {
 #[cfg(test)]
 mod tests {
     use super::Digits;
-    use astro_float::{BigFloat, Consts, RoundingMode};
+    use eem_symbolic::{Arithmetic as _, Function};
+    use eem_testkit::precise::{BigFloat, Precise, to_f64};
 
-    /// Bits of the numbers to compare with.
-    const BITS: usize = 384;
-    const ROUNDING: RoundingMode = RoundingMode::None;
     /// What a function of 32 digits may be off by, relative to itself.
     const ERROR: f64 = 2e-30;
 
-    fn precise(x: Digits) -> BigFloat {
-        let [high, low] = [x.high, x.low].map(|x| BigFloat::from_f64(x, BITS));
-        high.add(&low, BITS, ROUNDING)
+    fn exactly(p: &Precise, x: Digits) -> BigFloat {
+        p.add(&p.from_f64(x.high), &p.from_f64(x.low))
     }
 
-    /// `|computed/exact − 1|`, by its power of two.
-    fn error(computed: Digits, exact: &BigFloat) -> f64 {
-        let one = BigFloat::from_f64(1.0, BITS);
-        let ratio = precise(computed).div(exact, BITS, ROUNDING);
-        let difference = ratio.sub(&one, BITS, ROUNDING);
-        match difference.exponent() {
-            Some(exponent) if !difference.is_zero() => 2.0_f64.powi(exponent),
-            _ => 0.0,
-        }
+    /// `|computed/exact − 1|`.
+    fn error(p: &Precise, computed: Digits, exact: &BigFloat) -> f64 {
+        let ratio = p.div(&exactly(p, computed), exact);
+        to_f64(&p.sub(&ratio, &p.from_f64(1.0))).abs()
     }
 
     #[test]
     fn elementary_functions_have_thirty_digits() {
-        let mut constants = Consts::new().expect("memory for constants");
+        let p = &Precise::new();
         for x in [1e-3, 0.3, 0.7, 0.999_999, 1.000_001, 1.4, 3.0, 77.7, 690.0] {
             let x = Digits::pair([x, x * 1e-17]);
-            let exact = precise(x);
-            let exp = exact.exp(BITS, ROUNDING, &mut constants);
-            assert!(error(x.exp(), &exp) < ERROR, "exp {x:?}");
-            let one = BigFloat::from_f64(1.0, BITS);
-            let exp_m1 = exp.sub(&one, BITS, ROUNDING);
-            assert!(error(x.exp_m1(), &exp_m1) < ERROR, "exp_m1 {x:?}");
-            let ln = exact.ln(BITS, ROUNDING, &mut constants);
+            let exact = exactly(p, x);
+            let exp = p.apply(Function::Exp, &exact);
+            assert!(error(p, x.exp(), &exp) < ERROR, "exp {x:?}");
+            let exp_m1 = p.apply(Function::ExpM1, &exact);
+            assert!(error(p, x.exp_m1(), &exp_m1) < ERROR, "exp_m1 {x:?}");
+            let ln = p.apply(Function::Ln, &exact);
             // The logarithm is absolutely as good as its argument is relatively.
             let scale = (x.high.ln().abs()).min(1.0);
-            assert!(error(x.ln(), &ln) * scale < ERROR, "ln {x:?}");
-            let sqrt = exact.sqrt(BITS, ROUNDING);
-            assert!(error(x.sqrt(), &sqrt) < ERROR, "sqrt {x:?}");
-            let seventh = exact.powi(7, BITS, ROUNDING);
-            assert!(error(x.powi(7), &seventh) < 8.0 * ERROR, "powi {x:?}");
+            assert!(error(p, x.ln(), &ln) * scale < ERROR, "ln {x:?}");
+            let sqrt = p.sqrt(&exact);
+            assert!(error(p, x.sqrt(), &sqrt) < ERROR, "sqrt {x:?}");
+            let seventh = p.powi(&exact, 7);
+            assert!(error(p, x.powi(7), &seventh) < 8.0 * ERROR, "powi {x:?}");
         }
     }
 

@@ -3,6 +3,7 @@
 use eem::kinematics::Hex8;
 use eem::prelude::*;
 use eem::{Body, StrainEnergy};
+use eem_testkit::length::at_length;
 
 use crate::support::solids::{Flowing, MooneyRivlin, Reinforced, Relaxing, ThermoelasticSolid};
 
@@ -44,7 +45,7 @@ where
     (Simulation::new(scene, scheme, step).unwrap(), heat)
 }
 
-/// 40 steps keep the laws, whatever the step.
+/// Steps keep the laws, whatever the step.
 fn keep_the_laws<M, const N: usize>(name: &str, parts: (&M, &Bulk<3>), theta_ref: f64)
 where
     M: FreeEnergy<f64> + StrainEnergy<N> + Clone + Send + Sync + 'static,
@@ -57,7 +58,7 @@ where
             let momenta = 20.0 * f64::min(1.0, 0.2 / step);
             let mut entropy = first.entropy;
             let mut worst = [0.0_f64; 3];
-            for _ in 0..40 {
+            for _ in 0..at_length(40, 8) {
                 run.step().unwrap();
                 let ledger = run.ledger();
                 let errors = [

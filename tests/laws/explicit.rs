@@ -1,7 +1,10 @@
 //! The explicit scheme of order 8: its laws, component by component, its order, and what it refuses.
 
+use std::sync::Arc;
+
 use eem::prelude::*;
 use eem::{StateError, StepFailure};
+use eem_testkit::table;
 
 use crate::support::dashpots::TwoDashpots;
 use crate::support::{
@@ -636,7 +639,7 @@ fn an_element_near_absolute_zero_is_named_with_its_capacity() {
     };
     let mut scene = Scene::<2>::new();
     let nodes = [0.0, 1.0].map(|x| scene.anchor([x, 0.0]));
-    let spring = scene.spring(debye, nodes);
+    let spring = table::spring(&mut scene, Arc::new(debye), nodes);
     scene.set_temperature(spring, 1.0);
     let ice = scene.reservoir(0.01);
     scene.conduct(spring, ice, 2e-9);

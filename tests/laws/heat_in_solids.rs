@@ -6,6 +6,7 @@ use core::f64::consts::PI;
 use eem::Body;
 use eem::kinematics::{Hex8, Hex20, Shape};
 use eem::prelude::*;
+use eem_testkit::length::at_length;
 
 use crate::support::solids::MooneyRivlin;
 
@@ -56,7 +57,9 @@ fn conduction_is_of_second_order() {
         });
         errors.fold(0.0, f64::max)
     };
-    let errors = [2, 4, 8].map(error);
+    let cells = [2, 4, 8];
+    let cells = at_length(&cells[..], &cells[..2]).iter();
+    let errors: Vec<f64> = cells.map(|&cells| error(cells)).collect();
     println!("{errors:?}");
     for pair in errors.windows(2) {
         let order = (pair[0] / pair[1]).log2();
@@ -145,7 +148,7 @@ fn first_nodes<H: Shape<3>>(mesh: &Mesh<H, 3>) -> Vec<[f64; 3]> {
     mesh.cells().iter().map(first).collect()
 }
 
-/// Sets bodies in motion, warm as a function of the place of their cells, and lets them go for five steps, which keep
+/// Sets bodies in motion, warm as a function of the place of their cells, and lets them go for some steps, which keep
 /// the laws.
 fn walk<H: Shape<3>>(mut scene: Scene<3>, bodies: &[&Body<H, 3>]) -> ByCell {
     let points = |body: &Body<H, 3>| {
@@ -167,7 +170,7 @@ fn walk<H: Shape<3>>(mut scene: Scene<3>, bodies: &[&Body<H, 3>]) -> ByCell {
     let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.05).unwrap();
     let before = run.ledger();
     let mut entropy = before.entropy;
-    for _ in 0..5 {
+    for _ in 0..at_length(5, 2) {
         run.step().unwrap();
         let ledger = run.ledger();
         // 2 m³ with 100 J/(K m³) at some 300 K.

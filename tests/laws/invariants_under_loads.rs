@@ -5,7 +5,7 @@ use core::fmt::Debug;
 
 use eem::prelude::*;
 
-use crate::support::dashpots::OneDashpot;
+use crate::support::dashpots::ONE_DASHPOT;
 use crate::support::{Hencky, LogarithmicStiffness};
 
 /// A few roundings of the terms that the invariant sums, relative to the sum of their magnitudes.
@@ -215,7 +215,7 @@ fn an_isothermal_scene_keeps_its_free_energy() {
 fn an_isothermal_dashpot_loses_free_energy_in_every_step() {
     for is_pushed in [false, true] {
         let mut run = chain(
-            &OneDashpot::DATA,
+            &ONE_DASHPOT,
             Scheme::EemTemperature,
             is_pushed,
             Heat::Prescribed,

@@ -4,6 +4,7 @@ use core::fmt::Debug;
 
 use eem::prelude::*;
 use eem::{Domain, DomainError, SceneError, StateError, check_domain};
+use eem_testkit::length::at_length;
 
 use crate::support::{Laws, only_error};
 
@@ -132,7 +133,7 @@ where
     {
         let (mut run, ..) = pendulum(model.clone(), scheme, step);
         let mut laws = Laws::new(&run);
-        for _ in 0..500 {
+        for _ in 0..at_length(500, 150) {
             run.step().unwrap();
             laws.watch(&run);
         }

@@ -5,7 +5,7 @@ use core::fmt::Debug;
 use eem::prelude::*;
 
 use crate::support::Laws;
-use crate::support::dashpots::{OneDashpot, ThreeDashpots, TwoDashpots};
+use crate::support::dashpots::{ONE_DASHPOT, ThreeDashpots, TwoDashpots};
 
 /// As in `laws.rs`: a dozen roundings of the energies in the sum, and two of the entropy.
 const ENERGY_TOLERANCE: f64 = 4e-15;
@@ -174,7 +174,7 @@ where
 #[test]
 fn branches_without_stiffness_are_one_dashpot() {
     for scheme in SCHEMES {
-        let (lambda, theta, gamma) = trace(OneDashpot::DATA, scheme);
+        let (lambda, theta, gamma) = trace(ONE_DASHPOT, scheme);
         let two = TwoDashpots {
             mu2: 0.0,
             ..TwoDashpots::DATA
@@ -199,7 +199,7 @@ fn branches_without_stiffness_are_one_dashpot() {
 #[test]
 fn two_equal_halves_are_one_dashpot() {
     for scheme in SCHEMES {
-        let whole = OneDashpot::DATA;
+        let whole = ONE_DASHPOT;
         let halves = TwoDashpots {
             mu1: 0.5 * whole.mu,
             mu2: 0.5 * whole.mu,

@@ -1,6 +1,10 @@
 //! What the variational integrator of fourth order keeps, and how its errors shrink.
 
+use std::sync::Arc;
+
 use eem::prelude::*;
+use eem_testkit::length::at_length;
+use eem_testkit::table;
 
 use crate::support::orders::{exact_row, slope, step_to};
 use crate::support::{
@@ -83,7 +87,9 @@ fn double_pendulums_keep_momenta_and_the_second_law_and_stay_near_their_energies
     ];
     for (case, step, energy) in bounds {
         println!("{}", case.name);
-        let laws = watch(&mut case.simulation(SCHEME, step).run, case.duration);
+        // The chaotic one takes ten times as long as all others together.
+        let duration = case.duration.min(at_length(f64::INFINITY, 50.0));
+        let laws = watch(&mut case.simulation(SCHEME, step).run, duration);
         assert_momenta_and_entropy(&laws);
         assert!(laws.energy <= energy);
     }
@@ -228,7 +234,7 @@ fn a_dashpot_without_temperature_keeps_the_order() {
         let mut scene = Scene::<2>::new();
         let pivot = scene.anchor([0.0, 0.0]);
         let bob = scene.mass(1.0, [1.4, 0.0], [0.0, 1.0]);
-        let spring = scene.spring(Isothermal {}, [pivot, bob]);
+        let spring = table::spring(&mut scene, Arc::new(Isothermal {}), [pivot, bob]);
         let mut run = Simulation::new(scene, SCHEME, step).unwrap();
         assert_eq!(run.unknowns(), 2 * 2);
         let first = run.ledger();

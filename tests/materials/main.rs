@@ -7,13 +7,10 @@
 // A second name of the crate, which `hygiene` derives with.
 extern crate eem as renamed;
 
-#[path = "../support/mod.rs"]
-mod support;
+use eem_testkit::scenes as support;
 
 mod describing;
 mod domain;
-mod dual_numbers;
-mod generated_against_interpreter;
 mod generics;
 mod hygiene;
 mod legal_forms;

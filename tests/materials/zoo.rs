@@ -16,6 +16,7 @@ mod families;
 mod homes;
 mod number;
 mod precise;
+mod properties;
 mod rest;
 mod runs;
 mod specimen;

@@ -3,8 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-#[path = "../support/mod.rs"]
-mod support;
+use eem_testkit::scenes as support;
 
 /// Against reference data and stored bits.
 #[path = "../cases"]

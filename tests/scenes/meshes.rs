@@ -236,7 +236,9 @@ fn what_is_wrong_with_a_solid_from_a_mesh_is_said() {
     );
     let message = refused(ELASTIC, &Bulk::new(-1.0), nothing).to_string();
     assert!(
-        message.starts_with("the density of the solid at element 0 (SaintVenant) is -1 kg/m^3"),
+        message.starts_with(
+            "the density of the solid at element 0 (SaintVenantKirchhoff) is -1 kg/m^3"
+        ),
         "{message}"
     );
     let message = refused(MooneyRivlin::RUBBER, &bulk, |scene, body| {
@@ -330,7 +332,10 @@ fn what_is_not_positive_in_a_solid_is_said_and_faces_of_other_meshes_are_refused
         let run = Simulation::new(scene, Scheme::EemEntropy, 0.1);
         run.unwrap_err().to_string()
     };
-    assert!(plate(0.0).starts_with("the thickness of the solid at element 0 (SaintVenant) is 0 m"));
+    assert!(
+        plate(0.0)
+            .starts_with("the thickness of the solid at element 0 (SaintVenantKirchhoff) is 0 m")
+    );
     assert_eq!(cube(1).face(|[x, ..]| x > 1.0), Err(MeshError::NoFace));
 }
 
@@ -370,7 +375,7 @@ fn what_is_wrong_with_all_cells_is_said_once() {
     };
     assert_eq!(
         refused(Bulk::new(0.0)),
-        "the density of the solid at element 0 (SaintVenant) is 0 kg/m^3, it must be positive and finite"
+        "the density of the solid at element 0 (SaintVenantKirchhoff) is 0 kg/m^3, it must be positive and finite"
     );
     let message = refused(Bulk::new(1.0).fibre([1.0, 0.0]));
     assert!(
@@ -379,7 +384,7 @@ fn what_is_wrong_with_all_cells_is_said_once() {
     );
     assert_eq!(
         refused(Bulk::new(1.0).conductivity(2.0)),
-        "the solid at element 0 (SaintVenant) has a conductivity, but no temperature: leave `Bulk::conductivity` out, or \
+        "the solid at element 0 (SaintVenantKirchhoff) has a conductivity, but no temperature: leave `Bulk::conductivity` out, or \
          take a free energy with an argument `Temperature`"
     );
 }
@@ -501,17 +506,18 @@ fn joints_that_cannot_be_are_refused() {
     };
     assert_eq!(refused([2, 2], 1.0, 1e-9), None);
     assert_eq!(refused([2, 2], 1.0 + 1e-12, 1e-9), None);
-    let solids = "the solid at element 16 (SaintVenant)";
+    let solids = "the solid at element 16 (SaintVenantKirchhoff)";
     for within in [f64::NAN, -1.0, f64::INFINITY] {
         let message = refused([2, 2], 1.0, within).unwrap();
-        let said =
-            format!("{solids} is joined to that at element 0 (SaintVenant) within {within} m");
+        let said = format!(
+            "{solids} is joined to that at element 0 (SaintVenantKirchhoff) within {within} m"
+        );
         assert!(message.starts_with(&said), "{message}");
     }
     assert_eq!(
         refused([2, 2], 1.75, 0.25).unwrap(),
-        "no node of the solid at element 16 (SaintVenant) is within 0.25 m of one of the solid at element 0 \
-         (SaintVenant), to which it is joined (`Bulk::joined_to`): the nearest are 0.75 m apart; move its mesh, or join \
+        "no node of the solid at element 16 (SaintVenantKirchhoff) is within 0.25 m of one of the solid at element 0 \
+         (SaintVenantKirchhoff), to which it is joined (`Bulk::joined_to`): the nearest are 0.75 m apart; move its mesh, or join \
          within a larger distance"
     );
     // Nodes of a finer mesh become the same ones.

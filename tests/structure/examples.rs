@@ -13,11 +13,15 @@ use std::thread;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
+/// What the tests of all packages are built with, so that nothing is built for the programs but they themselves.
+const FEATURES: &str =
+    "eem/sparse,eem/csv,eem/parallel,eem/lanes,eem/vtk,eem/gmsh,eem/portable,eem/serde,eem/arrow";
+
 /// Runs a program of a package.
 fn run(package: &str, name: &str, arguments: &[&str]) -> Output {
     let mut command = Command::new(env!("CARGO"));
-    // With the features that the gate has built it with.
-    command.args(["run", "--quiet", "-p", package, "--bin", name, "--"]);
+    command.args(["run", "--quiet", "--features", FEATURES]);
+    command.args(["-p", package, "--bin", name, "--"]);
     command.args(arguments).current_dir(ROOT).output().unwrap()
 }
 

@@ -4,10 +4,11 @@
 //! The table of `docs/reproducible.md` is what this prints for both:
 //! `cargo test -p eem-runtime --all-features --test numbers elementary -- --nocapture`.
 
-use crate::kernels_accuracy::oracle::{Oracle, add, div, sub, to_f64, ulps};
+use crate::kernels_accuracy::oracle::{arithmetic, to_f64, ulps};
 use crate::kernels_accuracy::sample::{Domain, Random};
-use astro_float::BigFloat;
 use eem_runtime::Scalar;
+use eem_symbolic::{Arithmetic as _, Function as Elementary};
+use eem_testkit::precise::{BigFloat, Precise};
 
 /// Arguments per function.
 const ARGUMENTS: usize = 400;
@@ -16,7 +17,7 @@ const ARGUMENTS: usize = 400;
 const LIMIT: f64 = 1.0;
 
 type Function = fn(f64) -> f64;
-type Exact = fn(&mut Oracle, &BigFloat) -> BigFloat;
+type Exact = fn(&Precise, &BigFloat) -> BigFloat;
 
 struct Case {
     name: &'static str,
@@ -27,12 +28,11 @@ struct Case {
     arguments: (f64, f64, bool),
 }
 
-fn exp(oracle: &mut Oracle, x: &BigFloat) -> BigFloat {
-    oracle.apply(BigFloat::exp, x)
-}
-
-fn one() -> BigFloat {
-    Oracle::number(1.0)
+/// An elementary function of the oracle.
+macro_rules! exact {
+    ($function:ident) => {
+        |p, x| p.apply(Elementary::$function, x)
+    };
 }
 
 fn cases() -> Vec<Case> {
@@ -44,64 +44,43 @@ fn cases() -> Vec<Case> {
         arguments,
     };
     vec![
-        case("exp", f64::exp, Scalar::exp, exp, (-8.0, 2.0, true)),
+        case("exp", f64::exp, Scalar::exp, exact!(Exp), (-8.0, 2.0, true)),
         case(
             "exp_m1",
             f64::exp_m1,
             Scalar::exp_m1,
-            |oracle, x| sub(&exp(oracle, x), &one()),
+            exact!(ExpM1),
             (-8.0, 2.0, true),
         ),
-        case(
-            "ln",
-            f64::ln,
-            Scalar::ln,
-            |oracle, x| oracle.apply(BigFloat::ln, x),
-            (-8.0, 8.0, false),
-        ),
+        case("ln", f64::ln, Scalar::ln, exact!(Ln), (-8.0, 8.0, false)),
         case(
             "ln_1p",
             f64::ln_1p,
             Scalar::ln_1p,
-            |oracle, x| oracle.apply(BigFloat::ln, &add(x, &one())),
+            exact!(Ln1p),
             (-8.0, 8.0, false),
         ),
         case(
             "powf",
             |x| x.powf(1.7),
             |x| Scalar::powf(x, 1.7),
-            |oracle, x| oracle.power(x, 1.7),
+            |p, x| p.power(x, &p.from_f64(1.7)),
             (-8.0, 8.0, false),
         ),
-        case(
-            "sin",
-            f64::sin,
-            Scalar::sin,
-            |oracle, x| oracle.apply(BigFloat::sin, x),
-            (-8.0, 3.0, true),
-        ),
-        case(
-            "cos",
-            f64::cos,
-            Scalar::cos,
-            |oracle, x| oracle.apply(BigFloat::cos, x),
-            (-8.0, 3.0, true),
-        ),
+        case("sin", f64::sin, Scalar::sin, exact!(Sin), (-8.0, 3.0, true)),
+        case("cos", f64::cos, Scalar::cos, exact!(Cos), (-8.0, 3.0, true)),
         case(
             "tanh",
             f64::tanh,
             Scalar::tanh,
-            |oracle, x| {
-                let (high, low) = (exp(oracle, x), exp(oracle, &x.neg()));
-                div(&sub(&high, &low), &add(&high, &low))
-            },
+            exact!(Tanh),
             (-8.0, 1.0, true),
         ),
         case(
             "atan",
             f64::atan,
             Scalar::atan,
-            |oracle, x| oracle.apply(BigFloat::atan, x),
+            exact!(Atan),
             (-8.0, 8.0, true),
         ),
     ]
@@ -109,7 +88,7 @@ fn cases() -> Vec<Case> {
 
 #[test]
 fn elementary_functions_are_as_good_as_the_schemes_assume() {
-    let mut oracle = Oracle::new();
+    let p = arithmetic();
     println!("{:>8} {:>10} {:>10}", "", "platform", "eem");
     for case in cases() {
         let (low, high, signed) = case.arguments;
@@ -122,10 +101,10 @@ fn elementary_functions_are_as_good_as_the_schemes_assume() {
         let mut worst = [0.0_f64; 2];
         for _ in 0..ARGUMENTS {
             let x = domain.point(&mut random);
-            let exact = (case.exact)(&mut oracle, &Oracle::number(x));
+            let exact = (case.exact)(&p, &p.from_f64(x));
             let scale = to_f64(&exact).abs();
             for (worst, function) in worst.iter_mut().zip([case.platform, case.ours]) {
-                *worst = worst.max(ulps(function(x), &exact, scale));
+                *worst = worst.max(ulps(&p, function(x), &exact, scale));
             }
         }
         let [platform, ours] = worst;

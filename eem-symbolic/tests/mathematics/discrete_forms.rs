@@ -3,10 +3,10 @@
 use crate::support::corners::Evaluated;
 use crate::support::precise::{error, to_f64};
 use crate::support::solids;
-use astro_float::BigFloat;
 use eem_symbolic::{
     Arithmetic, Bounded, F64, Function, Number, Operation, ProgramKernel, RunningError,
 };
+use eem_testkit::precise::BigFloat;
 
 /// Increments of every variable relative to its size; the last one is negative for a change.
 const INCREMENTS: [f64; 6] = [0.0, 1e-14, 1e-9, 1e-5, 1e-2, -0.1];

@@ -4,11 +4,11 @@ use crate::oracle::{SymmetricKernels, assert_agree, value};
 use crate::reader::read;
 use crate::support::precise::Precise;
 use crate::support::random::{self, Random};
-use astro_float::BigFloat;
 use eem_symbolic::{
     Arithmetic, ExprId, F64, Function, Graph, Kernel, Node, diff, divided_difference, format,
     substitute,
 };
+use eem_testkit::precise::BigFloat;
 
 /// Formulas that use every rule at least once; x, p > 0.
 const FORMULAS: &[&str] = &[

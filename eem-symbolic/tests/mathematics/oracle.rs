@@ -1,9 +1,9 @@
 //! Values of expressions, on any arithmetic.
 
-use astro_float::BigFloat;
 use eem_symbolic::{
     Arithmetic, ExprId, F64, Function, Graph, Input, Number, ProgramKernel, Stage, schedule,
 };
+use eem_testkit::precise::BigFloat;
 
 use crate::support::precise::{Precise, to_f64};
 

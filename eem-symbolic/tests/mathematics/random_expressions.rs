@@ -2,13 +2,16 @@
 
 use crate::support::precise::{Precise, error, to_f64};
 use crate::support::random::{Random, expression};
-use astro_float::BigFloat;
 use eem_symbolic::{
     Arithmetic, Bounded, ExprId, F64, Graph, Input, Instruction, Operation, Program, RunningError,
     Stage, Symbol, Value, diff, divided_difference, schedule,
 };
+use eem_testkit::length::at_length;
+use eem_testkit::precise::BigFloat;
 
 const EXPRESSIONS: u64 = 2000;
+/// Of these with a high precision.
+const PRECISE: u64 = 500;
 const DEPTH: usize = 6;
 /// |b − a|/a, zero and from far below rounding to the same size.
 const INCREMENTS: [f64; 9] = [0.0, 1e-17, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 1e-1, 1.0];
@@ -83,7 +86,7 @@ fn moderate(secant: &Secant, ends: [f64; 2]) -> bool {
 fn differences_are_within_their_bound() {
     let precise = Precise::new();
     let (mut checked, mut worst, mut ulps) = (0, 0.0_f64, Vec::new());
-    for seed in 0..EXPRESSIONS {
+    for seed in 0..at_length(EXPRESSIONS, PRECISE) {
         let secant = secant(seed);
         let increment = INCREMENTS[(seed % 9) as usize];
         let ends = ends(seed, increment);
@@ -110,7 +113,7 @@ fn differences_are_within_their_bound() {
         ulps[ulps.len() / 2]
     );
     assert!(
-        checked > 1500,
+        checked > at_length(1500, 375),
         "only {checked} expressions are of moderate size"
     );
 }

@@ -1,8 +1,8 @@
 //! A law in high precision: corner temperatures by Newton's method, discrete derivatives by plain
 //! quotients of e(y, s).
 
-use astro_float::BigFloat;
 use eem_symbolic::{Arithmetic, Program, Programs};
+use eem_testkit::precise::BigFloat;
 
 use super::laws::Law;
 use super::precise::{Precise, to_f64};

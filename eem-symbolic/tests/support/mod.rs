@@ -1,11 +1,10 @@
-//! High precision, laws and random expressions for the tests of programs.
-#![allow(dead_code)] // Other crates use a part: the random expressions of `eem`, and the benchmark.
+//! Laws for the tests of programs, beside high precision and random expressions.
 
 pub(crate) mod corners;
 pub(crate) mod laws;
-pub(crate) mod precise;
-pub(crate) mod random;
 pub(crate) mod solids;
+
+pub(crate) use eem_testkit::{precise, random};
 
 /// All springs and solids.
 pub(crate) fn all_laws() -> Vec<laws::Law> {

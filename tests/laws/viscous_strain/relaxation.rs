@@ -4,6 +4,7 @@ use eem::kinematics::{Hex8, Quad4, Shape};
 use eem::nalgebra::{Matrix3, RowVector3};
 use eem::prelude::*;
 use eem::{Body, SolidState};
+use eem_testkit::length::at_length;
 
 use crate::support::solids::Relaxing;
 
@@ -76,14 +77,15 @@ fn errors(scheme: Scheme, steps: u32) -> [f64; 2] {
 
 #[test]
 fn shear_relaxes_at_the_known_rate() {
-    for scheme in [
+    let schemes = [
         Scheme::EemEntropy,
         Scheme::EemTemperature,
         Scheme::Midpoint,
-        Scheme::MidpointTemperature,
         Scheme::Trapezoidal,
+        Scheme::MidpointTemperature,
         Scheme::TrapezoidalTemperature,
-    ] {
+    ];
+    for &scheme in at_length(&schemes[..], &schemes[..4]) {
         let [coarse, fine] = [10, 20].map(|steps| errors(scheme, steps));
         println!("{scheme}: {coarse:?} {fine:?}");
         for (coarse, fine) in coarse.into_iter().zip(fine) {

@@ -75,8 +75,8 @@ macro_rules! functions {
 }
 
 functions! {
-    exp: Exp, exp_m1: ExpM1, ln: Ln, ln_1p: Ln1p, cos: Cos, cosh: Cosh, tanh: Tanh,
-    atan: Atan,
+    exp: Exp, exp_m1: ExpM1, ln: Ln, ln_1p: Ln1p, log2: Log2, log10: Log10, sin: Sin, cos: Cos, tan: Tan,
+    sinh: Sinh, cosh: Cosh, tanh: Tanh, asinh: Asinh, atan: Atan, atanh: Atanh, cbrt: Cbrt, abs: Abs,
 }
 
 impl<V: Value> Neg for Num<V> {

@@ -1,15 +1,14 @@
-//! Numbers of 320 bits.
+//! Numbers of 320 bits that are copied, as formulas do.
 
 use std::cell::RefCell;
 
-use astro_float::{BigFloat, Consts, RoundingMode};
-use eem_symbolic::{Function, Number};
+use eem_symbolic::{Arithmetic as _, Function, Number};
+use eem_testkit::precise::{self, BigFloat};
 
 use crate::zoo::number::Value;
 
 /// Precision of everything, in bits: second differences with [`OFFSET`] keep half of them.
 const BITS: usize = 320;
-const ROUNDING: RoundingMode = RoundingMode::None;
 /// Relative offset 2ⁿ of numerical derivatives, whose own error is its square.
 const OFFSET: i32 = -80;
 /// What the offset of quotients has more.
@@ -17,7 +16,7 @@ const COARSE: i32 = 20;
 
 thread_local! {
     static NUMBERS: RefCell<Vec<BigFloat>> = const { RefCell::new(Vec::new()) };
-    static CONSTANTS: RefCell<Consts> = RefCell::new(Consts::new().expect("memory for constants"));
+    static ARITHMETIC: precise::Precise = precise::Precise::with_bits(BITS);
 }
 
 /// A number with 96 digits; it lives until [`forget`].
@@ -29,8 +28,10 @@ pub(crate) fn forget() {
     NUMBERS.with(|numbers| numbers.borrow_mut().clear());
 }
 
-fn store(number: BigFloat) -> Precise {
+/// The number that is computed from those that are there.
+fn compute(formula: impl FnOnce(&precise::Precise, &[BigFloat]) -> BigFloat) -> Precise {
     NUMBERS.with(|numbers| {
+        let number = ARITHMETIC.with(|arithmetic| formula(arithmetic, &numbers.borrow()));
         let mut numbers = numbers.borrow_mut();
         numbers.push(number);
         Precise(numbers.len() - 1)
@@ -40,22 +41,16 @@ fn store(number: BigFloat) -> Precise {
 impl Precise {
     /// Exactly this number.
     pub(crate) fn of(value: f64) -> Self {
-        store(BigFloat::from_f64(value, BITS))
+        compute(|arithmetic, _| arithmetic.from_f64(value))
     }
 
     /// `2ⁿ`.
     fn two_to(n: i32) -> Self {
-        let mut power = BigFloat::from_f64(1.0, BITS);
-        power.set_exponent(n + 1);
-        store(power)
-    }
-
-    fn get(self) -> BigFloat {
-        NUMBERS.with(|numbers| numbers.borrow()[self.0].clone())
+        compute(|arithmetic, _| arithmetic.two_to(n))
     }
 
     pub(crate) fn is_zero(self) -> bool {
-        self.get().is_zero()
+        NUMBERS.with(|numbers| numbers.borrow()[self.0].is_zero())
     }
 
     /// `|self − value|`, in double precision.
@@ -65,103 +60,46 @@ impl Precise {
 
     /// The nearest `f64`, to a unit in the last place.
     pub(crate) fn to_f64(self) -> f64 {
-        let number = self.get();
-        if number.is_zero() {
-            return 0.0;
-        }
-        #[expect(
-            clippy::cast_precision_loss,
-            reason = "53 of 64 bits are what is asked for"
-        )]
-        let as_f64 = |word: u64| word as f64;
-        let (Some(words), Some(exponent)) = (number.mantissa_digits(), number.exponent()) else {
-            return f64::NAN;
-        };
-        let leading = words.iter().rev().take(2).rev();
-        let mantissa = leading.fold(0.0, |rest, &word| (as_f64(word) + rest) * 2.0_f64.powi(-64));
-        let half = exponent / 2;
-        let magnitude = mantissa * 2.0_f64.powi(half) * 2.0_f64.powi(exponent - half);
-        if number.is_negative() {
-            -magnitude
-        } else {
-            magnitude
-        }
-    }
-
-    fn function(self, function: Function) -> BigFloat {
-        let (a, one) = (self.get(), BigFloat::from_f64(1.0, BITS));
-        CONSTANTS.with(|constants| {
-            let constants = &mut *constants.borrow_mut();
-            match function {
-                Function::Exp => a.exp(BITS, ROUNDING, constants),
-                Function::ExpM1 => a.exp(BITS, ROUNDING, constants).sub(&one, BITS, ROUNDING),
-                Function::Ln => a.ln(BITS, ROUNDING, constants),
-                Function::Ln1p => a.add(&one, BITS, ROUNDING).ln(BITS, ROUNDING, constants),
-                Function::Log2 => a.log2(BITS, ROUNDING, constants),
-                Function::Log10 => a.log10(BITS, ROUNDING, constants),
-                Function::Sin => a.sin(BITS, ROUNDING, constants),
-                Function::Cos => a.cos(BITS, ROUNDING, constants),
-                Function::Tan => a.tan(BITS, ROUNDING, constants),
-                Function::Sinh => a.sinh(BITS, ROUNDING, constants),
-                Function::Cosh => a.cosh(BITS, ROUNDING, constants),
-                Function::Tanh => a.tanh(BITS, ROUNDING, constants),
-                Function::Asinh => a.asinh(BITS, ROUNDING, constants),
-                Function::Atan => a.atan(BITS, ROUNDING, constants),
-                Function::Atanh => a.atanh(BITS, ROUNDING, constants),
-                Function::Cbrt => a.cbrt(BITS, ROUNDING),
-                Function::Abs => a.abs(),
-            }
-        })
+        NUMBERS.with(|numbers| precise::to_f64(&numbers.borrow()[self.0]))
     }
 }
 
 impl Value for Precise {
     fn literal(value: f64) -> Self {
-        let decimal = Number::parse_decimal(&value.to_string());
-        let Some(Number::Exact(exact)) = decimal else {
-            return Self::of(value);
-        };
-        let numerator = BigFloat::from_i128(exact.numerator(), BITS);
-        let denominator = BigFloat::from_i128(exact.denominator(), BITS);
-        store(numerator.div(&denominator, BITS, ROUNDING))
+        let number = Number::parse_decimal(&value.to_string()).unwrap_or(Number::Float(value));
+        compute(|arithmetic, _| arithmetic.constant(&number))
     }
 
     fn add(self, other: Self) -> Self {
-        store(self.get().add(&other.get(), BITS, ROUNDING))
+        compute(|arithmetic, at| arithmetic.add(&at[self.0], &at[other.0]))
     }
 
     fn sub(self, other: Self) -> Self {
-        store(self.get().sub(&other.get(), BITS, ROUNDING))
+        compute(|arithmetic, at| arithmetic.sub(&at[self.0], &at[other.0]))
     }
 
     fn mul(self, other: Self) -> Self {
-        store(self.get().mul(&other.get(), BITS, ROUNDING))
+        compute(|arithmetic, at| arithmetic.mul(&at[self.0], &at[other.0]))
     }
 
     fn div(self, other: Self) -> Self {
-        store(self.get().div(&other.get(), BITS, ROUNDING))
+        compute(|arithmetic, at| arithmetic.div(&at[self.0], &at[other.0]))
     }
 
     fn powi(self, n: i32) -> Self {
-        let power = self.get().powi(n.unsigned_abs() as usize, BITS, ROUNDING);
-        let power = store(power);
-        if n < 0 {
-            Self::of(1.0).div(power)
-        } else {
-            power
-        }
+        compute(|arithmetic, at| arithmetic.powi(&at[self.0], n))
     }
 
     fn power(self, exponent: Self) -> Self {
-        exponent.mul(self.apply(Function::Ln)).apply(Function::Exp)
+        compute(|arithmetic, at| arithmetic.power(&at[self.0], &at[exponent.0]))
     }
 
     fn apply(self, function: Function) -> Self {
-        store(self.function(function))
+        compute(|arithmetic, at| arithmetic.apply(function, &at[self.0]))
     }
 
     fn sqrt(self) -> Self {
-        store(self.get().sqrt(BITS, ROUNDING))
+        compute(|arithmetic, at| arithmetic.sqrt(&at[self.0]))
     }
 }
 

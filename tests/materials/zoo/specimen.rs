@@ -1,8 +1,10 @@
 //! A free energy of the zoo: one formula, read by the derive and by Rust, with data and a home.
 
-use eem::prelude::*;
-use eem::{Array, Caloric, Domain, DomainError, DomainReport, check_domain};
+use std::sync::Arc;
+
+use eem::{Domain, DomainError, DomainReport, FreeEnergy, check_domain};
 use eem_symbolic::{ExprId, Model};
+use eem_testkit::table::Table;
 use num_dual::HyperDual64;
 
 use crate::zoo::expression::{self, Written};
@@ -31,20 +33,7 @@ pub(crate) trait Formula: FreeEnergy<f64> + Clone + Send + Sync + 'static {
     fn psi_of_numbers<V: Value>(x: &[Num<V>], fields: &[Num<V>]) -> Num<V>;
     /// `η_k`.
     fn viscosities<V: Value>(x: &[Num<V>], fields: &[Num<V>]) -> Vec<Num<V>>;
-    /// The element of a spring.
-    fn into_spring(self, scene: &mut Scene<2>, ends: [Node; 2]) -> Element;
 }
-
-/// A spring in a scene; a solid is none.
-macro_rules! element {
-    (Stretch $($rest:ident)*; $model:expr, $scene:expr, $ends:expr) => {
-        $scene.spring($model, $ends)
-    };
-    ($($roles:ident)*; $model:expr, $scene:expr, $ends:expr) => {
-        unreachable!("a solid between {:?} of {:?}", $ends, $scene)
-    };
-}
-pub(crate) use element;
 
 /// Writes a free energy once and has it read twice: by the derive as tokens, by Rust as a function
 /// of any number. A formula with `diff` has a second one, behind `or`, without.
@@ -109,21 +98,13 @@ macro_rules! specimen {
                 let &[$($field),*] = fields else { panic!("one number per field") };
                 vec![$($viscosity),*]
             }
-
-            fn into_spring(
-                self,
-                scene: &mut eem::prelude::Scene<2>,
-                ends: [eem::prelude::Node; 2],
-            ) -> eem::prelude::Element {
-                $crate::zoo::specimen::element!($($role)*; self, scene, ends)
-            }
         }
     };
 }
 pub(crate) use specimen;
 
 /// A [`Formula`] behind a table of functions, so that a test is written and compiled once.
-pub(crate) trait Specimen {
+pub(crate) trait Specimen: Table {
     fn name(&self) -> &'static str;
     fn thermal(&self) -> bool;
     fn measures(&self) -> usize;
@@ -132,8 +113,6 @@ pub(crate) trait Specimen {
     fn is_solid(&self) -> bool;
     fn state(&self) -> &'static [f64];
     fn home(&self) -> &'static [[f64; 2]];
-    /// The numbers that programs take before the state.
-    fn parameters(&self) -> Vec<f64>;
 
     /// What the macro should have understood.
     fn symbolic(&self) -> Model;
@@ -141,33 +120,9 @@ pub(crate) trait Specimen {
     fn viscosities_of_duals(&self, x: &[Num<HyperDual64>]) -> Vec<Num<HyperDual64>>;
     fn precise_psi(&self, x: &[Precise]) -> Precise;
 
-    fn free_energy(&self, x: &[f64]) -> f64;
-    fn energy_magnitude(&self, x: &[f64]) -> f64;
-    fn internal_energy(&self, x: &[f64]) -> f64;
-    /// Gradient, then Hessian by rows.
-    fn hessian(&self, x: &[f64]) -> Vec<f64>;
-    fn gradient(&self, x: &[f64]) -> Vec<f64>;
-    fn caloric(&self, x: &[f64]) -> Caloric<f64>;
-    /// All η, then all dη/dθ.
-    fn viscosity(&self, theta: f64) -> Vec<f64>;
-    /// Response, then tangent by rows.
-    fn entropy_form(&self, x0: &[f64], x1: &[f64], corners: &[f64]) -> Vec<f64>;
-    fn temperature_form(&self, x0: &[f64], x1: &[f64]) -> Vec<f64>;
-
-    fn spring(&self, scene: &mut Scene<2>, ends: [Node; 2]) -> Element;
+    /// The specimen, to be kept.
+    fn table(&self) -> Arc<dyn Table>;
     fn check_domain(&self, domain: &Domain, samples: usize) -> Result<DomainReport, DomainError>;
-}
-
-/// The array with these elements.
-fn array<A: Array<f64>>(elements: &[f64]) -> A {
-    let mut array = A::filled(0.0);
-    array.as_mut().copy_from_slice(elements);
-    array
-}
-
-fn flat<R: Array<f64>, M: Array<R>>(first: &[f64], matrix: &M) -> Vec<f64> {
-    let rows = matrix.as_ref().iter().flat_map(AsRef::as_ref);
-    first.iter().chain(rows).copied().collect()
 }
 
 impl<F: Formula> Specimen for F {
@@ -197,12 +152,6 @@ impl<F: Formula> Specimen for F {
 
     fn home(&self) -> &'static [[f64; 2]] {
         F::HOME
-    }
-
-    fn parameters(&self) -> Vec<f64> {
-        (0..F::PARAMETERS.len())
-            .map(|index| self.parameter(index))
-            .collect()
     }
 
     fn symbolic(&self) -> Model {
@@ -235,50 +184,8 @@ impl<F: Formula> Specimen for F {
         F::psi_of_numbers(&x, &fields).0
     }
 
-    fn free_energy(&self, x: &[f64]) -> f64 {
-        FreeEnergy::free_energy(self, &array(x))
-    }
-
-    fn energy_magnitude(&self, x: &[f64]) -> f64 {
-        FreeEnergy::energy_magnitude(self, &array(x))
-    }
-
-    fn internal_energy(&self, x: &[f64]) -> f64 {
-        FreeEnergy::internal_energy(self, &array(x))
-    }
-
-    fn hessian(&self, x: &[f64]) -> Vec<f64> {
-        let (gradient, hessian) = FreeEnergy::hessian(self, &array(x));
-        flat(gradient.as_ref(), &hessian)
-    }
-
-    fn gradient(&self, x: &[f64]) -> Vec<f64> {
-        FreeEnergy::gradient(self, &array(x)).as_ref().to_vec()
-    }
-
-    fn caloric(&self, x: &[f64]) -> Caloric<f64> {
-        FreeEnergy::caloric(self, &array(x))
-    }
-
-    fn viscosity(&self, theta: f64) -> Vec<f64> {
-        let (eta, slope) = FreeEnergy::viscosity(self, theta);
-        [eta.as_ref(), slope.as_ref()].concat()
-    }
-
-    fn entropy_form(&self, x0: &[f64], x1: &[f64], corners: &[f64]) -> Vec<f64> {
-        let old = self.entropy_form_old(&array(x0));
-        let (response, tangent) = FreeEnergy::entropy_form(self, &old, &array(x1), &array(corners));
-        flat(response.as_ref(), &tangent)
-    }
-
-    fn temperature_form(&self, x0: &[f64], x1: &[f64]) -> Vec<f64> {
-        let old = self.temperature_form_old(&array(x0));
-        let (response, tangent) = FreeEnergy::temperature_form(self, &old, &array(x1));
-        flat(response.as_ref(), &tangent)
-    }
-
-    fn spring(&self, scene: &mut Scene<2>, ends: [Node; 2]) -> Element {
-        self.clone().into_spring(scene, ends)
+    fn table(&self) -> Arc<dyn Table> {
+        Arc::new(self.clone())
     }
 
     fn check_domain(&self, domain: &Domain, samples: usize) -> Result<DomainReport, DomainError> {

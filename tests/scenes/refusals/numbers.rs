@@ -1,6 +1,7 @@
 //! Every public number may be anything: there is a typed error, or a run whose numbers are finite.
 
 use eem::prelude::*;
+use eem_testkit::length::at_length;
 
 use super::{WARM, Warm};
 
@@ -131,10 +132,15 @@ fn assert_finite(run: &Simulation<2>, what: &str) {
 
 #[test]
 fn a_wild_number_is_an_error_or_the_run_stays_finite() {
-    let mut refused = 0;
+    let (mut refused, mut turn) = (0, 0);
     for scheme in Scheme::ALL {
         for (index, name) in NAMES.iter().enumerate() {
             for wild in WILD {
+                // Every number with every scheme, and most of what it may be, in turn.
+                turn += 1;
+                if turn % at_length(1, 3) != 0 {
+                    continue;
+                }
                 let mut draft = SOUND;
                 draft.numbers[index] = wild;
                 let what = format!("{}: {name} = {wild:e}", scheme.name());

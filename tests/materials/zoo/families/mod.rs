@@ -2,6 +2,7 @@
 
 mod bonds;
 mod dashpots;
+mod functions;
 mod gases;
 mod heat;
 mod helpers;
@@ -71,6 +72,8 @@ pub(crate) fn all() -> Vec<Box<dyn Specimen>> {
         memory::GlassTransition,
         helpers::Branches,
         helpers::Periodic,
+        functions::Powers,
+        functions::Every,
         dashpots::Maxwell,
         dashpots::Zener,
         dashpots::Burgers,

@@ -1,19 +1,16 @@
 //! The published cases, and reference data.
 
-#![allow(dead_code, reason = "every test file uses its own part of this module")]
+pub mod dashpots;
+pub mod numbers;
+pub mod orders;
+pub mod solids;
 
-pub(crate) mod dashpots;
-pub(crate) mod numbers;
-pub(crate) mod orders;
-pub(crate) mod solids;
-
+pub use eem::materials::{Hencky, LogarithmicStiffness, ThermoViscoElastic};
 use eem::prelude::*;
 use eem::{Real, RefusedScene};
 
 /// The only thing for which a scene is refused.
-pub(crate) fn only_error<const D: usize>(
-    refused: Result<Simulation<D>, RefusedScene<D>>,
-) -> SceneError {
+pub fn only_error<const D: usize>(refused: Result<Simulation<D>, RefusedScene<D>>) -> SceneError {
     let refused = refused.unwrap_err();
     let [error] = refused.errors() else {
         panic!("{refused}")
@@ -21,117 +18,17 @@ pub(crate) fn only_error<const D: usize>(
     error.clone()
 }
 
-/// Thermo-visco-elastic element of García Orden & Romero (2012), §4.1.
-#[derive(Clone, Debug, FreeEnergy)]
-#[free_energy(|lambda: Stretch, gamma: Viscous, theta: Temperature| {
-    let strain = ln(lambda / natural_length);
-    let heating = theta - theta_ref;
-    let elastic = 0.5 * (k0 - k1 * heating) * strain.powi(2)
-        - coupling * heating * strain
-        + capacity * (heating - theta * ln(theta / theta_ref));
-    (1.0 + ratio) * elastic + (mu0 - mu1 * heating) * gamma.powi(2)
-        - ratio * gamma * diff(elastic, lambda)
-})]
-#[viscosity(gamma = eta0 * exp(a * (1.0 / theta - 1.0 / theta_ref)))]
-pub(crate) struct ThermoViscoElastic {
-    #[unit("N m")]
-    pub(crate) k0: f64,
-    #[unit("N m/K")]
-    pub(crate) k1: f64,
-    #[unit("1")]
-    pub(crate) ratio: f64,
-    #[unit("N m/K")]
-    pub(crate) coupling: f64,
-    #[unit("N m/K")]
-    pub(crate) capacity: f64,
-    #[unit("N/m")]
-    pub(crate) mu0: f64,
-    #[unit("N/(m K)")]
-    pub(crate) mu1: f64,
-    #[unit("N s/m")]
-    pub(crate) eta0: f64,
-    #[unit("K")]
-    pub(crate) a: f64,
-    #[unit("m")]
-    pub(crate) natural_length: f64,
-    #[unit("K")]
-    pub(crate) theta_ref: f64,
-}
-
-impl ThermoViscoElastic {
-    /// The published data.
-    pub(crate) const PENDULUM: Self = Self {
-        k0: 100.0,
-        k1: 0.5,
-        ratio: 0.1,
-        coupling: 4.0,
-        capacity: 1.0,
-        mu0: 5.0,
-        mu1: 0.1,
-        eta0: 100.0,
-        a: 10.0,
-        natural_length: 1.0,
-        theta_ref: 300.0,
-    };
-}
-
-/// Thermoelastic spring with logarithmic stiffness, Conde Martín, Betsch & García Orden (2016), eq. (43).
-#[derive(Clone, Debug, FreeEnergy)]
-#[free_energy(|lambda: Stretch, theta: Temperature| {
-    let strain = ln(lambda / natural_length);
-    let modulus = stiffness - softening * theta_ref * ln(theta / theta_ref);
-    0.5 * modulus * strain.powi(2)
-        - coupling * (theta - theta_ref) * strain
-        + capacity * (theta - theta_ref - theta * ln(theta / theta_ref))
-})]
-pub(crate) struct LogarithmicStiffness {
-    #[unit("J")]
-    pub(crate) stiffness: f64,
-    #[unit("J/K")]
-    pub(crate) softening: f64,
-    #[unit("J/K")]
-    pub(crate) coupling: f64,
-    #[unit("J/K")]
-    pub(crate) capacity: f64,
-    #[unit("m")]
-    pub(crate) natural_length: f64,
-    #[unit("K")]
-    pub(crate) theta_ref: f64,
-}
-
-impl LogarithmicStiffness {
-    /// The first spring of the published double pendulum.
-    pub(crate) const FIRST: Self = Self {
-        stiffness: 5000.0,
-        softening: 50.0,
-        coupling: 20.0,
-        capacity: 5000.0,
-        natural_length: 2.0,
-        theta_ref: 300.0,
-    };
-}
-
-/// Hencky spring without temperature.
-#[derive(Clone, Debug, FreeEnergy)]
-#[free_energy(|lambda: Stretch| 0.5 * stiffness * ln(lambda / natural_length).powi(2))]
-pub(crate) struct Hencky {
-    #[unit("J")]
-    pub(crate) stiffness: f64,
-    #[unit("m")]
-    pub(crate) natural_length: f64,
-}
-
 /// A run with the handles of what is in it.
 #[derive(Debug)]
-pub(crate) struct Pendulum {
-    pub(crate) run: Simulation<2>,
-    pub(crate) bob: Node,
-    pub(crate) spring: Element,
-    pub(crate) air: Reservoir,
+pub struct Pendulum {
+    pub run: Simulation<2>,
+    pub bob: Node,
+    pub spring: Element,
+    pub air: Reservoir,
 }
 
 /// The single pendulum of García Orden & Romero (2012), §4.1.
-pub(crate) fn single_pendulum(scheme: Scheme, step: f64) -> Pendulum {
+pub fn single_pendulum(scheme: Scheme, step: f64) -> Pendulum {
     let (scene, bob, spring, air) = single_pendulum_scene();
     let run = Simulation::new(scene, scheme, step).unwrap();
     Pendulum {
@@ -143,7 +40,7 @@ pub(crate) fn single_pendulum(scheme: Scheme, step: f64) -> Pendulum {
 }
 
 /// Its scene, in numbers of any type, with bob, spring and air.
-pub(crate) fn single_pendulum_scene<S: Real>() -> (Scene<2, S>, Node, Element, Reservoir) {
+pub fn single_pendulum_scene<S: Real>() -> (Scene<2, S>, Node, Element, Reservoir) {
     let number = S::from_f64;
     let mut scene = Scene::default();
     let pivot = scene.anchor([number(0.0); 2]);
@@ -157,7 +54,7 @@ pub(crate) fn single_pendulum_scene<S: Real>() -> (Scene<2, S>, Node, Element, R
 
 impl Pendulum {
     /// q, p, θ, γ and σ in the order of the reference data.
-    pub(crate) fn row(&self) -> [f64; 7] {
+    pub fn row(&self) -> [f64; 7] {
         let q = self.run.position(self.bob).unwrap();
         let p = self.run.momentum(self.bob).unwrap();
         let theta = self.run.temperature(self.spring).unwrap();
@@ -170,25 +67,25 @@ impl Pendulum {
 /// A double pendulum of Conde Martín, Betsch & García Orden (2016): origin – spring – mass – spring –
 /// mass, in space, the springs in thermal contact.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct DoublePendulum {
-    pub(crate) name: &'static str,
-    pub(crate) stiffness: [f64; 2],
-    pub(crate) softening: [f64; 2],
-    pub(crate) masses: [f64; 2],
-    pub(crate) coupling: f64,
-    pub(crate) capacity: [f64; 2],
-    pub(crate) conductance: f64,
-    pub(crate) positions: [[f64; 3]; 2],
-    pub(crate) momenta: [[f64; 3]; 2],
-    pub(crate) temperatures: [f64; 2],
-    pub(crate) duration: f64,
-    pub(crate) step: f64,
+pub struct DoublePendulum {
+    pub name: &'static str,
+    pub stiffness: [f64; 2],
+    pub softening: [f64; 2],
+    pub masses: [f64; 2],
+    pub coupling: f64,
+    pub capacity: [f64; 2],
+    pub conductance: f64,
+    pub positions: [[f64; 3]; 2],
+    pub momenta: [[f64; 3]; 2],
+    pub temperatures: [f64; 2],
+    pub duration: f64,
+    pub step: f64,
     /// E, S and |J| at the start, as published.
-    pub(crate) start: [f64; 3],
+    pub start: [f64; 3],
 }
 
 impl DoublePendulum {
-    pub(crate) const ROMERO: Self = Self {
+    pub const ROMERO: Self = Self {
         name: "romero",
         stiffness: [0.1, 1.0],
         softening: [0.0, 0.0],
@@ -204,7 +101,7 @@ impl DoublePendulum {
         start: [421.641_105_799_8, 1.243_727_879_7, 2.0],
     };
 
-    pub(crate) const KRUEGER: Self = Self {
+    pub const KRUEGER: Self = Self {
         name: "kruger",
         stiffness: [100.0, 100.0],
         capacity: [1000.0, 1000.0],
@@ -216,7 +113,7 @@ impl DoublePendulum {
         ..Self::ROMERO
     };
 
-    pub(crate) const LOGARITHMIC: Self = Self {
+    pub const LOGARITHMIC: Self = Self {
         name: "log",
         stiffness: [5000.0, 10_000.0],
         softening: [50.0, 60.0],
@@ -232,10 +129,10 @@ impl DoublePendulum {
         start: [400_819.933_391_345, 1_183.024_338_221_3, 71.5891],
     };
 
-    pub(crate) const ALL: [Self; 3] = [Self::ROMERO, Self::KRUEGER, Self::LOGARITHMIC];
+    pub const ALL: [Self; 3] = [Self::ROMERO, Self::KRUEGER, Self::LOGARITHMIC];
 
     /// Ready to run, with its masses and springs.
-    pub(crate) fn simulation(&self, scheme: Scheme, step: f64) -> DoubleRun {
+    pub fn simulation(&self, scheme: Scheme, step: f64) -> DoubleRun {
         let (scene, masses, springs) = self.scene();
         let run = Simulation::new(scene, scheme, step).unwrap();
         DoubleRun {
@@ -246,7 +143,7 @@ impl DoublePendulum {
     }
 
     /// Its scene, with its masses and springs.
-    pub(crate) fn scene(&self) -> (Scene<3>, [Node; 2], [Element; 2]) {
+    pub fn scene(&self) -> (Scene<3>, [Node; 2], [Element; 2]) {
         let mut scene = Scene::<3>::new();
         let pivot = scene.anchor([0.0; 3]);
         let masses = [0, 1].map(|i| {
@@ -274,15 +171,15 @@ impl DoublePendulum {
 
 /// A double pendulum in motion.
 #[derive(Debug)]
-pub(crate) struct DoubleRun {
-    pub(crate) run: Simulation<3>,
-    pub(crate) masses: [Node; 2],
-    pub(crate) springs: [Element; 2],
+pub struct DoubleRun {
+    pub run: Simulation<3>,
+    pub masses: [Node; 2],
+    pub springs: [Element; 2],
 }
 
 impl DoubleRun {
     /// q, p and θ in the order of the reference data.
-    pub(crate) fn row(&self) -> Vec<f64> {
+    pub fn row(&self) -> Vec<f64> {
         let positions = self.masses.map(|mass| self.run.position(mass).unwrap());
         let momenta = self.masses.map(|mass| self.run.momentum(mass).unwrap());
         let temperatures = self
@@ -298,21 +195,21 @@ impl DoubleRun {
 
 /// Largest violations of the laws along a run. A NaN anywhere stays a NaN, which no bound admits.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Laws {
+pub struct Laws {
     first_energy: f64,
     first_momentum: [f64; 3],
     entropy: f64,
     /// max |E − E₀|/|E₀|.
-    pub(crate) energy: f64,
+    pub energy: f64,
     /// max |J − J₀|/|J₀|.
-    pub(crate) angular_momentum: f64,
+    pub angular_momentum: f64,
     /// The smallest ΔS of a step, in ulp of S.
-    pub(crate) entropy_ulps: f64,
+    pub entropy_ulps: f64,
 }
 
 impl Laws {
     /// Starts watching.
-    pub(crate) fn new<const D: usize>(run: &Simulation<D>) -> Self {
+    pub fn new<const D: usize>(run: &Simulation<D>) -> Self {
         let ledger = run.ledger();
         Self {
             first_energy: ledger.energy,
@@ -325,7 +222,7 @@ impl Laws {
     }
 
     /// Looks at the state after a step.
-    pub(crate) fn watch<const D: usize>(&mut self, run: &Simulation<D>) {
+    pub fn watch<const D: usize>(&mut self, run: &Simulation<D>) {
         let ledger = run.ledger();
         let energy = (ledger.energy - self.first_energy).abs() / self.first_energy.abs();
         self.energy = worse(self.energy, energy, energy > self.energy);
@@ -355,8 +252,8 @@ fn worse(old: f64, new: f64, is_worse: bool) -> f64 {
 }
 
 /// The rows of a reference file, without its header.
-pub(crate) fn reference(name: &str) -> Vec<Vec<f64>> {
-    let path = format!("{}/tests/data/{name}", env!("CARGO_MANIFEST_DIR"));
+pub fn reference(name: &str) -> Vec<Vec<f64>> {
+    let path = format!("{}/../tests/data/{name}", env!("CARGO_MANIFEST_DIR"));
     let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
     let row = |line: &str| line.split(',').map(|cell| cell.parse().unwrap()).collect();
     text.lines().skip(1).map(row).collect()
@@ -364,7 +261,7 @@ pub(crate) fn reference(name: &str) -> Vec<Vec<f64>> {
 
 /// A hundred steps of a chain of two thermo-visco-elastic springs that hangs on one end, one hot, with
 /// a conductance (W/K) between them: Newton iterations in all, and the laws.
-pub(crate) fn pendulums_in_contact(scheme: Scheme, step: f64, conductance: f64) -> (usize, Laws) {
+pub fn pendulums_in_contact(scheme: Scheme, step: f64, conductance: f64) -> (usize, Laws) {
     let mut scene = Scene::<2>::new();
     let pivot = scene.anchor([0.0, 0.0]);
     let nodes = [

@@ -1,54 +1,10 @@
 //! Solids in the plane.
 
+pub use eem::materials::{SaintVenantKirchhoff as SaintVenant, ThermoelasticSolid};
 use eem::prelude::*;
 
-/// Saint-Venant and Kirchhoff: ½ λ e1² + μ e2 per volume.
-#[derive(Clone, Debug, FreeEnergy)]
-#[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * lame * e1.powi(2) + shear * e2)]
-pub(crate) struct SaintVenant {
-    #[unit("Pa")]
-    pub(crate) lame: f64,
-    #[unit("Pa")]
-    pub(crate) shear: f64,
-}
-
-/// A solid whose shear modulus falls with the temperature: strains and temperature do not separate.
-#[derive(Clone, Debug, FreeEnergy)]
-#[free_energy(|e1: StrainTrace, j: Dilatation, theta: Temperature| {
-    let heating = theta - theta_ref;
-    let growth = ln_1p(j);
-    (shear - softening * heating) * (e1 - growth) + 0.5 * lame * growth.powi(2)
-        - expansion * heating * growth
-        + capacity * (heating - theta * ln(theta / theta_ref))
-})]
-pub(crate) struct ThermoelasticSolid {
-    #[unit("Pa")]
-    pub(crate) shear: f64,
-    #[unit("Pa/K")]
-    pub(crate) softening: f64,
-    #[unit("Pa")]
-    pub(crate) lame: f64,
-    #[unit("Pa/K")]
-    pub(crate) expansion: f64,
-    #[unit("Pa/K")]
-    pub(crate) capacity: f64,
-    #[unit("K")]
-    pub(crate) theta_ref: f64,
-}
-
-impl ThermoelasticSolid {
-    pub(crate) const RUBBER: Self = Self {
-        shear: 1000.0,
-        softening: 2.0,
-        lame: 2000.0,
-        expansion: 3.0,
-        capacity: 100.0,
-        theta_ref: 300.0,
-    };
-}
-
 /// The section of all solids here.
-pub(crate) const SECTION: Section = Section {
+pub const SECTION: Section = Section {
     density: 10.0,
     thickness: 1.0,
 };
@@ -62,27 +18,27 @@ pub(crate) const SECTION: Section = Section {
         + capacity * (heating - theta * ln(theta / theta_ref))
 })]
 #[viscosity(gamma = eta * exp(a / theta - a / theta_ref))]
-pub(crate) struct Viscous {
+pub struct Viscous {
     #[unit("Pa")]
-    pub(crate) lame: f64,
+    pub lame: f64,
     #[unit("Pa")]
-    pub(crate) shear: f64,
+    pub shear: f64,
     #[unit("Pa")]
-    pub(crate) relaxing: f64,
+    pub relaxing: f64,
     #[unit("Pa/K")]
-    pub(crate) expansion: f64,
+    pub expansion: f64,
     #[unit("Pa/K")]
-    pub(crate) capacity: f64,
+    pub capacity: f64,
     #[unit("Pa s")]
-    pub(crate) eta: f64,
+    pub eta: f64,
     #[unit("K")]
-    pub(crate) a: f64,
+    pub a: f64,
     #[unit("K")]
-    pub(crate) theta_ref: f64,
+    pub theta_ref: f64,
 }
 
 impl Viscous {
-    pub(crate) const RUBBER: Self = Self {
+    pub const RUBBER: Self = Self {
         lame: 2000.0,
         shear: 1000.0,
         relaxing: 1500.0,
@@ -104,31 +60,31 @@ impl Viscous {
         + capacity * (heating - theta * ln(theta / theta_ref))
 })]
 #[viscosity(volume = eta_v * exp(a / theta - a / theta_ref), fibre = eta_f * exp(a / theta - a / theta_ref))]
-pub(crate) struct Reinforced {
+pub struct Reinforced {
     #[unit("Pa")]
-    pub(crate) lame: f64,
+    pub lame: f64,
     #[unit("Pa")]
-    pub(crate) shear: f64,
+    pub shear: f64,
     #[unit("Pa")]
-    pub(crate) kv: f64,
+    pub kv: f64,
     #[unit("Pa")]
-    pub(crate) kf: f64,
+    pub kf: f64,
     #[unit("Pa/K")]
-    pub(crate) expansion: f64,
+    pub expansion: f64,
     #[unit("Pa/K")]
-    pub(crate) capacity: f64,
+    pub capacity: f64,
     #[unit("K")]
-    pub(crate) theta_ref: f64,
+    pub theta_ref: f64,
     #[unit("Pa s")]
-    pub(crate) eta_v: f64,
+    pub eta_v: f64,
     #[unit("Pa s")]
-    pub(crate) eta_f: f64,
+    pub eta_f: f64,
     #[unit("K")]
-    pub(crate) a: f64,
+    pub a: f64,
 }
 
 impl Reinforced {
-    pub(crate) const RUBBER: Self = Self {
+    pub const RUBBER: Self = Self {
         lame: 2000.0,
         shear: 1000.0,
         kv: 1500.0,
@@ -151,30 +107,30 @@ impl Reinforced {
     isochoric + volumetric - 3 * beta * heating * (c2 * j - d2 / (1 + j))
         + capacity * (heating - theta * ln(theta / theta_ref))
 })]
-pub(crate) struct MooneyRivlin {
+pub struct MooneyRivlin {
     #[unit("Pa")]
-    pub(crate) a: f64,
+    pub a: f64,
     #[unit("Pa")]
-    pub(crate) b: f64,
+    pub b: f64,
     #[unit("Pa")]
-    pub(crate) c1: f64,
+    pub c1: f64,
     #[unit("Pa")]
-    pub(crate) d1: f64,
+    pub d1: f64,
     #[unit("Pa")]
-    pub(crate) c2: f64,
+    pub c2: f64,
     #[unit("Pa")]
-    pub(crate) d2: f64,
+    pub d2: f64,
     #[unit("1/K")]
-    pub(crate) beta: f64,
+    pub beta: f64,
     #[unit("Pa/K")]
-    pub(crate) capacity: f64,
+    pub capacity: f64,
     #[unit("K")]
-    pub(crate) theta_ref: f64,
+    pub theta_ref: f64,
 }
 
 impl MooneyRivlin {
     /// λ = 5209 Pa, μ = 997.5 Pa.
-    pub(crate) const RUBBER: Self = Self {
+    pub const RUBBER: Self = Self {
         a: 997.5 / 4.0,
         b: 997.5 / 4.0,
         c1: 5209.0 - 997.5,
@@ -198,29 +154,29 @@ impl MooneyRivlin {
         + capacity * (heating - theta * ln(theta / theta_ref))
 })]
 #[viscosity(m3 = eta * exp(a / theta - a / theta_ref))]
-pub(crate) struct Relaxing {
+pub struct Relaxing {
     #[unit("Pa")]
-    pub(crate) lame: f64,
+    pub lame: f64,
     #[unit("Pa")]
-    pub(crate) shear: f64,
+    pub shear: f64,
     #[unit("Pa")]
-    pub(crate) branch: f64,
+    pub branch: f64,
     #[unit("Pa/K")]
-    pub(crate) softening: f64,
+    pub softening: f64,
     #[unit("Pa/K")]
-    pub(crate) expansion: f64,
+    pub expansion: f64,
     #[unit("Pa/K")]
-    pub(crate) capacity: f64,
+    pub capacity: f64,
     #[unit("Pa s")]
-    pub(crate) eta: f64,
+    pub eta: f64,
     #[unit("K")]
-    pub(crate) a: f64,
+    pub a: f64,
     #[unit("K")]
-    pub(crate) theta_ref: f64,
+    pub theta_ref: f64,
 }
 
 impl Relaxing {
-    pub(crate) const RUBBER: Self = Self {
+    pub const RUBBER: Self = Self {
         lame: 2000.0,
         shear: 1000.0,
         branch: 1500.0,
@@ -246,37 +202,37 @@ impl Relaxing {
         + capacity * (heating - theta * ln(theta / theta_ref))
 })]
 #[viscosity(m1 = eta_v, m3 = eta * exp(a / theta - a / theta_ref), fibre = eta_f)]
-pub(crate) struct Flowing {
+pub struct Flowing {
     #[unit("Pa")]
-    pub(crate) lame: f64,
+    pub lame: f64,
     #[unit("Pa")]
-    pub(crate) shear: f64,
+    pub shear: f64,
     #[unit("Pa")]
-    pub(crate) branch: f64,
+    pub branch: f64,
     #[unit("Pa/K")]
-    pub(crate) softening: f64,
+    pub softening: f64,
     #[unit("Pa")]
-    pub(crate) bulk: f64,
+    pub bulk: f64,
     #[unit("Pa")]
-    pub(crate) kf: f64,
+    pub kf: f64,
     #[unit("Pa/K")]
-    pub(crate) expansion: f64,
+    pub expansion: f64,
     #[unit("Pa/K")]
-    pub(crate) capacity: f64,
+    pub capacity: f64,
     #[unit("Pa s")]
-    pub(crate) eta: f64,
+    pub eta: f64,
     #[unit("Pa s")]
-    pub(crate) eta_v: f64,
+    pub eta_v: f64,
     #[unit("Pa s")]
-    pub(crate) eta_f: f64,
+    pub eta_f: f64,
     #[unit("K")]
-    pub(crate) a: f64,
+    pub a: f64,
     #[unit("K")]
-    pub(crate) theta_ref: f64,
+    pub theta_ref: f64,
 }
 
 impl Flowing {
-    pub(crate) const RUBBER: Self = Self {
+    pub const RUBBER: Self = Self {
         lame: 2000.0,
         shear: 1000.0,
         branch: 1500.0,

@@ -1,16 +1,16 @@
 //! Numbers that look random and are always the same.
 
 /// Numbers between −1 and 1 from a counter (Knuth's multiplicative hash).
-pub(crate) struct Numbers(pub(crate) u32);
+pub struct Numbers(pub u32);
 
 impl Numbers {
-    pub(crate) fn next(&mut self) -> f64 {
+    pub fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(1);
         let hash = self.0.wrapping_mul(2_654_435_761) ^ (self.0.wrapping_mul(40_503) >> 7);
         f64::from(hash) / f64::from(u32::MAX) * 2.0 - 1.0
     }
 
-    pub(crate) fn point(&mut self, size: f64) -> [f64; 2] {
+    pub fn point(&mut self, size: f64) -> [f64; 2] {
         [size * self.next(), size * self.next()]
     }
 }

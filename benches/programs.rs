@@ -3,10 +3,10 @@
 //! This is nearly all that the derive does; `benches/README.md` of the workspace says how to measure
 //! what it adds to `cargo check`.
 
-#[path = "../tests/growing/mod.rs"]
+#[path = "../eem-symbolic/tests/growing/mod.rs"]
 mod growing;
 #[allow(dead_code)] // Tests use more of it.
-#[path = "../tests/support/laws.rs"]
+#[path = "../eem-symbolic/tests/support/laws.rs"]
 mod laws;
 
 use divan::{Bencher, black_box};

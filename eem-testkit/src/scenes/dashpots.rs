@@ -6,27 +6,8 @@
 //! η_k = η0_k exp(a (1/θ − 1/θr))
 //! ```
 
+pub use eem::materials::MaxwellDamper as OneDashpot;
 use eem::prelude::*;
-
-/// One branch.
-#[derive(Clone, Debug, FreeEnergy)]
-#[free_energy(|lambda: Stretch, gamma: Viscous, theta: Temperature| {
-    let strain = ln(lambda / natural_length);
-    0.5 * stiffness * strain.powi(2) - coupling * (theta - theta_ref) * strain
-        + capacity * (theta - theta_ref - theta * ln(theta / theta_ref))
-        + 0.5 * mu * (lambda - natural_length - gamma).powi(2)
-})]
-#[viscosity(gamma = eta * exp(a * (1 / theta - 1 / theta_ref)))]
-pub(crate) struct OneDashpot {
-    pub(crate) stiffness: f64,
-    pub(crate) coupling: f64,
-    pub(crate) capacity: f64,
-    pub(crate) natural_length: f64,
-    pub(crate) theta_ref: f64,
-    pub(crate) a: f64,
-    pub(crate) mu: f64,
-    pub(crate) eta: f64,
-}
 
 /// Two branches; μ and η of the second come last.
 #[derive(Clone, Debug, FreeEnergy)]
@@ -41,17 +22,17 @@ pub(crate) struct OneDashpot {
     gamma1 = eta1 * exp(a * (1 / theta - 1 / theta_ref)),
     gamma2 = eta2 * exp(a * (1 / theta - 1 / theta_ref))
 )]
-pub(crate) struct TwoDashpots {
-    pub(crate) stiffness: f64,
-    pub(crate) coupling: f64,
-    pub(crate) capacity: f64,
-    pub(crate) natural_length: f64,
-    pub(crate) theta_ref: f64,
-    pub(crate) a: f64,
-    pub(crate) mu1: f64,
-    pub(crate) eta1: f64,
-    pub(crate) mu2: f64,
-    pub(crate) eta2: f64,
+pub struct TwoDashpots {
+    pub stiffness: f64,
+    pub coupling: f64,
+    pub capacity: f64,
+    pub natural_length: f64,
+    pub theta_ref: f64,
+    pub a: f64,
+    pub mu1: f64,
+    pub eta1: f64,
+    pub mu2: f64,
+    pub eta2: f64,
 }
 
 /// Three branches.
@@ -69,36 +50,35 @@ pub(crate) struct TwoDashpots {
     gamma2 = eta2 * exp(a * (1 / theta - 1 / theta_ref)),
     gamma3 = eta3 * exp(a * (1 / theta - 1 / theta_ref))
 )]
-pub(crate) struct ThreeDashpots {
-    pub(crate) stiffness: f64,
-    pub(crate) coupling: f64,
-    pub(crate) capacity: f64,
-    pub(crate) natural_length: f64,
-    pub(crate) theta_ref: f64,
-    pub(crate) a: f64,
-    pub(crate) mu1: f64,
-    pub(crate) eta1: f64,
-    pub(crate) mu2: f64,
-    pub(crate) eta2: f64,
-    pub(crate) mu3: f64,
-    pub(crate) eta3: f64,
+pub struct ThreeDashpots {
+    pub stiffness: f64,
+    pub coupling: f64,
+    pub capacity: f64,
+    pub natural_length: f64,
+    pub theta_ref: f64,
+    pub a: f64,
+    pub mu1: f64,
+    pub eta1: f64,
+    pub mu2: f64,
+    pub eta2: f64,
+    pub mu3: f64,
+    pub eta3: f64,
 }
 
-impl OneDashpot {
-    pub(crate) const DATA: Self = Self {
-        stiffness: 100.0,
-        coupling: 0.5,
-        capacity: 2.0,
-        natural_length: 1.0,
-        theta_ref: 300.0,
-        a: 500.0,
-        mu: 40.0,
-        eta: 20.0,
-    };
-}
+/// Data of one branch.
+pub const ONE_DASHPOT: OneDashpot = OneDashpot {
+    stiffness: 100.0,
+    coupling: 0.5,
+    capacity: 2.0,
+    natural_length: 1.0,
+    theta_ref: 300.0,
+    a: 500.0,
+    mu: 40.0,
+    eta: 20.0,
+};
 
 impl TwoDashpots {
-    pub(crate) const DATA: Self = Self {
+    pub const DATA: Self = Self {
         stiffness: 100.0,
         coupling: 0.5,
         capacity: 2.0,
@@ -113,7 +93,7 @@ impl TwoDashpots {
 }
 
 impl ThreeDashpots {
-    pub(crate) const DATA: Self = Self {
+    pub const DATA: Self = Self {
         stiffness: 100.0,
         coupling: 0.5,
         capacity: 2.0,

@@ -3,26 +3,26 @@
 use eem_symbolic::{ExprId, Function, Graph, Number};
 
 /// xorshift64*, Vigna 2016.
-pub(crate) struct Random(u64);
+pub struct Random(u64);
 
 impl Random {
-    pub(crate) fn new(seed: u64) -> Self {
+    pub fn new(seed: u64) -> Self {
         Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1)
     }
 
-    pub(crate) fn next(&mut self) -> u64 {
+    pub fn next(&mut self) -> u64 {
         self.0 ^= self.0 >> 12;
         self.0 ^= self.0 << 25;
         self.0 ^= self.0 >> 27;
         self.0.wrapping_mul(0x2545_f491_4f6c_dd1d)
     }
 
-    pub(crate) fn below(&mut self, bound: usize) -> usize {
+    pub fn below(&mut self, bound: usize) -> usize {
         ((self.next() >> 33) as usize) % bound
     }
 
     /// Uniform in \[0, 1).
-    pub(crate) fn unit(&mut self) -> f64 {
+    pub fn unit(&mut self) -> f64 {
         #[allow(clippy::cast_precision_loss)] // An integer of 53 bits.
         let mantissa = (self.next() >> 11) as f64;
         mantissa * 2.0_f64.powi(-53)
@@ -30,12 +30,7 @@ impl Random {
 }
 
 /// A random expression of x with all functions of the table but |x|, defined for every x > 0.
-pub(crate) fn expression(
-    graph: &mut Graph,
-    random: &mut Random,
-    x: ExprId,
-    depth: usize,
-) -> ExprId {
+pub fn expression(graph: &mut Graph, random: &mut Random, x: ExprId, depth: usize) -> ExprId {
     if depth == 0 || random.below(12) == 0 {
         return leaf(graph, random, x);
     }

@@ -1,11 +1,12 @@
-//! Arithmetic with 512 bits, divided differences as plain quotients.
+//! Arithmetic with as many bits as one wants; divided differences as plain quotients.
 
 use std::cell::RefCell;
 
-use astro_float::{BigFloat, Consts, RoundingMode};
+pub use astro_float_num::BigFloat;
+use astro_float_num::{Consts, RoundingMode};
 use eem_symbolic::{Arithmetic, Function, Number, ProgramKernel};
 
-/// Precision of everything, in bits.
+/// Precision unless a test asks for another one.
 const BITS: usize = 512;
 /// Offset of numerical derivatives: errors of 2⁻³⁰⁰ from the formula and 2⁻³⁶⁰ from rounding.
 const OFFSET: i32 = -150;
@@ -13,30 +14,49 @@ const OFFSET: i32 = -150;
 const SAME: i32 = -200;
 const ROUNDING: RoundingMode = RoundingMode::None;
 
-/// Numbers of 512 bits.
-pub(crate) struct Precise {
+/// Numbers of one precision.
+#[derive(Debug)]
+pub struct Precise {
+    bits: usize,
     constants: RefCell<Consts>,
 }
 
+impl Default for Precise {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 // Every number has the precision of the arithmetic that makes it.
-#[allow(clippy::unused_self, clippy::wrong_self_convention)]
+#[allow(clippy::wrong_self_convention)]
 impl Precise {
-    pub(crate) fn new() -> Self {
+    /// 512 bits.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::with_bits(BITS)
+    }
+
+    /// This many bits; divided differences of neighbours and derivatives need 512.
+    #[must_use]
+    pub fn with_bits(bits: usize) -> Self {
         let constants = RefCell::new(Consts::new().expect("memory for constants"));
-        Self { constants }
+        Self { bits, constants }
     }
 
-    pub(crate) fn from_f64(&self, value: f64) -> BigFloat {
-        BigFloat::from_f64(value, BITS)
+    #[must_use]
+    pub fn from_f64(&self, value: f64) -> BigFloat {
+        BigFloat::from_f64(value, self.bits)
     }
 
-    pub(crate) fn all(&self, values: &[f64]) -> Vec<BigFloat> {
+    #[must_use]
+    pub fn all(&self, values: &[f64]) -> Vec<BigFloat> {
         values.iter().map(|&value| self.from_f64(value)).collect()
     }
 
     /// `2ⁿ`.
-    pub(crate) fn two_to(&self, n: i32) -> BigFloat {
-        let mut power = BigFloat::from_f64(1.0, BITS);
+    #[must_use]
+    pub fn two_to(&self, n: i32) -> BigFloat {
+        let mut power = self.from_f64(1.0);
         power.set_exponent(n + 1);
         power
     }
@@ -107,8 +127,8 @@ impl Arithmetic for Precise {
     fn constant(&self, number: &Number) -> BigFloat {
         match number {
             Number::Exact(exact) => {
-                let numerator = BigFloat::from_i128(exact.numerator(), BITS);
-                let denominator = BigFloat::from_i128(exact.denominator(), BITS);
+                let numerator = BigFloat::from_i128(exact.numerator(), self.bits);
+                let denominator = BigFloat::from_i128(exact.denominator(), self.bits);
                 self.div(&numerator, &denominator)
             }
             Number::Float(value) => self.from_f64(*value),
@@ -116,19 +136,19 @@ impl Arithmetic for Precise {
     }
 
     fn add(&self, a: &BigFloat, b: &BigFloat) -> BigFloat {
-        a.add(b, BITS, ROUNDING)
+        a.add(b, self.bits, ROUNDING)
     }
 
     fn sub(&self, a: &BigFloat, b: &BigFloat) -> BigFloat {
-        a.sub(b, BITS, ROUNDING)
+        a.sub(b, self.bits, ROUNDING)
     }
 
     fn mul(&self, a: &BigFloat, b: &BigFloat) -> BigFloat {
-        a.mul(b, BITS, ROUNDING)
+        a.mul(b, self.bits, ROUNDING)
     }
 
     fn div(&self, a: &BigFloat, b: &BigFloat) -> BigFloat {
-        a.div(b, BITS, ROUNDING)
+        a.div(b, self.bits, ROUNDING)
     }
 
     fn neg(&self, a: &BigFloat) -> BigFloat {
@@ -136,7 +156,7 @@ impl Arithmetic for Precise {
     }
 
     fn powi(&self, a: &BigFloat, n: i32) -> BigFloat {
-        let power = a.powi(n.unsigned_abs() as usize, BITS, ROUNDING);
+        let power = a.powi(n.unsigned_abs() as usize, self.bits, ROUNDING);
         if n < 0 {
             self.div(&self.from_f64(1.0), &power)
         } else {
@@ -145,7 +165,7 @@ impl Arithmetic for Precise {
     }
 
     fn sqrt(&self, a: &BigFloat) -> BigFloat {
-        a.sqrt(BITS, ROUNDING)
+        a.sqrt(self.bits, ROUNDING)
     }
 
     fn power(&self, a: &BigFloat, b: &BigFloat) -> BigFloat {
@@ -154,25 +174,25 @@ impl Arithmetic for Precise {
     }
 
     fn apply(&self, function: Function, a: &BigFloat) -> BigFloat {
+        let (bits, one) = (self.bits, self.from_f64(1.0));
         let constants = &mut *self.constants.borrow_mut();
-        let one = self.from_f64(1.0);
         match function {
-            Function::Exp => a.exp(BITS, ROUNDING, constants),
-            Function::ExpM1 => self.sub(&a.exp(BITS, ROUNDING, constants), &one),
-            Function::Ln => a.ln(BITS, ROUNDING, constants),
-            Function::Ln1p => self.add(a, &one).ln(BITS, ROUNDING, constants),
-            Function::Log2 => a.log2(BITS, ROUNDING, constants),
-            Function::Log10 => a.log10(BITS, ROUNDING, constants),
-            Function::Sin => a.sin(BITS, ROUNDING, constants),
-            Function::Cos => a.cos(BITS, ROUNDING, constants),
-            Function::Tan => a.tan(BITS, ROUNDING, constants),
-            Function::Sinh => a.sinh(BITS, ROUNDING, constants),
-            Function::Cosh => a.cosh(BITS, ROUNDING, constants),
-            Function::Tanh => a.tanh(BITS, ROUNDING, constants),
-            Function::Asinh => a.asinh(BITS, ROUNDING, constants),
-            Function::Atan => a.atan(BITS, ROUNDING, constants),
-            Function::Atanh => a.atanh(BITS, ROUNDING, constants),
-            Function::Cbrt => a.cbrt(BITS, ROUNDING),
+            Function::Exp => a.exp(bits, ROUNDING, constants),
+            Function::ExpM1 => self.sub(&a.exp(bits, ROUNDING, constants), &one),
+            Function::Ln => a.ln(bits, ROUNDING, constants),
+            Function::Ln1p => self.add(a, &one).ln(bits, ROUNDING, constants),
+            Function::Log2 => a.log2(bits, ROUNDING, constants),
+            Function::Log10 => a.log10(bits, ROUNDING, constants),
+            Function::Sin => a.sin(bits, ROUNDING, constants),
+            Function::Cos => a.cos(bits, ROUNDING, constants),
+            Function::Tan => a.tan(bits, ROUNDING, constants),
+            Function::Sinh => a.sinh(bits, ROUNDING, constants),
+            Function::Cosh => a.cosh(bits, ROUNDING, constants),
+            Function::Tanh => a.tanh(bits, ROUNDING, constants),
+            Function::Asinh => a.asinh(bits, ROUNDING, constants),
+            Function::Atan => a.atan(bits, ROUNDING, constants),
+            Function::Atanh => a.atanh(bits, ROUNDING, constants),
+            Function::Cbrt => a.cbrt(bits, ROUNDING),
             Function::Abs => a.abs(),
         }
     }
@@ -206,11 +226,15 @@ impl Arithmetic for Precise {
 }
 
 /// The nearest `f64`, to a unit in the last place.
-pub(crate) fn to_f64(x: &BigFloat) -> f64 {
+#[must_use]
+pub fn to_f64(x: &BigFloat) -> f64 {
     if x.is_zero() {
         return 0.0;
     }
-    #[allow(clippy::cast_precision_loss)] // 53 of 64 bits are what is asked for.
+    #[allow(
+        clippy::cast_precision_loss,
+        reason = "53 of 64 bits are what is asked for"
+    )]
     let as_f64 = |word: u64| word as f64;
     let (Some(words), Some(exponent)) = (x.mantissa_digits(), x.exponent()) else {
         return f64::NAN;
@@ -227,6 +251,7 @@ pub(crate) fn to_f64(x: &BigFloat) -> f64 {
 }
 
 /// `|computed − exact|`.
-pub(crate) fn error(precise: &Precise, computed: f64, exact: &BigFloat) -> f64 {
+#[must_use]
+pub fn error(precise: &Precise, computed: f64, exact: &BigFloat) -> f64 {
     to_f64(&precise.sub(&precise.from_f64(computed), exact)).abs()
 }

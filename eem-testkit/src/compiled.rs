@@ -1,0 +1,53 @@
+//! The solver for what several test programs have in their scenes.
+//!
+//! Nobody calls this: code for models and dimensions that is here, in the debug profile, is not made again in a program.
+
+use eem::kinematics::{Hex8, Hex20, Quad4, Quad8};
+use eem::materials::{Hencky, LogarithmicStiffness, SaintVenantKirchhoff, ThermoelasticSolid};
+use eem::prelude::*;
+
+use crate::scenes::dashpots::{ThreeDashpots, TwoDashpots};
+use crate::scenes::solids::{MooneyRivlin, Reinforced, Relaxing};
+
+const HENCKY: Hencky = Hencky {
+    stiffness: 1.0,
+    natural_length: 1.0,
+};
+const ELASTIC: SaintVenantKirchhoff = SaintVenantKirchhoff {
+    lame: 1.0,
+    shear: 1.0,
+};
+
+/// In the plane.
+pub fn plane(
+    mut scene: Scene<2>,
+    ends: [Node; 2],
+) -> Result<StepReport<f64>, Box<dyn std::error::Error>> {
+    scene.spring(HENCKY, ends);
+    scene.spring(LogarithmicStiffness::FIRST, ends);
+    scene.spring(TwoDashpots::DATA, ends);
+    scene.spring(ThreeDashpots::DATA, ends);
+    let linear = Mesh::<Quad4, 2>::block([1; 2], [[0.0, 1.0]; 2])?;
+    scene.solid(ELASTIC, &linear, &Bulk::new(1.0));
+    scene.solid(ThermoelasticSolid::RUBBER, &linear, &Bulk::new(1.0));
+    scene.solid(Relaxing::RUBBER, &linear, &Bulk::new(1.0));
+    let quadratic = Mesh::<Quad8, 2>::block([1; 2], [[0.0, 1.0]; 2])?;
+    scene.solid(ELASTIC, &quadratic, &Bulk::new(1.0));
+    Ok(Simulation::new(scene, Scheme::EemEntropy, 1.0)?.step()?)
+}
+
+/// In space.
+pub fn space(
+    mut scene: Scene<3>,
+    ends: [Node; 2],
+) -> Result<StepReport<f64>, Box<dyn std::error::Error>> {
+    scene.spring(HENCKY, ends);
+    let linear = Mesh::<Hex8, 3>::block([1; 3], [[0.0, 1.0]; 3])?;
+    scene.solid(ELASTIC, &linear, &Bulk::new(1.0));
+    scene.solid(ThermoelasticSolid::RUBBER, &linear, &Bulk::new(1.0));
+    scene.solid(MooneyRivlin::RUBBER, &linear, &Bulk::new(1.0));
+    scene.solid(Reinforced::RUBBER, &linear, &Bulk::new(1.0));
+    let quadratic = Mesh::<Hex20, 3>::block([1; 3], [[0.0, 1.0]; 3])?;
+    scene.solid(ELASTIC, &quadratic, &Bulk::new(1.0));
+    Ok(Simulation::new(scene, Scheme::EemEntropy, 1.0)?.step()?)
+}
