@@ -69,7 +69,8 @@ pub struct StepReport<S> {
     /// than its energies need, or near a singular force, has its energy to `ε k λ²` only.
     pub bound: S,
     /// Whether [`bound`](Self::bound) exceeds 100 times `64 ε` of `T + |ψ| + θ|s| + cθ + |f|λ + |g||γ|` at both
-    /// ends. The step then satisfies its laws as far as rounding can tell, but less precisely than the energies are
+    /// ends; in implicit schemes, which know the forces at the end by secants only, from a sixteenth of that. The step then
+    /// satisfies its laws as far as rounding can tell, but less precisely than the energies are
     /// stored. This happens if internal variables depend much more on the rounding of a length than the energies
     /// do, or if terms of ψ cancel.
     ///
