@@ -8,6 +8,8 @@
 #![allow(
     clippy::missing_errors_doc,
     clippy::missing_panics_doc,
+    clippy::must_use_candidate,
+    clippy::should_implement_trait,
     clippy::unwrap_used,
     reason = "a test fails by panicking"
 )]
