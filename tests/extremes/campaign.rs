@@ -15,7 +15,7 @@ const STEPS: usize = 4;
 const STEPS_OF_CHOICE: usize = 40;
 
 /// Parts of a refused step in which it is looked at.
-const PARTS: f64 = 16.0;
+const PARTS: u32 = 16;
 
 /// Refused calm steps that are told.
 const TOLD: usize = 8;
@@ -190,8 +190,11 @@ impl Row {
 /// models that end, within it are none of the scheme's making.
 fn stays_calm<const D: usize>(drawing: &Drawing<D>, watched: &mut Watched<D>) -> bool {
     let record = watched.record.clone();
-    let mut is_calm = watched.run.set_step_size(drawing.step / PARTS).is_ok();
-    for _ in 0..PARTS as usize {
+    let mut is_calm = watched
+        .run
+        .set_step_size(drawing.step / f64::from(PARTS))
+        .is_ok();
+    for _ in 0..PARTS {
         if !is_calm {
             break;
         }

@@ -131,7 +131,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         let moving = &self.y[..self.offsets.viscous];
         // Zero, unless some number is infinite or none.
-        let rest = moving.iter().fold(S::zero(), |rest, &x| rest + S::zero() * x);
+        let rest = moving
+            .iter()
+            .fold(S::zero(), |rest, &x| rest + S::zero() * x);
         if rest.equal(S::zero()).all() {
             return Ok(());
         }
