@@ -4,8 +4,8 @@ use eem::Body;
 use eem::kinematics::Hex8;
 use eem::prelude::*;
 
-use crate::support::ThermoViscoElastic;
-use crate::support::solids::SaintVenant;
+use eem_testkit::scenes::ThermoViscoElastic;
+use eem_testkit::scenes::solids::SaintVenant;
 
 /// The nodes of a body turn about its centre, and shear, rad/s.
 fn set_in_motion(scene: &mut Scene<3>, body: &Body<Hex8, 3>, rate: f64) {

@@ -11,6 +11,14 @@
     clippy::unwrap_used,
     reason = "a test fails by panicking"
 )]
+#![allow(
+    clippy::must_use_candidate,
+    reason = "a test that does not look is seen in the test"
+)]
+#![allow(
+    clippy::should_implement_trait,
+    reason = "random numbers are no iterator"
+)]
 
 #[cfg(feature = "scenes")]
 pub mod compiled;

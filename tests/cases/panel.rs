@@ -98,7 +98,8 @@ fn frequency<H: Shape<3>>(cells: [usize; 3]) -> f64 {
 
 #[test]
 fn a_clamped_panel_has_its_frequency() {
-    let all: [(fn([usize; 3]) -> f64, _, _); 5] = [
+    type Frequency = fn([usize; 3]) -> f64;
+    let all: [(Frequency, _, _); 5] = [
         (frequency::<Hex8>, [8, 2, 2], 0.07404),
         (frequency::<Hex20>, [4, 1, 1], 0.02397),
         (frequency::<Hex8>, [16, 2, 2], 0.04260),
