@@ -13,7 +13,7 @@ use faer::sparse::linalg::{SymbolicSupernodalParams, amd, qr};
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Conj, MatMut, Par, Spec};
 
-use crate::support::Matrix;
+use super::support::Matrix;
 
 /// Which order of columns.
 #[derive(Clone, Copy, Debug)]

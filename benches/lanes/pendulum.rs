@@ -10,7 +10,7 @@ use eem::__private::Scalar;
 use eem::FreeEnergy;
 
 use super::Bundle;
-use eem::materials::ThermoViscoElastic;
+use eem_testkit::scenes::ThermoViscoElastic;
 
 /// The published step, s, mass, kg, conductance, W/K, and temperature of the surroundings, K.
 const STEP: f64 = 0.2;

@@ -2,7 +2,7 @@
 
 use eem::prelude::*;
 
-use eem::materials::{Hencky, LogarithmicStiffness, ThermoViscoElastic};
+use eem_testkit::scenes::{Hencky, LogarithmicStiffness, ThermoViscoElastic};
 
 /// Of a node, kg.
 const MASS: f64 = 1.0;

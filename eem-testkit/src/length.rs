@@ -1,13 +1,11 @@
 //! How long tests run.
 
 /// Whether `EEM_LONG` is set: a weekly job sets it, and runs are as long as they have ever been.
-#[must_use]
 pub fn is_long() -> bool {
     std::env::var_os("EEM_LONG").is_some()
 }
 
 /// The first of two lengths with `EEM_LONG`, else the second.
-#[must_use]
 pub fn at_length<T>(long: T, short: T) -> T {
     if is_long() { long } else { short }
 }

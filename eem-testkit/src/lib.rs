@@ -8,10 +8,16 @@
 #![allow(
     clippy::missing_errors_doc,
     clippy::missing_panics_doc,
-    clippy::must_use_candidate,
-    clippy::should_implement_trait,
     clippy::unwrap_used,
     reason = "a test fails by panicking"
+)]
+#![allow(
+    clippy::must_use_candidate,
+    reason = "a test that does not look is seen in the test"
+)]
+#![allow(
+    clippy::should_implement_trait,
+    reason = "random numbers are no iterator"
 )]
 
 #[cfg(feature = "scenes")]

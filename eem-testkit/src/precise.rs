@@ -31,30 +31,25 @@ impl Default for Precise {
 #[allow(clippy::wrong_self_convention)]
 impl Precise {
     /// 512 bits.
-    #[must_use]
     pub fn new() -> Self {
         Self::with_bits(BITS)
     }
 
     /// This many bits; divided differences of neighbours and derivatives need 512.
-    #[must_use]
     pub fn with_bits(bits: usize) -> Self {
         let constants = RefCell::new(Consts::new().expect("memory for constants"));
         Self { bits, constants }
     }
 
-    #[must_use]
     pub fn from_f64(&self, value: f64) -> BigFloat {
         BigFloat::from_f64(value, self.bits)
     }
 
-    #[must_use]
     pub fn all(&self, values: &[f64]) -> Vec<BigFloat> {
         values.iter().map(|&value| self.from_f64(value)).collect()
     }
 
     /// `2ⁿ`.
-    #[must_use]
     pub fn two_to(&self, n: i32) -> BigFloat {
         let mut power = self.from_f64(1.0);
         power.set_exponent(n + 1);
@@ -226,7 +221,6 @@ impl Arithmetic for Precise {
 }
 
 /// The nearest `f64`, to a unit in the last place.
-#[must_use]
 pub fn to_f64(x: &BigFloat) -> f64 {
     if x.is_zero() {
         return 0.0;
@@ -251,7 +245,6 @@ pub fn to_f64(x: &BigFloat) -> f64 {
 }
 
 /// `|computed − exact|`.
-#[must_use]
 pub fn error(precise: &Precise, computed: f64, exact: &BigFloat) -> f64 {
     to_f64(&precise.sub(&precise.from_f64(computed), exact)).abs()
 }

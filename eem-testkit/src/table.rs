@@ -34,7 +34,6 @@ pub trait Table: Send + Sync {
 }
 
 /// The array with these elements.
-#[must_use]
 pub fn array<A: Array<f64>>(elements: &[f64]) -> A {
     let mut array = A::filled(0.0);
     array.as_mut().copy_from_slice(elements);
