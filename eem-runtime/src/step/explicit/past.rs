@@ -24,8 +24,6 @@ pub(crate) struct SavedExplicit<S> {
     pub(crate) held_energies: Vec<S>,
     pub(crate) largest_momentum: S,
     pub(crate) residue: S,
-    /// See `Books`.
-    pub(crate) terms: Option<[S; 2]>,
     pub(crate) rates: Vec<S>,
     pub(crate) powers: Vec<S>,
     pub(crate) supply: Vec<S>,
@@ -46,7 +44,6 @@ impl<S: Real> SavedExplicit<S> {
         self.targets.fill(Sum::new(S::zero()));
         self.shares.write(|shares| shares.fill(S::zero()));
         (self.largest_momentum, self.residue) = (S::zero(), S::zero());
-        self.terms = None;
         let lists = [
             &mut self.held_energies,
             &mut self.rates,

@@ -20,7 +20,6 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             held_energies: books.held_energies.clone(),
             largest_momentum: books.largest_momentum,
             residue: books.residue,
-            terms: books.terms,
             rates: self.rows[START][..self.offsets.size].to_vec(),
             powers: start.powers.clone(),
             supply: start.supply.clone(),
@@ -51,7 +50,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         books.held_energies.copy_from_slice(&saved.held_energies);
         books.largest_momentum = saved.largest_momentum;
         books.residue = saved.residue;
-        books.terms = saved.terms;
+        books.terms = None;
         self.rows[START][..self.offsets.size].copy_from_slice(&saved.rates);
         start.powers.copy_from_slice(&saved.powers);
         start.supply.copy_from_slice(&saved.supply);
