@@ -128,10 +128,6 @@ fn of_explicit<S: Real>(explicit: &SavedExplicit<S>) -> Vec<Entry> {
         entry("the largest momentum", [explicit.largest_momentum]),
         entry("what the energy is off by", [explicit.residue]),
         entry(
-            "the terms of the energy",
-            explicit.terms.into_iter().flatten(),
-        ),
-        entry(
             "whether a step begins anew",
             flags.map(|flag| S::from_f64(f64::from(u8::from(flag)))),
         ),

@@ -241,7 +241,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             own += motion + energy.terms;
         }
         terms += own;
-        let bound = rounding * (old + counted);
+        let mut bound = rounding * (old + counted);
+        if self.books.terms.is_none() {
+            // After a restart the terms are not those of the step that left the old residue.
+            bound += self.books.residue.abs();
+        }
         self.new_books.terms = Some([counted, own]);
         self.new_books.largest_momentum = scales.momentum;
         self.new_books.residue = residue;
