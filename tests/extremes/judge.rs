@@ -69,7 +69,7 @@ impl Complaints {
         if !is_kept {
             let time = self.time;
             self.broken.push(format!(
-                "t = {time:e}: {law} {defect:.2e} above {bound:.2e}"
+                "t = {time:e}: {law} {defect:.5e} above {bound:.5e}"
             ));
         }
     }

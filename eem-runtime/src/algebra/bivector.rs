@@ -16,6 +16,18 @@ impl<T: Copy, const D: usize> Bivector<T, D> {
         Self([[value; D]; D])
     }
 
+    /// With each component by its axes `i < j`.
+    #[inline]
+    fn of(unused: T, mut of: impl FnMut(usize, usize) -> T) -> Self {
+        let mut result = Self::filled(unused);
+        for i in 0..D {
+            for j in i + 1..D {
+                result.0[i][j] = of(i, j);
+            }
+        }
+        result
+    }
+
     /// The component of the plane of two axes `i < j`.
     #[inline]
     pub(crate) const fn at(&self, [i, j]: [usize; 2]) -> T {
@@ -31,13 +43,7 @@ impl<T: Copy, const D: usize> Bivector<T, D> {
     /// With each component by its plane.
     #[inline]
     pub(crate) fn map<U: Copy>(&self, unused: U, mut of: impl FnMut(T) -> U) -> Bivector<U, D> {
-        let mut result = Bivector::filled(unused);
-        for i in 0..D {
-            for j in i + 1..D {
-                result.0[i][j] = of(self.0[i][j]);
-            }
-        }
-        result
+        Bivector::of(unused, |i, j| of(self.0[i][j]))
     }
 
     /// With each component by those of two in its plane.
@@ -48,13 +54,7 @@ impl<T: Copy, const D: usize> Bivector<T, D> {
         unused: U,
         of: impl Fn(T, V) -> U,
     ) -> Bivector<U, D> {
-        let mut result = Bivector::filled(unused);
-        for i in 0..D {
-            for j in i + 1..D {
-                result.0[i][j] = of(self.0[i][j], other.0[i][j]);
-            }
-        }
-        result
+        Bivector::of(unused, |i, j| of(self.0[i][j], other.0[i][j]))
     }
 }
 
@@ -74,13 +74,7 @@ impl<S: Real, const D: usize> Bivector<S, D> {
     /// `r ∧ p`.
     #[inline]
     pub(crate) fn wedge(r: &[S; D], p: &[S; D]) -> Self {
-        let mut wedge = Self::zero();
-        for i in 0..D {
-            for j in i + 1..D {
-                wedge.0[i][j] = r[i] * p[j] - r[j] * p[i];
-            }
-        }
-        wedge
+        Self::of(S::zero(), |i, j| r[i] * p[j] - r[j] * p[i])
     }
 
     /// `self += factor · other`.

@@ -7,7 +7,7 @@ use super::memory::{END, START};
 use super::stages::From;
 use super::tableau::STAGES;
 use super::{Explicit, ExplicitView};
-use crate::element::group::{UnkeptEntropy, points};
+use crate::element::group::UnkeptEntropy;
 use crate::element::state::State;
 use crate::number::compensated::Total;
 use crate::number::scalar::{Mask, Real};
@@ -253,7 +253,8 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         for progress in &self.scratch.progress {
             production.add_total(progress.production);
             let has_produced = progress.least.less(S::MAX);
-            let closed = progress.least * progress.factor;
+            // The factor is rounded to ε of what was produced before the closing.
+            let closed = (progress.least * progress.factor).minimum(progress.production.value());
             least = least.minimum(S::select(has_produced, closed, S::MAX));
         }
         let has_produced = least.less(S::MAX);
@@ -276,12 +277,11 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     /// The momenta of the state that a component keeps have to be their targets, in all planes.
     fn prove_momenta(&self, index: usize, time: S) -> Result<(), StepFailure> {
         let component = &self.components.all[index];
-        let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
-        let Some(origin) = self.origin(component, positions) else {
+        let Some(origin) = self.origin(component) else {
             return Ok(());
         };
         let rounding = S::from_f64(ROUNDINGS) * S::EPSILON;
-        let (linear, angular) = self.missing_momenta(index);
+        let (linear, angular) = self.missing_momenta(index, &origin);
         // Sums of magnitudes are at most √D times a length.
         let [momenta, moments] = self.momentum_terms(index, &origin);
         let dimension = (0..D).fold(S::zero(), |sum, _| sum + S::one());

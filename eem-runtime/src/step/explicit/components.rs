@@ -40,6 +40,14 @@ pub(super) struct Component<S> {
     pub(super) mass: S,
 }
 
+impl<S: Real> Component<S> {
+    /// The velocity of the centre of mass that goes with a linear momentum; zero on an anchor, m/s.
+    pub(super) fn velocity<const D: usize>(&self, linear: &[S; D]) -> [S; D] {
+        let is_free = self.support == Support::Free;
+        linear.map(|p| if is_free { p / self.mass } else { S::zero() })
+    }
+}
+
 /// A path of heat.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Path<S> {

@@ -68,7 +68,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let velocities = &self.rates(stage)[..self.offsets.momenta];
         let velocities = points::<S, D>(velocities);
         for (sums, component) in loads.iter_mut().zip(&self.components.all) {
-            let origin = self.origin(component, positions);
+            let origin = self.origin_in(component, positions);
             let origin = origin.unwrap_or(Origin::at(&[S::zero(); D]));
             let mut momentum = [S::zero(); D];
             for place in component.masses.clone() {

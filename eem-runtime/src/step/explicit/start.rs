@@ -78,7 +78,9 @@ impl<S: Real, const D: usize> Explicit<S, D> {
             self.new_books.targets[index] = Target::none();
             let [energy, ..] = self.energy_of(index);
             let component = &self.components.all[index];
-            let (linear, angular) = self.momenta_of(component);
+            let momenta = self.origin(component);
+            let momenta = momenta.map(|origin| self.momenta_about(component, &origin));
+            let (linear, angular) = momenta.unwrap_or(([S::zero(); D], Bivector::zero()));
             let mut target = Target::none();
             target.energy = Sum::new(energy);
             for (sum, value) in target.linear.iter_mut().zip(linear) {
@@ -91,7 +93,12 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     /// The point about which a component keeps its angular momentum: its anchor or its centre of mass; none with
     /// several anchors.
-    pub(super) fn origin(
+    pub(super) fn origin(&self, component: &Component<S>) -> Option<Origin<S, D>> {
+        self.origin_in(component, points::<S, D>(&self.y[..self.offsets.momenta]))
+    }
+
+    /// The same for other positions than those of the present stage vector.
+    pub(super) fn origin_in(
         &self,
         component: &Component<S>,
         positions: &[[S; D]],
@@ -108,13 +115,14 @@ impl<S: Real, const D: usize> Explicit<S, D> {
     }
 
     /// Linear momentum, and angular momentum about the anchor, or about the centre of mass.
-    pub(super) fn momenta_of(&self, component: &Component<S>) -> ([S; D], Bivector<S, D>) {
+    pub(super) fn momenta_about(
+        &self,
+        component: &Component<S>,
+        origin: &Origin<S, D>,
+    ) -> ([S; D], Bivector<S, D>) {
         let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
         let momenta = points::<S, D>(&self.y[self.offsets.momenta..self.offsets.viscous]);
         let (mut linear, mut angular) = ([S::zero(); D], Bivector::zero());
-        let Some(origin) = self.origin(component, positions) else {
-            return (linear, angular);
-        };
         for place in component.masses.clone() {
             let arm = origin.arm(&positions[place]);
             add(&mut linear, S::one(), &momenta[place]);

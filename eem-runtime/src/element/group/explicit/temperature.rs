@@ -16,8 +16,9 @@ const MOST_EVALUATIONS: usize = 6;
 /// A correction of ln θ for which the guess is not nearly right.
 const LARGEST_CORRECTION: f64 = 0.25;
 
-/// Roundings, in ε, of the terms of an entropy that it may differ by from the one that is kept.
-const KEPT_ROUNDINGS: f64 = 4.0;
+/// Roundings, in ε, of the terms of an entropy that it may differ by from the one that is kept, as far as it is seen: of
+/// the four that are promised one is left to the rounding of its value.
+const KEPT_ROUNDINGS: f64 = 3.0;
 
 /// The temperature of an entropy.
 pub(super) struct Settled<S, M, T>

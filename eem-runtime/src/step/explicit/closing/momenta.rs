@@ -16,6 +16,12 @@ const OWN_ROUNDINGS: f64 = 2.0;
 /// Corrections of momenta after the first one.
 const MOST_CORRECTIONS: usize = 3;
 
+/// Rotations of a body in a closing. In four dimensions and more, several planes may be without inertia, and principal
+/// axes are known to ε over the gap of their moments, so that the correction of one plane spoils another.
+const fn most_turns<const D: usize>() -> usize {
+    if D < 4 { 1 } else { 3 }
+}
+
 /// The rigid part of the motion of a component.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rigid<S, const D: usize> {
@@ -42,32 +48,28 @@ impl<S: Real, const D: usize> Body<S, D> {
         component: &Component<S>,
         (linear, angular): (&[S; D], &Bivector<S, D>),
     ) -> Rigid<S, D> {
-        let is_free = component.support == Support::Free;
         let turning = self.inertia.as_ref();
         let turning = turning.map(|inertia| inertia.solve(angular));
-        let zero = S::zero();
         Rigid {
             origin: self.origin,
-            velocity: linear.map(|p| if is_free { p / component.mass } else { zero }),
+            velocity: component.velocity(linear),
             omega: turning.unwrap_or(Bivector::zero()),
         }
     }
 }
 
 impl<S: Real, const D: usize> Explicit<S, D> {
-    /// The rigid motion of a component with these momenta.
-    pub(super) fn rigid(
-        &self,
-        component: &Component<S>,
-        momenta: (&[S; D], &Bivector<S, D>),
-    ) -> Rigid<S, D> {
-        self.body(component).motion(component, momenta)
+    /// The rigid motion of a component with the momenta that it has.
+    pub(super) fn rigid(&self, component: &Component<S>) -> Rigid<S, D> {
+        let body = self.body(component);
+        let (linear, angular) = self.momenta_about(component, &body.origin);
+        body.motion(component, (&linear, &angular))
     }
 
     /// A component as it would turn as a rigid body.
     fn body(&self, component: &Component<S>) -> Body<S, D> {
         let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
-        let origin = self.origin(component, positions);
+        let origin = self.origin(component);
         let mut body = Body {
             origin: origin.unwrap_or(Origin::at(&[S::zero(); D])),
             inertia: None,
@@ -129,29 +131,49 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         if self.components.all[index].support == Support::Several {
             return;
         }
+        let mut waits = self.scratch.waits[index];
+        for _ in 0..most_turns::<D>() {
+            waits = self.approach_momenta(index, waits);
+            if waits.all() {
+                return;
+            }
+        }
+    }
+
+    /// A rotation of the body where it is needed, and corrections of its momenta, except for numbers that wait; then
+    /// those wait, too, whose momenta are right to their rounding.
+    fn approach_momenta(&mut self, index: usize, waits: S::Mask) -> S::Mask {
         let mut body = self.body(&self.components.all[index]);
         let is_weak = match &body.inertia {
             Some(Inertia::Line { along, .. }) => self.leaves_plane(index, (&body.origin, along)),
             Some(Inertia::Principal(_) | Inertia::Lanes(_)) => true,
             _ => false,
         };
-        if is_weak && self.turn_body(index, &body) {
+        if is_weak && self.turn_body(index, &body, waits) {
             body = self.body(&self.components.all[index]);
         }
-        let mut waits = self.scratch.waits[index];
         let mut angular = self.correct_momenta(index, &body, waits);
         if D < 3 {
-            return;
+            return waits;
         }
         let [_, terms] = self.momentum_terms(index, &body.origin);
+        let mut correct = waits;
         for _ in 0..MOST_CORRECTIONS {
             // The rotation is known to ε/WEAK of itself.
-            waits = waits | angular.largest().at_most(S::from_f64(WEAK) * terms);
-            if waits.all() {
-                return;
+            correct = correct | angular.largest().at_most(S::from_f64(WEAK) * terms);
+            if correct.all() {
+                break;
             }
-            angular = self.correct_momenta(index, &body, waits);
+            angular = self.correct_momenta(index, &body, correct);
         }
+        if D < 4 {
+            return waits;
+        }
+        let (_, left) = self.missing_momenta(index, &body.origin);
+        waits
+            | left
+                .largest()
+                .at_most(self.own_rounding(index, &body.origin))
     }
 
     /// Adds the rigid motion with what the momenta lack, except for numbers that wait; the angular momentum that they
@@ -163,15 +185,19 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         waits: S::Mask,
     ) -> Bivector<S, D> {
         let component = &self.components.all[index];
-        let (linear, angular) = self.missing_momenta(index);
+        let (linear, angular) = self.missing_momenta(index, &body.origin);
         let rigid = body.motion(component, (&linear, &angular));
         self.add_rigid(index, &rigid, waits);
         angular
     }
 
     /// What linear and angular momentum of a component lack.
-    pub(in super::super) fn missing_momenta(&self, index: usize) -> ([S; D], Bivector<S, D>) {
-        let (linear, angular) = self.momenta_of(&self.components.all[index]);
+    pub(in super::super) fn missing_momenta(
+        &self,
+        index: usize,
+        origin: &Origin<S, D>,
+    ) -> ([S; D], Bivector<S, D>) {
+        let (linear, angular) = self.momenta_about(&self.components.all[index], origin);
         let target = &self.new_books.targets[index];
         let linear = core::array::from_fn(|axis| target.linear[axis].beyond(linear[axis]));
         let angular = target.angular.zip(&angular, S::zero(), Sum::beyond);
@@ -198,9 +224,16 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let target = self.angular_target(index);
         let mut across = target;
         across.add(-S::one(), &Bivector::wedge(along, &target.turn(along)));
+        !across
+            .largest()
+            .at_most(self.own_rounding(index, origin))
+            .all()
+    }
+
+    /// The angular momentum that is left to the momenta.
+    fn own_rounding(&self, index: usize, origin: &Origin<S, D>) -> S {
         let [_, terms] = self.momentum_terms(index, origin);
-        let most = S::from_f64(OWN_ROUNDINGS) * S::EPSILON * terms;
-        !across.largest().at_most(most).all()
+        S::from_f64(OWN_ROUNDINGS) * S::EPSILON * terms
     }
 
     fn angular_target(&self, index: usize) -> Bivector<S, D> {
@@ -208,15 +241,14 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         target.map(S::zero(), |sum| sum.value)
     }
 
-    /// Turns positions and momenta of a component so that its momenta can be put back; whether it has turned.
+    /// Turns positions and momenta of a component, except for numbers that wait, so that its momenta can be put back;
+    /// whether it has turned.
     #[cold]
-    fn turn_body(&mut self, index: usize, body: &Body<S, D>) -> bool {
+    fn turn_body(&mut self, index: usize, body: &Body<S, D>, waits: S::Mask) -> bool {
         let (component, origin) = (&self.components.all[index], &body.origin);
-        let (linear, present) = self.momenta_of(component);
+        let (linear, present) = self.momenta_about(component, origin);
         let target = self.angular_target(index);
-        let [_, terms] = self.momentum_terms(index, origin);
-        let rounding = S::from_f64(OWN_ROUNDINGS) * S::EPSILON * terms;
-        let waits = self.scratch.waits[index];
+        let rounding = self.own_rounding(index, origin);
         let moves = S::select(waits, S::zero(), S::one());
         let change = |lane: usize| {
             if moves.lane(lane) < 1.0 {
@@ -244,14 +276,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let change: [[S; D]; D] = core::array::from_fn(|i| {
             core::array::from_fn(|j| S::pack(|lane| changes[lane].map_or(0.0, |by| by[i][j])))
         });
-        let is_free = component.support == Support::Free;
-        let velocity = linear.map(|p| {
-            if is_free {
-                p / component.mass
-            } else {
-                S::zero()
-            }
-        });
+        let velocity = component.velocity(&linear);
         let (masses, offsets) = (component.masses.clone(), self.offsets);
         let (positions, momenta) = self.y[..offsets.viscous].split_at_mut(offsets.momenta);
         let positions = positions.as_chunks_mut::<D>().0;

@@ -82,8 +82,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         }
         core::mem::swap(&mut self.y, &mut self.y0);
         let component = &self.components.all[index];
-        let (linear, angular) = self.momenta_of(component);
-        let rigid = self.rigid(component, (&linear, &angular));
+        let rigid = self.rigid(component);
         core::mem::swap(&mut self.y, &mut self.y0);
         let difference = self.difference_from_turn(index, &rigid, h, scales);
         if !difference.at_most(largest).all() {

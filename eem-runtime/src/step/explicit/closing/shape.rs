@@ -133,8 +133,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
 
     fn means(&self, index: usize, view: &ExplicitView<'_, S, D>) -> Means<S, D> {
         let (component, h) = (&self.components.all[index], view.step);
-        let (linear, angular) = self.momenta_of(component);
-        let rigid = self.rigid(component, (&linear, &angular));
+        let rigid = self.rigid(component);
         let forces = points::<S, D>(&self.scratch.forces);
         let mut drift = [S::zero(); D];
         if component.support == Support::Free {
