@@ -69,9 +69,6 @@ pub use number::kernel;
 pub use number::scalar::{Discord, Mask, Real, Scalar};
 pub use run::checkpoint::{Checkpoint, RestoreError};
 pub use run::ensemble::{Ensemble, Experiment, MemberError, MemberFailure, Members, Outputs};
-#[cfg(debug_assertions)]
-#[doc(hidden)]
-pub use run::instances::instances;
 pub use run::ledger::Ledger;
 pub use run::recorder::{Column, CustomQuantity, Quantity, RecordError, Recorder};
 pub use run::simulation::Simulation;

@@ -3,7 +3,6 @@
 pub(crate) mod checkpoint;
 pub(crate) mod ensemble;
 #[cfg(debug_assertions)]
-pub(crate) mod instances;
 pub(crate) mod ledger;
 pub(crate) mod recorder;
 pub(crate) mod simulation;

@@ -5,6 +5,7 @@ mod audit;
 mod automatic;
 mod automatic_memory;
 mod check;
+mod compiled;
 mod control;
 mod control_memory;
 pub(crate) mod event;
@@ -49,6 +50,7 @@ use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
 use automatic_memory::Automatic;
 use check::{check_all, needs_second_order};
+use compiled::Functions;
 use control_memory::Control;
 use start::{begin_groups, initial_state, places_in, systems_of};
 use stepper::{Parts, Stepper};
@@ -117,20 +119,20 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Errors
     ///
     /// Everything that is wrong with the scene, its initial state, the scheme or the step, together with the scene.
-    pub fn new(
-        mut scene: Scene<D, S>,
-        scheme: Scheme,
-        step: S,
-    ) -> Result<Self, RefusedScene<D, S>> {
+    pub fn new(scene: Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, RefusedScene<D, S>> {
+        (Functions::get().new)(scene, scheme, step)
+    }
+
+    fn begin(mut scene: Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, RefusedScene<D, S>> {
         let errors = check_all(&scene, first(scheme, needs_second_order(&scene)), step);
         if !errors.is_empty() {
             return Err(RefusedScene::new(scene, errors));
         }
-        Self::begin(&mut scene, scheme, step).map_err(|errors| RefusedScene::new(scene, errors))
+        Self::take(&mut scene, scheme, step).map_err(|errors| RefusedScene::new(scene, errors))
     }
 
     /// Takes what a scene consists of, unless something is wrong with its initial state.
-    fn begin(scene: &mut Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, Vec<SceneError>> {
+    fn take(scene: &mut Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, Vec<SceneError>> {
         let is_second = needs_second_order(scene);
         let in_use = first(scheme, is_second);
         let mut layout = scene.layout();
@@ -195,6 +197,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// [`StepError`] if there is no new state, or Newton's method does not find it. The simulation is unchanged
     /// then.
     pub fn step(&mut self) -> Result<StepReport<S>, StepError> {
+        (Functions::get().step)(self)
+    }
+
+    fn step_here(&mut self) -> Result<StepReport<S>, StepError> {
         if self.control.is_some() {
             return self.controlled_step(S::from_f64(f64::INFINITY));
         }

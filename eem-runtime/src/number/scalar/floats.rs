@@ -110,6 +110,7 @@ macro_rules! implement {
         }
 
         impl Real for $float {
+            const IS_DOUBLE: bool = size_of::<Self>() == size_of::<f64>();
             const EPSILON: Self = $float::EPSILON;
             const MAX: Self = $float::MAX;
             const MIN_POSITIVE: Self = $float::MIN_POSITIVE;

@@ -119,6 +119,9 @@ pub trait Real: Scalar<Mask: Mask> + sealed::Sealed {
     /// The number of lanes.
     const LANES: usize = 1;
 
+    /// Whether this is `f64`.
+    const IS_DOUBLE: bool = false;
+
     /// The value in double precision, for messages and records; NaN if lanes differ.
     fn to_f64(self) -> f64;
 

@@ -2,6 +2,7 @@
 
 use core::mem;
 
+use super::compiled::Functions;
 use super::control_memory::{Control, SMALLEST};
 use super::{Simulation, Tried};
 use crate::number::scalar::{Discord, Mask, Real};
@@ -261,6 +262,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Takes back the step that has just been made.
     pub(super) fn undo(&mut self) {
+        (Functions::get().undo)(self)
+    }
+
+    pub(super) fn undo_here(&mut self) {
         self.with_control(|run, control| {
             match control.and_then(|control| control.halves.as_ref()) {
                 Some(halves) => run.return_to(halves),
@@ -277,6 +282,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Another step from where the last one began, of this size.
     pub(super) fn step_again(&mut self, size: S) -> Result<StepReport<S>, StepError> {
+        (Functions::get().step_again)(self, size)
+    }
+
+    pub(super) fn step_again_here(&mut self, size: S) -> Result<StepReport<S>, StepError> {
         self.with_control(|run, control| match control {
             Some(Control {
                 halves: Some(halves),

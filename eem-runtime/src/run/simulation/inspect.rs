@@ -3,6 +3,7 @@
 use nalgebra::SVector;
 
 use super::Simulation;
+use super::compiled::Functions;
 use crate::element::conduction::Partner;
 use crate::element::group::ElementView;
 use crate::element::handle::{Element, Handle, Node, Reservoir, SceneId};
@@ -244,6 +245,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Energies, entropies and momenta, computed from the state by their definitions.
     #[must_use]
     pub fn ledger(&self) -> Ledger<D, S> {
+        (Functions::get().ledger)(self)
+    }
+
+    pub(super) fn ledger_here(&self) -> Ledger<D, S> {
         Ledger::of(
             &self.state,
             &self.masses,

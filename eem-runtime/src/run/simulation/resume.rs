@@ -1,6 +1,7 @@
 //! Saving a state and going on from it.
 
 use super::Simulation;
+use super::compiled::Functions;
 use crate::element::state::State;
 use crate::number::scalar::Real;
 use crate::run::checkpoint::{Checkpoint, Outline, RestoreError, Seals};
@@ -26,6 +27,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// ```
     #[must_use]
     pub fn checkpoint(&self) -> Checkpoint<S> {
+        (Functions::get().checkpoint)(self)
+    }
+
+    pub(super) fn checkpoint_here(&self) -> Checkpoint<S> {
         let (past, explicit) = self.stepper.past(&self.state);
         Checkpoint {
             scheme: self.scheme,
@@ -58,6 +63,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// Prescribed motions and temperatures are evaluated at the time of the checkpoint for this comparison.
     pub fn restore(&mut self, checkpoint: &Checkpoint<S>) -> Result<(), RestoreError> {
+        (Functions::get().restore)(self, checkpoint)
+    }
+
+    pub(super) fn restore_here(&mut self, checkpoint: &Checkpoint<S>) -> Result<(), RestoreError> {
         let own = (self.in_use, self.stepper.past(&self.state));
         let saved = self.choice_in(checkpoint)?;
         if let Some(saved) = saved.filter(|saved| saved.scheme != own.0) {

@@ -3,6 +3,7 @@
 use core::mem;
 use core::ops::ControlFlow;
 
+use super::compiled::Functions;
 use super::{Simulation, Tried};
 use crate::number::compensated::Sum;
 use crate::number::scalar::{Mask, Real};
@@ -174,6 +175,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// One step of the present size, or one that ends exactly at `end`.
     pub(super) fn step_towards(&mut self, end: S) -> Result<StepReport<S>, StepError> {
+        (Functions::get().step_towards)(self, end)
+    }
+
+    pub(super) fn step_towards_here(&mut self, end: S) -> Result<StepReport<S>, StepError> {
         if self.control.is_some() {
             return self.controlled_step(end);
         }
@@ -190,6 +195,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// The same without another choice of the scheme.
     pub(super) fn step_in_scheme_towards(&mut self, end: S) -> Result<StepReport<S>, StepError> {
+        (Functions::get().step_in_scheme_towards)(self, end)
+    }
+
+    pub(super) fn step_in_scheme_towards_here(
+        &mut self,
+        end: S,
+    ) -> Result<StepReport<S>, StepError> {
         if self.control.is_none() {
             return self.step_towards(end);
         }
