@@ -2,7 +2,6 @@
 
 pub(crate) mod checkpoint;
 pub(crate) mod ensemble;
-#[cfg(debug_assertions)]
 pub(crate) mod ledger;
 pub(crate) mod recorder;
 pub(crate) mod simulation;

@@ -7,25 +7,16 @@
 mod eem_entropy;
 mod eem_temperature;
 mod element;
-mod midpoint;
-mod midpoint_temperature;
 mod point;
 mod temperature;
-mod trapezoidal;
-mod trapezoidal_temperature;
-mod variational;
 
 use crate::element::tableau::Tableau;
 
 pub(crate) use eem_entropy::EemEntropy;
 pub(crate) use eem_temperature::EemTemperature;
 pub(crate) use element::{ElementScheme, Form, Infeasible, Placement, Start};
-pub(crate) use midpoint::Midpoint;
-pub(crate) use midpoint_temperature::MidpointTemperature;
+pub(crate) use point::PointRule;
 pub(crate) use temperature::{settled_at, temperature_at};
-pub(crate) use trapezoidal::Trapezoidal;
-pub(crate) use trapezoidal_temperature::TrapezoidalTemperature;
-pub(crate) use variational::Variational;
 
 /// The families.
 #[derive(Clone, Copy, Debug)]
@@ -34,16 +25,8 @@ pub(crate) enum Conjugates {
     EntropyForm,
     /// [`EemTemperature`].
     TemperatureForm,
-    /// [`Variational`].
-    MeanMeasures,
-    /// [`Midpoint`].
-    Midpoint,
-    /// [`MidpointTemperature`].
-    MidpointTemperature,
-    /// [`Trapezoidal`].
-    End,
-    /// [`TrapezoidalTemperature`].
-    EndTemperature,
+    /// Values at one point of the step.
+    Point(PointRule),
     /// Values at the stages of a rule.
     Stages(&'static Tableau),
 }

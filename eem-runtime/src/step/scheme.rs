@@ -1,6 +1,6 @@
 //! The time integration schemes, a row of data each.
 
-use crate::element::conjugates::Conjugates;
+use crate::element::conjugates::{Conjugates, PointRule};
 use crate::step::control::{Accuracy, Estimate};
 use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
 
@@ -191,12 +191,12 @@ impl Rule {
 
 impl Scheme {
     const fn rule(self) -> Rule {
-        use Conjugates::{End, EndTemperature, EntropyForm, MeanMeasures, Stages, TemperatureForm};
+        use Conjugates::{EntropyForm, Point, Stages, TemperatureForm};
         match self {
             Self::EemEntropy => Rule::exact("eem-entropy", EntropyForm),
             Self::EemTemperature => Rule::exact("eem-temperature", TemperatureForm),
             // Its elements have no algorithmic quantities of their own.
-            Self::EemExplicit => Rule::exact("eem-explicit", MeanMeasures)
+            Self::EemExplicit => Rule::exact("eem-explicit", Point(PointRule::Variational))
                 .of_order(8)
                 .closed_explicitly(),
             // That of its first one.
@@ -205,19 +205,21 @@ impl Scheme {
                 ..Self::EemExplicit.rule()
             },
             Self::Staggered => Rule::exact("staggered", EntropyForm).of_order(1),
-            Self::Variational => Rule::variational("variational", MeanMeasures),
+            Self::Variational => Rule::variational("variational", Point(PointRule::Variational)),
             Self::Variational4 => {
                 Rule::variational("variational-4", Stages(&variational_4::TABLEAU))
                     .through_stages(4)
             }
-            Self::Midpoint => Rule::ordinary("midpoint", Conjugates::Midpoint),
-            Self::MidpointTemperature => {
-                Rule::ordinary("midpoint-temperature", Conjugates::MidpointTemperature)
-            }
-            Self::Trapezoidal => Rule::ordinary("trapezoidal", End),
-            Self::TrapezoidalTemperature => {
-                Rule::ordinary("trapezoidal-temperature", EndTemperature)
-            }
+            Self::Midpoint => Rule::ordinary("midpoint", Point(PointRule::Midpoint)),
+            Self::MidpointTemperature => Rule::ordinary(
+                "midpoint-temperature",
+                Point(PointRule::MidpointTemperature),
+            ),
+            Self::Trapezoidal => Rule::ordinary("trapezoidal", Point(PointRule::Trapezoidal)),
+            Self::TrapezoidalTemperature => Rule::ordinary(
+                "trapezoidal-temperature",
+                Point(PointRule::TrapezoidalTemperature),
+            ),
             Self::Gauss4 => Rule::ordinary("gauss-4", Stages(&gauss_4::TABLEAU)).through_stages(4),
             Self::EemEntropy4 => {
                 Rule::exact("eem-entropy-4", Stages(&eem_entropy_4::TABLEAU)).through_stages(4)

@@ -1,17 +1,14 @@
 //! What a scheme needs of its elements and of its solver.
 
-use crate::element::conjugates::Conjugates;
+use crate::element::conjugates::{Conjugates, PointRule};
 use crate::element::tableau::{Tableau, UnknownSet};
 use crate::step::scheme::Scheme;
 
 impl Scheme {
     /// Whether nodes feel forces that the old state alone decides; see
-    /// [`IMPLICIT`](crate::element::conjugates::ElementScheme::IMPLICIT).
+    /// [`implicit`](crate::element::conjugates::ElementScheme::implicit).
     pub(crate) const fn has_old_forces(self) -> bool {
-        matches!(
-            self.conjugates(),
-            Conjugates::End | Conjugates::EndTemperature
-        )
+        matches!(self.conjugates(), Conjugates::Point(rule) if rule.has_old_share())
     }
 
     /// Whether its elements have a
@@ -27,8 +24,9 @@ impl Scheme {
 
     /// Whether it steps springs with a dashpot beside them: along one gradient, with their heat.
     pub(crate) const fn takes_drag(self) -> bool {
-        use Conjugates::{MeanMeasures, Stages};
-        !matches!(self.conjugates(), Stages(_) | MeanMeasures) && !self.is_split()
+        use Conjugates::{Point, Stages};
+        let takes_none = matches!(self.conjugates(), Stages(_) | Point(PointRule::Variational));
+        !takes_none && !self.is_split()
     }
 
     /// The numbers of a scheme that goes through stages.

@@ -17,12 +17,10 @@ use crate::material::free_energy::{Array, Entry, FreeEnergy};
 use crate::number::scalar::Real;
 
 /// See the module.
-#[derive(Debug)]
-pub(crate) enum EemEntropy {}
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct EemEntropy;
 
 impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for EemEntropy {
-    const PLACEMENT: Placement = Placement::Ends;
-    const IMPLICIT: f64 = 1.0;
     const EXACT: bool = true;
 
     /// What the form keeps, and s⁰, J/K.
@@ -30,6 +28,11 @@ impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for 
     /// Corner temperatures.
     type Memory = M::Corners;
     type AtPoint<T: Entry> = [T; 0];
+
+    #[inline]
+    fn placement(self) -> Placement {
+        Placement::Ends
+    }
 
     #[inline]
     fn old(model: &M, x0: &M::Variables, entropy: S) -> Self::Old {
@@ -55,6 +58,7 @@ impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for 
 
     #[inline]
     fn form(
+        self,
         model: &M,
         start: &Start<S, M, Self::Old>,
         x: &M::Variables,
@@ -78,6 +82,7 @@ impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for 
 
     #[inline]
     fn response(
+        self,
         model: &M,
         start: &Start<S, M, Self::Old>,
         x: &M::Variables,

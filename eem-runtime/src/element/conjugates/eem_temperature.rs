@@ -14,17 +14,20 @@ use crate::material::free_energy::{Array, Entry, FreeEnergy};
 use crate::number::scalar::Real;
 
 /// See the module.
-#[derive(Debug)]
-pub(crate) enum EemTemperature {}
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct EemTemperature;
 
 impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for EemTemperature {
-    const PLACEMENT: Placement = Placement::Ends;
-    const IMPLICIT: f64 = 1.0;
     const EXACT: bool = true;
 
     type Old = M::TemperatureFormOld;
     type Memory = ();
     type AtPoint<T: Entry> = [T; 0];
+
+    #[inline]
+    fn placement(self) -> Placement {
+        Placement::Ends
+    }
 
     #[inline]
     fn old(model: &M, x0: &M::Variables, _: S) -> Self::Old {
@@ -35,6 +38,7 @@ impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for 
 
     #[inline]
     fn form(
+        self,
         model: &M,
         start: &Start<S, M, Self::Old>,
         x: &M::Variables,
@@ -57,6 +61,7 @@ impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for 
 
     #[inline]
     fn response(
+        self,
         model: &M,
         start: &Start<S, M, Self::Old>,
         x: &M::Variables,

@@ -25,26 +25,15 @@ pub(crate) enum Placement {
 /// Variables are `x = (π…, γ…, τ)` with a temperature τ > 0 of the scheme's own: the new one for
 /// schemes that look at the ends, the mean one for those that look at the middle. Newton's method
 /// corrects τ, or the entropy change Δs if [`temperature`](Self::temperature) finds τ from it.
-pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static {
-    /// Where the measures are taken.
-    const PLACEMENT: Placement;
-
-    /// The part of forces and rates that is taken from the response; the rest, `1 − IMPLICIT`, is
-    /// that of the old state.
-    const IMPLICIT: f64;
-
+pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>:
+    Copy + Send + Sync + 'static
+{
     /// Whether `f*Δλ − g*Δγ + θ*Δs = Δe` exactly, so that every step has to keep the laws.
     const EXACT: bool = false;
 
     /// Whether Newton's method works on `θ* r_s` instead of `r_s`, which converges for stiff
     /// conduction too. The ordinary rules are solved the ordinary way.
     const SCALES_HEAT: bool = true;
-
-    /// Whether the temperature is the state that the scheme integrates, and not the entropy.
-    const IN_TEMPERATURE: bool = false;
-
-    /// Whether the scheme takes the entropy for its unknown and finds τ from it.
-    const FINDS_TEMPERATURE: bool = false;
 
     /// What the scheme keeps of the old state.
     type Old: Copy + Send + Sync;
@@ -56,6 +45,27 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static
     /// only such rules need.
     type AtPoint<T: Entry>: Array<T>;
 
+    /// Where the measures are taken.
+    fn placement(self) -> Placement;
+
+    /// The part w of forces and rates that is taken from the response; the rest is that of the old state.
+    #[inline]
+    fn implicit(self) -> f64 {
+        1.0
+    }
+
+    /// Whether the temperature is the state that the scheme integrates, and not the entropy.
+    #[inline]
+    fn is_in_temperature(self) -> bool {
+        false
+    }
+
+    /// Whether the scheme takes the entropy for its unknown and finds τ from it.
+    #[inline]
+    fn finds_temperature(self) -> bool {
+        false
+    }
+
     /// What the scheme needs of the old variables and the old entropy, once per step.
     fn old(model: &M, x0: &M::Variables, entropy: S) -> Self::Old;
 
@@ -66,6 +76,7 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static
     ///
     /// The present τ unless the scheme takes the entropy for its unknown.
     fn temperature(
+        self,
         _: &M,
         _: &Start<S, M, Self::Old>,
         x: &M::Variables,
@@ -87,6 +98,7 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static
 
     /// The response `(f*…, g*…, θ*, Δs)` and its tangent.
     fn form(
+        self,
         model: &M,
         start: &Start<S, M, Self::Old>,
         x: &M::Variables,
@@ -109,6 +121,7 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static
     /// say by how much the rates along the step change measures, viscous stretches and temperature,
     /// apart from what the old state contributes. Returns its derivative by the increments.
     fn change_entropy_at_rates(
+        self,
         _: &M,
         _: &Start<S, M, Self::Old>,
         _: &M::Variables,
@@ -122,12 +135,13 @@ pub(crate) trait ElementScheme<S: Real, M: FreeEnergy<S>>: Send + Sync + 'static
     /// checked where its temperature is found.
     #[inline]
     fn response(
+        self,
         model: &M,
         start: &Start<S, M, Self::Old>,
         x: &M::Variables,
         memory: &Self::Memory,
     ) -> M::Response {
-        Self::form(model, start, x, memory).0
+        self.form(model, start, x, memory).0
     }
 }
 

@@ -1,41 +1,98 @@
-//! The response of schemes that evaluate the free energy at one point of the step.
+//! Rules that evaluate the free energy at one point of the step: the ordinary ones, for comparison, and the
+//! variational integrator.
+//!
+//! | rule | is |
+//! |---|---|
+//! | midpoint | `z¹ − z⁰ = h ż((z⁰ + z¹)/2)`. It keeps the momenta exactly (Noether) |
+//! | trapezoidal | `z¹ − z⁰ = ½h (ż(z⁰) + ż(z¹))`. It keeps none of the laws |
+//! | variational | Hamilton's principle, see below. It keeps the momenta, and the energy stays near its value |
+//!
+//! The first two with the state `z = (q, p, γ, s)`, or with `(q, p, γ, θ)` and the rate
+//! `θ̇ = ((Σ g²/η + Q)/θ − s_λ λ̇ − s_γ γ̇)/s_θ` as Conde Martín, Betsch & García Orden (2016) run them.
 //!
 //! They are solved by Newton's method in the variables that they integrate, hence with the entropy
 //! as unknown.
+//!
+//! **Variational**: the action with thermacies α, α̇ = θ, by the midpoint rule with λ, γ and α linear in time (Kern,
+//! Romero, Conde Martín & García Orden 2021, §III.A):
+//!
+//! ```text
+//! p⁰ = m v + ½h f_m ∂λ/∂q⁰,   p¹ = m v − ½h f_m ∂λ/∂q¹,   v = (q¹ − q⁰)/h
+//! f_m = ∂ψ/∂λ,  g_m = −∂ψ/∂γ,  s_m = −∂ψ/∂θ      at (½(λ⁰ + λ¹), γ_m, θ_m)
+//! s⁰ = s_m − ½hΦ,   s¹ = s_m + ½hΦ,   Φ = (Σ g_m γ̇ + Q)/θ_m,   γ̇ = g_m/η(θ_m)
+//! ```
+//!
+//! With λ of the mean configuration instead of the mean length it would be the implicit midpoint rule.
 
 use crate::element::conjugates::element::{ElementScheme, Form, Infeasible, Placement, Start};
 use crate::element::conjugates::temperature::temperature_at;
 use crate::material::free_energy::{Array, Entry, FreeEnergy};
 use crate::number::scalar::Real;
 
-/// A rule that looks at one point of the step.
-pub(crate) trait PointRule: Send + Sync + 'static {
-    /// Where the measures are taken.
-    const PLACEMENT: Placement;
-    /// The part of forces and rates that is taken at the point; the rest is that of the old state.
-    const IMPLICIT: f64;
-    /// The share c of the step after which the point lies.
-    const AT: f64;
-    /// Whether the temperature is the state that the rule integrates.
-    const IN_TEMPERATURE: bool = false;
+/// See the module.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum PointRule {
+    /// In entropies.
+    Midpoint,
+    /// In temperatures.
+    MidpointTemperature,
+    /// In entropies.
+    Trapezoidal,
+    /// In temperatures.
+    TrapezoidalTemperature,
+    /// From Hamilton's principle.
+    Variational,
 }
 
-impl<R, S, M> ElementScheme<S, M> for R
+impl PointRule {
+    /// The share c of the step after which the point lies.
+    const fn time(self) -> f64 {
+        match self {
+            Self::Midpoint | Self::MidpointTemperature | Self::Variational => 0.5,
+            Self::Trapezoidal | Self::TrapezoidalTemperature => 1.0,
+        }
+    }
+
+    /// Whether the old state contributes to forces and rates.
+    pub(crate) const fn has_old_share(self) -> bool {
+        matches!(self, Self::Trapezoidal | Self::TrapezoidalTemperature)
+    }
+}
+
+impl<S, M> ElementScheme<S, M> for PointRule
 where
-    R: PointRule,
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
 {
-    const PLACEMENT: Placement = R::PLACEMENT;
-    const IMPLICIT: f64 = R::IMPLICIT;
-    const IN_TEMPERATURE: bool = R::IN_TEMPERATURE;
     const SCALES_HEAT: bool = false;
-    const FINDS_TEMPERATURE: bool = !R::IN_TEMPERATURE;
 
     /// s⁰, J/K.
     type Old = S;
     type Memory = ();
     type AtPoint<T: Entry> = [T; 1];
+
+    fn placement(self) -> Placement {
+        match self {
+            Self::Midpoint | Self::MidpointTemperature => Placement::Middle,
+            Self::Trapezoidal | Self::TrapezoidalTemperature => Placement::End,
+            Self::Variational => Placement::Start,
+        }
+    }
+
+    fn implicit(self) -> f64 {
+        if self.has_old_share() { 0.5 } else { 1.0 }
+    }
+
+    fn is_in_temperature(self) -> bool {
+        matches!(
+            self,
+            Self::MidpointTemperature | Self::TrapezoidalTemperature
+        )
+    }
+
+    fn finds_temperature(self) -> bool {
+        !ElementScheme::<S, M>::is_in_temperature(self)
+    }
 
     fn old(_: &M, _: &M::Variables, entropy: S) -> Self::Old {
         entropy
@@ -45,37 +102,37 @@ where
 
     // The entropy at the point is s⁰ + c Δs.
     fn temperature(
+        self,
         model: &M,
         start: &Start<S, M, Self::Old>,
         x: &M::Variables,
         entropy_change: S,
     ) -> Result<S, Infeasible> {
-        if R::IN_TEMPERATURE {
-            return Ok(x.as_ref()[M::Variables::LEN - 1]);
-        }
-        let c = S::from_f64(R::AT);
+        let c = S::from_f64(self.time());
         let guess = x.as_ref()[M::Variables::LEN - 1];
         let entropy = start.old + c * entropy_change;
         temperature_at(model, point(start, x, c), entropy, guess)
     }
 
     fn form(
+        self,
         model: &M,
         start: &Start<S, M, Self::Old>,
         x: &M::Variables,
         (): &Self::Memory,
     ) -> Form<S, M> {
-        respond(model, start, x, S::from_f64(R::AT))
+        respond(model, start, x, S::from_f64(self.time()))
     }
 
     fn change_entropy_at_rates(
+        self,
         model: &M,
         start: &Start<S, M, Self::Old>,
         x: &M::Variables,
         increments: &M::Variables,
         form: &mut Form<S, M>,
     ) -> M::Variables {
-        let c = S::from_f64(R::AT);
+        let c = S::from_f64(self.time());
         let point = point(start, x, c);
         change_entropy_at_rates(model, &point, increments, c, form)
     }

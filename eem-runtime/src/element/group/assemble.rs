@@ -45,7 +45,7 @@ where
             for a in 0..M::MEASURES {
                 condensed.by_measure[a] -= by_unknown * self.condensed.by_measure[a].get(u);
             }
-            if Self::depends_on_heat(is_coupled) {
+            if self.depends_on_heat(is_coupled) {
                 condensed.by_heat += by_unknown * self.condensed.by_heat.get(u);
             }
         }
@@ -61,7 +61,7 @@ where
             let by = factor * row.by_measure[a];
             add_scaled::<K, S, D>(&mut sum, by, &self.sensitivity[a]);
         }
-        if C::IN_TEMPERATURE || (M::THERMAL && Self::HAS_RATES) {
+        if self.scheme.is_in_temperature() || (M::THERMAL && Self::HAS_RATES) {
             for at_point in self.single.as_ref() {
                 let by = -factor * row.by_heat;
                 add_scaled::<K, S, D>(&mut sum, by, &at_point.by_increment);
@@ -81,7 +81,7 @@ where
         heat: &mut Option<Heat<K, S, D>>,
         sum: &mut Option<Momentum<K, S, D>>,
     ) {
-        let impulse = step * S::from_f64(C::IMPLICIT);
+        let impulse = step * S::from_f64(self.scheme.implicit());
         let mut forces = Measures::<K, S, D>::filled(S::zero());
         let mut forces_by_arm = pose.direction;
         let mut values = forces;
@@ -101,7 +101,7 @@ where
                 add_scaled::<K, S, D>(&mut heat.pull, -by_heat, &pose.direction[a]);
             }
         }
-        let (kinematics, at) = (&self.kinematics, C::PLACEMENT);
+        let (kinematics, at) = (&self.kinematics, self.scheme.placement());
         let pull = pose.pull(kinematics, at, &values);
         match sum {
             // Springs have one point, and no sum.

@@ -34,7 +34,7 @@ where
                 let length = point.kinematics.length(&measures);
                 shorten::<K, S, D>(&member.site.nodes, length, old.lengths);
             }
-            if C::IMPLICIT < 1.0 {
+            if self.scheme.implicit() < 1.0 {
                 member.take_old_share(view, old.force)?;
             }
         }
@@ -70,12 +70,12 @@ where
         old_force: &mut [[S; D]],
     ) -> Result<(), StateError> {
         let velocities = self.old_velocities(view);
-        let share = S::one() - S::from_f64(C::IMPLICIT);
+        let share = S::one() - S::from_f64(self.scheme().implicit());
         for point in self.points.as_mut() {
             let gradient = point.take_old_share(view, &self.r0, &velocities)?;
             let measures0 = measures_in::<K, S, D>(&point.start.x0);
             let ends = [&self.r0, &self.r0];
-            let pose = Pose::between(&point.kinematics, C::PLACEMENT, ends, measures0);
+            let pose = Pose::between(&point.kinematics, point.scheme.placement(), ends, measures0);
             for (a, row) in pose.direction.as_ref().iter().enumerate() {
                 let by_node = spread::<K, S, D>(row);
                 for (entry, &node) in by_node.as_ref().iter().zip(self.site.nodes.as_ref()) {
@@ -111,7 +111,7 @@ where
         if let Some(slot) = slots.thermal {
             let theta = x0[Self::TEMPERATURE];
             self.memory = C::memory(theta);
-            let prescribed = view.prescribed(slot, C::PLACEMENT);
+            let prescribed = view.prescribed(slot, self.scheme.placement());
             self.is_prescribed = prescribed.is_some();
             self.x[Self::TEMPERATURE] = prescribed.unwrap_or(theta);
         }
@@ -128,7 +128,7 @@ where
         r0: &Arms<K, S, D>,
         velocities: &Arms<K, S, D>,
     ) -> Result<M::Variables, StateError> {
-        let share = S::one() - S::from_f64(C::IMPLICIT);
+        let share = S::one() - S::from_f64(self.scheme.implicit());
         let x0 = self.start.x0;
         let theta = x0[Self::VARIABLES - 1];
         self.find_viscosities(theta)?;
@@ -150,7 +150,7 @@ where
         for at_point in self.single.as_mut() {
             at_point.old_rates = rates;
         }
-        if M::THERMAL && C::IN_TEMPERATURE {
+        if M::THERMAL && self.scheme.is_in_temperature() {
             let measures0 = measures_in::<K, S, D>(&x0);
             let at_rest = Pose::between(&self.kinematics, Placement::End, [r0, r0], measures0);
             self.find_old_heating(&at_rest, heat / theta, velocities);
@@ -165,7 +165,7 @@ where
         entropy_rate: S,
         velocities: &Arms<K, S, D>,
     ) {
-        let share = S::one() - S::from_f64(C::IMPLICIT);
+        let share = S::one() - S::from_f64(self.scheme.implicit());
         let last = Self::TEMPERATURE;
         let (_, hessian) = self.model.hessian(&self.start.x0);
         // ∂s/∂x = −∂²ψ/∂θ∂x

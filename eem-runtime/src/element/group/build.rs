@@ -8,10 +8,7 @@ use super::interface::{ExplicitGroup, Group, Loose};
 use super::loose::LooseElements;
 use super::stages::{Projections, Source, StageGroup, Values};
 use super::view::Placed;
-use crate::element::conjugates::{
-    Conjugates, EemEntropy, EemTemperature, ElementScheme, Midpoint, MidpointTemperature,
-    Trapezoidal, TrapezoidalTemperature, Variational,
-};
+use crate::element::conjugates::{Conjugates, EemEntropy, EemTemperature, ElementScheme};
 use crate::element::kinematics::Kinematics;
 use crate::element::layout::Shape;
 use crate::element::tableau::Tableau;
@@ -53,22 +50,17 @@ where
     }
 
     fn build(self: Box<Self>, by: Conjugates, placed: Placed<'_>) -> Box<dyn Group<S, D>> {
-        let group = match by {
-            Conjugates::EntropyForm => single::<S, M, K, EemEntropy, D>,
-            Conjugates::TemperatureForm => single::<S, M, K, EemTemperature, D>,
-            Conjugates::MeanMeasures => single::<S, M, K, Variational, D>,
-            Conjugates::Midpoint => single::<S, M, K, Midpoint, D>,
-            Conjugates::MidpointTemperature => single::<S, M, K, MidpointTemperature, D>,
-            Conjugates::End => single::<S, M, K, Trapezoidal, D>,
-            Conjugates::EndTemperature => single::<S, M, K, TrapezoidalTemperature, D>,
+        match by {
+            Conjugates::EntropyForm => single(EemEntropy, *self, placed),
+            Conjugates::TemperatureForm => single(EemTemperature, *self, placed),
+            Conjugates::Point(rule) => single(rule, *self, placed),
             Conjugates::Stages(rule) if rule.path.is_some() => {
-                return staged::<S, M, K, Projections<S, M, K, D>, D>(rule, *self, placed);
+                staged::<S, M, K, Projections<S, M, K, D>, D>(rule, *self, placed)
             }
             Conjugates::Stages(rule) => {
-                return staged::<S, M, K, Values<S, M, K, D>, D>(rule, *self, placed);
+                staged::<S, M, K, Values<S, M, K, D>, D>(rule, *self, placed)
             }
-        };
-        group(*self, placed)
+        }
     }
 
     fn build_explicit(self: Box<Self>, placed: Placed<'_>) -> Box<dyn ExplicitGroup<S, D>> {
@@ -78,6 +70,7 @@ where
 
 /// The group of a scheme with one set of forces.
 fn single<S, M, K, C, const D: usize>(
+    scheme: C,
     elements: LooseElements<S, M, K, D>,
     placed: Placed<'_>,
 ) -> Box<dyn Group<S, D>>
@@ -87,7 +80,7 @@ where
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    Box::new(ElementGroup::<S, M, K, C, D>::new(elements, placed))
+    Box::new(ElementGroup::new(scheme, elements, placed))
 }
 
 /// The group of a scheme that goes through stages, with conjugates of `C`.

@@ -41,7 +41,7 @@ where
     ) {
         let at = match along {
             Along::Secant => None,
-            Along::Scheme => Some(C::PLACEMENT),
+            Along::Scheme => Some(self.scheme.placement()),
             Along::Gradient => Some(Placement::End),
             Along::Stage(_) => return,
         };
@@ -49,7 +49,7 @@ where
             let (nodes, r0) = (&member.site.nodes, &member.r0);
             let r1 = member.new_arms(trial);
             let (h, force) = if let Some(at) = at {
-                let share = view.step * S::from_f64(C::IMPLICIT);
+                let share = view.step * S::from_f64(self.scheme.implicit());
                 (share, member.force(at, [r0, &r1]))
             } else {
                 let mut mean = change_in::<K, S, D>(nodes, trial);
@@ -165,7 +165,7 @@ where
     #[inline]
     fn secant(&self, [r0, r1]: [&Arms<K, S, D>; 2]) -> Weights<K, S, D> {
         let measures1 = measures_in::<K, S, D>(&self.x);
-        let ends = match C::PLACEMENT {
+        let ends = match self.scheme.placement() {
             Placement::Middle => {
                 let middle = mean::<K, S, D>(r0, r1);
                 Ends {
@@ -204,7 +204,7 @@ where
     ) -> Received<S> {
         let slots = self.slots();
         let h = view.thermal_step();
-        let share = S::from_f64(C::IMPLICIT) * h;
+        let share = S::from_f64(self.scheme.implicit()) * h;
         let per_theta = self.per_temperature();
         let mut dissipated = self.book_drag(per_theta, tally);
         for k in 0..M::DASHPOTS {
@@ -237,10 +237,10 @@ where
         tally: &mut Tally<S>,
     ) -> Received<S> {
         let h = view.thermal_step();
-        let share = S::from_f64(C::IMPLICIT) * h;
+        let share = S::from_f64(self.scheme.implicit()) * h;
         let mut received = Received::new(dissipated * self.per_temperature());
         if let [at_point] = self.single.as_ref()
-            && C::IMPLICIT < 1.0
+            && self.scheme.implicit() < 1.0
         {
             received.add(h * at_point.old_rates[Self::TEMPERATURE]);
         }
@@ -279,7 +279,7 @@ where
         tally: &mut Tally<S>,
     ) {
         let h = view.thermal_step();
-        let share = S::from_f64(C::IMPLICIT) * h;
+        let share = S::from_f64(self.scheme.implicit()) * h;
         let theta = self.temperature();
         let correction = self.reservoir_correction(view, slot, heat);
         for link in view.conduction.links(slot) {
@@ -297,7 +297,7 @@ where
             tally.turn_over(path.heat);
             received.add(path.entropy);
             received.add(production);
-            if C::IMPLICIT < 1.0 {
+            if self.scheme.implicit() < 1.0 {
                 // The flow of the old state, which the old rates have given to the element.
                 let old = theta_r - view.state.temperatures[slot];
                 let flow = (h - share) * link.conductance * old;

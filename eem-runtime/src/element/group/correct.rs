@@ -62,7 +62,7 @@ where
         {
             heat = self.condensed.heat_factor * contact.heat(solution);
         }
-        if C::IN_TEMPERATURE || (M::THERMAL && Self::HAS_RATES) {
+        if self.scheme.is_in_temperature() || (M::THERMAL && Self::HAS_RATES) {
             for at_point in self.single.as_ref() {
                 heat += along::<K, S, D>(&at_point.by_increment, motion);
             }
@@ -72,13 +72,13 @@ where
             for a in 0..M::MEASURES {
                 change += self.condensed.by_measure[a].get(u) * self.correction[a];
             }
-            if Self::depends_on_heat(contact.is_some()) {
+            if self.depends_on_heat(contact.is_some()) {
                 change += self.condensed.by_heat.get(u) * heat;
             }
             self.correction[M::MEASURES + u] = -change;
         }
         self.remember();
-        if M::THERMAL && C::FINDS_TEMPERATURE {
+        if M::THERMAL && self.scheme.finds_temperature() {
             for at_point in self.single.as_mut() {
                 at_point.previous_entropy_change = self.response[Self::ENTROPY];
                 let terms = at_point.entropy_by.as_ref().iter();

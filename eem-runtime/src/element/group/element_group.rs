@@ -31,6 +31,7 @@ where
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
+    pub(super) scheme: C,
     pub(super) members: Vec<Member<S, M, K, C, D>>,
     pub(super) contacts: Vec<Contact<K, S, D>>,
     /// Of elements with many points, some at a time.
@@ -44,10 +45,11 @@ where
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
-    pub(crate) fn new(loose: LooseElements<S, M, K, D>, placed: Placed<'_>) -> Self {
+    pub(crate) fn new(scheme: C, loose: LooseElements<S, M, K, D>, placed: Placed<'_>) -> Self {
         let members = loose.elements.into_iter();
-        let members = members.map(|(first, points)| Member::new(first, points, placed));
+        let members = members.map(|parts| Member::new(scheme, parts, placed));
         Self {
+            scheme,
             members: members.collect(),
             contacts: Vec::new(),
             shares: Vec::new(),

@@ -163,7 +163,7 @@ where
             let by_rate = point.extend(&pose, &arms.motion);
             // It stays where the model writes it: copies of it would be a good part of the work.
             let mut form = point.form(trial);
-            if M::THERMAL && C::IN_TEMPERATURE {
+            if M::THERMAL && point.scheme.is_in_temperature() {
                 point.change_entropy_at_rates(view.step, &pose, &arms.motion, &mut form);
             }
             point.accept(view.per_step, &form)?;

@@ -41,7 +41,9 @@ where
         let members = self.members.iter().flat_map(|member| {
             let [r0, r1] = ends.map(|state| member.arms_in(state));
             let points = member.points.as_ref().iter();
-            points.map(move |point| point.generic(&member.site.nodes, (C::PLACEMENT, [&r0, &r1])))
+            points.map(move |point| {
+                point.generic(&member.site.nodes, (self.scheme.placement(), [&r0, &r1]))
+            })
         });
         members.collect()
     }

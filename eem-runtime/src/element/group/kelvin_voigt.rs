@@ -44,7 +44,7 @@ where
         motion: &Arms<K, S, D>,
     ) -> Option<Gradient<K, S, D>> {
         if Self::HAS_RATES {
-            let (own, by_arm) = pose.increase(&self.kinematics, C::PLACEMENT, motion);
+            let (own, by_arm) = pose.increase(&self.kinematics, self.scheme.placement(), motion);
             for a in 0..Self::DRAGS {
                 self.drag.extension[a] = own[a];
             }
@@ -59,13 +59,13 @@ where
     /// `λ̇` of the trial, m/s.
     #[inline]
     fn extension_rate(&self, a: usize, per_step: S) -> S {
-        self.drag.extension[a] * Self::per_share(per_step)
+        self.drag.extension[a] * self.per_share(per_step)
     }
 
     /// `1/(w h)`, 1/s.
     #[inline]
-    fn per_share(per_step: S) -> S {
-        per_step * S::from_f64(C::IMPLICIT.recip())
+    fn per_share(&self, per_step: S) -> S {
+        per_step * S::from_f64(self.scheme.implicit().recip())
     }
 
     /// Takes the viscosity at a temperature, which is positive.
@@ -156,14 +156,14 @@ where
 
     /// Of an ordinary rule: how the heat balance depends on the new arms through the rates.
     pub(super) fn warm_by_rates(&mut self, view: &StepView<'_, S>, by_arm: &Gradient<K, S, D>) {
-        let per_share = Self::per_share(view.per_step);
+        let per_share = self.per_share(view.per_step);
         for at_point in self.single.as_mut() {
             for a in 0..Self::DRAGS {
                 let force = self.drag.force[a];
                 let mut by = by_arm[a];
                 let by_extension = self.condensed.heat_factor * (force + force) * per_share;
                 scale::<K, S, D>(&mut by, by_extension);
-                if C::IN_TEMPERATURE {
+                if self.scheme.is_in_temperature() {
                     add_scaled::<K, S, D>(&mut at_point.by_increment, S::one(), &by);
                 } else {
                     at_point.by_increment = by;
@@ -182,7 +182,7 @@ where
     ) -> Arms<K, S, D> {
         let mut by = by_arm[a];
         let eta = self.drag.viscosity.0[a];
-        scale::<K, S, D>(&mut by, factor * eta * Self::per_share(per_step));
+        scale::<K, S, D>(&mut by, factor * eta * self.per_share(per_step));
         by
     }
 
@@ -202,7 +202,7 @@ where
         self.find_drag_viscosity(x0[Self::VARIABLES - 1])?;
         let measures0 = measures_in::<K, S, D>(&x0);
         let by_arm = self.kinematics.gradient(r0, &measures0);
-        let share = S::one() - S::from_f64(C::IMPLICIT);
+        let share = S::one() - S::from_f64(self.scheme.implicit());
         for a in 0..Self::DRAGS {
             let rate = along::<K, S, D>(&by_arm[a], velocities);
             let force = self.drag.viscosity.0[a] * rate;
@@ -216,11 +216,11 @@ where
     /// The power of the old state that the rule takes, `(1 − w) η λ̇⁰²`, of an element without temperature, W.
     pub(super) fn old_drag_power(&self) -> S {
         let mut power = S::zero();
-        if Self::DRAGS == 0 || C::IMPLICIT >= 1.0 {
+        if Self::DRAGS == 0 || self.scheme.implicit() >= 1.0 {
             return power;
         }
         let (eta, _) = self.model.drag(S::zero());
-        let per_share = (S::one() - S::from_f64(C::IMPLICIT)).recip();
+        let per_share = (S::one() - S::from_f64(self.scheme.implicit())).recip();
         for at_point in self.single.as_ref() {
             for a in 0..Self::DRAGS {
                 let rate = at_point.old_rates[a];

@@ -80,7 +80,7 @@ where
                 self.heat_balance(view, &flow, form, &mut system, &dissipation);
             }
         }
-        let depends_on_heat = Self::depends_on_heat(contact.is_some());
+        let depends_on_heat = self.depends_on_heat(contact.is_some());
         let solved = if depends_on_heat {
             eliminate::<S, M, true>(&mut system)
         } else {
@@ -122,8 +122,8 @@ where
 
     /// Whether `r_s` depends on global unknowns otherwise than through the measures.
     #[inline]
-    pub(super) fn depends_on_heat(is_coupled: bool) -> bool {
-        C::IN_TEMPERATURE || (M::THERMAL && (is_coupled || Self::HAS_RATES))
+    pub(super) fn depends_on_heat(&self, is_coupled: bool) -> bool {
+        self.scheme.is_in_temperature() || (M::THERMAL && (is_coupled || Self::HAS_RATES))
     }
 
     /// The heat that conduction gives it.
@@ -233,7 +233,7 @@ where
         dissipation.power += response[index] * rate;
         let h = view.thermal_step();
         system.constant[k] = self.creep[k] - self.increment(index, rate, h);
-        let mobility = -h * S::from_f64(C::IMPLICIT) * per_eta;
+        let mobility = -h * S::from_f64(self.scheme.implicit()) * per_eta;
         // ∂g/∂x − γ̇ ∂η/∂x, the derivative of γ̇ times η.
         let thinning = rate * self.viscosities.1[k];
         for column in 0..Self::VARIABLES {
@@ -273,7 +273,7 @@ where
         let residual = response[Self::ENTROPY] - received;
         system.constant[row] = residual;
         // ∂r_s/∂(power) without the sign, and ∂r_s/∂θ*.
-        let weight = h * S::from_f64(C::IMPLICIT) * per_theta;
+        let weight = h * S::from_f64(self.scheme.implicit()) * per_theta;
         self.condensed.heat_factor = -weight;
         let mut by_theta = weight * (flow.conductance + rate);
         if C::SCALES_HEAT {

@@ -34,7 +34,11 @@ where
     C: ElementScheme<S, M>,
 {
     /// An element whose points have consecutive handles, of which the first is given.
-    pub(super) fn new(first: Element, points: K::PerPoint<(M, K)>, placed: Placed<'_>) -> Self {
+    pub(super) fn new(
+        scheme: C,
+        (first, points): (Element, K::PerPoint<(M, K)>),
+        placed: Placed<'_>,
+    ) -> Self {
         let mut parts = points.into_iter();
         Self {
             site: Site::unconnected(placed.nodes.nodes_of(first)),
@@ -42,7 +46,7 @@ where
             points: K::PerPoint::from_fn(|point| {
                 let element = first.after(point);
                 let slots = placed.layout.elements[element.index()];
-                Point::new(element, next_of(&mut parts), slots)
+                Point::new(scheme, element, next_of(&mut parts), slots)
             }),
         }
     }
@@ -66,6 +70,12 @@ where
     /// The same, to be changed.
     pub(super) fn only_mut(&mut self) -> &mut Point<S, M, K, C, D> {
         &mut self.points.as_mut()[0]
+    }
+
+    /// The scheme of its points.
+    #[inline]
+    pub(super) fn scheme(&self) -> C {
+        self.only().scheme
     }
 
     /// Its arms in a state.
@@ -104,10 +114,10 @@ where
     /// beside springs ask.
     #[inline]
     fn motion(&self, view: &StepView<'_, S>, trial: &Trial<S, D>) -> Arms<K, S, D> {
-        if !C::IN_TEMPERATURE && M::Drag::LEN == 0 {
+        if !self.scheme().is_in_temperature() && M::Drag::LEN == 0 {
             return self.r0;
         }
-        let rest = (S::one() - S::from_f64(C::IMPLICIT)) * view.step;
+        let rest = (S::one() - S::from_f64(self.scheme().implicit())) * view.step;
         let mut motion = change_in::<K, S, D>(&self.site.nodes, trial);
         let velocities = self.old_velocities(view);
         for (motion, velocity) in motion.as_mut().iter_mut().zip(velocities.as_ref()) {

@@ -23,6 +23,7 @@ where
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
 {
+    pub(super) scheme: C,
     /// Its handle.
     pub(super) element: Element,
     pub(super) model: M,
@@ -82,12 +83,18 @@ where
     /// The index of Δs in the response.
     pub(super) const ENTROPY: usize = Self::TEMPERATURE + 1;
 
-    pub(super) fn new(element: Element, (model, kinematics): (M, K), slots: Slots) -> Self {
+    pub(super) fn new(
+        scheme: C,
+        element: Element,
+        (model, kinematics): (M, K),
+        slots: Slots,
+    ) -> Self {
         let zeros = M::Variables::filled(S::zero());
         let viscosities = M::Viscosities::filled(S::zero());
         let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
         let old = C::old(&model, &zeros, S::zero());
         Self {
+            scheme,
             element,
             model,
             kinematics,
@@ -148,7 +155,7 @@ where
         for row in 0..Self::VARIABLES {
             self.slopes[row] = tangent[row];
         }
-        if M::THERMAL && C::FINDS_TEMPERATURE {
+        if M::THERMAL && self.scheme.finds_temperature() {
             for at_point in self.single.as_mut() {
                 at_point.entropy_by = tangent[Self::ENTROPY];
             }
@@ -160,8 +167,8 @@ where
     #[inline]
     pub(super) fn increment(&self, index: usize, rate: S, h: S) -> S {
         match self.single.as_ref() {
-            [at_point] if C::IMPLICIT < 1.0 => {
-                h * (S::from_f64(C::IMPLICIT) * rate + at_point.old_rates[index])
+            [at_point] if self.scheme.implicit() < 1.0 => {
+                h * (S::from_f64(self.scheme.implicit()) * rate + at_point.old_rates[index])
             }
             _ => h * rate,
         }
@@ -170,7 +177,7 @@ where
     /// The new temperature that τ stands for, given the old one, K.
     pub(super) fn new_temperature(&self, old: S) -> S {
         let theta = self.x[Self::TEMPERATURE];
-        match C::PLACEMENT {
+        match self.scheme.placement() {
             Placement::Ends | Placement::End => theta,
             Placement::Middle | Placement::Start => theta + theta - old,
         }
@@ -185,7 +192,7 @@ where
     /// The power of the dashpots that the scheme takes from the old state, `Σ g⁰ (1 − w) γ̇⁰`, W.
     pub(super) fn old_dissipation(&self) -> S {
         let of_drag = self.old_drag_power();
-        if C::IMPLICIT >= 1.0 || M::DASHPOTS == 0 {
+        if self.scheme.implicit() >= 1.0 || M::DASHPOTS == 0 {
             return of_drag;
         }
         let forces = self.model.gradient(&self.start.x0);
@@ -265,7 +272,7 @@ where
             let change = share * self.correction[Self::TEMPERATURE];
             self.x[Self::TEMPERATURE] = grown(self.previous.get(M::DASHPOTS), change);
         }
-        if C::FINDS_TEMPERATURE {
+        if self.scheme.finds_temperature() {
             for at in self.single.as_mut() {
                 at.entropy_change = at.previous_entropy_change + share * at.entropy_correction;
             }

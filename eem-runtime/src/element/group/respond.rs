@@ -46,18 +46,20 @@ where
         trial: &Trial<S, D>,
     ) -> Result<Seen<K, S, D>, StateError> {
         let kinematics = &self.kinematics;
-        let r1 = seen_arms::<K, S, D>(C::PLACEMENT, r0, *r1);
+        let r1 = seen_arms::<K, S, D>(self.scheme.placement(), r0, *r1);
         let measures1 = kinematics.measure(&r1);
         let measures0 = measures_in::<K, S, D>(&self.start.x0);
-        let measures = seen_measures::<K, S, D>(C::PLACEMENT, &measures0, measures1);
+        let measures = seen_measures::<K, S, D>(self.scheme.placement(), &measures0, measures1);
         check_measures::<K, S, D>(kinematics, self.element, &measures, &r1)?;
         for (a, &measure) in measures.as_ref().iter().enumerate() {
             self.x[a] = measure;
         }
-        if M::THERMAL && C::FINDS_TEMPERATURE && !self.is_prescribed {
+        if M::THERMAL && self.scheme.finds_temperature() && !self.is_prescribed {
             for at_point in self.single.as_ref() {
                 let change = at_point.entropy_change;
-                let theta = C::temperature(&self.model, &self.start, &self.x, change);
+                let theta = self
+                    .scheme
+                    .temperature(&self.model, &self.start, &self.x, change);
                 let theta = theta.map_err(|infeasible| infeasible.of(self.element))?;
                 self.x[Self::TEMPERATURE] = theta;
             }
@@ -78,7 +80,7 @@ where
             measures0: measures_in::<K, S, D>(&self.start.x0),
             measures1: seen.1,
         };
-        Pose::new(&self.kinematics, C::PLACEMENT, ends)
+        Pose::new(&self.kinematics, self.scheme.placement(), ends)
     }
 
     /// The response and its tangent at the trial that has been located.
@@ -89,7 +91,8 @@ where
         {
             return form;
         }
-        C::form(&self.model, &self.start, &self.x, &self.memory)
+        self.scheme
+            .form(&self.model, &self.start, &self.x, &self.memory)
     }
 
     /// Finds the viscosities that go with a response, unless the trial is not stable or something
@@ -120,7 +123,7 @@ where
             self.response = form.0;
             return Ok(());
         }
-        if M::THERMAL && C::IN_TEMPERATURE {
+        if M::THERMAL && self.scheme.is_in_temperature() {
             let mut form = self.form(trial);
             let pose = self.pose(&arms.old, &seen);
             self.change_entropy_at_rates(view.step, &pose, &arms.motion, &mut form);
@@ -128,7 +131,9 @@ where
             self.response = form.0;
             return Ok(());
         }
-        self.response = C::response(&self.model, &self.start, &self.x, &self.memory);
+        self.response = self
+            .scheme
+            .response(&self.model, &self.start, &self.x, &self.memory);
         let response = self.response;
         self.accept_response(per_step, &response)
     }
@@ -148,10 +153,12 @@ where
         motion: &Arms<K, S, D>,
         form: &mut Form<S, M>,
     ) {
-        let (own, by_arm) = pose.increase(&self.kinematics, C::PLACEMENT, motion);
+        let (own, by_arm) = pose.increase(&self.kinematics, self.scheme.placement(), motion);
         let increments = self.increments(&own, step);
         let (model, start) = (&self.model, &self.start);
-        let slopes = C::change_entropy_at_rates(model, start, &self.x, &increments, form);
+        let slopes = self
+            .scheme
+            .change_entropy_at_rates(model, start, &self.x, &increments, form);
         for at_point in self.single.as_mut() {
             at_point.by_increment = combined::<K, S, M, D>(&slopes, by_arm.as_ref());
         }

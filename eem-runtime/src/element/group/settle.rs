@@ -92,7 +92,7 @@ where
             return Ok(None);
         };
         let prescribed = view.prescribed(slot, Placement::End);
-        if let (false, None) = (C::IN_TEMPERATURE, prescribed) {
+        if let (false, None) = (self.scheme.is_in_temperature(), prescribed) {
             // The trial is nearly right: one evaluation is enough, as a rule.
             let entropy = state.entropies.values()[slot];
             let found = settled_at(&self.model, x, entropy, near)

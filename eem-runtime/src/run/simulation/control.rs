@@ -262,7 +262,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Takes back the step that has just been made.
     pub(super) fn undo(&mut self) {
-        (Functions::get().undo)(self)
+        (Functions::get().undo)(self);
     }
 
     pub(super) fn undo_here(&mut self) {

@@ -1,7 +1,7 @@
 //! Elements in the state that closes a step: temperatures from entropies, energies, and the rates with
 //! which the next step begins.
 
-use crate::element::conjugates::{Infeasible, Variational};
+use crate::element::conjugates::{Infeasible, PointRule};
 use crate::element::error::StateError;
 use crate::element::group::arms::add_scaled;
 use crate::element::group::explicit::closed::Closed;
@@ -100,7 +100,7 @@ where
     }
 }
 
-impl<S, M, K, const D: usize> Point<S, M, K, Variational, D>
+impl<S, M, K, const D: usize> Point<S, M, K, PointRule, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,

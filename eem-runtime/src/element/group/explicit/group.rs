@@ -1,6 +1,6 @@
 //! The elements of one model in an explicit scheme.
 
-use crate::element::conjugates::Variational;
+use crate::element::conjugates::PointRule;
 use crate::element::error::StateError;
 use crate::element::group::element_group::ElementGroup;
 use crate::element::group::explicit::closed::Closed;
@@ -23,7 +23,7 @@ where
     K: Kinematics<S, D>,
 {
     /// What they are in a state.
-    pub(super) elements: ElementGroup<S, M, K, Variational, D>,
+    pub(super) elements: ElementGroup<S, M, K, PointRule, D>,
     /// The component of each member.
     pub(super) components: Vec<u32>,
     /// Where its nodes are in the vectors of stages.
@@ -39,7 +39,7 @@ where
     K: Kinematics<S, D>,
 {
     pub(crate) fn new(elements: LooseElements<S, M, K, D>, placed: Placed<'_>) -> Self {
-        let elements = ElementGroup::new(elements, placed);
+        let elements = ElementGroup::new(PointRule::Variational, elements, placed);
         let points = elements.points().count();
         Self {
             components: vec![0; elements.members.len()],

@@ -4,7 +4,7 @@
 //! γ̇ = g/η,     Q = Σ g γ̇ + heat that flows in,     θ̇ = (Q − θ (s_λ λ̇ + Σ s_γ γ̇))/c
 //! ```
 
-use crate::element::conjugates::{Infeasible, Variational};
+use crate::element::conjugates::{Infeasible, PointRule};
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, along};
 use crate::element::group::explicit::group::FreeGroup;
@@ -91,7 +91,7 @@ pub(super) fn pull_nodes<K: Kinematics<S, D>, S: Real, const D: usize>(
     }
 }
 
-impl<S, M, K, const D: usize> Point<S, M, K, Variational, D>
+impl<S, M, K, const D: usize> Point<S, M, K, PointRule, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,

@@ -1,6 +1,6 @@
 //! How fast elements are: what limits an explicit step.
 
-use crate::element::conjugates::Variational;
+use crate::element::conjugates::PointRule;
 use crate::element::group::explicit::group::FreeGroup;
 use crate::element::group::explicit::view::NodeStiffness;
 use crate::element::group::point::Point;
@@ -30,7 +30,7 @@ where
     }
 }
 
-impl<S, M, K, const D: usize> Point<S, M, K, Variational, D>
+impl<S, M, K, const D: usize> Point<S, M, K, PointRule, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,

@@ -1,6 +1,6 @@
 //! The temperature of an element that closes a step, from the entropy that is kept.
 
-use crate::element::conjugates::{Infeasible, Variational};
+use crate::element::conjugates::{Infeasible, PointRule};
 use crate::element::error::StateError;
 use crate::element::group::explicit::view::UnkeptEntropy;
 use crate::element::group::point::Point;
@@ -62,7 +62,7 @@ pub(crate) fn is_met<S: Real>(change: S, [capacity, bend]: [S; 2]) -> S::Mask {
     (bend * change * change).at_most(eighth * S::EPSILON * capacity)
 }
 
-impl<S, M, K, const D: usize> Point<S, M, K, Variational, D>
+impl<S, M, K, const D: usize> Point<S, M, K, PointRule, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,

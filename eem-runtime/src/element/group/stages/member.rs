@@ -1,7 +1,7 @@
 //! One element at the stages of a step.
 
 use super::site::StageSite;
-use crate::element::conjugates::Variational;
+use crate::element::conjugates::PointRule;
 use crate::element::group::arms::{add_scaled, change_in_set};
 use crate::element::group::member::Member;
 use crate::element::group::point::Point;
@@ -12,10 +12,10 @@ use crate::material::free_energy::FreeEnergy;
 use crate::number::scalar::Real;
 
 /// The same element in a state, apart from any step.
-pub(super) type StateMember<S, M, K, const D: usize> = Member<S, M, K, Variational, D>;
+pub(super) type StateMember<S, M, K, const D: usize> = Member<S, M, K, PointRule, D>;
 
 /// Its point.
-pub(super) type StatePoint<S, M, K, const D: usize> = Point<S, M, K, Variational, D>;
+pub(super) type StatePoint<S, M, K, const D: usize> = Point<S, M, K, PointRule, D>;
 
 /// What one step needs to remember of an element, with its source of conjugates.
 pub(crate) struct StageMember<S, M, K, C, const D: usize>

@@ -5,7 +5,7 @@ use super::member::StageMember;
 use super::site::StageSite;
 use super::source::Source;
 use crate::algebra::system::LinearSystem;
-use crate::element::conjugates::Variational;
+use crate::element::conjugates::PointRule;
 use crate::element::error::StateError;
 use crate::element::group::element_group::ElementGroup;
 use crate::element::group::interface::{Elements, Group, Loose};
@@ -30,7 +30,7 @@ where
 {
     pub(super) rule: &'static Tableau,
     /// What they are in a state.
-    pub(super) elements: ElementGroup<S, M, K, Variational, D>,
+    pub(super) elements: ElementGroup<S, M, K, PointRule, D>,
     pub(super) members: Vec<StageMember<S, M, K, C, D>>,
     pub(super) local: LocalStages<S>,
 }
@@ -47,7 +47,7 @@ where
         elements: LooseElements<S, M, K, D>,
         placed: Placed<'_>,
     ) -> Self {
-        let elements = ElementGroup::new(elements, placed);
+        let elements = ElementGroup::new(PointRule::Variational, elements, placed);
         let members = elements.members.iter();
         let members = members.map(|member| StageMember::new(member, rule));
         Self {
