@@ -50,7 +50,6 @@ use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
 use automatic_memory::Automatic;
 use check::{check_all, needs_second_order};
-use compiled::Functions;
 use control_memory::Control;
 use start::{begin_groups, initial_state, places_in, systems_of};
 use stepper::{Parts, Stepper};
@@ -110,20 +109,12 @@ impl<const D: usize, S: Real> fmt::Debug for Simulation<D, S> {
 }
 
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// Checks a scene and prepares it for steps of the size `step`, s, with `scheme`.
-    ///
-    /// Steps have this size unless [`control_steps`](Self::control_steps) is called. [`Scheme::Auto`] uses step
-    /// control from the start, with [`Tolerance::default`] unless you set another; `step` is then the first size to
-    /// try.
-    ///
-    /// # Errors
-    ///
-    /// Everything that is wrong with the scene, its initial state, the scheme or the step, together with the scene.
-    pub fn new(scene: Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, RefusedScene<D, S>> {
-        (Functions::get().new)(scene, scheme, step)
-    }
-
-    fn begin(mut scene: Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, RefusedScene<D, S>> {
+    /// See [`new`](Self::new), compiled here.
+    pub(super) fn begin(
+        mut scene: Scene<D, S>,
+        scheme: Scheme,
+        step: S,
+    ) -> Result<Self, RefusedScene<D, S>> {
         let errors = check_all(&scene, first(scheme, needs_second_order(&scene)), step);
         if !errors.is_empty() {
             return Err(RefusedScene::new(scene, errors));
@@ -188,25 +179,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             run.go_on_with(Some(run.new_control(Tolerance::default())));
         }
         Ok(run)
-    }
-
-    /// Makes one step of the present size, or of the size that [step control](Self::control_steps) chooses.
-    ///
-    /// # Errors
-    ///
-    /// [`StepError`] if there is no new state, or Newton's method does not find it. The simulation is unchanged
-    /// then.
-    pub fn step(&mut self) -> Result<StepReport<S>, StepError> {
-        (Functions::get().step)(self)
-    }
-
-    fn step_here(&mut self) -> Result<StepReport<S>, StepError> {
-        if self.control.is_some() {
-            return self.controlled_step(S::from_f64(f64::INFINITY));
-        }
-        let size = self.step;
-        self.single_step()
-            .map_err(|error| self.with_shorter(error, size))
     }
 
     /// Whether several numbers in one S have to be run one by one.

@@ -16,13 +16,51 @@ use crate::step::error::StepError;
 use crate::step::newton::StepReport;
 use crate::step::scheme::Scheme;
 
+/// Which step is asked for.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Aim<S> {
+    /// One that ends at this time, s, or before it.
+    Towards(S),
+    /// The same by the scheme in use, also where a run chooses its scheme.
+    InSchemeTowards(S),
+    /// One of this size, s, from where the last step has been undone.
+    Again(S),
+}
+
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// Checks a scene and prepares it for steps of the size `step`, s, with `scheme`.
+    ///
+    /// Steps have this size unless [`control_steps`](Self::control_steps) is called. [`Scheme::Auto`] uses step
+    /// control from the start, with [`Tolerance::default`] unless you set another; `step` is then the first size to
+    /// try.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with the scene, its initial state, the scheme or the step, together with the scene.
+    pub fn new(scene: Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, RefusedScene<D, S>> {
+        (Functions::get().new)(scene, scheme, step)
+    }
+
+    /// Makes one step of the present size, or of the size that [step control](Self::control_steps) chooses.
+    ///
+    /// # Errors
+    ///
+    /// [`StepError`] if there is no new state, or Newton's method does not find it. The simulation is unchanged
+    /// then.
+    pub fn step(&mut self) -> Result<StepReport<S>, StepError> {
+        self.advance(Aim::Towards(S::from_f64(f64::INFINITY)))
+    }
+
+    /// Makes one step.
+    pub(super) fn advance(&mut self, aim: Aim<S>) -> Result<StepReport<S>, StepError> {
+        (Functions::get().advance)(self, aim)
+    }
+}
+
 /// The functions in which the work of a simulation starts.
 pub(super) struct Functions<const D: usize, S: Real> {
-    pub(super) new: Begin<D, S>,
-    pub(super) step: Step<D, S>,
-    pub(super) step_towards: StepTo<D, S>,
-    pub(super) step_in_scheme_towards: StepTo<D, S>,
-    pub(super) step_again: StepTo<D, S>,
+    new: Begin<D, S>,
+    advance: Advance<D, S>,
     pub(super) undo: fn(&mut Simulation<D, S>),
     pub(super) checkpoint: fn(&Simulation<D, S>) -> Checkpoint<S>,
     pub(super) restore: fn(&mut Simulation<D, S>, &Checkpoint<S>) -> Result<(), RestoreError>,
@@ -31,8 +69,8 @@ pub(super) struct Functions<const D: usize, S: Real> {
 
 type Begin<const D: usize, S> =
     fn(Scene<D, S>, Scheme, S) -> Result<Simulation<D, S>, RefusedScene<D, S>>;
-type Step<const D: usize, S> = fn(&mut Simulation<D, S>) -> Result<StepReport<S>, StepError>;
-type StepTo<const D: usize, S> = fn(&mut Simulation<D, S>, S) -> Result<StepReport<S>, StepError>;
+type Advance<const D: usize, S> =
+    fn(&mut Simulation<D, S>, Aim<S>) -> Result<StepReport<S>, StepError>;
 
 static LINE: Functions<1, f64> = Functions::HERE;
 static PLANE: Functions<2, f64> = Functions::HERE;
@@ -42,10 +80,7 @@ impl<const D: usize, S: Real> Functions<D, S> {
     /// Compiled where they are asked for.
     const HERE: Self = Self {
         new: Simulation::begin,
-        step: Simulation::step_here,
-        step_towards: Simulation::step_towards_here,
-        step_in_scheme_towards: Simulation::step_in_scheme_towards_here,
-        step_again: Simulation::step_again_here,
+        advance: Simulation::advance_here,
         undo: Simulation::undo_here,
         checkpoint: Simulation::checkpoint_here,
         restore: Simulation::restore_here,

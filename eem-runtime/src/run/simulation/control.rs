@@ -282,10 +282,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Another step from where the last one began, of this size.
     pub(super) fn step_again(&mut self, size: S) -> Result<StepReport<S>, StepError> {
-        (Functions::get().step_again)(self, size)
-    }
-
-    pub(super) fn step_again_here(&mut self, size: S) -> Result<StepReport<S>, StepError> {
         self.with_control(|run, control| match control {
             Some(Control {
                 halves: Some(halves),

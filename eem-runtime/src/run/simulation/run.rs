@@ -3,7 +3,7 @@
 use core::mem;
 use core::ops::ControlFlow;
 
-use super::compiled::Functions;
+use super::compiled::Aim;
 use super::{Simulation, Tried};
 use crate::number::compensated::Sum;
 use crate::number::scalar::{Mask, Real};
@@ -94,7 +94,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ) -> Result<RunEnd, StepError> {
         self.check_end(end)?;
         while self.is_before(end)? {
-            let report = self.step_towards(end)?;
+            let report = self.advance(Aim::Towards(end))?;
             if observer(self, &report).is_break() {
                 return Ok(RunEnd::Stopped);
             }
@@ -173,12 +173,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// One step of the present size, or one that ends exactly at `end`.
-    pub(super) fn step_towards(&mut self, end: S) -> Result<StepReport<S>, StepError> {
-        (Functions::get().step_towards)(self, end)
+    /// See [`advance`](Self::advance), compiled here.
+    pub(super) fn advance_here(&mut self, aim: Aim<S>) -> Result<StepReport<S>, StepError> {
+        match aim {
+            Aim::Towards(end) => self.step_towards(end),
+            Aim::InSchemeTowards(end) => self.step_in_scheme_towards(end),
+            Aim::Again(size) => self.step_again(size),
+        }
     }
 
-    pub(super) fn step_towards_here(&mut self, end: S) -> Result<StepReport<S>, StepError> {
+    /// One step of the present size, or one that ends exactly at `end`.
+    fn step_towards(&mut self, end: S) -> Result<StepReport<S>, StepError> {
         if self.control.is_some() {
             return self.controlled_step(end);
         }
@@ -194,14 +199,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// The same without another choice of the scheme.
-    pub(super) fn step_in_scheme_towards(&mut self, end: S) -> Result<StepReport<S>, StepError> {
-        (Functions::get().step_in_scheme_towards)(self, end)
-    }
-
-    pub(super) fn step_in_scheme_towards_here(
-        &mut self,
-        end: S,
-    ) -> Result<StepReport<S>, StepError> {
+    fn step_in_scheme_towards(&mut self, end: S) -> Result<StepReport<S>, StepError> {
         if self.control.is_none() {
             return self.step_towards(end);
         }

@@ -3,6 +3,7 @@
 use core::ops::ControlFlow;
 
 use super::Simulation;
+use super::compiled::Aim;
 use super::control_memory::Memory;
 use super::run::RunEnd;
 use crate::element::state::State;
@@ -67,7 +68,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         while let [time, ..] = *left {
             let mut passed = 0;
             if self.is_before(time)? {
-                self.step_towards(last)?;
+                self.advance(Aim::Towards(last))?;
                 let is_passed = |time: &&S| time.less(self.time()).all();
                 passed = left.iter().take_while(is_passed).count();
                 if passed > 0 && self.sample(&left[..passed], &mut observer)?.is_break() {
@@ -105,7 +106,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ) -> Result<ControlFlow<()>, StepError> {
         for &time in times {
             while self.is_before(time)? {
-                self.step_in_scheme_towards(time)?;
+                self.advance(Aim::InSchemeTowards(time))?;
             }
             if observer(self).is_break() {
                 return Ok(ControlFlow::Break(()));

@@ -9,6 +9,7 @@ use core::ops::ControlFlow;
 use super::bracket::Bracket;
 use super::{Event, Simulation};
 use crate::number::scalar::{Discord, Mask, Real};
+use crate::run::simulation::compiled::Aim;
 use crate::run::simulation::control_memory::Memory;
 use crate::run::simulation::run::RunEnd;
 use crate::step::error::{StepError, StepFailure};
@@ -113,7 +114,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         end: S,
     ) -> Result<StepReport<S>, StepError> {
         let before = self.memory();
-        let whole = self.step_towards(end)?;
+        let whole = self.advance(Aim::Towards(end))?;
         let mut looking = Looking {
             run: self,
             before: Some(before),
@@ -189,7 +190,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         if self.control.is_none() || is_of_event || !self.is_before(middle)? {
             return Err(error);
         }
-        let shorter = self.step_in_scheme_towards(middle)?;
+        let shorter = self.advance(Aim::InSchemeTowards(middle))?;
         self.look_for(events, shorter, end)
     }
 
@@ -208,7 +209,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let (mut is_behind, mut is_shorter) = (true, false);
         while let Some(size) = bracket.candidate(resolution) {
             self.undo();
-            report = self.step_again(size)?;
+            report = self.advance(Aim::Again(size))?;
             let value = self.value(event, place)?;
             is_behind = bracket.narrow(size, value);
             is_shorter |= is_behind;
@@ -218,9 +219,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         self.undo();
         if is_shorter {
-            return self.step_again(bracket.high);
+            return self.advance(Aim::Again(bracket.high));
         }
-        let mut report = self.step_again(whole.step)?;
+        let mut report = self.advance(Aim::Again(whole.step))?;
         if whole.time.equal(end).all() {
             self.arrive_at(end, &mut report);
         }
