@@ -14,7 +14,7 @@ const SPANS: f64 = 1.5;
 const MAGNITUDES: f64 = 1.0;
 
 /// Smallest span shown, as a share of the magnitude: rounding is not blown up to fill a picture.
-const LEAST_SPAN: f64 = 0.01;
+const LEAST_SPAN: f64 = 0.001;
 
 /// Empty margin on either side as a share of the span.
 const MARGIN: f64 = 0.05;
