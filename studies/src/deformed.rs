@@ -15,7 +15,7 @@ use eem::prelude::*;
 use super::points;
 
 /// Straight lines that a curved edge is drawn with.
-const EDGE_PARTS: u8 = 8;
+const EDGE_PARTS: u8 = 4;
 
 /// A picture of several states, which share scale, view and colours.
 #[derive(Clone, Debug)]

@@ -129,17 +129,7 @@ pub(super) fn draw(picture: &Picture, path: &Path) -> Result<(), Box<dyn Error>>
     }
     legend(&canvas, (&picture.quantity, values), height - LEGEND)?;
     bar(&canvas, scale, height - LEGEND)?;
-    for (row, mark) in kinds.iter().enumerate() {
-        let [left, y] = [900.0, height - LEGEND + 25.0 + 39.0 * real(row)];
-        let ends = if mark.places.len() == 1 {
-            vec![left + 20.0]
-        } else {
-            vec![left, left + 40.0]
-        };
-        let sample = ends.into_iter().map(|x| (pixels(x), pixels(y)));
-        draw_mark(&canvas, sample.collect(), colour_of(&kinds, mark.name))?;
-        text(&canvas, (mark.name, FONT), [left + 55.0, y], HPos::Left)?;
-    }
+    legend_of_marks(&canvas, &kinds, height - LEGEND)?;
     canvas.present()?;
     Ok(())
 }
@@ -170,6 +160,22 @@ fn draw_mark(
         canvas.draw(&Circle::new(place, DOT, colour.filled()))?;
     } else {
         canvas.draw(&PathElement::new(places, colour.stroke_width(MARK)))?;
+    }
+    Ok(())
+}
+
+/// What marks mean, beside the colours.
+fn legend_of_marks(canvas: &Canvas<'_>, kinds: &[&Mark], top: f64) -> Result<(), Box<dyn Error>> {
+    for (row, mark) in kinds.iter().enumerate() {
+        let [left, y] = [900.0, top + 25.0 + 39.0 * real(row)];
+        let ends = if mark.places.len() == 1 {
+            vec![left + 20.0]
+        } else {
+            vec![left, left + 40.0]
+        };
+        let sample = ends.into_iter().map(|x| (pixels(x), pixels(y)));
+        draw_mark(canvas, sample.collect(), colour_of(kinds, mark.name))?;
+        text(canvas, (mark.name, FONT), [left + 55.0, y], HPos::Left)?;
     }
     Ok(())
 }

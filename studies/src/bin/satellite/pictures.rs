@@ -59,7 +59,8 @@ fn over_time(
         if let Some(row) = energy.iter().position(is_beyond) {
             curve.points.truncate(row);
             let time = run.time(row);
-            curve.label += &format!(", energy above {MOST_ENERGY} J from {time:.1} s");
+            let label = &curve.label;
+            curve.label = format!("{label}, energy above {MOST_ENERGY} J from {time:.1} s");
         }
     }
     figure
