@@ -69,10 +69,10 @@ impl Axis {
     /// The places of the numbers at a logarithmic axis: at most `most` of them.
     fn decades(&self, most: usize) -> Vec<f64> {
         let Range { start, end } = self.range;
-        let digits: &[f64] = match end - start {
-            ..=1.0 => &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0],
-            ..=FEW_DECADES => &[1.0, 2.0, 5.0],
-            _ => &[1.0],
+        let digits: &[f64] = if self.is_short() {
+            &[1.0, 2.0, 5.0]
+        } else {
+            &[1.0]
         };
         let (mut places, mut decade) = (Vec::new(), start.floor());
         while decade <= end {
@@ -85,13 +85,10 @@ impl Axis {
 
     /// The whole numbers within the range: at most `most` of them.
     fn whole_numbers(&self, most: usize) -> Vec<f64> {
-        let mut places = vec![self.range.start.ceil()];
-        while let Some(next) = places
-            .last()
-            .map(|last| last + 1.0)
-            .filter(|&next| next <= self.range.end)
-        {
+        let (mut places, mut next) = (Vec::new(), self.range.start.ceil());
+        while next <= self.range.end {
             places.push(next);
+            next += 1.0;
         }
         thinned(places, most)
     }

@@ -76,16 +76,15 @@ fn draw_figure(
     } else {
         TITLE_HEIGHT + draw_legend(canvas, &figure.curves, [width, height])?
     };
-    let bottom = BOTTOM
-        + if is_named {
-            (NAME_ROWS - 1) * NAME_ROW
-        } else {
-            0
-        };
+    let bottom = BOTTOM + i32::from(is_named) * (NAME_ROWS - 1) * NAME_ROW;
     let aspect = f64::from(width - EDGE - LEFT - RIGHT) / f64::from(height - top - bottom - EDGE);
     let scales = Scale::of(figure.axes);
     let curves = placed(&figure.curves, scales);
     let mut window = window(&curves, is_map.then_some(aspect));
+    if scales[1] == Scale::Logarithmic {
+        // A decade has three numbers at least.
+        window.y = range::widened(&window.y, 1.0);
+    }
     if is_named {
         window.x = 0.5..0.5 + curves.iter().map(|_| 1.0).sum::<f64>();
     }
