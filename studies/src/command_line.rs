@@ -43,13 +43,11 @@ impl CommandLine {
         schemes
     }
 
-    /// The schemes asked for, or those that are compared where none is asked for by its name.
+    /// The schemes asked for, or those that are compared where none is asked for by its name; always in the same order.
     pub fn schemes_or(&self, compared: &[Scheme]) -> Vec<Scheme> {
-        if self.takes_all_schemes() {
-            compared.to_vec()
-        } else {
-            self.schemes()
-        }
+        let mut schemes = self.schemes();
+        schemes.retain(|scheme| !self.takes_all_schemes() || compared.contains(scheme));
+        schemes
     }
 
     /// The schemes asked for, by an example in which each has steps of its own.

@@ -129,7 +129,7 @@ pub fn over_time(
     points: impl Fn(&Record) -> Vec<(f64, f64)>,
 ) -> Figure {
     let curve = |run: &Record| Curve {
-        label: run.scheme.clone(),
+        label: label(run, true),
         points: points(run),
         look: look(&run.scheme),
         trusted: run.completed(),
@@ -142,6 +142,26 @@ pub fn over_time(
         curves: runs.iter().map(curve).collect(),
         axes: Axes::Even,
     }
+}
+
+/// What hardly depends on the scheme: the curve of the first one, and below it what the others differ by.
+pub fn with_differences(
+    title: &str,
+    y_label: &str,
+    runs: &[Record],
+    points: impl Fn(&Record) -> Vec<(f64, f64)>,
+) -> Vec<Figure> {
+    let mut quantity = over_time(title, y_label, runs, &points);
+    let Some((first, others)) = runs.split_first().filter(|(_, others)| !others.is_empty()) else {
+        return vec![quantity];
+    };
+    quantity.curves.truncate(1);
+    let exact = points(first);
+    let title = format!("The same of each scheme minus that of {}", first.scheme);
+    let differences = over_time(&title, &format!("difference of {y_label}"), others, |run| {
+        statistics::deviations(&points(run), &exact)
+    });
+    vec![quantity, differences]
 }
 
 /// A title with its case.

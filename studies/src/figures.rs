@@ -40,6 +40,14 @@ pub enum Axes {
     Logarithmic,
     /// Both by powers of ten: for errors over step sizes.
     DoublyLogarithmic,
+    /// The horizontal axis by powers of ten: for results over the size of meshes.
+    LogarithmicAcross,
+    /// The horizontal one by whole numbers: for what is counted.
+    Counted,
+    /// Each curve lies about its number, counted from 1, and has its label below; there is no legend.
+    Named,
+    /// The same, and the vertical axis by powers of ten.
+    NamedLogarithmic,
 }
 
 /// One curve of a picture.
@@ -66,6 +74,11 @@ impl Figure {
 
     /// Draws the picture into the SVG file `path`.
     pub fn write_svg(&self, path: &Path) -> Result<(), Box<dyn Error>> {
-        chart::draw(self, path).map_err(|error| format!("{}: {error}", path.display()).into())
+        write_stack(std::slice::from_ref(self), path)
     }
+}
+
+/// Draws pictures one below the other into the SVG file `path`.
+pub fn write_stack(figures: &[Figure], path: &Path) -> Result<(), Box<dyn Error>> {
+    chart::draw(figures, path).map_err(|error| format!("{}: {error}", path.display()).into())
 }

@@ -5,9 +5,6 @@ use super::figures::{Axes, Figure};
 use super::record::Record;
 use super::statistics::largest;
 
-/// The least defect (J) that is drawn; it stands for none at all.
-const LEAST_DEFECT: f64 = 1e-12;
-
 /// |E − E₀ − W| over time, J.
 pub fn defects(run: &Record) -> impl Iterator<Item = f64> + use<'_> {
     let work = run.column("work").unwrap_or_default();
@@ -20,22 +17,27 @@ pub fn largest_defect(run: &Record) -> Option<f64> {
     largest(defects(run))
 }
 
-/// What each scheme makes of it.
+/// What each scheme makes of it: the largest defect so far, and in the legend that at the end. Where there is none
+/// yet, there is no curve.
 pub fn figure(case: &str, runs: &[Record]) -> Figure {
-    let largest_so_far = |run: &Record| {
-        let defects = defects(run).scan(LEAST_DEFECT, |largest, defect| {
-            *largest = largest.max(defect);
-            Some(*largest)
-        });
-        run.over_time(defects).split_off(1)
-    };
-    Figure {
-        axes: Axes::Logarithmic,
-        ..over_time(
-            &format!("{case}: what each scheme makes of the first law"),
-            "largest |E − E₀ − W| so far (J)",
-            runs,
-            largest_so_far,
-        )
+    let title = format!("{case}: what each scheme makes of the first law");
+    let mut figure = over_time(
+        &title,
+        "largest |E − E₀ − W| so far (J)",
+        runs,
+        |run| {
+            let so_far = defects(run).scan(0.0_f64, |largest, defect| {
+                *largest = largest.max(defect);
+                Some(*largest)
+            });
+            run.over_time(so_far)
+        },
+    );
+    for curve in &mut figure.curves {
+        let last = curve.points.last().map_or(0.0, |last| last.1);
+        curve.label = format!("{}: {last:.1e} J", curve.label);
+        curve.points.retain(|&(_, defect)| defect > 0.0);
+        curve.trusted = true;
     }
+    figure.with(Axes::Logarithmic)
 }

@@ -7,13 +7,13 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::{Picture, State, View};
+use super::{Mark, Picture, State, View};
 
 /// Width of a picture, and of the area of the legend, in pixels.
 const WIDTH: f64 = 1600.0;
 const LEGEND: f64 = 150.0;
 
-/// Heights of the title, of the area of a state and of its caption, in pixels.
+/// Heights of the title, of the area of a state, at most, and of its caption, in pixels.
 const TITLE: f64 = 80.0;
 const STATE: f64 = 560.0;
 const CAPTION: f64 = 50.0;
@@ -31,6 +31,17 @@ const COLOURS: [[f64; 3]; 3] = [
     [240.0, 240.0, 225.0],
     [213.0, 94.0, 0.0],
 ];
+
+/// Colours of marks, by the order of their names.
+const MARKS: [RGBColor; 3] = [
+    RGBColor(150, 0, 130),
+    RGBColor(0, 0, 0),
+    RGBColor(110, 220, 40),
+];
+
+/// Width of lines and radius of dots, in pixels.
+const MARK: u32 = 4;
+const DOT: i32 = 5;
 
 type Canvas<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
@@ -51,7 +62,23 @@ pub(super) fn draw(picture: &Picture, path: &Path) -> Result<(), Box<dyn Error>>
     let count = states.len().max(1);
     let columns = count.min(if count == 4 { 2 } else { 3 });
     let rows = count.div_ceil(columns);
-    let (wide, high) = (WIDTH / real(columns), STATE + CAPTION);
+    let wide = WIDTH / real(columns);
+    // Every state is in the middle of its area.
+    let windows: Vec<[[f64; 2]; 2]> = picture
+        .states
+        .iter()
+        .map(|state| window(state, picture.view))
+        .collect();
+    let extent = [0, 1].map(|axis| {
+        let spans = windows
+            .iter()
+            .map(|window| window[axis][1] - window[axis][0]);
+        spans.fold(f64::MIN_POSITIVE, f64::max)
+    });
+    let room = [wide - 2.0 * MARGIN, STATE - 2.0 * MARGIN];
+    let scale = (room[0] / extent[0]).min(room[1] / extent[1]);
+    let area = scale * extent[1] + 2.0 * MARGIN;
+    let high = area + CAPTION;
     let height = TITLE + real(rows) * high + LEGEND;
     let canvas = SVGBackend::new(
         path,
@@ -66,19 +93,14 @@ pub(super) fn draw(picture: &Picture, path: &Path) -> Result<(), Box<dyn Error>>
         HPos::Center,
     )?;
 
-    let all = || states.iter().flatten();
-    let window = [0, 1]
-        .map(|axis| range(all().flat_map(|face| face.corners.iter().map(move |at| at[axis]))));
-    let values = range(all().map(|face| face.value));
-    let extent = window.map(|[from, to]| (to - from).max(f64::MIN_POSITIVE));
-    let room = [wide - 2.0 * MARGIN, STATE - 2.0 * MARGIN];
-    let scale = (room[0] / extent[0]).min(room[1] / extent[1]);
+    let values = range(states.iter().flatten().map(|face| face.value));
+    let kinds = kinds(&picture.states);
     for (at, (faces, state)) in states.iter().zip(&picture.states).enumerate() {
         let corner = [wide * real(at % columns), TITLE + high * real(at / columns)];
-        let centre = [corner[0] + 0.5 * wide, corner[1] + 0.5 * STATE];
+        let centre = [corner[0] + 0.5 * wide, corner[1] + 0.5 * area];
+        let middle = windows[at].map(|[from, to]| f64::midpoint(from, to));
         let place = |at: &[f64; 2]| {
-            let off = [0, 1]
-                .map(|axis| scale * (at[axis] - f64::midpoint(window[axis][0], window[axis][1])));
+            let off = [0, 1].map(|axis| scale * (at[axis] - middle[axis]));
             (pixels(centre[0] + off[0]), pixels(centre[1] - off[1]))
         };
         for face in faces {
@@ -93,28 +115,94 @@ pub(super) fn draw(picture: &Picture, path: &Path) -> Result<(), Box<dyn Error>>
                 RGBColor(60, 60, 60).stroke_width(1),
             ))?;
         }
+        for mark in &state.marks {
+            let places = mark.places.iter();
+            let places = places.map(|&at| place(&projected(at, picture.view)));
+            draw_mark(&canvas, places.collect(), colour_of(&kinds, mark.name))?;
+        }
         text(
             &canvas,
             (&state.caption, FONT),
-            [centre[0], corner[1] + STATE + 0.5 * CAPTION],
+            [centre[0], corner[1] + area + 0.5 * CAPTION],
             HPos::Center,
         )?;
     }
     legend(&canvas, (&picture.quantity, values), height - LEGEND)?;
     bar(&canvas, scale, height - LEGEND)?;
+    legend_of_marks(&canvas, &kinds, height - LEGEND)?;
     canvas.present()?;
     Ok(())
 }
 
+/// The first mark of each name.
+fn kinds(states: &[State]) -> Vec<&Mark> {
+    let mut kinds: Vec<&Mark> = Vec::new();
+    for mark in states.iter().flat_map(|state| &state.marks) {
+        if kinds.iter().all(|own| own.name != mark.name) {
+            kinds.push(mark);
+        }
+    }
+    kinds
+}
+
+fn colour_of(kinds: &[&Mark], name: &str) -> RGBColor {
+    let place = kinds.iter().position(|own| own.name == name);
+    MARKS[place.unwrap_or(0) % MARKS.len()]
+}
+
+/// A line, or a dot.
+fn draw_mark(
+    canvas: &Canvas<'_>,
+    places: Vec<(i32, i32)>,
+    colour: RGBColor,
+) -> Result<(), Box<dyn Error>> {
+    if let [place] = places[..] {
+        canvas.draw(&Circle::new(place, DOT, colour.filled()))?;
+    } else {
+        canvas.draw(&PathElement::new(places, colour.stroke_width(MARK)))?;
+    }
+    Ok(())
+}
+
+/// What marks mean, beside the colours.
+fn legend_of_marks(canvas: &Canvas<'_>, kinds: &[&Mark], top: f64) -> Result<(), Box<dyn Error>> {
+    for (row, mark) in kinds.iter().enumerate() {
+        let [left, y] = [900.0, top + 25.0 + 39.0 * real(row)];
+        let ends = if mark.places.len() == 1 {
+            vec![left + 20.0]
+        } else {
+            vec![left, left + 40.0]
+        };
+        let sample = ends.into_iter().map(|x| (pixels(x), pixels(y)));
+        draw_mark(canvas, sample.collect(), colour_of(kinds, mark.name))?;
+        text(canvas, (mark.name, FONT), [left + 55.0, y], HPos::Left)?;
+    }
+    Ok(())
+}
+
+/// What a state covers to the right and upwards, m.
+fn window(state: &State, view: View) -> [[f64; 2]; 2] {
+    let faces = state.patches.iter().flat_map(|patch| &patch.corners);
+    let marks = state.marks.iter().flat_map(|mark| &mark.places);
+    let places: Vec<[f64; 2]> = faces.chain(marks).map(|&at| projected(at, view)).collect();
+    [0, 1].map(|axis| range(places.iter().map(|at| at[axis])))
+}
+
+/// A place, m to the right and upwards.
+fn projected(at: [f64; 3], view: View) -> [f64; 2] {
+    let [right, up, _] = axes(view);
+    [dot(at, right), dot(at, up)]
+}
+
 /// The faces that look at the viewer, the farthest first.
 fn project(state: &State, view: View) -> Vec<Face> {
-    let [right, up, near] = axes(view);
+    let [_, _, near] = axes(view);
     let mut faces: Vec<Face> = Vec::new();
     for patch in &state.patches {
         let corners: Vec<_> = patch
             .corners
             .iter()
-            .map(|&at| [dot(at, right), dot(at, up)])
+            .map(|&at| projected(at, view))
             .collect();
         let depths = patch.corners.iter().map(|&at| dot(at, near));
         let nearness = depths.sum::<f64>() / real(patch.corners.len());

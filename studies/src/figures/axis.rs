@@ -19,14 +19,18 @@ const FEW_DECADES: f64 = 3.0;
 pub(super) enum Scale {
     Even,
     Logarithmic,
+    /// Evenly, with numbers at whole ones only.
+    Whole,
 }
 
 impl Scale {
     /// The scales of the horizontal and the vertical axis.
     pub(super) const fn of(axes: Axes) -> [Self; 2] {
         match axes {
-            Axes::Even | Axes::Map => [Self::Even, Self::Even],
-            Axes::Logarithmic => [Self::Even, Self::Logarithmic],
+            Axes::Even | Axes::Map | Axes::Named => [Self::Even, Self::Even],
+            Axes::Logarithmic | Axes::NamedLogarithmic => [Self::Even, Self::Logarithmic],
+            Axes::Counted => [Self::Whole, Self::Even],
+            Axes::LogarithmicAcross => [Self::Logarithmic, Self::Even],
             Axes::DoublyLogarithmic => [Self::Logarithmic, Self::Logarithmic],
         }
     }
@@ -34,7 +38,7 @@ impl Scale {
     /// Where a value lies along the axis; no finite place for what a logarithm cannot show.
     pub(super) fn place(self, value: f64) -> f64 {
         match self {
-            Self::Even => value,
+            Self::Even | Self::Whole => value,
             Self::Logarithmic => value.log10(),
         }
     }
@@ -76,9 +80,24 @@ impl Axis {
             decade += 1.0;
         }
         places.retain(|place| (start..=end).contains(place));
-        let every = places.len().div_ceil(most.max(1)).max(1);
-        places.into_iter().step_by(every).collect()
+        thinned(places, most)
     }
+
+    /// The whole numbers within the range: at most `most` of them.
+    fn whole_numbers(&self, most: usize) -> Vec<f64> {
+        let (mut places, mut next) = (Vec::new(), self.range.start.ceil());
+        while next <= self.range.end {
+            places.push(next);
+            next += 1.0;
+        }
+        thinned(places, most)
+    }
+}
+
+/// Every n-th of the places, so that at most `most` are left.
+fn thinned(places: Vec<f64>, most: usize) -> Vec<f64> {
+    let every = places.len().div_ceil(most.max(1)).max(1);
+    places.into_iter().step_by(every).collect()
 }
 
 impl Ranged for Axis {
@@ -93,6 +112,7 @@ impl Ranged for Axis {
         match self.scale {
             Scale::Even => self.places.key_points(hint),
             Scale::Logarithmic => self.decades(hint.bold_points()),
+            Scale::Whole => self.whole_numbers(hint.bold_points()),
         }
     }
 
@@ -106,6 +126,7 @@ impl ValueFormatter<f64> for Axis {
         match self.scale {
             Scale::Even => ticks::even(&self.range, *place),
             Scale::Logarithmic => ticks::logarithmic(*place, self.is_short()),
+            Scale::Whole => place.to_string(),
         }
     }
 }

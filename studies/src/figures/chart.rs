@@ -14,8 +14,15 @@ use super::look::{Dash, Look};
 use super::{Axes, Curve, Figure, legend, range};
 
 /// Size of a picture in pixels, and of one with equal scales; a reader scales them.
-const SIZE: (u32, u32) = (1600, 1000);
-const MAP_SIZE: (u32, u32) = (1300, 1300);
+const SIZE: [i32; 2] = [1600, 1000];
+const MAP_SIZE: [i32; 2] = [1300, 1300];
+
+/// Rows of the labels below curves, and the height of each in pixels.
+const NAME_ROWS: i32 = 3;
+const NAME_ROW: i32 = 30;
+
+/// Height in pixels of each of several pictures one below the other.
+const STACKED: i32 = 700;
 
 /// Fonts in pixels.
 const TITLE_FONT: f64 = 40.0;
@@ -36,36 +43,69 @@ const MOST_MARKERS: usize = 34;
 type Canvas<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 type Chart<'a, 'b> = ChartContext<'a, SVGBackend<'b>, Cartesian2d<Axis, Axis>>;
 
-/// Draws `figure` into the file `path`.
-pub(super) fn draw(figure: &Figure, path: &Path) -> Result<(), Box<dyn Error>> {
-    let is_map = figure.axes == Axes::Map;
-    let size = if is_map { MAP_SIZE } else { SIZE };
-    let (width, height) = (size.0.cast_signed(), size.1.cast_signed());
-    let canvas = SVGBackend::new(path, size).into_drawing_area();
+/// Draws figures one below the other into the file `path`.
+pub(super) fn draw(figures: &[Figure], path: &Path) -> Result<(), Box<dyn Error>> {
+    let [width, height] = match figures {
+        [figure] if figure.axes == Axes::Map => MAP_SIZE,
+        [_] => SIZE,
+        _ => [SIZE[0], STACKED],
+    };
+    let size = (width.unsigned_abs(), height.unsigned_abs());
+    let whole = (size.0, size.1 * u32::try_from(figures.len())?);
+    let canvas = SVGBackend::new(path, whole).into_drawing_area();
     canvas.fill(&WHITE)?;
+    let parts = canvas.split_evenly((figures.len(), 1));
+    for (figure, part) in figures.iter().zip(parts) {
+        draw_figure(figure, &part, [width, height])?;
+    }
+    canvas.present()?;
+    Ok(())
+}
+
+fn draw_figure(
+    figure: &Figure,
+    canvas: &Canvas<'_>,
+    [width, height]: [i32; 2],
+) -> Result<(), Box<dyn Error>> {
+    let is_map = figure.axes == Axes::Map;
+    let is_named = matches!(figure.axes, Axes::Named | Axes::NamedLogarithmic);
     let title = font(title_font(&figure.title, width)).pos(Pos::new(HPos::Center, VPos::Center));
     canvas.draw_text(&figure.title, &title, (width / 2, TITLE_HEIGHT / 2))?;
-    let top = TITLE_HEIGHT + draw_legend(&canvas, &figure.curves, [width, height])?;
-    let aspect = f64::from(width - EDGE - LEFT - RIGHT) / f64::from(height - top - BOTTOM - EDGE);
+    let top = if is_named {
+        TITLE_HEIGHT
+    } else {
+        TITLE_HEIGHT + draw_legend(canvas, &figure.curves, [width, height])?
+    };
+    let bottom = BOTTOM + i32::from(is_named) * (NAME_ROWS - 1) * NAME_ROW;
+    let aspect = f64::from(width - EDGE - LEFT - RIGHT) / f64::from(height - top - bottom - EDGE);
     let scales = Scale::of(figure.axes);
     let curves = placed(&figure.curves, scales);
-    let window = window(&curves, is_map.then_some(aspect));
-    let mut chart = ChartBuilder::on(&canvas)
+    let mut window = window(&curves, is_map.then_some(aspect));
+    if scales[1] == Scale::Logarithmic {
+        // A decade has three numbers at least.
+        window.y = range::widened(&window.y, 1.0);
+    }
+    if is_named {
+        window.x = 0.5..0.5 + curves.iter().map(|_| 1.0).sum::<f64>();
+    }
+    let mut chart = ChartBuilder::on(canvas)
         .margin_top(top)
         .margin_right(RIGHT)
         .margin_bottom(EDGE)
         .margin_left(EDGE)
-        .x_label_area_size(BOTTOM)
+        .x_label_area_size(bottom)
         .y_label_area_size(LEFT)
         .build_cartesian_2d(
             Axis::new(scales[0], window.x.clone()),
             Axis::new(scales[1], window.y.clone()),
         )?;
-    draw_axes(&mut chart, figure)?;
+    draw_axes(&mut chart, figure, is_named)?;
     for curve in &curves {
         draw_curve(&mut chart, curve, look_among(&curves, curve), &window)?;
     }
-    canvas.present()?;
+    if is_named {
+        draw_names(&chart, canvas, &curves)?;
+    }
     Ok(())
 }
 
@@ -99,10 +139,16 @@ fn window(curves: &[Curve], map: Option<f64>) -> Window {
     Window { x, y }
 }
 
-fn draw_axes(chart: &mut Chart<'_, '_>, figure: &Figure) -> Result<(), Box<dyn Error>> {
-    chart
-        .configure_mesh()
-        .light_line_style(TRANSPARENT)
+fn draw_axes(
+    chart: &mut Chart<'_, '_>,
+    figure: &Figure,
+    is_named: bool,
+) -> Result<(), Box<dyn Error>> {
+    let mut mesh = chart.configure_mesh();
+    if is_named {
+        mesh.disable_x_mesh().disable_x_axis();
+    }
+    mesh.light_line_style(TRANSPARENT)
         .bold_line_style(RGBColor(210, 210, 210).stroke_width(1))
         .axis_style(BLACK.stroke_width(2))
         .x_labels(11)
@@ -112,6 +158,29 @@ fn draw_axes(chart: &mut Chart<'_, '_>, figure: &Figure) -> Result<(), Box<dyn E
         .x_desc(&figure.x_label)
         .y_desc(&figure.y_label)
         .draw()?;
+    Ok(())
+}
+
+/// The labels of curves below them, as large as fits; each is a row lower than the one before, up to the last row.
+fn draw_names(
+    chart: &Chart<'_, '_>,
+    canvas: &Canvas<'_>,
+    curves: &[Curve],
+) -> Result<(), Box<dyn Error>> {
+    let (across, down) = chart.plotting_area().get_pixel_range();
+    let origin = canvas.get_pixel_range();
+    let count = i32::try_from(curves.len())?.max(1);
+    let room = NAME_ROWS * (across.end - across.start) / count;
+    let longest = curves.iter().map(|curve| curve.label.chars().count()).max();
+    let width = legend::text_width(i32::try_from(longest.unwrap_or(0))?, 100).max(1);
+    let size = TICK_FONT.min(100.0 * f64::from(room) / f64::from(width));
+    let style = font(size).pos(Pos::new(HPos::Center, VPos::Center));
+    for (index, curve) in (0..).zip(curves) {
+        let x = across.start + (2 * index + 1) * (across.end - across.start) / (2 * count);
+        let y = down.end + NAME_ROW * (index % NAME_ROWS) + NAME_ROW * 3 / 4;
+        let place = (x - origin.0.start, y - origin.1.start);
+        canvas.draw_text(&curve.label, &style, place)?;
+    }
     Ok(())
 }
 
@@ -141,13 +210,20 @@ fn draw_curve(
             Dash::Dashed { length, gap } => chart
                 .plotting_area()
                 .draw(&DashedPathElement::new(part, length, gap, style))?,
-            Dash::None => {}
+            Dash::None | Dash::Filled => {}
         }
+    }
+    if look.dash == Dash::Filled {
+        let area = Polygon::new(curve.points.clone(), look.colour.filled());
+        chart.plotting_area().draw(&area)?;
+        return Ok(());
     }
     // Without a line markers are all that there is.
     let every = match look.dash {
         Dash::None => 1,
-        Dash::Solid | Dash::Dashed { .. } => curve.points.len().div_ceil(MOST_MARKERS).max(1),
+        Dash::Solid | Dash::Dashed { .. } | Dash::Filled => {
+            curve.points.len().div_ceil(MOST_MARKERS).max(1)
+        }
     };
     let marked = curve.points.iter().step_by(every);
     for &point in marked.filter(|&&point| window.contains(point)) {
@@ -176,6 +252,10 @@ fn draw_legend(
             Dash::Solid => canvas.draw(&PathElement::new(sample, style))?,
             Dash::Dashed { length, gap } => {
                 canvas.draw(&DashedPathElement::new(sample, length, gap, style))?;
+            }
+            Dash::Filled => {
+                let corners = [(x, middle - 12), (end, middle + 12)];
+                canvas.draw(&Rectangle::new(corners, look.colour.filled()))?;
             }
             Dash::None => {}
         }

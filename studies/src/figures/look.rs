@@ -13,7 +13,7 @@ pub(super) struct Look {
 }
 
 /// Lengths in pixels.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Dash {
     Solid,
     Dashed {
@@ -22,6 +22,8 @@ pub(super) enum Dash {
     },
     /// Markers only.
     None,
+    /// The area that the line encloses.
+    Filled,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -76,9 +78,9 @@ const LONG: Dash = Dash::Dashed {
 const SHORT: Dash = Dash::Dashed { length: 10, gap: 8 };
 const DOTS: Dash = Dash::Dashed { length: 3, gap: 8 };
 
-/// The first look is the reference's; the colours are those of Okabe & Ito (2008), which
+/// The first look is the reference's, the last three are those of what is no scheme; the colours are those of Okabe & Ito (2008), which
 /// colour-blind readers can tell apart.
-const LOOKS: [Look; 17] = [
+const LOOKS: [Look; 18] = [
     look((0, 0, 0), Dash::Solid, Marker::None),
     look((0, 114, 178), Dash::Solid, Marker::Plus),
     look((213, 94, 0), LONG, Marker::Cross),
@@ -94,8 +96,9 @@ const LOOKS: [Look; 17] = [
     look((0, 60, 140), LONG, Marker::Square),
     look((160, 30, 30), SHORT, Marker::Diamond),
     look((40, 40, 40), DOTS, Marker::Plus),
-    look((150, 110, 200), SHORT, Marker::Square),
-    look((90, 130, 20), DOTS, Marker::Square),
+    look((200, 0, 80), Dash::Solid, Marker::Square),
+    look((40, 90, 220), LONG, Marker::Diamond),
+    look((120, 120, 120), SHORT, Marker::Triangle),
 ];
 
 const fn look((red, green, blue): (u8, u8, u8), dash: Dash, marker: Marker) -> Look {
@@ -109,6 +112,9 @@ const fn look((red, green, blue): (u8, u8, u8), dash: Dash, marker: Marker) -> L
 
 /// The look of a wide light band behind the curves.
 pub const BAND: usize = usize::MAX;
+
+/// The look of a light area that a curve goes around; all of it must be within the axes.
+pub const AREA: usize = usize::MAX - 1;
 
 const LIGHT_BAND: Look = Look {
     colour: RGBColor(215, 215, 215),
@@ -134,6 +140,12 @@ impl Look {
     pub(super) fn of(index: usize) -> Self {
         if index == BAND {
             return LIGHT_BAND;
+        }
+        if index == AREA {
+            return Self {
+                dash: Dash::Filled,
+                ..LIGHT_BAND
+            };
         }
         if index >= DOTTED {
             return Self {

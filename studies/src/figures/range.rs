@@ -14,7 +14,7 @@ const SPANS: f64 = 1.5;
 const MAGNITUDES: f64 = 1.0;
 
 /// Smallest span shown, as a share of the magnitude: rounding is not blown up to fill a picture.
-const LEAST_SPAN: f64 = 0.01;
+const LEAST_SPAN: f64 = 0.001;
 
 /// Empty margin on either side as a share of the span.
 const MARGIN: f64 = 0.05;
@@ -67,12 +67,12 @@ pub(super) fn equal_scales(
     aspect: f64,
 ) -> (Range<f64>, Range<f64>) {
     let (width, height) = (x.end - x.start, y.end - y.start);
-    let widened = |range: &Range<f64>, span: f64| {
-        let middle = f64::midpoint(range.start, range.end);
-        middle - 0.5 * span..middle + 0.5 * span
-    };
-    (
-        widened(x, width.max(aspect * height)),
-        widened(y, height.max(width / aspect)),
-    )
+    (widened(x, aspect * height), widened(y, width / aspect))
+}
+
+/// The range with the same middle and at least that span.
+pub(super) fn widened(range: &Range<f64>, span: f64) -> Range<f64> {
+    let middle = f64::midpoint(range.start, range.end);
+    let half = 0.5 * span.max(range.end - range.start);
+    middle - half..middle + half
 }

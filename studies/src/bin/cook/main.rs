@@ -38,12 +38,14 @@ use eem::kinematics::{Quad4, Quad8};
 mod membrane;
 
 use eem_studies::claims::{self, Claims};
+use eem_studies::comparison::look_beside_schemes;
 use eem_studies::deformed::{Picture, View};
+use eem_studies::figures::{Axes, Curve, Figure};
 use eem_studies::{command_line, output, table, terminal};
 use membrane::{Membrane, Row};
 
 const ABOUT: &str = "Cook's membrane: convergence with the mesh";
-const HINT: &str = "Add --out DIR for a CSV file and a picture.";
+const HINT: &str = "Add --out DIR for a CSV file and pictures.";
 
 /// Of the displacements that are known, m.
 const ACCURACY: f64 = 1e-8;
@@ -71,7 +73,7 @@ const COLUMNS: [&str; 5] = [
 /// What the example understands.
 #[derive(Clone, Debug, clap::Parser)]
 struct Options {
-    /// Directory for a CSV file and a picture; created when missing.
+    /// Directory for a CSV file and pictures; created when missing.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
@@ -106,11 +108,34 @@ fn run(options: &Options) -> Result<Claims, Box<dyn Error>> {
                 states,
             };
             picture.write_svg(&directory.join("membrane.svg"))?;
-            terminal::say(format_args!("Table and picture: {}", directory.display()));
+            convergence(&rows).write_svg(&directory.join("convergence.svg"))?;
+            terminal::say(format_args!("Table and pictures: {}", directory.display()));
         }
         None => terminal::say(HINT),
     }
     Ok(check(&rows))
+}
+
+/// The displacement of the corner over the number of nodes, a curve for each kind of cell.
+fn convergence(rows: &[Row]) -> Figure {
+    let curve = |(index, nodes_per_cell): (usize, usize)| {
+        let rows = rows.iter().map(|row| (row.nodes_per_cell, row.numbers()));
+        let rows = rows.filter(|(own, _)| *own == nodes_per_cell);
+        Curve {
+            label: format!("cells of {nodes_per_cell} nodes"),
+            points: rows.map(|(_, numbers)| (numbers[2], numbers[4])).collect(),
+            look: look_beside_schemes(index),
+            trusted: true,
+            decisive: usize::MAX,
+        }
+    };
+    Figure {
+        title: "Cook's membrane: convergence with the mesh".to_owned(),
+        x_label: "nodes of the mesh".to_owned(),
+        y_label: "upward displacement of the corner (m)".to_owned(),
+        curves: [4, 8].into_iter().enumerate().map(curve).collect(),
+        axes: Axes::LogarithmicAcross,
+    }
 }
 
 /// A row per mesh.

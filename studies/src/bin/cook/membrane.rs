@@ -103,6 +103,7 @@ impl<H: Shape<2>> Membrane<H> {
                 }
                 Ok(sum / count)
             })?,
+            marks: Vec::new(),
         };
         Ok((row, state))
     }

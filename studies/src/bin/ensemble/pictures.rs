@@ -8,7 +8,7 @@ use super::members::Sample;
 use super::pendulum::Spring;
 use super::report::{QUANTILES, quantile, real};
 use eem_studies::comparison;
-use eem_studies::figures::look::PLAIN;
+use eem_studies::figures::look::{AREA, PLAIN};
 use eem_studies::figures::{Axes, Curve, Figure};
 use eem_studies::output;
 
@@ -85,11 +85,10 @@ fn distribution(samples: &[Sample], end: f64) -> Figure {
     };
     Figure {
         title: format!("Mean temperature of the spring in the last quarter of {end} s"),
-        x_label: "scheme, in the order of the legend; box: 25 to 75 %, whiskers: 5 to 95 %"
-            .to_owned(),
+        x_label: "box: 25 to 75 % of the members, whiskers: 5 to 95 %".to_owned(),
         y_label: "temperature θ (K)".to_owned(),
         curves: samples.iter().enumerate().map(curve).collect(),
-        axes: Axes::Even,
+        axes: Axes::Named,
     }
 }
 
@@ -128,33 +127,35 @@ fn over_stiffness(springs: &[Spring], sample: &Sample, end: f64) -> Figure {
         })
         .collect();
     pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let labels = [
-        "5 % of the members are below",
-        "half of them",
-        "95 % of them",
-    ];
     let parts: Vec<&[(f64, f64)]> = pairs.chunks(pairs.len().div_ceil(PARTS).max(1)).collect();
-    let curve = |index: usize| {
+    let [low, middle, high] = QUANTILES.map(|share| {
         let point = |part: &&[(f64, f64)]| {
             let stiffness = part.iter().map(|pair| pair.0).sum::<f64>() / real(part.len());
             let mut temperatures: Vec<f64> = part.iter().map(|pair| pair.1).collect();
             temperatures.sort_by(f64::total_cmp);
-            Some((stiffness, quantile(&temperatures, QUANTILES[index])?))
+            Some((stiffness, quantile(&temperatures, share)?))
         };
-        let points: Vec<_> = parts.iter().filter_map(point).collect();
-        Curve {
-            label: labels[index].to_owned(),
-            look: comparison::look_beside_schemes(index),
-            trusted: true,
-            decisive: points.len(),
-            points,
-        }
+        parts.iter().filter_map(point).collect::<Vec<_>>()
+    });
+    let around = low.into_iter().chain(high.into_iter().rev()).collect();
+    let curve = |label: &str, points: Vec<(f64, f64)>, look| Curve {
+        label: label.to_owned(),
+        points,
+        look,
+        trusted: true,
+        decisive: usize::MAX,
     };
     Figure {
-        title: format!("Mean temperature in the last quarter of {end} s, by stiffness"),
+        title: format!(
+            "Mean temperature in the last quarter of {end} s, by stiffness ({})",
+            sample.scheme.name()
+        ),
         x_label: Spring::UNKNOWNS[STIFFNESS].label.to_owned(),
         y_label: "temperature θ (K)".to_owned(),
-        curves: (0..QUANTILES.len()).map(curve).collect(),
+        curves: vec![
+            curve("5 to 95 % of the members", around, AREA),
+            curve("half of them are below", middle, 0),
+        ],
         axes: Axes::Even,
     }
 }

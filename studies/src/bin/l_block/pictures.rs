@@ -3,8 +3,8 @@
 use std::error::Error;
 use std::path::Path;
 
-use eem_studies::comparison::over_time;
-use eem_studies::figures::{Curve, Figure};
+use eem_studies::comparison::with_differences;
+use eem_studies::figures::{self, Figure};
 use eem_studies::first_law;
 use eem_studies::record::Record;
 
@@ -13,51 +13,47 @@ type Points = Vec<(f64, f64)>;
 
 /// Writes all pictures.
 pub(crate) fn write(directory: &Path, runs: &[Record]) -> Result<(), Box<dyn Error>> {
-    let figures = [
+    let of = |what: &str, y_label: &str, points: fn(&Record) -> Points| {
+        with_differences(&format!("An L-shaped block: {what}"), y_label, runs, points)
+    };
+    let pictures = [
         (
             "energy_balance",
-            first_law::figure("An L-shaped block", runs),
+            vec![first_law::figure("An L-shaped block", runs)],
         ),
         (
             "kinetic_energy",
-            over_time(
-                "An L-shaped block: its kinetic energy",
-                "kinetic energy (J)",
-                runs,
-                |run| run.points("time", "kinetic"),
-            ),
+            of("its kinetic energy", "kinetic energy (J)", |run| {
+                run.points("time", "kinetic")
+            }),
         ),
         ("temperature_range", temperature_range(runs)),
         (
             "entropy",
-            over_time(
-                "An L-shaped block: the entropy that spreading heat makes",
+            of(
+                "the entropy that spreading heat makes",
                 "S − S₀ (J/K)",
-                runs,
                 entropy_changes,
             ),
         ),
     ];
-    for (name, figure) in figures {
-        figure.write_svg(&directory.join(format!("{name}.svg")))?;
+    for (name, figures) in pictures {
+        figures::write_stack(&figures, &directory.join(format!("{name}.svg")))?;
     }
     Ok(())
 }
 
-/// The warmest and the coldest point; both curves of a scheme look the same, and one is in the legend.
-fn temperature_range(runs: &[Record]) -> Figure {
-    let of = |name| move |run: &Record| run.points("time", name);
-    let label = "temperature (K)";
-    let title = "An L-shaped block: its warmest and its coldest point";
-    let mut warmest = over_time(title, label, runs, of("temperature_max"));
-    let coldest = over_time(title, label, runs, of("temperature_min"));
-    warmest
-        .curves
-        .extend(coldest.curves.into_iter().map(|curve| Curve {
-            label: String::new(),
-            ..curve
-        }));
-    warmest
+/// The warmest and the coldest point, and what the schemes differ by.
+fn temperature_range(runs: &[Record]) -> Vec<Figure> {
+    let of = |which: &str, column: &str| {
+        let title = format!("An L-shaped block: its {which} point");
+        with_differences(&title, "temperature (K)", runs, |run| {
+            run.points("time", column)
+        })
+    };
+    let mut all = of("warmest", "temperature_max");
+    all.extend(of("coldest", "temperature_min"));
+    all
 }
 
 /// S − S₀ (J/K) over time.

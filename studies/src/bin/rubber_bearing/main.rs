@@ -59,7 +59,12 @@ const ABOUT: &str = "A rubber bearing in an earthquake, which warms up and damps
 const HINT: &str = "Add --out DIR for a CSV file per scheme and pictures.";
 
 /// The schemes that are compared when none is asked for by its name.
-const COMPARED: [Scheme; 2] = [Scheme::EemTemperature, Scheme::EemEntropy];
+const COMPARED: [Scheme; 4] = [
+    Scheme::EemEntropy,
+    Scheme::EemTemperature,
+    Scheme::Midpoint,
+    Scheme::Trapezoidal,
+];
 
 /// Columns of the CSV files.
 const COLUMNS: [&str; 9] = [

@@ -4,21 +4,22 @@ use std::error::Error;
 use std::path::Path;
 
 use super::cycles;
-use eem_studies::comparison::{look_beside_schemes, over_time};
-use eem_studies::figures::{Axes, Curve, Figure};
+use eem_studies::comparison::{look_beside_schemes, with_differences};
+use eem_studies::figures::look::PLAIN;
+use eem_studies::figures::{self, Axes, Curve, Figure};
 use eem_studies::first_law;
 use eem_studies::record::Record;
 
 /// Writes all pictures; the first of the runs is the one shown where there is room for one.
 pub(crate) fn write(directory: &Path, runs: &[Record]) -> Result<(), Box<dyn Error>> {
-    let mut figures = vec![
+    let mut pictures = vec![
         (
             "energy_balance",
-            first_law::figure("A rubber bearing", runs),
+            vec![first_law::figure("A rubber bearing", runs)],
         ),
         (
             "temperature",
-            over_time(
+            with_differences(
                 "A rubber bearing: its warmest point",
                 "temperature (K)",
                 runs,
@@ -27,11 +28,11 @@ pub(crate) fn write(directory: &Path, runs: &[Record]) -> Result<(), Box<dyn Err
         ),
     ];
     if let Some(run) = runs.first().filter(|run| cycles::all(run).len() > 1) {
-        figures.push(("cycles", loops(run)));
-        figures.push(("damping", damping(runs)));
+        pictures.push(("cycles", vec![loops(run)]));
+        pictures.push(("damping", damping(runs)));
     }
-    for (name, figure) in figures {
-        figure.write_svg(&directory.join(format!("{name}.svg")))?;
+    for (name, figures) in pictures {
+        figures::write_stack(&figures, &directory.join(format!("{name}.svg")))?;
     }
     Ok(())
 }
@@ -53,13 +54,13 @@ fn loops(run: &Record) -> Figure {
                 .iter()
                 .map(|(x, y)| (*x, 1e-3 * y))
                 .collect(),
-            look: look_beside_schemes(index),
+            look: PLAIN + look_beside_schemes(index),
             trusted: true,
             decisive: usize::MAX,
         })
     });
     Figure {
-        title: "A rubber bearing: warm rubber damps less".to_owned(),
+        title: format!("A rubber bearing: warm rubber damps less ({})", run.scheme),
         x_label: "displacement of the plate over height".to_owned(),
         y_label: "mean shear stress (kPa)".to_owned(),
         curves: curves.collect(),
@@ -67,17 +68,24 @@ fn loops(run: &Record) -> Figure {
     }
 }
 
-/// What the plate does in each cycle.
-fn damping(runs: &[Record]) -> Figure {
-    over_time(
-        "A rubber bearing: the work of each cycle",
-        "work (J)",
-        runs,
-        |run| {
-            let all = cycles::all(run);
-            all.iter()
-                .map(|cycle| (run.time(cycle.rows[1]), cycle.work))
-                .collect()
-        },
-    )
+/// What the plate does in each cycle, of which a share is what the axis shows.
+fn damping(runs: &[Record]) -> Vec<Figure> {
+    let work = |run: &Record| {
+        let work = cycles::all(run).into_iter().map(|cycle| 1e-3 * cycle.work);
+        (3_u32..).map(f64::from).zip(work).collect()
+    };
+    let title = "A rubber bearing: the work of the plate in each cycle";
+    let mut figures = with_differences(title, "work (kJ)", runs, work);
+    for figure in &mut figures {
+        "cycle".clone_into(&mut figure.x_label);
+        figure.axes = Axes::Counted;
+    }
+    figures[0].curves.push(Curve {
+        label: String::new(),
+        points: vec![(3.0, 0.0)],
+        look: PLAIN,
+        trusted: true,
+        decisive: 1,
+    });
+    figures
 }

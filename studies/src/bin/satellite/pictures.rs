@@ -4,13 +4,13 @@ use std::error::Error;
 use std::path::Path;
 
 use super::ATTITUDE;
-use eem_studies::comparison::over_time;
-use eem_studies::figures::{Curve, Figure};
+use eem_studies::comparison;
+use eem_studies::figures::{self, Figure};
 use eem_studies::first_law;
 use eem_studies::record::Record;
 
-/// The stiffeners that are drawn: one above and one below a panel.
-const DRAWN: [&str; 2] = ["theta_1", "theta_2"];
+/// The stiffeners that are drawn: two of the right panel, one above the other.
+const DRAWN: [(&str, &str); 2] = [("theta_2", "above"), ("theta_1", "below")];
 
 /// Beyond which energy (J) nothing is drawn: what follows is no motion of a satellite any more.
 const MOST_ENERGY: f64 = 40.0;
@@ -29,47 +29,47 @@ pub(crate) fn write(directory: &Path, runs: &[Record]) -> Result<(), Box<dyn Err
         ),
         (
             "angular_momentum",
-            over_time(
-                "A satellite: its angular momentum",
-                "|J| (kg m²/s)",
-                runs,
-                |run| shown(run, run.norms("angular_momentum_")),
-            ),
+            over_time("its angular momentum", "|J| (kg m²/s)", runs, |run| {
+                run.norms("angular_momentum_")
+            }),
         ),
-        ("temperatures", temperatures(runs)),
     ];
     for (name, figure) in figures {
         figure.write_svg(&directory.join(format!("{name}.svg")))?;
     }
-    Ok(())
+    figures::write_stack(&temperatures(runs), &directory.join("temperatures.svg"))
 }
 
 /// A column over time.
 fn history(what: &str, y_label: &str, runs: &[Record], column: &str) -> Figure {
-    let title = format!("A satellite: {what}");
-    over_time(&title, y_label, runs, |run| {
-        shown(run, run.points("time", column))
+    over_time(what, y_label, runs, |run| run.points("time", column))
+}
+
+/// Curves over time that end where the energy gets beyond everything, which the legend says.
+fn over_time(
+    what: &str,
+    y_label: &str,
+    runs: &[Record],
+    points: impl Fn(&Record) -> Vec<(f64, f64)>,
+) -> Figure {
+    let mut figure = comparison::over_time(&format!("A satellite: {what}"), y_label, runs, points);
+    for (curve, run) in figure.curves.iter_mut().zip(runs) {
+        let energy = run.column("energy").unwrap_or_default();
+        let is_beyond = |&energy: &f64| energy > MOST_ENERGY;
+        if let Some(row) = energy.iter().position(is_beyond) {
+            curve.points.truncate(row);
+            let time = run.time(row);
+            let label = &curve.label;
+            curve.label = format!("{label}, energy above {MOST_ENERGY} J from {time:.1} s");
+        }
+    }
+    figure
+}
+
+/// A picture for each of two stiffeners.
+fn temperatures(runs: &[Record]) -> [Figure; 2] {
+    DRAWN.map(|(column, place)| {
+        let what = format!("temperature of a stiffener {place} the right panel");
+        history(&what, "temperature (K)", runs, column)
     })
-}
-
-/// What is before the energy is beyond everything.
-fn shown(run: &Record, mut points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
-    let energy = run.column("energy").unwrap_or_default();
-    let sound = energy.iter().take_while(|&&energy| energy <= MOST_ENERGY);
-    points.truncate(sound.count());
-    points
-}
-
-/// Two stiffeners of a panel; both curves of a scheme look the same, and one is in the legend.
-fn temperatures(runs: &[Record]) -> Figure {
-    let label = "temperature (K)";
-    let [mut upper, lower] =
-        DRAWN.map(|name| history("two stiffeners of a panel", label, runs, name));
-    upper
-        .curves
-        .extend(lower.curves.into_iter().map(|curve| Curve {
-            label: String::new(),
-            ..curve
-        }));
-    upper
 }

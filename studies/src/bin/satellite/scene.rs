@@ -87,6 +87,8 @@ pub(crate) struct Satellite {
     pub(crate) body: Body<Hex8, 3>,
     pub(crate) panels: [Body<Hex8, 3>; 2],
     pub(crate) stiffeners: Vec<Element>,
+    /// Names and nodes of what has no faces.
+    pub(crate) marks: Vec<(&'static str, Vec<Node>)>,
     /// Two nodes of the body, one behind the other along x.
     pub(crate) line: [Node; 2],
 }
@@ -100,7 +102,13 @@ pub(crate) fn satellite(axis: Axis, stops: bool) -> Result<Satellite, Box<dyn Er
     let left = right.mapped(|[x, y, z]| [-x, -y, z])?;
     let bulk = Bulk::new(PANEL_DENSITY).joined_to(&body, NEAR);
     let panels = [right, left].map(|mesh| scene.solid(PANEL, &mesh, &bulk));
-    let stiffeners = stiffen(&mut scene, &body, &panels)?;
+    let mut marks = Vec::new();
+    let stiffeners = stiffen(&mut scene, &body, &panels, &mut marks)?;
+    for x in [-HALF, HALF] {
+        for y in [-HALF, 0.0, HALF] {
+            marks.push(("hinge", vec![body.node_at([x, y, 0.0], 0.0)?]));
+        }
+    }
     for side in [-HALF, HALF] {
         // Both push along x, to opposite sides: their couple turns about the positive axis.
         let end = match axis {
@@ -110,6 +118,8 @@ pub(crate) fn satellite(axis: Axis, stops: bool) -> Result<Satellite, Box<dyn Er
         let node = |x: f64| body.node_at(axis.beside(x, side), 0.0);
         let line = [node(-end)?, node(end)?];
         scene.rocket(node(0.0)?, line, move |t| thrust(t, stops));
+        marks.push(("rocket, first pushes to the dot", vec![node(0.0)?, line[1]]));
+        marks.push(("rocket, first pushes to the dot", vec![line[1]]));
     }
     let line = [
         body.node_at(axis.beside(-HALF, HALF), 0.0)?,
@@ -120,6 +130,7 @@ pub(crate) fn satellite(axis: Axis, stops: bool) -> Result<Satellite, Box<dyn Er
         body,
         panels,
         stiffeners,
+        marks,
         line,
     })
 }
@@ -136,6 +147,7 @@ fn stiffen(
     scene: &mut Scene<3>,
     body: &Body<Hex8, 3>,
     panels: &[Body<Hex8, 3>; 2],
+    marks: &mut Vec<(&'static str, Vec<Node>)>,
 ) -> Result<Vec<Element>, eem::MeshError> {
     let surroundings = scene.reservoir(TEMPERATURE);
     let mut stiffeners = Vec::new();
@@ -150,6 +162,7 @@ fn stiffen(
                 scene.set_temperature(stiffener, TEMPERATURE);
                 scene.conduct(stiffener, surroundings, CONDUCTANCE);
                 stiffeners.push(stiffener);
+                marks.push(("stiffener", ends.to_vec()));
             }
         }
     }

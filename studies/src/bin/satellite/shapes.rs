@@ -7,28 +7,40 @@ use eem::prelude::*;
 
 use super::Case;
 use super::scene::satellite;
-use eem_studies::deformed::{self, Picture, View};
+use eem_studies::deformed::{self, Mark, Picture, State, View};
 use eem_studies::points;
 use eem_studies::time_grid::TimeGrid;
 
 /// Times of the states, s, as far as the run has them.
 const TIMES: [f64; 6] = [0.0, 2.0, 5.0, 15.0, 30.0, 60.0];
 
+/// What it is run with.
+const SCHEME: Scheme = Scheme::EemEntropy;
+
 /// Runs the satellite once more and draws it.
 pub(crate) fn write(directory: &Path, case: Case, grid: TimeGrid) -> Result<(), Box<dyn Error>> {
     let satellite = satellite(case.axis, case.stops)?;
-    let mut run = Simulation::new(satellite.scene, Scheme::EemEntropy, grid.step)?;
+    let mut run = Simulation::new(satellite.scene, SCHEME, grid.step)?;
     let states = deformed::states(&mut run, &TIMES, grid.end(), |run| {
         let strain = |points: &[Element]| mean_strain(run, points);
         let mut patches = deformed::patches(run, &satellite.body, strain)?;
         for panel in &satellite.panels {
             patches.extend(deformed::patches(run, panel, strain)?);
         }
-        Ok(patches)
+        let marks = satellite.marks.iter();
+        let marks = marks.map(|(name, nodes)| {
+            let places = deformed::places(run, nodes.iter().copied())?;
+            Ok(Mark { name, places })
+        });
+        Ok(State {
+            patches,
+            marks: marks.collect::<Result<_, SceneError>>()?,
+            ..State::default()
+        })
     })?;
     let picture = Picture {
-        title: "A satellite: its shape, and the mean strain of each cell".to_owned(),
-        quantity: "strain √(G : G)".to_owned(),
+        title: format!("A satellite ({SCHEME}): strain of each cell"),
+        quantity: "mean strain √(G : G)".to_owned(),
         view: View::Oblique(2),
         states,
     };

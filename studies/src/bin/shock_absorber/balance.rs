@@ -49,7 +49,7 @@ fn row(run: &Record) -> [String; 7] {
         run.scheme.clone(),
         table::last(run, "work", |work| format!("{work:.3}")),
         table::last(run, "reservoir_heat", |heat| format!("{heat:.3}")),
-        table::scientific(balance_defect(run)),
+        table::scientific(defect(run)),
         table::scientific(figures.entropy_increment),
         table::cell(figures.newton_iterations, |mean| format!("{mean:.2}")),
         table::cell(time, |time| format!("{:.1}", 1e6 * time)),
@@ -57,7 +57,7 @@ fn row(run: &Record) -> [String; 7] {
 }
 
 /// max |B − B₀|, J.
-fn balance_defect(run: &Record) -> Option<f64> {
+pub(crate) fn defect(run: &Record) -> Option<f64> {
     let balance = run.column("balance")?;
     largest(balance.iter().map(|value| (value - balance[0]).abs()))
 }
@@ -77,7 +77,7 @@ pub(crate) fn check(run: &Record, claims: &mut Claims) {
     let work = work.unwrap_or_default().abs();
     claims.at_most(
         &format!("{scheme}: the defect of the balance (J)"),
-        balance_defect(run),
+        defect(run),
         BALANCE_DEFECT * heat + STEP_DEFECT * steps.sqrt() + WORK_DEFECT * work,
     );
     claims.at_least(

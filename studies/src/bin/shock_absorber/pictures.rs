@@ -3,17 +3,16 @@
 use std::error::Error;
 use std::path::Path;
 
+use super::balance;
 use super::car::{CELSIUS, CLEARANCE, RADIUS, TRACK};
 use super::ride::Lap;
 use eem_studies::comparison;
+use eem_studies::figures::look::BOLD;
 use eem_studies::figures::{Axes, Curve, Figure};
 use eem_studies::record::Record;
 
 /// The part of a lap that is shown from close by, m.
 const STRETCH: [f64; 2] = [20.0, 80.0];
-
-/// The least defect (J) that is drawn; it stands for none at all.
-const LEAST_DEFECT: f64 = 1e-12;
 
 /// A time and a value per state, or a lap and a value.
 type Points = Vec<(f64, f64)>;
@@ -91,13 +90,15 @@ fn cold_and_warm(run: &Record, name: &str, unit: f64, label: &str) -> Figure {
 /// What warming up does to the ride.
 fn ride_by_lap(laps: [&[Lap]; 2]) -> Figure {
     figure(
-        "The ride, lap by lap, relative to the same car with cold oil",
-        ["middle of the lap (s)", "root mean square, relative"],
+        "The ride in each lap, compared with that of the same car whose oil stays cold",
+        ["lap", "root mean square, share of that with cold oil (%)"],
         vec![
+            ("cold oil", relative([laps[1], laps[1]], |lap| lap.travel)),
             ("body acceleration", relative(laps, |lap| lap.acceleration)),
             ("suspension travel", relative(laps, |lap| lap.travel)),
         ],
     )
+    .with(Axes::Counted)
 }
 
 /// Where the work of the road goes.
@@ -115,29 +116,26 @@ fn energy_ledger(run: &Record) -> Figure {
     )
 }
 
-/// What each scheme makes of the first law.
+/// What each scheme makes of the first law: a line at the largest defect.
 fn balance_by_scheme(runs: &[Record]) -> Figure {
-    let curve = |run: &'_ Record| {
-        let changes = since_start(run, "balance", 1.0).into_iter().skip(1);
+    let curve = |(place, run): (u32, &Record)| {
+        let largest = balance::defect(run).filter(|&defect| defect > 0.0);
+        let ends = [-0.35, 0.35].map(|side| f64::from(place) + side);
+        let points = largest.map(|largest| ends.map(|x| (x, largest)).to_vec());
         Curve {
             label: run.scheme.clone(),
-            points: changes
-                .scan(LEAST_DEFECT, |largest, (time, change)| {
-                    *largest = largest.max(change.abs());
-                    Some((time, *largest))
-                })
-                .collect(),
-            look: comparison::look(&run.scheme),
+            points: points.unwrap_or_default(),
+            look: BOLD + comparison::look(&run.scheme),
             trusted: true,
             decisive: usize::MAX,
         }
     };
     Figure {
         title: "What each scheme makes of the first law".to_owned(),
-        x_label: "time (s)".to_owned(),
-        y_label: "largest |Δ(E − work − heat)| so far (J)".to_owned(),
-        curves: runs.iter().map(curve).collect(),
-        axes: Axes::Logarithmic,
+        x_label: "scheme".to_owned(),
+        y_label: "largest |Δ(E − work − heat)| of the drive (J)".to_owned(),
+        curves: (1..).zip(runs).map(curve).collect(),
+        axes: Axes::NamedLogarithmic,
     }
 }
 
@@ -173,11 +171,11 @@ fn values(run: &Record, name: &str, convert: impl Fn(f64) -> f64) -> Points {
     points.map(|(t, value)| (t, convert(value))).collect()
 }
 
-/// A figure of the first laps as a share of that of the second ones, over time.
+/// A figure of the first laps as a share of that of the second ones, %, over the number of the lap.
 fn relative([own, other]: [&[Lap]; 2], figure: fn(&Lap) -> f64) -> Points {
-    let shares = own.iter().zip(other).map(|(a, b)| figure(a) / figure(b));
-    let middle = |lap: i32| (f64::from(lap) + 0.5) * TRACK.lap_time();
-    (0..).map(middle).zip(shares).collect()
+    let shares = own.iter().zip(other);
+    let shares = shares.map(|(a, b)| 100.0 * figure(a) / figure(b));
+    (1_u32..).map(f64::from).zip(shares).collect()
 }
 
 /// The part [`STRETCH`] of the last lap that reached its end; all of it in a shorter drive.
