@@ -1,6 +1,7 @@
 //! Elements: how arms measure a deformation, what follows from the measures in a step, and groups of
 //! elements with their points.
 
+pub(crate) mod balances;
 pub(crate) mod conduction;
 pub(crate) mod conjugates;
 pub(crate) mod error;

@@ -37,30 +37,6 @@ pub(crate) struct Tally<S: Real> {
     pub(crate) is_balanced: S::Mask,
 }
 
-/// The entropy that an element has received in a step, and the magnitude of its terms, J/K. Exchange and production
-/// of a path cancel where the element is much warmer than its partner.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Received<S> {
-    pub(crate) entropy: S,
-    pub(crate) terms: S,
-}
-
-impl<S: Real> Received<S> {
-    /// A first term.
-    #[inline]
-    pub(crate) fn new(entropy: S) -> Self {
-        let terms = entropy.abs();
-        Self { entropy, terms }
-    }
-
-    /// Another term.
-    #[inline]
-    pub(crate) fn add(&mut self, entropy: S) {
-        self.entropy += entropy;
-        self.terms += entropy.abs();
-    }
-}
-
 impl<S: Real> Tally<S> {
     /// Of nothing.
     pub(crate) fn new(care: Care) -> Self {

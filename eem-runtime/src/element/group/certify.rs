@@ -4,11 +4,12 @@ use super::arms::measures_in;
 use super::member::Member;
 use super::point::Point;
 use super::site::Contact;
+use crate::element::balances::Received;
 use crate::element::conjugates::ElementScheme;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::state::Energy;
-use crate::element::tally::{Care, Received, Tally};
+use crate::element::tally::{Care, Tally};
 use crate::material::free_energy::FreeEnergy;
 use crate::number::scalar::Real;
 

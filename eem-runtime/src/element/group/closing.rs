@@ -13,14 +13,15 @@ use super::member::Member;
 use super::point::Point;
 use super::pose::Pose;
 use super::site::Contact;
-use crate::element::conduction::{Exchange, Partner};
+use crate::element::balances::{Balances, Received, reservoir_correction};
+use crate::element::conduction::Partner;
 use crate::element::conjugates::{ElementScheme, Placement};
 use crate::element::group::element_group::ElementGroup;
 use crate::element::group::view::{Along, StepView, Trial};
 use crate::element::impulse::Impulses;
 use crate::element::kinematics::{Arms, Ends, Kinematics, Weights};
 use crate::element::state::State;
-use crate::element::tally::{Received, Tally};
+use crate::element::tally::Tally;
 use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
 
@@ -192,8 +193,8 @@ where
         spread::<K, S, D>(&pose.pull(&self.kinematics, at, &self.pulls()))
     }
 
-    /// Books the increments of the internal variables and of the reservoirs' entropies; returns the
-    /// entropy that dashpots and conduction gave the element, J/K.
+    /// Books the increments of the internal variables and of the reservoirs' entropies; returns what dashpots and
+    /// conduction gave the element.
     #[inline]
     pub(super) fn book(
         &self,
@@ -217,90 +218,70 @@ where
             }
         }
         tally.turn_over(dissipated);
+        let mut received = Received::none();
         let Some(slot) = slots.thermal else {
             if M::DASHPOTS + Self::DRAGS > 0 {
                 next.dissipated.add(dissipated + h * self.old_dissipation());
             }
-            return Received::new(S::zero());
+            return received;
         };
-        self.book_heat(view, (slot, dissipated), (contact, trial), next, tally)
+        received.add(dissipated * per_theta);
+        received.heat = dissipated;
+        self.book_heat(
+            view,
+            slot,
+            (contact, trial),
+            &mut Balances { next, tally },
+            received,
+        )
     }
 
-    /// The same of the entropy of an element whose dashpots give it so much heat, J.
+    /// The same of the entropy of an element that has received so much from its dashpots.
     #[inline]
     fn book_heat(
         &self,
         view: &StepView<'_, S>,
-        (slot, dissipated): (usize, S),
+        slot: usize,
         (contact, trial): (Option<&Contact<K, S, D>>, &Trial<S, D>),
-        next: &mut State<S>,
-        tally: &mut Tally<S>,
+        balances: &mut Balances<'_, S>,
+        mut received: Received<S>,
     ) -> Received<S> {
         let h = view.thermal_step();
         let share = S::from_f64(self.scheme.implicit()) * h;
-        let mut received = Received::new(dissipated * self.per_temperature());
         if let [at_point] = self.single.as_ref()
             && self.scheme.implicit() < 1.0
         {
             received.add(h * at_point.old_rates[Self::TEMPERATURE]);
         }
         let old = &view.state.entropies;
-        next.entropies.advance(slot, old, received.entropy);
-        let mut heat = dissipated;
+        (balances.next.entropies).advance(slot, old, received.entropy);
         if let Some(contact) = contact {
             for partner in &contact.partners {
                 let other = partner.slot as usize;
                 let path = (trial.seen).exchange(share * partner.conductance, slot, other);
-                next.entropies.add(slot, path.entropy);
-                received.add(path.entropy);
-                heat += path.heat;
-                // The production is booked at one end, after the exchange, which both ends share.
-                if slot > other {
-                    let production = path.production();
-                    next.entropies.add(slot, production);
-                    received.add(production);
-                    tally.produce(production);
-                    tally.turn_over(path.heat);
-                }
+                balances.conduct([slot, other], &path, &mut received);
             }
         }
         if self.meets_reservoirs {
-            self.book_reservoirs(view, (slot, heat), (next, &mut received), tally);
+            let theta = self.temperature();
+            let correction = self.reservoir_correction(view, slot, received.heat);
+            let share = (share, [theta, correction]);
+            balances.exchange_with_reservoirs(view.conduction, slot, share, &mut received);
+            if self.scheme.implicit() < 1.0 {
+                self.book_old_flow(view, slot, balances.next);
+            }
         }
         received
     }
 
-    /// Books what flows from the reservoirs to an element that receives `heat` otherwise, J.
-    fn book_reservoirs(
-        &self,
-        view: &StepView<'_, S>,
-        (slot, heat): (usize, S),
-        (next, received): (&mut State<S>, &mut Received<S>),
-        tally: &mut Tally<S>,
-    ) {
-        let h = view.thermal_step();
-        let share = S::from_f64(self.scheme.implicit()) * h;
-        let theta = self.temperature();
-        let correction = self.reservoir_correction(view, slot, heat);
+    /// The flow of the old state from reservoirs, which the old rates have given to the element.
+    fn book_old_flow(&self, view: &StepView<'_, S>, slot: usize, next: &mut State<S>) {
+        let h = (S::one() - S::from_f64(self.scheme.implicit())) * view.thermal_step();
         for link in view.conduction.links(slot) {
-            let Partner::Reservoir(index) = link.partner else {
-                continue;
-            };
-            let theta_r = view.conduction.reservoirs[index];
-            let drop = (theta_r - theta) + correction;
-            let path = Exchange::from_reservoir(share * link.conductance, drop, theta_r);
-            next.reservoir_entropies.add(index, -path.entropy);
-            next.entropies.add(slot, path.entropy);
-            let production = path.production();
-            next.entropies.add(slot, production);
-            tally.produce(production);
-            tally.turn_over(path.heat);
-            received.add(path.entropy);
-            received.add(production);
-            if self.scheme.implicit() < 1.0 {
-                // The flow of the old state, which the old rates have given to the element.
-                let old = theta_r - view.state.temperatures[slot];
-                let flow = (h - share) * link.conductance * old;
+            if let Partner::Reservoir(index) = link.partner {
+                let theta_r = view.conduction.reservoirs[index];
+                let drop = theta_r - view.state.temperatures[slot];
+                let flow = h * link.conductance * drop;
                 next.reservoir_entropies.add(index, -flow / theta_r);
             }
         }
@@ -316,31 +297,15 @@ where
         }
     }
 
-    /// What the differences `θ_r − θ*` lack for the heat that the entropy of the element has taken, K.
-    ///
-    /// ```text
-    /// Σ h κ (θ_r − θ* + correction) = θ* Δs − heat
-    /// ```
-    ///
-    /// Rounding of θ* changes the left-hand side by `hκ ε θ`. Rounding changes the right-hand side by
-    /// `ε (cθ + |θ* Δs| + |heat|)`: Δs is between two temperatures, each of which is rounded. Heat follows from
-    /// the side that rounding changes less.
-    ///
-    /// The entropy `u + P` that the element books is `Q/(θ* − correction)`, so that a correction changes the
-    /// energy by `Q correction/θ*`. Where it is made, it is no more than roundings of θ*, and that no more than
-    /// roundings of Q.
+    /// See [`reservoir_correction`]; zero unless the scheme is exact and the temperature its own.
     fn reservoir_correction(&self, view: &StepView<'_, S>, slot: usize, heat: S) -> S {
         if !C::EXACT || self.is_prescribed {
             return S::zero();
         }
-        let h = view.thermal_step();
         let theta = self.temperature();
         let flow = view.conduction.reservoir_flow(slot, theta);
-        let conducted = h * flow.conductance;
         let taken = theta * self.response[Self::ENTROPY];
         let stored = theta * view.state.energies[self.element.index()].heat_capacity;
-        let is_stiff = (stored + taken.abs() + heat.abs()).less(conducted * theta);
-        let correction = ((taken - heat) - h * flow.heat) / conducted;
-        S::select(is_stiff, correction, S::zero())
+        reservoir_correction(&flow, [view.thermal_step(), theta], [taken, stored, heat])
     }
 }

@@ -143,8 +143,7 @@ where
         };
         let change = entropy - view.state.entropies.values()[slot];
         let given = change - received;
-        state.heat.add(self.temperature() * given);
-        state.thermostat_entropy.add(-given);
+        state.book_thermostat(self.temperature() * given, given);
     }
 
     fn check_stable(&self, caloric: &Caloric<S>, theta: S) -> Result<(), StateError> {

@@ -32,7 +32,7 @@ where
         let forces = self.amplitude(rule, tally.care);
         tally.force(forces);
         tally.exchange(self.impulse(rule, view.step));
-        for stage in 0..rule.stages() {
+        for (stage, received) in booked.iter().enumerate().take(rule.stages()) {
             for k in 0..M::DASHPOTS {
                 let index = M::MEASURES + k;
                 let eta = self.own.viscosities[stage].0[k];
@@ -51,8 +51,8 @@ where
             );
             if self.prescribed.is_none() {
                 let taken = weight * theta * self.own.rates[stage][last];
-                let lacking = taken - theta * booked.received[stage];
-                let terms = theta * booked.terms[stage];
+                let lacking = taken - theta * received.entropy;
+                let terms = theta * received.terms;
                 tally.balance(lacking, taken.abs() + terms + energy + forces);
             }
             if self.site.contacts.is_some()

@@ -9,7 +9,7 @@
 //! [`conduction`](crate::element::conduction).
 
 use super::ProjectedMember;
-use crate::element::conduction::{Exchange, Partner};
+use crate::element::balances::{Balances, Received, reservoir_correction};
 use crate::element::group::stages::member::StatePoint;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::Kinematics;
@@ -17,26 +17,10 @@ use crate::element::state::State;
 use crate::element::tableau::{MOST_STAGES, Tableau};
 use crate::element::tally::Tally;
 use crate::material::free_energy::{Array, FreeEnergy};
-use crate::number::scalar::{Mask, Real};
+use crate::number::scalar::Real;
 
-/// What a step has given to an element.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Booked<S> {
-    /// Entropy, stage by stage, J/K.
-    pub(super) received: [S; MOST_STAGES],
-    /// The magnitude of its terms, which cancel where a reservoir is far colder than the element, J/K.
-    pub(super) terms: [S; MOST_STAGES],
-    /// Heat of its dashpots, and with it that of paths to other elements, J.
-    pub(super) heat: [S; MOST_STAGES],
-}
-
-impl<S: Real> Booked<S> {
-    /// Entropy that an element receives at a stage, J/K.
-    fn receive(&mut self, stage: usize, entropy: S) {
-        self.received[stage] += entropy;
-        self.terms[stage] += entropy.abs();
-    }
-}
+/// What a step has given to an element, stage by stage.
+pub(super) type Booked<S> = [Received<S>; MOST_STAGES];
 
 impl<S, M, K, const D: usize> ProjectedMember<S, M, K, D>
 where
@@ -55,21 +39,21 @@ where
     ) -> Booked<S> {
         let mut booked = self.book_dashpots(point, rule, view, next, tally);
         let Some(slot) = point.slots().thermal else {
-            let heat = booked.heat.iter();
-            let dissipated = heat.fold(S::zero(), |sum, &heat| sum + heat);
             if M::DASHPOTS > 0 {
-                next.dissipated.add(dissipated);
+                next.dissipated.add(sum(&booked, |received| received.heat));
             }
             return booked;
         };
-        let received = booked.received.iter();
-        let produced = received.fold(S::zero(), |sum, &entropy| sum + entropy);
-        next.entropies
-            .advance(slot, &view.state.entropies, produced);
-        for (stage, &weight) in rule.weights.iter().enumerate() {
+        let produced = sum(&booked, |received| received.entropy);
+        let mut balances = Balances { next, tally };
+        (balances.next.entropies).advance(slot, &view.state.entropies, produced);
+        for ((stage, &weight), received) in rule.weights.iter().enumerate().zip(&mut booked) {
             let share = view.step * S::from_f64(weight);
-            self.book_paths((stage, share), slot, trial, (next, tally), &mut booked);
-            self.book_reservoirs((stage, share), slot, view, (next, tally), &mut booked);
+            self.book_paths((stage, share), slot, trial, &mut balances, received);
+            let theta = self.mean_temperature(stage);
+            let correction = self.reservoir_correction((stage, share), slot, view, received.heat);
+            let share = (share, [theta, correction]);
+            balances.exchange_with_reservoirs(view.conduction, slot, share, received);
         }
         booked
     }
@@ -83,12 +67,7 @@ where
         next: &mut State<S>,
         tally: &mut Tally<S>,
     ) -> Booked<S> {
-        let zeros = [S::zero(); MOST_STAGES];
-        let mut booked = Booked {
-            received: zeros,
-            terms: zeros,
-            heat: zeros,
-        };
+        let mut booked = [Received::none(); MOST_STAGES];
         let slots = point.slots();
         let creep = self.increments(rule.weights);
         for k in 0..M::DASHPOTS {
@@ -100,8 +79,8 @@ where
                 let drag = self.own.viscosities[stage].0[k] * view.per_step * rate;
                 let heat = S::from_f64(weight) * (drag * rate);
                 let entropy = heat / self.temperature_or_one(stage);
-                booked.heat[stage] += heat;
-                booked.receive(stage, entropy);
+                booked[stage].heat += heat;
+                booked[stage].add(entropy);
                 tally.produce(entropy);
                 tally.turn_over(heat);
             }
@@ -115,8 +94,8 @@ where
         (stage, share): (usize, S),
         slot: usize,
         trial: &Trial<S, D>,
-        (next, tally): (&mut State<S>, &mut Tally<S>),
-        booked: &mut Booked<S>,
+        balances: &mut Balances<'_, S>,
+        received: &mut Received<S>,
     ) {
         let Some(contacts) = &self.site.contacts else {
             return;
@@ -125,71 +104,26 @@ where
             let other = partner.slot as usize;
             let [own, far] = [slot, other].map(|slot| trial.seen_of_set(stage, slot));
             let path = trial.seen.exchange(share * partner.conductance, own, far);
-            next.entropies.add(slot, path.entropy);
-            booked.receive(stage, path.entropy);
-            booked.heat[stage] += path.heat;
-            // The production is booked at one end, after the exchange, which both ends share.
-            if slot > other {
-                let production = path.production();
-                next.entropies.add(slot, production);
-                booked.receive(stage, production);
-                tally.produce(production);
-                tally.turn_over(path.heat);
-            }
+            balances.conduct([slot, other], &path, received);
         }
     }
 
-    /// Books what flows from reservoirs at a stage, during its share of the step, s.
-    fn book_reservoirs(
-        &self,
-        (stage, share): (usize, S),
-        slot: usize,
-        view: &StepView<'_, S>,
-        (next, tally): (&mut State<S>, &mut Tally<S>),
-        booked: &mut Booked<S>,
-    ) {
-        let theta = self.mean_temperature(stage);
-        let weight = share * view.per_step;
-        let correction = self.reservoir_correction((stage, share), slot, (view, weight), booked);
-        for link in view.conduction.links(slot) {
-            let Partner::Reservoir(index) = link.partner else {
-                continue;
-            };
-            let theta_r = view.conduction.reservoirs[index];
-            let drop = (theta_r - theta) + correction;
-            let path = Exchange::from_reservoir(share * link.conductance, drop, theta_r);
-            next.reservoir_entropies.add(index, -path.entropy);
-            next.entropies.add(slot, path.entropy);
-            let production = path.production();
-            next.entropies.add(slot, production);
-            tally.produce(production);
-            tally.turn_over(path.heat);
-            booked.receive(stage, path.entropy);
-            booked.receive(stage, production);
-        }
-    }
-
-    /// What the differences `θ_r − Θ` lack for the heat that the entropy of the element has taken, K; see
-    /// the same of elements with one set of forces. The unknown here is hṡ, which no temperature rounds, so
-    /// that the heat capacity does not matter.
+    /// See [`reservoir_correction`]. The unknown here is hṡ, which no temperature rounds, so that nothing is stored.
     fn reservoir_correction(
         &self,
         (stage, share): (usize, S),
         slot: usize,
-        (view, weight): (&StepView<'_, S>, S),
-        booked: &Booked<S>,
+        view: &StepView<'_, S>,
+        heat: S,
     ) -> S {
-        let theta = self.mean_temperature(stage);
-        let flow = view.conduction.reservoir_flow(slot, theta);
-        if self.prescribed.is_some() || flow.conductance.equal(S::zero()).all() {
+        if self.prescribed.is_some() {
             return S::zero();
         }
-        let conducted = share * flow.conductance;
+        let theta = self.mean_temperature(stage);
+        let flow = view.conduction.reservoir_flow(slot, theta);
+        let weight = share * view.per_step;
         let taken = weight * theta * self.own.rates[stage][M::Variables::LEN - 1];
-        let heat = booked.heat[stage];
-        let is_stiff = (taken.abs() + heat.abs()).less(conducted * theta);
-        let correction = ((taken - heat) - share * flow.heat) / conducted;
-        S::select(is_stiff, correction, S::zero())
+        reservoir_correction(&flow, [share, theta], [taken, S::zero(), heat])
     }
 
     /// Books the heat of the thermostat of an element whose new entropy is given, stage by stage; what is left
@@ -206,14 +140,13 @@ where
         let mut rest = total;
         for (stage, &weight) in rule.weights.iter().enumerate() {
             let taken = S::from_f64(weight) * self.own.rates[stage][M::Variables::LEN - 1];
-            let received = booked.received[stage];
+            let received = booked[stage].entropy;
             heat += self.mean_temperature(stage) * (taken - received);
             rest -= taken;
             total -= received;
         }
         heat += self.mean_temperature(rule.stages() - 1) * rest;
-        next.heat.add(heat);
-        next.thermostat_entropy.add(-total);
+        next.book_thermostat(heat, total);
     }
 
     /// Θ of a stage, K; one without temperature.
@@ -224,4 +157,11 @@ where
             S::one()
         }
     }
+}
+
+/// The same of all stages together.
+fn sum<S: Real>(booked: &Booked<S>, of: impl Fn(&Received<S>) -> S) -> S {
+    booked
+        .iter()
+        .fold(S::zero(), |sum, received| sum + of(received))
 }

@@ -1,0 +1,133 @@
+//! Flows of heat between elements, reservoirs and thermostats, booked once for implicit schemes of any number of stages.
+//!
+//! Both ends of a path book the same exchange `u`, and one of them the production `P ≥ 0`, see
+//! [`conduction`](super::conduction).
+
+use super::conduction::{Conduction, Exchange, HeatFlow, Partner};
+use super::state::State;
+use super::tally::Tally;
+use crate::number::scalar::Real;
+
+/// Where the flows of a step are booked.
+pub(crate) struct Balances<'a, S: Real> {
+    pub(crate) next: &'a mut State<S>,
+    pub(crate) tally: &'a mut Tally<S>,
+}
+
+/// What an element has received during a step or a stage.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Received<S> {
+    /// Entropy, J/K.
+    pub(crate) entropy: S,
+    /// The magnitude of its terms, J/K: exchange and production of a path cancel where the element is much warmer than
+    /// its partner.
+    pub(crate) terms: S,
+    /// Heat of its dashpots and of paths to other elements, J.
+    pub(crate) heat: S,
+}
+
+impl<S: Real> Received<S> {
+    /// Nothing yet.
+    #[inline]
+    pub(crate) fn none() -> Self {
+        Self {
+            entropy: S::zero(),
+            terms: S::zero(),
+            heat: S::zero(),
+        }
+    }
+
+    /// Another term of the entropy.
+    #[inline]
+    pub(crate) fn add(&mut self, entropy: S) {
+        self.entropy += entropy;
+        self.terms += entropy.abs();
+    }
+}
+
+impl<S: Real> Balances<'_, S> {
+    /// A path between two elements, as the first of these slots sees it, with `hκ` in J/K. The production is booked at
+    /// one end, after the exchange, which both ends share.
+    #[inline]
+    pub(crate) fn conduct(
+        &mut self,
+        [slot, other]: [usize; 2],
+        path: &Exchange<S>,
+        received: &mut Received<S>,
+    ) {
+        self.next.entropies.add(slot, path.entropy);
+        received.add(path.entropy);
+        received.heat += path.heat;
+        if slot > other {
+            self.produce(slot, path, received);
+        }
+    }
+
+    /// The paths of a slot to reservoirs during a time, s, with the temperature of the element and its
+    /// [correction](reservoir_correction), K.
+    #[inline]
+    pub(crate) fn exchange_with_reservoirs(
+        &mut self,
+        conduction: &Conduction<S>,
+        slot: usize,
+        (share, [theta, correction]): (S, [S; 2]),
+        received: &mut Received<S>,
+    ) {
+        for link in conduction.links(slot) {
+            let Partner::Reservoir(index) = link.partner else {
+                continue;
+            };
+            let theta_r = conduction.reservoirs[index];
+            let drop = (theta_r - theta) + correction;
+            let path = Exchange::from_reservoir(share * link.conductance, drop, theta_r);
+            self.next.reservoir_entropies.add(index, -path.entropy);
+            self.next.entropies.add(slot, path.entropy);
+            received.add(path.entropy);
+            self.produce(slot, &path, received);
+        }
+    }
+
+    /// What a path produces, at this end of it.
+    #[inline]
+    fn produce(&mut self, slot: usize, path: &Exchange<S>, received: &mut Received<S>) {
+        let production = path.production();
+        self.next.entropies.add(slot, production);
+        received.add(production);
+        self.tally.produce(production);
+        self.tally.turn_over(path.heat);
+    }
+}
+
+impl<S: Real> State<S> {
+    /// What a thermostat has given, J and J/K.
+    #[inline]
+    pub(crate) fn book_thermostat(&mut self, heat: S, entropy: S) {
+        self.heat.add(heat);
+        self.thermostat_entropy.add(-entropy);
+    }
+}
+
+/// What the differences `θ_r − θ*` lack for the heat that the entropy of an element has taken, K.
+///
+/// ```text
+/// Σ h κ (θ_r − θ* + correction) = θ* Δs − heat
+/// ```
+///
+/// with what flows during the time h, the heat taken, θ* Δs, and the heat received otherwise, J. Rounding of θ*
+/// changes the left-hand side by `hκ ε θ`. Rounding changes the right-hand side by `ε (stored + |θ* Δs| + |heat|)`, where
+/// cθ is stored if Δs is between two temperatures, each of which is rounded. Heat follows from the side that rounding
+/// changes less.
+///
+/// The entropy `u + P` that the element books is `Q/(θ* − correction)`, so that a correction changes the
+/// energy by `Q correction/θ*`. Where it is made, it is no more than roundings of θ*, and that no more than
+/// roundings of Q.
+pub(crate) fn reservoir_correction<S: Real>(
+    flow: &HeatFlow<S>,
+    [h, theta]: [S; 2],
+    [taken, stored, heat]: [S; 3],
+) -> S {
+    let conducted = h * flow.conductance;
+    let is_stiff = (stored + taken.abs() + heat.abs()).less(conducted * theta);
+    let correction = ((taken - heat) - h * flow.heat) / conducted;
+    S::select(is_stiff, correction, S::zero())
+}
