@@ -20,13 +20,11 @@ impl<H: Shape<D>, const D: usize> Body<H, D> {
     ///
     /// ```
     /// use eem::kinematics::Hex8;
+    /// use eem::materials::SaintVenantKirchhoff;
     /// use eem::prelude::*;
-    /// # #[derive(Clone, FreeEnergy)]
-    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * lame * e1.powi(2) + shear * e2)]
-    /// # struct Elastic { lame: f64, shear: f64 }
     ///
     /// let mut scene = Scene::<3>::new();
-    /// let steel = Elastic { lame: 2000.0, shear: 1000.0 };
+    /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
     /// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
     /// let body = scene.solid(steel, &mesh, &Bulk::new(10.0));
     /// assert_eq!(body.mesh().cells().len(), 2);
@@ -42,13 +40,11 @@ impl<H: Shape<D>, const D: usize> Body<H, D> {
     ///
     /// ```
     /// use eem::kinematics::Hex8;
+    /// use eem::materials::SaintVenantKirchhoff;
     /// use eem::prelude::*;
-    /// # #[derive(Clone, FreeEnergy)]
-    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * lame * e1.powi(2) + shear * e2)]
-    /// # struct Elastic { lame: f64, shear: f64 }
     ///
     /// let mut scene = Scene::<3>::new();
-    /// let steel = Elastic { lame: 2000.0, shear: 1000.0 };
+    /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
     /// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
     /// let body = scene.solid(steel, &mesh, &Bulk::new(10.0));
     /// assert_eq!(body.nodes().len(), 12);
@@ -64,13 +60,11 @@ impl<H: Shape<D>, const D: usize> Body<H, D> {
     ///
     /// ```
     /// use eem::kinematics::Hex8;
+    /// use eem::materials::SaintVenantKirchhoff;
     /// use eem::prelude::*;
-    /// # #[derive(Clone, FreeEnergy)]
-    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * lame * e1.powi(2) + shear * e2)]
-    /// # struct Elastic { lame: f64, shear: f64 }
     ///
     /// let mut scene = Scene::<3>::new();
-    /// let steel = Elastic { lame: 2000.0, shear: 1000.0 };
+    /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
     /// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
     /// let body = scene.solid(steel, &mesh, &Bulk::new(10.0));
     /// // Eight per hexahedron of eight nodes.
@@ -98,13 +92,11 @@ impl<H: Shape<D>, const D: usize> Body<H, D> {
     ///
     /// ```
     /// use eem::kinematics::Hex8;
+    /// use eem::materials::SaintVenantKirchhoff;
     /// use eem::prelude::*;
-    /// # #[derive(Clone, FreeEnergy)]
-    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * lame * e1.powi(2) + shear * e2)]
-    /// # struct Elastic { lame: f64, shear: f64 }
     ///
     /// let mut scene = Scene::<3>::new();
-    /// let steel = Elastic { lame: 2000.0, shear: 1000.0 };
+    /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
     /// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
     /// let body = scene.solid(steel, &mesh, &Bulk::new(10.0));
     /// assert_eq!(body.nodes_where(|[x, ..]| x >= 2.0).len(), 4);
@@ -121,13 +113,11 @@ impl<H: Shape<D>, const D: usize> Body<H, D> {
     ///
     /// ```
     /// use eem::kinematics::Hex8;
+    /// use eem::materials::SaintVenantKirchhoff;
     /// use eem::prelude::*;
-    /// # #[derive(Clone, FreeEnergy)]
-    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * lame * e1.powi(2) + shear * e2)]
-    /// # struct Elastic { lame: f64, shear: f64 }
     ///
     /// let mut scene = Scene::<3>::new();
-    /// let steel = Elastic { lame: 2000.0, shear: 1000.0 };
+    /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
     /// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
     /// let body = scene.solid(steel, &mesh, &Bulk::new(10.0));
     /// let corner = body.node_at([2.0, 0.0, 0.0], 1e-9)?;

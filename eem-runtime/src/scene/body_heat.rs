@@ -25,14 +25,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
     ///
     /// ```
     /// use eem::kinematics::Hex8;
+    /// use eem::materials::ThermoelasticSolid;
     /// use eem::prelude::*;
-    /// # #[derive(Clone, FreeEnergy)]
-    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare, theta: Temperature| {
-    /// #     0.5 * lame * e1.powi(2) + shear * e2 + c * (theta - theta * ln(theta / 300.0))
-    /// # })]
-    /// # struct Solid { lame: f64, shear: f64, c: f64 }
     ///
-    /// let solid = Solid { lame: 2000.0, shear: 1000.0, c: 100.0 };
+    /// let rubber = ThermoelasticSolid::RUBBER;
+    /// let solid = ThermoelasticSolid { softening: 0.0, expansion: 0.0, ..rubber };
     /// let mut scene = Scene::<3>::new();
     /// let warm = Mesh::<Hex8, 3>::block([1; 3], [[0.0, 1.0]; 3])?;
     /// let cold = warm.translated([1.0, 0.0, 0.0])?;
@@ -108,14 +105,10 @@ impl<const D: usize, S: Real> Scene<D, S> {
     ///
     /// ```
     /// use eem::kinematics::Hex8;
+    /// use eem::materials::ThermoelasticSolid;
     /// use eem::prelude::*;
-    /// # #[derive(Clone, FreeEnergy)]
-    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare, theta: Temperature| {
-    /// #     0.5 * lame * e1.powi(2) + shear * e2 + c * (theta - theta * ln(theta / 300.0))
-    /// # })]
-    /// # struct Solid { lame: f64, shear: f64, c: f64 }
     ///
-    /// let solid = Solid { lame: 2000.0, shear: 1000.0, c: 100.0 };
+    /// let solid = ThermoelasticSolid::RUBBER;
     /// let mut scene = Scene::<3>::new();
     /// let mesh = Mesh::<Hex8, 3>::block([1; 3], [[0.0, 1.0]; 3])?;
     /// let body = scene.solid(solid, &mesh, &Bulk::new(10.0).conductivity(10.0));
@@ -166,14 +159,10 @@ impl<const D: usize, S: Real> Scene<D, S> {
     ///
     /// ```
     /// use eem::kinematics::Hex8;
+    /// use eem::materials::ThermoelasticSolid;
     /// use eem::prelude::*;
-    /// # #[derive(Clone, FreeEnergy)]
-    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare, theta: Temperature| {
-    /// #     0.5 * lame * e1.powi(2) + shear * e2 + c * (theta - theta * ln(theta / 300.0))
-    /// # })]
-    /// # struct Solid { lame: f64, shear: f64, c: f64 }
     ///
-    /// let solid = Solid { lame: 2000.0, shear: 1000.0, c: 100.0 };
+    /// let solid = ThermoelasticSolid::RUBBER;
     /// let mut scene = Scene::<3>::new();
     /// let mesh = Mesh::<Hex8, 3>::block([1; 3], [[0.0, 1.0]; 3])?;
     /// let body = scene.solid(solid, &mesh, &Bulk::new(10.0).conductivity(10.0));

@@ -20,13 +20,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
     ///
     /// ```
     /// use eem::kinematics::Hex8;
+    /// use eem::materials::SaintVenantKirchhoff;
     /// use eem::prelude::*;
-    /// # #[derive(Clone, FreeEnergy)]
-    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * lame * e1.powi(2) + shear * e2)]
-    /// # struct Elastic { lame: f64, shear: f64 }
     ///
     /// let mut scene = Scene::<3>::new();
-    /// let steel = Elastic { lame: 2000.0, shear: 1000.0 };
+    /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
     /// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
     /// let beam = scene.solid(steel, &mesh, &Bulk::new(10.0));
     /// let end = mesh.face(|[x, ..]| x >= 2.0)?;
@@ -60,13 +58,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
     ///
     /// ```
     /// use eem::kinematics::Quad8;
+    /// use eem::materials::SaintVenantKirchhoff;
     /// use eem::prelude::*;
-    /// # #[derive(Clone, FreeEnergy)]
-    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * lame * e1.powi(2) + shear * e2)]
-    /// # struct Elastic { lame: f64, shear: f64 }
     ///
     /// let mut scene = Scene::<2>::new();
-    /// let steel = Elastic { lame: 2000.0, shear: 1000.0 };
+    /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
     /// let mesh = Mesh::<Quad8, 2>::block([1, 1], [[0.0, 2.0], [0.0, 1.0]])?;
     /// let plate = scene.solid(steel, &mesh, &Bulk::new(10.0).thickness(0.5));
     /// scene.body_force(&plate, |_| [3.0, 0.0]);

@@ -63,19 +63,15 @@ impl<const D: usize, S: Real> Bulk<D, S> {
     ///
     /// ```
     /// use eem::kinematics::Quad4;
-    /// use eem::prelude::*;
     /// use eem::SolidError;
-    /// # #[derive(Clone, FreeEnergy)]
-    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare, theta: Temperature| {
-    /// #     0.5 * lame * e1.powi(2) + shear * e2 + c * (theta - theta * ln(theta / 300.0))
-    /// # })]
-    /// # struct Solid { lame: f64, shear: f64, c: f64 }
+    /// use eem::materials::ThermoelasticSolid;
+    /// use eem::prelude::*;
     ///
     /// let square = Mesh::<Quad4, 2>::block([2, 2], [[0.0, 1.0]; 2])?;
     /// let sheared = square.mapped(|[x, y]| [x + 0.5 * y, y])?;
     /// let build = |bulk: Bulk<2>| {
     ///     let mut scene = Scene::<2>::new();
-    ///     let body = scene.solid(Solid { lame: 2000.0, shear: 1000.0, c: 100.0 }, &sheared, &bulk);
+    ///     let body = scene.solid(ThermoelasticSolid::RUBBER, &sheared, &bulk);
     ///     body.points().iter().for_each(|&point| scene.set_temperature(point, 300.0));
     ///     Simulation::new(scene, Scheme::EemTemperature, 0.1)
     /// };
@@ -115,14 +111,12 @@ impl<const D: usize, S: Real> Bulk<D, S> {
     ///
     /// ```
     /// use eem::kinematics::Quad4;
-    /// use eem::prelude::*;
     /// use eem::SolidError;
-    /// # #[derive(Clone, FreeEnergy)]
-    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * lame * e1.powi(2) + shear * e2)]
-    /// # struct Elastic { lame: f64, shear: f64 }
+    /// use eem::materials::SaintVenantKirchhoff;
+    /// use eem::prelude::*;
     ///
     /// let mut scene = Scene::<2>::new();
-    /// let steel = Elastic { lame: 2000.0, shear: 1000.0 };
+    /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
     /// let mesh = Mesh::<Quad4, 2>::block([1, 1], [[0.0, 1.0]; 2])?;
     /// let first = scene.solid(steel.clone(), &mesh, &Bulk::new(10.0));
     /// let beside = mesh.translated([1.0, 0.0])?;

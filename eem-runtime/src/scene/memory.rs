@@ -14,19 +14,14 @@ impl<const D: usize, S: Real> Scene<D, S> {
     ///
     /// ```
     /// use eem::TooLarge;
+    /// use eem::materials::Hooke;
     /// use eem::prelude::*;
-    /// # #[derive(Clone, Debug, FreeEnergy)]
-    /// # #[free_energy(|lambda: Stretch| 0.5 * k * lambda.powi(2))]
-    /// # struct Spring {
-    /// #     #[unit("N/m")]
-    /// #     k: f64,
-    /// # }
     ///
     /// let mut scene = Scene::<2>::new();
     /// let mut last = scene.anchor([0.0, 0.0]);
     /// for index in 1..=100 {
     ///     let next = scene.mass(1.0, [f64::from(index), 0.0], [0.0, 0.0]);
-    ///     scene.spring(Spring { k: 1.0 }, [last, next]);
+    ///     scene.spring(Hooke { stiffness: 1.0, natural_length: 1.0 }, [last, next]);
     ///     last = next;
     /// }
     /// scene.limit_memory(1_000);

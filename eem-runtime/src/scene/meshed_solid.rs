@@ -166,13 +166,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
     ///
     /// ```
     /// use eem::kinematics::Hex8;
+    /// use eem::materials::SaintVenantKirchhoff;
     /// use eem::prelude::*;
-    /// # #[derive(Clone, FreeEnergy)]
-    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * lame * e1.powi(2) + shear * e2)]
-    /// # struct Elastic { lame: f64, shear: f64 }
     ///
     /// let mut scene = Scene::<3>::new();
-    /// let steel = Elastic { lame: 2000.0, shear: 1000.0 };
+    /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
     /// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
     /// let body = scene.solid(steel, &mesh, &Bulk::new(10.0));
     /// for &node in body.nodes() {
@@ -207,13 +205,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
     ///
     /// ```
     /// use eem::kinematics::Hex8;
+    /// use eem::materials::SaintVenantKirchhoff;
     /// use eem::prelude::*;
-    /// # #[derive(Clone, FreeEnergy)]
-    /// # #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * lame * e1.powi(2) + shear * e2)]
-    /// # struct Elastic { lame: f64, shear: f64 }
     ///
     /// let mut scene = Scene::<3>::new();
-    /// let steel = Elastic { lame: 2000.0, shear: 1000.0 };
+    /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
     /// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
     /// let body = scene.solid(steel, &mesh, &Bulk::new(10.0));
     /// for node in body.nodes_where(|[x, ..]| x <= 0.0) {

@@ -104,17 +104,17 @@ impl StudyRow {
 /// `Display` prints a table, the reference and a recommendation for each accuracy.
 ///
 /// ```
-/// # use eem::prelude::*;
-/// # use eem::{Advice, Setting, Study, StudyReport};
-/// # #[derive(FreeEnergy)]
-/// # #[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - length).powi(2))]
-/// # struct Spring { stiffness: f64, length: f64 }
-/// # fn scene() -> Scene<1> {
-/// #     let mut scene = Scene::new();
-/// #     let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.5], [0.0])];
-/// #     scene.spring(Spring { stiffness: 4.0, length: 1.0 }, ends);
-/// #     scene
-/// # }
+/// use eem::materials::Hooke;
+/// use eem::prelude::*;
+/// use eem::{Advice, Setting, Study, StudyReport};
+///
+/// fn scene() -> Scene<1> {
+///     let mut scene = Scene::new();
+///     let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.5], [0.0])];
+///     scene.spring(Hooke { stiffness: 4.0, natural_length: 1.0 }, ends);
+///     scene
+/// }
+///
 /// // A mass that swings with ω = 2/s; the scheme has an error of (ωh)²ωt/12 in ωt.
 /// let report = Study::new(scene, 1.0)
 ///     .settings(Setting::halved(Scheme::EemEntropy, 0.1, 2))
