@@ -128,7 +128,7 @@ impl Branch {
             },
             rows: Rows::new(noted),
             targets: vec![0; left_by_parts.fold(height, usize::max)],
-            scratch: Scratch::new(width)?,
+            scratch: Scratch::new(width),
             parts,
         })
     }

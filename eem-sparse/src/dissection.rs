@@ -14,10 +14,6 @@
 use core::cmp::Ordering;
 use core::mem;
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::sparse::SymbolicSparseColMatRef;
-use faer::sparse::linalg::amd;
-
 use crate::compact::compact;
 use crate::pattern::Pattern;
 
@@ -30,7 +26,7 @@ const LARGEST_SHARE: usize = 5;
 /// The number of an unknown in a separator, and the distance of an unknown that was not reached.
 const NONE: u32 = u32::MAX;
 
-/// The unknowns in the order of their elimination; `None` if memory is missing.
+/// The unknowns in the order of their elimination; `None` if `amd` finds none.
 pub(crate) fn order(pattern: &Pattern) -> Option<Vec<u32>> {
     let count = pattern.nodes();
     let mut dissection = Dissection::new(pattern);
@@ -49,7 +45,7 @@ pub(crate) fn order(pattern: &Pattern) -> Option<Vec<u32>> {
         parts.extend([(start, middle), (middle, middle + right)]);
         separators.push(middle + right..end);
     }
-    let mut order = by_degree(pattern, &dissection.separated)?;
+    let mut order = rest_by_degree(pattern, &dissection.separated)?;
     // Those found first are eliminated last.
     for separator in separators.into_iter().rev() {
         order.extend_from_slice(&unknowns[separator]);
@@ -57,8 +53,13 @@ pub(crate) fn order(pattern: &Pattern) -> Option<Vec<u32>> {
     Some(order)
 }
 
-/// Orders all unknowns outside of separators by minimum degree.
-fn by_degree(pattern: &Pattern, separated: &[bool]) -> Option<Vec<u32>> {
+/// All unknowns by minimum degree; `None` if `amd` finds no order.
+pub(crate) fn by_degree(pattern: &Pattern) -> Option<Vec<u32>> {
+    rest_by_degree(pattern, &vec![false; pattern.nodes()])
+}
+
+/// The unknowns outside of separators by minimum degree.
+fn rest_by_degree(pattern: &Pattern, separated: &[bool]) -> Option<Vec<u32>> {
     let inner = (0..separated.len()).filter(|&unknown| !separated[unknown]);
     let inner: Vec<u32> = inner.map(compact).collect();
     let mut numbers = vec![NONE; separated.len()];
@@ -72,12 +73,13 @@ fn by_degree(pattern: &Pattern, separated: &[bool]) -> Option<Vec<u32>> {
         rows.extend(neighbours.filter(|&number| number != NONE));
         starts.push(compact(rows.len()));
     }
-    let (count, entries) = (inner.len(), rows.len());
-    let structure = SymbolicSparseColMatRef::new_checked(count, count, &starts, None, &rows);
-    let (mut order, mut inverse) = (vec![0_u32; count], vec![0; count]);
-    let mut memory = MemBuffer::try_new(amd::order_scratch::<u32>(count, entries)).ok()?;
-    let (control, memory) = (amd::Control::default(), MemStack::new(&mut memory));
-    amd::order(&mut order, &mut inverse, structure, control, memory).ok()?;
+    let ordered = amd::order(
+        compact(inner.len()),
+        &starts,
+        &rows,
+        &amd::Control::default(),
+    );
+    let (mut order, ..) = ordered.ok()?;
     for number in &mut order {
         *number = inner[*number as usize];
     }

@@ -9,27 +9,16 @@
 //! approximate minimum degree (Amestoy, Davis & Duff 1996). If that fills in much, nested dissection is tried
 //! as well, and the order with fewer multiplications is taken.
 
+use core::mem;
 use core::ops::Range;
-
-use faer::Side;
-use faer::perm::PermRef;
-use faer::sparse::SymbolicSparseColMatRef;
-use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
-    factorize_symbolic_cholesky,
-};
-use faer::sparse::linalg::{SupernodalThreshold, SymbolicSupernodalParams};
 
 use crate::compact::compact;
 use crate::dissection;
 use crate::pattern::Pattern;
+use crate::supernodes::{Ordered, places};
 
 /// Nested dissection is tried if the factors have more than this many times the entries of the matrix.
 const WORTH_DISSECTING: usize = 4;
-
-/// Adjacent fronts are merged if the result has at most so many own unknowns, and at most this share of its
-/// entries is zero.
-const MERGED: [(usize, f64); 2] = [(48, 0.1), (usize::MAX, 0.05)];
 
 /// The fronts in postorder: each right after the trees of fronts below it.
 #[derive(Debug)]
@@ -72,24 +61,18 @@ impl Fronts {
         if pattern.columns().len() == pattern.nodes() {
             return Some(Self::uncoupled(pattern.nodes()));
         }
-        let by_degree = Self::ordered(pattern, SymmetricOrdering::Amd)?;
+        let by_degree = Self::ordered(pattern, &dissection::by_degree(pattern)?);
         let length = pattern.block_length();
         let Extent { lower, upper, .. } = by_degree.extent(0..by_degree.len(), length);
         if lower + upper <= WORTH_DISSECTING * pattern.entries() {
             return Some(by_degree);
         }
-        let order = dissection::order(pattern)?;
-        let mut places = vec![0; order.len()];
-        for (place, &unknown) in order.iter().enumerate() {
-            places[unknown as usize] = compact(place);
-        }
-        let order = PermRef::new_checked(&order, &places, order.len());
-        let dissected = Self::ordered(pattern, SymmetricOrdering::Custom(order))?;
+        let dissected = Self::ordered(pattern, &dissection::order(pattern)?);
         let is_better = dissected.multiplications() < by_degree.multiplications();
         Some(if is_better { dissected } else { by_degree })
     }
 
-    /// A front for each node, none of which has neighbours; `faer` has no supernodes for such a pattern.
+    /// A front for each node, none of which has neighbours.
     fn uncoupled(nodes: usize) -> Self {
         let order: Vec<u32> = (0..compact(nodes)).collect();
         Self {
@@ -101,71 +84,64 @@ impl Fronts {
         }
     }
 
-    /// Analyses a pattern for an order of elimination.
-    fn ordered(pattern: &Pattern, order: SymmetricOrdering<'_, u32>) -> Option<Self> {
-        let nodes = pattern.nodes();
-        let (starts, rows) = (pattern.starts(), pattern.columns());
-        let structure = SymbolicSparseColMatRef::new_checked(nodes, nodes, starts, None, rows);
-        let merged = MERGED.map(|(most, share)| (most / pattern.block_length(), share));
-        let parameters = CholeskySymbolicParams {
-            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-            supernodal_params: SymbolicSupernodalParams {
-                relax: Some(&merged),
-            },
-            ..CholeskySymbolicParams::default()
-        };
-        let symbolic = factorize_symbolic_cholesky(structure, Side::Upper, order, parameters);
-        Self::from_faer(&symbolic.ok()?)
-    }
-
-    fn from_faer(symbolic: &SymbolicCholesky<u32>) -> Option<Self> {
-        let SymbolicCholeskyRaw::Supernodal(supernodes) = symbolic.raw() else {
-            return None;
-        };
-        let (order, _) = symbolic.perm()?.arrays();
-        let own =
-            |node: usize| supernodes.supernode_begin()[node]..supernodes.supernode_end()[node];
-        let below = |node: usize| supernodes.supernode(node).pattern();
-        let mut homes = vec![0; order.len()];
-        for node in 0..supernodes.n_supernodes() {
-            own(node).for_each(|place| homes[place as usize] = node);
-        }
-        let parents = (0..supernodes.n_supernodes()).map(|node| {
-            let first = below(node).iter().min();
-            first.map(|&place| homes[place as usize])
-        });
-        let sequence = postorder(&parents.collect::<Vec<_>>());
+    /// Analyses a pattern for an order of elimination, or one with the same fill-in.
+    fn ordered(pattern: &Pattern, order: &[u32]) -> Self {
+        let tree = Ordered::new(pattern, order, &places(order)).tree();
+        let sequence = postorder(&tree);
+        let moved = places(&sequence);
+        let parent = |&place: &u32| moved.get(tree[place as usize] as usize).copied();
+        let parents: Vec<Option<u32>> = sequence.iter().map(parent).collect();
+        let sequence = sequence.into_iter();
+        let order: Vec<u32> = sequence.map(|place| order[place as usize]).collect();
+        let places = places(&order);
+        let ordered = Ordered::new(pattern, &order, &places);
+        let supernodes = ordered.supernodes(&parents);
         let mut fronts = Self {
-            order: Vec::with_capacity(order.len()),
-            places: vec![0; order.len()],
-            begins: Vec::with_capacity(sequence.len() + 1),
-            starts: Vec::with_capacity(sequence.len() + 1),
+            begins: Vec::with_capacity(supernodes.len() + 1),
+            starts: Vec::with_capacity(supernodes.len() + 1),
             rows: Vec::new(),
+            order: Vec::new(),
+            places: Vec::new(),
         };
-        // Supernodes are sorted anew: by old place, the new one.
-        let mut moved = homes;
         fronts.begins.push(0);
-        for &node in &sequence {
-            for place in own(node) {
-                moved[place as usize] = fronts.order.len();
-                fronts.order.push(order[place as usize]);
-            }
-            fronts.begins.push(compact(fronts.order.len()));
-        }
-        for (place, &unknown) in fronts.order.iter().enumerate() {
-            fronts.places[unknown as usize] = compact(place);
-        }
         fronts.starts.push(0);
-        for &node in &sequence {
+        // The latest front that each place is a row of, and fronts whose parent is still to come.
+        let mut seen = vec![0; order.len()];
+        let mut waiting: Vec<Range<usize>> = Vec::new();
+        for (own, front) in supernodes.into_iter().zip(1_u32..) {
             let first = fronts.rows.len();
-            let rows = below(node).iter();
-            let rows = rows.map(|&place| compact(moved[place as usize]));
-            fronts.rows.extend(rows);
+            let mut add = |rows: &mut Vec<u32>, row: u32| {
+                let is_new = mem::replace(&mut seen[row as usize], front) != front;
+                if row as usize >= own.end && is_new {
+                    rows.push(row);
+                }
+            };
+            for place in own.clone() {
+                ordered
+                    .row(place)
+                    .for_each(|row| add(&mut fronts.rows, row));
+            }
+            while let Some(child) =
+                waiting.pop_if(|child| (fronts.rows[child.start] as usize) < own.end)
+            {
+                for at in child {
+                    let row = fronts.rows[at];
+                    add(&mut fronts.rows, row);
+                }
+            }
             fronts.rows[first..].sort_unstable();
+            if first < fronts.rows.len() {
+                waiting.push(first..fronts.rows.len());
+            }
+            fronts.begins.push(compact(own.end));
             fronts.starts.push(compact(fronts.rows.len()));
         }
         fronts.rows.shrink_to_fit();
-        Some(fronts)
+        Self {
+            order,
+            places,
+            ..fronts
+        }
     }
 
     /// Number of fronts.
@@ -241,14 +217,15 @@ impl Front<'_> {
     }
 }
 
-/// The nodes of a forest, each right after the trees of its children, which ascend.
-fn postorder(parents: &[Option<usize>]) -> Vec<usize> {
+/// The nodes of a forest, each right after the trees of its children, which ascend. Numbers that are no node
+/// are parents of roots.
+fn postorder(parents: &[u32]) -> Vec<u32> {
     let roots = parents.len();
     // The first child of each node and of the forest, and the next child of the same parent.
     let mut first = vec![None; roots + 1];
     let mut next = vec![None; roots];
-    for (node, parent) in parents.iter().enumerate().rev() {
-        next[node] = first[parent.unwrap_or(roots)].replace(node);
+    for (node, &parent) in (0..compact(roots)).zip(parents).rev() {
+        next[node as usize] = first[roots.min(parent as usize)].replace(node);
     }
     let mut sequence = Vec::with_capacity(roots);
     let mut path = Vec::new();
@@ -256,20 +233,22 @@ fn postorder(parents: &[Option<usize>]) -> Vec<usize> {
     loop {
         while let Some(node) = down {
             path.push(node);
-            down = first[node];
+            down = first[node as usize];
         }
         let Some(node) = path.pop() else {
             return sequence;
         };
         sequence.push(node);
-        down = next[node];
+        down = next[node as usize];
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Fronts, SymmetricOrdering, postorder};
+    use super::{Fronts, dissection, postorder};
     use crate::pattern::Pattern;
+
+    const NONE: u32 = u32::MAX;
 
     /// Two nodes above three that are alone afterwards.
     fn two_above_three() -> Fronts {
@@ -307,10 +286,10 @@ mod tests {
         assert_eq!([extent.left, extent.waiting], [1 + 4 + 1, 2]);
     }
 
-    // Minimum degree takes more on a lattice.
+    // Minimum degree takes more on a large lattice.
     #[test]
     fn the_order_with_fewer_multiplications_is_taken() {
-        let side = 60;
+        let side = 80;
         let lattice = Pattern::new(side * side, |pair| {
             for at in 0..side * side {
                 if at % side > 0 {
@@ -321,7 +300,7 @@ mod tests {
                 }
             }
         });
-        let by_degree = Fronts::ordered(&lattice, SymmetricOrdering::Amd).unwrap();
+        let by_degree = Fronts::ordered(&lattice, &dissection::by_degree(&lattice).unwrap());
         let taken = Fronts::new(&lattice).unwrap();
         assert!(taken.multiplications() < by_degree.multiplications());
     }
@@ -331,9 +310,9 @@ mod tests {
         //    3        parents
         //   / \
         //  0   2      1 alone
-        let parents = [Some(3), None, Some(3), None];
+        let parents = [3, NONE, 3, NONE];
         assert_eq!(postorder(&parents), [1, 0, 2, 3]);
-        assert_eq!(postorder(&[Some(2), None, Some(1)]), [0, 2, 1]);
+        assert_eq!(postorder(&[2, NONE, 1]), [0, 2, 1]);
     }
 
     #[test]

@@ -33,7 +33,7 @@ impl<P: Precision, const L: usize> Matrix<'_, P, L> {
 
     /// The block of this number.
     #[inline]
-    fn block(&self, at: usize) -> &[[P::Number; L]; L] {
+    pub(crate) fn block(&self, at: usize) -> &[[P::Number; L]; L] {
         &self.values.as_chunks().0.as_chunks().0[at]
     }
 }

@@ -1,7 +1,7 @@
 //! Repeated solution of `A x = b` for sparse square matrices with a symmetric structure.
 //!
-//! The structure is analysed once. Each new set of values then takes an elimination in dense blocks,
-//! without allocation, and every solution is checked before it is returned.
+//! The structure is analysed once. Each new set of values then takes an elimination in dense blocks, in memory
+//! that was reserved, and every solution is checked before it is returned.
 //!
 //! ```text
 //! Pattern ─▶ order of elimination ─▶ fronts        once
@@ -10,8 +10,8 @@
 //! ```
 //!
 //! The elimination searches for pivots only inside the diagonal block of a front. This keeps the fill-in small and is
-//! enough for most matrices with large entries near the diagonal. For the others there are refinement and partial
-//! pivoting. Every solution has a componentwise backward error of a few roundings, see [`Factored::solve`], or is an
+//! enough for most matrices with large entries near the diagonal. For the others there are refinement and pivots in
+//! later fronts. Every solution has a componentwise backward error of a few roundings, see [`Factored::solve`], or is an
 //! [`Error`].
 //!
 //! ```
@@ -45,9 +45,9 @@
 //!
 //! | to | look in |
 //! |---|---|
-//! | change the order of elimination | `dissection.rs`, `fronts.rs` |
-//! | change the factors | `branch.rs`, `gathering.rs`, `elimination.rs` |
-//! | change what counts as a solution | `refinement.rs`; `solver.rs` for the fallback |
+//! | change the order of elimination | `dissection.rs`, `supernodes.rs`, `fronts.rs` |
+//! | change the factors | `branch.rs`, `gathering.rs`, `elimination.rs`, `dense.rs` |
+//! | change what counts as a solution | `refinement.rs`; `pivoting.rs` for the fallback |
 //! | change the memory of factors | `analysis.rs` |
 //! | change the threads | `threads.rs`, `division.rs` |
 
@@ -63,7 +63,9 @@ mod pattern;
 
 mod dissection;
 mod fronts;
+mod supernodes;
 
+mod dense;
 mod division;
 mod elimination;
 mod gathering;

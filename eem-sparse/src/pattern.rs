@@ -151,11 +151,6 @@ impl Pattern {
         })
     }
 
-    /// The same entries with blocks of one row.
-    pub(crate) fn one_by_one(&self) -> Self {
-        Self::new(self.unknowns(), |pair| self.each_entry(pair))
-    }
-
     /// Calls `visit` with row and column of every entry.
     fn each_entry(&self, mut visit: impl FnMut(usize, usize)) {
         let length = self.length;
@@ -233,11 +228,6 @@ impl Pattern {
         self.starts[node] as usize..self.starts[node + 1] as usize
     }
 
-    /// The number of the first block of each node, then that of all blocks.
-    pub(crate) fn starts(&self) -> &[u32] {
-        &self.starts
-    }
-
     /// The column of each block.
     pub(crate) fn columns(&self) -> &[u32] {
         &self.columns
@@ -288,9 +278,6 @@ mod tests {
         assert_eq!(pattern.position(0, 1), Some(1));
         assert_eq!(pattern.position(1, 4), Some(6));
         assert_eq!(pattern.position(1, 2), None);
-        let single = pattern.one_by_one();
-        assert_eq!((single.unknowns(), single.entries()), (6, 20));
-        assert_eq!(single.row(1), [0, 1, 4, 5]);
     }
 
     #[test]

@@ -1,99 +1,344 @@
-//! Sparse elimination with partial pivoting, for matrices with tiny pivots near the diagonal.
+//! Elimination that delays unknowns without a good pivot, for matrices with tiny pivots near the diagonal.
 //!
-//! It is `faer`'s. It takes more time and memory than the elimination by fronts, as any row of a column
-//! can become the pivot. `faer` stores columns and this crate stores rows, so Aᵀ is factored. Nothing is
-//! checked here: the caller checks.
+//! ```text
+//! front   own rows and columns, and those that fronts below delayed;   rows and columns of later fronts
+//! pivot   in an own column, the largest entry of own rows, unless one of a later row is much larger
+//! ```
+//!
+//! A column without a pivot, and a row that was none, are left to the next front with the Schur complement, where
+//! more rows can be pivots (Duff & Reid 1983). The last front has all of them. It takes more time and memory than
+//! the elimination without delays. Nothing is checked here: the caller checks.
 
-use core::fmt;
+use core::array;
+use core::mem;
+use core::ops::Range;
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::sparse::linalg::lu::{LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Conj, MatMut, Par, Spec};
+use ndarray::Axis;
 
+use crate::branch::zeros;
+use crate::compact::compact;
+use crate::dense::{columns, columns_mut, solve, subtract, subtract_product};
 use crate::error::Error;
+use crate::fronts::Front;
 use crate::gathering::Matrix;
-use crate::pattern::Pattern;
 use crate::precision::Precision;
 
-/// The symbolic analysis of a pattern, and memory for the factors.
+/// A pivot is at least this share of the largest entry of its column, so L has no larger entry than 1 / SHARE.
+const SHARE: f64 = 0.25;
+
+/// So many columns are eliminated by loops before others are changed.
+const BLOCK: usize = 32;
+
+/// The factors of one front. Unknowns are numbered in the order of elimination by fronts.
+#[derive(Debug)]
+struct Factor {
+    /// The rows and columns of the front, those of the pivots first.
+    rows: Vec<u32>,
+    columns: Vec<u32>,
+    /// The columns of the pivots, with L below the diagonal of U.
+    lower: Vec<f64>,
+    /// The rows of the pivots in later columns.
+    upper: Vec<f64>,
+}
+
+/// What is left of a front for the next: a Schur complement.
+struct Left {
+    front: usize,
+    /// How many of its rows and columns have been delayed.
+    delayed: usize,
+    rows: Vec<u32>,
+    columns: Vec<u32>,
+    entries: Vec<f64>,
+}
+
+/// The factors of a matrix.
+#[derive(Debug)]
 pub(crate) struct Pivoting {
-    /// With blocks of one row.
-    pattern: Pattern,
-    symbolic: SymbolicLu<u32>,
-    numeric: NumericLu<u32, f64>,
-    memory: MemBuffer,
-    /// A right-hand side in the order of the unknowns.
-    natural: Vec<f64>,
-}
-
-impl fmt::Debug for Pivoting {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Pivoting").finish_non_exhaustive()
-    }
-}
-
-/// The columns of Aᵀ.
-fn transposed(pattern: &Pattern) -> SymbolicSparseColMatRef<'_, u32> {
-    let unknowns = pattern.unknowns();
-    let (starts, rows) = (pattern.starts(), pattern.columns());
-    SymbolicSparseColMatRef::new_checked(unknowns, unknowns, starts, None, rows)
+    factors: Vec<Factor>,
+    /// The unknowns by columns, where right-hand sides are by rows.
+    solution: Vec<f64>,
 }
 
 impl Pivoting {
-    /// Orders and analyses a pattern.
-    pub(crate) fn new(pattern: &Pattern) -> Result<Self, Error> {
-        let pattern = pattern.one_by_one();
-        let symbolic = factorize_symbolic_lu(transposed(&pattern), LuSymbolicParams::default());
-        let symbolic = symbolic.map_err(|_| Error::OutOfMemory)?;
-        let factor = symbolic.factorize_numeric_lu_scratch::<f64>(Par::Seq, Spec::default());
-        let solve = symbolic.solve_transpose_in_place_scratch::<f64>(1, Par::Seq);
+    /// Factors a matrix; `None` if it is singular.
+    pub(crate) fn new<P: Precision, const L: usize>(
+        matrix: &Matrix<'_, P, L>,
+    ) -> Result<Option<Self>, Error> {
+        let count = matrix.pattern.unknowns();
+        let mut at = [vec![0; count], vec![0; count]];
+        let mut waiting: Vec<Left> = Vec::new();
+        let mut factors = Vec::with_capacity(matrix.fronts.len());
+        for number in 0..matrix.fronts.len() {
+            let front = matrix.fronts.front(number);
+            let mut children = Vec::new();
+            let belongs = |left: &mut Left| matrix.fronts.front(left.front).contributes_to(&front);
+            while let Some(child) = waiting.pop_if(belongs) {
+                children.push(child);
+            }
+            let mut dense = Dense::gather(matrix, &front, &children, &mut at)?;
+            drop(children);
+            let pivots = dense.eliminate();
+            let (factor, left) = dense.split(pivots, number);
+            factors.push(factor);
+            if front.rows.is_empty() && left.delayed > 0 {
+                return Ok(None);
+            }
+            if !front.rows.is_empty() {
+                waiting.push(left);
+            }
+        }
+        Ok(Some(Self {
+            factors,
+            solution: vec![0.0; count],
+        }))
+    }
+
+    /// Overwrites a right-hand side by the solution.
+    pub(crate) fn solve(&mut self, x: &mut [f64]) {
+        let mut part = Vec::new();
+        for Factor { rows, lower, .. } in &self.factors {
+            part.clear();
+            part.extend(rows.iter().map(|&row| x[row as usize]));
+            for (k, column) in lower.chunks_exact(rows.len()).enumerate() {
+                subtract(&mut part[k..], &column[k..]);
+            }
+            for (&row, &value) in rows.iter().zip(&part) {
+                x[row as usize] = value;
+            }
+        }
+        for factor in self.factors.iter().rev() {
+            let Factor {
+                rows,
+                columns,
+                lower,
+                upper,
+            } = factor;
+            let pivots = lower.len() / rows.len();
+            part.clear();
+            part.extend(rows[..pivots].iter().map(|&row| x[row as usize]));
+            if pivots > 0 {
+                for (&column, entries) in columns[pivots..].iter().zip(upper.chunks_exact(pivots)) {
+                    subtract_multiple(&mut part, entries, self.solution[column as usize]);
+                }
+            }
+            for (k, entries) in lower.chunks_exact(rows.len()).enumerate().rev() {
+                let value = part[k] / entries[k];
+                subtract_multiple(&mut part[..k], &entries[..k], value);
+                self.solution[columns[k] as usize] = value;
+            }
+        }
+        x.copy_from_slice(&self.solution);
+    }
+}
+
+/// A front as one matrix, column by column.
+struct Dense {
+    rows: Vec<u32>,
+    columns: Vec<u32>,
+    /// The first rows and columns, which may have pivots.
+    own: usize,
+    entries: Vec<f64>,
+}
+
+impl Dense {
+    /// The entries of the matrix and what is left of earlier fronts. `at` is memory for the places of rows and
+    /// columns.
+    fn gather<P: Precision, const L: usize>(
+        matrix: &Matrix<'_, P, L>,
+        front: &Front<'_>,
+        children: &[Left],
+        at: &mut [Vec<u32>; 2],
+    ) -> Result<Self, Error> {
+        let of_node = |place: usize| compact(place * L)..compact(place * L + L);
+        let lists = array::from_fn(|which| {
+            let own = front.own.clone().flat_map(of_node);
+            let delayed = children.iter().flat_map(|child| {
+                [&child.rows, &child.columns][which][..child.delayed]
+                    .iter()
+                    .copied()
+            });
+            let later = front.rows.iter().flat_map(|&place| of_node(place as usize));
+            let list: Vec<u32> = own.chain(delayed).chain(later).collect();
+            for (place, &unknown) in list.iter().enumerate() {
+                at[which][unknown as usize] = compact(place);
+            }
+            list
+        });
+        let [rows, columns] = lists;
+        let count = rows.len();
+        let [row_at, column_at] = at;
+        let mut entries = zeros(count * count).ok_or(Error::OutOfMemory)?;
+        let mut add = |row: usize, column: usize, entry: f64| {
+            entries[column_at[column] as usize * count + row_at[row] as usize] += entry;
+        };
+        for own in front.own.clone() {
+            let node = matrix.fronts.order[own] as usize;
+            for (other, block) in matrix.blocks_of(node) {
+                let place = matrix.fronts.places[other] as usize;
+                if place < front.own.start {
+                    continue;
+                }
+                each(block, |row, column, entry| {
+                    add(own * L + row, place * L + column, P::widen(entry));
+                });
+                if place >= front.own.end
+                    && let Some(mirror) = matrix.pattern.block(other, node)
+                {
+                    each(matrix.block(mirror), |row, column, entry| {
+                        add(place * L + row, own * L + column, P::widen(entry));
+                    });
+                }
+            }
+        }
+        for child in children {
+            let columns = child.entries.chunks_exact(child.rows.len());
+            for (&column, entries) in child.columns.iter().zip(columns) {
+                for (&row, &entry) in child.rows.iter().zip(entries) {
+                    add(row as usize, column as usize, entry);
+                }
+            }
+        }
+        let delayed: usize = children.iter().map(|child| child.delayed).sum();
         Ok(Self {
-            natural: vec![0.0; pattern.unknowns()],
-            pattern,
-            memory: MemBuffer::try_new(factor.or(solve)).map_err(|_| Error::OutOfMemory)?,
-            symbolic,
-            numeric: NumericLu::new(),
+            rows,
+            columns,
+            own: front.own.len() * L + delayed,
+            entries,
         })
     }
 
-    /// Factors a matrix and calls `with` with a function that overwrites a right-hand side by the
-    /// solution, both in the order of `matrix.fronts`. `None` if the matrix cannot be factored.
-    pub(crate) fn factor<P: Precision, R, const L: usize>(
-        &mut self,
-        matrix: &Matrix<'_, P, L>,
-        with: impl FnOnce(&mut dyn FnMut(&mut [[f64; L]])) -> R,
-    ) -> Option<R> {
-        let mut values = Vec::with_capacity(self.pattern.entries());
-        for node in 0..matrix.pattern.nodes() {
-            for row in 0..L {
-                let entries = matrix.blocks_of(node).flat_map(|(_, block)| &block[row]);
-                values.extend(entries.map(|&entry| P::widen(entry)));
+    /// Eliminates as many own unknowns as have a pivot, and returns their number.
+    fn eliminate(&mut self) -> usize {
+        let own = self.own;
+        let (mut pivots, mut end, mut before) = (0, own, 0);
+        loop {
+            if pivots == end {
+                // A column without a pivot may have one after others were eliminated.
+                if end == own || pivots == before {
+                    break;
+                }
+                (before, end) = (pivots, own);
+            }
+            let (first, stop) = (pivots, end.min(pivots + BLOCK));
+            let mut last = stop;
+            while pivots < last {
+                if let Some(row) = self.pivot_of(pivots) {
+                    self.swap_rows(pivots, row);
+                    self.subtract_pivot(pivots, stop);
+                    pivots += 1;
+                } else {
+                    last -= 1;
+                    self.swap_columns(pivots, last);
+                }
+            }
+            self.subtract_pivots(first..pivots, stop..own);
+            for column in pivots..stop {
+                end -= 1;
+                self.swap_columns(column, end);
             }
         }
-        let factors = self.symbolic.factorize_numeric_lu(
-            &mut self.numeric,
-            SparseColMatRef::new(transposed(&self.pattern), &values),
-            Par::Seq,
-            MemStack::new(&mut self.memory),
-            Spec::default(),
-        );
-        let factors = factors.ok()?;
-        let (memory, natural) = (&mut self.memory, &mut self.natural);
-        let order = &matrix.fronts.order;
-        Some(with(&mut |x| {
-            let nodes = natural.as_chunks_mut::<L>().0;
-            for (x, &node) in x.iter().zip(order) {
-                nodes[node as usize] = *x;
-            }
-            let unknowns = natural.len();
-            let right = MatMut::from_column_major_slice_mut(natural, unknowns, 1);
-            let memory = MemStack::new(memory);
-            factors.solve_transpose_in_place_with_conj(Conj::No, right, Par::Seq, memory);
-            let nodes = natural.as_chunks::<L>().0;
-            for (x, &node) in x.iter_mut().zip(order) {
-                *x = nodes[node as usize];
-            }
-        }))
+        self.subtract_pivots(0..pivots, own..self.rows.len());
+        pivots
+    }
+
+    /// The row of a pivot for a column, if there is one.
+    fn pivot_of(&self, k: usize) -> Option<usize> {
+        let count = self.rows.len();
+        let (own, later) = self.entries[k * count..][..count].split_at(self.own);
+        let largest = |rows: &[f64]| {
+            rows.iter()
+                .fold(0.0_f64, |most, entry| most.max(entry.abs()))
+        };
+        let most = largest(&own[k..]);
+        let is_good = most > 0.0 && most >= SHARE * largest(later);
+        is_good.then(|| {
+            k + own[k..]
+                .iter()
+                .take_while(|entry| entry.abs() < most)
+                .count()
+        })
+    }
+
+    fn swap_rows(&mut self, one: usize, other: usize) {
+        self.rows.swap(one, other);
+        for column in self.entries.chunks_exact_mut(self.rows.len()) {
+            column.swap(one, other);
+        }
+    }
+
+    fn swap_columns(&mut self, one: usize, other: usize) {
+        self.columns.swap(one, other);
+        let (count, [first, second]) = (self.rows.len(), [one.min(other), one.max(other)]);
+        if first < second {
+            let (left, right) = self.entries.split_at_mut(second * count);
+            left[first * count..][..count].swap_with_slice(&mut right[..count]);
+        }
+    }
+
+    /// Divides column k by its pivot, and subtracts its multiples from the columns after it.
+    fn subtract_pivot(&mut self, k: usize, end: usize) {
+        let count = self.rows.len();
+        let (pivot, later) = self.entries[k * count..end * count].split_at_mut(count);
+        let divisor = pivot[k];
+        pivot[k + 1..].iter_mut().for_each(|l| *l /= divisor);
+        for column in later.chunks_exact_mut(count) {
+            subtract(&mut column[k..], &pivot[k..]);
+        }
+    }
+
+    /// Subtracts multiples of pivots that have been divided from later columns.
+    fn subtract_pivots(&mut self, pivots: Range<usize>, later: Range<usize>) {
+        let count = self.rows.len();
+        let (left, right) = self.entries.split_at_mut(later.start * count);
+        let left = columns(&left[pivots.start * count..pivots.end * count], count);
+        let right = columns_mut(&mut right[..later.len() * count], count);
+        let (_, left) = left.split_at(Axis(0), pivots.start);
+        let (_, right) = right.split_at(Axis(0), pivots.start);
+        let (triangle, below) = left.split_at(Axis(0), pivots.len());
+        let (mut upper, rest) = right.split_at(Axis(0), pivots.len());
+        solve(&triangle, upper.view_mut());
+        subtract_product(rest, &below, &upper.view());
+    }
+
+    /// The factors, and what is left for the next front.
+    fn split(mut self, pivots: usize, front: usize) -> (Factor, Left) {
+        let count = self.rows.len();
+        let (mut upper, mut entries) = (Vec::new(), Vec::new());
+        for column in self.entries[pivots * count..].chunks_exact(count) {
+            upper.extend_from_slice(&column[..pivots]);
+            entries.extend_from_slice(&column[pivots..]);
+        }
+        let left = Left {
+            front,
+            delayed: self.own - pivots,
+            rows: self.rows[pivots..].to_vec(),
+            columns: self.columns[pivots..].to_vec(),
+            entries,
+        };
+        self.entries.truncate(pivots * count);
+        self.entries.shrink_to_fit();
+        let factor = Factor {
+            rows: mem::take(&mut self.rows),
+            columns: mem::take(&mut self.columns),
+            lower: self.entries,
+            upper,
+        };
+        (factor, left)
+    }
+}
+
+/// Calls a function with row, column and value of every entry of a block.
+fn each<N: Copy, const L: usize>(block: &[[N; L]; L], mut call: impl FnMut(usize, usize, N)) {
+    for (row, entries) in block.iter().enumerate() {
+        for (column, &entry) in entries.iter().enumerate() {
+            call(row, column, entry);
+        }
+    }
+}
+
+/// `x −= factor · column`.
+fn subtract_multiple(x: &mut [f64], column: &[f64], factor: f64) {
+    for (x, entry) in x.iter_mut().zip(column) {
+        *x -= entry * factor;
     }
 }

@@ -10,7 +10,6 @@ use crate::fallback::solve_by_pivoting;
 use crate::fronts::Fronts;
 use crate::gathering::Matrix;
 use crate::pattern::Pattern;
-use crate::pivoting::Pivoting;
 use crate::precision::Precision;
 use crate::refinement::Equations;
 
@@ -34,7 +33,6 @@ pub struct Solver {
     fronts: Fronts,
     factors: Factors,
     /// From the first matrix on that needs it.
-    pivoting: Option<Pivoting>,
     /// A column of X in the order of elimination.
     solution: Vec<f64>,
     /// Its residual, or the size of columns; empty until a solution fails the check.
@@ -48,7 +46,7 @@ pub struct Solver {
 pub struct Report {
     /// Steps of iterative refinement that led to a solution, of all columns together.
     pub refinements: usize,
-    /// Columns that were solved by elimination with partial pivoting.
+    /// Columns that were solved by elimination with delayed pivots.
     pub fallbacks: usize,
 }
 
@@ -84,7 +82,6 @@ impl Solver {
             solution: vec![0.0; pattern.unknowns()],
             pattern,
             fronts,
-            pivoting: None,
             residual: Vec::new(),
         })
     }
@@ -251,7 +248,7 @@ impl<P: Precision> Factored<'_, P> {
     /// before it is rounded to the precision in which it is stored. Magnitudes below the smallest normal
     /// number count as that number. If the largest entries of all columns of A are within a factor 1/ε
     /// of each other, components of x below `ε max |x|` count as `ε max |x|`. A solution that does not pass is refined up to three times; then
-    /// elimination with partial pivoting solves, with the same check.
+    /// elimination with delayed pivots solves, with the same check.
     ///
     /// ```
     /// use eem_sparse::{Error, Pattern, Solver};
@@ -272,7 +269,7 @@ impl<P: Precision> Factored<'_, P> {
     /// - [`Error::Count`] unless `right` has a row for each unknown;
     /// - [`Error::NotFinite`] if an entry, a right-hand side or a solution is infinite or NaN;
     /// - [`Error::Unsolved`] if no solution passes the check, as for a singular matrix;
-    /// - [`Error::OutOfMemory`] if the elimination with partial pivoting is needed and has no memory.
+    /// - [`Error::OutOfMemory`] if the elimination with delayed pivots is needed and has no memory.
     ///
     /// After an error, columns before the one that failed are solved, and all others are unchanged.
     pub fn solve<const W: usize>(&mut self, right: &mut [[P::Number; W]]) -> Result<Report, Error> {
@@ -292,7 +289,6 @@ impl<P: Precision> Factored<'_, P> {
             pattern,
             fronts,
             factors,
-            pivoting,
             solution,
             residual,
         } = &mut *self.solver;
@@ -315,7 +311,7 @@ impl<P: Precision> Factored<'_, P> {
                 if let Some(refinements) = equations.refine(x, residual, correct) {
                     report.refinements += refinements;
                 } else {
-                    report.refinements += solve_by_pivoting(&equations, pivoting, (x, residual))?;
+                    report.refinements += solve_by_pivoting(&equations, (x, residual))?;
                     report.fallbacks += 1;
                 }
             }
