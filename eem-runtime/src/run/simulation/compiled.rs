@@ -1,8 +1,8 @@
 //! Simulations in double precision in one to three dimensions are compiled with this crate.
 //!
-//! `Simulation<D, S>` is generic, so that every program would compile its own copy, 12 of the 40 CPU seconds of one with
-//! a single material. What a simulation does starts in one of the functions of a table, which is either that of this
-//! crate or, for other scalars and dimensions, made where it is asked for.
+//! Generic functions are compiled anew in every optimised program that calls them: a program with one material took 30 CPU
+//! seconds, and takes 7 without those of `Simulation`. What a simulation does starts in one of the functions of a table,
+//! which is either that of this crate or, for other scalars and dimensions, made where it is asked for.
 
 use core::any::Any;
 
@@ -31,12 +31,25 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Checks a scene and prepares it for steps of the size `step`, s, with `scheme`.
     ///
     /// Steps have this size unless [`control_steps`](Self::control_steps) is called. [`Scheme::Auto`] uses step
-    /// control from the start, with [`Tolerance::default`] unless you set another; `step` is then the first size to
-    /// try.
+    /// control from the start, with [`Tolerance::default`](crate::Tolerance::default) unless you set another; `step`
+    /// is then the first size to try.
     ///
     /// # Errors
     ///
     /// Everything that is wrong with the scene, its initial state, the scheme or the step, together with the scene.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// scene.mass(2.0, [0.0], [3.0]);
+    /// let refused = Simulation::new(scene, Scheme::EemTemperature, -0.1).unwrap_err();
+    /// assert_eq!(refused.errors().len(), 1);
+    ///
+    /// let run = Simulation::new(refused.into_scene(), Scheme::EemTemperature, 0.1)?;
+    /// assert_eq!(run.ledger().kinetic_energy, 9.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn new(scene: Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, RefusedScene<D, S>> {
         (Functions::get().new)(scene, scheme, step)
     }
@@ -47,6 +60,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// [`StepError`] if there is no new state, or Newton's method does not find it. The simulation is unchanged
     /// then.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let mass = scene.mass(2.0, [0.0], [3.0]);
+    /// let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.5)?;
+    /// let report = run.step()?;
+    /// assert_eq!((report.time, run.position(mass)?[0]), (0.5, 1.5));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     pub fn step(&mut self) -> Result<StepReport<S>, StepError> {
         self.advance(Aim::Towards(S::from_f64(f64::INFINITY)))
     }
