@@ -1,5 +1,7 @@
 //! One step of the present size by the scheme in use.
 
+use core::mem;
+
 use super::check::check_end;
 use super::stepper::{Newton, Stepper};
 use super::{Simulation, Tried};
@@ -42,17 +44,24 @@ macro_rules! explicit_view {
 pub(super) use explicit_view;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// One step of the present size.
-    pub(super) fn single_step(&mut self) -> Result<StepReport<S>, StepError> {
-        match self.try_step(Demand::None)? {
+    /// One step of this size, which later steps do not have, unless it estimates its own error and that is not within
+    /// what is demanded.
+    pub(super) fn try_step(&mut self, size: S, demand: Demand<S>) -> Result<Tried<S>, StepError> {
+        let usual = mem::replace(&mut self.step, size);
+        OtherSize { run: self, usual }
+            .run
+            .try_step_of_its_size(demand)
+    }
+
+    /// One step of this size, whatever its error.
+    pub(super) fn step_by(&mut self, size: S) -> Result<StepReport<S>, StepError> {
+        match self.try_step(size, Demand::None)? {
             Tried::Made(report) => Ok(report),
             Tried::Refused(_) => unreachable!("a step without a tolerance has no error"),
         }
     }
 
-    /// One step of the present size, unless it estimates its own error and that is not within what is
-    /// demanded.
-    pub(super) fn try_step(&mut self, demand: Demand<S>) -> Result<Tried<S>, StepError> {
+    fn try_step_of_its_size(&mut self, demand: Demand<S>) -> Result<Tried<S>, StepError> {
         self.has_stepped = false;
         self.effort.restart();
         let Attempt { error, outcome } = match self.find_next(demand) {
@@ -62,7 +71,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let Some(outcome) = outcome else {
             return Ok(Tried::Refused(error));
         };
-        core::mem::swap(&mut self.state, &mut self.next);
+        mem::swap(&mut self.state, &mut self.next);
         self.has_stepped = true;
         let report = StepReport {
             time: self.time(),
@@ -143,5 +152,18 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             span,
             self.state.positions.values(),
         )
+    }
+}
+
+/// A simulation that makes one step of another size. It gets its own size back even where a load
+/// panics.
+struct OtherSize<'a, const D: usize, S: Real> {
+    run: &'a mut Simulation<D, S>,
+    usual: S,
+}
+
+impl<const D: usize, S: Real> Drop for OtherSize<'_, D, S> {
+    fn drop(&mut self) {
+        self.run.step = self.usual;
     }
 }

@@ -159,7 +159,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         let memory = self.memory();
         let found = self.with_control(|run, control| match control {
-            None => run.single_step(),
+            None => run.step_by(run.step),
             Some(control) if run.automatic.is_some() => run.step_of_choice(control, end),
             Some(control) => run.find_accurate_step(control, end),
         });
@@ -249,7 +249,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         } = control;
         match halves {
             Some(halves) => self.try_halves(halves, (memory, *accuracy), size),
-            None => self.try_step_by(size, Demand::Within(memory.tolerance)),
+            None => self.try_step(size, Demand::Within(memory.tolerance)),
         }
     }
 
@@ -290,7 +290,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             Some(control) => {
                 // As accurate as the last one, if that can be.
                 let demand = Demand::Within(control.memory.tolerance);
-                match run.try_step_by(size, demand) {
+                match run.try_step(size, demand) {
                     Ok(Tried::Made(report)) => Ok(report),
                     _ => run.step_by(size),
                 }

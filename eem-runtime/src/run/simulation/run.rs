@@ -1,14 +1,12 @@
 //! Many steps in one call, watched from outside, up to an end time that is hit exactly.
 
-use core::mem;
 use core::ops::ControlFlow;
 
+use super::Simulation;
 use super::compiled::Aim;
-use super::{Simulation, Tried};
 use crate::number::compensated::Sum;
 use crate::number::scalar::{Mask, Real};
 use crate::step::error::{StepError, StepFailure};
-use crate::step::explicit::Demand;
 use crate::step::newton::StepReport;
 
 /// How a run ended.
@@ -231,37 +229,5 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub(super) fn time_left(&self, end: S) -> S {
         let Sum { value, carry } = self.state.time;
         (end - value) - carry
-    }
-
-    /// One step of another size, which later steps do not have.
-    pub(super) fn step_by(&mut self, size: S) -> Result<StepReport<S>, StepError> {
-        self.of_size(size).run.single_step()
-    }
-
-    /// The same for one that estimates its own error, see [`try_step`](Self::try_step).
-    pub(super) fn try_step_by(
-        &mut self,
-        size: S,
-        demand: Demand<S>,
-    ) -> Result<Tried<S>, StepError> {
-        self.of_size(size).run.try_step(demand)
-    }
-
-    fn of_size(&mut self, size: S) -> OtherSize<'_, D, S> {
-        let usual = mem::replace(&mut self.step, size);
-        OtherSize { run: self, usual }
-    }
-}
-
-/// A simulation that makes one step of another size. It gets its own size back even where a load
-/// panics.
-struct OtherSize<'a, const D: usize, S: Real> {
-    run: &'a mut Simulation<D, S>,
-    usual: S,
-}
-
-impl<const D: usize, S: Real> Drop for OtherSize<'_, D, S> {
-    fn drop(&mut self) {
-        self.run.step = self.usual;
     }
 }

@@ -20,7 +20,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let mut shorter = size;
         for _ in 0..HALVINGS {
             shorter *= S::from_f64(0.5);
-            if let Ok(Tried::Made(_)) = self.try_step_by(shorter, Demand::None) {
+            if let Ok(Tried::Made(_)) = self.try_step(shorter, Demand::None) {
                 self.undo();
                 error.shorter = Some(shorter.to_f64());
                 break;
