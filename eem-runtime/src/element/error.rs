@@ -85,13 +85,18 @@ pub enum StateError {
         /// The temperature, K.
         value: f64,
     },
-    /// The squared stretch is not positive and finite along the path of an element through a step.
-    #[error("the squared stretch of {element} within the step is {value} m^2, it must be positive and finite; a smaller step may do", value = Readable(*value))]
+    /// The squared stretch of a spring, or the squared volume ratio of a solid, is not positive and finite along the path
+    /// of an element through a step.
+    #[error("the {quantity} of {element} within the step is {value}{}, it must be positive and finite; a smaller step may do", spaced(unit), value = Readable(*value))]
     Path {
         /// The element.
         element: Element,
-        /// The squared stretch, m².
+        /// What it is.
+        quantity: &'static str,
+        /// Its value.
         value: f64,
+        /// Its unit: m² for a spring, none for a solid.
+        unit: &'static str,
     },
     /// A heat capacity is not positive and finite.
     #[error(

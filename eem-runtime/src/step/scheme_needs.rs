@@ -24,8 +24,11 @@ impl Scheme {
 
     /// Whether it steps springs with a dashpot beside them: along one gradient, with their heat.
     pub(crate) const fn takes_drag(self) -> bool {
-        use Conjugates::{Point, Stages};
-        let takes_none = matches!(self.conjugates(), Stages(_) | Point(PointRule::Variational));
+        let takes_none = match self.conjugates() {
+            Conjugates::Stages(rule) => rule.path.is_none(),
+            Conjugates::Point(PointRule::Variational) => true,
+            _ => false,
+        };
         !takes_none && !self.is_split()
     }
 

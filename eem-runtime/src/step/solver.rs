@@ -101,7 +101,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let Systems { tangent, secant } = systems;
         let stages = scheme
             .tableau()
-            .map(|rule| Stages::new(rule, secant, masses.len()));
+            .map(|rule| Stages::new(rule, secant, masses));
         let sites = Sites {
             layout,
             conduction,
@@ -116,7 +116,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             nodes.extend(moving(masses, &sites).into_iter().map(Balance::new));
             all_seen.extend(seen(&sites));
         }
-        let coupling = Coupling::new(masses, &loads.moved, &sites);
+        let coupling = Coupling::new(masses, &loads.moved, (&sites, sets.len()));
         let rockets = Rockets::new(loads, masses.len(), &sites);
         // Without conduction between elements no temperature is seen.
         let slots = layout.thermal * usize::from(!all_seen.is_empty());

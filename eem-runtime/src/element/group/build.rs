@@ -9,7 +9,7 @@ use super::loose::LooseElements;
 use super::stages::{Projections, Source, StageGroup, Values};
 use super::view::Placed;
 use crate::element::conjugates::{Conjugates, EemEntropy, EemTemperature, ElementScheme};
-use crate::element::kinematics::Kinematics;
+use crate::element::kinematics::QuadraticStrain;
 use crate::element::layout::Shape;
 use crate::element::tableau::Tableau;
 use crate::material::free_energy::FreeEnergy;
@@ -19,7 +19,7 @@ impl<S, M, K, const D: usize> Loose<S, D> for LooseElements<S, M, K, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
+    K: QuadraticStrain<S, D>,
 {
     fn as_any(&self) -> &dyn Any {
         self
@@ -77,7 +77,7 @@ fn single<S, M, K, C, const D: usize>(
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
+    K: QuadraticStrain<S, D>,
     C: ElementScheme<S, M>,
 {
     Box::new(ElementGroup::new(scheme, elements, placed))
@@ -92,7 +92,7 @@ fn staged<S, M, K, C, const D: usize>(
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
+    K: QuadraticStrain<S, D>,
     C: Source<S, M, K, D>,
 {
     Box::new(StageGroup::<S, M, K, C, D>::new(rule, elements, placed))

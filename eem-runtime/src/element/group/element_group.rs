@@ -13,7 +13,7 @@ use crate::element::error::StateError;
 use crate::element::group::misfit::Misfit;
 use crate::element::group::view::ElementGeneric;
 use crate::element::impulse::Impulses;
-use crate::element::kinematics::{Kinematics, Points, SolidState};
+use crate::element::kinematics::{Kinematics, Points, QuadraticStrain, SolidState};
 use crate::element::layout::Slots;
 use crate::element::recount::Recount;
 use crate::element::state::State;
@@ -136,7 +136,7 @@ impl<S, M, K, C, const D: usize> Group<S, D> for ElementGroup<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
+    K: QuadraticStrain<S, D>,
     C: ElementScheme<S, M>,
 {
     fn elements(&self) -> &dyn Elements<S, D> {

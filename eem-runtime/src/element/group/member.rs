@@ -67,11 +67,6 @@ where
         &self.points.as_ref()[0]
     }
 
-    /// The same, to be changed.
-    pub(super) fn only_mut(&mut self) -> &mut Point<S, M, K, C, D> {
-        &mut self.points.as_mut()[0]
-    }
-
     /// The scheme of its points.
     #[inline]
     pub(super) fn scheme(&self) -> C {

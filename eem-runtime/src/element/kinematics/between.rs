@@ -41,23 +41,36 @@ impl<A: Symmetric<S, D>, S: Real, const D: usize> Deformed<A, S, D> {
     #[inline]
     pub(super) fn measure(&self, of: &Measure<S, D>) -> S {
         match of {
-            Measure::Trace => self.strain.trace(),
-            Measure::Square => self.strain.contracted(&self.strain),
             Measure::Dilatation => self.dilatation(),
-            Measure::Fibre(along) => A::symmetrised(along, along).contracted(&self.strain),
-            Measure::Component(k) => A::basis(*k).contracted(&self.strain),
+            _ => of.of_strain(&self.strain),
         }
     }
 
     /// `J − 1`.
     #[inline]
     fn dilatation(&self) -> S {
-        let i3 = self.strain.growth();
-        let of_strain = i3 / (S::one() + (S::one() + i3).sqrt());
+        let of_strain = Measure::<S, D>::Dilatation.of_strain(&self.strain);
         let of_tensor = A::determinant(&self.tensor) - S::one();
         let square = self.strain.contracted(&self.strain);
         let is_small = square.less(S::from_f64(LARGE_SQUARE));
         S::select(is_small, of_strain, of_tensor)
+    }
+}
+
+impl<S: Real, const D: usize> Measure<S, D> {
+    /// The measure of a strain; j has no more digits than E.
+    #[inline]
+    pub(super) fn of_strain<A: Symmetric<S, D>>(&self, strain: &A) -> S {
+        match self {
+            Self::Trace => strain.trace(),
+            Self::Square => strain.contracted(strain),
+            Self::Dilatation => {
+                let i3 = strain.growth();
+                i3 / (S::one() + (S::one() + i3).sqrt())
+            }
+            Self::Fibre(along) => A::symmetrised(along, along).contracted(strain),
+            Self::Component(k) => A::basis(*k).contracted(strain),
+        }
     }
 }
 
@@ -80,8 +93,18 @@ impl<A: Symmetric<S, D>, S: Real, const D: usize> Between<A, S, D> {
     #[inline]
     pub(super) fn new(ends: [&Tensor<S, D>; 2]) -> Self {
         let [old, new] = ends.map(|tensor| Deformed::<A, S, D>::new(*tensor));
-        let [old_volume, new_volume] = [&old, &new].map(|end| S::one() + end.dilatation());
-        let (old, new) = (old.strain, new.strain);
+        let volumes = [&old, &new].map(|end| S::one() + end.dilatation());
+        Self::with_volumes([old.strain, new.strain], volumes)
+    }
+
+    /// Two strains, whatever the deformations are.
+    pub(super) fn of_strains(ends: [&A; 2]) -> Self {
+        let volumes = ends.map(|strain| S::one() + Measure::<S, D>::Dilatation.of_strain(strain));
+        Self::with_volumes(ends.map(|strain| *strain), volumes)
+    }
+
+    #[inline]
+    fn with_volumes([old, new]: [A; 2], [old_volume, new_volume]: [S; 2]) -> Self {
         Self {
             sum: plus(&old, S::one(), &new),
             difference: plus(&new, -S::one(), &old),

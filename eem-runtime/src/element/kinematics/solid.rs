@@ -174,6 +174,19 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
         stress
     }
 
+    /// `B_i·S B_j` of all pairs of arms.
+    #[inline]
+    pub(super) fn stiffness_of(&self, stress: &H::Tensor<S>) -> H::PerArm<H::PerArm<S>> {
+        let mut weights = H::PerArm::filled(H::PerArm::filled(S::zero()));
+        for (row, b) in weights.as_mut().iter_mut().zip(self.gradients.as_ref()) {
+            let pulled = stress.applied(b);
+            for (weight, by) in row.as_mut().iter_mut().zip(self.gradients.as_ref()) {
+                *weight = dot(by, &pulled);
+            }
+        }
+        weights
+    }
+
     /// The deformations at the ends and in the middle, and the strains.
     #[inline]
     pub(super) fn between(&self, ends: &Ends<Self, S, D>) -> ([Tensor<S, D>; 2], Strains<H, S, D>) {

@@ -8,7 +8,7 @@ use crate::element::kinematics::shape::Shape;
 use crate::element::kinematics::solid::{PerArm, PerPair, SolidPoint, Strains};
 use crate::element::kinematics::solid_state::SolidState;
 use crate::element::kinematics::strain::Measure;
-use crate::element::kinematics::tensor::{Symmetric, dot, plus, pushed};
+use crate::element::kinematics::tensor::{Symmetric, plus, pushed};
 use crate::material::free_energy::{Array, Entry};
 use crate::number::scalar::{Mask, Real};
 
@@ -184,14 +184,7 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
     fn secant(&self, ends: &Ends<Self, S, D>, force: &[S; N]) -> H::PerArm<H::PerArm<S>> {
         let (_, between) = self.between(ends);
         let stress = self.stress(&between, force);
-        let mut weights = H::PerArm::filled(H::PerArm::filled(S::zero()));
-        for (row, b) in weights.as_mut().iter_mut().zip(self.gradients.as_ref()) {
-            let pulled = stress.applied(b);
-            for (weight, by) in row.as_mut().iter_mut().zip(self.gradients.as_ref()) {
-                *weight = dot(by, &pulled);
-            }
-        }
-        weights
+        self.stiffness_of(&stress)
     }
 }
 

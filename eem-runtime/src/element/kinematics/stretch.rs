@@ -5,8 +5,10 @@ use core::array;
 use crate::element::error::StateError;
 use crate::element::handle::Element;
 use crate::element::kinematics::measures::{Ends, Kinematics};
+use crate::element::kinematics::quadratic_strain::QuadraticStrain;
+use crate::element::kinematics::tensor::dot;
 use crate::material::free_energy::Entry;
-use crate::number::scalar::{Mask, Real, Scalar};
+use crate::number::scalar::{Mask, Real, Scalar, is_positive};
 
 /// The stretch `λ = |r|`, `r = q_j − q_i`, of two nodes in `D` dimensions, m.
 ///
@@ -159,6 +161,76 @@ impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
     fn secant(&self, ends: &Ends<Self, S, D>, &[force]: &[S; 1]) -> [[S; 1]; 1] {
         let ([lambda0], [lambda1]) = (ends.measures0, ends.measures1);
         [[(force + force) / (lambda0 + lambda1)]]
+    }
+}
+
+// C = λ²
+impl<S: Real, const D: usize> QuadraticStrain<S, D> for Stretch<D> {
+    type PerStrain<T: Entry> = [T; 1];
+
+    #[inline]
+    fn strain(&self, [r]: &[[S; D]; 1]) -> [S; 1] {
+        [dot(r, r)]
+    }
+
+    #[inline]
+    fn strain_rate(&self, [r]: &[[S; D]; 1], [w]: &[[S; D]; 1]) -> [S; 1] {
+        let half = dot(r, w);
+        [half + half]
+    }
+
+    #[inline]
+    fn strain_force(&self, [r]: &[[S; D]; 1], &[n]: &[S; 1]) -> [[S; D]; 1] {
+        [scaled(r, n + n)]
+    }
+
+    #[inline]
+    fn strain_force_size(&self, [r]: &[[S; D]; 1], &[n]: &[S; 1]) -> S {
+        dot(r, r).sqrt() * (n + n)
+    }
+
+    #[inline]
+    fn strain_stiffness(&self, &[n]: &[S; 1]) -> [[S; 1]; 1] {
+        [[n + n]]
+    }
+
+    #[inline]
+    fn strain_sizes(&self, &strain: &[S; 1]) -> [S; 1] {
+        strain
+    }
+
+    #[inline]
+    fn strain_metric(&self, &[square]: &[S; 1]) -> ([S; 1], S) {
+        ([S::one()], square)
+    }
+
+    #[inline]
+    fn measures_of(&self, &[square]: &[S; 1]) -> Option<[S; 1]> {
+        is_positive(square).then(|| [square.sqrt()])
+    }
+
+    #[cold]
+    fn refuse(&self, element: Element, &[square]: &[S; 1]) -> StateError {
+        StateError::Path {
+            element,
+            quantity: "squared stretch",
+            value: square.to_f64(),
+            unit: "m^2",
+        }
+    }
+
+    #[inline]
+    fn strain_slopes(&self, ends: [&[S; 1]; 2]) -> [[S; 1]; 1] {
+        let [old, new] = ends.map(|&[square]| square.sqrt());
+        [[(old + new).recip()]]
+    }
+
+    // ∂²λ/∂C² = −1/4λ³
+    #[inline]
+    fn strain_curvature(&self, &[square]: &[S; 1], &[force]: &[S; 1]) -> [[S; 1]; 1] {
+        let stretch = square.sqrt();
+        let shrink = (stretch + stretch).recip();
+        [[-(force / stretch) * shrink * shrink]]
     }
 }
 

@@ -73,6 +73,7 @@ fn check_scheme<const D: usize, S: Real>(
 fn check_solids(scheme: Scheme) -> Result<(), SceneError> {
     let why = match scheme.closing() {
         Closing::Increments => return Ok(()),
+        Closing::Stages if scheme.is_exact() => return Ok(()),
         Closing::Explicit => {
             "so that every stage would solve a large linear system, and their small stiff elements allow only tiny steps"
         }

@@ -175,10 +175,14 @@ impl<S: Real, const D: usize> Solver<S, D> {
         if self.coupling.is_none() {
             return;
         }
-        let [inertia, ..] = self.inertias(view);
+        let (moving, per_set) = (self.moving(), self.rows_per_set());
+        let inertia = self.inertias(view);
         let (values, right) = self.tangent.parts();
-        let nodes = (&self.nodes[..], &self.trial);
-        self.coupling.balance(nodes, inertia, values, right);
+        for (set, nodes) in self.nodes.chunks(moving).enumerate() {
+            let (nodes, rows) = ((nodes, &self.trial), &mut right[set * per_set..]);
+            self.coupling
+                .balance(set, nodes, inertia[set], values, rows);
+        }
     }
 
     /// Takes back what the last step left for the next ones.

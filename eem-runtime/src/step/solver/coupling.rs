@@ -19,7 +19,9 @@ use crate::number::scalar::{Mask, Real};
 /// The coupled masses of a scene, and where they write.
 #[derive(Debug)]
 pub(super) struct Coupling<S, const D: usize> {
+    /// Set after set.
     pairs: Vec<CoupledPair<S, D>>,
+    sets: usize,
     /// Nodes that move with those that are moved beside them.
     driven: Vec<DrivenPair<S>>,
     /// `Σ_m M_am Δv_m` of the nodes that move beside moved ones, and the magnitude of its terms, N s.
@@ -48,22 +50,31 @@ struct DrivenPair<S> {
 }
 
 impl<S: Real, const D: usize> Coupling<S, D> {
-    /// That of a scene with one set of unknowns.
-    pub(super) fn new(masses: &Masses<S>, moved: &[usize], sites: &Sites<'_, S, D>) -> Self {
+    /// That of a scene with so many sets of unknowns; nodes that are moved are those of a scheme with one.
+    pub(super) fn new(
+        masses: &Masses<S>,
+        moved: &[usize],
+        (sites, sets): (&Sites<'_, S, D>, usize),
+    ) -> Self {
         let first = |node: usize| sites.layout.nodes[node];
-        let pairs = masses.pairs().iter().filter_map(|pair| {
-            let [a, b] = pair.nodes().map(first);
-            let rows = [a?, b?];
-            let place = |[row, column]: [usize; 2]| {
-                array::from_fn(|axis| compact(sites.place(Some(row + axis), Some(column + axis))))
-            };
-            Some(CoupledPair {
-                nodes: rows.map(|row| compact(row / D)),
-                mass: pair.mass,
-                places: [place(rows), place([rows[1], rows[0]])],
-            })
-        });
-        let pairs: Vec<_> = pairs.collect();
+        let mut pairs = Vec::with_capacity(sets * masses.pairs().len());
+        for set in 0..sets {
+            let sites = sites.of_sets([set, set]);
+            pairs.extend(masses.pairs().iter().filter_map(|pair| {
+                let [a, b] = pair.nodes().map(first);
+                let rows = [a?, b?];
+                let place = |[row, column]: [usize; 2]| {
+                    array::from_fn(|axis| {
+                        compact(sites.place(Some(row + axis), Some(column + axis)))
+                    })
+                };
+                Some(CoupledPair {
+                    nodes: rows.map(|row| compact(row / D)),
+                    mass: pair.mass,
+                    places: [place(rows), place([rows[1], rows[0]])],
+                })
+            }));
+        }
         let driven: Vec<_> = driven::<S, D>(masses, moved, &first).collect();
         let moving = if pairs.is_empty() && driven.is_empty() {
             0
@@ -74,6 +85,7 @@ impl<S: Real, const D: usize> Coupling<S, D> {
         let still = [[S::zero(); D]; 2];
         Self {
             pairs,
+            sets,
             driven,
             drives: nodes.into_iter().map(|node| (node, still)).collect(),
             impulses: vec![still; moving],
@@ -124,16 +136,23 @@ impl<S: Real, const D: usize> Coupling<S, D> {
         self.is_none() || update.at_most(root * root.sqrt().sqrt()).all()
     }
 
-    /// Adds inertia to residual and tangent at a trial, as a [`Balance`] does on the diagonal.
+    /// The pairs of a set of unknowns.
+    fn of_set(&self, set: usize) -> &[CoupledPair<S, D>] {
+        let count = self.pairs.len() / self.sets;
+        &self.pairs[set * count..][..count]
+    }
+
+    /// Adds inertia to residual and tangent of a set at a trial, as a [`Balance`] does on the diagonal.
     pub(super) fn balance(
         &self,
+        set: usize,
         (nodes, trial): (&[Balance<S, D>], &Trial<S, D>),
         inertia_per_mass: S,
         values: &mut [S],
         right: &mut [[S; 1]],
     ) {
         let rows = right.as_flattened_mut().as_chunks_mut::<D>().0;
-        for pair in &self.pairs {
+        for pair in self.of_set(set) {
             let [a, b] = pair.nodes.map(|node| node as usize);
             let inertia = pair.mass * inertia_per_mass;
             for &place in pair.places.as_flattened() {
@@ -159,31 +178,48 @@ impl<S: Real, const D: usize> Coupling<S, D> {
         (nodes, trial): (&[Balance<S, D>], &Trial<S, D>),
         inertia_per_mass: S,
     ) {
-        for (node, [impulse, terms]) in nodes.iter().zip(&mut self.impulses) {
-            let inertia = node.place.mass * inertia_per_mass;
-            *impulse = node.change(trial).map(|change| inertia * change);
-            *terms = node.displacement(trial).map(|moved| inertia * moved.abs());
-        }
-        for pair in &self.pairs {
-            let [a, b] = pair.nodes.map(|node| node as usize);
-            let inertia = pair.mass * inertia_per_mass;
-            for [own, other] in [[a, b], [b, a]] {
-                let (change, moved) =
-                    (nodes[other].change(trial), nodes[other].displacement(trial));
-                let [impulse, terms] = &mut self.impulses[own];
-                for axis in 0..D {
-                    impulse[axis] += inertia * change[axis];
-                    // Masses between corners and middles of edges are negative.
-                    terms[axis] += (inertia * moved[axis]).abs();
-                }
-            }
-        }
+        self.multiply(nodes, inertia_per_mass, |node| {
+            [node.change(trial), node.displacement(trial).map(S::abs)]
+        });
         for &(node, drive) in &self.drives {
             let sums = self.impulses[node as usize].as_flattened_mut();
             for (sum, &more) in sums.iter_mut().zip(drive.as_flattened()) {
                 *sum += more;
             }
         }
+    }
+
+    /// The product of the masses, by a factor, and vectors of nodes, and the magnitude of its terms from those of the
+    /// vectors, in the place of impulses; only where masses couple nodes.
+    pub(super) fn multiply(
+        &mut self,
+        nodes: &[Balance<S, D>],
+        factor: S,
+        vector: impl Fn(&Balance<S, D>) -> [[S; D]; 2],
+    ) {
+        for (node, impulse) in nodes.iter().zip(&mut self.impulses) {
+            let inertia = node.place.mass * factor;
+            *impulse = vector(node).map(|of| of.map(|entry| inertia * entry));
+        }
+        let count = self.pairs.len() / self.sets;
+        for pair in &self.pairs[..count] {
+            let [a, b] = pair.nodes.map(|node| node as usize);
+            let inertia = pair.mass * factor;
+            for [own, other] in [[a, b], [b, a]] {
+                let [entries, sizes] = vector(&nodes[other]);
+                let [sums, terms] = &mut self.impulses[own];
+                for axis in 0..D {
+                    sums[axis] += inertia * entries[axis];
+                    // Masses between corners and middles of edges are negative.
+                    terms[axis] += (inertia * sizes[axis]).abs();
+                }
+            }
+        }
+    }
+
+    /// What has been found for a node among those that move.
+    pub(super) fn found(&self, moving: usize) -> Option<&[[S; D]; 2]> {
+        self.impulses.get(moving)
     }
 
     /// `Δp` of a node among those that move, at the trial for which it has been found where masses couple,
@@ -195,7 +231,7 @@ impl<S: Real, const D: usize> Coupling<S, D> {
         trial: &Trial<S, D>,
         inertia_per_mass: S,
     ) -> [[S; D]; 2] {
-        if let Some(found) = self.impulses.get(moving) {
+        if let Some(found) = self.found(moving) {
             return *found;
         }
         let at = node.place.in_trial();

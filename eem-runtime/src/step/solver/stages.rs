@@ -1,6 +1,7 @@
 //! What only a scheme with stages needs to remember.
 
 use crate::algebra::system::LinearSystem;
+use crate::element::masses::Masses;
 use crate::element::tableau::{MOST_STAGES, Tableau};
 use crate::number::scalar::Real;
 
@@ -14,20 +15,25 @@ pub(super) struct Stages<S, const D: usize> {
     pub(super) impulses: Vec<[[S; D]; MOST_STAGES]>,
     /// Displacements of all nodes at the end of the step, m.
     pub(super) ends: Vec<[S; D]>,
+    /// By how much the velocities of the nodes change in the step, m/s; only where masses couple nodes.
+    pub(super) changes: Vec<[S; D]>,
 }
 
 impl<S: Real, const D: usize> Stages<S, D> {
-    /// Memory for a scene with so many nodes.
+    /// Memory for a scene with these masses.
     pub(super) fn new(
         rule: &'static Tableau,
         secant: Option<LinearSystem<S, D>>,
-        nodes: usize,
+        masses: &Masses<S>,
     ) -> Self {
+        let nodes = masses.len();
+        let coupled = if masses.are_coupled() { nodes } else { 0 };
         Self {
             rule,
             secant,
             impulses: vec![[[S::zero(); D]; MOST_STAGES]; nodes],
             ends: vec![[S::zero(); D]; nodes],
+            changes: vec![[S::zero(); D]; coupled],
         }
     }
 

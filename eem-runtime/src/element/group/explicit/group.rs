@@ -10,7 +10,7 @@ use crate::element::group::explicit::view::{
 use crate::element::group::interface::{Elements, ExplicitGroup, Loose};
 use crate::element::group::loose::LooseElements;
 use crate::element::group::view::Placed;
-use crate::element::kinematics::Kinematics;
+use crate::element::kinematics::{Kinematics, QuadraticStrain};
 use crate::element::state::State;
 use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
@@ -54,7 +54,7 @@ impl<S, M, K, const D: usize> ExplicitGroup<S, D> for FreeGroup<S, M, K, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
+    K: QuadraticStrain<S, D>,
 {
     fn elements(&self) -> &dyn Elements<S, D> {
         &self.elements

@@ -2,7 +2,8 @@
 
 use super::heat;
 use super::local::LocalStages;
-use super::member::StageMember;
+use super::member::{StageArms, StagePoint};
+use super::site::StageSite;
 use super::source::Source;
 use crate::algebra::system::LinearSystem;
 use crate::element::error::StateError;
@@ -32,23 +33,27 @@ where
         let (values, right) = system.parts();
         let members = self.elements.members.iter().zip(&mut self.members);
         for (member, stages) in members {
-            let point = member.only();
-            stages.condense(point, rule, &mut self.local, view)?;
+            let arms = stages.arms(rule, trial);
             let mut target = Target {
                 rule,
                 step: view.step,
+                site: &stages.site,
                 local: &mut self.local,
-                values,
-                right,
+                values: &mut *values,
+                right: &mut *right,
             };
-            for stage in 0..rule.stages() {
-                for measure in 0..M::MEASURES {
-                    stages.assemble_force(stage, measure, &mut target);
+            let points = stages.points.as_mut().iter_mut();
+            for (point, in_state) in points.zip(member.points.as_ref()) {
+                point.condense(in_state, rule, target.local, view)?;
+                for stage in 0..rule.stages() {
+                    for force in 0..C::FORCES {
+                        point.assemble_force([stage, force], &mut target);
+                    }
+                    point.assemble_turn(stage, &arms, &mut target);
                 }
-                stages.assemble_turn(stage, trial, &mut target);
-            }
-            if let Some(slot) = point.slots().thermal {
-                stages.assemble_temperatures(slot, trial, &mut target);
+                if let Some(slot) = in_state.slots().thermal {
+                    point.assemble_temperatures(slot, trial, &mut target);
+                }
             }
         }
         Ok(())
@@ -56,44 +61,44 @@ where
 }
 
 /// Where an element writes.
-struct Target<'a, S: Real> {
+struct Target<'a, K: Kinematics<S, D>, S: Real, const D: usize> {
     rule: &'static Tableau,
     step: S,
+    site: &'a StageSite<K, S, D>,
     local: &'a mut LocalStages<S>,
     values: &'a mut [S],
     right: &'a mut [[S; 1]],
 }
 
-impl<S: Real> Target<'_, S> {
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Target<'_, K, S, D> {
     /// The weight `h w` of the forces of a stage in the rows of each set on which they act.
-    fn impulses(&self, stage: usize) -> impl Iterator<Item = (usize, S)> + use<S> {
+    fn impulses(&self, stage: usize) -> impl Iterator<Item = (usize, S)> + use<K, S, D> {
         let (step, sets) = (self.step, self.rule.positions.iter().enumerate());
         let acting = sets.filter(move |(_, weights)| weights[stage] != 0.0);
         acting.map(move |(set, weights)| (set, step * S::from_f64(weights[stage])))
     }
 }
 
-impl<S, M, K, C, const D: usize> StageMember<S, M, K, C, D>
+impl<S, M, K, C, const D: usize> StagePoint<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
     C: Source<S, M, K, D>,
 {
-    /// The impulses of the force `f ∂π/∂q` of one measure at a stage and their derivatives, with the
-    /// direction held.
-    fn assemble_force(&self, stage: usize, measure: usize, target: &mut Target<'_, S>) {
+    /// The impulses of a force at a stage and their derivatives, with its direction held.
+    fn assemble_force(&self, [stage, force]: [usize; 2], target: &mut Target<'_, K, S, D>) {
         let rule = target.rule;
-        let force = C::force(self, rule, target.local, stage, measure);
-        let value = force + target.local.row[0];
+        let at = [stage, force];
+        let value = C::force(self, rule, target.local, at) + target.local.row[0];
         let by_arms = C::by_arms(self, rule, target.local);
-        let along = C::direction(self, stage, measure);
+        let along = C::direction(self, at);
         for (set, impulse) in target.impulses(stage) {
-            let mut pull = *along;
+            let mut pull = along;
             scale::<K, S, D>(&mut pull, impulse * value);
-            let site = &self.site.sets[set][set];
+            let site = &target.site.sets[set][set];
             site.subtract_arms(&pull, &site.rows, target.right.as_flattened_mut());
-            for (site, by_arm) in self.site.sets[set].iter().zip(&by_arms).take(rule.sets()) {
+            for (site, by_arm) in target.site.sets[set].iter().zip(&by_arms).take(rule.sets()) {
                 for (i, along) in along.as_ref().iter().enumerate() {
                     for (j, by) in by_arm.as_ref().iter().enumerate() {
                         let block = along.map(|entry| by.map(|by| impulse * entry * by));
@@ -101,7 +106,7 @@ where
                     }
                 }
             }
-            self.assemble_heat(set, impulse, along, target);
+            self.assemble_heat(set, impulse, &along, target);
         }
     }
 
@@ -112,14 +117,14 @@ where
         set: usize,
         impulse: S,
         along: &Arms<K, S, D>,
-        target: &mut Target<'_, S>,
+        target: &mut Target<'_, K, S, D>,
     ) {
-        let Some(contacts) = &self.site.contacts else {
+        let Some(contacts) = &self.contacts else {
             return;
         };
         let rule = target.rule;
-        let by_heat = &target.local.row[1 + rule.sets() * M::MEASURES..];
-        let site = &self.site.sets[set][set];
+        let by_heat = &target.local.row[1 + rule.sets() * C::FORCES..];
+        let site = &target.site.sets[set][set];
         for (column, contact) in contacts[set].iter().enumerate().take(rule.sets()) {
             let by = impulse * heat::by_seen(rule, column, by_heat);
             let times = |factor: S| {
@@ -137,13 +142,18 @@ where
     }
 
     /// What the forces of a stage do when their directions turn.
-    fn assemble_turn(&self, stage: usize, trial: &Trial<S, D>, target: &mut Target<'_, S>) {
+    fn assemble_turn(
+        &self,
+        stage: usize,
+        arms: &StageArms<K, S, D>,
+        target: &mut Target<'_, K, S, D>,
+    ) {
         let Some(own) = target.rule.set_of(stage) else {
             return;
         };
         for (set, impulse) in target.impulses(stage) {
-            let blocks = C::turn(self, target.rule, own, trial);
-            let site = &self.site.sets[set][own];
+            let blocks = C::turn(self, target.rule, own, arms);
+            let site = &target.site.sets[set][own];
             for (i, row) in blocks.as_ref().iter().enumerate() {
                 for (j, block) in row.as_ref().iter().enumerate() {
                     let block = block.map(|row| row.map(|entry| impulse * entry));
@@ -154,21 +164,26 @@ where
     }
 
     /// The equations `Θ − θ = 0` of an element whose temperatures neighbours see.
-    fn assemble_temperatures(&self, slot: usize, trial: &Trial<S, D>, target: &mut Target<'_, S>) {
-        let Some(contacts) = &self.site.contacts else {
+    fn assemble_temperatures(
+        &self,
+        slot: usize,
+        trial: &Trial<S, D>,
+        target: &mut Target<'_, K, S, D>,
+    ) {
+        let Some(contacts) = &self.contacts else {
             return;
         };
         let rule = target.rule;
         for (set, contacts) in contacts.iter().enumerate().take(rule.sets()) {
             let theta = C::temperature(self, rule, target.local, set) + target.local.row[0];
             let by_arms = C::by_arms(self, rule, target.local);
-            let by_heat = &target.local.row[1 + rule.sets() * M::MEASURES..];
+            let by_heat = &target.local.row[1 + rule.sets() * C::FORCES..];
             let own = &contacts[set];
             let seen = trial.seen.values()[trial.seen_of_set(set, slot)];
             target.right[own.unknown as usize][0] += theta - seen;
             target.values[own.diagonal as usize] += S::one();
             for (column, contact) in contacts.iter().enumerate().take(rule.sets()) {
-                let site = &self.site.sets[set][column];
+                let site = &target.site.sets[set][column];
                 site.subtract_arms(&by_arms[column], &contact.row, target.values);
                 let by = heat::by_seen(rule, column, by_heat);
                 target.values[contact.diagonal as usize] += by * contact.conductance();

@@ -1,12 +1,12 @@
 //! An element before and at the start of a step.
 
-use super::member::{StageMember, StateMember, inputs, unknowns};
+use super::member::{StageMember, StagePoint, StateMember, unknowns};
 use super::site::StageSite;
 use super::source::Source;
 use crate::element::group::arms::arms_in;
 use crate::element::group::begin::shorten;
 use crate::element::group::view::StepView;
-use crate::element::kinematics::{Arms, Kinematics};
+use crate::element::kinematics::{Arms, Kinematics, Points};
 use crate::element::tableau::Tableau;
 use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
@@ -19,18 +19,20 @@ where
     C: Source<S, M, K, D>,
 {
     pub(super) fn new(member: &StateMember<S, M, K, D>, rule: &Tableau) -> Self {
-        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
-        let length = (1 + inputs::<S, M>(rule)) * unknowns::<S, M>(rule);
+        let length = (1 + C::inputs_of(rule)) * unknowns::<S, M>(rule);
         Self {
-            kinematics: member.only().kinematics,
             site: StageSite::unconnected(member.site),
-            entropy: S::zero(),
-            prescribed: None,
-            r0: nowhere,
-            length: S::one(),
-            old_viscous: M::Viscosities::filled(S::zero()),
-            solved: vec![S::zero(); length],
-            own: C::new(),
+            r0: Arms::<K, S, D>::filled([S::zero(); D]),
+            points: K::PerPoint::from_fn(|point| StagePoint {
+                kinematics: member.points.as_ref()[point].kinematics,
+                contacts: None,
+                entropy: S::zero(),
+                prescribed: None,
+                viscous_unit: S::one(),
+                old_viscous: M::Viscosities::filled(S::zero()),
+                solved: vec![S::zero(); length],
+                own: C::new(),
+            }),
         }
     }
 
@@ -41,19 +43,24 @@ where
         view: &StepView<'_, S>,
         lengths: &mut [S],
     ) {
-        let (nodes, slots) = (&member.site.nodes, member.only().slots());
+        let nodes = &member.site.nodes;
         self.r0 = arms_in::<K, S, D>(nodes, &view.state.positions);
-        let measures = self.kinematics.measure(&self.r0);
-        self.length = self.kinematics.length(&measures);
-        shorten::<K, S, D>(nodes, self.length, lengths);
-        for k in 0..M::DASHPOTS {
-            self.old_viscous[k] = view.state.viscous.values()[slots.viscous + k];
+        let points = self.points.as_mut().iter_mut();
+        for (point, in_state) in points.zip(member.points.as_ref()) {
+            let slots = in_state.slots();
+            let measures = point.kinematics.measure(&self.r0);
+            let length = point.kinematics.length(&measures);
+            shorten::<K, S, D>(nodes, length, lengths);
+            point.viscous_unit = point.kinematics.unit(&measures);
+            for k in 0..M::DASHPOTS {
+                point.old_viscous[k] = view.state.viscous.values()[slots.viscous + k];
+            }
+            if let Some(slot) = slots.thermal {
+                point.entropy = view.state.entropies.values()[slot];
+                point.prescribed = view.prescribed_at_stages(slot);
+            }
+            C::begin(point, in_state, view, &self.r0);
+            C::hold(point);
         }
-        if let Some(slot) = slots.thermal {
-            self.entropy = view.state.entropies.values()[slot];
-            self.prescribed = view.prescribed_at_stages(slot);
-        }
-        C::begin(self, member.only(), view);
-        C::hold(self);
     }
 }

@@ -37,12 +37,14 @@ where
         let impulse = view.step * S::from_f64(rule.positions[set][stage]);
         let (values, right) = system.parts();
         for stages in &self.members {
-            let weights = C::secant(stages, stage);
             let (site, secant) = (stages.site.common(), &stages.site.secant);
             let mut known = arms_in::<K, S, D>(&site.nodes, &view.state.positions);
             site.add_anchors(&mut known, trial.displacements_of_set(set), S::one());
-            secant.add_matrix(&site.is_mass, &weights, impulse, values);
-            site.subtract_known(&weights, (&known, impulse), right);
+            for point in stages.points.as_ref() {
+                let weights = C::secant(point, stage);
+                secant.add_matrix(&site.is_mass, &weights, impulse, values);
+                site.subtract_known(&weights, (&known, impulse), right);
+            }
         }
     }
 
@@ -57,17 +59,20 @@ where
         magnitudes: &mut [S],
     ) {
         for stages in &self.members {
-            let force = C::pull(stages, self.rule, stage, trial);
+            let arms = stages.arms(self.rule, trial);
             let nodes = &stages.site.common().nodes;
-            for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
-                for (sum, &force) in impulses.of(node as usize).iter_mut().zip(force) {
-                    *sum -= view.step * force;
+            for point in stages.points.as_ref() {
+                let force = C::pull(point, self.rule, stage, &arms);
+                for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
+                    for (sum, &force) in impulses.of(node as usize).iter_mut().zip(force) {
+                        *sum -= view.step * force;
+                    }
                 }
-            }
-            if stage == 0 && !magnitudes.is_empty() {
-                let magnitude = C::magnitude(stages, self.rule, view.step);
-                for &node in nodes.as_ref() {
-                    magnitudes[node as usize] += magnitude;
+                if stage == 0 && !magnitudes.is_empty() {
+                    let magnitude = C::magnitude(point, self.rule, view.step);
+                    for &node in nodes.as_ref() {
+                        magnitudes[node as usize] += magnitude;
+                    }
                 }
             }
         }
@@ -84,8 +89,10 @@ where
         let rule = self.rule;
         for (member, stages) in self.elements.members.iter_mut().zip(&mut self.members) {
             let r1 = member.arms_in(next);
-            let point = member.only_mut();
-            C::close(stages, point, rule, (view, trial, &r1), next, tally)?;
+            let points = stages.points.as_mut().iter_mut();
+            for (point, in_state) in points.zip(member.points.as_mut()) {
+                C::close(point, in_state, rule, (view, trial, &r1), next, tally)?;
+            }
         }
         Ok(())
     }

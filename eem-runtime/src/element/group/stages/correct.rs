@@ -1,7 +1,7 @@
 //! From the solution of the global system to the internal variables of the stages.
 
 use super::local::LocalStages;
-use super::member::StageMember;
+use super::member::StagePoint;
 use super::source::Source;
 use crate::element::group::stages::stage_group::StageGroup;
 use crate::element::kinematics::{Arms, Kinematics};
@@ -18,19 +18,26 @@ where
 {
     /// See [`Group::correct`](crate::element::group::Group::correct).
     pub(super) fn correct_all(&mut self, solution: &[[S; 1]]) -> S {
+        let (rule, local) = (self.rule, &mut self.local);
         let mut largest = S::zero();
         for stages in &mut self.members {
-            stages.find_inputs(self.rule, solution, &mut self.local);
-            C::hold(stages);
-            let update = C::correct(stages, self.rule, &self.local);
-            C::apply(stages, self.rule, S::one());
-            largest = largest.maximum(update);
+            let mut motions = [Arms::<K, S, D>::filled([S::zero(); D]); MOST_SETS];
+            for (set, motion) in motions.iter_mut().enumerate().take(rule.sets()) {
+                *motion = stages.site.sets[set][set].motion_in(solution);
+            }
+            for point in stages.points.as_mut() {
+                point.find_inputs(rule, &motions, solution, local);
+                C::hold(point);
+                let update = C::correct(point, rule, local);
+                C::apply(point, rule, S::one());
+                largest = largest.maximum(update);
+            }
         }
         largest
     }
 }
 
-impl<S, M, K, C, const D: usize> StageMember<S, M, K, C, D>
+impl<S, M, K, C, const D: usize> StagePoint<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
@@ -38,13 +45,15 @@ where
     C: Source<S, M, K, D>,
 {
     /// The changes of the inputs that go with the global ones.
-    fn find_inputs(&self, rule: &Tableau, solution: &[[S; 1]], local: &mut LocalStages<S>) {
-        let (measures, heat) = local.inputs.split_at_mut(rule.sets() * M::MEASURES);
-        let mut motions = [Arms::<K, S, D>::filled([S::zero(); D]); MOST_SETS];
-        for (set, motion) in motions.iter_mut().enumerate().take(rule.sets()) {
-            *motion = self.site.sets[set][set].motion_in(solution);
-        }
-        C::inputs(self, rule, &motions, measures);
+    fn find_inputs(
+        &self,
+        rule: &Tableau,
+        motions: &[Arms<K, S, D>; MOST_SETS],
+        solution: &[[S; 1]],
+        local: &mut LocalStages<S>,
+    ) {
+        let (strains, heat) = local.inputs.split_at_mut(rule.sets() * C::FORCES);
+        C::inputs(self, rule, motions, strains);
         for (stage, input) in heat.iter_mut().enumerate() {
             *input = self.heat_change(rule, stage, solution);
         }
@@ -53,14 +62,8 @@ where
     /// The change of Q at a stage that a solution means, W.
     fn heat_change(&self, rule: &Tableau, stage: usize, solution: &[[S; 1]]) -> S {
         let mut change = S::zero();
-        for (set, contacts) in self
-            .site
-            .contacts
-            .iter()
-            .flatten()
-            .enumerate()
-            .take(rule.sets())
-        {
+        let contacts = self.contacts.iter().flatten().enumerate();
+        for (set, contacts) in contacts.take(rule.sets()) {
             let share = S::from_f64(rule.share(stage, set));
             let contact = &contacts[set];
             let near = solution[contact.unknown as usize][0];

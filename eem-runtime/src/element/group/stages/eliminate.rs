@@ -1,7 +1,7 @@
-//! The internal variables of one element over one step: the elimination of their equations.
+//! The internal variables of one point over one step: the elimination of their equations.
 
 use super::local::LocalStages;
-use super::member::{StageMember, StatePoint};
+use super::member::{StagePoint, StatePoint};
 use super::source::Source;
 use crate::algebra::lu;
 use crate::element::error::StateError;
@@ -11,17 +11,17 @@ use crate::element::tableau::Tableau;
 use crate::material::free_energy::FreeEnergy;
 use crate::number::scalar::Real;
 
-impl<S, M, K, C, const D: usize> StageMember<S, M, K, C, D>
+impl<S, M, K, C, const D: usize> StagePoint<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
     C: Source<S, M, K, D>,
 {
-    /// Eliminates the internal variables of an element whose stages have been evaluated.
+    /// Eliminates the internal variables of a point whose stages have been evaluated.
     pub(super) fn condense(
         &mut self,
-        own: &StatePoint<S, M, K, D>,
+        in_state: &StatePoint<S, M, K, D>,
         rule: &Tableau,
         local: &mut LocalStages<S>,
         view: &StepView<'_, S>,
@@ -32,11 +32,11 @@ where
         }
         local.matrix.fill(S::zero());
         self.solved.fill(S::zero());
-        C::write_equations(self, own, rule, local, view);
+        C::write_equations(self, in_state, rule, local, view)?;
         if lu::factor(&mut local.matrix, &mut local.pivots).is_err() {
             // A finite local system is singular only where the model has no derivative.
             return Err(StateError::NotFinite {
-                element: own.element,
+                element: in_state.element,
                 quantity: "inverse of the local tangent",
                 value: f64::INFINITY,
             });

@@ -1,9 +1,9 @@
 //! The working memory in which the internal variables of one element are eliminated.
 //!
-//! The local unknowns u of all sets depend on the rest of the scene through the inputs y, measures (or their
-//! rates) and heat from other elements, so that `δu = −(constant + Σ_j by_j δy_j)`.
+//! The local unknowns u of all sets depend on the rest of the scene through the inputs y, measures (or increments of
+//! the strain) and heat from other elements, so that `δu = −(constant + Σ_j by_j δy_j)`.
 
-use super::member::{StageMember, inputs, unknowns};
+use super::member::{StagePoint, unknowns};
 use crate::element::kinematics::Kinematics;
 use crate::element::tableau::Tableau;
 use crate::material::free_energy::FreeEnergy;
@@ -31,9 +31,9 @@ pub(super) enum Column {
 }
 
 impl<S: Real> LocalStages<S> {
-    /// Memory for elements of a model.
-    pub(super) fn new<M: FreeEnergy<S>>(rule: &Tableau) -> Self {
-        let (unknowns, inputs) = (unknowns::<S, M>(rule), inputs::<S, M>(rule));
+    /// Memory for elements of a model, given the number of inputs.
+    pub(super) fn new<M: FreeEnergy<S>>(rule: &Tableau, inputs: usize) -> Self {
+        let unknowns = unknowns::<S, M>(rule);
         let zeros = |length: usize| vec![S::zero(); length];
         Self {
             matrix: zeros(unknowns * unknowns),
@@ -60,7 +60,7 @@ impl<S: Real> LocalStages<S> {
     }
 }
 
-impl<S, M, K, C, const D: usize> StageMember<S, M, K, C, D>
+impl<S, M, K, C, const D: usize> StagePoint<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,

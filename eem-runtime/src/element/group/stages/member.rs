@@ -1,39 +1,54 @@
 //! One element at the stages of a step.
 
-use super::site::StageSite;
+use super::site::{PerPair, StageSite};
 use crate::element::conjugates::PointRule;
 use crate::element::group::arms::{add_scaled, change_in_set};
 use crate::element::group::member::Member;
 use crate::element::group::point::Point;
+use crate::element::group::site::Contact;
 use crate::element::group::view::Trial;
 use crate::element::kinematics::{Arms, Kinematics};
-use crate::element::tableau::{MOST_STAGES, Tableau};
-use crate::material::free_energy::FreeEnergy;
+use crate::element::tableau::{MOST_SETS, MOST_STAGES, Tableau};
+use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
 
 /// The same element in a state, apart from any step.
 pub(super) type StateMember<S, M, K, const D: usize> = Member<S, M, K, PointRule, D>;
 
-/// Its point.
+/// One of its points.
 pub(super) type StatePoint<S, M, K, const D: usize> = Point<S, M, K, PointRule, D>;
 
-/// What one step needs to remember of an element, with its source of conjugates.
+/// What one step needs to remember of an element.
 pub(crate) struct StageMember<S, M, K, C, const D: usize>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: Kinematics<S, D>,
+    C: Send + Sync + 'static,
+{
+    pub(super) site: StageSite<K, S, D>,
+    /// The old arms, m.
+    pub(super) r0: Arms<K, S, D>,
+    pub(super) points: K::PerPoint<StagePoint<S, M, K, C, D>>,
+}
+
+/// What one step needs to remember of a point of an element, with its source of conjugates.
+pub(crate) struct StagePoint<S, M, K, C, const D: usize>
 where
     S: Real,
     M: FreeEnergy<S>,
     K: Kinematics<S, D>,
 {
     pub(super) kinematics: K,
-    pub(super) site: StageSite<K, S, D>,
+    /// Where its seen temperatures are, if it conducts heat to others.
+    pub(super) contacts: Option<PerPair<Contact<K, S, D>>>,
     /// s⁰, J/K; zero without temperature.
     pub(super) entropy: S,
     /// The temperatures that a thermostat gives, at the stages or where the rule looks at supports, K.
     pub(super) prescribed: Option<[S; MOST_STAGES]>,
-    /// The old arms and the unit of viscous stretches, m.
-    pub(super) r0: Arms<K, S, D>,
-    pub(super) length: S,
-    /// γ⁰, m.
+    /// The unit of viscous stretches.
+    pub(super) viscous_unit: S,
+    /// γ⁰.
     pub(super) old_viscous: M::Viscosities,
     /// The solved local system, see [`LocalStages`](super::local::LocalStages).
     pub(super) solved: Vec<S>,
@@ -41,40 +56,51 @@ where
     pub(super) own: C,
 }
 
+/// The arms of an element at a trial, m.
+pub(crate) struct StageArms<K: Kinematics<S, D>, S: Real, const D: usize> {
+    pub(super) old: Arms<K, S, D>,
+    /// What they have changed by at the stage of each set of unknowns.
+    pub(super) changes: [Arms<K, S, D>; MOST_SETS],
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> StageArms<K, S, D> {
+    /// Those at the stage of a set of unknowns.
+    pub(super) fn of_set(&self, set: usize) -> Arms<K, S, D> {
+        let mut r = self.changes[set];
+        add_scaled::<K, S, D>(&mut r, S::one(), &self.old);
+        r
+    }
+
+    /// Those at a stage.
+    pub(super) fn at(&self, rule: &Tableau, stage: usize) -> Arms<K, S, D> {
+        match rule.set_of(stage) {
+            None => self.old,
+            Some(set) => self.of_set(set),
+        }
+    }
+}
+
 impl<S, M, K, C, const D: usize> StageMember<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
+    C: Send + Sync + 'static,
 {
-    /// The arms at the stage of a set of unknowns, m.
-    pub(super) fn arms_of_set(&self, set: usize, trial: &Trial<S, D>) -> Arms<K, S, D> {
-        let mut r = change_in_set::<K, S, D>(&self.site.common().nodes, trial, set);
-        add_scaled::<K, S, D>(&mut r, S::one(), &self.r0);
-        r
-    }
-
-    /// The same at a stage.
-    pub(super) fn arms_at(
-        &self,
-        rule: &Tableau,
-        stage: usize,
-        trial: &Trial<S, D>,
-    ) -> Arms<K, S, D> {
-        match rule.set_of(stage) {
-            None => self.r0,
-            Some(set) => self.arms_of_set(set, trial),
+    /// Its arms at a trial.
+    pub(super) fn arms(&self, rule: &Tableau, trial: &Trial<S, D>) -> StageArms<K, S, D> {
+        let mut changes = [Arms::<K, S, D>::filled([S::zero(); D]); MOST_SETS];
+        for (set, change) in changes.iter_mut().enumerate().take(rule.sets()) {
+            *change = change_in_set::<K, S, D>(&self.site.common().nodes, trial, set);
+        }
+        StageArms {
+            old: self.r0,
+            changes,
         }
     }
 }
 
-/// Number of local unknowns of an element: `γ…` and then `Θ`, set after set.
+/// Number of local unknowns of a point: `γ…` and then `Θ`, set after set.
 pub(super) const fn unknowns<S: Real, M: FreeEnergy<S>>(rule: &Tableau) -> usize {
     rule.sets() * (M::DASHPOTS + M::THERMAL as usize)
-}
-
-/// Number of inputs, which other elements and the nodes decide: `π…` set after set, and Q stage after
-/// stage.
-pub(super) const fn inputs<S: Real, M: FreeEnergy<S>>(rule: &Tableau) -> usize {
-    rule.sets() * M::MEASURES + rule.stages() * M::THERMAL as usize
 }

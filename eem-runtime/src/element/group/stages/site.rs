@@ -20,8 +20,6 @@ pub(super) type PerPair<T> = [[T; MOST_SETS]; MOST_SETS];
 pub(super) struct StageSite<K: Kinematics<S, D>, S: Real, const D: usize> {
     pub(super) sets: PerPair<Site<K, S, D>>,
     pub(super) secant: SecantSite<K, S, D>,
-    /// The same for its seen temperatures, if the element conducts heat to others.
-    pub(super) contacts: Option<PerPair<Contact<K, S, D>>>,
 }
 
 impl<K: Kinematics<S, D>, S: Real, const D: usize> StageSite<K, S, D> {
@@ -30,33 +28,14 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> StageSite<K, S, D> {
         Self {
             sets: [[site; MOST_SETS]; MOST_SETS],
             secant: SecantSite::unconnected(),
-            contacts: None,
         }
     }
 
-    /// The places of an element with these nodes and the thermal slot in the sets of a rule.
-    pub(super) fn new(
-        rule: &Tableau,
-        nodes: &K::PerNode<u32>,
-        slot: Option<usize>,
-        sites: &Sites<'_, S, D>,
-    ) -> Self {
-        // Sets that the rule does not have are never looked at: theirs are those of its last one.
-        let known = |set: usize| set.min(rule.sets() - 1);
-        let of_sets = |[row, column]: [usize; 2]| sites.of_sets([known(row), known(column)]);
-        let contact = |sets| Contact::new(nodes, slot, &of_sets(sets));
-        let contacts: PerPair<_> = pairs(contact);
-        let is_coupled = contacts.iter().flatten().all(Option::is_some);
+    /// The places of an element with these nodes in the sets of a rule.
+    pub(super) fn new(rule: &Tableau, nodes: &K::PerNode<u32>, sites: &Sites<'_, S, D>) -> Self {
         Self {
-            sets: pairs(|sets| Site::new(*nodes, &of_sets(sets))),
+            sets: pairs(|sets| Site::new(*nodes, &of_sets(rule, sites, sets))),
             secant: SecantSite::new(nodes, sites),
-            contacts: is_coupled.then(|| {
-                contacts.map(|row| {
-                    row.map(|contact| {
-                        contact.unwrap_or_else(|| unreachable!("all of them are there"))
-                    })
-                })
-            }),
         }
     }
 
@@ -64,6 +43,29 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> StageSite<K, S, D> {
     pub(super) fn common(&self) -> &Site<K, S, D> {
         &self.sets[0][0]
     }
+}
+
+/// The places of the temperature that is seen of a point, if it conducts heat to others.
+pub(super) fn contacts<K: Kinematics<S, D>, S: Real, const D: usize>(
+    rule: &Tableau,
+    nodes: &K::PerNode<u32>,
+    slot: Option<usize>,
+    sites: &Sites<'_, S, D>,
+) -> Option<PerPair<Contact<K, S, D>>> {
+    let contacts: PerPair<_> = pairs(|sets| Contact::new(nodes, slot, &of_sets(rule, sites, sets)));
+    let is_coupled = contacts.iter().flatten().all(Option::is_some);
+    let there = |contact: Option<_>| contact.unwrap_or_else(|| unreachable!("all of them are"));
+    is_coupled.then(|| contacts.map(|row| row.map(there)))
+}
+
+/// Where the rows of one set and the columns of another are. Sets that the rule does not have are never looked at:
+/// theirs are those of its last one.
+fn of_sets<'a, S: Real, const D: usize>(
+    rule: &Tableau,
+    sites: &Sites<'a, S, D>,
+    sets: [usize; 2],
+) -> Sites<'a, S, D> {
+    sites.of_sets(sets.map(|set| set.min(rule.sets() - 1)))
 }
 
 /// Made for every two sets.

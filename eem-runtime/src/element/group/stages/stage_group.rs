@@ -2,7 +2,7 @@
 
 use super::local::LocalStages;
 use super::member::StageMember;
-use super::site::StageSite;
+use super::site::{StageSite, contacts};
 use super::source::Source;
 use crate::algebra::system::LinearSystem;
 use crate::element::conjugates::PointRule;
@@ -12,7 +12,7 @@ use crate::element::group::interface::{Elements, Group, Loose};
 use crate::element::group::loose::LooseElements;
 use crate::element::group::view::{Along, ElementGeneric, Old, Placed, Sites, StepView, Trial};
 use crate::element::impulse::Impulses;
-use crate::element::kinematics::Kinematics;
+use crate::element::kinematics::{Kinematics, QuadraticStrain};
 use crate::element::recount::Recount;
 use crate::element::state::State;
 use crate::element::tableau::Tableau;
@@ -20,7 +20,7 @@ use crate::element::tally::Tally;
 use crate::material::free_energy::FreeEnergy;
 use crate::number::scalar::Real;
 
-/// Elements of the model `M` with the kinematics `K`, which have one point each.
+/// Elements of the model `M` with the kinematics `K`.
 pub(crate) struct StageGroup<S, M, K, C, const D: usize>
 where
     S: Real,
@@ -53,7 +53,7 @@ where
         Self {
             rule,
             members: members.collect(),
-            local: LocalStages::new::<M>(rule),
+            local: LocalStages::new::<M>(rule, C::inputs_of(rule)),
             elements,
         }
     }
@@ -63,7 +63,7 @@ impl<S, M, K, C, const D: usize> Group<S, D> for StageGroup<S, M, K, C, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
+    K: QuadraticStrain<S, D>,
     C: Source<S, M, K, D>,
 {
     fn elements(&self) -> &dyn Elements<S, D> {
@@ -80,8 +80,12 @@ where
 
     fn connect(&mut self, sites: &Sites<'_, S, D>) {
         for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
-            let slot = member.only().slots().thermal;
-            stages.site = StageSite::new(self.rule, &member.site.nodes, slot, sites);
+            let (rule, nodes) = (self.rule, &member.site.nodes);
+            stages.site = StageSite::new(rule, nodes, sites);
+            let points = stages.points.as_mut().iter_mut();
+            for (point, in_state) in points.zip(member.points.as_ref()) {
+                point.contacts = contacts(rule, nodes, in_state.slots().thermal, sites);
+            }
         }
     }
 
@@ -100,7 +104,11 @@ where
     ) -> Result<(), StateError> {
         let members = self.elements.members.iter_mut().zip(&mut self.members);
         for (member, stages) in members {
-            C::evaluate(stages, member.only_mut(), self.rule, view, trial)?;
+            let arms = stages.arms(self.rule, trial);
+            let points = stages.points.as_mut().iter_mut();
+            for (point, in_state) in points.zip(member.points.as_mut()) {
+                C::evaluate(point, in_state, self.rule, (view, trial), &arms)?;
+            }
         }
         match system {
             None => Ok(()),
@@ -113,15 +121,15 @@ where
     }
 
     fn apply(&mut self, share: S) {
-        for stages in &mut self.members {
-            C::apply(stages, self.rule, share);
-        }
+        let points = self.members.iter_mut();
+        let points = points.flat_map(|stages| stages.points.as_mut());
+        points.for_each(|point| C::apply(point, self.rule, share));
     }
 
     fn hold(&mut self) {
-        for stages in &mut self.members {
-            C::hold(stages);
-        }
+        let points = self.members.iter_mut();
+        let points = points.flat_map(|stages| stages.points.as_mut());
+        points.for_each(C::hold);
     }
 
     fn add_impulse(
@@ -159,7 +167,10 @@ where
 
     fn recount(&self, ends: [&State<S>; 2], recount: &mut Recount<S>) {
         for (member, stages) in self.elements.members.iter().zip(&self.members) {
-            C::recount(stages, member.only(), self.rule, ends, recount);
+            let of_step = (self.rule, &member.site.nodes);
+            for (point, in_state) in stages.points.as_ref().iter().zip(member.points.as_ref()) {
+                C::recount(point, in_state, of_step, ends, recount);
+            }
         }
     }
 

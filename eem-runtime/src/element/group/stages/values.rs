@@ -6,7 +6,7 @@ mod evaluate;
 mod local;
 
 use super::local::LocalStages;
-use super::member::{StageMember, StatePoint};
+use super::member::{StageArms, StagePoint, StatePoint};
 use super::source::Source;
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, along, measures_in};
@@ -37,8 +37,8 @@ pub(crate) struct Values<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D
     entropy_received: S,
 }
 
-/// An element with such conjugates.
-pub(super) type ValuesMember<S, M, K, const D: usize> = StageMember<S, M, K, Values<S, M, K, D>, D>;
+/// A point with such conjugates.
+pub(super) type ValuesPoint<S, M, K, const D: usize> = StagePoint<S, M, K, Values<S, M, K, D>, D>;
 
 impl<S, M, K, const D: usize> Source<S, M, K, D> for Values<S, M, K, D>
 where
@@ -46,6 +46,8 @@ where
     M: FreeEnergy<S> + Send + Sync + 'static,
     K: Kinematics<S, D>,
 {
+    const FORCES: usize = M::MEASURES;
+
     fn new() -> Self {
         let zeros = [M::Variables::filled(S::zero()); MOST_STAGES];
         let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
@@ -60,76 +62,73 @@ where
     }
 
     fn begin(
-        member: &mut ValuesMember<S, M, K, D>,
-        own: &StatePoint<S, M, K, D>,
+        point: &mut ValuesPoint<S, M, K, D>,
+        in_state: &StatePoint<S, M, K, D>,
         view: &StepView<'_, S>,
+        r0: &Arms<K, S, D>,
     ) {
-        let measures = member.kinematics.measure(&member.r0);
-        let gradient = member.kinematics.gradient(&member.r0, &measures);
-        let x = variables::<S, M>(measures.as_ref(), own.slots(), view.state);
-        member.own.gradients = [gradient; MOST_STAGES];
-        member.own.x = [x; MOST_STAGES];
-        let prescribed = member.prescribed.into_iter().flatten();
-        for (x, theta) in member.own.x.iter_mut().zip(prescribed) {
+        let measures = point.kinematics.measure(r0);
+        let gradient = point.kinematics.gradient(r0, &measures);
+        let x = variables::<S, M>(measures.as_ref(), in_state.slots(), view.state);
+        point.own.gradients = [gradient; MOST_STAGES];
+        point.own.x = [x; MOST_STAGES];
+        let prescribed = point.prescribed.into_iter().flatten();
+        for (x, theta) in point.own.x.iter_mut().zip(prescribed) {
             x[M::Variables::LEN - 1] = theta;
         }
     }
 
     fn evaluate(
-        member: &mut ValuesMember<S, M, K, D>,
-        own: &mut StatePoint<S, M, K, D>,
+        point: &mut ValuesPoint<S, M, K, D>,
+        in_state: &mut StatePoint<S, M, K, D>,
         rule: &Tableau,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
+        (view, trial): (&StepView<'_, S>, &Trial<S, D>),
+        arms: &StageArms<K, S, D>,
     ) -> Result<(), StateError> {
-        member.evaluate_stages(own, rule, view, trial)
+        point.evaluate_stages(in_state, rule, (view, trial), arms)
     }
 
     fn write_equations(
-        member: &mut ValuesMember<S, M, K, D>,
+        point: &mut ValuesPoint<S, M, K, D>,
         _: &StatePoint<S, M, K, D>,
         rule: &Tableau,
         local: &mut LocalStages<S>,
         view: &StepView<'_, S>,
-    ) {
-        member.write_stages(rule, local, view.step);
+    ) -> Result<(), StateError> {
+        point.write_stages(rule, local, view.step);
+        Ok(())
     }
 
     fn force(
-        member: &ValuesMember<S, M, K, D>,
+        point: &ValuesPoint<S, M, K, D>,
         rule: &Tableau,
         local: &mut LocalStages<S>,
-        stage: usize,
-        measure: usize,
+        [stage, measure]: [usize; 2],
     ) -> S {
-        let point = &member.own.points[stage];
-        member.eliminate(rule, local, stage, &point.hessian[measure]);
-        point.gradient[measure]
+        let at_stage = &point.own.points[stage];
+        point.eliminate(rule, local, stage, &at_stage.hessian[measure]);
+        at_stage.gradient[measure]
     }
 
-    fn direction(
-        member: &ValuesMember<S, M, K, D>,
-        stage: usize,
-        measure: usize,
-    ) -> &Arms<K, S, D> {
-        &member.own.gradients[stage].as_ref()[measure]
+    fn direction(point: &ValuesPoint<S, M, K, D>, [stage, measure]: [usize; 2]) -> Arms<K, S, D> {
+        point.own.gradients[stage].as_ref()[measure]
     }
 
     fn turn(
-        member: &ValuesMember<S, M, K, D>,
+        point: &ValuesPoint<S, M, K, D>,
         rule: &Tableau,
         set: usize,
-        trial: &Trial<S, D>,
+        arms: &StageArms<K, S, D>,
     ) -> Blocks<K, S, D> {
         let stage = rule.stage_of(set);
-        let r = member.arms_of_set(set, trial);
-        let measures = measures_in::<K, S, D>(&member.own.x[stage]);
-        let forces = measures_in::<K, S, D>(&member.own.points[stage].gradient);
-        member.kinematics.curvature(&r, &measures, &forces)
+        let r = arms.of_set(set);
+        let measures = measures_in::<K, S, D>(&point.own.x[stage]);
+        let forces = measures_in::<K, S, D>(&point.own.points[stage].gradient);
+        point.kinematics.curvature(&r, &measures, &forces)
     }
 
     fn temperature(
-        member: &ValuesMember<S, M, K, D>,
+        point: &ValuesPoint<S, M, K, D>,
         rule: &Tableau,
         local: &mut LocalStages<S>,
         set: usize,
@@ -137,12 +136,12 @@ where
         let mut by = M::Variables::filled(S::zero());
         by[M::Variables::LEN - 1] = S::one();
         let stage = rule.entropies[set].unknown;
-        member.eliminate(rule, local, stage, &by);
-        member.temperature(stage)
+        point.eliminate(rule, local, stage, &by);
+        point.temperature(stage)
     }
 
     fn by_arms(
-        member: &ValuesMember<S, M, K, D>,
+        point: &ValuesPoint<S, M, K, D>,
         rule: &Tableau,
         local: &LocalStages<S>,
     ) -> [Arms<K, S, D>; MOST_SETS] {
@@ -150,7 +149,7 @@ where
         let mut by_arm = [Arms::<K, S, D>::filled([S::zero(); D]); MOST_SETS];
         let sets = by_arm.iter_mut().take(rule.sets()).zip(measures);
         for (set, (sum, measures)) in sets.enumerate() {
-            let rows = member.own.gradients[rule.stage_of(set)].as_ref().iter();
+            let rows = point.own.gradients[rule.stage_of(set)].as_ref().iter();
             for (row, &by) in rows.zip(measures) {
                 add_scaled::<K, S, D>(sum, by, row);
             }
@@ -159,47 +158,47 @@ where
     }
 
     fn inputs(
-        member: &ValuesMember<S, M, K, D>,
+        point: &ValuesPoint<S, M, K, D>,
         rule: &Tableau,
         motions: &[Arms<K, S, D>; MOST_SETS],
         inputs: &mut [S],
     ) {
         for (set, measures) in inputs.chunks_exact_mut(M::MEASURES).enumerate() {
-            let rows = member.own.gradients[rule.stage_of(set)].as_ref().iter();
+            let rows = point.own.gradients[rule.stage_of(set)].as_ref().iter();
             for (input, row) in measures.iter_mut().zip(rows) {
                 *input = along::<K, S, D>(row, &motions[set]);
             }
         }
     }
 
-    fn hold(member: &mut ValuesMember<S, M, K, D>) {
-        member.own.previous = member.own.x;
-        member.own.correction = [M::Variables::filled(S::zero()); MOST_STAGES];
+    fn hold(point: &mut ValuesPoint<S, M, K, D>) {
+        point.own.previous = point.own.x;
+        point.own.correction = [M::Variables::filled(S::zero()); MOST_STAGES];
     }
 
-    fn correct(member: &mut ValuesMember<S, M, K, D>, rule: &Tableau, local: &LocalStages<S>) -> S {
+    fn correct(point: &mut ValuesPoint<S, M, K, D>, rule: &Tableau, local: &LocalStages<S>) -> S {
         let last = M::Variables::LEN - 1;
         let mut largest = S::zero();
         for u in 0..local.unknowns() {
-            let change = local.change(&member.solved, u);
+            let change = local.change(&point.solved, u);
             let creeping = rule.sets() * M::DASHPOTS;
             let (stage, index, scale) = if u < creeping {
                 let stage = rule.stage_of(u / M::DASHPOTS);
-                (stage, M::MEASURES + u % M::DASHPOTS, member.length)
+                (stage, M::MEASURES + u % M::DASHPOTS, point.viscous_unit)
             } else {
                 let stage = rule.entropies[u - creeping].unknown;
-                (stage, last, member.temperature(stage))
+                (stage, last, point.temperature(stage))
             };
-            member.own.correction[stage][index] = change;
+            point.own.correction[stage][index] = change;
             largest = largest.maximum((change / scale).abs());
         }
         largest
     }
 
     /// Viscous stretches linearly, temperatures in their logarithms, so that they stay positive.
-    fn apply(member: &mut ValuesMember<S, M, K, D>, rule: &Tableau, share: S) {
-        let (last, is_given) = (M::Variables::LEN - 1, member.prescribed.is_some());
-        let own = &mut member.own;
+    fn apply(point: &mut ValuesPoint<S, M, K, D>, rule: &Tableau, share: S) {
+        let (last, is_given) = (M::Variables::LEN - 1, point.prescribed.is_some());
+        let own = &mut point.own;
         for stage in rule.known..rule.stages() {
             for index in M::MEASURES..M::MEASURES + M::DASHPOTS {
                 let change = share * own.correction[stage][index];
@@ -223,36 +222,36 @@ where
     }
 
     fn pull(
-        member: &ValuesMember<S, M, K, D>,
+        point: &ValuesPoint<S, M, K, D>,
         rule: &Tableau,
         stage: usize,
-        trial: &Trial<S, D>,
+        arms: &StageArms<K, S, D>,
     ) -> K::PerNode<[S; D]> {
-        member.pull(rule, stage, trial)
+        point.pull(rule, stage, arms)
     }
 
-    fn secant(member: &ValuesMember<S, M, K, D>, stage: usize) -> Weights<K, S, D> {
-        member.secant(stage)
+    fn secant(point: &ValuesPoint<S, M, K, D>, stage: usize) -> Weights<K, S, D> {
+        point.secant(stage)
     }
 
     fn close(
-        member: &mut ValuesMember<S, M, K, D>,
-        own: &mut StatePoint<S, M, K, D>,
+        point: &mut ValuesPoint<S, M, K, D>,
+        in_state: &mut StatePoint<S, M, K, D>,
         rule: &Tableau,
         (view, _, r1): (&StepView<'_, S>, &Trial<S, D>, &Arms<K, S, D>),
         next: &mut State<S>,
         _: &mut Tally<S>,
     ) -> Result<(), StateError> {
-        member.book(rule, own.slots(), view, next);
-        let near = member.temperature(rule.stages() - 1);
-        if let Some(entropy) = own.settle(r1, view, near, next)? {
-            member.book_thermostat(rule, view.step, entropy, next);
+        point.book(rule, in_state.slots(), view, next);
+        let near = point.temperature(rule.stages() - 1);
+        if let Some(entropy) = in_state.settle(r1, view, near, next)? {
+            point.book_thermostat(rule, view.step, entropy, next);
         }
         Ok(())
     }
 }
 
-impl<S, M, K, const D: usize> ValuesMember<S, M, K, D>
+impl<S, M, K, const D: usize> ValuesPoint<S, M, K, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,

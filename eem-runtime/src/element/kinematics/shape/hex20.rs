@@ -13,6 +13,7 @@ impl Shape<3> for Hex20 {
     type PerArm<T: Entry> = [T; 19];
     type PerPoint<T: Send + Sync> = [T; 27];
     type Tensor<S: Real> = [S; 6];
+    type PerComponent<T: Entry> = [T; 6];
 
     const NAME: &'static str = "Hex20";
     const NODES: &'static [[i8; 3]] = &[

@@ -13,6 +13,7 @@ impl Shape<3> for Hex8 {
     type PerArm<T: Entry> = [T; 7];
     type PerPoint<T: Send + Sync> = [T; 8];
     type Tensor<S: Real> = [S; 6];
+    type PerComponent<T: Entry> = [T; 6];
 
     const NAME: &'static str = "Hex8";
     const NODES: &'static [[i8; 3]] = &[

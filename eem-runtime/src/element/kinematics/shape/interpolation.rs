@@ -29,6 +29,8 @@ pub trait Shape<const D: usize>: Copy + Debug + Send + Sync + 'static {
     type PerPoint<T: Send + Sync>: Points<T>;
     /// A symmetric tensor.
     type Tensor<S: Real>: Symmetric<S, D>;
+    /// `[T; number of components of a symmetric tensor]`.
+    type PerComponent<T: Entry>: Array<T>;
 
     /// Its name.
     const NAME: &'static str;

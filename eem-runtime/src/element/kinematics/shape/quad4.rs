@@ -13,6 +13,7 @@ impl Shape<2> for Quad4 {
     type PerArm<T: Entry> = [T; 3];
     type PerPoint<T: Send + Sync> = [T; 4];
     type Tensor<S: Real> = [S; 3];
+    type PerComponent<T: Entry> = [T; 3];
 
     const NAME: &'static str = "Quad4";
     const NODES: &'static [[i8; 2]] = &[[-1, -1], [1, -1], [1, 1], [-1, 1]];

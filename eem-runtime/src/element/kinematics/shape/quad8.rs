@@ -13,6 +13,7 @@ impl Shape<2> for Quad8 {
     type PerArm<T: Entry> = [T; 7];
     type PerPoint<T: Send + Sync> = [T; 9];
     type Tensor<S: Real> = [S; 3];
+    type PerComponent<T: Entry> = [T; 3];
 
     const NAME: &'static str = "Quad8";
     const NODES: &'static [[i8; 2]] = &[

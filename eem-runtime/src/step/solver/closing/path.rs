@@ -32,12 +32,14 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let inertias = self.inertias(view);
         let mut largest = Largest::none();
         for (set, weights) in stages.rule.positions.iter().enumerate() {
-            for moving in self.nodes_of_set(set) {
+            let nodes = self.range_of_set(set);
+            (self.coupling).find_impulses((&self.nodes[nodes.clone()], &self.trial), inertias[set]);
+            for (index, moving) in self.nodes[nodes].iter().enumerate() {
                 let node = moving.place.node();
-                let inertia = inertias[set] * moving.place.mass;
-                let change = moving.change(&self.trial);
+                let [gained, terms] =
+                    (self.coupling).impulse((index, moving), &self.trial, inertias[set]);
+                let terms = self.coupling.found(index).map_or([S::zero(); D], |_| terms);
                 let impulse = stages.combined(node, weights);
-                let gained = change.map(|change| inertia * change);
                 let residual = array::from_fn(|axis| gained[axis] - impulse[axis]);
                 for &residual in &residual {
                     largest.see(residual);
@@ -49,7 +51,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                         magnitude += (S::from_f64(weight) * impulse).abs();
                     }
                 }
-                tally.balance_node(&residual, [&gained, &[S::zero(); D]], magnitude);
+                tally.balance_node(&residual, [&gained, &terms], magnitude);
             }
         }
         self.final_residual = largest.found();
@@ -57,42 +59,98 @@ impl<S: Real, const D: usize> Solver<S, D> {
 
     /// New positions and momenta, all finite, and the work of loads.
     pub(super) fn move_along_path(
-        &self,
-        stages: &Stages<S, D>,
+        &mut self,
+        stages: &mut Stages<S, D>,
         [displacements, impulses]: [&[f64]; 2],
         view: &StepView<'_, S>,
         next: &mut State<S>,
         motion: &mut Motion<S, D>,
     ) -> Result<(), StepFailure> {
+        self.change_velocities(stages, impulses, view);
         for (index, moving) in self.nodes_of_set(0).iter().enumerate() {
             let (place, node) = (&moving.place, moving.place.node());
-            let mobility = view.step * place.per_mass;
-            let [momentum, carry] = view.state.momenta.point::<D>(node);
-            let flight = momentum.map(|momentum| mobility * momentum);
+            let state = view.state;
             // What rounding took from the momentum moves the node, too.
-            let mut rest = carry.map(|carry| mobility * carry);
-            let mut gained = [S::zero(); D];
-            for (set, (&weight, &gain)) in displacements.iter().zip(impulses).enumerate() {
+            let [flight, mut rest] = match stages.changes.get(node) {
+                None => {
+                    let mobility = view.step * place.per_mass;
+                    state
+                        .momenta
+                        .point::<D>(node)
+                        .map(|of| of.map(|momentum| mobility * momentum))
+                }
+                Some(_) => state
+                    .velocities
+                    .point::<D>(node)
+                    .map(|of| of.map(|velocity| view.step * velocity)),
+            };
+            for (set, &weight) in displacements.iter().enumerate() {
                 let change = self.nodes_of_set(set)[index].change(&self.trial);
                 for axis in 0..D {
                     rest[axis] += S::from_f64(weight) * change[axis];
-                    gained[axis] += S::from_f64(gain) * change[axis];
                 }
             }
-            let impulse = gained.map(|gained| place.mass * view.per_step * gained);
+            let (impulse, speeds) = match (self.coupling.found(index), stages.changes.get(node)) {
+                (Some(&[impulse, _]), Some(&change)) => {
+                    let [&old, _] = state.velocities.point::<D>(node);
+                    let none = [S::zero(); D];
+                    (next.velocities).advance_point(node, &state.velocities, [&change, &none]);
+                    (impulse, Speeds::Given { old, change })
+                }
+                _ => {
+                    let gained = self.gained(index, impulses);
+                    let impulse = gained.map(|gained| place.mass * view.per_step * gained);
+                    (impulse, Speeds::OfMass(place.per_mass))
+                }
+            };
             let displacement = array::from_fn(|axis| flight[axis] + rest[axis]);
-            move_node(node, [&flight, &rest, &impulse], view.state, next)?;
+            move_node(node, [&flight, &rest, &impulse], state, next)?;
             let moved = NodeStep {
-                speeds: Speeds::OfMass(place.per_mass),
-                position: &points(view.state.positions.values())[node],
-                momentum,
+                speeds,
+                position: &points(state.positions.values())[node],
+                momentum: &points(state.momenta.values())[node],
                 displacement: &displacement,
                 impulse: &impulse,
             };
             motion.see(&moved, None, view.step);
             self.see_loads(stages, view, &moved, node, (next, motion));
         }
+        next.follow_velocities(D, view.masses);
         Ok(())
+    }
+
+    /// `Σ_j weights_j w_j` of a node among those that move, m.
+    fn gained(&self, index: usize, weights: &[f64]) -> [S; D] {
+        let mut gained = [S::zero(); D];
+        for (set, &weight) in weights.iter().enumerate() {
+            let change = self.nodes_of_set(set)[index].change(&self.trial);
+            for axis in 0..D {
+                gained[axis] += S::from_f64(weight) * change[axis];
+            }
+        }
+        gained
+    }
+
+    /// Where masses couple nodes: the changes of their velocities, and what these mean for momenta.
+    fn change_velocities(
+        &mut self,
+        stages: &mut Stages<S, D>,
+        weights: &[f64],
+        view: &StepView<'_, S>,
+    ) {
+        if stages.changes.is_empty() {
+            return;
+        }
+        for index in 0..self.moving() {
+            let change = self.gained(index, weights);
+            let node = self.nodes[index].place.node();
+            stages.changes[node] = change.map(|change| view.per_step * change);
+        }
+        let nodes = &self.nodes[..self.moving()];
+        self.coupling.multiply(nodes, S::one(), |node| {
+            let change = stages.changes[node.place.node()];
+            [change, change.map(S::abs)]
+        });
     }
 
     /// What loads and weight of a node have done in the step.

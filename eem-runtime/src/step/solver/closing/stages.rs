@@ -34,7 +34,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             } => {
                 self.judge_stages(&stages, view, tally);
                 let weights = [displacements, impulses];
-                self.move_along_path(&stages, weights, view, next, motion)
+                self.move_along_path(&mut stages, weights, view, next, motion)
             }
             Ending::StageByStage | Ending::Forces(_) => {
                 self.move_to_end(&stages, view, next, motion)

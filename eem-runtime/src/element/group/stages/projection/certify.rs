@@ -1,11 +1,11 @@
 //! What an element with projected conjugates contributes to the certificate of a step.
 
-use super::ProjectedMember;
+use super::ProjectedPoint;
 use super::closing::Booked;
-use crate::element::group::arms::along;
+use super::vector::Vector;
 use crate::element::group::stages::member::StatePoint;
 use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::Kinematics;
+use crate::element::kinematics::{PerStrain, QuadraticStrain};
 use crate::element::recount::Recount;
 use crate::element::state::State;
 use crate::element::tableau::Tableau;
@@ -13,17 +13,17 @@ use crate::element::tally::{Care, Tally};
 use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
 
-impl<S, M, K, const D: usize> ProjectedMember<S, M, K, D>
+impl<S, M, K, const D: usize> ProjectedPoint<S, M, K, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
+    K: QuadraticStrain<S, D>,
 {
     /// Counts its forces, and judges the balances of its internal variables, given the magnitude of the
     /// terms of its energy, J.
     pub(super) fn certify(
         &self,
-        point: &StatePoint<S, M, K, D>,
+        in_state: &StatePoint<S, M, K, D>,
         rule: &Tableau,
         (view, trial): (&StepView<'_, S>, &Trial<S, D>),
         (booked, energy): (&Booked<S>, S),
@@ -34,7 +34,7 @@ where
         tally.exchange(self.impulse(rule, view.step));
         for (stage, received) in booked.iter().enumerate().take(rule.stages()) {
             for k in 0..M::DASHPOTS {
-                let index = M::MEASURES + k;
+                let index = Vector::<S, M, K, D>::STRAINS + k;
                 let eta = self.own.viscosities[stage].0[k];
                 let drag = eta * view.per_step * self.own.rates[stage][index];
                 let force = self.own.conjugates[stage][index];
@@ -44,7 +44,7 @@ where
             if !M::THERMAL {
                 continue;
             }
-            let last = M::Variables::LEN - 1;
+            let last = Vector::<S, M, K, D>::ENTROPY;
             let (theta, weight) = (
                 self.mean_temperature(stage),
                 S::from_f64(rule.weights[stage]),
@@ -55,8 +55,8 @@ where
                 let terms = theta * received.terms;
                 tally.balance(lacking, taken.abs() + terms + energy + forces);
             }
-            if self.site.contacts.is_some()
-                && let Some(slot) = point.slots().thermal
+            if self.contacts.is_some()
+                && let Some(slot) = in_state.slots().thermal
             {
                 let seen = trial.seen.values()[trial.seen_of_set(stage, slot)];
                 let terms = self.known_to([stage, last], tally.care);
@@ -82,23 +82,24 @@ where
     fn amplitude(&self, rule: &Tableau, care: Care) -> S {
         let own = &self.own;
         let mut sum = S::zero();
-        for index in 0..M::MEASURES + M::DASHPOTS {
-            let end = own.end[index];
-            sum += S::EPSILON * own.metric[index] * end * end;
+        for index in 0..Vector::<S, M, K, D>::ENTROPY {
+            let [old, new] = [0, 1].map(|end| self.size_at_end(end, index));
+            sum += S::EPSILON * own.metric[index] * new * new;
             // λ ∂e/∂λ = 2 C ∂ê/∂C
             let [old_slopes, new_slopes] = &own.end_slopes;
-            let ends = (old_slopes[index] * own.old[index]).abs() + (new_slopes[index] * end).abs();
+            let ends = (old_slopes[index] * old).abs() + (new_slopes[index] * new).abs();
             sum += ends + ends;
             for (stage, &weight) in rule.weights.iter().enumerate() {
                 let work = own.conjugates[stage][index] * own.rates[stage][index];
                 sum += S::from_f64(weight) * work.abs();
             }
         }
-        if care == Care::Quick {
+        // Strains of solids are ratios, whose sizes have nothing to do with the motion.
+        if K::IS_SPRING && care == Care::Quick {
             return sum;
         }
         for (stage, &weight) in rule.weights.iter().enumerate() {
-            for index in 0..M::Variables::LEN {
+            for index in 0..Vector::<S, M, K, D>::LEN {
                 let work = own.resolution[stage][index] * own.rates[stage][index];
                 sum += S::from_f64(weight) * work.abs();
             }
@@ -106,17 +107,24 @@ where
         sum
     }
 
-    /// `|f|λ + Σ|g||γ|` of the new state, which the amplitude has for both ends, J.
+    /// The magnitude of the terms of a variable at one of the ends.
+    fn size_at_end(&self, end: usize, index: usize) -> S {
+        let y = [&self.own.old, &self.own.end][end];
+        if index < Vector::<S, M, K, D>::STRAINS {
+            self.own.end_sizes[end][index]
+        } else {
+            y[index]
+        }
+    }
+
+    /// `Σ|f||π| + Σ|g||γ|` of the new state, which the amplitude has for both ends, J.
     pub(super) fn forces_at_end(&self) -> S {
-        let own = &self.own;
-        (0..M::MEASURES + M::DASHPOTS).fold(S::zero(), |sum, index| {
-            let work = (own.end_slopes[1][index] * own.end[index]).abs();
+        let strains = Vector::<S, M, K, D>::STRAINS;
+        (0..Vector::<S, M, K, D>::ENTROPY).fold(S::zero(), |sum, index| {
+            let size = self.size_at_end(1, index);
+            let work = (self.own.end_slopes[1][index] * size).abs();
             // λ ∂e/∂λ = 2 C ∂ê/∂C
-            sum + if index < M::MEASURES {
-                work + work
-            } else {
-                work
-            }
+            sum + if index < strains { work + work } else { work }
         })
     }
 
@@ -124,8 +132,14 @@ where
     fn impulse(&self, rule: &Tableau, step: S) -> S {
         let mut sum = S::zero();
         for (stage, &weight) in rule.weights.iter().enumerate() {
-            let force = self.own.conjugates[stage][0].abs() * self.length_at(stage);
-            sum += step * S::from_f64(weight) * (force + force);
+            let mut sizes = PerStrain::<K, S, D>::filled(S::zero());
+            for (q, size) in sizes.as_mut().iter_mut().enumerate() {
+                *size = self.own.conjugates[stage][q].abs();
+            }
+            let force = self
+                .kinematics
+                .strain_force_size(&self.own.arms[stage], &sizes);
+            sum += step * S::from_f64(weight) * force;
         }
         sum
     }
@@ -135,35 +149,32 @@ where
         let mut largest = S::zero();
         for stage in 0..rule.stages() {
             let own = &self.own;
-            let known = own.conjugates[stage][0].abs() + own.resolution[stage][0];
-            largest = largest.maximum(known * self.length_at(stage));
+            let mut known = PerStrain::<K, S, D>::filled(S::zero());
+            for (q, known) in known.as_mut().iter_mut().enumerate() {
+                *known = own.conjugates[stage][q].abs() + own.resolution[stage][q];
+            }
+            let force = self.kinematics.strain_force_size(&own.arms[stage], &known);
+            largest = largest.maximum(force);
         }
-        step * (largest + largest)
-    }
-
-    /// `|d_i|`, m.
-    fn length_at(&self, stage: usize) -> S {
-        let twice = &self.own.directions[stage];
-        S::from_f64(0.5) * along::<K, S, D>(twice, twice).sqrt()
+        step * largest
     }
 
     /// Its balance of energy between two states.
     pub(super) fn recount_energy(
         &self,
-        point: &StatePoint<S, M, K, D>,
-        rule: &Tableau,
+        in_state: &StatePoint<S, M, K, D>,
+        (rule, nodes): (&Tableau, &K::PerNode<u32>),
         ends: [&State<S>; 2],
         recount: &mut Recount<S>,
     ) {
-        let nodes = &self.site.common().nodes;
-        let own = point.balance_between(nodes, ends);
+        let own = in_state.balance_between(nodes, ends);
         let mut found = S::zero();
         for (stage, &weight) in rule.weights.iter().enumerate() {
-            let terms = self.own.conjugates[stage].as_ref().iter();
-            let work = terms.zip(self.own.rates[stage].as_ref());
-            let work = work.fold(S::zero(), |sum, (&a, &rate)| sum + a * rate);
-            found += S::from_f64(weight) * work;
+            let terms = self.own.conjugates[stage].entries();
+            let work = terms.zip(self.own.rates[stage].entries());
+            let work = work.fold(S::zero(), |sum, (a, rate)| sum + a * rate);
+            found += S::from_f64(weight) * (work - self.own.drags[stage].heat);
         }
-        recount.element(point.element, own.by_values, own.by_differences, found);
+        recount.element(in_state.element, own.by_values, own.by_differences, found);
     }
 }

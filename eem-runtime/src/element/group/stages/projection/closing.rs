@@ -8,11 +8,12 @@
 //! with the exchange `u` and the production `P ≥ 0` of every path of heat at every stage, see
 //! [`conduction`](crate::element::conduction).
 
-use super::ProjectedMember;
+use super::ProjectedPoint;
+use super::vector::Vector;
 use crate::element::balances::{Balances, Received, reservoir_correction};
 use crate::element::group::stages::member::StatePoint;
 use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::Kinematics;
+use crate::element::kinematics::QuadraticStrain;
 use crate::element::state::State;
 use crate::element::tableau::{MOST_STAGES, Tableau};
 use crate::element::tally::Tally;
@@ -22,24 +23,24 @@ use crate::number::scalar::Real;
 /// What a step has given to an element, stage by stage.
 pub(super) type Booked<S> = [Received<S>; MOST_STAGES];
 
-impl<S, M, K, const D: usize> ProjectedMember<S, M, K, D>
+impl<S, M, K, const D: usize> ProjectedPoint<S, M, K, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
+    K: QuadraticStrain<S, D>,
 {
     /// Books the increments of the internal variables and of the reservoirs' entropies.
     pub(super) fn book(
         &self,
-        point: &StatePoint<S, M, K, D>,
+        in_state: &StatePoint<S, M, K, D>,
         rule: &Tableau,
         (view, trial): (&StepView<'_, S>, &Trial<S, D>),
         next: &mut State<S>,
         tally: &mut Tally<S>,
     ) -> Booked<S> {
-        let mut booked = self.book_dashpots(point, rule, view, next, tally);
-        let Some(slot) = point.slots().thermal else {
-            if M::DASHPOTS > 0 {
+        let mut booked = self.book_dashpots(in_state, rule, view, next, tally);
+        let Some(slot) = in_state.slots().thermal else {
+            if M::DASHPOTS + M::Drag::LEN > 0 {
                 next.dissipated.add(sum(&booked, |received| received.heat));
             }
             return booked;
@@ -61,31 +62,42 @@ where
     /// Books the viscous stretches; what the dashpots give, in J and in J/K.
     fn book_dashpots(
         &self,
-        point: &StatePoint<S, M, K, D>,
+        in_state: &StatePoint<S, M, K, D>,
         rule: &Tableau,
         view: &StepView<'_, S>,
         next: &mut State<S>,
         tally: &mut Tally<S>,
     ) -> Booked<S> {
         let mut booked = [Received::none(); MOST_STAGES];
-        let slots = point.slots();
+        let slots = in_state.slots();
         let creep = self.increments(rule.weights);
         for k in 0..M::DASHPOTS {
-            let index = M::MEASURES + k;
+            let index = Vector::<S, M, K, D>::STRAINS + k;
             next.viscous
                 .advance(slots.viscous + k, &view.state.viscous, creep[index]);
             for (stage, &weight) in rule.weights.iter().enumerate() {
                 let rate = self.own.rates[stage][index];
                 let drag = self.own.viscosities[stage].0[k] * view.per_step * rate;
                 let heat = S::from_f64(weight) * (drag * rate);
-                let entropy = heat / self.temperature_or_one(stage);
-                booked[stage].heat += heat;
-                booked[stage].add(entropy);
-                tally.produce(entropy);
-                tally.turn_over(heat);
+                self.dissipate(stage, heat, &mut booked, tally);
+            }
+        }
+        if M::Drag::LEN > 0 {
+            for (stage, &weight) in rule.weights.iter().enumerate() {
+                let heat = S::from_f64(weight) * self.own.drags[stage].heat;
+                self.dissipate(stage, heat, &mut booked, tally);
             }
         }
         booked
+    }
+
+    /// Books heat of a dashpot at a stage, J.
+    fn dissipate(&self, stage: usize, heat: S, booked: &mut Booked<S>, tally: &mut Tally<S>) {
+        let entropy = heat / self.temperature_or_one(stage);
+        booked[stage].heat += heat;
+        booked[stage].add(entropy);
+        tally.produce(entropy);
+        tally.turn_over(heat);
     }
 
     /// Books what flows to other elements at a stage, during its share of the step, s.
@@ -97,7 +109,7 @@ where
         balances: &mut Balances<'_, S>,
         received: &mut Received<S>,
     ) {
-        let Some(contacts) = &self.site.contacts else {
+        let Some(contacts) = &self.contacts else {
             return;
         };
         for partner in &contacts[stage][stage].partners {
@@ -122,7 +134,7 @@ where
         let theta = self.mean_temperature(stage);
         let flow = view.conduction.reservoir_flow(slot, theta);
         let weight = share * view.per_step;
-        let taken = weight * theta * self.own.rates[stage][M::Variables::LEN - 1];
+        let taken = weight * theta * self.own.rates[stage][Vector::<S, M, K, D>::ENTROPY];
         reservoir_correction(&flow, [share, theta], [taken, S::zero(), heat])
     }
 
@@ -139,7 +151,7 @@ where
         let mut heat = S::zero();
         let mut rest = total;
         for (stage, &weight) in rule.weights.iter().enumerate() {
-            let taken = S::from_f64(weight) * self.own.rates[stage][M::Variables::LEN - 1];
+            let taken = S::from_f64(weight) * self.own.rates[stage][Vector::<S, M, K, D>::ENTROPY];
             let received = booked[stage].entropy;
             heat += self.mean_temperature(stage) * (taken - received);
             rest -= taken;

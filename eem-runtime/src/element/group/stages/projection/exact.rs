@@ -1,9 +1,10 @@
 //! The correction by which the conjugates of the stages give the change of energy exactly.
 
-use super::ProjectedMember;
-use crate::element::kinematics::Kinematics;
+use super::ProjectedPoint;
+use super::vector::Vector;
+use crate::element::kinematics::QuadraticStrain;
 use crate::element::tableau::{MOST_STAGES, Tableau};
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::FreeEnergy;
 use crate::number::scalar::Real;
 
 /// Roundings of the terms of `Δê − Σ b a·R` below which it is nothing else: a product and two sums of a term, in
@@ -11,11 +12,11 @@ use crate::number::scalar::Real;
 /// noise divided by small increments.
 const DEFECT_ROUNDINGS: f64 = 8.0;
 
-impl<S, M, K, const D: usize> ProjectedMember<S, M, K, D>
+impl<S, M, K, const D: usize> ProjectedPoint<S, M, K, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
+    K: QuadraticStrain<S, D>,
 {
     /// Corrects conjugates that have been projected, given `∇ê` at the end and the discrete derivatives ē.
     ///
@@ -24,12 +25,12 @@ where
     /// ```
     ///
     /// Without increments there is nothing to correct.
-    pub(super) fn make_exact(&mut self, rule: &Tableau, [slopes, mean]: &[M::Variables; 2]) {
+    pub(super) fn make_exact(&mut self, rule: &Tableau, [slopes, mean]: &[Vector<S, M, K, D>; 2]) {
         let (mut defect, mut norm, mut terms) = (S::zero(), S::zero(), S::zero());
         for (stage, &weight) in rule.weights.iter().enumerate() {
             let weight = S::from_f64(weight);
             let (a, rates) = (&self.own.conjugates[stage], &self.own.rates[stage]);
-            for index in 0..M::Variables::LEN {
+            for index in 0..Vector::<S, M, K, D>::LEN {
                 let rate = weight * rates[index];
                 defect += (mean[index] - a[index]) * rate;
                 terms += (a[index] * rate).abs();
@@ -52,23 +53,22 @@ where
     fn slopes_of_factor(
         &self,
         rule: &Tableau,
-        slopes: &M::Variables,
+        slopes: &Vector<S, M, K, D>,
         factor: S,
         per_norm: S,
-    ) -> [M::Variables; MOST_STAGES] {
+    ) -> [Vector<S, M, K, D>; MOST_STAGES] {
         let own = &self.own;
-        let mut by = [M::Variables::filled(S::zero()); MOST_STAGES];
+        let mut by = [Vector::zero(); MOST_STAGES];
         for (j, &weight) in rule.weights.iter().enumerate() {
             let weight = S::from_f64(weight);
-            for index in 0..M::Variables::LEN {
+            for index in 0..Vector::<S, M, K, D>::LEN {
                 let stretched = factor * own.metric[index] * own.rates[j][index];
                 let direct = slopes[index] - own.conjugates[j][index];
                 let mut sum = weight * (direct - stretched - stretched);
                 for (i, &weight) in rule.weights.iter().enumerate() {
-                    let rows = own.by_rates[i][j].as_ref().iter();
-                    let terms = rows.zip(own.rates[i].as_ref());
-                    let answer = terms.fold(S::zero(), |sum, (row, &rate)| {
-                        sum + row.as_ref()[index] * rate
+                    let rows = 0..Vector::<S, M, K, D>::LEN;
+                    let answer = rows.fold(S::zero(), |sum, row| {
+                        sum + own.by_rates[i][j][[row, index]] * own.rates[i][row]
                     });
                     sum -= S::from_f64(weight) * answer;
                 }
@@ -83,19 +83,18 @@ where
         &mut self,
         rule: &Tableau,
         [factor, known_to]: [S; 2],
-        slopes: &[M::Variables; MOST_STAGES],
+        slopes: &[Vector<S, M, K, D>; MOST_STAGES],
     ) {
         let own = &mut self.own;
         for i in 0..rule.stages() {
-            for index in 0..M::Variables::LEN {
+            for index in 0..Vector::<S, M, K, D>::LEN {
                 let along = own.metric[index] * own.rates[i][index];
                 own.conjugates[i][index] += factor * along;
                 own.resolution[i][index] += known_to * along.abs();
-                own.by_rates[i][i][index][index] += factor * own.metric[index];
+                own.by_rates[i][i][[index, index]] += factor * own.metric[index];
                 for (by, slopes) in own.by_rates[i].iter_mut().zip(slopes).take(rule.stages()) {
-                    let row = by[index].as_mut().iter_mut();
-                    for (entry, &slope) in row.zip(slopes.as_ref()) {
-                        *entry += along * slope;
+                    for column in 0..Vector::<S, M, K, D>::LEN {
+                        by[[index, column]] += along * slopes[column];
                     }
                 }
             }

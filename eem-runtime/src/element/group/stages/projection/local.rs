@@ -9,39 +9,42 @@
 //! thermostat gives the temperature, the entropies of the path are those of the given temperatures at its
 //! supports instead.
 
-use super::ProjectedMember;
+use super::ProjectedPoint;
+use super::path::chained;
+use super::vector::Vector;
+use crate::element::error::StateError;
 use crate::element::group::stages::local::{Column, LocalStages};
 use crate::element::group::stages::member::StatePoint;
 use crate::element::group::view::StepView;
-use crate::element::kinematics::Kinematics;
+use crate::element::kinematics::QuadraticStrain;
 use crate::element::tableau::{MOST_STAGES, Tableau};
 use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
 
-impl<S, M, K, const D: usize> ProjectedMember<S, M, K, D>
+impl<S, M, K, const D: usize> ProjectedPoint<S, M, K, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
+    K: QuadraticStrain<S, D>,
 {
     /// Writes the equations, all in J; the unknowns are in their units.
     pub(super) fn write_path(
         &mut self,
-        point: &StatePoint<S, M, K, D>,
+        in_state: &StatePoint<S, M, K, D>,
         rule: &Tableau,
         local: &mut LocalStages<S>,
         view: &StepView<'_, S>,
-    ) {
+    ) -> Result<(), StateError> {
         for stage in 0..rule.stages() {
             for k in 0..M::DASHPOTS {
                 self.creep(rule, local, [stage, k], view.per_step);
             }
         }
-        let Some(slot) = point.slots().thermal else {
-            return;
+        let Some(slot) = in_state.slots().thermal else {
+            return Ok(());
         };
         if let Some(prescribed) = self.prescribed {
-            return self.prescribe(point, rule, local, &prescribed);
+            return self.prescribe(in_state, rule, local, &prescribed);
         }
         for stage in 0..rule.stages() {
             let flow = view
@@ -50,6 +53,7 @@ where
             let heat = flow.heat + self.own.received[stage];
             self.warm(rule, local, stage, (view, [heat, flow.conductance]));
         }
+        Ok(())
     }
 
     /// Where the derivatives of a conjugate by the increments go.
@@ -60,18 +64,18 @@ where
             .enumerate()
             .take(rule.sets())
         {
-            let row = &by[index];
-            add(Column::Input(set * M::MEASURES), row[0]);
+            let strains = Vector::<S, M, K, D>::STRAINS;
+            for q in 0..strains {
+                add(Column::Input(set * strains + q), by[[index, q]]);
+            }
             for k in 0..M::DASHPOTS {
-                let entry = row[M::MEASURES + k] * self.own.units[M::MEASURES + k];
+                let entry = by[[index, strains + k]] * self.own.units[strains + k];
                 add(Column::Unknown(set * M::DASHPOTS + k), entry);
             }
             if M::THERMAL {
-                let last = M::Variables::LEN - 1;
-                add(
-                    Column::Unknown(first + set),
-                    row[last] * self.own.units[last],
-                );
+                let last = Vector::<S, M, K, D>::ENTROPY;
+                let entry = by[[index, last]] * self.own.units[last];
+                add(Column::Unknown(first + set), entry);
             }
         }
     }
@@ -102,7 +106,7 @@ where
         [stage, k]: [usize; 2],
         per_step: S,
     ) {
-        let (equation, index) = (stage * M::DASHPOTS + k, M::MEASURES + k);
+        let (equation, index) = (stage * M::DASHPOTS + k, Vector::<S, M, K, D>::STRAINS + k);
         let unit = self.own.units[index];
         let (viscosities, slopes) = &self.own.viscosities[stage];
         let (drag, slope) = (viscosities[k] * per_step, slopes[k] * per_step);
@@ -118,7 +122,7 @@ where
                 rule,
                 local,
                 equation,
-                [stage, M::Variables::LEN - 1],
+                [stage, Vector::<S, M, K, D>::ENTROPY],
                 factor,
             );
         }
@@ -133,14 +137,14 @@ where
         stage: usize,
         (view, [heat, conductance]): (&StepView<'_, S>, [S; 2]),
     ) {
-        let (unknowns, last) = (local.unknowns(), M::Variables::LEN - 1);
+        let (unknowns, last) = (local.unknowns(), Vector::<S, M, K, D>::ENTROPY);
         let first = rule.sets() * M::DASHPOTS;
         let equation = first + stage;
         let (theta, rate) = (self.mean_temperature(stage), self.own.rates[stage][last]);
         let mut rest = theta * rate - view.step * heat;
         let mut by_theta = rate + view.step * conductance;
         for k in 0..M::DASHPOTS {
-            let index = M::MEASURES + k;
+            let index = Vector::<S, M, K, D>::STRAINS + k;
             let (viscosities, slopes) = &self.own.viscosities[stage];
             let creep = self.own.rates[stage][index];
             let drag = viscosities[k] * view.per_step * creep;
@@ -149,52 +153,59 @@ where
             let unknown = stage * M::DASHPOTS + k;
             local.matrix[equation * unknowns + unknown] -= (drag + drag) * self.own.units[index];
         }
+        if M::Drag::LEN > 0 {
+            rest -= self.own.drags[stage].heat;
+            by_theta -= self.own.drags[stage].by_theta;
+            self.add_heat_of_drag(rule, (&*local, equation), stage);
+        }
         self.solved[equation] = rest;
         local.matrix[equation * (unknowns + 1)] += theta * self.own.units[last];
         self.add(rule, local, equation, [stage, last], by_theta);
-        let input = 1 + rule.sets() * M::MEASURES + stage;
+        let input = 1 + rule.sets() * Vector::<S, M, K, D>::STRAINS + stage;
         self.solved[input * unknowns + equation] -= view.step;
     }
 
     /// The equations `θ (s(τ) − S(λ, γ, θ)) = 0` where the temperature θ is given.
     fn prescribe(
         &mut self,
-        point: &StatePoint<S, M, K, D>,
+        in_state: &StatePoint<S, M, K, D>,
         rule: &Tableau,
         local: &mut LocalStages<S>,
         prescribed: &[S; MOST_STAGES],
-    ) {
+    ) -> Result<(), StateError> {
         let Some(path) = rule.path else {
-            return;
+            return Ok(());
         };
-        let (unknowns, last) = (local.unknowns(), M::Variables::LEN - 1);
+        let (unknowns, last) = (local.unknowns(), Vector::<S, M, K, D>::ENTROPY);
         let first = rule.sets() * M::DASHPOTS;
         for (at, (shares, &theta)) in path.supports.integrals.iter().zip(prescribed).enumerate() {
             let equation = first + at;
-            let increments = self.increments(shares);
-            let mut x = increments;
-            for (x, &old) in x.as_mut().iter_mut().zip(self.own.old.as_ref()) {
-                *x += old;
-            }
-            let stretch = x[0].sqrt();
-            (x[0], x[last]) = (stretch, theta);
-            let (gradient, hessian) = point.model.hessian(&x);
-            // ∂ψ/∂θ = −s
-            let rest = (self.own.old[last] + gradient[last]) + increments[last];
+            let y = self.path_at(shares);
+            let measures = self.measures_in_path(in_state.element, &y.strain)?;
+            let x = y.variables(measures.as_ref(), theta);
+            let (gradient, hessian) = in_state.model.hessian(&x);
+            let row = hessian[M::MEASURES + M::DASHPOTS];
+            let increment = self.increments(shares)[last];
+            let entropy = -gradient[M::MEASURES + M::DASHPOTS];
+            let rest = (self.own.old[last] - entropy) + increment;
             self.solved[equation] = theta * rest;
-            let row = hessian[last];
+            let slopes = self.kinematics.strain_slopes([&y.strain, &y.strain]);
+            let by_strain = chained::<S, K, D>(&slopes, &row.as_ref()[..M::MEASURES]);
             for (set, &share) in shares.iter().enumerate() {
                 let share = theta * S::from_f64(share);
-                let input = (1 + set * M::MEASURES) * unknowns + equation;
-                self.solved[input] += share * row[0] / (stretch + stretch);
+                for (q, &by) in by_strain.as_ref().iter().enumerate() {
+                    let input = (1 + set * Vector::<S, M, K, D>::STRAINS + q) * unknowns + equation;
+                    self.solved[input] += share * by;
+                }
                 let matrix = &mut local.matrix[equation * unknowns..];
                 for k in 0..M::DASHPOTS {
-                    let index = M::MEASURES + k;
-                    matrix[set * M::DASHPOTS + k] += share * row[index] * self.own.units[index];
+                    let unit = self.own.units[Vector::<S, M, K, D>::STRAINS + k];
+                    matrix[set * M::DASHPOTS + k] += share * row[M::MEASURES + k] * unit;
                 }
                 matrix[first + set] += share * self.own.units[last];
             }
         }
+        Ok(())
     }
 
     /// A conjugate of a stage with the local unknowns eliminated: its derivatives go to the row of the local

@@ -1,48 +1,41 @@
-//! The path of a spring through a step at a trial, and the projections from it.
+//! The path of a point through a step at a trial, and the projections from it.
 
-use super::ProjectedMember;
+use super::ProjectedPoint;
+use super::vector::{Matrix, Vector};
 use crate::element::conjugates::{Infeasible, temperature_at};
 use crate::element::error::StateError;
-use crate::element::group::arms::{add_scaled, along, change_in_set, scale};
+use crate::element::group::arms::{add_scaled, measures_in};
 use crate::element::group::respond::check_measures;
-use crate::element::group::stages::member::StatePoint;
-use crate::element::group::view::Trial;
+use crate::element::group::stages::member::{StageArms, StatePoint};
 use crate::element::handle::Element;
-use crate::element::kinematics::{Arms, Kinematics};
+use crate::element::kinematics::{Arms, Measures, PerStrain, QuadraticStrain};
 use crate::element::tableau::{MOST_POINTS, MOST_STAGES, Path, Tableau};
 use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::{Real, is_positive};
 
-impl<S, M, K, const D: usize> ProjectedMember<S, M, K, D>
+impl<S, M, K, const D: usize> ProjectedPoint<S, M, K, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
+    K: QuadraticStrain<S, D>,
 {
     /// Arms, their motion and the increments of C at the stages.
     pub(super) fn move_along(
         &mut self,
-        point: &StatePoint<S, M, K, D>,
+        in_state: &StatePoint<S, M, K, D>,
         rule: &Tableau,
-        trial: &Trial<S, D>,
+        arms: &StageArms<K, S, D>,
     ) -> Result<(), StateError> {
-        let nodes = &self.site.common().nodes;
-        let mut changes = [Arms::<K, S, D>::filled([S::zero(); D]); MOST_STAGES];
-        for (set, change) in changes.iter_mut().enumerate().take(rule.sets()) {
-            *change = change_in_set::<K, S, D>(nodes, trial, set);
-        }
         for (stage, row) in rule.motion.iter().enumerate() {
-            let mut r = changes[stage];
-            add_scaled::<K, S, D>(&mut r, S::one(), &self.r0);
+            let r = arms.of_set(stage);
             let measures = self.kinematics.measure(&r);
-            check_measures::<K, S, D>(&self.kinematics, point.element, &measures, &r)?;
-            scale::<K, S, D>(&mut r, S::from_f64(2.0));
+            check_measures::<K, S, D>(&self.kinematics, in_state.element, &measures, &r)?;
             let mut motion = Arms::<K, S, D>::filled([S::zero(); D]);
-            for (change, &share) in changes.iter().zip(*row) {
+            for (change, &share) in arms.changes.iter().zip(*row) {
                 add_scaled::<K, S, D>(&mut motion, S::from_f64(share), change);
             }
-            self.own.rates[stage][0] = along::<K, S, D>(&r, &motion);
-            (self.own.directions[stage], self.own.motions[stage]) = (r, motion);
+            self.own.rates[stage].strain = self.kinematics.strain_rate(&r, &motion);
+            (self.own.arms[stage], self.own.motions[stage]) = (r, motion);
         }
         Ok(())
     }
@@ -50,33 +43,34 @@ where
     /// The conjugates of the stages and their derivatives, before they are made exact.
     pub(super) fn project(
         &mut self,
-        point: &StatePoint<S, M, K, D>,
+        in_state: &StatePoint<S, M, K, D>,
         rule: &Tableau,
     ) -> Result<(), StateError> {
         let Some(path) = rule.path else {
             return Ok(());
         };
-        let zeros = M::Variables::filled(S::zero());
-        self.own.conjugates = [zeros; MOST_STAGES];
-        self.own.resolution = [zeros; MOST_STAGES];
+        self.own.conjugates = [Vector::zero(); MOST_STAGES];
+        self.own.resolution = [Vector::zero(); MOST_STAGES];
         for row in &mut self.own.by_rates {
-            *row = row.map(|_| M::Hessian::filled(zeros));
+            *row = row.map(|_| Matrix::zero());
         }
         for (r, shares) in path.integrals.iter().enumerate() {
-            let (y, x) = self.find_point(point, shares, r)?;
-            let (gradient, hessian) = point.model.hessian(&x);
+            let (y, x) = self.find_point(in_state, shares, r)?;
+            let (gradient, hessian) = in_state.model.hessian(&x);
             if M::THERMAL {
                 // ∂²ψ/∂θ² = −c/θ
                 let (last, theta) = (M::Variables::LEN - 1, x[M::Variables::LEN - 1]);
                 Infeasible::unless_stable(-theta * hessian[last][last], theta)
-                    .map_err(|infeasible| infeasible.of(point.element))?;
+                    .map_err(|infeasible| infeasible.of(in_state.element))?;
             }
             let sum = gradient.as_ref().iter();
             unless_infinite(
-                point.element,
+                in_state.element,
                 sum.fold(S::zero(), |sum, &value| sum + value),
             )?;
-            let (slopes, curvatures) = derivatives::<S, M>(&x, &gradient, &hessian);
+            let of_model = (&x, &gradient, &hessian);
+            let (slopes, curvatures) =
+                derivatives::<S, M, K, D>(&self.kinematics, &y.strain, of_model);
             self.take((&path, r), &y, &slopes, &curvatures);
         }
         Ok(())
@@ -86,56 +80,69 @@ where
     fn take(
         &mut self,
         (path, r): (&Path, usize),
-        y: &M::Variables,
-        slopes: &M::Variables,
-        curvatures: &M::Hessian,
+        y: &Vector<S, M, K, D>,
+        slopes: &Vector<S, M, K, D>,
+        curvatures: &Matrix<S, M, K, D>,
     ) {
+        let mut sizes = *y;
+        sizes.strain = self.kinematics.strain_sizes(&y.strain);
         let own = &mut self.own;
         for (stage, shares) in path.projection.iter().enumerate() {
             let share = S::from_f64(shares[r]);
-            for index in 0..M::Variables::LEN {
+            for index in 0..Vector::<S, M, K, D>::LEN {
                 own.conjugates[stage][index] += share * slopes[index];
-                let terms = curvatures[index].as_ref().iter().zip(y.as_ref());
-                let size = terms.fold(S::zero(), |sum, (&a, &y)| sum + (a * y).abs());
+                let terms = 0..Vector::<S, M, K, D>::LEN;
+                let size = terms.fold(S::zero(), |sum, column| {
+                    sum + (curvatures[[index, column]] * sizes[column]).abs()
+                });
                 own.resolution[stage][index] += share.abs() * size;
             }
             for (by, &reach) in own.by_rates[stage].iter_mut().zip(path.integrals[r]) {
                 let factor = share * S::from_f64(reach);
-                for (row, curvatures) in by.as_mut().iter_mut().zip(curvatures.as_ref()) {
-                    for (entry, &curvature) in row.as_mut().iter_mut().zip(curvatures.as_ref()) {
-                        *entry += factor * curvature;
+                for row in 0..Vector::<S, M, K, D>::LEN {
+                    for column in 0..Vector::<S, M, K, D>::LEN {
+                        by[[row, column]] += factor * curvatures[[row, column]];
                     }
                 }
             }
         }
     }
 
-    /// `y = (C, γ, s)` and `x = (λ, γ, θ)` where the path has gone these shares of the increments.
+    /// `y = (C, γ, s)` where the path has gone these shares of the increments.
+    pub(super) fn path_at(&self, shares: &[f64]) -> Vector<S, M, K, D> {
+        let mut y = self.increments(shares);
+        for index in 0..Vector::<S, M, K, D>::LEN {
+            y[index] += self.own.old[index];
+        }
+        y
+    }
+
+    /// The measures of a strain of the path.
+    pub(super) fn measures_in_path(
+        &self,
+        element: Element,
+        strain: &PerStrain<K, S, D>,
+    ) -> Result<Measures<K, S, D>, StateError> {
+        let measures = self.kinematics.measures_of(strain);
+        measures.ok_or_else(|| self.kinematics.refuse(element, strain))
+    }
+
+    /// `y = (C, γ, s)` and `x = (π, γ, θ)` where the path has gone these shares of the increments.
     fn find_point(
         &mut self,
-        point: &StatePoint<S, M, K, D>,
+        in_state: &StatePoint<S, M, K, D>,
         shares: &[f64],
         place: usize,
-    ) -> Result<(M::Variables, M::Variables), StateError> {
-        let mut y = self.increments(shares);
-        for (y, &old) in y.as_mut().iter_mut().zip(self.own.old.as_ref()) {
-            *y += old;
-        }
-        let square = y[0];
-        if !is_positive(square) {
-            return Err(StateError::Path {
-                element: point.element,
-                value: square.to_f64(),
-            });
-        }
-        let mut x = y;
-        x[0] = square.sqrt();
+    ) -> Result<(Vector<S, M, K, D>, M::Variables), StateError> {
+        let y = self.path_at(shares);
+        let measures = self.measures_in_path(in_state.element, &y.strain)?;
+        let near = self.own.temperatures[place];
+        let mut x = y.variables(measures.as_ref(), near);
         if M::THERMAL {
-            let last = M::Variables::LEN - 1;
-            let near = self.own.temperatures[place];
-            let found = temperature_at(&point.model, x, y[last], near);
-            x[last] = found.map_err(|infeasible| infeasible.of(point.element))?;
-            self.own.temperatures[place] = x[last];
+            let entropy = y[Vector::<S, M, K, D>::ENTROPY];
+            let found = temperature_at(&in_state.model, x, entropy, near);
+            let theta = found.map_err(|infeasible| infeasible.of(in_state.element))?;
+            (x[M::Variables::LEN - 1], self.own.temperatures[place]) = (theta, theta);
         }
         Ok((y, x))
     }
@@ -144,36 +151,42 @@ where
     /// increments is Δê.
     pub(super) fn reach_end(
         &mut self,
-        point: &StatePoint<S, M, K, D>,
+        in_state: &StatePoint<S, M, K, D>,
         rule: &Tableau,
-    ) -> Result<[M::Variables; 2], StateError> {
-        let (end, x) = self.find_point(point, rule.weights, MOST_POINTS)?;
+    ) -> Result<[Vector<S, M, K, D>; 2], StateError> {
+        let (end, x) = self.find_point(in_state, rule.weights, MOST_POINTS)?;
         self.own.end = end;
-        let mut slopes = point.model.gradient(&x);
-        let response = point
+        self.own.end_sizes[1] = self.kinematics.strain_sizes(&end.strain);
+        let mut gradient = in_state.model.gradient(&x);
+        let response = in_state
             .model
             .temperature_form_response(&self.own.old_form, &x);
         let mut mean = M::Variables::filled(S::zero());
-        for index in 0..M::MEASURES + M::DASHPOTS {
-            let is_dashpot = index >= M::MEASURES;
+        for index in 0..M::Variables::LEN {
+            let is_dashpot = (M::MEASURES..M::MEASURES + M::DASHPOTS).contains(&index);
             mean[index] = if is_dashpot {
                 -response[index]
             } else {
                 response[index]
             };
         }
-        let stretch = x[0];
-        slopes[0] /= stretch + stretch;
-        mean[0] /= self.own.old_stretch + stretch;
         if M::THERMAL {
             let last = M::Variables::LEN - 1;
-            slopes[last] = x[last];
-            mean[last] = response[last];
+            gradient[last] = x[last];
         }
-        let sum = [slopes, mean].iter().fold(S::zero(), |sum, values| {
-            values.as_ref().iter().fold(sum, |sum, &value| sum + value)
-        });
-        unless_infinite(point.element, sum)?;
+        let between = |ends, by: &M::Variables| {
+            let mut slopes = Vector::zero();
+            slopes.take_rest(by);
+            slopes.strain = chained::<S, K, D>(&self.kinematics.strain_slopes(ends), by.as_ref());
+            slopes
+        };
+        let slopes = between([&end.strain, &end.strain], &gradient);
+        let mean = between([&self.own.old.strain, &end.strain], &mean);
+        let sum = slopes.entries().chain(mean.entries());
+        unless_infinite(
+            in_state.element,
+            sum.fold(S::zero(), |sum, value| sum + value),
+        )?;
         self.own.end_slopes[1] = slopes;
         Ok([slopes, mean])
     }
@@ -181,58 +194,105 @@ where
     /// The viscosities at the temperatures of the stages, which are positive.
     pub(super) fn find_viscosities(
         &mut self,
-        point: &mut StatePoint<S, M, K, D>,
+        in_state: &mut StatePoint<S, M, K, D>,
         rule: &Tableau,
     ) -> Result<(), StateError> {
         for stage in 0..rule.stages() {
             let theta = self.mean_temperature(stage);
             if M::THERMAL && !is_positive(theta) {
                 return Err(StateError::MeanTemperature {
-                    element: point.element,
+                    element: in_state.element,
                     value: theta.to_f64(),
                 });
             }
-            point.find_viscosities(theta)?;
-            self.own.viscosities[stage] = point.viscosities;
+            in_state.find_viscosities(theta)?;
+            self.own.viscosities[stage] = in_state.viscosities;
         }
         Ok(())
     }
 }
 
-/// `∇ê` and `∇²ê` by `(C, γ, s)` from the derivatives of ψ by `(λ, γ, θ)`.
+/// `Σ_a f_a P_a`.
+pub(super) fn chained<S: Real, K: QuadraticStrain<S, D>, const D: usize>(
+    slopes: &K::PerMeasure<PerStrain<K, S, D>>,
+    by_measure: &[S],
+) -> PerStrain<K, S, D> {
+    let mut sum = PerStrain::<K, S, D>::filled(S::zero());
+    for (row, &by) in slopes.as_ref().iter().zip(by_measure) {
+        for (sum, &slope) in sum.as_mut().iter_mut().zip(row.as_ref()) {
+            *sum += by * slope;
+        }
+    }
+    sum
+}
+
+/// `∇ê` and `∇²ê` by `(C, γ, s)` from the derivatives of ψ by `(π, γ, θ)`.
 ///
 /// ```text
 /// e_x = ψ_x,   e_s = θ,   e_xy = ψ_xy − ψ_xθ ψ_yθ/ψ_θθ,   e_xs = −ψ_xθ/ψ_θθ,   e_ss = −1/ψ_θθ
-/// ê_C = e_λ/2λ,   ê_CC = (e_λλ − e_λ/λ)/4λ²,   ê_Cx = e_λx/2λ
+/// ê_C = P e_π,   ê_CC = P e_ππ Pᵀ + Σ e_π ∂²π/∂C²,   ê_Cx = P e_πx,   P = ∂π/∂C
 /// ```
-pub(super) fn derivatives<S: Real, M: FreeEnergy<S>>(
-    x: &M::Variables,
-    gradient: &M::Variables,
-    hessian: &M::Hessian,
-) -> (M::Variables, M::Hessian) {
+pub(super) fn derivatives<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize>(
+    kinematics: &K,
+    strain: &PerStrain<K, S, D>,
+    (x, gradient, hessian): (&M::Variables, &M::Variables, &M::Hessian),
+) -> (Vector<S, M, K, D>, Matrix<S, M, K, D>) {
     let last = M::Variables::LEN - 1;
-    let (mut slopes, mut curvatures) = (*gradient, *hessian);
+    let (mut by, mut second) = (*gradient, *hessian);
     if M::THERMAL {
         let by_theta = hessian[last];
         let per_capacity = -by_theta[last].recip();
         for row in 0..last {
             let answer = per_capacity * by_theta[row];
             for column in 0..last {
-                curvatures[row][column] += answer * by_theta[column];
+                second[row][column] += answer * by_theta[column];
             }
-            (curvatures[row][last], curvatures[last][row]) = (answer, answer);
+            (second[row][last], second[last][row]) = (answer, answer);
         }
-        curvatures[last][last] = per_capacity;
-        slopes[last] = x[last];
+        second[last][last] = per_capacity;
+        by[last] = x[last];
     }
-    let stretch = x[0];
-    let shrink = (stretch + stretch).recip();
-    curvatures[0][0] -= slopes[0] / stretch;
-    for index in 0..=last {
-        curvatures[0][index] *= shrink;
-        curvatures[index][0] *= shrink;
+    let slopes_of_measures = kinematics.strain_slopes([strain, strain]);
+    let mut slopes = Vector::zero();
+    slopes.take_rest(&by);
+    slopes.strain = chained::<S, K, D>(&slopes_of_measures, by.as_ref());
+    let mut curvatures = Matrix::zero();
+    let strains = Vector::<S, M, K, D>::STRAINS;
+    let force = measures_in::<K, S, D>(&by);
+    let turning = kinematics.strain_curvature(strain, &force);
+    for column in 0..=last {
+        // ∂(e_C)/∂x of a variable of the model
+        let column_of_measures: Measures<K, S, D> = {
+            let mut of_column = force;
+            for (a, entry) in of_column.as_mut().iter_mut().enumerate() {
+                *entry = second[a][column];
+            }
+            of_column
+        };
+        let own = chained::<S, K, D>(&slopes_of_measures, column_of_measures.as_ref());
+        for q in 0..strains {
+            if column < M::MEASURES {
+                for p in 0..strains {
+                    curvatures[[q, p]] += own[q] * slopes_of_measures[column][p];
+                }
+            } else {
+                let beyond = strains + column - M::MEASURES;
+                curvatures[[q, beyond]] = own[q];
+                curvatures[[beyond, q]] = own[q];
+            }
+        }
     }
-    slopes[0] *= shrink;
+    for q in 0..strains {
+        for p in 0..strains {
+            curvatures[[q, p]] += turning[q][p];
+        }
+    }
+    for row in M::MEASURES..=last {
+        for column in M::MEASURES..=last {
+            let [row_here, column_here] = [row, column].map(|index| strains + index - M::MEASURES);
+            curvatures[[row_here, column_here]] = second[row][column];
+        }
+    }
     (slopes, curvatures)
 }
 

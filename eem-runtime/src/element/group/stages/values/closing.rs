@@ -1,18 +1,19 @@
 //! What is booked of an element with values at the stages.
 
-use super::ValuesMember;
+use super::ValuesPoint;
 use crate::element::conduction::Partner;
 use crate::element::group::arms::{measures_in, resultant};
 use crate::element::group::closing::pull;
-use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::{Ends, Kinematics, Weights};
+use crate::element::group::stages::member::StageArms;
+use crate::element::group::view::StepView;
+use crate::element::kinematics::{Arms, Ends, Kinematics, Weights};
 use crate::element::layout::Slots;
 use crate::element::state::State;
 use crate::element::tableau::{Ending, Tableau};
 use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
 
-impl<S, M, K, const D: usize> ValuesMember<S, M, K, D>
+impl<S, M, K, const D: usize> ValuesPoint<S, M, K, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
@@ -23,12 +24,12 @@ where
         &self,
         rule: &Tableau,
         stage: usize,
-        trial: &Trial<S, D>,
+        arms: &StageArms<K, S, D>,
     ) -> K::PerNode<[S; D]> {
         let feels_itself = rule
             .set_of(stage)
             .is_some_and(|set| rule.positions[set][stage] != 0.0);
-        let r = self.arms_at(rule, stage, trial);
+        let r = arms.at(rule, stage);
         if feels_itself && matches!(rule.ending, Ending::StageByStage) {
             return pull::<K, S, D>(&self.secant(stage), &r);
         }
@@ -42,10 +43,11 @@ where
     pub(super) fn secant(&self, stage: usize) -> Weights<K, S, D> {
         let measures = measures_in::<K, S, D>(&self.own.x[stage]);
         let forces = measures_in::<K, S, D>(&self.own.points[stage].gradient);
+        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
         // At rest in the stage; the arms of an element with one point are not asked for.
         let ends = Ends {
-            r0: self.r0,
-            r1: self.r0,
+            r0: nowhere,
+            r1: nowhere,
             measures0: measures,
             measures1: measures,
         };

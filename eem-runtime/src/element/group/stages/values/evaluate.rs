@@ -1,11 +1,11 @@
 //! The model at the stages of a trial.
 
-use super::ValuesMember;
+use super::ValuesPoint;
 use crate::element::conjugates::Infeasible;
 use crate::element::error::StateError;
 use crate::element::group::respond::{check_measures, check_temperature};
 use crate::element::group::stages::heat;
-use crate::element::group::stages::member::StatePoint;
+use crate::element::group::stages::member::{StageArms, StatePoint};
 use crate::element::group::view::{StepView, Trial};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics};
@@ -13,7 +13,7 @@ use crate::element::tableau::Tableau;
 use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
 
-impl<S, M, K, const D: usize> ValuesMember<S, M, K, D>
+impl<S, M, K, const D: usize> ValuesPoint<S, M, K, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,
@@ -22,22 +22,22 @@ where
     /// Evaluates the model at all stages of the trial.
     pub(super) fn evaluate_stages(
         &mut self,
-        own: &mut StatePoint<S, M, K, D>,
+        in_state: &mut StatePoint<S, M, K, D>,
         rule: &Tableau,
-        view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
+        (view, trial): (&StepView<'_, S>, &Trial<S, D>),
+        arms: &StageArms<K, S, D>,
     ) -> Result<(), StateError> {
         for stage in 0..rule.stages() {
             // The measures of a known stage are those of the old state.
             if let Some(set) = rule.set_of(stage) {
-                let r = self.arms_of_set(set, trial);
-                self.move_to(own.element, stage, &r)?;
+                let r = arms.of_set(set);
+                self.move_to(in_state.element, stage, &r)?;
             }
-            let heat = match own.slots().thermal {
+            let heat = match in_state.slots().thermal {
                 Some(slot) => heat::received(rule, stage, slot, view, trial),
                 None => S::zero(),
             };
-            self.evaluate_stage(own, view, stage, heat)?;
+            self.evaluate_stage(in_state, view, stage, heat)?;
         }
         Ok(())
     }
@@ -61,7 +61,7 @@ where
     /// The model at a stage whose variables are known, with the heat from other elements, W.
     fn evaluate_stage(
         &mut self,
-        own: &mut StatePoint<S, M, K, D>,
+        in_state: &mut StatePoint<S, M, K, D>,
         view: &StepView<'_, S>,
         stage: usize,
         heat: S,
@@ -69,25 +69,25 @@ where
         let (x, point) = (&self.own.x[stage], &mut self.own.points[stage]);
         let theta = x[M::Variables::LEN - 1];
         if M::THERMAL {
-            check_temperature(own.element, theta)?;
+            check_temperature(in_state.element, theta)?;
         }
-        (point.gradient, point.hessian) = own.model.hessian(x);
+        (point.gradient, point.hessian) = in_state.model.hessian(x);
         let mut values = point.gradient.as_ref().iter();
         if let Some(value) = values.find(|value| !value.is_finite()) {
             return Err(StateError::NotFinite {
-                element: own.element,
+                element: in_state.element,
                 quantity: "force or entropy",
                 value: value.to_f64(),
             });
         }
-        own.find_viscosities(theta)?;
-        let dissipation_by = point.creep(&own.viscosities);
-        let Some(slot) = own.slots().thermal else {
+        in_state.find_viscosities(theta)?;
+        let dissipation_by = point.creep(&in_state.viscosities);
+        let Some(slot) = in_state.slots().thermal else {
             return Ok(());
         };
         let slope = point.entropy_by()[M::Variables::LEN - 1];
         Infeasible::unless_stable(theta * slope, theta)
-            .map_err(|infeasible| infeasible.of(own.element))?;
+            .map_err(|infeasible| infeasible.of(in_state.element))?;
         let mut flow = view.conduction.reservoir_flow(slot, theta);
         flow.heat += heat;
         point.warm(theta, &flow, &dissipation_by);

@@ -7,7 +7,7 @@
 //!
 //! with the numbers of the [`Tableau`]. The unknowns are `u = (γ…, Θ)` of all sets, the inputs `y = (π…, Q…)`.
 
-use super::ValuesMember;
+use super::ValuesPoint;
 use crate::element::group::stages::local::{Column, LocalStages};
 use crate::element::kinematics::Kinematics;
 use crate::element::tableau::{EntropyBalance, Tableau};
@@ -39,7 +39,7 @@ fn sort<S: Real, M: FreeEnergy<S>>(
     }
 }
 
-impl<S, M, K, const D: usize> ValuesMember<S, M, K, D>
+impl<S, M, K, const D: usize> ValuesPoint<S, M, K, D>
 where
     S: Real,
     M: FreeEnergy<S> + Send + Sync + 'static,

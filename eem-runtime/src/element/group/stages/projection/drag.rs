@@ -1,0 +1,141 @@
+//! The dashpot beside a spring or a solid at the stages.
+//!
+//! ```text
+//! ν_i = P_i·R_i,   f_i = η(Θ_i) ν_i/h,   a_i += f_i P_i,   heat f_i ν_i        P_i = ∂π/∂C at C(c_i)
+//! ```
+//!
+//! with the strain of the path, so that its power is what the nodes lose.
+
+use super::ProjectedPoint;
+use super::vector::Vector;
+use crate::element::error::StateError;
+use crate::element::group::stages::local::LocalStages;
+use crate::element::group::stages::member::StatePoint;
+use crate::element::kinematics::{Measures, PerStrain, QuadraticStrain};
+use crate::element::tableau::{MOST_SETS, Tableau};
+use crate::material::free_energy::{Array, FreeEnergy};
+use crate::number::scalar::Real;
+
+/// What the dashpot turns into heat at a stage, `f ν`, J, and its derivatives by the increments of the strain, with the
+/// temperature held, and by the temperature.
+#[derive(Debug)]
+pub(super) struct Drag<S: Real, K: QuadraticStrain<S, D>, const D: usize> {
+    pub(super) heat: S,
+    by_strain: [PerStrain<K, S, D>; MOST_SETS],
+    pub(super) by_theta: S,
+}
+
+impl<S: Real, K: QuadraticStrain<S, D>, const D: usize> Drag<S, K, D> {
+    /// None.
+    pub(super) fn zero() -> Self {
+        Self {
+            heat: S::zero(),
+            by_strain: [PerStrain::<K, S, D>::filled(S::zero()); MOST_SETS],
+            by_theta: S::zero(),
+        }
+    }
+}
+
+impl<S, M, K, const D: usize> ProjectedPoint<S, M, K, D>
+where
+    S: Real,
+    M: FreeEnergy<S> + Send + Sync + 'static,
+    K: QuadraticStrain<S, D>,
+{
+    /// Adds the forces of the dashpot to conjugates that are exact without them.
+    pub(super) fn add_drag(
+        &mut self,
+        in_state: &mut StatePoint<S, M, K, D>,
+        rule: &Tableau,
+        per_step: S,
+    ) -> Result<(), StateError> {
+        if M::Drag::LEN == 0 {
+            return Ok(());
+        }
+        for stage in 0..rule.stages() {
+            in_state.find_drag_viscosity(self.mean_temperature(stage))?;
+            let (viscosities, slopes) = in_state.drag.viscosity;
+            self.own.drags[stage] = Drag::zero();
+            for a in 0..M::Drag::LEN {
+                let per_step = [viscosities[a] * per_step, slopes[a] * per_step];
+                self.add_drag_of(in_state, (rule, stage), a, per_step)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The same of a measure at a stage, given `η/h` and `(dη/dθ)/h`.
+    fn add_drag_of(
+        &mut self,
+        in_state: &StatePoint<S, M, K, D>,
+        (rule, stage): (&Tableau, usize),
+        measure: usize,
+        [eta, slope]: [S; 2],
+    ) -> Result<(), StateError> {
+        let (strains, last) = (Vector::<S, M, K, D>::STRAINS, Vector::<S, M, K, D>::ENTROPY);
+        let strain = self.path_at(rule.rates[stage]).strain;
+        self.measures_in_path(in_state.element, &strain)?;
+        let direction = self.kinematics.strain_slopes([&strain, &strain])[measure];
+        let mut unit = Measures::<K, S, D>::filled(S::zero());
+        unit[measure] = S::one();
+        let turning = self.kinematics.strain_curvature(&strain, &unit);
+        let own = &mut self.own;
+        let rates = own.rates[stage].strain;
+        // ∂P/∂C·R
+        let mut turned = PerStrain::<K, S, D>::filled(S::zero());
+        let mut extension = S::zero();
+        for q in 0..strains {
+            extension += direction[q] * rates[q];
+            for p in 0..strains {
+                turned[q] += turning[q][p] * rates[p];
+            }
+        }
+        let (force, thinning) = (eta * extension, slope * extension);
+        let drag = &mut own.drags[stage];
+        drag.heat += force * extension;
+        drag.by_theta += thinning * extension;
+        for q in 0..strains {
+            own.conjugates[stage][q] += force * direction[q];
+            own.resolution[stage][q] += (force * direction[q]).abs();
+        }
+        for (set, &reach) in rule.rates[stage].iter().enumerate() {
+            let reach = S::from_f64(reach);
+            let by = &mut own.by_rates[stage][set];
+            for p in 0..strains {
+                let direct = if set == stage {
+                    direction[p]
+                } else {
+                    S::zero()
+                };
+                let by_extension = direct + reach * turned[p];
+                drag.by_strain[set][p] += (force + force) * by_extension;
+                for q in 0..strains {
+                    by[[q, p]] += eta * by_extension * direction[q] + force * reach * turning[q][p];
+                }
+            }
+            for q in 0..strains {
+                for column in (0..Vector::<S, M, K, D>::LEN).filter(|_| M::THERMAL) {
+                    let by_theta = by[[last, column]];
+                    by[[q, column]] += thinning * direction[q] * by_theta;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds how the heat at a stage depends on the increments of the strain to its balance.
+    pub(super) fn add_heat_of_drag(
+        &mut self,
+        rule: &Tableau,
+        (local, equation): (&LocalStages<S>, usize),
+        stage: usize,
+    ) {
+        let by_strain = self.own.drags[stage].by_strain;
+        for (set, by) in by_strain.iter().enumerate().take(rule.sets()) {
+            for (q, &by) in by.as_ref().iter().enumerate() {
+                let input = 1 + set * Vector::<S, M, K, D>::STRAINS + q;
+                self.solved[input * local.unknowns() + equation] -= by;
+            }
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! Numbers per variable `y = (C…, γ…, s)` of the path of a point.
+
+use core::ops::{Index, IndexMut};
+
+use crate::element::kinematics::{PerStrain, QuadraticStrain, StrainMatrix};
+use crate::material::free_energy::{Array, FreeEnergy};
+use crate::number::scalar::Real;
+
+/// A number per variable.
+#[derive(Debug)]
+pub(super) struct Vector<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> {
+    /// Of the components of the strain.
+    pub(super) strain: PerStrain<K, S, D>,
+    /// Of γ and s, at their places among the variables of the model; none of measures.
+    rest: M::Variables,
+}
+
+/// A number per two variables.
+#[derive(Debug)]
+pub(super) struct Matrix<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> {
+    strains: StrainMatrix<K, S, D>,
+    /// Rows of the strain in columns of the rest, and the other way round.
+    right: K::PerStrain<M::Variables>,
+    below: K::PerStrain<M::Variables>,
+    rest: M::Hessian,
+}
+
+impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Vector<S, M, K, D> {
+    /// Number of components of the strain.
+    pub(super) const STRAINS: usize = <PerStrain<K, S, D> as Array<S>>::LEN;
+    /// Number of variables.
+    pub(super) const LEN: usize = Self::STRAINS + M::DASHPOTS + M::THERMAL as usize;
+    /// The index of the entropy.
+    pub(super) const ENTROPY: usize = Self::STRAINS + M::DASHPOTS;
+
+    pub(super) fn zero() -> Self {
+        Self {
+            strain: PerStrain::<K, S, D>::filled(S::zero()),
+            rest: M::Variables::filled(S::zero()),
+        }
+    }
+
+    /// The viscous stretches.
+    pub(super) fn dashpots() -> core::ops::Range<usize> {
+        Self::STRAINS..Self::ENTROPY
+    }
+
+    /// All entries.
+    pub(super) fn entries(&self) -> impl Iterator<Item = S> + '_ {
+        (0..Self::LEN).map(|index| self[index])
+    }
+
+    /// The variables of the model with these γ, and what is given for measures and temperature.
+    pub(super) fn variables(&self, measures: &[S], theta: S) -> M::Variables {
+        let mut x = self.rest;
+        x.as_mut()[..M::MEASURES].copy_from_slice(measures);
+        if M::THERMAL {
+            x[M::MEASURES + M::DASHPOTS] = theta;
+        }
+        x
+    }
+
+    /// Takes γ and the last one from variables of the model.
+    pub(super) fn take_rest(&mut self, of: &M::Variables) {
+        self.rest = *of;
+    }
+}
+
+impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Matrix<S, M, K, D> {
+    pub(super) fn zero() -> Self {
+        let zeros = M::Variables::filled(S::zero());
+        Self {
+            strains: K::PerStrain::filled(PerStrain::<K, S, D>::filled(S::zero())),
+            right: K::PerStrain::filled(zeros),
+            below: K::PerStrain::filled(zeros),
+            rest: M::Hessian::filled(zeros),
+        }
+    }
+}
+
+impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Clone
+    for Vector<S, M, K, D>
+{
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Copy
+    for Vector<S, M, K, D>
+{
+}
+
+impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Clone
+    for Matrix<S, M, K, D>
+{
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Copy
+    for Matrix<S, M, K, D>
+{
+}
+
+impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Index<usize>
+    for Vector<S, M, K, D>
+{
+    type Output = S;
+
+    #[inline]
+    fn index(&self, index: usize) -> &S {
+        match index.checked_sub(Self::STRAINS) {
+            None => &self.strain[index],
+            Some(beyond) => &self.rest[M::MEASURES + beyond],
+        }
+    }
+}
+
+impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> IndexMut<usize>
+    for Vector<S, M, K, D>
+{
+    #[inline]
+    fn index_mut(&mut self, index: usize) -> &mut S {
+        match index.checked_sub(Self::STRAINS) {
+            None => &mut self.strain[index],
+            Some(beyond) => &mut self.rest[M::MEASURES + beyond],
+        }
+    }
+}
+
+impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Index<[usize; 2]>
+    for Matrix<S, M, K, D>
+{
+    type Output = S;
+
+    #[inline]
+    fn index(&self, [row, column]: [usize; 2]) -> &S {
+        let strains = Vector::<S, M, K, D>::STRAINS;
+        match (row.checked_sub(strains), column.checked_sub(strains)) {
+            (None, None) => &self.strains[row][column],
+            (None, Some(beyond)) => &self.right[row][M::MEASURES + beyond],
+            (Some(beyond), None) => &self.below[column][M::MEASURES + beyond],
+            (Some(row), Some(column)) => &self.rest[M::MEASURES + row][M::MEASURES + column],
+        }
+    }
+}
+
+impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> IndexMut<[usize; 2]>
+    for Matrix<S, M, K, D>
+{
+    #[inline]
+    fn index_mut(&mut self, [row, column]: [usize; 2]) -> &mut S {
+        let strains = Vector::<S, M, K, D>::STRAINS;
+        match (row.checked_sub(strains), column.checked_sub(strains)) {
+            (None, None) => &mut self.strains[row][column],
+            (None, Some(beyond)) => &mut self.right[row][M::MEASURES + beyond],
+            (Some(beyond), None) => &mut self.below[column][M::MEASURES + beyond],
+            (Some(row), Some(column)) => &mut self.rest[M::MEASURES + row][M::MEASURES + column],
+        }
+    }
+}
