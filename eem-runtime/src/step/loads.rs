@@ -49,7 +49,6 @@ impl<S: Real> StepLoads<S> {
     ///
     /// A force of time is taken in the middle of the step, by the trapezoidal rule too: forces at both ends
     /// would give half an impulse to what is switched on between two steps.
-    /// A step of no length evaluates everything at one time.
     pub(crate) fn evaluate<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,
@@ -63,12 +62,12 @@ impl<S: Real> StepLoads<S> {
         self.evaluate_rockets(loads, middle)?;
         self.add_weights(loads, masses);
         self.evaluate_motions(loads, end, q0)?;
-        self.evaluate_speeds(loads, [time, step], q0)?;
+        self.evaluate_speeds(loads, [time, step], q0, &CUBIC)?;
         self.evaluate_temperatures(loads, [middle, end])
     }
 
-    /// Evaluates what is prescribed in the step from `time` by `step`, motions and temperatures; forces are
-    /// those of its stages.
+    /// Evaluates what is prescribed at the end of the span from `time` by `step`, motions and temperatures; forces are
+    /// those of stages.
     pub(crate) fn evaluate_supports<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,
@@ -77,10 +76,11 @@ impl<S: Real> StepLoads<S> {
     ) -> Result<(), StepFailure> {
         let (middle, end) = (time + S::from_f64(0.5) * step, time + step);
         self.evaluate_motions(loads, end, q0)?;
+        self.evaluate_speeds(loads, [time, step], q0, &SEXTIC)?;
         self.evaluate_temperatures(loads, [middle, end])
     }
 
-    /// Evaluates forces and weights at a time.
+    /// Evaluates forces, rockets and weights at a time.
     pub(crate) fn evaluate_forces_at<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,
@@ -88,6 +88,7 @@ impl<S: Real> StepLoads<S> {
         time: S,
     ) -> Result<(), StepFailure> {
         self.evaluate_forces(loads, time)?;
+        self.evaluate_rockets(loads, time)?;
         self.add_weights(loads, masses);
         Ok(())
     }
@@ -159,43 +160,53 @@ impl<S: Real> StepLoads<S> {
         Ok(())
     }
 
-    /// The velocities that moved anchors have at the end, of the cubic through their places before, after and at thirds
-    /// of the step: more accurate than the step, and none that jumps to and fro.
+    /// The velocities that moved anchors have at the end of a span, of a polynomial through their places in it: more
+    /// accurate than the step, and none that jumps to and fro.
     fn evaluate_speeds<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,
-        [time, step]: [S; 2],
+        [time, span]: [S; 2],
         q0: &[S],
+        polynomial: &Polynomial,
     ) -> Result<(), StepFailure> {
         if self.speeds.is_empty() {
             return Ok(());
         }
-        let third = step / S::from_f64(3.0);
-        let times = [time + third, time + (third + third)];
+        let part = span / S::from_f64(polynomial.degree);
+        let span_of_sum = S::from_f64(polynomial.divisor) * span;
         for (node, motion) in &loads.motions {
-            let positions = times.map(|time| motion(time));
-            for axis in 0..D {
-                let at = node.index * D + axis;
-                let places = positions.map(|position| position[axis] - q0[at]);
-                let unbounded = places.iter().position(|place| !place.is_finite());
-                if let Some(third) = unbounded {
-                    return Err(StepFailure::Motion {
-                        node: *node,
-                        axis,
-                        value: positions[third][axis].to_f64(),
-                        time: times[third].to_f64(),
-                    });
+            let mut sums = [S::zero(); D];
+            let mut before = polynomial.degree;
+            for &weight in polynomial.weights {
+                before -= 1.0;
+                let at = time + S::from_f64(before) * part;
+                let position = (before > 0.0).then(|| motion(at));
+                for (axis, sum) in sums.iter_mut().enumerate() {
+                    let coordinate = node.index * D + axis;
+                    // At the start it is where it is.
+                    let place = position.map_or(S::zero(), |q| q[axis] - q0[coordinate]);
+                    if !place.is_finite() {
+                        return Err(StepFailure::Motion {
+                            node: *node,
+                            axis,
+                            value: (place + q0[coordinate]).to_f64(),
+                            time: at.to_f64(),
+                        });
+                    }
+                    *sum += S::from_f64(weight) * (self.motion[coordinate] - place);
                 }
-                let speed = last_speed(places, self.motion[at], step);
+            }
+            for (axis, sum) in sums.into_iter().enumerate() {
+                let speed = sum / span_of_sum;
                 if !speed.is_finite() {
                     return Err(StepFailure::MotionSpeed {
                         node: *node,
                         axis,
                         value: speed.to_f64(),
-                        time: (time + step).to_f64(),
+                        time: (time + span).to_f64(),
                     });
                 }
-                self.speeds[at] = speed;
+                self.speeds[node.index * D + axis] = speed;
             }
         }
         Ok(())
@@ -239,13 +250,32 @@ impl<S: Real> StepLoads<S> {
     }
 }
 
-/// The velocity at the end of a span, s, of the cubic through 0, the places after one and two thirds of it and the last
-/// place, m; all looked at from there, as differences of the places have less rounding.
-fn last_speed<S: Real>([first, second]: [S; 2], last: S, span: S) -> S {
-    let [second, first, start] = [last - second, last - first, last];
-    let sum = S::from_f64(18.0) * second - S::from_f64(9.0) * first + (start + start);
-    sum / (span + span)
+/// The velocity at the end of a span, of the polynomial through places that are equally far apart in time:
+///
+/// ```text
+/// q̇ = Σ_k weights_k (q_end − q_k)/(divisor span)       k parts of the span before its end
+/// ```
+///
+/// All is looked at from the end, as differences of the places have less rounding.
+struct Polynomial {
+    degree: f64,
+    weights: &'static [f64],
+    divisor: f64,
 }
+
+/// For schemes of second order.
+const CUBIC: Polynomial = Polynomial {
+    degree: 3.0,
+    weights: &[18.0, -9.0, 2.0],
+    divisor: 2.0,
+};
+
+/// For those of fourth and sixth order.
+const SEXTIC: Polynomial = Polynomial {
+    degree: 6.0,
+    weights: &[360.0, -450.0, 400.0, -225.0, 72.0, -10.0],
+    divisor: 10.0,
+};
 
 /// Adds the weight of a mass.
 fn weigh<S: Real, const D: usize>(total: &mut [S; D], mass: S, loads: &Loads<S, D>) {

@@ -2,7 +2,7 @@
 
 use crate::element::conjugates::{Conjugates, PointRule};
 use crate::element::tableau::{Tableau, UnknownSet};
-use crate::step::scheme::Scheme;
+use crate::step::scheme::{Closing, Scheme};
 
 impl Scheme {
     /// Whether nodes feel forces that the old state alone decides; see
@@ -30,6 +30,16 @@ impl Scheme {
             _ => false,
         };
         !takes_none && !self.is_split()
+    }
+
+    /// Whether it takes the end of a step from increments, so that it steps solids, whose masses couple nodes, and
+    /// rockets.
+    pub(crate) fn ends_by_increments(self) -> bool {
+        match self.closing() {
+            Closing::Increments => true,
+            Closing::Stages => self.tableau().is_some_and(|rule| rule.path.is_some()),
+            Closing::Start | Closing::Explicit => false,
+        }
     }
 
     /// The numbers of a scheme that goes through stages.

@@ -117,7 +117,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             all_seen.extend(seen(&sites));
         }
         let coupling = Coupling::new(masses, &loads.moved, (&sites, sets.len()));
-        let rockets = Rockets::new(loads, masses.len(), &sites);
+        let rockets = Rockets::new(scheme.tableau(), loads, masses.len(), &sites);
         // Without conduction between elements no temperature is seen.
         let slots = layout.thermal * usize::from(!all_seen.is_empty());
         Self {

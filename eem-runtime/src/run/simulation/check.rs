@@ -46,7 +46,7 @@ fn check_scheme<const D: usize, S: Real>(
         check_solids(scheme)?;
     }
     if let Some(rocket) = scene.loads.rockets.first()
-        && scheme.closing() != Closing::Increments
+        && !scheme.ends_by_increments()
     {
         let scheme = scheme.name();
         let node = rocket.line.node;
@@ -71,15 +71,13 @@ fn check_scheme<const D: usize, S: Real>(
 
 /// The scheme can step solids, whose masses couple nodes.
 fn check_solids(scheme: Scheme) -> Result<(), SceneError> {
-    let why = match scheme.closing() {
-        Closing::Increments => return Ok(()),
-        Closing::Stages if scheme.is_exact() => return Ok(()),
-        Closing::Explicit => {
-            "so that every stage would solve a large linear system, and their small stiff elements allow only tiny steps"
-        }
-        Closing::Start | Closing::Stages => {
-            "and only schemes that take the end of a step from its increments allow that"
-        }
+    if scheme.ends_by_increments() {
+        return Ok(());
+    }
+    let why = if scheme.closing() == Closing::Explicit {
+        "so that every stage would solve a large linear system, and their small stiff elements allow only tiny steps"
+    } else {
+        "and only schemes that take the end of a step from its increments allow that"
     };
     let scheme = scheme.name();
     Err(SceneError::NotForSolids { scheme, why })

@@ -239,14 +239,12 @@ impl<S: Real, const D: usize> Newton<S, D> {
         };
         self.loads.evaluate_supports(loads, span, q0)?;
         for (stage, &share) in self.stages.iter_mut().zip(rule.times) {
-            let at = [time + S::from_f64(share) * step, S::zero()];
-            stage.evaluate(loads, masses, at, q0)?;
+            stage.evaluate_forces_at(loads, masses, time + S::from_f64(share) * step)?;
         }
         // The path of an element looks at what is prescribed at times of its own.
-        let supports = rule.path.iter().flat_map(|path| path.supports.times);
+        let supports = rule.path.map_or(rule.times, |path| path.supports.times);
         for (stage, &share) in self.stages.iter_mut().zip(supports) {
-            let at = [time + S::from_f64(share) * step, S::zero()];
-            stage.evaluate_supports(loads, at, q0)?;
+            stage.evaluate_supports(loads, [time, S::from_f64(share) * step], q0)?;
         }
         Ok(())
     }

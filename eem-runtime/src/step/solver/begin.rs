@@ -47,7 +47,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             group.begin(view, &mut old)?;
         }
         self.place_moved_anchors(view);
-        self.coupling.drive(view);
+        self.coupling.drive(self.scheme.tableau(), view);
         self.start(view, start);
         Ok(())
     }

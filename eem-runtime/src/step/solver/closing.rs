@@ -3,6 +3,7 @@
 mod masses;
 mod path;
 mod stages;
+mod supports;
 
 use core::array;
 
@@ -191,7 +192,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
             group.add_impulse(view, &self.trial, along, &mut impulses, magnitudes);
         }
         self.rockets
-            .add_impulses(view.step, &mut impulses, &mut self.magnitudes);
+            .add_impulses((0, view.step), &mut impulses, &mut self.magnitudes);
     }
 
     /// `Δq = (h/m)(p⁰ − ½h F⁰)`, `Δp = −½h (F⁰ + F¹)`, where F¹ acts along the gradient at q¹.

@@ -13,6 +13,7 @@ use std::collections::BTreeSet;
 use super::balance::Balance;
 use crate::element::group::{Sites, StepView, Trial};
 use crate::element::masses::Masses;
+use crate::element::tableau::{MOST_SETS, MOST_STAGES, Path, Tableau};
 use crate::number::compact::compact;
 use crate::number::scalar::{Mask, Real};
 
@@ -24,10 +25,21 @@ pub(super) struct Coupling<S, const D: usize> {
     sets: usize,
     /// Nodes that move with those that are moved beside them.
     driven: Vec<DrivenPair<S>>,
-    /// `Σ_m M_am Δv_m` of the nodes that move beside moved ones, and the magnitude of its terms, N s.
-    drives: Vec<(u32, [[S; D]; 2])>,
+    /// Per node that moves beside moved ones.
+    drives: Vec<Drive<S, D>>,
     /// `Δp` of the nodes that move, and the magnitude of its terms, N s; only where masses couple.
     impulses: Vec<[[S; D]; 2]>,
+}
+
+/// `Σ_m M_am Δv_m` of a node that moves beside moved ones, and the magnitude of its terms, N s.
+#[derive(Clone, Copy, Debug)]
+struct Drive<S, const D: usize> {
+    /// The node, among those that move.
+    node: u32,
+    /// In the rows of each set of unknowns.
+    of_sets: [[[S; D]; 2]; MOST_SETS],
+    /// In the whole step.
+    of_step: [[S; D]; 2],
 }
 
 /// Two nodes that move, among those that do.
@@ -50,7 +62,7 @@ struct DrivenPair<S> {
 }
 
 impl<S: Real, const D: usize> Coupling<S, D> {
-    /// That of a scene with so many sets of unknowns; nodes that are moved are those of a scheme with one.
+    /// That of a scene with so many sets of unknowns.
     pub(super) fn new(
         masses: &Masses<S>,
         moved: &[usize],
@@ -87,27 +99,33 @@ impl<S: Real, const D: usize> Coupling<S, D> {
             pairs,
             sets,
             driven,
-            drives: nodes.into_iter().map(|node| (node, still)).collect(),
+            drives: nodes.into_iter().map(Drive::none).collect(),
             impulses: vec![still; moving],
         }
     }
 
     /// Finds what the nodes that are moved do to those beside them in a step.
-    pub(super) fn drive(&mut self, view: &StepView<'_, S>) {
-        for (_, drive) in &mut self.drives {
-            *drive = [[S::zero(); D]; 2];
+    pub(super) fn drive(&mut self, rule: Option<&Tableau>, view: &StepView<'_, S>) {
+        for drive in &mut self.drives {
+            *drive = Drive::none(drive.node);
         }
         for pair in self.driven.iter().filter(|_| view.phase.moves()) {
-            let found = self
-                .drives
-                .binary_search_by_key(&pair.node, |&(node, _)| node);
-            let (Ok(at), change) = (found, view.change_of_speed::<D>(pair.moved as usize)) else {
+            let place = (self.drives).binary_search_by_key(&pair.node, |drive| drive.node);
+            let Ok(at) = place else { continue };
+            let (drive, moved) = (&mut self.drives[at], pair.moved as usize);
+            let change = view.change_of_speed::<D>(moved);
+            add_to(&mut drive.of_step, pair.mass, &change);
+            let Some((rule, path)) = rule.and_then(|rule| Some((rule, rule.path?))) else {
+                add_to(&mut drive.of_sets[0], pair.mass, &change);
                 continue;
             };
-            let (_, [drive, terms]) = &mut self.drives[at];
-            for axis in 0..D {
-                drive[axis] += pair.mass * change[axis];
-                terms[axis] += (pair.mass * change[axis]).abs();
+            let changes = changes_at_stages(&path, moved, view);
+            for (set, rates) in rule.rates.iter().enumerate() {
+                let per_time = S::from_f64(rule.times[set].recip());
+                for (&rate, change) in rates.iter().zip(&changes) {
+                    let share = pair.mass * (S::from_f64(rate) * per_time);
+                    add_to(&mut drive.of_sets[set], share, change);
+                }
             }
         }
     }
@@ -165,33 +183,47 @@ impl<S: Real, const D: usize> Coupling<S, D> {
                 }
             }
         }
-        for &(node, [drive, _]) in &self.drives {
-            for (row, impulse) in rows[node as usize].iter_mut().zip(drive) {
+        for drive in &self.drives {
+            let [impulses, _] = drive.of_sets[set];
+            for (row, impulse) in rows[drive.node as usize].iter_mut().zip(impulses) {
                 *row -= impulse;
             }
         }
     }
 
-    /// Finds `Δp` of all nodes at a trial, if masses couple them.
+    /// Finds `Δp` of all nodes of a set at a trial, if masses couple them.
     pub(super) fn find_impulses(
         &mut self,
+        set: usize,
         (nodes, trial): (&[Balance<S, D>], &Trial<S, D>),
         inertia_per_mass: S,
     ) {
         self.multiply(nodes, inertia_per_mass, |node| {
             [node.change(trial), node.displacement(trial).map(S::abs)]
         });
-        for &(node, drive) in &self.drives {
-            let sums = self.impulses[node as usize].as_flattened_mut();
-            for (sum, &more) in sums.iter_mut().zip(drive.as_flattened()) {
-                *sum += more;
-            }
+        for drive in &self.drives {
+            add_all(&mut self.impulses[drive.node as usize], &drive.of_sets[set]);
+        }
+    }
+
+    /// Finds `Δp` of all nodes from the changes of their velocities in a step, m/s, if masses couple them.
+    pub(super) fn find_impulses_of_step(
+        &mut self,
+        nodes: &[Balance<S, D>],
+        change: impl Fn(&Balance<S, D>) -> [S; D],
+    ) {
+        self.multiply(nodes, S::one(), |node| {
+            let change = change(node);
+            [change, change.map(S::abs)]
+        });
+        for drive in &self.drives {
+            add_all(&mut self.impulses[drive.node as usize], &drive.of_step);
         }
     }
 
     /// The product of the masses, by a factor, and vectors of nodes, and the magnitude of its terms from those of the
     /// vectors, in the place of impulses; only where masses couple nodes.
-    pub(super) fn multiply(
+    fn multiply(
         &mut self,
         nodes: &[Balance<S, D>],
         factor: S,
@@ -261,4 +293,51 @@ fn driven<S: Real, const D: usize>(
                 mass,
             })
         })
+}
+
+impl<S: Real, const D: usize> Drive<S, D> {
+    fn none(node: u32) -> Self {
+        let still = [[S::zero(); D]; 2];
+        Self {
+            node,
+            of_sets: [still; MOST_SETS],
+            of_step: still,
+        }
+    }
+}
+
+/// Adds an impulse and the magnitude of its terms.
+fn add_all<S: Real, const D: usize>(sums: &mut [[S; D]; 2], more: &[[S; D]; 2]) {
+    let sums = sums.as_flattened_mut().iter_mut();
+    for (sum, &more) in sums.zip(more.as_flattened()) {
+        *sum += more;
+    }
+}
+
+/// Adds the impulse of a mass whose velocity changes.
+fn add_to<S: Real, const D: usize>([sum, terms]: &mut [[S; D]; 2], mass: S, change: &[S; D]) {
+    for axis in 0..D {
+        sum[axis] += mass * change[axis];
+        terms[axis] += (mass * change[axis]).abs();
+    }
+}
+
+/// By how much the velocity of a moved node differs from the old one at the stages, m/s, from those at the supports of a
+/// path.
+pub(super) fn changes_at_stages<S: Real, const D: usize>(
+    path: &Path,
+    node: usize,
+    view: &StepView<'_, S>,
+) -> [[S; D]; MOST_STAGES] {
+    let [old, _] = view.state.velocities.point::<D>(node);
+    let mut changes = [[S::zero(); D]; MOST_STAGES];
+    for (change, shares) in changes.iter_mut().zip(path.supports.to_stages) {
+        for (&share, support) in shares.iter().zip(view.stages) {
+            let speed = support.speed::<D>(node);
+            for axis in 0..D {
+                change[axis] += S::from_f64(share) * (speed[axis] - old[axis]);
+            }
+        }
+    }
+    changes
 }

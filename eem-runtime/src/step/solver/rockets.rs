@@ -1,8 +1,8 @@
 //! Rockets: forces of a given size along a line that turns with the scene.
 //!
 //! ```text
-//! f = F(t_m) n,   n = r_m/|r_m|,   r_m = mean of q_head − q_tail over the step
-//! ∂n/∂q¹ = (1 − n nᵀ)(∂q¹_head − ∂q¹_tail)/(2|r_m|)
+//! f = F(t) n,   n = r/|r|,   r = q_head − q_tail      at the stages, or t and q means over the step
+//! ∂n/∂q = (1 − n nᵀ)(∂q_head − ∂q_tail)/|r|
 //! ```
 
 use core::array;
@@ -11,7 +11,8 @@ use crate::algebra::system::LinearSystem;
 use crate::element::error::StateError;
 use crate::element::group::{Sites, StepView, Trial, points};
 use crate::element::impulse::Impulses;
-use crate::element::loads::{Push, PushLine, StepLoads, point};
+use crate::element::loads::{Push, PushLine, StepLoads};
+use crate::element::tableau::{MOST_SETS, Tableau};
 use crate::number::compact::compact;
 use crate::number::scalar::{Real, is_positive};
 
@@ -19,7 +20,9 @@ use crate::number::scalar::{Real, is_positive};
 #[derive(Debug)]
 pub(super) struct Rockets<S, const D: usize> {
     all: Vec<Rocket<D>>,
-    /// What was last found at a trial, per coordinate, N; empty without rockets.
+    /// The stages of the scheme; without, they push in the middle of a step.
+    rule: Option<&'static Tableau>,
+    /// What was last found at a trial, per coordinate, stage after stage, N; empty without rockets.
     forces: Vec<S>,
 }
 
@@ -27,44 +30,60 @@ pub(super) struct Rockets<S, const D: usize> {
 #[derive(Clone, Copy, Debug)]
 struct Rocket<const D: usize> {
     line: PushLine,
-    /// The first row of the node that it pushes.
-    row: u32,
-    /// The entries of that node in the tangent, row by row, in the columns of tail and head.
-    places: [[[u32; D]; D]; 2],
+    /// The first row of the node that it pushes in each set of unknowns.
+    rows: [u32; MOST_SETS],
+    /// The entries of that node in the tangent, row by row, in the columns of tail and head; for the rows of each set
+    /// and the columns of each.
+    places: [[[[[u32; D]; D]; 2]; MOST_SETS]; MOST_SETS],
 }
 
-/// A line through a step.
+/// A line at a time of a step.
 struct Line<S, const D: usize> {
     /// n.
     direction: [S; D],
-    /// `|r_m|`, m.
+    /// `|r|`, m.
     length: S,
 }
 
 impl<S: Real, const D: usize> Rockets<S, D> {
-    /// Those of a scheme with one set of unknowns.
-    pub(super) fn new(loads: &StepLoads<S>, nodes: usize, sites: &Sites<'_, S, D>) -> Self {
+    /// Those of a scheme with these stages.
+    pub(super) fn new(
+        rule: Option<&'static Tableau>,
+        loads: &StepLoads<S>,
+        nodes: usize,
+        sites: &Sites<'_, S, D>,
+    ) -> Self {
+        let sets = rule.map_or(1, Tableau::sets);
         let unknown = |node: usize, axis: usize| sites.layout.nodes[node].map(|first| first + axis);
         let rockets = loads.pushes.iter().map(|push| {
             let PushLine { node, tail, head } = push.line;
-            let place = |end: usize| {
+            let place = |sites: &Sites<'_, S, D>, end: usize| {
                 array::from_fn(|row| {
                     array::from_fn(|column| {
                         compact(sites.place(unknown(node.index, row), unknown(end, column)))
                     })
                 })
             };
+            // Sets that there are not are never looked at.
+            let of_sets = |sets_of: [usize; 2]| sites.of_sets(sets_of.map(|set| set.min(sets - 1)));
             Rocket {
                 line: push.line,
-                row: compact(sites.row(unknown(node.index, 0))),
-                places: [tail.index, head.index].map(place),
+                rows: array::from_fn(|set| compact(of_sets([set; 2]).row(unknown(node.index, 0)))),
+                places: array::from_fn(|row| {
+                    array::from_fn(|column| {
+                        let sites = of_sets([row, column]);
+                        [tail.index, head.index].map(|end| place(&sites, end))
+                    })
+                }),
             }
         });
         let all: Vec<_> = rockets.collect();
+        let stages = rule.map_or(1, Tableau::stages);
         let coordinates = if all.is_empty() { 0 } else { nodes * D };
         Self {
             all,
-            forces: vec![S::zero(); coordinates],
+            rule,
+            forces: vec![S::zero(); stages * coordinates],
         }
     }
 
@@ -73,10 +92,21 @@ impl<S: Real, const D: usize> Rockets<S, D> {
         self.all.is_empty()
     }
 
-    /// A load on a node with the force that was last found there, N.
+    /// The forces at a stage, per node, N.
+    fn of_stage(&self, stage: usize) -> &[[S; D]] {
+        let stages = self.rule.map_or(1, Tableau::stages);
+        let forces = self.forces.as_chunks::<D>().0;
+        let nodes = forces.len() / stages;
+        &forces[stage * nodes..][..nodes]
+    }
+
+    /// A load on a node at a stage with the force that was last found there, N.
     #[inline]
-    pub(super) fn add_to(&self, load: [S; D], node: usize) -> [S; D] {
-        let force = point::<S, D>(&self.forces, node);
+    pub(super) fn add_to(&self, load: [S; D], [stage, node]: [usize; 2]) -> [S; D] {
+        if self.are_none() {
+            return load;
+        }
+        let force = &self.of_stage(stage)[node];
         array::from_fn(|axis| load[axis] + force[axis])
     }
 
@@ -101,31 +131,46 @@ impl<S: Real, const D: usize> Rockets<S, D> {
         mut system: Option<&mut LinearSystem<S, 1>>,
     ) -> Result<(), StateError> {
         self.forces.fill(S::zero());
+        let stages = self.rule.map_or(1, Tableau::stages);
         let forces = self.forces.as_chunks_mut::<D>().0;
-        for (rocket, &Push { thrust, .. }) in self.all.iter().zip(&view.loads.pushes) {
-            let line = rocket.mean_line(view, trial)?;
-            let node = rocket.line.node.index;
-            for (sum, force) in forces[node].iter_mut().zip(line.push(thrust)) {
-                *sum += force;
-            }
-            if let Some(system) = system.as_deref_mut() {
-                let impulse = view.step * thrust;
-                rocket.add_to(system, &line.push(impulse), &line.turning(impulse));
+        let nodes = forces.len() / stages;
+        for (stage, forces) in forces.chunks_mut(nodes).enumerate() {
+            let (loads, share) = match self.rule {
+                None => (view.loads, S::from_f64(0.5)),
+                Some(_) => (&view.stages[stage], S::one()),
+            };
+            for (rocket, &Push { thrust, .. }) in self.all.iter().zip(&loads.pushes) {
+                let line = rocket.line_at(view, trial.displacements_of_set(stage), share)?;
+                let node = rocket.line.node.index;
+                for (sum, force) in forces[node].iter_mut().zip(line.push(thrust)) {
+                    *sum += force;
+                }
+                let Some(system) = system.as_deref_mut() else {
+                    continue;
+                };
+                for set in 0..trial.sets {
+                    let weight = self.rule.map_or(1.0, |rule| rule.positions[set][stage]);
+                    let impulse = S::from_f64(weight) * (view.step * thrust);
+                    let turning = line.turning(share * impulse);
+                    rocket.add_to([set, stage], system, (&line.push(impulse), &turning));
+                }
             }
         }
         Ok(())
     }
 
-    /// Adds `h f` to the impulses, and the magnitude of what it is computed from.
+    /// Adds `h f` at a stage to the impulses, and the magnitude of what it is computed from.
     #[inline]
     pub(super) fn add_impulses(
         &self,
-        step: S,
+        (stage, step): (usize, S),
         impulses: &mut Impulses<'_, S, D>,
         magnitudes: &mut [S],
     ) {
-        let forces = self.forces.as_chunks::<D>().0;
-        for (node, force) in forces.iter().enumerate() {
+        if self.are_none() {
+            return;
+        }
+        for (node, force) in self.of_stage(stage).iter().enumerate() {
             for (impulse, &force) in impulses.of(node).iter_mut().zip(force) {
                 *impulse += step * force;
                 if let Some(magnitude) = magnitudes.get_mut(node) {
@@ -137,24 +182,23 @@ impl<S: Real, const D: usize> Rockets<S, D> {
 }
 
 impl<const D: usize> Rocket<D> {
-    /// The mean line of a step.
-    fn mean_line<S: Real>(
+    /// Its line where nodes have gone a share of these displacements.
+    fn line_at<S: Real>(
         &self,
         view: &StepView<'_, S>,
-        trial: &Trial<S, D>,
+        moved: &[[S; D]],
+        share: S,
     ) -> Result<Line<S, D>, StateError> {
-        let half = S::from_f64(0.5);
         let PushLine { node, tail, head } = self.line;
         let [from, to] = [tail.index, head.index];
         let positions = points::<S, D>(view.state.positions.values());
-        let moved = &trial.displacements;
-        let mean: [S; D] = array::from_fn(|axis| {
+        let arm: [S; D] = array::from_fn(|axis| {
             let turned = moved[to][axis] - moved[from][axis];
-            (positions[to][axis] - positions[from][axis]) + half * turned
+            (positions[to][axis] - positions[from][axis]) + share * turned
         });
-        let square = mean.iter().fold(S::zero(), |sum, &r| sum + r * r);
+        let square = arm.iter().fold(S::zero(), |sum, &r| sum + r * r);
         if !is_positive(square) {
-            let length = mean.iter().fold(S::zero(), |length, &r| length.hypot(r));
+            let length = arm.iter().fold(S::zero(), |length, &r| length.hypot(r));
             return Err(StateError::NoDirection {
                 node,
                 tail,
@@ -164,23 +208,25 @@ impl<const D: usize> Rocket<D> {
         }
         let length = square.sqrt();
         Ok(Line {
-            direction: mean.map(|r| r / length),
+            direction: arm.map(|r| r / length),
             length,
         })
     }
 
-    /// Adds `h f` to the right-hand side and `−h ∂f/∂q¹` to the tangent.
+    /// Adds an impulse to the right-hand side of the rows of a set, and its negative derivative by the nodes of
+    /// another to the tangent.
     fn add_to<S: Real>(
         &self,
+        [rows, columns]: [usize; 2],
         system: &mut LinearSystem<S, 1>,
-        impulse: &[S; D],
-        turning: &[[S; D]; D],
+        (impulse, turning): (&[S; D], &[[S; D]; D]),
     ) {
         let (values, right) = system.parts();
+        let places = &self.places[rows][columns];
         for axis in 0..D {
-            right[self.row as usize + axis][0] += impulse[axis];
+            right[self.rows[rows] as usize + axis][0] += impulse[axis];
             for column in 0..D {
-                let [tail, head] = self.places.map(|places| places[axis][column] as usize);
+                let [tail, head] = [0, 1].map(|end: usize| places[end][axis][column] as usize);
                 values[tail] += turning[axis][column];
                 values[head] -= turning[axis][column];
             }
@@ -194,9 +240,9 @@ impl<S: Real, const D: usize> Line<S, D> {
         self.direction.map(|n| thrust * n)
     }
 
-    /// `h F (1 − n nᵀ)/(2|r_m|)` of an impulse hF.
-    fn turning(&self, impulse: S) -> [[S; D]; D] {
-        let size = impulse / (self.length + self.length);
+    /// `(1 − n nᵀ)/|r|`, times a number.
+    fn turning(&self, factor: S) -> [[S; D]; D] {
+        let size = factor / self.length;
         let n = &self.direction;
         array::from_fn(|row| {
             array::from_fn(|column| {

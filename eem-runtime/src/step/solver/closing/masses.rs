@@ -32,7 +32,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let mut largest = Largest::none();
         let mut remembering = self.past.remember();
         self.coupling
-            .find_impulses((&self.nodes, &self.trial), twice_per_step);
+            .find_impulses(0, (&self.nodes, &self.trial), twice_per_step);
         for (moving, node) in self.nodes.iter().enumerate() {
             let at = node.place.node();
             let (displacement, rest) = (&self.trial.displacements[at], &self.trial.rests[at]);
@@ -59,7 +59,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 displacement,
                 impulse,
             };
-            let load = has_load.then(|| self.rockets.add_to(view.loads.total_force(at), at));
+            let load = has_load.then(|| self.rockets.add_to(view.loads.total_force(at), [0, at]));
             motion.see(&moved, load.as_ref(), view.step);
             move_node(at, [displacement, rest, impulse], view.state, next)?;
             if let Speeds::Given { change, .. } = &moved.speeds {
@@ -79,7 +79,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
     fn book_work(&self, view: &StepView<'_, S>, next: &mut State<S>) {
         for node in &self.nodes {
             let at = node.place.node();
-            let force = self.rockets.add_to(view.loads.force(at), at);
+            let force = self.rockets.add_to(view.loads.force(at), [0, at]);
             for (force, &displacement) in force.into_iter().zip(&self.trial.displacements[at]) {
                 if !force.equal(S::zero()).all() {
                     next.work.add(force * displacement);
@@ -90,7 +90,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
 }
 
 /// The new velocities of moved nodes, then those of the nodes whose masses are coupled, from all momenta.
-fn follow_coupled_masses<S: Real, const D: usize>(view: &StepView<'_, S>, next: &mut State<S>) {
+pub(super) fn follow_coupled_masses<S: Real, const D: usize>(
+    view: &StepView<'_, S>,
+    next: &mut State<S>,
+) {
     for &node in &view.loads.moved {
         let (old, none) = (&view.state.velocities, [S::zero(); D]);
         let change = view.change_of_speed::<D>(node);

@@ -18,7 +18,7 @@ use crate::step::certificate::{Motion, NodeStep, Speeds};
 use crate::step::error::StepFailure;
 use crate::step::newton::Largest;
 use crate::step::solver::Solver;
-use crate::step::solver::closing::masses::move_node;
+use crate::step::solver::closing::masses::{follow_coupled_masses, move_node};
 use crate::step::solver::stages::Stages;
 
 impl<S: Real, const D: usize> Solver<S, D> {
@@ -33,7 +33,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let mut largest = Largest::none();
         for (set, weights) in stages.rule.positions.iter().enumerate() {
             let nodes = self.range_of_set(set);
-            (self.coupling).find_impulses((&self.nodes[nodes.clone()], &self.trial), inertias[set]);
+            let of_set = (&self.nodes[nodes.clone()], &self.trial);
+            self.coupling.find_impulses(set, of_set, inertias[set]);
             for (index, moving) in self.nodes[nodes].iter().enumerate() {
                 let node = moving.place.node();
                 let [gained, terms] =
@@ -115,7 +116,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
             motion.see(&moved, None, view.step);
             self.see_loads(stages, view, &moved, node, (next, motion));
         }
-        next.follow_velocities(D, view.masses);
+        if !stages.changes.is_empty() {
+            follow_coupled_masses::<S, D>(view, next);
+        }
         Ok(())
     }
 
@@ -147,10 +150,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
             stages.changes[node] = change.map(|change| view.per_step * change);
         }
         let nodes = &self.nodes[..self.moving()];
-        self.coupling.multiply(nodes, S::one(), |node| {
-            let change = stages.changes[node.place.node()];
-            [change, change.map(S::abs)]
-        });
+        self.coupling
+            .find_impulses_of_step(nodes, |node| stages.changes[node.place.node()]);
     }
 
     /// What loads and weight of a node have done in the step.
@@ -162,18 +163,29 @@ impl<S: Real, const D: usize> Solver<S, D> {
         node: usize,
         (next, motion): (&mut State<S>, &mut Motion<S, D>),
     ) {
-        if !view.stages[0].has_total_force() {
+        if !view.stages[0].has_total_force() && self.rockets.are_none() {
             return;
         }
+        let load = |stage: usize| {
+            let force = view.stages[stage].force::<D>(node);
+            self.rockets.add_to(force, [stage, node])
+        };
+        let weight = {
+            let (total, force) = (
+                view.stages[0].total_force::<D>(node),
+                view.stages[0].force::<D>(node),
+            );
+            array::from_fn::<S, D, _>(|axis| total[axis] - force[axis])
+        };
         for axis in 0..D {
-            let load = |stage: usize| view.stages[stage].force::<D>(node)[axis];
-            next.work.add(self.work(stages, node, axis, load));
-            let weight = view.stages[0].total_force::<D>(node)[axis] - load(0);
-            motion.work(weight * moved.displacement[axis]);
+            let of_axis = |stage: usize| load(stage)[axis];
+            next.work.add(self.work(stages, node, axis, of_axis));
+            motion.work(weight[axis] * moved.displacement[axis]);
         }
         for (stage, &weight) in stages.rule.weights.iter().enumerate() {
             let share = view.step * S::from_f64(weight);
             let total = view.stages[stage].total_force::<D>(node);
+            let total = self.rockets.add_to(total, [stage, node]);
             let impulse = total.map(|force| share * force);
             let displacement = &self.trial.displacements_of_set(stage)[node];
             motion.push([moved.position, displacement], &impulse);

@@ -42,7 +42,7 @@ impl<S: Real, const D: usize> Solver<S, D> {
         });
         self.stages = Some(stages);
         moved?;
-        self.move_supports(view, next);
+        self.move_supports(view, next, motion);
         motion.work(next.work.change(view.state.work));
         Ok(())
     }
@@ -75,6 +75,8 @@ impl<S: Real, const D: usize> Solver<S, D> {
                 let magnitudes = &mut self.magnitudes;
                 group.add_impulse(view, &self.trial, along, &mut impulses, magnitudes);
             }
+            let at = (stage, view.step);
+            (self.rockets).add_impulses(at, &mut impulses, &mut self.magnitudes);
         }
         let momenta = points::<S, D>(view.state.momenta.values());
         for mass in self.nodes_of_set(0).iter().map(|node| &node.place) {
@@ -191,23 +193,6 @@ impl<S: Real, const D: usize> Solver<S, D> {
             motion.see(&moved, Some(&weight), view.step);
         }
         Ok(())
-    }
-
-    /// Moved anchors are where the step has moved them, and their supports have done work.
-    fn move_supports(&self, view: &StepView<'_, S>, next: &mut State<S>) {
-        let Some(stages) = &self.stages else {
-            return;
-        };
-        for &node in &view.loads.moved {
-            let displacement = view.loads.motion::<D>(node);
-            for (axis, displacement) in displacement.into_iter().enumerate() {
-                let old = &view.state.positions;
-                next.positions.advance(node * D + axis, old, displacement);
-                // The support bears the forces of the springs.
-                let support = |stage: usize| -stages.impulses[node][stage][axis] * view.per_step;
-                next.work.add(self.work(stages, node, axis, support));
-            }
-        }
     }
 
     /// `h Σ b_i f_i v_i` of a coordinate, with the velocities that the rule gives to the stages, J.

@@ -1,0 +1,153 @@
+//! What the supports of moved anchors do in a step through stages.
+//!
+//! ```text
+//! work = h Σ_i b_i (F_i·q̇_i + v_i·ṗ_i),     p = M v of what a solid has at the anchor
+//! ```
+//!
+//! with the forces F of the elements and the motion of the path at the stages, and polynomials for v and p.
+
+use core::array;
+
+use crate::element::group::{StepView, points};
+use crate::element::state::State;
+use crate::element::tableau::{MOST_STAGES, Path};
+use crate::number::scalar::Real;
+use crate::step::certificate::{Motion, NodeStep, Speeds};
+use crate::step::solver::Solver;
+use crate::step::solver::coupling::changes_at_stages;
+use crate::step::solver::stages::Stages;
+
+impl<S: Real, const D: usize> Solver<S, D> {
+    /// Moved anchors are where the step has moved them, and their supports have done work.
+    pub(super) fn move_supports(
+        &self,
+        view: &StepView<'_, S>,
+        next: &mut State<S>,
+        motion: &mut Motion<S, D>,
+    ) {
+        let Some(stages) = &self.stages else {
+            return;
+        };
+        for &node in &view.loads.moved {
+            let displacement = view.loads.motion::<D>(node);
+            for (axis, &displacement) in displacement.iter().enumerate() {
+                let old = &view.state.positions;
+                next.positions.advance(node * D + axis, old, displacement);
+                // The support bears the forces of the elements.
+                let support = |stage: usize| -stages.impulses[node][stage][axis] * view.per_step;
+                next.work.add(self.work(stages, node, axis, support));
+            }
+            if let Some(path) = stages.rule.path
+                && view.masses.are_coupled()
+            {
+                self.carry(node, (stages, &path), view, (next, motion));
+            }
+        }
+    }
+
+    /// What a solid has at a moved anchor goes along with it, at the cost of its support.
+    fn carry(
+        &self,
+        node: usize,
+        (stages, path): (&Stages<S, D>, &Path),
+        view: &StepView<'_, S>,
+        (next, motion): (&mut State<S>, &mut Motion<S, D>),
+    ) {
+        let state = view.state;
+        let [&old, _] = state.velocities.point::<D>(node);
+        let changes = changes_at_stages::<S, D>(path, node, view);
+        let impulses = self.impulses_at_stages(node, (stages, path), view);
+        for (stage, &weight) in stages.rule.weights.iter().enumerate() {
+            for axis in 0..D {
+                let speed = old[axis] + changes[stage][axis];
+                next.work
+                    .add(S::from_f64(weight) * speed * impulses[stage][axis]);
+            }
+        }
+        let displacement = view.loads.motion::<D>(node);
+        let momentum = points::<S, D>(state.momenta.values())[node];
+        let end = points::<S, D>(next.momenta.values())[node];
+        let impulse = array::from_fn(|axis| end[axis] - momentum[axis]);
+        let carried = NodeStep {
+            speeds: Speeds::Given {
+                old,
+                change: view.change_of_speed(node),
+            },
+            position: &points(state.positions.values())[node],
+            momentum: &momentum,
+            displacement: &displacement,
+            impulse: &impulse,
+        };
+        motion.see(&carried, None, view.step);
+        let [total, force] = [
+            view.stages[0].total_force::<D>(node),
+            view.stages[0].force::<D>(node),
+        ];
+        for axis in 0..D {
+            motion.work((total[axis] - force[axis]) * displacement[axis]);
+        }
+    }
+
+    /// `h ṗ = h Σ_b M_mb v̇_b` of a moved anchor at the stages, N s.
+    fn impulses_at_stages(
+        &self,
+        node: usize,
+        (stages, path): (&Stages<S, D>, &Path),
+        view: &StepView<'_, S>,
+    ) -> [[S; D]; MOST_STAGES] {
+        let mut impulses = [[S::zero(); D]; MOST_STAGES];
+        for pair in view.masses.held() {
+            let other = match pair.nodes() {
+                [a, b] if a == node => b,
+                [a, b] if b == node => a,
+                _ => continue,
+            };
+            let changes = if view.loads.moved.binary_search(&other).is_ok() {
+                changes_at_stages(path, other, view)
+            } else {
+                self.changes_of_mass(other, stages, view)
+            };
+            let rates = differentiated(stages.rule.motion, &changes);
+            for (impulse, rate) in impulses.iter_mut().zip(&rates) {
+                for axis in 0..D {
+                    impulse[axis] += pair.mass * rate[axis];
+                }
+            }
+        }
+        impulses
+    }
+
+    /// By how much the velocity of a node differs from the old one at the stages, m/s; that of an anchor does not.
+    fn changes_of_mass(
+        &self,
+        node: usize,
+        stages: &Stages<S, D>,
+        view: &StepView<'_, S>,
+    ) -> [[S; D]; MOST_STAGES] {
+        let masses = self.nodes_of_set(0);
+        let mut beyond = [[S::zero(); D]; MOST_STAGES];
+        if let Ok(index) = masses.binary_search_by_key(&node, |mass| mass.place.node()) {
+            for (set, beyond) in beyond.iter_mut().enumerate().take(self.sets.len()) {
+                let change = self.nodes_of_set(set)[index].change(&self.trial);
+                *beyond = change.map(|change| view.per_step * change);
+            }
+        }
+        differentiated(stages.rule.motion, &beyond)
+    }
+}
+
+/// `h ẋ` at the stages of a polynomial that vanishes at the start, from its values there.
+fn differentiated<S: Real, const D: usize>(
+    motion: &[&[f64]],
+    values: &[[S; D]; MOST_STAGES],
+) -> [[S; D]; MOST_STAGES] {
+    let mut rates = [[S::zero(); D]; MOST_STAGES];
+    for (rate, shares) in rates.iter_mut().zip(motion) {
+        for (&share, value) in shares.iter().zip(values) {
+            for axis in 0..D {
+                rate[axis] += S::from_f64(share) * value[axis];
+            }
+        }
+    }
+    rates
+}
