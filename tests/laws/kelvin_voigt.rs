@@ -15,11 +15,18 @@ const ENTROPY_TOLERANCE: f64 = -2.0;
 const ROOM: f64 = 300.0;
 const CONDUCTANCE: f64 = 3.0;
 /// Those that keep the laws.
-const SCHEMES: [Scheme; 2] = [Scheme::EemEntropy, Scheme::EemTemperature];
-/// All that step such an element.
-const ALL: [Scheme; 6] = [
+const SCHEMES: [Scheme; 4] = [
     Scheme::EemEntropy,
     Scheme::EemTemperature,
+    Scheme::EemEntropy4,
+    Scheme::EemEntropy6,
+];
+/// All that step such an element.
+const ALL: [Scheme; 8] = [
+    Scheme::EemEntropy,
+    Scheme::EemTemperature,
+    Scheme::EemEntropy4,
+    Scheme::EemEntropy6,
     Scheme::Midpoint,
     Scheme::MidpointTemperature,
     Scheme::Trapezoidal,
@@ -123,14 +130,24 @@ where
     (Simulation::new(scene, scheme, step).unwrap(), bob, spring)
 }
 
+/// A random walk of roundings, as in `high_order` with stages.
+fn momentum_tolerance(scheme: Scheme) -> f64 {
+    if scheme.order() == 2 {
+        ENERGY_TOLERANCE
+    } else {
+        1e-13
+    }
+}
+
 fn keeps_all_laws<M>(model: &M, tolerance: f64)
 where
     M: FreeEnergy<f64> + Clone + Debug + Send + Sync + 'static,
 {
-    for (scheme, step) in SCHEMES
+    let cases = SCHEMES
         .into_iter()
-        .flat_map(|scheme| [(scheme, 0.005), (scheme, 0.05), (scheme, 0.3)])
-    {
+        .flat_map(|scheme| [(scheme, 0.005), (scheme, 0.05), (scheme, 0.3)]);
+    // More than two thirds of the period is too much for several stages.
+    for (scheme, step) in cases.filter(|&(scheme, step)| scheme.order() == 2 || step < 0.3) {
         let (mut run, ..) = pendulum(model.clone(), scheme, step);
         let mut laws = Laws::new(&run);
         for _ in 0..at_length(500, 150) {
@@ -139,7 +156,7 @@ where
         }
         println!("{}, h = {step}: {laws:?}", scheme.name());
         assert!(laws.energy <= tolerance);
-        assert!(laws.angular_momentum <= tolerance);
+        assert!(laws.angular_momentum <= tolerance.max(momentum_tolerance(scheme)));
         assert!(laws.entropy_ulps >= ENTROPY_TOLERANCE);
     }
 }
@@ -174,14 +191,16 @@ fn free_masses_keep_their_momenta() {
             run.step().unwrap();
             laws.watch(&run);
         }
-        assert!(laws.energy <= ENERGY_TOLERANCE && laws.angular_momentum <= ENERGY_TOLERANCE);
+        println!("{scheme}: {laws:?}");
+        assert!(laws.energy <= ENERGY_TOLERANCE);
+        assert!(laws.angular_momentum <= momentum_tolerance(scheme));
         assert!(laws.entropy_ulps >= ENTROPY_TOLERANCE, "{laws:?}");
     }
 }
 
 #[test]
 fn without_temperature_the_heat_is_lost() {
-    for scheme in SCHEMES {
+    for scheme in [Scheme::EemEntropy, Scheme::EemTemperature] {
         for step in [0.01, 0.2] {
             let (mut run, _, spring) = pendulum(Isothermal { k: 40.0, eta: 0.8 }, scheme, step);
             let start = run.ledger();
@@ -213,7 +232,7 @@ fn ordinary_rules_lose_nearly_the_same_heat() {
     };
     let (exact, _) = lost(Scheme::EemEntropy, 1e-3, 500);
     assert!(exact > 0.3, "{exact}");
-    for scheme in ALL {
+    for scheme in ALL.into_iter().filter(|scheme| scheme.order() == 2) {
         let [coarse, fine] =
             [(0.02, 25), (0.01, 50)].map(|(step, steps)| lost(scheme, step, steps));
         println!("{scheme}: {coarse:?}, {fine:?} of {exact}");
@@ -318,7 +337,7 @@ fn runge_kutta(mut z: State, end: f64, steps: u32) -> State {
 }
 
 #[test]
-fn solutions_are_of_second_order() {
+fn solutions_are_of_the_order_of_their_scheme() {
     const END: f64 = 0.6;
     let exact = runge_kutta([1.4, 0.0, 0.3, 1.0, 340.0], END, 20_000);
     for scheme in ALL {
@@ -342,32 +361,34 @@ fn solutions_are_of_second_order() {
                 .map(|(found, exact)| (found - exact).abs());
             errors.fold(0.0, f64::max)
         };
-        let [coarse, fine] = [error(120), error(240)];
+        let steps = [0, 120, 0, 60, 0, 24][usize::from(scheme.order() - 1)];
+        let [coarse, fine] = [error(steps), error(2 * steps)];
         let order = (coarse / fine).log2();
         println!("{scheme}: {coarse:e}, {fine:e}, order {order}");
-        assert!((order - 2.0).abs() < 0.1 && fine < 1e-3);
+        assert!((order - f64::from(scheme.order())).abs() < 0.1 && fine < 1e-3);
     }
 }
 
 #[test]
 fn the_tangent_of_a_step_is_exact() {
     for scheme in ALL {
-        let system = |d: [f64; 2]| {
+        let count = pendulum(BOTH, scheme, 0.1).0.unknowns();
+        let system = |d: &[f64]| {
             let (mut run, ..) = pendulum(BOTH, scheme, 0.1);
-            run.linearize(&d).unwrap()
+            run.linearize(d).unwrap()
         };
-        let (at, small) = ([0.02, 0.07], 1e-6);
-        let tangent = system(at).tangent;
-        for column in 0..2 {
+        let (at, small) = ([0.02, 0.07, 0.04, 0.05, 0.06, 0.03], 1e-6);
+        let tangent = system(&at[..count]).tangent;
+        for column in 0..count {
             let shifted = |by: f64| {
                 let mut d = at;
                 d[column] += by;
-                system(d).residual
+                system(&d[..count]).residual
             };
             let (up, down) = (shifted(small), shifted(-small));
-            for row in 0..2 {
+            for row in 0..count {
                 let slope = (up[row] - down[row]) / (2.0 * small);
-                let entry = tangent[2 * row + column];
+                let entry = tangent[count * row + column];
                 assert!(
                     (slope - entry).abs() < 2e-8 * tangent[0].abs(),
                     "{scheme}: {slope} {entry}"

@@ -13,6 +13,7 @@ mod free_bodies;
 mod generic;
 mod heat_in_solids;
 mod high_order;
+mod high_order_solids;
 mod invariants_under_loads;
 mod kelvin_voigt;
 mod loads;

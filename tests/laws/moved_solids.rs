@@ -49,7 +49,11 @@ fn moved<H: Shape<3>>(
     (Simulation::new(scene, scheme, step).unwrap(), body)
 }
 
-const EXACT: [Scheme; 2] = [Scheme::EemEntropy, Scheme::EemTemperature];
+const EXACT: [Scheme; 3] = [
+    Scheme::EemEntropy,
+    Scheme::EemTemperature,
+    Scheme::EemEntropy4,
+];
 
 fn shake(t: f64) -> f64 {
     0.1 * (6.0 * t).sin()

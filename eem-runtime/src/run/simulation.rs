@@ -49,7 +49,7 @@ use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
 use automatic_memory::Automatic;
-use check::{check_all, needs_second_order};
+use check::{check_all, needs_implicit};
 use control_memory::Control;
 use start::{begin_groups, initial_state, places_in, systems_of};
 use stepper::{Parts, Stepper};
@@ -115,7 +115,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         scheme: Scheme,
         step: S,
     ) -> Result<Self, RefusedScene<D, S>> {
-        let errors = check_all(&scene, first(scheme, needs_second_order(&scene)), step);
+        let errors = check_all(&scene, first(scheme, needs_implicit(&scene)), step);
         if !errors.is_empty() {
             return Err(RefusedScene::new(scene, errors));
         }
@@ -124,7 +124,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Takes what a scene consists of, unless something is wrong with its initial state.
     fn take(scene: &mut Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, Vec<SceneError>> {
-        let is_second = needs_second_order(scene);
+        let is_second = needs_implicit(scene);
         let in_use = first(scheme, is_second);
         let mut layout = scene.layout();
         let conduction = Conduction::new(&scene.conductors, &scene.reservoirs, &layout);

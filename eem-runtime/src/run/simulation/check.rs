@@ -17,9 +17,9 @@ pub(super) fn check_end<S: Real>(time: S) -> Result<(), StepFailure> {
     }
 }
 
-/// Whether there is something in the scene that only schemes of second order step: solids, and dashpots beside
-/// springs, rockets.
-pub(super) fn needs_second_order<const D: usize, S: Real>(scene: &Scene<D, S>) -> bool {
+/// Whether there is something in the scene that the explicit scheme does not step: solids, dashpots beside springs,
+/// rockets.
+pub(super) fn needs_implicit<const D: usize, S: Real>(scene: &Scene<D, S>) -> bool {
     let mut shapes = scene.groups.iter().map(|group| group.shape());
     !scene.loads.rockets.is_empty() || shapes.any(|shape| !shape.is_spring || shape.drag)
 }

@@ -31,7 +31,7 @@ const FOURTH_ORDER: Pair = Pair {
     first: 4,
 };
 
-/// For scenes with solids, which the schemes of fourth order do not step.
+/// For scenes with solids or rockets, which those schemes do not step.
 const SECOND_ORDER: Pair = Pair {
     schemes: [Scheme::EemEntropy, Scheme::Midpoint],
     first: 16,

@@ -42,7 +42,7 @@ where
                 values: &mut *values,
                 right: &mut *right,
             };
-            let points = stages.points.as_mut().iter_mut();
+            let points = stages.points.iter_mut();
             for (point, in_state) in points.zip(member.points.as_ref()) {
                 point.condense(in_state, rule, target.local, view)?;
                 for stage in 0..rule.stages() {

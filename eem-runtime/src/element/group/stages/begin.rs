@@ -6,7 +6,7 @@ use super::source::Source;
 use crate::element::group::arms::arms_in;
 use crate::element::group::begin::shorten;
 use crate::element::group::view::StepView;
-use crate::element::kinematics::{Arms, Kinematics, Points};
+use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::tableau::Tableau;
 use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
@@ -23,16 +23,18 @@ where
         Self {
             site: StageSite::unconnected(member.site),
             r0: Arms::<K, S, D>::filled([S::zero(); D]),
-            points: K::PerPoint::from_fn(|point| StagePoint {
-                kinematics: member.points.as_ref()[point].kinematics,
-                contacts: None,
-                entropy: S::zero(),
-                prescribed: None,
-                viscous_unit: S::one(),
-                old_viscous: M::Viscosities::filled(S::zero()),
-                solved: vec![S::zero(); length],
-                own: C::new(),
-            }),
+            points: (member.points.as_ref().iter())
+                .map(|in_state| StagePoint {
+                    kinematics: in_state.kinematics,
+                    contacts: None,
+                    entropy: S::zero(),
+                    prescribed: None,
+                    viscous_unit: S::one(),
+                    old_viscous: M::Viscosities::filled(S::zero()),
+                    solved: vec![S::zero(); length],
+                    own: C::new(),
+                })
+                .collect(),
         }
     }
 
@@ -45,7 +47,7 @@ where
     ) {
         let nodes = &member.site.nodes;
         self.r0 = arms_in::<K, S, D>(nodes, &view.state.positions);
-        let points = self.points.as_mut().iter_mut();
+        let points = self.points.iter_mut();
         for (point, in_state) in points.zip(member.points.as_ref()) {
             let slots = in_state.slots();
             let measures = point.kinematics.measure(&self.r0);

@@ -40,7 +40,7 @@ where
             let (site, secant) = (stages.site.common(), &stages.site.secant);
             let mut known = arms_in::<K, S, D>(&site.nodes, &view.state.positions);
             site.add_anchors(&mut known, trial.displacements_of_set(set), S::one());
-            for point in stages.points.as_ref() {
+            for point in &stages.points {
                 let weights = C::secant(point, stage);
                 secant.add_matrix(&site.is_mass, &weights, impulse, values);
                 site.subtract_known(&weights, (&known, impulse), right);
@@ -61,7 +61,7 @@ where
         for stages in &self.members {
             let arms = stages.arms(self.rule, trial);
             let nodes = &stages.site.common().nodes;
-            for point in stages.points.as_ref() {
+            for point in &stages.points {
                 let force = C::pull(point, self.rule, stage, &arms);
                 for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
                     for (sum, &force) in impulses.of(node as usize).iter_mut().zip(force) {
@@ -89,7 +89,7 @@ where
         let rule = self.rule;
         for (member, stages) in self.elements.members.iter_mut().zip(&mut self.members) {
             let r1 = member.arms_in(next);
-            let points = stages.points.as_mut().iter_mut();
+            let points = stages.points.iter_mut();
             for (point, in_state) in points.zip(member.points.as_mut()) {
                 C::close(point, in_state, rule, (view, trial, &r1), next, tally)?;
             }

@@ -25,7 +25,7 @@ where
             for (set, motion) in motions.iter_mut().enumerate().take(rule.sets()) {
                 *motion = stages.site.sets[set][set].motion_in(solution);
             }
-            for point in stages.points.as_mut() {
+            for point in &mut stages.points {
                 point.find_inputs(rule, &motions, solution, local);
                 C::hold(point);
                 let update = C::correct(point, rule, local);

@@ -29,7 +29,8 @@ where
     pub(super) site: StageSite<K, S, D>,
     /// The old arms, m.
     pub(super) r0: Arms<K, S, D>,
-    pub(super) points: K::PerPoint<StagePoint<S, M, K, C, D>>,
+    /// In memory of their own: those of a cell with many points are large.
+    pub(super) points: Vec<StagePoint<S, M, K, C, D>>,
 }
 
 /// What one step needs to remember of a point of an element, with its source of conjugates.

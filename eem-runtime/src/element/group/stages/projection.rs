@@ -71,7 +71,7 @@ where
     /// a.
     conjugates: [Vector<S, M, K, D>; MOST_STAGES],
     /// `∂a_i/∂R_j`.
-    by_rates: PerPair<Matrix<S, M, K, D>>,
+    by_rates: Box<PerPair<Matrix<S, M, K, D>>>,
     /// `Σ_r |projection_ir| Σ_y |∂²ê/∂x∂y| |y|`: times ε, to what the conjugates are known.
     resolution: [Vector<S, M, K, D>; MOST_STAGES],
     /// `η_k` and `dη_k/dθ` at `Θ_i`.
@@ -113,7 +113,7 @@ where
             end_slopes: [zeros; 2],
             end_sizes: [PerStrain::<K, S, D>::filled(S::zero()); 2],
             conjugates: [zeros; MOST_STAGES],
-            by_rates: [[Matrix::zero(); MOST_SETS]; MOST_SETS],
+            by_rates: Box::new([[Matrix::zero(); MOST_SETS]; MOST_SETS]),
             resolution: [zeros; MOST_STAGES],
             viscosities: [(viscosities, viscosities); MOST_STAGES],
             drags: [(); MOST_STAGES].map(|()| Drag::zero()),

@@ -82,7 +82,7 @@ where
         for (member, stages) in self.elements.members.iter().zip(&mut self.members) {
             let (rule, nodes) = (self.rule, &member.site.nodes);
             stages.site = StageSite::new(rule, nodes, sites);
-            let points = stages.points.as_mut().iter_mut();
+            let points = stages.points.iter_mut();
             for (point, in_state) in points.zip(member.points.as_ref()) {
                 point.contacts = contacts(rule, nodes, in_state.slots().thermal, sites);
             }
@@ -105,7 +105,7 @@ where
         let members = self.elements.members.iter_mut().zip(&mut self.members);
         for (member, stages) in members {
             let arms = stages.arms(self.rule, trial);
-            let points = stages.points.as_mut().iter_mut();
+            let points = stages.points.iter_mut();
             for (point, in_state) in points.zip(member.points.as_mut()) {
                 C::evaluate(point, in_state, self.rule, (view, trial), &arms)?;
             }
@@ -122,13 +122,13 @@ where
 
     fn apply(&mut self, share: S) {
         let points = self.members.iter_mut();
-        let points = points.flat_map(|stages| stages.points.as_mut());
+        let points = points.flat_map(|stages| &mut stages.points);
         points.for_each(|point| C::apply(point, self.rule, share));
     }
 
     fn hold(&mut self) {
         let points = self.members.iter_mut();
-        let points = points.flat_map(|stages| stages.points.as_mut());
+        let points = points.flat_map(|stages| &mut stages.points);
         points.for_each(C::hold);
     }
 
@@ -168,7 +168,7 @@ where
     fn recount(&self, ends: [&State<S>; 2], recount: &mut Recount<S>) {
         for (member, stages) in self.elements.members.iter().zip(&self.members) {
             let of_step = (self.rule, &member.site.nodes);
-            for (point, in_state) in stages.points.as_ref().iter().zip(member.points.as_ref()) {
+            for (point, in_state) in stages.points.iter().zip(member.points.as_ref()) {
                 C::recount(point, in_state, of_step, ends, recount);
             }
         }

@@ -90,13 +90,17 @@ where
                 turned[q] += turning[q][p] * rates[p];
             }
         }
+        // What the extension is computed from, whatever is left of it.
+        let sizes = self.kinematics.strain_sizes(&strain);
+        let terms = direction.as_ref().iter().zip(sizes.as_ref());
+        let size = terms.fold(S::zero(), |sum, (&slope, &size)| sum + (slope * size).abs());
         let (force, thinning) = (eta * extension, slope * extension);
         let drag = &mut own.drags[stage];
         drag.heat += force * extension;
         drag.by_theta += thinning * extension;
         for q in 0..strains {
             own.conjugates[stage][q] += force * direction[q];
-            own.resolution[stage][q] += (force * direction[q]).abs();
+            own.resolution[stage][q] += (direction[q] * eta * size).abs();
         }
         for (set, &reach) in rule.rates[stage].iter().enumerate() {
             let reach = S::from_f64(reach);

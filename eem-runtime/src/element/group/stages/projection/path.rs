@@ -51,8 +51,9 @@ where
         };
         self.own.conjugates = [Vector::zero(); MOST_STAGES];
         self.own.resolution = [Vector::zero(); MOST_STAGES];
-        for row in &mut self.own.by_rates {
-            *row = row.map(|_| Matrix::zero());
+        let stages = rule.stages();
+        for row in &mut self.own.by_rates[..stages] {
+            row[..stages].fill(Matrix::zero());
         }
         for (r, shares) in path.integrals.iter().enumerate() {
             let (y, x) = self.find_point(in_state, shares, r)?;
