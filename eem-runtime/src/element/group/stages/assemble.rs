@@ -2,18 +2,101 @@
 
 use super::heat;
 use super::local::LocalStages;
-use super::member::{StageArms, StagePoint};
-use super::site::StageSite;
+use super::member::StagePoint;
+use super::site::{PerPair, StageSite};
 use super::source::Source;
 use crate::algebra::system::LinearSystem;
 use crate::element::error::StateError;
-use crate::element::group::arms::scale;
+use crate::element::group::arms::{add_scaled, scale};
 use crate::element::group::stages::stage_group::StageGroup;
 use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::{Arms, Kinematics};
-use crate::element::tableau::Tableau;
-use crate::material::free_energy::FreeEnergy;
+use crate::element::kinematics::{Arms, Blocks, Kinematics, add_blocks};
+use crate::element::tableau::{MOST_SETS, MOST_STAGES, Tableau};
+use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
+
+/// The forces of an element at the stages, as functions of the arms of each set.
+pub(super) struct StageForces<K: Kinematics<S, D>, S: Real, const D: usize> {
+    /// Those at a stage, with the internal variables eliminated, N.
+    pulls: [Arms<K, S, D>; MOST_STAGES],
+    /// Their derivatives by the arms of each set.
+    blocks: PerPair<Blocks<K, S, D>>,
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> StageForces<K, S, D> {
+    /// None.
+    pub(super) fn zero() -> Self {
+        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
+        let blocks = Blocks::<K, S, D>::filled(K::PerArm::filled([[S::zero(); D]; D]));
+        Self {
+            pulls: [nowhere; MOST_STAGES],
+            blocks: [[blocks; MOST_SETS]; MOST_SETS],
+        }
+    }
+
+    fn clear(&mut self, rule: &Tableau) {
+        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
+        self.pulls = [nowhere; MOST_STAGES];
+        for row in &mut self.blocks[..rule.stages()] {
+            for blocks in &mut row[..rule.sets()] {
+                *blocks = Blocks::<K, S, D>::filled(K::PerArm::filled([[S::zero(); D]; D]));
+            }
+        }
+    }
+
+    /// Adds a force along an arm, of which the derivatives by the arms of each set are given.
+    fn add(
+        &mut self,
+        (rule, stage): (&Tableau, usize),
+        (value, along): (S, &Arms<K, S, D>),
+        by_arms: &[Arms<K, S, D>; MOST_SETS],
+    ) {
+        add_scaled::<K, S, D>(&mut self.pulls[stage], value, along);
+        for (blocks, by) in self.blocks[stage].iter_mut().zip(by_arms).take(rule.sets()) {
+            for (row, along) in blocks.as_mut().iter_mut().zip(along.as_ref()) {
+                for (block, by) in row.as_mut().iter_mut().zip(by.as_ref()) {
+                    for (entries, &along) in block.iter_mut().zip(along) {
+                        for (entry, &by) in entries.iter_mut().zip(by) {
+                            *entry += along * by;
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Writes the impulses to the rows of each set.
+    fn scatter(
+        &self,
+        (rule, step): (&Tableau, S),
+        site: &StageSite<K, S, D>,
+        (values, right): (&mut [S], &mut [[S; 1]]),
+    ) {
+        for (set, weights) in rule.positions.iter().enumerate() {
+            let own = &site.sets[set][set];
+            let mut pull = Arms::<K, S, D>::filled([S::zero(); D]);
+            for (&weight, stage) in weights.iter().zip(&self.pulls) {
+                add_scaled::<K, S, D>(&mut pull, step * S::from_f64(weight), stage);
+            }
+            own.subtract_arms(&pull, &own.rows, right.as_flattened_mut());
+            for (column, site) in site.sets[set].iter().enumerate().take(rule.sets()) {
+                for i in 0..K::PerArm::<()>::LEN {
+                    for j in 0..K::PerArm::<()>::LEN {
+                        let mut block = [[S::zero(); D]; D];
+                        for (&weight, stage) in weights.iter().zip(&self.blocks) {
+                            let impulse = step * S::from_f64(weight);
+                            let entries = stage[column][i][j].as_flattened();
+                            for (sum, &entry) in block.as_flattened_mut().iter_mut().zip(entries) {
+                                *sum += impulse * entry;
+                            }
+                        }
+                        site.add_block([i + 1, j + 1], &block, values);
+                    }
+                }
+            }
+        }
+    }
+}
 
 impl<S, M, K, C, const D: usize> StageGroup<S, M, K, C, D>
 where
@@ -31,36 +114,40 @@ where
     ) -> Result<(), StateError> {
         let rule = self.rule;
         let (values, right) = system.parts();
+        let forces = &mut self.forces;
         let members = self.elements.members.iter().zip(&mut self.members);
         for (member, stages) in members {
             let arms = stages.arms(rule, trial);
-            let mut target = Target {
-                rule,
-                step: view.step,
-                site: &stages.site,
-                local: &mut self.local,
-                values: &mut *values,
-                right: &mut *right,
-            };
-            let points = stages.points.iter_mut();
-            for (point, in_state) in points.zip(member.points.as_ref()) {
-                point.condense(in_state, rule, target.local, view)?;
-                for stage in 0..rule.stages() {
-                    for force in 0..C::FORCES {
-                        point.assemble_force([stage, force], &mut target);
-                    }
-                    point.assemble_turn(stage, &arms, &mut target);
+            forces.clear(rule);
+            for (point, in_state) in stages.points.iter_mut().zip(member.points.as_ref()) {
+                point.condense(in_state, rule, &mut self.local, view)?;
+                let mut target = Target {
+                    rule,
+                    step: view.step,
+                    site: &stages.site,
+                    local: &mut self.local,
+                    values: &mut *values,
+                    right: &mut *right,
+                };
+                let bases = C::bases(point, rule);
+                point.assemble_forces(&bases, forces, &mut target);
+                for set in 0..rule.sets() {
+                    let stage = rule.stage_of(set);
+                    let turn = C::turn(point, rule, set, &arms);
+                    add_blocks::<K, S, D>(&mut forces.blocks[stage][set], &turn);
                 }
                 if let Some(slot) = in_state.slots().thermal {
-                    point.assemble_temperatures(slot, trial, &mut target);
+                    point.assemble_temperatures(slot, &bases, trial, &mut target);
                 }
             }
+            let target = (&mut *values, &mut *right);
+            forces.scatter((rule, view.step), &stages.site, target);
         }
         Ok(())
     }
 }
 
-/// Where an element writes.
+/// Where a point writes what belongs to its temperatures.
 struct Target<'a, K: Kinematics<S, D>, S: Real, const D: usize> {
     rule: &'static Tableau,
     step: S,
@@ -70,15 +157,6 @@ struct Target<'a, K: Kinematics<S, D>, S: Real, const D: usize> {
     right: &'a mut [[S; 1]],
 }
 
-impl<K: Kinematics<S, D>, S: Real, const D: usize> Target<'_, K, S, D> {
-    /// The weight `h w` of the forces of a stage in the rows of each set on which they act.
-    fn impulses(&self, stage: usize) -> impl Iterator<Item = (usize, S)> + use<K, S, D> {
-        let (step, sets) = (self.step, self.rule.positions.iter().enumerate());
-        let acting = sets.filter(move |(_, weights)| weights[stage] != 0.0);
-        acting.map(move |(set, weights)| (set, step * S::from_f64(weights[stage])))
-    }
-}
-
 impl<S, M, K, C, const D: usize> StagePoint<S, M, K, C, D>
 where
     S: Real,
@@ -86,87 +164,82 @@ where
     K: Kinematics<S, D>,
     C: Source<S, M, K, D>,
 {
-    /// The impulses of a force at a stage and their derivatives, with its direction held.
-    fn assemble_force(&self, [stage, force]: [usize; 2], target: &mut Target<'_, K, S, D>) {
+    /// The forces of all stages and their derivatives, with their directions held, and what heat from other elements
+    /// does to them.
+    fn assemble_forces(
+        &self,
+        bases: &C::Bases,
+        forces: &mut StageForces<K, S, D>,
+        target: &mut Target<'_, K, S, D>,
+    ) {
         let rule = target.rule;
-        let at = [stage, force];
-        let value = C::force(self, rule, target.local, at) + target.local.row[0];
-        let by_arms = C::by_arms(self, rule, target.local);
-        let along = C::direction(self, at);
-        for (set, impulse) in target.impulses(stage) {
-            let mut pull = along;
-            scale::<K, S, D>(&mut pull, impulse * value);
-            let site = &target.site.sets[set][set];
-            site.subtract_arms(&pull, &site.rows, target.right.as_flattened_mut());
-            for (site, by_arm) in target.site.sets[set].iter().zip(&by_arms).take(rule.sets()) {
-                for (i, along) in along.as_ref().iter().enumerate() {
-                    for (j, by) in by_arm.as_ref().iter().enumerate() {
-                        let block = along.map(|entry| by.map(|by| impulse * entry * by));
-                        site.add_block([i + 1, j + 1], &block, target.values);
+        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
+        // By the heat at each stage.
+        let mut by_heat = [[nowhere; MOST_STAGES]; MOST_STAGES];
+        for stage in 0..rule.stages() {
+            for force in 0..C::FORCES {
+                let at = [stage, force];
+                let value = C::force(self, rule, target.local, at) + target.local.row[0];
+                let by_arms = C::by_arms(self, bases, rule, target.local);
+                let along = C::direction(self, bases, at);
+                forces.add((rule, stage), (value, along), &by_arms);
+                if self.contacts.is_some() {
+                    let heats = &target.local.row[1 + rule.sets() * C::FORCES..];
+                    for (sum, &by) in by_heat[stage].iter_mut().zip(heats) {
+                        add_scaled::<K, S, D>(sum, by, along);
                     }
                 }
             }
-            self.assemble_heat(set, impulse, &along, target);
+        }
+        for (set, weights) in rule.positions.iter().enumerate() {
+            let mut impulses = [nowhere; MOST_STAGES];
+            for (&weight, by_heat) in weights.iter().zip(&by_heat) {
+                for (sum, by) in impulses.iter_mut().zip(by_heat) {
+                    add_scaled::<K, S, D>(sum, target.step * S::from_f64(weight), by);
+                }
+            }
+            self.assemble_heat(set, &impulses, target);
         }
     }
 
-    /// What heat from other elements does by way of the quantity that has been eliminated last to the
-    /// rows of the nodes, each with its direction.
+    /// What heat from other elements does to the rows of the nodes in a set, given the impulses by the heat at each
+    /// stage.
     fn assemble_heat(
         &self,
         set: usize,
-        impulse: S,
-        along: &Arms<K, S, D>,
+        impulses: &[Arms<K, S, D>; MOST_STAGES],
         target: &mut Target<'_, K, S, D>,
     ) {
         let Some(contacts) = &self.contacts else {
             return;
         };
         let rule = target.rule;
-        let by_heat = &target.local.row[1 + rule.sets() * C::FORCES..];
         let site = &target.site.sets[set][set];
         for (column, contact) in contacts[set].iter().enumerate().take(rule.sets()) {
-            let by = impulse * heat::by_seen(rule, column, by_heat);
+            let mut by_seen = Arms::<K, S, D>::filled([S::zero(); D]);
+            for (stage, impulse) in impulses.iter().enumerate().take(rule.stages()) {
+                let share = S::from_f64(rule.share(stage, column));
+                add_scaled::<K, S, D>(&mut by_seen, share, impulse);
+            }
             let times = |factor: S| {
-                let mut arms = *along;
+                let mut arms = by_seen;
                 scale::<K, S, D>(&mut arms, factor);
                 arms
             };
-            let own = times(-by * contact.conductance());
+            let own = times(-contact.conductance());
             site.add_column(&contact.column, &own, target.values);
             for partner in &contact.partners {
-                let by_partner = times(by * partner.conductance);
+                let by_partner = times(partner.conductance);
                 site.add_column(&partner.column, &by_partner, target.values);
             }
         }
     }
 
-    /// What the forces of a stage do when their directions turn.
-    fn assemble_turn(
-        &self,
-        stage: usize,
-        arms: &StageArms<K, S, D>,
-        target: &mut Target<'_, K, S, D>,
-    ) {
-        let Some(own) = target.rule.set_of(stage) else {
-            return;
-        };
-        for (set, impulse) in target.impulses(stage) {
-            let blocks = C::turn(self, target.rule, own, arms);
-            let site = &target.site.sets[set][own];
-            for (i, row) in blocks.as_ref().iter().enumerate() {
-                for (j, block) in row.as_ref().iter().enumerate() {
-                    let block = block.map(|row| row.map(|entry| impulse * entry));
-                    site.add_block([i + 1, j + 1], &block, target.values);
-                }
-            }
-        }
-    }
-
-    /// The equations `Θ − θ = 0` of an element whose temperatures neighbours see.
+    /// The equations `Θ − θ = 0` of a point whose temperatures neighbours see.
     fn assemble_temperatures(
         &self,
         slot: usize,
+        bases: &C::Bases,
         trial: &Trial<S, D>,
         target: &mut Target<'_, K, S, D>,
     ) {
@@ -176,7 +249,7 @@ where
         let rule = target.rule;
         for (set, contacts) in contacts.iter().enumerate().take(rule.sets()) {
             let theta = C::temperature(self, rule, target.local, set) + target.local.row[0];
-            let by_arms = C::by_arms(self, rule, target.local);
+            let by_arms = C::by_arms(self, bases, rule, target.local);
             let by_heat = &target.local.row[1 + rule.sets() * C::FORCES..];
             let own = &contacts[set];
             let seen = trial.seen.values()[trial.seen_of_set(set, slot)];

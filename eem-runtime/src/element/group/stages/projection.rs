@@ -84,6 +84,12 @@ where
     motions: [Arms<K, S, D>; MOST_STAGES],
 }
 
+/// Along which arms the components of the strain act at the stages: `∂C_q/∂d_i`, and the same for `h ḋ_i`.
+pub(crate) struct Directions<K: QuadraticStrain<S, D>, S: Real, const D: usize> {
+    along: [K::PerStrain<Arms<K, S, D>>; MOST_STAGES],
+    turning: [K::PerStrain<Arms<K, S, D>>; MOST_STAGES],
+}
+
 /// A point with such conjugates.
 pub(super) type ProjectedPoint<S, M, K, const D: usize> =
     StagePoint<S, M, K, Projections<S, M, K, D>, D>;
@@ -95,6 +101,8 @@ where
     K: QuadraticStrain<S, D>,
 {
     const FORCES: usize = Vector::<S, M, K, D>::STRAINS;
+
+    type Bases = Directions<K, S, D>;
 
     fn new() -> Self {
         let zeros = Vector::zero();
@@ -172,13 +180,33 @@ where
         point.own.conjugates[stage][component]
     }
 
-    fn direction(
-        point: &ProjectedPoint<S, M, K, D>,
+    fn bases(point: &ProjectedPoint<S, M, K, D>, rule: &Tableau) -> Directions<K, S, D> {
+        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
+        let none = [K::PerStrain::filled(nowhere); MOST_STAGES];
+        let mut bases: Directions<K, S, D> = Directions {
+            along: none,
+            turning: none,
+        };
+        let (own, kinematics) = (&point.own, &point.kinematics);
+        for stage in 0..rule.stages() {
+            let along = bases.along[stage].as_mut().iter_mut();
+            let pairs = along.zip(bases.turning[stage].as_mut());
+            for (component, (along, turning)) in pairs.enumerate() {
+                let mut unit = PerStrain::<K, S, D>::filled(S::zero());
+                unit[component] = S::one();
+                *along = kinematics.strain_force(&own.arms[stage], &unit);
+                *turning = kinematics.strain_force(&own.motions[stage], &unit);
+            }
+        }
+        bases
+    }
+
+    fn direction<'a>(
+        _: &'a ProjectedPoint<S, M, K, D>,
+        bases: &'a Directions<K, S, D>,
         [stage, component]: [usize; 2],
-    ) -> Arms<K, S, D> {
-        let mut unit = PerStrain::<K, S, D>::filled(S::zero());
-        unit[component] = S::one();
-        point.kinematics.strain_force(&point.own.arms[stage], &unit)
+    ) -> &'a Arms<K, S, D> {
+        &bases.along[stage].as_ref()[component]
     }
 
     fn turn(
@@ -212,20 +240,21 @@ where
 
     // ∂(hĊ_i)/∂d_j = δ_ij ∂²C/∂d² h ḋ_i + motion_ij ∂C/∂d_i
     fn by_arms(
-        point: &ProjectedPoint<S, M, K, D>,
+        _: &ProjectedPoint<S, M, K, D>,
+        bases: &Directions<K, S, D>,
         rule: &Tableau,
         local: &LocalStages<S>,
     ) -> [Arms<K, S, D>; MOST_SETS] {
-        let mut by_arms = [Arms::<K, S, D>::filled([S::zero(); D]); MOST_SETS];
-        let (own, kinematics) = (&point.own, &point.kinematics);
+        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
+        let mut by_arms = [nowhere; MOST_SETS];
         for (stage, row) in rule.motion.iter().enumerate() {
-            let mut by = PerStrain::<K, S, D>::filled(S::zero());
-            let first = 1 + stage * Self::FORCES;
-            by.as_mut()
-                .copy_from_slice(&local.row[first..first + Self::FORCES]);
-            let turning = kinematics.strain_force(&own.motions[stage], &by);
-            add_scaled::<K, S, D>(&mut by_arms[stage], S::one(), &turning);
-            let along = kinematics.strain_force(&own.arms[stage], &by);
+            let mut along = nowhere;
+            let rows = bases.along[stage].as_ref().iter();
+            let rows = rows.zip(bases.turning[stage].as_ref());
+            for ((own, turning), &by) in rows.zip(&local.row[1 + stage * Self::FORCES..]) {
+                add_scaled::<K, S, D>(&mut along, by, own);
+                add_scaled::<K, S, D>(&mut by_arms[stage], by, turning);
+            }
             for (sum, &share) in by_arms.iter_mut().zip(*row) {
                 add_scaled::<K, S, D>(sum, S::from_f64(share), &along);
             }

@@ -67,11 +67,18 @@ where
         stage_and_force: [usize; 2],
     ) -> S;
 
-    /// The arms along which it acts.
-    fn direction(
-        point: &StagePoint<S, M, K, Self, D>,
+    /// What the next two are found from.
+    type Bases;
+
+    /// That at a trial that has been evaluated.
+    fn bases(point: &StagePoint<S, M, K, Self, D>, rule: &Tableau) -> Self::Bases;
+
+    /// The arms along which a force acts.
+    fn direction<'a>(
+        point: &'a StagePoint<S, M, K, Self, D>,
+        bases: &'a Self::Bases,
         stage_and_force: [usize; 2],
-    ) -> Arms<K, S, D>;
+    ) -> &'a Arms<K, S, D>;
 
     /// What the forces of the stage of a set do when their directions turn.
     fn turn(
@@ -92,6 +99,7 @@ where
     /// The derivatives by the arms of each set of the quantity that has been eliminated last.
     fn by_arms(
         point: &StagePoint<S, M, K, Self, D>,
+        bases: &Self::Bases,
         rule: &Tableau,
         local: &LocalStages<S>,
     ) -> [Arms<K, S, D>; MOST_SETS];

@@ -1,5 +1,6 @@
 //! The elements of one model, stepped through stages.
 
+use super::assemble::StageForces;
 use super::local::LocalStages;
 use super::member::StageMember;
 use super::site::{StageSite, contacts};
@@ -33,6 +34,8 @@ where
     pub(super) elements: ElementGroup<S, M, K, PointRule, D>,
     pub(super) members: Vec<StageMember<S, M, K, C, D>>,
     pub(super) local: LocalStages<S>,
+    /// Those of one element.
+    pub(super) forces: Box<StageForces<K, S, D>>,
 }
 
 impl<S, M, K, C, const D: usize> StageGroup<S, M, K, C, D>
@@ -53,6 +56,7 @@ where
         Self {
             rule,
             members: members.collect(),
+            forces: Box::new(StageForces::zero()),
             local: LocalStages::new::<M>(rule, C::inputs_of(rule)),
             elements,
         }

@@ -48,6 +48,8 @@ where
 {
     const FORCES: usize = M::MEASURES;
 
+    type Bases = ();
+
     fn new() -> Self {
         let zeros = [M::Variables::filled(S::zero()); MOST_STAGES];
         let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
@@ -110,8 +112,14 @@ where
         at_stage.gradient[measure]
     }
 
-    fn direction(point: &ValuesPoint<S, M, K, D>, [stage, measure]: [usize; 2]) -> Arms<K, S, D> {
-        point.own.gradients[stage].as_ref()[measure]
+    fn bases(_: &ValuesPoint<S, M, K, D>, _: &Tableau) {}
+
+    fn direction<'a>(
+        point: &'a ValuesPoint<S, M, K, D>,
+        (): &'a (),
+        [stage, measure]: [usize; 2],
+    ) -> &'a Arms<K, S, D> {
+        &point.own.gradients[stage].as_ref()[measure]
     }
 
     fn turn(
@@ -142,6 +150,7 @@ where
 
     fn by_arms(
         point: &ValuesPoint<S, M, K, D>,
+        (): &(),
         rule: &Tableau,
         local: &LocalStages<S>,
     ) -> [Arms<K, S, D>; MOST_SETS] {
