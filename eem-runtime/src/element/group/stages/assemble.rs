@@ -1,102 +1,20 @@
 //! From the stages of the elements to the global system.
 
+use super::forces::StageForces;
 use super::heat;
 use super::local::LocalStages;
 use super::member::StagePoint;
-use super::site::{PerPair, StageSite};
+use super::site::StageSite;
 use super::source::Source;
 use crate::algebra::system::LinearSystem;
 use crate::element::error::StateError;
 use crate::element::group::arms::{add_scaled, scale};
 use crate::element::group::stages::stage_group::StageGroup;
 use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::{Arms, Blocks, Kinematics, add_blocks};
-use crate::element::tableau::{MOST_SETS, MOST_STAGES, Tableau};
+use crate::element::kinematics::{Arms, Kinematics, add_blocks};
+use crate::element::tableau::{MOST_STAGES, Tableau};
 use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::Real;
-
-/// The forces of an element at the stages, as functions of the arms of each set.
-pub(super) struct StageForces<K: Kinematics<S, D>, S: Real, const D: usize> {
-    /// Those at a stage, with the internal variables eliminated, N.
-    pulls: [Arms<K, S, D>; MOST_STAGES],
-    /// Their derivatives by the arms of each set.
-    blocks: PerPair<Blocks<K, S, D>>,
-}
-
-impl<K: Kinematics<S, D>, S: Real, const D: usize> StageForces<K, S, D> {
-    /// None.
-    pub(super) fn zero() -> Self {
-        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
-        let blocks = Blocks::<K, S, D>::filled(K::PerArm::filled([[S::zero(); D]; D]));
-        Self {
-            pulls: [nowhere; MOST_STAGES],
-            blocks: [[blocks; MOST_SETS]; MOST_SETS],
-        }
-    }
-
-    fn clear(&mut self, rule: &Tableau) {
-        let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
-        self.pulls = [nowhere; MOST_STAGES];
-        for row in &mut self.blocks[..rule.stages()] {
-            for blocks in &mut row[..rule.sets()] {
-                *blocks = Blocks::<K, S, D>::filled(K::PerArm::filled([[S::zero(); D]; D]));
-            }
-        }
-    }
-
-    /// Adds a force along an arm, of which the derivatives by the arms of each set are given.
-    fn add(
-        &mut self,
-        (rule, stage): (&Tableau, usize),
-        (value, along): (S, &Arms<K, S, D>),
-        by_arms: &[Arms<K, S, D>; MOST_SETS],
-    ) {
-        add_scaled::<K, S, D>(&mut self.pulls[stage], value, along);
-        for (blocks, by) in self.blocks[stage].iter_mut().zip(by_arms).take(rule.sets()) {
-            for (row, along) in blocks.as_mut().iter_mut().zip(along.as_ref()) {
-                for (block, by) in row.as_mut().iter_mut().zip(by.as_ref()) {
-                    for (entries, &along) in block.iter_mut().zip(along) {
-                        for (entry, &by) in entries.iter_mut().zip(by) {
-                            *entry += along * by;
-                        }
-                    }
-                }
-            }
-        }
-    }
-
-    /// Writes the impulses to the rows of each set.
-    fn scatter(
-        &self,
-        (rule, step): (&Tableau, S),
-        site: &StageSite<K, S, D>,
-        (values, right): (&mut [S], &mut [[S; 1]]),
-    ) {
-        for (set, weights) in rule.positions.iter().enumerate() {
-            let own = &site.sets[set][set];
-            let mut pull = Arms::<K, S, D>::filled([S::zero(); D]);
-            for (&weight, stage) in weights.iter().zip(&self.pulls) {
-                add_scaled::<K, S, D>(&mut pull, step * S::from_f64(weight), stage);
-            }
-            own.subtract_arms(&pull, &own.rows, right.as_flattened_mut());
-            for (column, site) in site.sets[set].iter().enumerate().take(rule.sets()) {
-                for i in 0..K::PerArm::<()>::LEN {
-                    for j in 0..K::PerArm::<()>::LEN {
-                        let mut block = [[S::zero(); D]; D];
-                        for (&weight, stage) in weights.iter().zip(&self.blocks) {
-                            let impulse = step * S::from_f64(weight);
-                            let entries = stage[column][i][j].as_flattened();
-                            for (sum, &entry) in block.as_flattened_mut().iter_mut().zip(entries) {
-                                *sum += impulse * entry;
-                            }
-                        }
-                        site.add_block([i + 1, j + 1], &block, values);
-                    }
-                }
-            }
-        }
-    }
-}
 
 impl<S, M, K, C, const D: usize> StageGroup<S, M, K, C, D>
 where
@@ -176,7 +94,7 @@ where
         let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
         // By the heat at each stage.
         let mut by_heat = [[nowhere; MOST_STAGES]; MOST_STAGES];
-        for stage in 0..rule.stages() {
+        for (stage, by_heat) in by_heat.iter_mut().enumerate().take(rule.stages()) {
             for force in 0..C::FORCES {
                 let at = [stage, force];
                 let value = C::force(self, rule, target.local, at) + target.local.row[0];
@@ -185,7 +103,7 @@ where
                 forces.add((rule, stage), (value, along), &by_arms);
                 if self.contacts.is_some() {
                     let heats = &target.local.row[1 + rule.sets() * C::FORCES..];
-                    for (sum, &by) in by_heat[stage].iter_mut().zip(heats) {
+                    for (sum, &by) in by_heat.iter_mut().zip(heats) {
                         add_scaled::<K, S, D>(sum, by, along);
                     }
                 }

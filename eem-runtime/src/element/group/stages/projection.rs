@@ -19,6 +19,7 @@
 mod begin;
 mod certify;
 mod closing;
+mod derivatives;
 mod drag;
 mod exact;
 mod local;

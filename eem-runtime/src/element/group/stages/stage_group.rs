@@ -1,6 +1,6 @@
 //! The elements of one model, stepped through stages.
 
-use super::assemble::StageForces;
+use super::forces::StageForces;
 use super::local::LocalStages;
 use super::member::StageMember;
 use super::site::{StageSite, contacts};

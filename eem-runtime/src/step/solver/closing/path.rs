@@ -91,18 +91,16 @@ impl<S: Real, const D: usize> Solver<S, D> {
                     rest[axis] += S::from_f64(weight) * change[axis];
                 }
             }
-            let (impulse, speeds) = match (self.coupling.found(index), stages.changes.get(node)) {
-                (Some(&[impulse, _]), Some(&change)) => {
-                    let [&old, _] = state.velocities.point::<D>(node);
-                    let none = [S::zero(); D];
-                    (next.velocities).advance_point(node, &state.velocities, [&change, &none]);
-                    (impulse, Speeds::Given { old, change })
-                }
-                _ => {
-                    let gained = self.gained(index, impulses);
-                    let impulse = gained.map(|gained| place.mass * view.per_step * gained);
-                    (impulse, Speeds::OfMass(place.per_mass))
-                }
+            let coupled = self.coupling.found(index).zip(stages.changes.get(node));
+            let (impulse, speeds) = if let Some((&[impulse, _], &change)) = coupled {
+                let [&old, _] = state.velocities.point::<D>(node);
+                let none = [S::zero(); D];
+                (next.velocities).advance_point(node, &state.velocities, [&change, &none]);
+                (impulse, Speeds::Given { old, change })
+            } else {
+                let gained = self.gained(index, impulses);
+                let impulse = gained.map(|gained| place.mass * view.per_step * gained);
+                (impulse, Speeds::OfMass(place.per_mass))
             };
             let displacement = array::from_fn(|axis| flight[axis] + rest[axis]);
             move_node(node, [&flight, &rest, &impulse], state, next)?;
@@ -170,17 +168,14 @@ impl<S: Real, const D: usize> Solver<S, D> {
             let force = view.stages[stage].force::<D>(node);
             self.rockets.add_to(force, [stage, node])
         };
-        let weight = {
-            let (total, force) = (
-                view.stages[0].total_force::<D>(node),
-                view.stages[0].force::<D>(node),
-            );
-            array::from_fn::<S, D, _>(|axis| total[axis] - force[axis])
-        };
+        let (total, force) = (
+            view.stages[0].total_force::<D>(node),
+            view.stages[0].force::<D>(node),
+        );
         for axis in 0..D {
             let of_axis = |stage: usize| load(stage)[axis];
             next.work.add(self.work(stages, node, axis, of_axis));
-            motion.work(weight[axis] * moved.displacement[axis]);
+            motion.work((total[axis] - force[axis]) * moved.displacement[axis]);
         }
         for (stage, &weight) in stages.rule.weights.iter().enumerate() {
             let share = view.step * S::from_f64(weight);

@@ -3,7 +3,7 @@
 use core::ops::Range;
 
 use super::ProjectedPoint;
-use super::path::derivatives;
+use super::derivatives::derivatives;
 use super::vector::{Matrix, Vector};
 use crate::element::group::element_group::variables;
 use crate::element::group::stages::member::StatePoint;

@@ -10,7 +10,7 @@
 //! supports instead.
 
 use super::ProjectedPoint;
-use super::path::chained;
+use super::derivatives::chained;
 use super::vector::Vector;
 use crate::element::error::StateError;
 use crate::element::group::stages::local::{Column, LocalStages};

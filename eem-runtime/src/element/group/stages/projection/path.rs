@@ -1,10 +1,11 @@
 //! The path of a point through a step at a trial, and the projections from it.
 
 use super::ProjectedPoint;
+use super::derivatives::{chained, derivatives};
 use super::vector::{Matrix, Vector};
 use crate::element::conjugates::{Infeasible, temperature_at};
 use crate::element::error::StateError;
-use crate::element::group::arms::{add_scaled, measures_in};
+use crate::element::group::arms::add_scaled;
 use crate::element::group::respond::check_measures;
 use crate::element::group::stages::member::{StageArms, StatePoint};
 use crate::element::handle::Element;
@@ -12,6 +13,9 @@ use crate::element::kinematics::{Arms, Measures, PerStrain, QuadraticStrain};
 use crate::element::tableau::{MOST_POINTS, MOST_STAGES, Path, Tableau};
 use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::{Real, is_positive};
+
+/// `y = (C, γ, s)` and `x = (π, γ, θ)` somewhere along a path.
+type PathPoint<S, M, K, const D: usize> = (Vector<S, M, K, D>, <M as FreeEnergy<S>>::Variables);
 
 impl<S, M, K, const D: usize> ProjectedPoint<S, M, K, D>
 where
@@ -134,7 +138,7 @@ where
         in_state: &StatePoint<S, M, K, D>,
         shares: &[f64],
         place: usize,
-    ) -> Result<(Vector<S, M, K, D>, M::Variables), StateError> {
+    ) -> Result<PathPoint<S, M, K, D>, StateError> {
         let y = self.path_at(shares);
         let measures = self.measures_in_path(in_state.element, &y.strain)?;
         let near = self.own.temperatures[place];
@@ -211,90 +215,6 @@ where
         }
         Ok(())
     }
-}
-
-/// `Σ_a f_a P_a`.
-pub(super) fn chained<S: Real, K: QuadraticStrain<S, D>, const D: usize>(
-    slopes: &K::PerMeasure<PerStrain<K, S, D>>,
-    by_measure: &[S],
-) -> PerStrain<K, S, D> {
-    let mut sum = PerStrain::<K, S, D>::filled(S::zero());
-    for (row, &by) in slopes.as_ref().iter().zip(by_measure) {
-        for (sum, &slope) in sum.as_mut().iter_mut().zip(row.as_ref()) {
-            *sum += by * slope;
-        }
-    }
-    sum
-}
-
-/// `∇ê` and `∇²ê` by `(C, γ, s)` from the derivatives of ψ by `(π, γ, θ)`.
-///
-/// ```text
-/// e_x = ψ_x,   e_s = θ,   e_xy = ψ_xy − ψ_xθ ψ_yθ/ψ_θθ,   e_xs = −ψ_xθ/ψ_θθ,   e_ss = −1/ψ_θθ
-/// ê_C = P e_π,   ê_CC = P e_ππ Pᵀ + Σ e_π ∂²π/∂C²,   ê_Cx = P e_πx,   P = ∂π/∂C
-/// ```
-pub(super) fn derivatives<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize>(
-    kinematics: &K,
-    strain: &PerStrain<K, S, D>,
-    (x, gradient, hessian): (&M::Variables, &M::Variables, &M::Hessian),
-) -> (Vector<S, M, K, D>, Matrix<S, M, K, D>) {
-    let last = M::Variables::LEN - 1;
-    let (mut by, mut second) = (*gradient, *hessian);
-    if M::THERMAL {
-        let by_theta = hessian[last];
-        let per_capacity = -by_theta[last].recip();
-        for row in 0..last {
-            let answer = per_capacity * by_theta[row];
-            for column in 0..last {
-                second[row][column] += answer * by_theta[column];
-            }
-            (second[row][last], second[last][row]) = (answer, answer);
-        }
-        second[last][last] = per_capacity;
-        by[last] = x[last];
-    }
-    let slopes_of_measures = kinematics.strain_slopes([strain, strain]);
-    let mut slopes = Vector::zero();
-    slopes.take_rest(&by);
-    slopes.strain = chained::<S, K, D>(&slopes_of_measures, by.as_ref());
-    let mut curvatures = Matrix::zero();
-    let strains = Vector::<S, M, K, D>::STRAINS;
-    let force = measures_in::<K, S, D>(&by);
-    let turning = kinematics.strain_curvature(strain, &force);
-    for column in 0..=last {
-        // ∂(e_C)/∂x of a variable of the model
-        let column_of_measures: Measures<K, S, D> = {
-            let mut of_column = force;
-            for (a, entry) in of_column.as_mut().iter_mut().enumerate() {
-                *entry = second[a][column];
-            }
-            of_column
-        };
-        let own = chained::<S, K, D>(&slopes_of_measures, column_of_measures.as_ref());
-        for q in 0..strains {
-            if column < M::MEASURES {
-                for p in 0..strains {
-                    curvatures[[q, p]] += own[q] * slopes_of_measures[column][p];
-                }
-            } else {
-                let beyond = strains + column - M::MEASURES;
-                curvatures[[q, beyond]] = own[q];
-                curvatures[[beyond, q]] = own[q];
-            }
-        }
-    }
-    for q in 0..strains {
-        for p in 0..strains {
-            curvatures[[q, p]] += turning[q][p];
-        }
-    }
-    for row in M::MEASURES..=last {
-        for column in M::MEASURES..=last {
-            let [row_here, column_here] = [row, column].map(|index| strains + index - M::MEASURES);
-            curvatures[[row_here, column_here]] = second[row][column];
-        }
-    }
-    (slopes, curvatures)
 }
 
 /// The sum of some numbers is one.
