@@ -33,7 +33,7 @@ use crate::element::handle::{Element, Handle, HeatPartner, Kind, Node, Reservoir
 use crate::element::kinematics::Stretch;
 use crate::element::layout::Layout;
 use crate::element::lineage::{Counts, Lineage};
-use crate::material::free_energy::FreeEnergy;
+use crate::material::free_energy::{FreeEnergy, Material};
 use crate::number::scalar::Real;
 use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
@@ -134,7 +134,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// [`set_temperature`](Self::set_temperature). Viscous stretches are zero at first.
     pub fn spring<M>(&mut self, model: M, nodes: [Node; 2]) -> Element
     where
-        M: FreeEnergy<S> + Send + Sync + 'static,
+        M: Material<S>,
     {
         const {
             assert!(

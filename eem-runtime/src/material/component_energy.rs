@@ -65,11 +65,15 @@ impl<M, const N: usize, const K: usize, const R: usize, const A: usize, const B:
 
 // Lists of what implements the trait, in messages, are about materials.
 #[diagnostic::do_not_recommend]
-impl<S, M, const N: usize, const K: usize, const R: usize, const A: usize, const B: usize>
-    FreeEnergy<S> for ComponentEnergy<M, N, K, R, A, B>
-where
+impl<
     S: Real,
     M: FreeEnergy<S> + JointEnergy,
+    const N: usize,
+    const K: usize,
+    const R: usize,
+    const A: usize,
+    const B: usize,
+> FreeEnergy<S> for ComponentEnergy<M, N, K, R, A, B>
 {
     const MEASURES: usize = N - K - M::THERMAL as usize;
     const DASHPOTS: usize = K;

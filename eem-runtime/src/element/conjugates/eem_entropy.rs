@@ -13,14 +13,14 @@
 
 use crate::element::conjugates::element::{ElementScheme, Form, Infeasible, Placement, Start};
 use crate::element::conjugates::temperature::temperature_of;
-use crate::material::free_energy::{Array, Entry, FreeEnergy};
+use crate::material::free_energy::{Array, Entry, FreeEnergy, Material};
 use crate::number::scalar::Real;
 
 /// See the module.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EemEntropy;
 
-impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for EemEntropy {
+impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemEntropy {
     const EXACT: bool = true;
 
     /// What the form keeps, and s⁰, J/K.

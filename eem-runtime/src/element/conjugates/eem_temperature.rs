@@ -10,14 +10,14 @@
 //! inversion is needed: the new temperature is the unknown.
 
 use crate::element::conjugates::element::{ElementScheme, Form, Infeasible, Placement, Start};
-use crate::material::free_energy::{Array, Entry, FreeEnergy};
+use crate::material::free_energy::{Array, Entry, Material};
 use crate::number::scalar::Real;
 
 /// See the module.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct EemTemperature;
 
-impl<S: Real, M: FreeEnergy<S> + Send + Sync + 'static> ElementScheme<S, M> for EemTemperature {
+impl<S: Real, M: Material<S>> ElementScheme<S, M> for EemTemperature {
     const EXACT: bool = true;
 
     type Old = M::TemperatureFormOld;

@@ -26,7 +26,7 @@
 
 use crate::element::conjugates::element::{ElementScheme, Form, Infeasible, Placement, Start};
 use crate::element::conjugates::temperature::temperature_at;
-use crate::material::free_energy::{Array, Entry, FreeEnergy};
+use crate::material::free_energy::{Array, Entry, FreeEnergy, Material};
 use crate::number::scalar::Real;
 
 /// See the module.
@@ -59,11 +59,7 @@ impl PointRule {
     }
 }
 
-impl<S, M> ElementScheme<S, M> for PointRule
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-{
+impl<S: Real, M: Material<S>> ElementScheme<S, M> for PointRule {
     const SCALES_HEAT: bool = false;
 
     /// s⁰, J/K.

@@ -7,7 +7,7 @@ use super::share::{Heat, Momentum};
 use crate::element::conjugates::{ElementScheme, Form};
 use crate::element::group::view::Trial;
 use crate::element::kinematics::{Arms, Gradient, Kinematics, Measures};
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, Material};
 use crate::number::scalar::Real;
 
 /// A response with the internal variables eliminated: `value + Σ_a by_measure_a δπ_a − by_heat δr_s`.
@@ -17,12 +17,8 @@ struct CondensedRow<K: Kinematics<S, D>, S: Real, const D: usize> {
     by_heat: S,
 }
 
-impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Point<S, M, K, C, D>
 {
     #[inline]
     fn condensed_row(

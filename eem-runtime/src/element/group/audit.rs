@@ -8,7 +8,7 @@ use crate::element::group::element_group::ElementGroup;
 use crate::element::group::misfit::Misfit;
 use crate::element::kinematics::Kinematics;
 use crate::element::state::State;
-use crate::material::free_energy::FreeEnergy;
+use crate::material::free_energy::Material;
 use crate::number::digest::Digest;
 use crate::number::scalar::{Mask, Real, is_positive};
 
@@ -19,12 +19,8 @@ use crate::number::scalar::{Mask, Real, is_positive};
 /// stretches and viscous stretches are rounded once each. As much again is for evaluating S here.
 const ENTROPY_ROUNDINGS: f64 = 8.0;
 
-impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    ElementGroup<S, M, K, C, D>
 {
     /// See [`Elements::digest`](super::Elements::digest).
     pub(super) fn digest_all(&self, digest: &mut Digest) {
@@ -57,12 +53,8 @@ where
     }
 }
 
-impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Point<S, M, K, C, D>
 {
     /// Energy, forces and viscosities are those of a state that a scene can begin with.
     fn audit_response(&self, x: &M::Variables) -> Result<(), StateError> {

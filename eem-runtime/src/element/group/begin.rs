@@ -9,15 +9,11 @@ use crate::element::error::StateError;
 use crate::element::group::element_group::{ElementGroup, variables};
 use crate::element::group::view::{Old, StepView};
 use crate::element::kinematics::{Arms, Kinematics, Measures};
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, Material};
 use crate::number::scalar::Real;
 
-impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    ElementGroup<S, M, K, C, D>
 {
     /// See [`Group::begin`](super::Group::begin).
     pub(super) fn begin_all(
@@ -56,12 +52,8 @@ pub(super) fn shorten<K: Kinematics<S, D>, S: Real, const D: usize>(
     }
 }
 
-impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Member<S, M, K, C, D>
 {
     /// The part of rates and nodal forces that the scheme takes from the old state.
     fn take_old_share(
@@ -89,12 +81,8 @@ where
     }
 }
 
-impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Point<S, M, K, C, D>
 {
     /// Takes measures, γ and θ from the old state, where the trial starts.
     #[inline]

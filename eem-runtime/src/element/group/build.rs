@@ -12,14 +12,11 @@ use crate::element::conjugates::{Conjugates, EemEntropy, EemTemperature, Element
 use crate::element::kinematics::QuadraticStrain;
 use crate::element::layout::Shape;
 use crate::element::tableau::Tableau;
-use crate::material::free_energy::FreeEnergy;
+use crate::material::free_energy::Material;
 use crate::number::scalar::Real;
 
-impl<S, M, K, const D: usize> Loose<S, D> for LooseElements<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: QuadraticStrain<S, D>,
+impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Loose<S, D>
+    for LooseElements<S, M, K, D>
 {
     fn as_any(&self) -> &dyn Any {
         self
@@ -69,31 +66,31 @@ where
 }
 
 /// The group of a scheme with one set of forces.
-fn single<S, M, K, C, const D: usize>(
+fn single<
+    S: Real,
+    M: Material<S>,
+    K: QuadraticStrain<S, D>,
+    C: ElementScheme<S, M>,
+    const D: usize,
+>(
     scheme: C,
     elements: LooseElements<S, M, K, D>,
     placed: Placed<'_>,
-) -> Box<dyn Group<S, D>>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: QuadraticStrain<S, D>,
-    C: ElementScheme<S, M>,
-{
+) -> Box<dyn Group<S, D>> {
     Box::new(ElementGroup::new(scheme, elements, placed))
 }
 
 /// The group of a scheme that goes through stages, with conjugates of `C`.
-fn staged<S, M, K, C, const D: usize>(
+fn staged<
+    S: Real,
+    M: Material<S>,
+    K: QuadraticStrain<S, D>,
+    C: Source<S, M, K, D>,
+    const D: usize,
+>(
     rule: &'static Tableau,
     elements: LooseElements<S, M, K, D>,
     placed: Placed<'_>,
-) -> Box<dyn Group<S, D>>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: QuadraticStrain<S, D>,
-    C: Source<S, M, K, D>,
-{
+) -> Box<dyn Group<S, D>> {
     Box::new(StageGroup::<S, M, K, C, D>::new(rule, elements, placed))
 }

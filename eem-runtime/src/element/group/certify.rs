@@ -10,15 +10,11 @@ use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::state::Energy;
 use crate::element::tally::{Care, Tally};
-use crate::material::free_energy::FreeEnergy;
+use crate::material::free_energy::Material;
 use crate::number::scalar::Real;
 
-impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Member<S, M, K, C, D>
 {
     /// Adds the magnitude of what `h F` is computed from to that of its nodes, N s, given the new arms and
     /// their change:
@@ -49,12 +45,8 @@ where
 }
 
 /// What the variables of a point are computed from, and what the certificate asks of it.
-impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Point<S, M, K, C, D>
 {
     /// What the variables of a state with these arms are computed from: times ε, their rounding.
     #[inline]

@@ -22,15 +22,11 @@ use crate::element::impulse::Impulses;
 use crate::element::kinematics::{Arms, Ends, Kinematics, Weights};
 use crate::element::state::State;
 use crate::element::tally::Tally;
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, Material};
 use crate::number::scalar::Real;
 
-impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    ElementGroup<S, M, K, C, D>
 {
     /// See [`Group::add_impulse`](super::Group::add_impulse).
     pub(super) fn add_impulse_all(
@@ -73,12 +69,8 @@ where
     }
 }
 
-impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Member<S, M, K, C, D>
 {
     /// The nodal forces of the found responses along the gradient between two configurations, N.
     pub(super) fn force(&self, at: Placement, ends: [&Arms<K, S, D>; 2]) -> K::PerNode<[S; D]> {
@@ -155,12 +147,8 @@ pub(super) fn pull_of_arms<K: Kinematics<S, D>, S: Real, const D: usize>(
     force
 }
 
-impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Point<S, M, K, C, D>
 {
     /// A of the force `A r_m` at the found response.
     #[inline]

@@ -7,15 +7,11 @@ use super::site::{Contact, Site};
 use crate::element::conjugates::ElementScheme;
 use crate::element::group::element_group::ElementGroup;
 use crate::element::kinematics::{Arms, Kinematics};
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, Material};
 use crate::number::scalar::Real;
 
-impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    ElementGroup<S, M, K, C, D>
 {
     /// See [`Group::correct`](super::Group::correct).
     pub(super) fn correct_all(&mut self, solution: &[[S; 1]], settled: S::Mask) -> S {
@@ -37,12 +33,8 @@ where
     }
 }
 
-impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Point<S, M, K, C, D>
 {
     /// Finds and applies the corrections of the local unknowns that go with a motion of the arms; the
     /// largest in their units.

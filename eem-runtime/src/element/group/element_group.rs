@@ -18,19 +18,19 @@ use crate::element::layout::Slots;
 use crate::element::recount::Recount;
 use crate::element::state::State;
 use crate::element::tally::Tally;
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, FreeEnergy, Material};
 use crate::number::compact::compact;
 use crate::number::digest::Digest;
 use crate::number::scalar::Real;
 
 /// Elements of the model `M` with the kinematics `K`, stepped by the scheme `C`.
-pub(crate) struct ElementGroup<S, M, K, C, const D: usize>
-where
+pub(crate) struct ElementGroup<
     S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
+    M: Material<S>,
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
-{
+    const D: usize,
+> {
     pub(super) scheme: C,
     pub(super) members: Vec<Member<S, M, K, C, D>>,
     pub(super) contacts: Vec<Contact<K, S, D>>,
@@ -38,12 +38,8 @@ where
     pub(super) shares: Vec<Share<K, S, D>>,
 }
 
-impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    ElementGroup<S, M, K, C, D>
 {
     pub(crate) fn new(scheme: C, loose: LooseElements<S, M, K, D>, placed: Placed<'_>) -> Self {
         let members = loose.elements.into_iter();
@@ -83,12 +79,8 @@ where
     }
 }
 
-impl<S, M, K, C, const D: usize> Elements<S, D> for ElementGroup<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Elements<S, D> for ElementGroup<S, M, K, C, D>
 {
     fn initialize(&mut self, state: &mut State<S>, refuse: &mut dyn FnMut(StateError)) {
         self.initialize_all(state, refuse);
@@ -132,12 +124,8 @@ where
     }
 }
 
-impl<S, M, K, C, const D: usize> Group<S, D> for ElementGroup<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: QuadraticStrain<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Group<S, D> for ElementGroup<S, M, K, C, D>
 {
     fn elements(&self) -> &dyn Elements<S, D> {
         self

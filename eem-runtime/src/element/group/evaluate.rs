@@ -10,15 +10,11 @@ use crate::element::error::StateError;
 use crate::element::group::element_group::ElementGroup;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Kinematics, Points};
-use crate::material::free_energy::FreeEnergy;
+use crate::material::free_energy::Material;
 use crate::number::scalar::Real;
 
-impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    ElementGroup<S, M, K, C, D>
 {
     /// See [`Group::evaluate`](super::Group::evaluate).
     pub(super) fn evaluate_all(
@@ -121,12 +117,8 @@ fn in_pieces<A: Send, B: Send>(
     first.and(second)
 }
 
-impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Member<S, M, K, C, D>
 {
     /// Responses without tangents.
     #[inline]

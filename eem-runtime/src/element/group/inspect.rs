@@ -9,15 +9,11 @@ use crate::element::group::view::{ElementTotals, ElementView};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics, SolidState};
 use crate::element::state::{Energy, State};
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, FreeEnergy, Material};
 use crate::number::scalar::Real;
 
-impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    ElementGroup<S, M, K, C, D>
 {
     /// See [`Elements::initialize`](super::Elements::initialize).
     pub(super) fn initialize_all(
@@ -129,12 +125,8 @@ where
     }
 }
 
-impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Point<S, M, K, C, D>
 {
     /// Finds its entropy and energy in an initial state with these arms.
     fn initialize(&mut self, r: &Arms<K, S, D>, state: &mut State<S>) -> Result<(), StateError> {

@@ -21,12 +21,8 @@ use crate::element::tally::Tally;
 use crate::material::free_energy::{Array, FreeEnergy};
 use crate::number::scalar::{Real, is_positive};
 
-impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S>,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Point<S, M, K, C, D>
 {
     /// Number of measures with a dashpot of their own.
     pub(super) const DRAGS: usize = M::Drag::LEN;
@@ -284,12 +280,10 @@ impl WrongDrag {
 
 /// The viscosity of a dashpot beside a spring is positive and finite.
 #[inline]
-pub(super) fn check_drag<S, M, K, const D: usize>(drag: M::Drag, theta: S) -> Result<(), WrongDrag>
-where
-    S: Real,
-    M: FreeEnergy<S>,
-    K: Kinematics<S, D>,
-{
+pub(super) fn check_drag<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize>(
+    drag: M::Drag,
+    theta: S,
+) -> Result<(), WrongDrag> {
     match drag.as_ref().iter().find(|&&eta| !is_positive(eta)) {
         None => Ok(()),
         Some(eta) => Err(WrongDrag {

@@ -31,12 +31,8 @@ pub(super) struct Dissipation<S: Real, M: FreeEnergy<S>> {
     pub(super) by: M::Variables,
 }
 
-impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S>,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Point<S, M, K, C, D>
 {
     /// Eliminates the internal variables of an element whose response, with its tangent, and
     /// viscosities are known.

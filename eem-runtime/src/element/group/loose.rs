@@ -5,28 +5,18 @@ use core::fmt;
 use crate::element::handle::Element;
 use crate::element::kinematics::{Kinematics, Points};
 use crate::element::layout::Shape;
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, Material};
 use crate::number::scalar::Real;
 
 /// What the points of an element consist of.
 pub(crate) type Parts<S, M, K, const D: usize> = <K as Kinematics<S, D>>::PerPoint<(M, K)>;
 
 /// Elements of the model `M` with the kinematics `K`, by the handles of their first points.
-pub(crate) struct LooseElements<S, M, K, const D: usize>
-where
-    S: Real,
-    M: Send + Sync,
-    K: Kinematics<S, D>,
-{
+pub(crate) struct LooseElements<S: Real, M: Send + Sync, K: Kinematics<S, D>, const D: usize> {
     pub(crate) elements: Vec<(Element, Parts<S, M, K, D>)>,
 }
 
-impl<S, M, K, const D: usize> LooseElements<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync,
-    K: Kinematics<S, D>,
-{
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> LooseElements<S, M, K, D> {
     pub(super) const POINTS: usize = K::PerPoint::<(M, K)>::LEN;
 
     /// None yet.
@@ -77,11 +67,8 @@ where
     }
 }
 
-impl<S, M, K, const D: usize> fmt::Debug for LooseElements<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync,
-    K: Kinematics<S, D>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> fmt::Debug
+    for LooseElements<S, M, K, D>
 {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} elements of {}", self.elements.len(), M::MODEL)

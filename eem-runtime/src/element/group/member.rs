@@ -9,29 +9,25 @@ use crate::element::group::view::{Placed, StepView, Trial};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics, Points};
 use crate::element::state::State;
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, Material};
 use crate::number::scalar::Real;
 
 /// An element.
-pub(crate) struct Member<S, M, K, C, const D: usize>
-where
+pub(crate) struct Member<
     S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
+    M: Material<S>,
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
-{
+    const D: usize,
+> {
     pub(super) site: Site<K, S, D>,
     /// The old arms.
     pub(super) r0: Arms<K, S, D>,
     pub(super) points: K::PerPoint<Point<S, M, K, C, D>>,
 }
 
-impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Member<S, M, K, C, D>
 {
     /// An element whose points have consecutive handles, of which the first is given.
     pub(super) fn new(

@@ -16,13 +16,13 @@ use crate::number::compact::compact;
 use crate::number::scalar::{Real, is_positive};
 
 /// A point, with everything that one step of the scheme `C` needs to remember of it.
-pub(crate) struct Point<S, M, K, C, const D: usize>
-where
+pub(crate) struct Point<
     S: Real,
     M: FreeEnergy<S>,
     K: Kinematics<S, D>,
     C: ElementScheme<S, M>,
-{
+    const D: usize,
+> {
     pub(super) scheme: C,
     /// Its handle.
     pub(super) element: Element,
@@ -64,12 +64,8 @@ where
     pub(super) single: C::AtPoint<MemoryAtPoint<S, M, K, D>>,
 }
 
-impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S>,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Point<S, M, K, C, D>
 {
     /// Number of variables.
     pub(super) const VARIABLES: usize = M::Variables::LEN;

@@ -7,15 +7,11 @@ use crate::element::group::element_group::ElementGroup;
 use crate::element::kinematics::{Arms, Ends, Kinematics};
 use crate::element::recount::Recount;
 use crate::element::state::State;
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, FreeEnergy, Material};
 use crate::number::scalar::Real;
 
-impl<S, M, K, C, const D: usize> ElementGroup<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    ElementGroup<S, M, K, C, D>
 {
     /// See [`Group::recount`](super::Group::recount).
     pub(super) fn recount_all(&self, ends: [&State<S>; 2], recount: &mut Recount<S>) {
@@ -58,12 +54,8 @@ fn change_between<K: Kinematics<S, D>, S: Real, const D: usize>(
     change
 }
 
-impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Point<S, M, K, C, D>
 {
     /// The change of its energy between two states, given its nodes.
     pub(super) fn balance_between(

@@ -8,7 +8,7 @@ use crate::element::error::StateError;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Ends, Kinematics, Measures};
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, FreeEnergy, Material};
 use crate::number::scalar::{Mask, Real, is_positive};
 
 /// Arms of an element at a trial.
@@ -30,12 +30,8 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> TrialArms<K, S, D> {
 /// Arms and measures of the configuration that a scheme looks at.
 pub(super) type Seen<K, S, const D: usize> = (Arms<K, S, D>, Measures<K, S, D>);
 
-impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Point<S, M, K, C, D>
 {
     /// Finds the measures of the trial state between old and new arms, its temperature if that is not an
     /// unknown, and what the form of the scheme needs besides.

@@ -17,12 +17,8 @@ pub(super) struct Found<S: Real, M: FreeEnergy<S>> {
     drag: Drag<M::Drag>,
 }
 
-impl<S, M, K, C, const D: usize> Point<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S>,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Point<S, M, K, C, D>
 {
     /// What has been found so far, if some numbers have settled. A single one is not asked any more.
     #[inline]

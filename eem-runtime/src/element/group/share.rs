@@ -5,7 +5,7 @@ use super::site::{Contact, Site};
 use crate::element::conjugates::ElementScheme;
 use crate::element::group::member::Member;
 use crate::element::kinematics::{Arms, Blocks, Kinematics, Points};
-use crate::material::free_energy::FreeEnergy;
+use crate::material::free_energy::Material;
 use crate::number::scalar::Real;
 
 /// What the points of an element add to the system of an iteration.
@@ -47,12 +47,8 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Share<K, S, D> {
     }
 }
 
-impl<S, M, K, C, const D: usize> Member<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: ElementScheme<S, M>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
+    Member<S, M, K, C, D>
 {
     /// Adds the share of the element to the entries of A and the rows of B.
     #[expect(

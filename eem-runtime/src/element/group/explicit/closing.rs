@@ -12,15 +12,10 @@ use crate::element::group::explicit::view::{ClosingView, StageRates, StageView};
 use crate::element::group::point::Point;
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::state::Energy;
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, Material};
 use crate::number::scalar::{Real, unless};
 
-impl<S, M, K, const D: usize> FreeGroup<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-{
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, M, K, D> {
     /// See [`ExplicitGroup::close`](super::ExplicitGroup::close).
     pub(super) fn close_all(&mut self, view: &mut ClosingView<'_, S>) -> Result<(), StateError> {
         let mut closed = self.closed.iter_mut();
@@ -100,12 +95,7 @@ where
     }
 }
 
-impl<S, M, K, const D: usize> Point<S, M, K, PointRule, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-{
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K, PointRule, D> {
     /// Finds temperature and energy with these arms.
     #[inline]
     fn close_at(

@@ -12,16 +12,11 @@ use crate::element::group::loose::LooseElements;
 use crate::element::group::view::Placed;
 use crate::element::kinematics::{Kinematics, QuadraticStrain};
 use crate::element::state::State;
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, Material};
 use crate::number::scalar::Real;
 
 /// Elements of the model `M` with the kinematics `K`. Their forces follow from the state alone.
-pub(crate) struct FreeGroup<S, M, K, const D: usize>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-{
+pub(crate) struct FreeGroup<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> {
     /// What they are in a state.
     pub(super) elements: ElementGroup<S, M, K, PointRule, D>,
     /// The component of each member.
@@ -32,12 +27,7 @@ where
     pub(super) closed: Vec<Closed<S, M, K, D>>,
 }
 
-impl<S, M, K, const D: usize> FreeGroup<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-{
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, M, K, D> {
     pub(crate) fn new(elements: LooseElements<S, M, K, D>, placed: Placed<'_>) -> Self {
         let elements = ElementGroup::new(PointRule::Variational, elements, placed);
         let points = elements.points().count();
@@ -50,11 +40,8 @@ where
     }
 }
 
-impl<S, M, K, const D: usize> ExplicitGroup<S, D> for FreeGroup<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: QuadraticStrain<S, D>,
+impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> ExplicitGroup<S, D>
+    for FreeGroup<S, M, K, D>
 {
     fn elements(&self) -> &dyn Elements<S, D> {
         &self.elements

@@ -11,28 +11,18 @@ use crate::element::group::explicit::group::FreeGroup;
 use crate::element::group::explicit::view::{StageRates, StageView};
 use crate::element::group::point::Point;
 use crate::element::kinematics::{Arms, Gradient, Kinematics, Measures};
-use crate::material::free_energy::{Array, FreeEnergy, Rates};
+use crate::material::free_energy::{Array, FreeEnergy, Material, Rates};
 use crate::number::scalar::{Mask, Real, is_positive};
 
 /// What the rates of a point follow from.
-pub(super) struct Found<'a, S, M, K, const D: usize>
-where
-    S: Real,
-    M: FreeEnergy<S>,
-    K: Kinematics<S, D>,
-{
+pub(super) struct Found<'a, S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {
     pub(super) theta: S,
     pub(super) rates: &'a Rates<M::Variables>,
     pub(super) viscosities: &'a M::Viscosities,
     pub(super) gradient: &'a Gradient<K, S, D>,
 }
 
-impl<S, M, K, const D: usize> FreeGroup<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-{
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, M, K, D> {
     /// See [`ExplicitGroup::rates`](super::ExplicitGroup::rates).
     pub(super) fn rates_of_all(
         &self,
@@ -91,12 +81,7 @@ pub(super) fn pull_nodes<K: Kinematics<S, D>, S: Real, const D: usize>(
     }
 }
 
-impl<S, M, K, const D: usize> Point<S, M, K, PointRule, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-{
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K, PointRule, D> {
     /// The variables at a stage with these measures.
     #[inline]
     pub(super) fn variables_at(

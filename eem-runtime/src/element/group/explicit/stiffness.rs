@@ -6,15 +6,10 @@ use crate::element::group::explicit::view::NodeStiffness;
 use crate::element::group::point::Point;
 use crate::element::kinematics::Kinematics;
 use crate::element::state::State;
-use crate::material::free_energy::FreeEnergy;
+use crate::material::free_energy::Material;
 use crate::number::scalar::Real;
 
-impl<S, M, K, const D: usize> FreeGroup<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-{
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, M, K, D> {
     /// See [`ExplicitGroup::stiffness`](super::ExplicitGroup::stiffness).
     #[cold]
     pub(super) fn stiffness_of_all(&self, state: &State<S>, see: &mut dyn FnMut(NodeStiffness<S>)) {
@@ -30,12 +25,7 @@ where
     }
 }
 
-impl<S, M, K, const D: usize> Point<S, M, K, PointRule, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-{
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K, PointRule, D> {
     /// `∂²e/∂λ² = ψ_λλ − ψ_λθ²/ψ_θθ` at constant entropy; the force itself acts across the element.
     fn stiffness_at(&self, x: &M::Variables, nodes: [usize; 2]) -> NodeStiffness<S> {
         let (gradient, hessian) = self.model.hessian(x);

@@ -5,7 +5,7 @@ use crate::element::error::StateError;
 use crate::element::group::explicit::view::UnkeptEntropy;
 use crate::element::group::point::Point;
 use crate::element::kinematics::Kinematics;
-use crate::material::free_energy::{FreeEnergy, Rates};
+use crate::material::free_energy::{FreeEnergy, Material, Rates};
 use crate::material::inversion::temperature_near;
 use crate::number::scalar::{Mask, Real, unless};
 
@@ -21,11 +21,7 @@ const LARGEST_CORRECTION: f64 = 0.25;
 const KEPT_ROUNDINGS: f64 = 3.0;
 
 /// The temperature of an entropy.
-pub(super) struct Settled<S, M, T>
-where
-    S: Real,
-    M: FreeEnergy<S>,
-{
+pub(super) struct Settled<S: Real, M: FreeEnergy<S>, T> {
     /// Where the model was evaluated last, and what was found there, K.
     pub(super) theta: S,
     pub(super) evaluated: (Rates<M::Variables>, T),
@@ -62,12 +58,7 @@ pub(crate) fn is_met<S: Real>(change: S, [capacity, bend]: [S; 2]) -> S::Mask {
     (bend * change * change).at_most(eighth * S::EPSILON * capacity)
 }
 
-impl<S, M, K, const D: usize> Point<S, M, K, PointRule, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-{
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Point<S, M, K, PointRule, D> {
     /// The temperature of an entropy near a guess by Newton's method in ln θ.
     ///
     /// Of several numbers each stops where it would alone, and waits for the others.

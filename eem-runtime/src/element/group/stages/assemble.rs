@@ -13,15 +13,11 @@ use crate::element::group::stages::stage_group::StageGroup;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Kinematics, add_blocks};
 use crate::element::tableau::{MOST_STAGES, Tableau};
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, Material};
 use crate::number::scalar::Real;
 
-impl<S, M, K, C, const D: usize> StageGroup<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: Source<S, M, K, D>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const D: usize>
+    StageGroup<S, M, K, C, D>
 {
     /// Eliminates the local unknowns at a trial that has been evaluated, and adds residual and tangent.
     pub(super) fn assemble_all(
@@ -75,12 +71,8 @@ struct Target<'a, K: Kinematics<S, D>, S: Real, const D: usize> {
     right: &'a mut [[S; 1]],
 }
 
-impl<S, M, K, C, const D: usize> StagePoint<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: Source<S, M, K, D>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const D: usize>
+    StagePoint<S, M, K, C, D>
 {
     /// The forces of all stages and their derivatives, with their directions held, and what heat from other elements
     /// does to them.

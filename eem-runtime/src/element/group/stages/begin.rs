@@ -8,15 +8,11 @@ use crate::element::group::begin::shorten;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::tableau::Tableau;
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, Material};
 use crate::number::scalar::Real;
 
-impl<S, M, K, C, const D: usize> StageMember<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: Source<S, M, K, D>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const D: usize>
+    StageMember<S, M, K, C, D>
 {
     pub(super) fn new(member: &StateMember<S, M, K, D>, rule: &Tableau) -> Self {
         let length = (1 + C::inputs_of(rule)) * unknowns::<S, M>(rule);

@@ -14,15 +14,11 @@ use crate::element::impulse::Impulses;
 use crate::element::kinematics::Kinematics;
 use crate::element::state::State;
 use crate::element::tally::Tally;
-use crate::material::free_energy::FreeEnergy;
+use crate::material::free_energy::Material;
 use crate::number::scalar::Real;
 
-impl<S, M, K, C, const D: usize> StageGroup<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: Source<S, M, K, D>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const D: usize>
+    StageGroup<S, M, K, C, D>
 {
     /// See [`Group::add_secant`](crate::element::group::Group::add_secant).
     pub(super) fn add_secant_all(

@@ -6,15 +6,11 @@ use super::source::Source;
 use crate::element::group::stages::stage_group::StageGroup;
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::tableau::{MOST_SETS, Tableau};
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, Material};
 use crate::number::scalar::Real;
 
-impl<S, M, K, C, const D: usize> StageGroup<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: Source<S, M, K, D>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const D: usize>
+    StageGroup<S, M, K, C, D>
 {
     /// See [`Group::correct`](crate::element::group::Group::correct).
     pub(super) fn correct_all(&mut self, solution: &[[S; 1]]) -> S {
@@ -37,12 +33,8 @@ where
     }
 }
 
-impl<S, M, K, C, const D: usize> StagePoint<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: Source<S, M, K, D>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const D: usize>
+    StagePoint<S, M, K, C, D>
 {
     /// The changes of the inputs that go with the global ones.
     fn find_inputs(

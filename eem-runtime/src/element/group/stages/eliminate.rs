@@ -8,15 +8,11 @@ use crate::element::error::StateError;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::Kinematics;
 use crate::element::tableau::Tableau;
-use crate::material::free_energy::FreeEnergy;
+use crate::material::free_energy::Material;
 use crate::number::scalar::Real;
 
-impl<S, M, K, C, const D: usize> StagePoint<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: Source<S, M, K, D>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const D: usize>
+    StagePoint<S, M, K, C, D>
 {
     /// Eliminates the internal variables of a point whose stages have been evaluated.
     pub(super) fn condense(

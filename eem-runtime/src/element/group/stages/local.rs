@@ -6,7 +6,7 @@
 use super::member::{StagePoint, unknowns};
 use crate::element::kinematics::Kinematics;
 use crate::element::tableau::Tableau;
-use crate::material::free_energy::FreeEnergy;
+use crate::material::free_energy::{FreeEnergy, Material};
 use crate::number::scalar::Real;
 
 /// Working memory for the local systems of one group.
@@ -60,12 +60,7 @@ impl<S: Real> LocalStages<S> {
     }
 }
 
-impl<S, M, K, C, const D: usize> StagePoint<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-{
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C, const D: usize> StagePoint<S, M, K, C, D> {
     /// Eliminates the local unknowns from a quantity whose derivatives by them and by the inputs are given.
     pub(super) fn substitute(&self, local: &mut LocalStages<S>) {
         if local.by_unknown.is_empty() {

@@ -9,7 +9,7 @@ use crate::element::group::site::Contact;
 use crate::element::group::view::Trial;
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::tableau::{MOST_SETS, MOST_STAGES, Tableau};
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, FreeEnergy, Material};
 use crate::number::scalar::Real;
 
 /// The same element in a state, apart from any step.
@@ -19,13 +19,13 @@ pub(super) type StateMember<S, M, K, const D: usize> = Member<S, M, K, PointRule
 pub(super) type StatePoint<S, M, K, const D: usize> = Point<S, M, K, PointRule, D>;
 
 /// What one step needs to remember of an element.
-pub(crate) struct StageMember<S, M, K, C, const D: usize>
-where
+pub(crate) struct StageMember<
     S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
+    M: Material<S>,
     K: Kinematics<S, D>,
     C: Send + Sync + 'static,
-{
+    const D: usize,
+> {
     pub(super) site: StageSite<K, S, D>,
     /// The old arms, m.
     pub(super) r0: Arms<K, S, D>,
@@ -34,12 +34,7 @@ where
 }
 
 /// What one step needs to remember of a point of an element, with its source of conjugates.
-pub(crate) struct StagePoint<S, M, K, C, const D: usize>
-where
-    S: Real,
-    M: FreeEnergy<S>,
-    K: Kinematics<S, D>,
-{
+pub(crate) struct StagePoint<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C, const D: usize> {
     pub(super) kinematics: K,
     /// Where its seen temperatures are, if it conducts heat to others.
     pub(super) contacts: Option<PerPair<Contact<K, S, D>>>,
@@ -81,12 +76,8 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> StageArms<K, S, D> {
     }
 }
 
-impl<S, M, K, C, const D: usize> StageMember<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: Send + Sync + 'static,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Send + Sync + 'static, const D: usize>
+    StageMember<S, M, K, C, D>
 {
     /// Its arms at a trial.
     pub(super) fn arms(&self, rule: &Tableau, trial: &Trial<S, D>) -> StageArms<K, S, D> {

@@ -39,18 +39,13 @@ use crate::element::recount::Recount;
 use crate::element::state::State;
 use crate::element::tableau::{MOST_POINTS, MOST_SETS, MOST_STAGES, Tableau};
 use crate::element::tally::Tally;
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, FreeEnergy, Material};
 use crate::number::scalar::Real;
 use drag::Drag;
 use vector::{Matrix, Vector};
 
 /// The path of a point through a step, and what is projected from it.
-pub(crate) struct Projections<S, M, K, const D: usize>
-where
-    S: Real,
-    M: FreeEnergy<S>,
-    K: QuadraticStrain<S, D>,
-{
+pub(crate) struct Projections<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> {
     /// `y⁰ = (C, γ…, s)`, and what the discrete derivatives need of `(π, γ, θ)⁰`.
     old: Vector<S, M, K, D>,
     old_form: M::TemperatureFormOld,
@@ -95,11 +90,8 @@ pub(crate) struct Directions<K: QuadraticStrain<S, D>, S: Real, const D: usize> 
 pub(super) type ProjectedPoint<S, M, K, const D: usize> =
     StagePoint<S, M, K, Projections<S, M, K, D>, D>;
 
-impl<S, M, K, const D: usize> Source<S, M, K, D> for Projections<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: QuadraticStrain<S, D>,
+impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S, M, K, D>
+    for Projections<S, M, K, D>
 {
     const FORCES: usize = Vector::<S, M, K, D>::STRAINS;
 
@@ -364,12 +356,7 @@ where
     }
 }
 
-impl<S, M, K, const D: usize> ProjectedPoint<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: QuadraticStrain<S, D>,
-{
+impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> ProjectedPoint<S, M, K, D> {
     /// Θ of a stage, K; zero without temperature.
     fn mean_temperature(&self, stage: usize) -> S {
         if M::THERMAL {

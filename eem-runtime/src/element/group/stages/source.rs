@@ -9,7 +9,7 @@ use crate::element::recount::Recount;
 use crate::element::state::State;
 use crate::element::tableau::{MOST_SETS, Tableau};
 use crate::element::tally::Tally;
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, Material};
 use crate::number::scalar::Real;
 
 /// What one step needs to remember of a point besides what every rule does, and what follows from it: forces,
@@ -17,7 +17,7 @@ use crate::number::scalar::Real;
 pub(crate) trait Source<S, M, K, const D: usize>: Sized + Send + Sync + 'static
 where
     S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
+    M: Material<S>,
     K: Kinematics<S, D>,
 {
     /// How many forces a stage has.

@@ -18,17 +18,17 @@ use crate::element::recount::Recount;
 use crate::element::state::State;
 use crate::element::tableau::Tableau;
 use crate::element::tally::Tally;
-use crate::material::free_energy::FreeEnergy;
+use crate::material::free_energy::Material;
 use crate::number::scalar::Real;
 
 /// Elements of the model `M` with the kinematics `K`.
-pub(crate) struct StageGroup<S, M, K, C, const D: usize>
-where
+pub(crate) struct StageGroup<
     S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
+    M: Material<S>,
     K: Kinematics<S, D>,
     C: Source<S, M, K, D>,
-{
+    const D: usize,
+> {
     pub(super) rule: &'static Tableau,
     /// What they are in a state.
     pub(super) elements: ElementGroup<S, M, K, PointRule, D>,
@@ -38,12 +38,8 @@ where
     pub(super) forces: Box<StageForces<K, S, D>>,
 }
 
-impl<S, M, K, C, const D: usize> StageGroup<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-    C: Source<S, M, K, D>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const D: usize>
+    StageGroup<S, M, K, C, D>
 {
     pub(crate) fn new(
         rule: &'static Tableau,
@@ -63,12 +59,8 @@ where
     }
 }
 
-impl<S, M, K, C, const D: usize> Group<S, D> for StageGroup<S, M, K, C, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: QuadraticStrain<S, D>,
-    C: Source<S, M, K, D>,
+impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: Source<S, M, K, D>, const D: usize>
+    Group<S, D> for StageGroup<S, M, K, C, D>
 {
     fn elements(&self) -> &dyn Elements<S, D> {
         &self.elements

@@ -17,7 +17,7 @@ use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics, Weights};
 use crate::element::state::State;
 use crate::element::tableau::{MOST_SETS, MOST_STAGES, Tableau};
 use crate::element::tally::Tally;
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, FreeEnergy, Material};
 use crate::number::scalar::Real;
 use at_stage::AtStage;
 
@@ -40,11 +40,8 @@ pub(crate) struct Values<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D
 /// A point with such conjugates.
 pub(super) type ValuesPoint<S, M, K, const D: usize> = StagePoint<S, M, K, Values<S, M, K, D>, D>;
 
-impl<S, M, K, const D: usize> Source<S, M, K, D> for Values<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, K, D>
+    for Values<S, M, K, D>
 {
     const FORCES: usize = M::MEASURES;
 
@@ -260,12 +257,7 @@ where
     }
 }
 
-impl<S, M, K, const D: usize> ValuesPoint<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-{
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ValuesPoint<S, M, K, D> {
     /// The temperature of a stage, K; only for elements that have one.
     fn temperature(&self, stage: usize) -> S {
         self.own.x[stage][M::Variables::LEN - 1]

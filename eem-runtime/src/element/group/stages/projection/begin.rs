@@ -10,15 +10,10 @@ use crate::element::group::stages::member::StatePoint;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, QuadraticStrain};
 use crate::element::tableau::{MOST_POINTS, MOST_STAGES};
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, FreeEnergy, Material};
 use crate::number::scalar::Real;
 
-impl<S, M, K, const D: usize> ProjectedPoint<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: QuadraticStrain<S, D>,
-{
+impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> ProjectedPoint<S, M, K, D> {
     /// Takes y⁰ from the old state, where all increments are zero.
     pub(super) fn begin_path(
         &mut self,

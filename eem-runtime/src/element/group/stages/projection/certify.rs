@@ -10,15 +10,10 @@ use crate::element::recount::Recount;
 use crate::element::state::State;
 use crate::element::tableau::Tableau;
 use crate::element::tally::{Care, Tally};
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, Material};
 use crate::number::scalar::Real;
 
-impl<S, M, K, const D: usize> ProjectedPoint<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: QuadraticStrain<S, D>,
-{
+impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> ProjectedPoint<S, M, K, D> {
     /// Counts its forces, and judges the balances of its internal variables, given the magnitude of the
     /// terms of its energy, J.
     pub(super) fn certify(

@@ -17,18 +17,13 @@ use crate::element::kinematics::QuadraticStrain;
 use crate::element::state::State;
 use crate::element::tableau::{MOST_STAGES, Tableau};
 use crate::element::tally::Tally;
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, Material};
 use crate::number::scalar::Real;
 
 /// What a step has given to an element, stage by stage.
 pub(super) type Booked<S> = [Received<S>; MOST_STAGES];
 
-impl<S, M, K, const D: usize> ProjectedPoint<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: QuadraticStrain<S, D>,
-{
+impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> ProjectedPoint<S, M, K, D> {
     /// Books the increments of the internal variables and of the reservoirs' entropies.
     pub(super) fn book(
         &self,

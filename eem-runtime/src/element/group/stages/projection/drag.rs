@@ -13,7 +13,7 @@ use crate::element::group::stages::local::LocalStages;
 use crate::element::group::stages::member::StatePoint;
 use crate::element::kinematics::{Measures, PerStrain, QuadraticStrain};
 use crate::element::tableau::{MOST_SETS, Tableau};
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, Material};
 use crate::number::scalar::Real;
 
 /// What the dashpot turns into heat at a stage, `f ν`, J, and its derivatives by the increments of the strain, with the
@@ -36,12 +36,7 @@ impl<S: Real, K: QuadraticStrain<S, D>, const D: usize> Drag<S, K, D> {
     }
 }
 
-impl<S, M, K, const D: usize> ProjectedPoint<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: QuadraticStrain<S, D>,
-{
+impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> ProjectedPoint<S, M, K, D> {
     /// Adds the forces of the dashpot to conjugates that are exact without them.
     pub(super) fn add_drag(
         &mut self,

@@ -4,7 +4,7 @@ use super::ProjectedPoint;
 use super::vector::Vector;
 use crate::element::kinematics::QuadraticStrain;
 use crate::element::tableau::{MOST_STAGES, Tableau};
-use crate::material::free_energy::FreeEnergy;
+use crate::material::free_energy::Material;
 use crate::number::scalar::Real;
 
 /// Roundings of the terms of `Δê − Σ b a·R` below which it is nothing else: a product and two sums of a term, in
@@ -12,12 +12,7 @@ use crate::number::scalar::Real;
 /// noise divided by small increments.
 const DEFECT_ROUNDINGS: f64 = 8.0;
 
-impl<S, M, K, const D: usize> ProjectedPoint<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: QuadraticStrain<S, D>,
-{
+impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> ProjectedPoint<S, M, K, D> {
     /// Corrects conjugates that have been projected, given `∇ê` at the end and the discrete derivatives ē.
     ///
     /// ```text

@@ -18,15 +18,10 @@ use crate::element::group::stages::member::StatePoint;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::QuadraticStrain;
 use crate::element::tableau::{MOST_STAGES, Tableau};
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, Material};
 use crate::number::scalar::Real;
 
-impl<S, M, K, const D: usize> ProjectedPoint<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: QuadraticStrain<S, D>,
-{
+impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> ProjectedPoint<S, M, K, D> {
     /// Writes the equations, all in J; the unknowns are in their units.
     pub(super) fn write_path(
         &mut self,

@@ -11,18 +11,13 @@ use crate::element::group::stages::member::{StageArms, StatePoint};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Measures, PerStrain, QuadraticStrain};
 use crate::element::tableau::{MOST_POINTS, MOST_STAGES, Path, Tableau};
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, FreeEnergy, Material};
 use crate::number::scalar::{Real, is_positive};
 
 /// `y = (C, γ, s)` and `x = (π, γ, θ)` somewhere along a path.
 type PathPoint<S, M, K, const D: usize> = (Vector<S, M, K, D>, <M as FreeEnergy<S>>::Variables);
 
-impl<S, M, K, const D: usize> ProjectedPoint<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: QuadraticStrain<S, D>,
-{
+impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> ProjectedPoint<S, M, K, D> {
     /// Arms, their motion and the increments of C at the stages.
     pub(super) fn move_along(
         &mut self,

@@ -11,7 +11,7 @@ use super::ValuesPoint;
 use crate::element::group::stages::local::{Column, LocalStages};
 use crate::element::kinematics::Kinematics;
 use crate::element::tableau::{EntropyBalance, Tableau};
-use crate::material::free_energy::{Array, FreeEnergy};
+use crate::material::free_energy::{Array, FreeEnergy, Material};
 use crate::number::scalar::Real;
 
 /// Sorts the derivative of a quantity of a stage by `x` into those by inputs and by unknowns.
@@ -39,12 +39,7 @@ fn sort<S: Real, M: FreeEnergy<S>>(
     }
 }
 
-impl<S, M, K, const D: usize> ValuesPoint<S, M, K, D>
-where
-    S: Real,
-    M: FreeEnergy<S> + Send + Sync + 'static,
-    K: Kinematics<S, D>,
-{
+impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ValuesPoint<S, M, K, D> {
     /// Writes the equations of stages that have been evaluated.
     pub(super) fn write_stages(&mut self, rule: &Tableau, local: &mut LocalStages<S>, h: S) {
         let unknowns = local.unknowns();
