@@ -92,11 +92,11 @@ pub(super) const PORTABLE: [Stored; 5] = [
     },
     Stored {
         scheme: Scheme::Variational4,
-        single: 0x5a7e_ea34_8d73_b33d,
+        single: 0xda22_6ddc_b6f7_e031,
         double: [
-            0x999c_f404_0181_aef9,
-            0x6ade_4ebd_c191_d27c,
-            0x92f2_aca9_4f74_2f3c,
+            0x354e_431a_bcf7_8216,
+            0x2329_3e12_f551_c0eb,
+            0x5089_edde_d08f_affc,
         ],
     },
     Stored {

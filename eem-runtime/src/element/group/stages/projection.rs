@@ -21,6 +21,7 @@ mod certify;
 mod closing;
 mod derivatives;
 mod drag;
+mod drag_heat;
 mod exact;
 mod local;
 mod path;
@@ -41,7 +42,7 @@ use crate::element::tableau::{MOST_POINTS, MOST_SETS, MOST_STAGES, Tableau};
 use crate::element::tally::Tally;
 use crate::material::free_energy::{Array, FreeEnergy, Material};
 use crate::number::scalar::Real;
-use drag::Drag;
+use drag_heat::DragHeat;
 use vector::{Matrix, Vector};
 
 /// The path of a point through a step, and what is projected from it.
@@ -72,7 +73,7 @@ pub(crate) struct Projections<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D
     resolution: [Vector<S, M, K, D>; MOST_STAGES],
     /// `η_k` and `dη_k/dθ` at `Θ_i`.
     viscosities: [(M::Viscosities, M::Viscosities); MOST_STAGES],
-    drags: [Drag<S, K, D>; MOST_STAGES],
+    drags: [DragHeat<S, K, D>; MOST_STAGES],
     /// Heat from other elements at the stages, W.
     received: [S; MOST_STAGES],
     /// `d_i` and `h ḋ_i`, m.
@@ -117,7 +118,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
             by_rates: Box::new([[Matrix::zero(); MOST_SETS]; MOST_SETS]),
             resolution: [zeros; MOST_STAGES],
             viscosities: [(viscosities, viscosities); MOST_STAGES],
-            drags: [(); MOST_STAGES].map(|()| Drag::zero()),
+            drags: [(); MOST_STAGES].map(|()| DragHeat::zero()),
             received: [S::zero(); MOST_STAGES],
             arms: [nowhere; MOST_STAGES],
             motions: [nowhere; MOST_STAGES],

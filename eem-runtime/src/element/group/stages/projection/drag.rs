@@ -7,34 +7,15 @@
 //! with the strain of the path, so that its power is what the nodes lose.
 
 use super::ProjectedPoint;
+use super::drag_heat::DragHeat;
 use super::vector::Vector;
 use crate::element::error::StateError;
 use crate::element::group::stages::local::LocalStages;
 use crate::element::group::stages::member::StatePoint;
 use crate::element::kinematics::{Measures, PerStrain, QuadraticStrain};
-use crate::element::tableau::{MOST_SETS, Tableau};
+use crate::element::tableau::Tableau;
 use crate::material::free_energy::{Array, Material};
 use crate::number::scalar::Real;
-
-/// What the dashpot turns into heat at a stage, `f ν`, J, and its derivatives by the increments of the strain, with the
-/// temperature held, and by the temperature.
-#[derive(Debug)]
-pub(super) struct Drag<S: Real, K: QuadraticStrain<S, D>, const D: usize> {
-    pub(super) heat: S,
-    by_strain: [PerStrain<K, S, D>; MOST_SETS],
-    pub(super) by_theta: S,
-}
-
-impl<S: Real, K: QuadraticStrain<S, D>, const D: usize> Drag<S, K, D> {
-    /// None.
-    pub(super) fn zero() -> Self {
-        Self {
-            heat: S::zero(),
-            by_strain: [PerStrain::<K, S, D>::filled(S::zero()); MOST_SETS],
-            by_theta: S::zero(),
-        }
-    }
-}
 
 impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> ProjectedPoint<S, M, K, D> {
     /// Adds the forces of the dashpot to conjugates that are exact without them.
@@ -50,7 +31,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecte
         for stage in 0..rule.stages() {
             in_state.find_drag_viscosity(self.mean_temperature(stage))?;
             let (viscosities, slopes) = in_state.drag.viscosity;
-            self.own.drags[stage] = Drag::zero();
+            self.own.drags[stage] = DragHeat::zero();
             for a in 0..M::Drag::LEN {
                 let per_step = [viscosities[a] * per_step, slopes[a] * per_step];
                 self.add_drag_of(in_state, (rule, stage), a, per_step)?;
