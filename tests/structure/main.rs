@@ -11,6 +11,7 @@ mod examples;
 mod followed;
 mod imports;
 mod sources;
+mod stations;
 
 use circles::circles;
 use imports::imports;

@@ -7,7 +7,7 @@
 //! begin      take over the old state, once                           (begin)
 //! evaluate   response at the trial                                  (evaluate, respond, pose, arms)
 //!            local unknowns eliminated                              (local, eliminate)
-//!            contributions written to their places                  (assemble, scatter, site)
+//!            contributions written to their places                  (assemble, share, site)
 //! correct    local unknowns from the global solution                (correct, point)
 //! close      impulses, what is booked, and the new state            (closing, settle, certify)
 //! ```
@@ -38,7 +38,6 @@ mod point;
 mod pose;
 mod recounting;
 mod respond;
-mod scatter;
 mod settle;
 mod settled;
 mod share;

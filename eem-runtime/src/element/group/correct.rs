@@ -2,7 +2,7 @@
 
 use super::arms::along;
 use super::point::Point;
-use super::scatter::run;
+use super::share::run;
 use super::site::{Contact, Site};
 use crate::element::conjugates::ElementScheme;
 use crate::element::group::element_group::ElementGroup;
