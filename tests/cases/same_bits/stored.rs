@@ -43,11 +43,11 @@ pub(super) const GLIBC: [Stored; 5] = [
     },
     Stored {
         scheme: Scheme::Variational4,
-        single: 0x88c5_f128_5bea_af80,
+        single: 0xc1fd_02c3_ef57_c5c4,
         double: [
-            0x999c_f404_0181_aef9,
-            0x8237_1296_469f_9538,
-            0x14d2_76ce_cf5b_6b44,
+            0x176e_e49e_3712_4b69,
+            0xf5d8_a767_c325_47ac,
+            0xe40e_12b9_ccbf_aa08,
         ],
     },
     Stored {
