@@ -19,6 +19,7 @@ extern crate self as eem;
 
 pub use eem_derive::FreeEnergy;
 pub use eem_runtime::*;
+pub use eem_study::*;
 pub mod materials;
 /// Parameter sweeps in many processes; see also [`sweeps`].
 #[cfg(feature = "sweep")]

@@ -3,7 +3,7 @@
 //! Each folder uses only those before it:
 //!
 //! ```text
-//! number ─▶ algebra ─▶ material ─▶ element ─▶ scene ─▶ step ─▶ run
+//! algebra ─▶ element ─▶ scene ─▶ step ─▶ run
 //! ```
 //!
 //! | symbol | name | unit | meaning |
@@ -32,7 +32,7 @@
 //! | solve the linear systems differently | `algebra/system.rs`; `algebra/lu` for small ones; `step/solver/kept_factors.rs` for factors that are reused |
 //! | reject what does not fit in memory | `algebra/memory.rs`, `step/systems.rs` |
 //! | add a strain measure | `strain.rs`, `between.rs`, `plane.rs`, `space.rs`, `stiffness.rs` in `element/kinematics`; its role in `eem-language` |
-//! | change viscous strain tensors | `joint.rs`, `component_energy.rs` in `material` |
+//! | change viscous strain tensors | `joint.rs`, `component_energy.rs` in `eem-material` |
 //! | change the dashpot in parallel with a spring | `element/group/kelvin_voigt.rs`; `Scheme::takes_drag` |
 //! | add a shape of cell | a file in `element/kinematics/shape` |
 //! | change solids, meshes and their checks | `mesh`, `bulk.rs`, `body.rs`, `meshed_solid.rs`, `body_loads.rs`, `body_heat.rs`, `cell.rs`, `gmsh.rs` in `scene` |
@@ -40,33 +40,28 @@
 //! | add a conserved quantity | `run/ledger.rs` |
 //! | record, stop or resume a run | `run/recorder`, `run/vtk.rs`, `run/checkpoint.rs`; `run.rs` and `event` in `run/simulation` |
 //! | reject a scene, state or checkpoint | `scene/check.rs`, `scene/start.rs`, `run/simulation/audit.rs`, `element/group/audit.rs`; messages in each `error.rs` |
-//! | run many scenes at once | `run/ensemble`, `number/lanes.rs`, `element/group/settled.rs` |
-//! | compare schemes differently | `run/study`: `reference.rs`, `statement.rs`, `advice.rs` |
+//! | run many scenes at once | `run/ensemble`, `number/lanes.rs` in `eem-material`, `element/group/settled.rs` |
 //! | use more threads in one scene | `algebra/threads.rs`, `element/group/evaluate.rs`; `eem-sparse` for elimination |
-//! | check a material before use | `material/domain` |
+//! | check a material before use | `domain` in `eem-material` |
 
 mod algebra;
 mod element;
-mod material;
-mod number;
 mod run;
 mod scene;
 mod step;
+
+#[doc(inline)]
+pub use eem_material::{
+    Array, Caloric, ComponentEnergy, Describe, Description, Discord, Domain, DomainError,
+    DomainPoint, DomainReport, Entry, FreeEnergy, Inversion, InversionError, Joint, JointEnergy,
+    Least, Mask, Material, Rates, Real, Scalar, check_domain, describe, invert, kernel,
+};
 
 pub use algebra::memory::TooLarge;
 pub use element::error::StateError;
 pub use element::handle::{Element, HeatPartner, Node, Reservoir};
 pub use element::kinematics;
 pub use element::kinematics::{SolidState, Strain, StrainEnergy};
-pub use material::component_energy::ComponentEnergy;
-pub use material::describe;
-pub use material::describe::{Describe, Description};
-pub use material::domain::{Domain, DomainError, DomainPoint, DomainReport, Least, check_domain};
-pub use material::free_energy::{Array, Caloric, Entry, FreeEnergy, Material, Rates};
-pub use material::inversion::{Inversion, InversionError, invert};
-pub use material::joint::{Joint, JointEnergy};
-pub use number::kernel;
-pub use number::scalar::{Discord, Mask, Real, Scalar};
 pub use run::checkpoint::{Checkpoint, RestoreError};
 pub use run::ensemble::{Ensemble, Experiment, MemberError, MemberFailure, Members, Outputs};
 pub use run::ledger::Ledger;
@@ -76,14 +71,6 @@ pub use run::simulation::event::Event;
 pub use run::simulation::generic::Generic;
 pub use run::simulation::linearize::StepTangent;
 pub use run::simulation::run::RunEnd;
-pub use run::study::Study;
-pub use run::study::advice::{Advice, Recommendation};
-pub use run::study::error::StudyError;
-pub use run::study::quantity::{EndState, StateQuantity};
-pub use run::study::reference::{ReferenceEnd, StudyReference};
-pub use run::study::report::{StudyReport, StudyRow};
-pub use run::study::setting::{Precision, Setting, StepChoice};
-pub use run::study::statement::Statement;
 #[cfg(feature = "vtk")]
 pub use run::vtk::VtkSeries;
 pub use scene::Scene;

@@ -33,10 +33,10 @@ use crate::element::handle::{Element, Handle, HeatPartner, Kind, Node, Reservoir
 use crate::element::kinematics::Stretch;
 use crate::element::layout::Layout;
 use crate::element::lineage::{Counts, Lineage};
-use crate::material::free_energy::{FreeEnergy, Material};
-use crate::number::scalar::Real;
 use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
+use eem_material::free_energy::{FreeEnergy, Material};
+use eem_material::number::scalar::Real;
 use entry::{ElementEntry, NodeEntry};
 
 /// A scene in `D` dimensions: masses, anchors, springs, solids, reservoirs and loads.

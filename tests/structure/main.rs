@@ -21,9 +21,7 @@ use sources::Sources;
 const FILE: usize = 500;
 
 /// The folders of `eem-runtime`, each of which imports only from those before it.
-const FOLDERS: [&str; 8] = [
-    "number", "algebra", "material", "element", "scene", "step", "run", "lib",
-];
+const FOLDERS: [&str; 6] = ["algebra", "element", "scene", "step", "run", "lib"];
 
 /// What is said about one crate of the workspace.
 struct Crate {
@@ -33,7 +31,15 @@ struct Crate {
 }
 
 /// The crates that are held to this.
-const CRATES: [Crate; 5] = [
+const CRATES: [Crate; 7] = [
+    Crate {
+        name: "eem-study",
+        allowed: &[],
+    },
+    Crate {
+        name: "eem-material",
+        allowed: &[],
+    },
     Crate {
         name: "eem-sparse",
         allowed: &[],

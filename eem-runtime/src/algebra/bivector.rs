@@ -4,7 +4,7 @@
 //! the plane, three in space (the components x, y and z of `r × p` are those of (1, 2), (2, 0) and (0, 1)), six in
 //! four dimensions.
 
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 /// A bivector. Only the entries above the diagonal are used.
 #[derive(Clone, Copy, Debug, PartialEq)]

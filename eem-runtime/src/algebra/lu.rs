@@ -8,7 +8,7 @@ mod few;
 mod fixed;
 mod singular;
 
-use crate::number::scalar::{Discord, Mask, Real};
+use eem_material::number::scalar::{Discord, Mask, Real};
 pub(crate) use few::{solve_one, solve_two};
 pub(crate) use fixed::solve_fixed;
 pub(crate) use singular::Singular;

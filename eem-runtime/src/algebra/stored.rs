@@ -4,7 +4,7 @@ use core::marker::PhantomData;
 
 use eem_sparse::Precision;
 
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 /// The numbers of a scene, as the sparse elimination reads and writes them.
 #[derive(Clone, Copy)]

@@ -24,7 +24,7 @@ use crate::algebra::memory::{MemoryLimit, TooLarge, bytes};
 use crate::algebra::pattern::Pattern;
 #[cfg(feature = "sparse")]
 use crate::algebra::stored::Stored;
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 /// The most unknowns for which the elimination is compiled with their number.
 pub(crate) const MOST_FIXED: usize = 12;

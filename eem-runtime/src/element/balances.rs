@@ -6,7 +6,7 @@
 use super::conduction::{Conduction, Exchange, HeatFlow, Partner};
 use super::state::State;
 use super::tally::Tally;
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 /// Where the flows of a step are booked.
 pub(crate) struct Balances<'a, S: Real> {

@@ -2,9 +2,9 @@
 
 use crate::element::handle::{Element, HeatPartner};
 use crate::element::layout::Layout;
-use crate::number::compact::compact;
-use crate::number::compensated::Compensated;
-use crate::number::scalar::Real;
+use eem_material::number::compact::compact;
+use eem_material::number::compensated::Compensated;
+use eem_material::number::scalar::Real;
 
 /// The far end of a path of heat.
 #[derive(Clone, Copy, Debug)]

@@ -3,8 +3,8 @@
 use thiserror::Error;
 
 use crate::element::handle::{Element, Node};
-use crate::material::inversion::InversionError;
-use crate::number::readable::Readable;
+use eem_material::inversion::InversionError;
+use eem_material::number::readable::Readable;
 
 /// Why an element cannot have a state.
 #[derive(Clone, Debug, PartialEq, Error)]

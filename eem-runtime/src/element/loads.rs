@@ -1,7 +1,7 @@
 //! What acts during one step: forces, moved anchors, prescribed temperatures.
 
 use crate::element::handle::Node;
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 /// A prescribed temperature during one step.
 #[derive(Clone, Copy, Debug)]

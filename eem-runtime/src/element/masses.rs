@@ -1,7 +1,7 @@
 //! The masses of the nodes, of which anchors have none, and those of solids, which couple nodes.
 
-use crate::number::compact::compact;
-use crate::number::scalar::{Mask, Real};
+use eem_material::number::compact::compact;
+use eem_material::number::scalar::{Mask, Real};
 
 /// The mass matrix, a number for every pair of nodes, kg.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! The energies of the elements, counted anew where the balance of a scene does not close.
 
 use crate::element::handle::Element;
-use crate::number::scalar::{Mask, Real};
+use eem_material::number::scalar::{Mask, Real};
 
 /// The energies of the elements counted anew, when the balance of a scene does not close.
 ///

@@ -1,10 +1,10 @@
 //! The state of a scene: everything a step changes, and nothing else.
 
 use crate::element::masses::Masses;
-use crate::material::free_energy::Caloric;
-use crate::number::compensated::{Compensated, Sum};
-use crate::number::digest::Digest;
-use crate::number::scalar::Real;
+use eem_material::free_energy::Caloric;
+use eem_material::number::compensated::{Compensated, Sum};
+use eem_material::number::digest::Digest;
+use eem_material::number::scalar::Real;
 
 /// Positions, momenta, viscous stretches, entropies and what has been booked.
 ///

@@ -1,6 +1,6 @@
 //! What the elements and the paths of heat of a step contribute to its certificate.
 
-use crate::number::scalar::{Mask, Real};
+use eem_material::number::scalar::{Mask, Real};
 
 /// Roundings of the amplitude that a law may be off by.
 pub(crate) const ROUNDINGS: f64 = 64.0;

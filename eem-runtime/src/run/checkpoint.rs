@@ -11,12 +11,12 @@ mod scheme_name;
 mod seals;
 
 use crate::element::state::State;
-use crate::number::compensated::{Compensated, Sum};
-use crate::number::scalar::{Mask, Real, is_positive};
 use crate::step::explicit::SavedExplicit;
 use crate::step::newton::NewtonSettings;
 use crate::step::scheme::Scheme;
 use crate::step::solver::SavedPast;
+use eem_material::number::compensated::{Compensated, Sum};
+use eem_material::number::scalar::{Mask, Real, is_positive};
 
 pub(crate) use choice::SavedChoice;
 pub(crate) use control::SavedControl;

@@ -9,12 +9,12 @@ mod threads;
 use core::fmt;
 use core::ops::ControlFlow;
 
-use crate::number::scalar::Real;
 use crate::run::simulation::Simulation;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::step::newton::NewtonSettings;
 use crate::step::scheme::Scheme;
+use eem_material::number::scalar::Real;
 
 pub use error::{MemberError, MemberFailure};
 pub use experiment::{Experiment, Members, Outputs};

@@ -12,8 +12,8 @@ use nalgebra::SVector;
 use crate::element::group::{ElementTotals, Elements};
 use crate::element::masses::Masses;
 use crate::element::state::State;
-use crate::number::compensated::Total;
-use crate::number::scalar::Real;
+use eem_material::number::compensated::Total;
+use eem_material::number::scalar::Real;
 
 /// The balance sheet of a scene.
 ///
@@ -97,7 +97,7 @@ impl<const D: usize, S: Real> Ledger<D, S> {
         for group in groups {
             group.add_totals(state, &mut totals);
         }
-        let (mut heat, mut reservoir_entropy) = (Total::new(), Total::new());
+        let (mut heat, mut reservoir_entropy) = (Total::default(), Total::default());
         for (index, &theta) in reservoirs.iter().enumerate() {
             let received = state.reservoir_entropies.sum(index);
             heat.add(theta * received.value);
@@ -140,7 +140,7 @@ impl<const D: usize, S: Real> Ledger<D, S> {
 
 /// `Σ p·v/2`, J, which is `Σ p²/2m` where masses do not couple nodes.
 fn kinetic_energy<S: Real, const D: usize>(state: &State<S>, masses: &Masses<S>) -> S {
-    let mut sum = Total::new();
+    let mut sum = Total::default();
     let momenta = state.momenta.values();
     if masses.are_coupled() {
         let half = S::from_f64(0.5);
@@ -162,7 +162,7 @@ fn potential_energy<S: Real, const D: usize>(
     masses: &Masses<S>,
     gravity: &SVector<S, D>,
 ) -> S {
-    let mut sum = Total::new();
+    let mut sum = Total::default();
     let positions = state.positions.values().chunks_exact(D);
     for (q, mass) in positions.zip(masses.weights()) {
         for (&coordinate, &component) in q.iter().zip(gravity.iter()) {
@@ -187,7 +187,7 @@ fn angular_momentum<S: Real, const D: usize>(
         (Some((node, _)), None) => Some(&positions[node * D..(node + 1) * D]),
         _ => None,
     };
-    let mut sums = [Total::new(), Total::new(), Total::new()];
+    let mut sums = [Total::default(), Total::default(), Total::default()];
     for (q, p) in positions
         .chunks_exact(D)
         .zip(state.momenta.values().chunks_exact(D))

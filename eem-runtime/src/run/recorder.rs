@@ -9,10 +9,10 @@ use core::ops::ControlFlow;
 use thiserror::Error;
 
 use crate::element::handle::SceneId;
-use crate::number::scalar::Real;
 use crate::run::simulation::Simulation;
 use crate::scene::error::SceneError;
 use crate::step::newton::StepReport;
+use eem_material::number::scalar::Real;
 
 pub use quantity::{CustomQuantity, Quantity};
 

@@ -36,7 +36,6 @@ use crate::element::layout::{Layout, Shape};
 use crate::element::lineage::Lineage;
 use crate::element::masses::Masses;
 use crate::element::state::State;
-use crate::number::scalar::Real;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
@@ -51,6 +50,7 @@ use crate::step::solver::Effort;
 use automatic_memory::Automatic;
 use check::{check_all, needs_implicit};
 use control_memory::Control;
+use eem_material::number::scalar::Real;
 use start::{begin_groups, initial_state, places_in, systems_of};
 use stepper::{Parts, Stepper};
 

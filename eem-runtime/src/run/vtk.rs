@@ -11,11 +11,11 @@ use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 
 use crate::element::handle::Node;
-use crate::number::scalar::Real;
 use crate::run::simulation::Simulation;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use cell::{Cell, SCALARS, TENSORS, cells};
+use eem_material::number::scalar::Real;
 use error::{SeriesError, at};
 use file::Grid;
 

@@ -7,10 +7,10 @@ use nalgebra::SVector;
 use super::Scene;
 use crate::element::handle::{Element, Node};
 use crate::element::loads::PushLine;
-use crate::number::scalar::Real;
 use crate::scene::error::SceneError;
 use crate::scene::loads::Rocket;
 use crate::scene::rocket_error::RocketError;
+use eem_material::number::scalar::Real;
 
 /// # Loads, supports and thermostats
 impl<const D: usize, S: Real> Scene<D, S> {

@@ -5,11 +5,11 @@ use std::collections::BTreeMap;
 use super::Scene;
 use crate::element::handle::Reservoir;
 use crate::element::kinematics::Shape;
-use crate::number::scalar::{Real, is_positive};
 use crate::scene::body::Body;
 use crate::scene::error::SceneError;
 use crate::scene::mesh::{Face, facing};
 use crate::scene::solid_error::SolidError;
+use eem_material::number::scalar::{Real, is_positive};
 
 /// # Heat of solids
 impl<const D: usize, S: Real> Scene<D, S> {

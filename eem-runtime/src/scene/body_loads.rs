@@ -5,10 +5,10 @@ use std::sync::Arc;
 use super::Scene;
 use crate::element::handle::Node;
 use crate::element::kinematics::Shape;
-use crate::number::scalar::Real;
 use crate::scene::body::Body;
 use crate::scene::mesh::Face;
 use crate::scene::solid_error::SolidError;
+use eem_material::number::scalar::Real;
 
 /// A force per area or volume as a function of time.
 type Density<S, const D: usize> = Arc<dyn Fn(S) -> [S; D] + Send + Sync>;

@@ -1,9 +1,9 @@
 //! What a solid is besides its material and its mesh.
 
 use crate::element::kinematics::Shape;
-use crate::number::scalar::Real;
 use crate::scene::body::Body;
 use crate::scene::joints::Joint;
+use eem_material::number::scalar::Real;
 
 /// The properties of a solid besides its material and mesh: density, thickness, fibres, conduction, joints.
 ///

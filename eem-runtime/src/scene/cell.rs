@@ -6,13 +6,13 @@ use crate::element::handle::{Element, Node};
 use crate::element::kinematics::{
     Measure, Points, Shape, SolidPoint, Strain, StrainEnergy, integrals,
 };
-use crate::material::free_energy::{Array, FreeEnergy};
-use crate::material::point_energy::PointEnergy;
-use crate::number::scalar::{Mask, Real, is_positive};
 use crate::scene::check::check_position;
 use crate::scene::entry::UNMADE;
 use crate::scene::error::SceneError;
 use crate::scene::solid_error::SolidError;
+use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::number::scalar::{Mask, Real, is_positive};
+use eem_material::point_energy::PointEnergy;
 
 /// What a cell is besides its material and its nodes.
 #[derive(Clone, Copy, Debug)]

@@ -7,10 +7,10 @@ use crate::element::error::StateError;
 use crate::element::handle::{Element, HeatPartner, Node, Reservoir};
 use crate::element::layout::Shape;
 use crate::element::loads::PushLine;
-use crate::number::scalar::{Mask, Real, is_positive};
 use crate::scene::entry::{ElementEntry, NodeEntry, UNMADE};
 use crate::scene::error::SceneError;
 use crate::scene::rocket_error::RocketError;
+use eem_material::number::scalar::{Mask, Real, is_positive};
 
 impl<const D: usize, S: Real> Scene<D, S> {
     /// Everything that is wrong with the description; what can only be said of numbers that are right by themselves,

@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use crate::element::group::NodesOf;
 use crate::element::handle::Element;
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 /// A node: an anchor or a mass.
 #[derive(Clone, Debug)]

@@ -2,9 +2,9 @@
 
 use crate::element::error::StateError;
 use crate::element::handle::{Element, HeatPartner, Node, Reservoir};
-use crate::number::readable::Readable;
 use crate::scene::rocket_error::RocketError;
 use crate::scene::solid_error::SolidError;
+use eem_material::number::readable::Readable;
 use thiserror::Error;
 
 /// Why a scene is rejected.

@@ -11,8 +11,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use crate::element::kinematics::Shape;
-use crate::material::free_energy::Array;
 use crate::scene::mesh::{Face, Mesh, MeshError};
+use eem_material::free_energy::Array;
 use file::Block;
 
 /// The nodes of a Gmsh `Hex20` in the order of VTK.

@@ -6,7 +6,7 @@ use nalgebra::SVector;
 
 use crate::element::handle::{Element, Node};
 use crate::element::loads::PushLine;
-use crate::number::scalar::{Mask, Real};
+use eem_material::number::scalar::{Mask, Real};
 
 /// By how many ε of its size a prescribed function may differ from a state that follows it: a
 /// formula `c + a f(t)` rounds function, product and sum, each by ε at most of a size that is also

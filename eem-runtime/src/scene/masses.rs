@@ -2,7 +2,7 @@
 
 use super::Scene;
 use crate::element::masses::Masses;
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 impl<const D: usize, S: Real> Scene<D, S> {
     /// The mass matrix. Anchors keep the masses that they have as nodes of solids.

@@ -1,8 +1,8 @@
 //! How much memory the linear systems of a scene may take.
 
 use crate::algebra::memory::MemoryLimit;
-use crate::number::scalar::Real;
 use crate::scene::Scene;
+use eem_material::number::scalar::Real;
 
 impl<const D: usize, S: Real> Scene<D, S> {
     /// Limits the memory of the matrix of Newton's method and its factors, bytes. Without a limit it is the memory

@@ -7,8 +7,6 @@ use nalgebra::SVector;
 use super::Scene;
 use crate::element::handle::{Element, Node};
 use crate::element::kinematics::{Points, Shape, StrainEnergy};
-use crate::material::free_energy::{Array, FreeEnergy};
-use crate::number::scalar::Real;
 use crate::scene::body::Body;
 use crate::scene::bulk::Bulk;
 use crate::scene::cell::Stuff;
@@ -17,6 +15,8 @@ use crate::scene::error::SceneError;
 use crate::scene::joints::{Shared, joined};
 use crate::scene::mesh::Mesh;
 use crate::scene::solid_error::SolidError;
+use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::number::scalar::Real;
 
 /// # Solids from meshes
 impl<const D: usize, S: Real> Scene<D, S> {

@@ -4,8 +4,8 @@ use core::error::Error;
 use core::fmt;
 
 use super::Scene;
-use crate::number::scalar::Real;
 use crate::scene::error::SceneError;
+use eem_material::number::scalar::Real;
 
 /// The message names so many errors, and how many more there are.
 const MOST_NAMED: usize = 20;

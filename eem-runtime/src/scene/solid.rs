@@ -3,9 +3,9 @@
 use super::Scene;
 use crate::element::handle::{Element, Node};
 use crate::element::kinematics::{Quad4, StrainEnergy};
-use crate::material::free_energy::FreeEnergy;
-use crate::number::scalar::Real;
 use crate::scene::cell::Stuff;
+use eem_material::free_energy::FreeEnergy;
+use eem_material::number::scalar::Real;
 
 /// The properties of a quadrilateral besides its material and corners.
 #[derive(Clone, Copy, Debug, PartialEq)]

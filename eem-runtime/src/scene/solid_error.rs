@@ -3,8 +3,8 @@
 use thiserror::Error;
 
 use crate::element::handle::{Element, Node};
-use crate::number::readable::Readable;
 use crate::scene::mesh::MeshError;
+use eem_material::number::readable::Readable;
 
 /// Why a solid is rejected.
 #[derive(Clone, Debug, PartialEq, Error)]

@@ -3,10 +3,10 @@
 
 use super::Scene;
 use crate::element::handle::{Element, HeatPartner, Node};
-use crate::number::scalar::{Mask, Real};
 use crate::scene::entry::NodeEntry;
 use crate::scene::error::SceneError;
 use crate::scene::loads::{MOTION_ROUNDINGS, extent};
+use eem_material::number::scalar::{Mask, Real};
 
 impl<const D: usize, S: Real> Scene<D, S> {
     /// Products that are not finite, and jumps at t = 0. All single numbers have been checked.

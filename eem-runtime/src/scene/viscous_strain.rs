@@ -2,9 +2,9 @@
 
 use super::Scene;
 use crate::element::handle::Element;
-use crate::material::joint::components;
-use crate::number::scalar::{Mask, Real};
 use crate::scene::solid_error::SolidError;
+use eem_material::joint::components;
+use eem_material::number::scalar::{Mask, Real};
 
 /// # Viscous strains of solids
 impl<const D: usize, S: Real> Scene<D, S> {

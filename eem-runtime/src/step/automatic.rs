@@ -10,9 +10,9 @@
 
 use crate::algebra::system::MOST_FIXED;
 use crate::element::tableau::Tableau;
-use crate::number::scalar::Real;
 use crate::step::control::Tolerance;
 use crate::step::scheme::Scheme;
+use eem_material::number::scalar::Real;
 
 /// The relative tolerance from which on order 2 takes less than order 6 where steps are limited by stability.
 const ROUGH: f64 = 1e-4;

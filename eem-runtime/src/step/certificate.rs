@@ -49,9 +49,9 @@ mod motion;
 use crate::element::handle::Element;
 use crate::element::recount::Recount;
 use crate::element::tally::{ROUNDINGS, Tally};
-use crate::number::scalar::{Mask, Real};
 use crate::step::error::StepFailure;
 use crate::step::law::Law;
+use eem_material::number::scalar::{Mask, Real};
 
 pub(crate) use internal::Internal;
 pub(crate) use motion::{Kept, Motion, NodeStep, Speeds};

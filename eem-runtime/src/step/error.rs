@@ -8,10 +8,10 @@ use thiserror::Error;
 use crate::algebra::memory::TooLarge;
 use crate::element::error::StateError;
 use crate::element::handle::{Element, Node};
-use crate::number::readable::Readable;
-use crate::number::scalar::Discord;
 use crate::step::law::Law;
 use crate::step::newton::NewtonIteration;
+use eem_material::number::readable::Readable;
+use eem_material::number::scalar::Discord;
 
 /// Why a step failed.
 #[derive(Clone, Debug, PartialEq, Error)]

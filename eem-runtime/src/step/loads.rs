@@ -9,9 +9,9 @@ use std::collections::BTreeSet;
 use crate::element::layout::Layout;
 use crate::element::loads::{Prescribed, Push, StepLoads, point};
 use crate::element::masses::Masses;
-use crate::number::scalar::{Real, is_positive};
 use crate::scene::loads::Loads;
 use crate::step::error::StepFailure;
+use eem_material::number::scalar::{Real, is_positive};
 
 impl<S: Real> StepLoads<S> {
     /// Memory for a scene, in which masses couple nodes or not.

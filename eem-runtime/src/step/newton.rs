@@ -1,6 +1,6 @@
 //! When Newton's method is done, and what it did.
 
-use crate::number::scalar::{Mask, Real};
+use eem_material::number::scalar::{Mask, Real};
 
 /// Settings of Newton's method.
 ///

@@ -1,7 +1,7 @@
 //! What a step proves of itself, whatever solver has found it.
 
-use crate::number::scalar::Real;
 use crate::step::certificate::Certificate;
+use eem_material::number::scalar::Real;
 
 /// What a step proves of itself.
 #[derive(Clone, Copy, Debug)]

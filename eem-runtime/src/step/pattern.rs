@@ -12,8 +12,8 @@ use crate::algebra::pattern::Pattern;
 use crate::element::conduction::{Conduction, Partner};
 use crate::element::layout::Layout;
 use crate::element::loads::PushLine;
-use crate::number::scalar::Real;
 use crate::scene::entry::ElementEntry;
+use eem_material::number::scalar::Real;
 
 /// The pattern of the tangent.
 ///

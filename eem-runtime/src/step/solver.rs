@@ -26,11 +26,11 @@ use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
 use crate::element::tableau::UnknownSet;
-use crate::number::scalar::Real;
 use crate::step::scheme::Scheme;
 use crate::step::systems::Systems;
 use balance::Balance;
 use coupling::Coupling;
+use eem_material::number::scalar::Real;
 
 pub(crate) use effort::Effort;
 use kept_factors::KeptFactors;

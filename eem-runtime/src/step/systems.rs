@@ -7,10 +7,10 @@ use crate::element::conduction::Conduction;
 use crate::element::layout::Layout;
 use crate::element::loads::PushLine;
 use crate::element::tableau::Ending;
-use crate::number::scalar::Real;
 use crate::scene::entry::ElementEntry;
 use crate::step::pattern;
 use crate::step::scheme::{Closing, Scheme};
+use eem_material::number::scalar::Real;
 
 /// The linear systems that a scheme solves in a step.
 #[derive(Debug)]

@@ -2,7 +2,7 @@
 
 use super::fixed::{LARGEST_RATIO, solve_fixed};
 use crate::algebra::lu::singular::Singular;
-use crate::number::scalar::{Mask, Real};
+use eem_material::number::scalar::{Mask, Real};
 
 /// The first row of `x` becomes the solution of `A x = b` for one unknown, and A zero.
 #[inline]

@@ -8,7 +8,7 @@
 use core::array;
 
 use crate::algebra::lu::singular::Singular;
-use crate::number::scalar::{Mask, Real};
+use eem_material::number::scalar::{Mask, Real};
 
 /// A row is divided by its diagonal entry unless its other entries, all together, are larger by more than
 /// this factor; that bounds the growth of entries nearly as well as the largest pivot does.

@@ -13,8 +13,8 @@
 
 use crate::element::conjugates::element::{ElementScheme, Form, Infeasible, Placement, Start};
 use crate::element::conjugates::temperature::temperature_of;
-use crate::material::free_energy::{Array, Entry, FreeEnergy, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Entry, FreeEnergy, Material};
+use eem_material::number::scalar::Real;
 
 /// See the module.
 #[derive(Clone, Copy, Debug)]

@@ -10,8 +10,8 @@
 //! inversion is needed: the new temperature is the unknown.
 
 use crate::element::conjugates::element::{ElementScheme, Form, Infeasible, Placement, Start};
-use crate::material::free_energy::{Array, Entry, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Entry, Material};
+use eem_material::number::scalar::Real;
 
 /// See the module.
 #[derive(Clone, Copy, Debug)]

@@ -2,9 +2,9 @@
 
 use crate::element::error::StateError;
 use crate::element::handle::Element;
-use crate::material::free_energy::{Array, Entry, FreeEnergy};
-use crate::material::inversion::InversionError;
-use crate::number::scalar::{Real, is_positive};
+use eem_material::free_energy::{Array, Entry, FreeEnergy};
+use eem_material::inversion::InversionError;
+use eem_material::number::scalar::{Real, is_positive};
 
 /// Where along a step the measures and their gradient are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

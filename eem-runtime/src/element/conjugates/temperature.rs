@@ -5,9 +5,9 @@
 
 use crate::element::conjugates::element::Infeasible;
 use crate::element::state::Energy;
-use crate::material::free_energy::{Caloric, FreeEnergy};
-use crate::material::inversion::temperature_near;
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Caloric, FreeEnergy};
+use eem_material::inversion::temperature_near;
+use eem_material::number::scalar::Real;
 
 /// The largest correction of ln θ, in units of √ε, after which the entropy need not be evaluated
 /// again. Newton's method in ln θ leaves half the square of the correction, times the slope

@@ -2,9 +2,9 @@
 
 use crate::element::group::view::Trial;
 use crate::element::kinematics::{Arms, Gradient, Kinematics, Measures};
-use crate::material::free_energy::Array;
-use crate::number::compensated::Compensated;
-use crate::number::scalar::Real;
+use eem_material::free_energy::Array;
+use eem_material::number::compensated::Compensated;
+use eem_material::number::scalar::Real;
 
 /// `Σ_i g_i · w_i` over the arms.
 #[inline]

@@ -7,8 +7,8 @@ use super::share::{Heat, Momentum};
 use crate::element::conjugates::{ElementScheme, Form};
 use crate::element::group::view::Trial;
 use crate::element::kinematics::{Arms, Gradient, Kinematics, Measures};
-use crate::material::free_energy::{Array, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
 
 /// A response with the internal variables eliminated: `value + Σ_a by_measure_a δπ_a − by_heat δr_s`.
 struct CondensedRow<K: Kinematics<S, D>, S: Real, const D: usize> {

@@ -1,8 +1,8 @@
 //! What only a rule that looks at one point of the step needs to remember of an element.
 
 use crate::element::kinematics::Arms;
-use crate::material::free_energy::{Array, FreeEnergy};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::number::scalar::Real;
 
 /// What a rule that looks at one point needs to remember of an element; `V` is per variable, `A` per
 /// arm.

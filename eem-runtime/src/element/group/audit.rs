@@ -8,9 +8,9 @@ use crate::element::group::element_group::ElementGroup;
 use crate::element::group::misfit::Misfit;
 use crate::element::kinematics::Kinematics;
 use crate::element::state::State;
-use crate::material::free_energy::Material;
-use crate::number::digest::Digest;
-use crate::number::scalar::{Mask, Real, is_positive};
+use eem_material::free_energy::Material;
+use eem_material::number::digest::Digest;
+use eem_material::number::scalar::{Mask, Real, is_positive};
 
 /// How many ε of its terms an entropy may differ from that of the model.
 ///

@@ -9,8 +9,8 @@ use crate::element::error::StateError;
 use crate::element::group::element_group::{ElementGroup, variables};
 use crate::element::group::view::{Old, StepView};
 use crate::element::kinematics::{Arms, Kinematics, Measures};
-use crate::material::free_energy::{Array, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     ElementGroup<S, M, K, C, D>

@@ -12,8 +12,8 @@ use crate::element::conjugates::{Conjugates, EemEntropy, EemTemperature, Element
 use crate::element::kinematics::QuadraticStrain;
 use crate::element::layout::Shape;
 use crate::element::tableau::Tableau;
-use crate::material::free_energy::Material;
-use crate::number::scalar::Real;
+use eem_material::free_energy::Material;
+use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Loose<S, D>
     for LooseElements<S, M, K, D>

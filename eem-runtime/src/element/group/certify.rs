@@ -10,8 +10,8 @@ use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::state::Energy;
 use crate::element::tally::{Care, Tally};
-use crate::material::free_energy::Material;
-use crate::number::scalar::Real;
+use eem_material::free_energy::Material;
+use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Member<S, M, K, C, D>

@@ -22,8 +22,8 @@ use crate::element::impulse::Impulses;
 use crate::element::kinematics::{Arms, Ends, Kinematics, Weights};
 use crate::element::state::State;
 use crate::element::tally::Tally;
-use crate::material::free_energy::{Array, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     ElementGroup<S, M, K, C, D>

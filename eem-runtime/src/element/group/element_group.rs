@@ -18,10 +18,10 @@ use crate::element::layout::Slots;
 use crate::element::recount::Recount;
 use crate::element::state::State;
 use crate::element::tally::Tally;
-use crate::material::free_energy::{Array, FreeEnergy, Material};
-use crate::number::compact::compact;
-use crate::number::digest::Digest;
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, FreeEnergy, Material};
+use eem_material::number::compact::compact;
+use eem_material::number::digest::Digest;
+use eem_material::number::scalar::Real;
 
 /// Elements of the model `M` with the kinematics `K`, stepped by the scheme `C`.
 pub(crate) struct ElementGroup<

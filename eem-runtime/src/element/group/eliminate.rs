@@ -2,8 +2,8 @@
 
 use crate::algebra::lu::Singular;
 use crate::element::kinematics::Kinematics;
-use crate::material::free_energy::{Array, FreeEnergy};
-use crate::number::scalar::{Mask, Real, is_positive};
+use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::number::scalar::{Mask, Real, is_positive};
 
 /// A number per local unknown: the viscous stretches, then the temperature.
 #[derive(Clone, Copy, Debug)]

@@ -10,8 +10,8 @@ use crate::element::error::StateError;
 use crate::element::group::element_group::ElementGroup;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Kinematics, Points};
-use crate::material::free_energy::Material;
-use crate::number::scalar::Real;
+use eem_material::free_energy::Material;
+use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     ElementGroup<S, M, K, C, D>

@@ -9,8 +9,8 @@ use crate::element::group::element_group::ElementGroup;
 use crate::element::kinematics::{Arms, Kinematics, Measures};
 use crate::element::layout::Slots;
 use crate::element::state::State;
-use crate::material::free_energy::{Array, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     ElementGroup<S, M, K, C, D>

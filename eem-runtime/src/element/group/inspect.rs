@@ -9,8 +9,8 @@ use crate::element::group::view::{ElementTotals, ElementView};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics, SolidState};
 use crate::element::state::{Energy, State};
-use crate::material::free_energy::{Array, FreeEnergy, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, FreeEnergy, Material};
+use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     ElementGroup<S, M, K, C, D>

@@ -16,8 +16,8 @@ use crate::element::layout::{Shape, Slots};
 use crate::element::recount::Recount;
 use crate::element::state::State;
 use crate::element::tally::Tally;
-use crate::number::digest::Digest;
-use crate::number::scalar::Real;
+use eem_material::number::digest::Digest;
+use eem_material::number::scalar::Real;
 
 /// Elements of one model in a state, whatever steps them.
 pub(crate) trait Elements<S: Real, const D: usize>: Send + Sync {

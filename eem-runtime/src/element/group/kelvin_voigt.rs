@@ -18,8 +18,8 @@ use crate::element::error::StateError;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, Gradient, Kinematics, Measures};
 use crate::element::tally::Tally;
-use crate::material::free_energy::{Array, FreeEnergy};
-use crate::number::scalar::{Real, is_positive};
+use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::number::scalar::{Real, is_positive};
 
 impl<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>

@@ -22,8 +22,8 @@ use crate::element::error::StateError;
 use crate::element::group::point::temperature_in;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::Kinematics;
-use crate::material::free_energy::{Array, FreeEnergy};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::number::scalar::Real;
 
 /// What the dashpots turn into heat, `Σ η γ̇²`, W, and its derivative by the variables.
 pub(super) struct Dissipation<S: Real, M: FreeEnergy<S>> {

@@ -5,8 +5,8 @@ use core::fmt;
 use crate::element::handle::Element;
 use crate::element::kinematics::{Kinematics, Points};
 use crate::element::layout::Shape;
-use crate::material::free_energy::{Array, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
 
 /// What the points of an element consist of.
 pub(crate) type Parts<S, M, K, const D: usize> = <K as Kinematics<S, D>>::PerPoint<(M, K)>;

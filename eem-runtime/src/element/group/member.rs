@@ -9,8 +9,8 @@ use crate::element::group::view::{Placed, StepView, Trial};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics, Points};
 use crate::element::state::State;
-use crate::material::free_energy::{Array, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
 
 /// An element.
 pub(crate) struct Member<

@@ -11,9 +11,9 @@ use crate::element::error::StateError;
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Gradient, Kinematics};
 use crate::element::layout::Slots;
-use crate::material::free_energy::{Array, FreeEnergy};
-use crate::number::compact::compact;
-use crate::number::scalar::{Real, is_positive};
+use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::number::compact::compact;
+use eem_material::number::scalar::{Real, is_positive};
 
 /// A point, with everything that one step of the scheme `C` needs to remember of it.
 pub(crate) struct Point<

@@ -3,8 +3,8 @@
 use super::arms::{along, dot, mean};
 use crate::element::conjugates::Placement;
 use crate::element::kinematics::{Arms, Blocks, Ends, Gradient, Kinematics, Measures, add_blocks};
-use crate::material::free_energy::Array;
-use crate::number::scalar::Real;
+use eem_material::free_energy::Array;
+use eem_material::number::scalar::Real;
 
 /// Gradients of an element as its scheme looks at them.
 #[derive(Clone, Copy, Debug)]

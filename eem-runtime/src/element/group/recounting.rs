@@ -7,8 +7,8 @@ use crate::element::group::element_group::ElementGroup;
 use crate::element::kinematics::{Arms, Ends, Kinematics};
 use crate::element::recount::Recount;
 use crate::element::state::State;
-use crate::material::free_energy::{Array, FreeEnergy, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, FreeEnergy, Material};
+use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     ElementGroup<S, M, K, C, D>

@@ -8,8 +8,8 @@ use crate::element::error::StateError;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Ends, Kinematics, Measures};
-use crate::material::free_energy::{Array, FreeEnergy, Material};
-use crate::number::scalar::{Mask, Real, is_positive};
+use eem_material::free_energy::{Array, FreeEnergy, Material};
+use eem_material::number::scalar::{Mask, Real, is_positive};
 
 /// Arms of an element at a trial.
 pub(super) struct TrialArms<K: Kinematics<S, D>, S: Real, const D: usize> {

@@ -4,8 +4,8 @@ use super::drag::Drag;
 use super::point::Point;
 use crate::element::conjugates::ElementScheme;
 use crate::element::kinematics::Kinematics;
-use crate::material::free_energy::FreeEnergy;
-use crate::number::scalar::{Mask, Real};
+use eem_material::free_energy::FreeEnergy;
+use eem_material::number::scalar::{Mask, Real};
 
 /// What closing a step asks of an element.
 #[derive(Clone, Copy)]

@@ -6,8 +6,8 @@ use super::site::{Contact, Site};
 use crate::element::conjugates::ElementScheme;
 use crate::element::group::member::Member;
 use crate::element::kinematics::{Arms, Blocks, Kinematics, Points};
-use crate::material::free_energy::Material;
-use crate::number::scalar::Real;
+use eem_material::free_energy::Material;
+use eem_material::number::scalar::Real;
 
 /// What the points of an element add to the system of an iteration.
 pub(super) struct Share<K: Kinematics<S, D>, S: Real, const D: usize> {

@@ -3,9 +3,9 @@
 use crate::element::conduction::Partner;
 use crate::element::group::view::Sites;
 use crate::element::kinematics::Kinematics;
-use crate::material::free_energy::Array;
-use crate::number::compact::compact;
-use crate::number::scalar::Real;
+use eem_material::free_energy::Array;
+use eem_material::number::compact::compact;
+use eem_material::number::scalar::Real;
 
 /// The places of one element in the tangent.
 ///

@@ -12,8 +12,8 @@ use crate::element::masses::Masses;
 use crate::element::phase::Phase;
 use crate::element::state::State;
 use crate::element::tableau::MOST_STAGES;
-use crate::number::compensated::Total;
-use crate::number::scalar::{Mask, Real};
+use eem_material::number::compensated::Total;
+use eem_material::number::scalar::{Mask, Real};
 
 /// What all elements share during one step.
 #[derive(Clone, Copy, Debug)]
@@ -142,7 +142,7 @@ pub(crate) struct ElementTotals<S> {
 impl<S: Real> ElementTotals<S> {
     /// Of no elements.
     pub(crate) fn new() -> Self {
-        let [energy, entropy, entropy_of_state] = [Total::new(); 3];
+        let [energy, entropy, entropy_of_state] = [Total::default(); 3];
         Self {
             energy,
             entropy,

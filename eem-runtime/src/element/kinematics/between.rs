@@ -11,7 +11,7 @@ use core::marker::PhantomData;
 
 use crate::element::kinematics::strain::Measure;
 use crate::element::kinematics::tensor::{Symmetric, Tensor, plus, scaled};
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 /// A deformation gradient with its strain.
 #[derive(Clone, Copy, Debug)]

@@ -3,8 +3,8 @@
 use crate::element::kinematics::shape::Shape;
 use crate::element::kinematics::shape::rule::gauss;
 use crate::element::kinematics::tensor::{Symmetric, Tensor};
-use crate::material::free_energy::Array;
-use crate::number::scalar::Real;
+use eem_material::free_energy::Array;
+use eem_material::number::scalar::Real;
 
 /// `N_a` and `∂N_a/∂ξ` of all nodes.
 pub(crate) type Functions<S, const D: usize> = Vec<(S, [S; D])>;

@@ -3,8 +3,8 @@
 use crate::element::error::StateError;
 use crate::element::handle::Element;
 use crate::element::kinematics::solid_state::SolidState;
-use crate::material::free_energy::{Array, Entry};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Entry};
+use eem_material::number::scalar::Real;
 
 /// The arms of an element, m.
 pub type Arms<K, S, const D: usize> = <K as Kinematics<S, D>>::PerArm<[S; D]>;

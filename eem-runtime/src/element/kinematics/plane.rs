@@ -3,8 +3,8 @@
 //! There the determinant is quadratic in C and its mean-value gradient the cofactor of the mean.
 
 use crate::element::kinematics::tensor::Symmetric;
-use crate::material::joint::basis;
-use crate::number::scalar::Real;
+use eem_material::joint::basis;
+use eem_material::number::scalar::Real;
 
 impl<S: Real> Symmetric<S, 2> for [S; 3] {
     #[inline]

@@ -10,8 +10,8 @@
 use super::measures::{Arms, Kinematics, Measures, Weights};
 use crate::element::error::StateError;
 use crate::element::handle::Element;
-use crate::material::free_energy::{Array, Entry};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Entry};
+use eem_material::number::scalar::Real;
 
 /// A number per component of the strain C.
 pub(crate) type PerStrain<K, S, const D: usize> = <K as QuadraticStrain<S, D>>::PerStrain<S>;

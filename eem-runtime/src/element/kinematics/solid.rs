@@ -9,8 +9,8 @@ use crate::element::kinematics::shape::Shape;
 use crate::element::kinematics::shape::rule::gauss;
 use crate::element::kinematics::strain::Measure;
 use crate::element::kinematics::tensor::{Symmetric, Tensor, add, dot, pushed};
-use crate::material::free_energy::Array;
-use crate::number::scalar::{Mask, Real};
+use eem_material::free_energy::Array;
+use eem_material::number::scalar::{Mask, Real};
 
 /// N measures of the strain at one of the points of a cell of shape `H`, in plane strain or in space.
 ///

@@ -9,8 +9,8 @@ use crate::element::kinematics::solid::{PerArm, PerPair, SolidPoint, Strains};
 use crate::element::kinematics::solid_state::SolidState;
 use crate::element::kinematics::strain::Measure;
 use crate::element::kinematics::tensor::{Symmetric, plus, pushed};
-use crate::material::free_energy::{Array, Entry};
-use crate::number::scalar::{Mask, Real};
+use eem_material::free_energy::{Array, Entry};
+use eem_material::number::scalar::{Mask, Real};
 
 impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
     for SolidPoint<H, S, N, D>

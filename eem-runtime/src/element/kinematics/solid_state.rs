@@ -2,7 +2,7 @@
 
 use nalgebra::SMatrix;
 
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 /// Stress and strain at a point of a solid, in three dimensions also in plane strain.
 #[derive(Clone, Copy, Debug, PartialEq)]

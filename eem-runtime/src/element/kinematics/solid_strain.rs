@@ -9,8 +9,8 @@ use crate::element::kinematics::quadratic_strain::QuadraticStrain;
 use crate::element::kinematics::shape::Shape;
 use crate::element::kinematics::solid::{PerArm, SolidPoint, Strains};
 use crate::element::kinematics::tensor::{Symmetric, add, pushed};
-use crate::material::free_energy::{Array, Entry};
-use crate::number::scalar::{Real, is_positive};
+use eem_material::free_energy::{Array, Entry};
+use eem_material::number::scalar::{Real, is_positive};
 
 type Components<H, S, const D: usize> = <H as Shape<D>>::PerComponent<S>;
 

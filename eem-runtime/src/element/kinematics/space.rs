@@ -9,8 +9,8 @@
 use core::array;
 
 use crate::element::kinematics::tensor::{Symmetric, add, dot, plus};
-use crate::material::joint::basis;
-use crate::number::scalar::Real;
+use eem_material::joint::basis;
+use eem_material::number::scalar::Real;
 
 /// `cof A`.
 #[inline]

@@ -1,7 +1,7 @@
 //! Which measures of strain a free energy per volume depends on.
 
-use crate::material::free_energy::{FreeEnergy, Material};
-use crate::number::scalar::{Mask, Real};
+use eem_material::free_energy::{FreeEnergy, Material};
+use eem_material::number::scalar::{Mask, Real};
 
 /// A measure of the strain at a point of a solid: an invariant of the Green–Lagrange strain
 /// `E = ½(FᵀF − 1)` with the deformation gradient F.

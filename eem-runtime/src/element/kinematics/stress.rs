@@ -8,8 +8,8 @@ use crate::element::kinematics::solid::{PerArm, SolidPoint, Strains};
 use crate::element::kinematics::solid_state::SolidState;
 use crate::element::kinematics::strain::Measure;
 use crate::element::kinematics::tensor::{Symmetric, pushed, scaled};
-use crate::material::joint::basis;
-use crate::number::scalar::Real;
+use eem_material::joint::basis;
+use eem_material::number::scalar::Real;
 
 impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D> {
     /// Stress and strain with these arms, under the conjugates of its measures for its volume, J.

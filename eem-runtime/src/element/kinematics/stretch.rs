@@ -7,8 +7,8 @@ use crate::element::handle::Element;
 use crate::element::kinematics::measures::{Ends, Kinematics};
 use crate::element::kinematics::quadratic_strain::QuadraticStrain;
 use crate::element::kinematics::tensor::dot;
-use crate::material::free_energy::Entry;
-use crate::number::scalar::{Mask, Real, Scalar, is_positive};
+use eem_material::free_energy::Entry;
+use eem_material::number::scalar::{Mask, Real, Scalar, is_positive};
 
 /// The stretch `λ = |r|`, `r = q_j − q_i`, of two nodes in `D` dimensions, m.
 ///

@@ -1,7 +1,7 @@
 //! Tensors of the plane and of space.
 
-use crate::material::free_energy::Array;
-use crate::number::scalar::Real;
+use eem_material::free_energy::Array;
+use eem_material::number::scalar::Real;
 
 /// A tensor, row by row.
 pub(super) type Tensor<S, const D: usize> = [[S; D]; D];

@@ -1,7 +1,7 @@
 //! What step control remembers from step to step.
 
-use crate::number::scalar::Real;
 use crate::step::control::{Controller, StepStatistics, Tolerance};
+use eem_material::number::scalar::Real;
 
 /// What step control remembers from step to step.
 #[derive(Clone, Copy, Debug, PartialEq)]

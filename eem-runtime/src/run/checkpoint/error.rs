@@ -6,9 +6,9 @@ use crate::algebra::memory::TooLarge;
 use crate::element::error::StateError;
 use crate::element::group::Misfit;
 use crate::element::handle::Element;
-use crate::number::readable::Readable;
 use crate::scene::error::SceneError;
 use crate::step::scheme::Scheme;
+use eem_material::number::readable::Readable;
 
 /// How a checkpoint differs from the simulation, or what is wrong with the checkpoint. The simulation is unchanged.
 #[derive(Clone, Debug, PartialEq, Error)]

@@ -1,7 +1,7 @@
 //! What a checkpoint must have in common with a simulation.
 
 use super::error::RestoreError;
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 pub(super) fn expect_count(
     quantity: &'static str,

@@ -1,7 +1,7 @@
 //! The numbers of a scene in a few words: whether two scenes have the same, and if not, which differ.
 
-use crate::number::digest::Digest;
 use crate::run::checkpoint::error::RestoreError;
+use eem_material::number::digest::Digest;
 
 /// The digests of all numbers of a scene that a state does not contain.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -2,9 +2,9 @@
 
 use crate::element::layout::Shape;
 use crate::element::masses::Masses;
-use crate::number::scalar::Real;
 use crate::run::checkpoint::error::RestoreError;
 use crate::run::checkpoint::expect::expect_count;
+use eem_material::number::scalar::Real;
 
 /// Nodes, elements and reservoirs, without their values.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -9,11 +9,11 @@ use super::control::SavedControl;
 use super::error::RestoreError;
 use super::expect::expect_count;
 use crate::element::state::State;
-use crate::number::compensated::Sum;
-use crate::number::digest::Digest;
-use crate::number::scalar::Real;
 use crate::step::explicit::SavedExplicit;
 use crate::step::solver::SavedPast;
+use eem_material::number::compensated::Sum;
+use eem_material::number::digest::Digest;
+use eem_material::number::scalar::Real;
 
 /// A digest of each entry that follows from the steps of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]

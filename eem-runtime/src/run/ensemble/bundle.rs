@@ -5,13 +5,13 @@ use core::sync::atomic::{AtomicBool, Ordering};
 
 use super::error::MemberFailure;
 use super::experiment::{Experiment, Members};
-#[cfg(feature = "lanes")]
-use crate::number::lanes::Lanes;
-use crate::number::scalar::{Discord, Real};
 use crate::run::simulation::Simulation;
 use crate::scene::error::SceneError;
 use crate::step::newton::NewtonSettings;
 use crate::step::scheme::Scheme;
+#[cfg(feature = "lanes")]
+use eem_material::number::lanes::Lanes;
+use eem_material::number::scalar::{Discord, Real};
 
 /// How members are stepped, and whether they can move together.
 #[derive(Debug)]

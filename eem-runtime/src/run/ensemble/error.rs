@@ -4,9 +4,9 @@ use core::error::Error;
 
 use thiserror::Error;
 
-use crate::number::scalar::Discord;
 use crate::scene::error::SceneError;
 use crate::step::error::StepError;
+use eem_material::number::scalar::Discord;
 
 /// A member of an ensemble without a result.
 #[derive(Debug, Error)]

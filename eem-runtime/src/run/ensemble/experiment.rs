@@ -3,9 +3,9 @@
 use core::marker::PhantomData;
 
 use super::error::MemberFailure;
-use crate::number::scalar::Real;
 use crate::run::simulation::Simulation;
 use crate::scene::Scene;
+use eem_material::number::scalar::Real;
 
 /// A scene and its observation, generic in the number type, for
 /// [`Ensemble::run_experiment`](crate::Ensemble::run_experiment).

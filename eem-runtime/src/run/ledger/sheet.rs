@@ -3,7 +3,7 @@
 use core::fmt;
 
 use super::Ledger;
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 impl<const D: usize, S: Real> fmt::Display for Ledger<D, S> {
     /// A balance sheet, a line per quantity.

@@ -3,7 +3,7 @@
 use std::io;
 
 use super::{Column, Recorder};
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 impl<const D: usize, S: Real> Recorder<D, S> {
     /// Writes a header with names and units, then one line per row, separated by commas (RFC 4180).

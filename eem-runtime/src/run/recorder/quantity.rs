@@ -3,10 +3,10 @@
 use core::fmt;
 
 use crate::element::handle::{Element, Node, Reservoir};
-use crate::number::scalar::Real;
 use crate::run::ledger::Ledger;
 use crate::run::simulation::Simulation;
 use crate::scene::error::SceneError;
+use eem_material::number::scalar::Real;
 
 /// A quantity of a simulation that a [`Recorder`](super::Recorder) keeps.
 ///

@@ -6,11 +6,11 @@ use super::check::check_end;
 use super::stepper::{Newton, Stepper};
 use super::{Simulation, Tried};
 use crate::element::phase::Phase;
-use crate::number::scalar::{Discord, Mask, Real};
 use crate::step::error::{StepError, StepFailure};
 use crate::step::explicit::Demand;
 use crate::step::newton::StepReport;
 use crate::step::outcome::Attempt;
+use eem_material::number::scalar::{Discord, Mask, Real};
 
 /// What the elements share during the next step; borrows only the fields that it names.
 macro_rules! view {

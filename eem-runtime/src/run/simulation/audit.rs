@@ -6,11 +6,11 @@ use super::Simulation;
 use super::totals::{Overflow, overflow};
 use crate::element::conduction::Partner;
 use crate::element::state::State;
-use crate::number::digest::Digest;
-use crate::number::scalar::{Mask, Real};
 use crate::run::checkpoint::{Numbers, RestoreError};
 use crate::run::ledger::Ledger;
 use crate::scene::loads::{MOTION_ROUNDINGS, extent};
+use eem_material::number::digest::Digest;
+use eem_material::number::scalar::{Mask, Real};
 
 /// By how many ε of the time a function of time may have been evaluated beside the time of a state.
 ///

@@ -7,7 +7,6 @@ use super::stepper::{Parts, Stepper};
 use super::{Simulation, Tried};
 use crate::algebra::memory::TooLarge;
 use crate::element::group::Placed;
-use crate::number::scalar::Real;
 use crate::run::checkpoint::{Checkpoint, RestoreError, SavedChoice};
 use crate::step::automatic::{CANDIDATES, Verdict, implicit};
 use crate::step::error::{StepError, StepFailure};
@@ -16,6 +15,7 @@ use crate::step::newton::StepReport;
 use crate::step::scheme::{Closing, Scheme};
 use crate::step::solver::SavedPast;
 use crate::step::systems::Systems;
+use eem_material::number::scalar::Real;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// An accurate step of a scheme that is likely to take least; the state is what it was if there is none.

@@ -1,11 +1,11 @@
 //! What a step size, the end of a step and the scheme of solids must be.
 
-use crate::number::scalar::{Real, is_positive};
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::scene::rocket_error::RocketError;
 use crate::step::error::StepFailure;
 use crate::step::scheme::{Closing, Scheme};
+use eem_material::number::scalar::{Real, is_positive};
 
 /// The time at the end of a step is finite.
 pub(super) fn check_end<S: Real>(time: S) -> Result<(), StepFailure> {

@@ -7,7 +7,6 @@
 use core::any::Any;
 
 use super::Simulation;
-use crate::number::scalar::Real;
 use crate::run::checkpoint::{Checkpoint, RestoreError};
 use crate::run::ledger::Ledger;
 use crate::scene::Scene;
@@ -15,6 +14,7 @@ use crate::scene::refused::RefusedScene;
 use crate::step::error::StepError;
 use crate::step::newton::StepReport;
 use crate::step::scheme::Scheme;
+use eem_material::number::scalar::Real;
 
 /// Which step is asked for.
 #[derive(Clone, Copy, Debug)]

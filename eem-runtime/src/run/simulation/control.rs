@@ -5,13 +5,13 @@ use core::mem;
 use super::compiled::Functions;
 use super::control_memory::{Control, SMALLEST};
 use super::{Simulation, Tried};
-use crate::number::scalar::{Discord, Mask, Real};
 use crate::run::checkpoint::SavedControl;
 use crate::scene::error::SceneError;
 use crate::step::control::{AFTER_FAILURE, Controller, Estimate, StepStatistics, Tolerance, norm};
 use crate::step::error::{StepError, StepFailure, StepLimit};
 use crate::step::explicit::Demand;
 use crate::step::newton::StepReport;
+use eem_material::number::scalar::{Discord, Mask, Real};
 
 /// # Step control
 impl<const D: usize, S: Real> Simulation<D, S> {

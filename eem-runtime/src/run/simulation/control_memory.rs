@@ -1,10 +1,10 @@
 //! What step control keeps of the steps so far.
 
 use crate::element::state::State;
-use crate::number::scalar::Real;
 use crate::run::checkpoint::{SavedChoice, SavedControl};
 use crate::step::control::{Accuracy, Kinds};
 use crate::step::solver::SavedPast;
+use eem_material::number::scalar::Real;
 
 /// The smallest step that is tried, in units in the last place of the time, and of the first size.
 pub(super) const SMALLEST: f64 = 16.0;

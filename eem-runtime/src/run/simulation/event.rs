@@ -7,7 +7,7 @@ use core::error::Error;
 use core::fmt;
 
 use super::Simulation;
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 /// Which changes of sign count.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

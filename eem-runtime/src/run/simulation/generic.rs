@@ -7,9 +7,9 @@ use super::stepper::Stepper;
 use crate::element::conduction::Partner;
 use crate::element::group::{ElementGeneric, Elements};
 use crate::element::state::State;
-use crate::number::compensated::Compensated;
-use crate::number::scalar::Real;
 use crate::step::scheme::Scheme;
+use eem_material::number::compensated::Compensated;
+use eem_material::number::scalar::Real;
 
 /// The GENERIC form of a scene: the two gradients and the two matrices of `ż = L ∇E + M ∇S`.
 ///

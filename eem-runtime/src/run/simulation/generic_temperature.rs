@@ -3,7 +3,7 @@
 use super::Simulation;
 use super::generic::{Generic, Places};
 use crate::element::group::EntropySlopes;
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// The GENERIC form at the present state with temperatures instead of entropies as variables (Conde Martín,

@@ -3,8 +3,8 @@
 use crate::element::error::StateError;
 use crate::element::group::{Elements, ExplicitGroup, Group, Loose, Placed};
 use crate::element::state::State;
-use crate::number::scalar::Real;
 use crate::step::scheme::{Closing, Scheme};
+use eem_material::number::scalar::Real;
 
 /// The elements of a scene, a group per model.
 pub(super) enum Groups<S: Real, const D: usize> {

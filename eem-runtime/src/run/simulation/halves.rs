@@ -13,11 +13,11 @@
 use super::control_memory::Halves;
 use super::{Simulation, Tried};
 use crate::element::state::State;
-use crate::number::scalar::Real;
 use crate::run::checkpoint::SavedControl;
 use crate::step::control::{Accuracy, Kinds, Scales};
 use crate::step::error::StepError;
 use crate::step::newton::StepReport;
+use eem_material::number::scalar::Real;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// Memory for the two ways of a step.

@@ -10,12 +10,12 @@ use crate::element::handle::{Element, Handle, Node, Reservoir, SceneId};
 use crate::element::kinematics::SolidState;
 use crate::element::layout::Slots;
 use crate::element::loads::point;
-use crate::number::scalar::Real;
 use crate::run::ledger::Ledger;
 use crate::scene::error::SceneError;
 use crate::scene::solid_error::SolidError;
 use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
+use eem_material::number::scalar::Real;
 
 /// # The present state
 ///

@@ -4,8 +4,8 @@ use super::Simulation;
 use super::attempt::view;
 use super::stepper::{Newton, Stepper};
 use crate::element::phase::Phase;
-use crate::number::scalar::Real;
 use crate::step::error::{StepError, StepFailure};
+use eem_material::number::scalar::Real;
 
 /// Residual and tangent of a step at a trial state.
 ///

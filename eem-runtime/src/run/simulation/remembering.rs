@@ -2,7 +2,7 @@
 
 use super::Simulation;
 use super::control_memory::Memory;
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// What control and choice of a scheme remember.

@@ -3,9 +3,9 @@
 use super::Simulation;
 use super::compiled::Functions;
 use crate::element::state::State;
-use crate::number::scalar::Real;
 use crate::run::checkpoint::{Checkpoint, Outline, RestoreError, Seals};
 use crate::step::outcome::Corrections;
+use eem_material::number::scalar::Real;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// The present state with everything the next steps depend on.

@@ -4,10 +4,10 @@ use core::ops::ControlFlow;
 
 use super::Simulation;
 use super::compiled::Aim;
-use crate::number::compensated::Sum;
-use crate::number::scalar::{Mask, Real};
 use crate::step::error::{StepError, StepFailure};
 use crate::step::newton::StepReport;
+use eem_material::number::compensated::Sum;
+use eem_material::number::scalar::{Mask, Real};
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -7,12 +7,12 @@ use super::compiled::Aim;
 use super::control_memory::Memory;
 use super::run::RunEnd;
 use crate::element::state::State;
-use crate::number::scalar::{Discord, Mask, Real};
 use crate::step::error::{StepError, StepFailure};
 use crate::step::explicit::SavedExplicit;
 use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
 use crate::step::solver::SavedPast;
+use eem_material::number::scalar::{Discord, Mask, Real};
 
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// Runs to the last of these times, s, with the same steps as [`run_until`](Self::run_until), and calls

@@ -2,9 +2,9 @@
 
 use super::Simulation;
 use super::check::check_step;
-use crate::number::scalar::{Mask, Real, is_positive};
 use crate::scene::error::SceneError;
 use crate::step::newton::NewtonSettings;
+use eem_material::number::scalar::{Mask, Real, is_positive};
 
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// The size of the next steps, s.

@@ -1,9 +1,9 @@
 //! What to try where a step of a fixed size fails.
 
 use super::{Simulation, Tried};
-use crate::number::scalar::Real;
 use crate::step::error::StepError;
 use crate::step::explicit::Demand;
+use eem_material::number::scalar::Real;
 
 /// So often the step is halved to find one that can be made.
 const HALVINGS: usize = 10;

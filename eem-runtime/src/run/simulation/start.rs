@@ -11,10 +11,6 @@ use crate::element::group::Placed;
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
 use crate::element::state::{Energy, State};
-use crate::number::compact::compact;
-use crate::number::compensated::{Compensated, Sum};
-use crate::number::derivative::{derivative, shares};
-use crate::number::scalar::Real;
 use crate::run::ledger::Ledger;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
@@ -22,6 +18,10 @@ use crate::scene::loads::OfTime;
 use crate::scene::solid_error::SolidError;
 use crate::step::scheme::Scheme;
 use crate::step::systems::Systems;
+use eem_material::number::compact::compact;
+use eem_material::number::compensated::{Compensated, Sum};
+use eem_material::number::derivative::{derivative, shares};
+use eem_material::number::scalar::Real;
 
 /// The group of each element, and its place there.
 pub(super) fn places_in<const D: usize, S: Real>(scene: &Scene<D, S>) -> Vec<[u32; 2]> {

@@ -11,7 +11,6 @@ use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
 use crate::element::state::State;
 use crate::element::tableau::Tableau;
-use crate::number::scalar::Real;
 use crate::scene::entry::ElementEntry;
 use crate::scene::loads::Loads;
 use crate::step::error::StepFailure;
@@ -19,6 +18,7 @@ use crate::step::explicit::{Explicit, SavedExplicit, Site};
 use crate::step::scheme::Scheme;
 use crate::step::solver::{SavedPast, Solver};
 use crate::step::systems::Systems;
+use eem_material::number::scalar::Real;
 
 /// What steps a scene.
 pub(super) enum Stepper<S: Real, const D: usize> {

@@ -1,8 +1,8 @@
 //! Whether the sums over a whole scene can be represented.
 
-use crate::number::scalar::Real;
 use crate::run::ledger::Ledger;
 use crate::scene::error::SceneError;
+use eem_material::number::scalar::Real;
 
 /// An entry of the ledger that is not finite.
 #[derive(Clone, Copy, Debug)]

@@ -1,14 +1,13 @@
 //! All values of a state, of one kind after the other.
 
 use super::Simulation;
-use crate::number::scalar::Real;
-
-/// The values of a state by kind: positions and momenta of the masses, temperatures, viscous stretches.
-pub(crate) type Values = [Vec<f64>; 4];
+use eem_material::number::scalar::Real;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// q (m) and p (kg m/s) of the masses, θ (K) and γ (m) of the elements, each in the order of creation.
-    pub(crate) fn values(&self) -> Values {
+    #[doc(hidden)]
+    #[must_use]
+    pub fn values(&self) -> [Vec<f64>; 4] {
         let of_masses = |values: &[S]| {
             let nodes = self.masses.iter().zip(values.chunks_exact(D));
             let moving = nodes.filter(|(mass, _)| mass.is_some());
@@ -28,7 +27,20 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// How often the forces of all elements have been evaluated since the simulation was made, once for each
     /// stage of a scheme with several.
-    pub(crate) fn evaluations(&self) -> u64 {
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    ///
+    /// let mut scene: Scene<1> = Scene::new();
+    /// let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.0], [1.0])];
+    /// scene.spring(eem::materials::Hooke { stiffness: 1.0, length: 1.0 }, ends);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// run.step()?;
+    /// assert!(run.evaluations() >= 2);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn evaluations(&self) -> u64 {
         let earlier = self
             .automatic
             .as_ref()

@@ -6,10 +6,10 @@ use nalgebra::SMatrix;
 
 use super::Simulation;
 use crate::element::handle::Element;
-use crate::material::joint::{COMPONENTS, tensor};
-use crate::number::scalar::Real;
 use crate::scene::error::SceneError;
 use crate::scene::solid_error::SolidError;
+use eem_material::joint::{COMPONENTS, tensor};
+use eem_material::number::scalar::Real;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// The viscous strain Γ at a point of a solid. It has three dimensions also in plane strain, where Γ₃₃ flows

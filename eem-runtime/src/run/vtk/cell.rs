@@ -5,10 +5,10 @@ use core::array;
 use nalgebra::SMatrix;
 
 use crate::element::handle::Element;
-use crate::number::scalar::Real;
 use crate::run::simulation::Simulation;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
+use eem_material::number::scalar::Real;
 
 /// The numbers of cells.
 pub(super) const SCALARS: [&str; 8] = [

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use crate::number::readable::Readable;
 use crate::scene::mesh::MeshError;
+use eem_material::number::readable::Readable;
 
 /// Why there is no mesh in a file of Gmsh. Nodes, elements and entities are named by their tags.
 #[derive(Clone, Debug, PartialEq, Error)]

@@ -4,7 +4,7 @@ use super::error::MeshError;
 use super::geometry::power_of_two;
 use super::sides;
 use crate::element::kinematics::{Shape, Symmetric, integrals};
-use crate::material::free_energy::Array;
+use eem_material::free_energy::Array;
 
 /// The first thing that is wrong.
 pub(super) fn check<H: Shape<D>, const D: usize>(

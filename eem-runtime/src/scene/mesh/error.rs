@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::number::readable::Readable;
+use eem_material::number::readable::Readable;
 
 /// Why a mesh, or a part of it, is invalid.
 #[derive(Clone, Debug, PartialEq, Error)]

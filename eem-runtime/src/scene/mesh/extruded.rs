@@ -6,7 +6,7 @@ use super::Mesh;
 use super::error::MeshError;
 use super::grid::check_axis;
 use crate::element::kinematics::{Hex8, Hex20, Quad4, Quad8, Shape};
-use crate::material::free_energy::Array;
+use eem_material::free_energy::Array;
 
 impl Mesh<Hex8, 3> {
     /// Extrudes a plane mesh along z through these heights, m: one layer of hexahedra between two heights.

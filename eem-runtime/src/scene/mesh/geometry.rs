@@ -1,7 +1,7 @@
 //! Places, distances and areas.
 
 use crate::element::kinematics::{Shape, Symmetric};
-use crate::number::scalar::Scalar;
+use eem_material::number::scalar::Scalar;
 
 /// Of an edge in the plane, of a quadrilateral in space (half the product of its diagonals).
 pub(super) fn area_vector<H: Shape<D>, const D: usize>(corners: &[[f64; D]]) -> [f64; D] {

@@ -4,7 +4,7 @@ use super::Mesh;
 use super::error::MeshError;
 use super::lattice::Lattice;
 use crate::element::kinematics::Shape;
-use crate::material::free_energy::Array;
+use eem_material::free_energy::Array;
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     /// A box between two coordinates per axis, m, divided into equal cells. The first coordinate varies fastest.

@@ -3,7 +3,7 @@
 use super::Mesh;
 use super::face::Face;
 use crate::element::kinematics::{Shape, Symmetric, integrals};
-use crate::number::scalar::Scalar;
+use eem_material::number::scalar::Scalar;
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     /// The area that belongs to each node of a face; m², m in the plane.

@@ -1,7 +1,7 @@
 //! What the energies of the stored states contribute to the certificate of a step.
 
 use crate::element::state::State;
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 /// The change of the internal energy in a step, from values at both ends.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,8 @@
 //! What the nodes contribute to the certificate of a step: kinetic energy, work and momenta.
 
 use crate::algebra::bivector::Bivector;
-use crate::number::compensated::Total;
-use crate::number::scalar::Real;
+use eem_material::number::compensated::Total;
+use eem_material::number::scalar::Real;
 
 /// What the motion of the nodes contributes to a certificate.
 #[derive(Clone, Copy, Debug)]
@@ -90,7 +90,7 @@ impl<S: Real, const D: usize> Motion<S, D> {
         let zero = S::zero();
         Self {
             kept,
-            energy: Total::new(),
+            energy: Total::default(),
             amplitude: zero,
             linear: [zero; D],
             momenta: zero,

@@ -1,6 +1,6 @@
 //! How errors go with the step, and which are small enough.
 
-use crate::number::scalar::{Mask, Real};
+use eem_material::number::scalar::{Mask, Real};
 
 /// The error that a step aims at, in units of the tolerance.
 pub(super) const AIM: f64 = 0.8;

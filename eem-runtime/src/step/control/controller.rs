@@ -1,7 +1,7 @@
 //! The size of the next step from the errors of the last ones.
 
-use crate::number::scalar::Real;
 use crate::step::control::accuracy::{AIM, Accuracy, Estimate};
+use eem_material::number::scalar::Real;
 
 /// The memory of the filter: b of H211b (Söderlind 2003, *Digital filters in adaptive time-stepping*).
 const MEMORY: f64 = 4.0;

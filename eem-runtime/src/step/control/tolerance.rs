@@ -1,9 +1,9 @@
 //! Tolerances, and errors in units of them.
 
 use crate::element::state::State;
-use crate::number::scalar::{Mask, Real, is_positive};
 use crate::scene::error::SceneError;
 use crate::step::control::accuracy::Accuracy;
+use eem_material::number::scalar::{Mask, Real, is_positive};
 
 /// Numbers whose rounding is coarser are of single precision.
 const SINGLE: f64 = 1e-12;
@@ -24,7 +24,7 @@ const SINGLE: f64 = 1e-12;
 /// `r^(1 + 1/p)`, and `r^(−1/p)` of them make up that time (tolerance proportionality; Söderlind & Wang 2006,
 /// *Adaptive time-stepping and computational stability*, §4). The explicit scheme, whose estimate has a lower
 /// order than the scheme, uses r directly. How errors grow with time depends on the motion; a
-/// [`Study`](crate::Study) measures them.
+/// `Study` measures them.
 ///
 /// Absolute tolerances are zero by default. They matter only for quantities that pass through zero and are small
 /// compared with all others.

@@ -9,12 +9,12 @@ use super::tableau::STAGES;
 use super::{Explicit, ExplicitView};
 use crate::element::group::UnkeptEntropy;
 use crate::element::state::State;
-use crate::number::compensated::Total;
-use crate::number::scalar::{Mask, Real};
 use crate::step::certificate::is_wide;
 use crate::step::error::StepFailure;
 use crate::step::law::Law;
 use crate::step::outcome::{Attempt, Outcome};
+use eem_material::number::compensated::Total;
+use eem_material::number::scalar::{Mask, Real};
 
 /// Roundings of the magnitude of the energy that a step may be off by, as in the certificate.
 const ROUNDINGS: f64 = 64.0;
@@ -249,7 +249,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         self.new_books.terms = Some([counted, own]);
         self.new_books.largest_momentum = scales.momentum;
         self.new_books.residue = residue;
-        let (mut production, mut least) = (Total::new(), self.scratch.least);
+        let (mut production, mut least) = (Total::default(), self.scratch.least);
         for progress in &self.scratch.progress {
             production.add_total(progress.production);
             let has_produced = progress.least.less(S::MAX);

@@ -5,7 +5,7 @@ use super::scratch::Progress;
 use super::{Explicit, ExplicitView};
 use crate::algebra::bivector::planes;
 use crate::element::state::State;
-use crate::number::scalar::{Mask, Real};
+use eem_material::number::scalar::{Mask, Real};
 
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// Entropies, books and targets at the end of the step, before it is closed.

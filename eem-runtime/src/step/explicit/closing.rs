@@ -21,8 +21,8 @@ use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
 use crate::element::group::ClosingView;
 use crate::element::state::State;
-use crate::number::scalar::Real;
 use crate::step::error::StepFailure;
+use eem_material::number::scalar::Real;
 
 /// Changes of a component after which its closing is given up.
 const MOST_TURNS: usize = 10;

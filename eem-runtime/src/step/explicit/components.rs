@@ -10,9 +10,9 @@ use crate::element::conduction::{Conduction, Partner};
 use crate::element::group::PlaceOf;
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
-use crate::number::compact::compact;
-use crate::number::scalar::Real;
 use crate::scene::entry::ElementEntry;
+use eem_material::number::compact::compact;
+use eem_material::number::scalar::Real;
 
 /// What holds the masses of a component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! How accurate a step has to be, and in which units.
 
-use crate::number::scalar::Real;
 use crate::step::control::Tolerance;
+use eem_material::number::scalar::Real;
 
 /// How accurate a step has to be.
 #[derive(Clone, Copy, Debug)]

@@ -2,8 +2,8 @@
 
 use super::Explicit;
 use super::demand::Scales;
-use crate::number::scalar::{Mask, Real};
 use crate::step::control::{Tolerance, norm};
+use eem_material::number::scalar::{Mask, Real};
 
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// The scales of the step, at its end before it is closed.

@@ -5,7 +5,7 @@
 //! mixed in as makes it zero.
 
 use super::tableau::{POSITIVE_WEIGHTS, WEIGHTED, WEIGHTS};
-use crate::number::scalar::{Mask, Real};
+use eem_material::number::scalar::{Mask, Real};
 
 /// A number for each stage that has weights.
 pub(super) type PerWeight<S> = [S; WEIGHTED.len()];

@@ -15,7 +15,7 @@ pub(super) mod turning;
 
 use super::vector::length;
 use crate::algebra::bivector::{Bivector, planes};
-use crate::number::scalar::{Mask, Real};
+use eem_material::number::scalar::{Mask, Real};
 
 pub(super) use moments::{Moments, WEAK};
 pub(super) use principal::Principal;

@@ -2,10 +2,10 @@
 
 use crate::algebra::bivector::{Bivector, planes};
 use crate::element::group::Offsets;
-use crate::number::compensated::{Compensated, Sum};
-use crate::number::scalar::Real;
 use crate::step::explicit::components::Components;
 use crate::step::explicit::guard::PerWeight;
+use eem_material::number::compensated::{Compensated, Sum};
+use eem_material::number::scalar::Real;
 
 /// The rows of the rates at the start of the step, and at its end.
 pub(super) const START: usize = 0;

@@ -1,8 +1,8 @@
 //! What an explicit scheme keeps between steps, as it is saved.
 
-use crate::number::compensated::{Compensated, Sum};
-use crate::number::digest::Digest;
-use crate::number::scalar::Real;
+use eem_material::number::compensated::{Compensated, Sum};
+use eem_material::number::digest::Digest;
+use eem_material::number::scalar::Real;
 
 /// Targets, what reservoirs have received from each component, and the rates of the present state, bit for
 /// bit.

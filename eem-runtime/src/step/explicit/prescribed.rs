@@ -8,10 +8,10 @@ use core::f64::consts::PI;
 
 use crate::element::handle::{Element, Node};
 use crate::element::layout::Layout;
-use crate::number::scalar::{Real, is_positive};
 use crate::scene::loads::Loads;
 use crate::step::error::StepFailure;
 use crate::step::explicit::tableau::{STAGES, TIMES};
+use eem_material::number::scalar::{Real, is_positive};
 
 /// Number of points of a step at which motions are evaluated, one more than the degree.
 const POINTS: usize = 11;

@@ -7,7 +7,7 @@ use super::tableau::{STAGES, WEIGHTED, WEIGHTS};
 use super::vector::{Origin, add, dot};
 use crate::algebra::bivector::Bivector;
 use crate::element::group::points;
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 /// Which of the stages with weights each stage is.
 const WEIGHT_OF: [Option<usize>; STAGES] = {

@@ -4,8 +4,8 @@ use super::Explicit;
 use super::memory::{START, Target};
 use super::past::SavedExplicit;
 use crate::element::state::State;
-use crate::number::compensated::Sum;
-use crate::number::scalar::Real;
+use eem_material::number::compensated::Sum;
+use eem_material::number::scalar::Real;
 
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// What the step from this state depends on besides.

@@ -2,9 +2,9 @@
 
 use crate::element::group::{ComponentEnergy, UnkeptEntropy};
 use crate::element::layout::Layout;
-use crate::number::compensated::Total;
-use crate::number::scalar::{Mask, Real};
 use crate::step::explicit::components::Components;
+use eem_material::number::compensated::Total;
+use eem_material::number::scalar::{Mask, Real};
 
 /// How far the closing of a component is.
 #[derive(Clone, Copy, Debug)]
@@ -89,7 +89,7 @@ impl<S: Real> Progress<S> {
             scale: S::zero(),
             correction: S::zero(),
             lost: S::zero(),
-            production: Total::new(),
+            production: Total::default(),
             least: S::MAX,
             factor: S::one(),
             granularity: S::zero(),

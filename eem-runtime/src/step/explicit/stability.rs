@@ -3,9 +3,9 @@
 use super::scratch::RowSums;
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
-use crate::number::scalar::{Mask, Real};
 use crate::step::error::StepFailure;
 use crate::step::scheme::Scheme;
+use eem_material::number::scalar::{Mask, Real};
 
 /// Up to these products with the step the stability function of DOP853 is at most 1: on the imaginary axis,
 /// vibrations, and on the real one, conduction and dashpots.

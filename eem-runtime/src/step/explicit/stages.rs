@@ -8,8 +8,8 @@ use super::tableau::{
 use super::{Explicit, ExplicitView};
 use crate::element::error::StateError;
 use crate::element::group::{Offsets, StageRates, StageView, points};
-use crate::number::scalar::Real;
 use crate::step::error::StepFailure;
+use eem_material::number::scalar::Real;
 
 /// The row of the rates of each stage: those of stages 1 and 2 are needed by the next two stages only, and
 /// leave their rows to the last ones.

@@ -10,9 +10,9 @@ use super::{Explicit, ExplicitView};
 use crate::algebra::bivector::Bivector;
 use crate::element::group::{ComponentEnergy, points};
 use crate::element::state::State;
-use crate::number::compensated::Sum;
-use crate::number::scalar::Real;
 use crate::step::error::StepFailure;
+use eem_material::number::compensated::Sum;
+use eem_material::number::scalar::Real;
 
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// Takes the start of a step from a state.

@@ -1,6 +1,6 @@
 //! Vectors of positions and momenta, and points from which arms are counted.
 
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 #[inline]
 pub(super) fn dot<S: Real, const D: usize>(a: &[S; D], b: &[S; D]) -> S {

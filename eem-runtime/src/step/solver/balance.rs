@@ -4,8 +4,8 @@ use core::array;
 
 use super::places::MovingNode;
 use crate::element::group::{StepView, Trial, points};
-use crate::number::scalar::Real;
 use crate::step::certificate::Speeds;
+use eem_material::number::scalar::Real;
 
 /// What Newton's method knows of a node that moves, during one step.
 #[derive(Clone, Copy, Debug)]

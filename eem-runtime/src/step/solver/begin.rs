@@ -13,10 +13,10 @@ use super::places::Seen;
 use crate::element::group::{Group, Old, StepView, points};
 use crate::element::loads::StepLoads;
 use crate::element::tableau::MOST_SETS;
-use crate::number::scalar::{Mask, Real};
 use crate::step::error::StepFailure;
 use crate::step::scheme::Scheme;
 use crate::step::solver::past::SavedPast;
+use eem_material::number::scalar::{Mask, Real};
 
 /// Where a trial starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,7 +47,9 @@ impl<S: Real, const D: usize> Solver<S, D> {
             group.begin(view, &mut old)?;
         }
         self.place_moved_anchors(view);
-        self.coupling.drive(self.scheme.tableau(), view);
+        if !self.coupling.is_none() {
+            self.coupling.drive(self.scheme.tableau(), view);
+        }
         self.start(view, start);
         Ok(())
     }
@@ -172,9 +174,13 @@ impl<S: Real, const D: usize> Solver<S, D> {
     /// Adds the inertia of masses that couple nodes to the system of an iteration.
     #[inline]
     pub(super) fn couple(&mut self, view: &StepView<'_, S>) {
-        if self.coupling.is_none() {
-            return;
+        if !self.coupling.is_none() {
+            self.couple_sets(view);
         }
+    }
+
+    #[inline(never)]
+    fn couple_sets(&mut self, view: &StepView<'_, S>) {
         let (moving, per_set) = (self.moving(), self.rows_per_set());
         let inertia = self.inertias(view);
         let (values, right) = self.tangent.parts();

@@ -13,10 +13,10 @@ use crate::element::group::{Along, Group, StepView, points};
 use crate::element::recount::Recount;
 use crate::element::state::State;
 use crate::element::tally::{Care, Tally};
-use crate::number::scalar::{Mask, Real};
 use crate::step::certificate::{Certificate, Internal, Kept, Motion, NodeStep, Reach, Speeds};
 use crate::step::error::StepFailure;
 use crate::step::scheme::Closing;
+use eem_material::number::scalar::{Mask, Real};
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// Writes the new state to `next`, from the increments at which the elements have been evaluated, and

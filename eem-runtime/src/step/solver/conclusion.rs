@@ -3,9 +3,9 @@
 use super::Solver;
 use super::progress::{Conclusion, Progress, Target};
 use crate::element::group::{Group, StepView};
-use crate::number::scalar::{Mask, Real};
 use crate::step::error::StepFailure;
 use crate::step::law::Law;
+use eem_material::number::scalar::{Mask, Real};
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// Closes the step at a trial where the elements have been evaluated, and judges it.

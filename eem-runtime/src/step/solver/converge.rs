@@ -5,10 +5,10 @@ use super::effort::Effort;
 use super::progress::{Conclusion, Progress, Target};
 use crate::element::error::StateError;
 use crate::element::group::{Group, StepView};
-use crate::number::scalar::{Mask, Real, natural_power};
 use crate::step::certificate::Certificate;
 use crate::step::error::StepFailure;
 use crate::step::newton::is_last;
+use eem_material::number::scalar::{Mask, Real, natural_power};
 
 /// How often an update is halved to bring all elements back to admissible states.
 const HALVINGS: u32 = 30;

@@ -14,8 +14,8 @@ use super::balance::Balance;
 use crate::element::group::{Sites, StepView, Trial};
 use crate::element::masses::Masses;
 use crate::element::tableau::{MOST_SETS, MOST_STAGES, Path, Tableau};
-use crate::number::compact::compact;
-use crate::number::scalar::{Mask, Real};
+use eem_material::number::compact::compact;
+use eem_material::number::scalar::{Mask, Real};
 
 /// The coupled masses of a scene, and where they write.
 #[derive(Debug)]

@@ -1,7 +1,7 @@
 //! How hard a step tries, and what it did.
 
-use crate::number::scalar::{Mask, Real, unless};
 use crate::step::newton::{NewtonIteration, NewtonSettings};
+use eem_material::number::scalar::{Mask, Real, unless};
 
 /// Parts of a step through which a solution is followed when it is not found at once.
 pub(super) const CONTINUATION_STEPS: u8 = 8;

@@ -3,9 +3,9 @@
 use super::Solver;
 use super::places::Seen;
 use crate::element::group::{Group, StepView};
-use crate::number::compensated::correct;
-use crate::number::scalar::{Real, unless};
 use crate::step::newton::Largest;
+use eem_material::number::compensated::correct;
+use eem_material::number::scalar::{Real, unless};
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// Starts the system of an iteration at the trial state.

@@ -2,8 +2,8 @@
 
 use crate::algebra::lu::Singular;
 use crate::algebra::system::LinearSystem;
-use crate::number::scalar::{Mask, Real};
 use crate::step::newton::CONTRACTION;
+use eem_material::number::scalar::{Mask, Real};
 
 /// Whether the factors of an earlier tangent of the same step still do.
 ///

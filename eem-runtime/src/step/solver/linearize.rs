@@ -3,10 +3,10 @@
 use super::Solver;
 use super::begin::Start;
 use crate::element::group::{Group, StepView};
-use crate::number::scalar::{Mask, Real};
 use crate::step::error::StepFailure;
 use crate::step::solver::converge::Purpose;
 use crate::step::solver::effort::{Effort, Iteration};
+use eem_material::number::scalar::{Mask, Real};
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// Residual and tangent at given global unknowns, with the local ones solved for.

@@ -3,7 +3,7 @@
 use core::array;
 
 use crate::element::impulse::{Impulses, PLACES};
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 /// What is left of the error of a forecast one step later. Any memory of some steps will do.
 const MEMORY: f64 = 0.875;

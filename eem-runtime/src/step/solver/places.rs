@@ -4,8 +4,8 @@ use core::array;
 
 use crate::element::group::Sites;
 use crate::element::masses::Masses;
-use crate::number::compact::compact;
-use crate::number::scalar::Real;
+use eem_material::number::compact::compact;
+use eem_material::number::scalar::Real;
 
 /// A node that moves.
 ///

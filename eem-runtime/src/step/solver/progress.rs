@@ -1,10 +1,10 @@
 //! How far Newton's method has come, and what it is for.
 
 use crate::element::state::State;
-use crate::number::scalar::{Mask, Real};
 use crate::step::certificate::Certificate;
 use crate::step::error::StepFailure;
 use crate::step::newton::{CONTRACTION, STAGNATION};
+use eem_material::number::scalar::{Mask, Real};
 
 /// How often a step that breaks a law where Newton's method has come to rest is tried with another
 /// iteration: rounding makes each of them a new draw.

@@ -13,8 +13,8 @@ use crate::element::group::{Sites, StepView, Trial, points};
 use crate::element::impulse::Impulses;
 use crate::element::loads::{Push, PushLine, StepLoads};
 use crate::element::tableau::{MOST_SETS, Tableau};
-use crate::number::compact::compact;
-use crate::number::scalar::{Real, is_positive};
+use eem_material::number::compact::compact;
+use eem_material::number::scalar::{Real, is_positive};
 
 /// The rockets of a scene.
 #[derive(Debug)]

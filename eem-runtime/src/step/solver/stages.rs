@@ -3,7 +3,7 @@
 use crate::algebra::system::LinearSystem;
 use crate::element::masses::Masses;
 use crate::element::tableau::{MOST_STAGES, Tableau};
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 /// What only a scheme with stages needs.
 #[derive(Debug)]

@@ -4,11 +4,11 @@ use super::Solver;
 use super::begin::Start;
 use crate::element::group::{Group, StepView};
 use crate::element::state::State;
-use crate::number::scalar::Real;
 use crate::step::certificate::Certificate;
 use crate::step::error::StepFailure;
 use crate::step::solver::effort::{CONTINUATION_STEPS, Effort};
 use crate::step::solver::progress::Target;
+use eem_material::number::scalar::Real;
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// The state after the step, or after the part of it that the view names, and what it proves.

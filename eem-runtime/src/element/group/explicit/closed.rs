@@ -1,8 +1,8 @@
 //! What is kept of an element that has been closed.
 
 use crate::element::kinematics::{Arms, Gradient, Kinematics};
-use crate::material::free_energy::{Array, FreeEnergy, Rates};
-use crate::number::scalar::{Mask, Real, unless};
+use eem_material::free_energy::{Array, FreeEnergy, Rates};
+use eem_material::number::scalar::{Mask, Real, unless};
 
 /// What was found of a point when it was closed last.
 #[derive(Clone, Copy)]

@@ -12,8 +12,8 @@ use crate::element::group::explicit::view::{ClosingView, StageRates, StageView};
 use crate::element::group::point::Point;
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::state::Energy;
-use crate::material::free_energy::{Array, Material};
-use crate::number::scalar::{Real, unless};
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::{Real, unless};
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, M, K, D> {
     /// See [`ExplicitGroup::close`](super::ExplicitGroup::close).

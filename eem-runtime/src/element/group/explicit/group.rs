@@ -12,8 +12,8 @@ use crate::element::group::loose::LooseElements;
 use crate::element::group::view::Placed;
 use crate::element::kinematics::{Kinematics, QuadraticStrain};
 use crate::element::state::State;
-use crate::material::free_energy::{Array, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
 
 /// Elements of the model `M` with the kinematics `K`. Their forces follow from the state alone.
 pub(crate) struct FreeGroup<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> {

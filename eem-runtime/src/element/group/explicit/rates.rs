@@ -11,8 +11,8 @@ use crate::element::group::explicit::group::FreeGroup;
 use crate::element::group::explicit::view::{StageRates, StageView};
 use crate::element::group::point::Point;
 use crate::element::kinematics::{Arms, Gradient, Kinematics, Measures};
-use crate::material::free_energy::{Array, FreeEnergy, Material, Rates};
-use crate::number::scalar::{Mask, Real, is_positive};
+use eem_material::free_energy::{Array, FreeEnergy, Material, Rates};
+use eem_material::number::scalar::{Mask, Real, is_positive};
 
 /// What the rates of a point follow from.
 pub(super) struct Found<'a, S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {

@@ -6,8 +6,8 @@ use crate::element::group::explicit::view::NodeStiffness;
 use crate::element::group::point::Point;
 use crate::element::kinematics::Kinematics;
 use crate::element::state::State;
-use crate::material::free_energy::Material;
-use crate::number::scalar::Real;
+use eem_material::free_energy::Material;
+use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> FreeGroup<S, M, K, D> {
     /// See [`ExplicitGroup::stiffness`](super::ExplicitGroup::stiffness).

@@ -5,9 +5,9 @@ use crate::element::error::StateError;
 use crate::element::group::explicit::view::UnkeptEntropy;
 use crate::element::group::point::Point;
 use crate::element::kinematics::Kinematics;
-use crate::material::free_energy::{FreeEnergy, Material, Rates};
-use crate::material::inversion::temperature_near;
-use crate::number::scalar::{Mask, Real, unless};
+use eem_material::free_energy::{FreeEnergy, Material, Rates};
+use eem_material::inversion::temperature_near;
+use eem_material::number::scalar::{Mask, Real, unless};
 
 /// Evaluations of a temperature after which the safeguarded search takes over. Newton's method from the
 /// temperature of the stages needs one or two.

@@ -3,8 +3,8 @@
 use crate::element::handle::Element;
 use crate::element::layout::Layout;
 use crate::element::state::{Energy, State};
-use crate::number::compensated::Total;
-use crate::number::scalar::{Real, unless};
+use eem_material::number::compensated::Total;
+use eem_material::number::scalar::{Real, unless};
 
 /// Where the parts of a stage vector begin: positions, momenta, viscous stretches, temperatures of thermal
 /// slots and then of reservoirs.
@@ -124,7 +124,7 @@ impl<S: Real> ComponentEnergy<S> {
     /// Of no elements.
     pub(crate) fn none() -> Self {
         Self {
-            value: Total::new(),
+            value: Total::default(),
             magnitude: S::zero(),
             terms: S::zero(),
             excess: S::zero(),

@@ -13,8 +13,8 @@ use crate::element::group::stages::stage_group::StageGroup;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Kinematics, add_blocks};
 use crate::element::tableau::{MOST_STAGES, Tableau};
-use crate::material::free_energy::{Array, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const D: usize>
     StageGroup<S, M, K, C, D>

@@ -8,8 +8,8 @@ use crate::element::group::begin::shorten;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::tableau::Tableau;
-use crate::material::free_energy::{Array, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const D: usize>
     StageMember<S, M, K, C, D>

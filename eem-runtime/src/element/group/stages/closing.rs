@@ -14,8 +14,8 @@ use crate::element::impulse::Impulses;
 use crate::element::kinematics::Kinematics;
 use crate::element::state::State;
 use crate::element::tally::Tally;
-use crate::material::free_energy::Material;
-use crate::number::scalar::Real;
+use eem_material::free_energy::Material;
+use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const D: usize>
     StageGroup<S, M, K, C, D>

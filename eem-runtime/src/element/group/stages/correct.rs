@@ -6,8 +6,8 @@ use super::source::Source;
 use crate::element::group::stages::stage_group::StageGroup;
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::tableau::{MOST_SETS, Tableau};
-use crate::material::free_energy::{Array, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const D: usize>
     StageGroup<S, M, K, C, D>

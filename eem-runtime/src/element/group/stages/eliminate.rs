@@ -8,8 +8,8 @@ use crate::element::error::StateError;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::Kinematics;
 use crate::element::tableau::Tableau;
-use crate::material::free_energy::Material;
-use crate::number::scalar::Real;
+use eem_material::free_energy::Material;
+use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const D: usize>
     StagePoint<S, M, K, C, D>

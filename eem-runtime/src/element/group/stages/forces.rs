@@ -4,8 +4,8 @@ use super::site::{PerPair, StageSite};
 use crate::element::group::arms::add_scaled;
 use crate::element::kinematics::{Arms, Blocks, Kinematics};
 use crate::element::tableau::{MOST_SETS, MOST_STAGES, Tableau};
-use crate::material::free_energy::Array;
-use crate::number::scalar::Real;
+use eem_material::free_energy::Array;
+use eem_material::number::scalar::Real;
 
 /// The forces of an element at the stages, as functions of the arms of each set.
 pub(super) struct StageForces<K: Kinematics<S, D>, S: Real, const D: usize> {

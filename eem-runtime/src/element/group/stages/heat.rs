@@ -11,7 +11,7 @@ use crate::element::group::site::Contact;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::Kinematics;
 use crate::element::tableau::Tableau;
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 /// Q at a stage of the element with a thermal slot, W.
 pub(super) fn received<S: Real, const D: usize>(

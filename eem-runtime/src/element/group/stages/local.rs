@@ -6,8 +6,8 @@
 use super::member::{StagePoint, unknowns};
 use crate::element::kinematics::Kinematics;
 use crate::element::tableau::Tableau;
-use crate::material::free_energy::{FreeEnergy, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{FreeEnergy, Material};
+use eem_material::number::scalar::Real;
 
 /// Working memory for the local systems of one group.
 #[derive(Clone, Debug)]

@@ -9,8 +9,8 @@ use crate::element::group::site::Contact;
 use crate::element::group::view::Trial;
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::tableau::{MOST_SETS, MOST_STAGES, Tableau};
-use crate::material::free_energy::{Array, FreeEnergy, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, FreeEnergy, Material};
+use eem_material::number::scalar::Real;
 
 /// The same element in a state, apart from any step.
 pub(super) type StateMember<S, M, K, const D: usize> = Member<S, M, K, PointRule, D>;

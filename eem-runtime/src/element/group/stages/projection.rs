@@ -40,9 +40,9 @@ use crate::element::recount::Recount;
 use crate::element::state::State;
 use crate::element::tableau::{MOST_POINTS, MOST_SETS, MOST_STAGES, Tableau};
 use crate::element::tally::Tally;
-use crate::material::free_energy::{Array, FreeEnergy, Material};
-use crate::number::scalar::Real;
 use drag_heat::DragHeat;
+use eem_material::free_energy::{Array, FreeEnergy, Material};
+use eem_material::number::scalar::Real;
 use vector::{Matrix, Vector};
 
 /// The path of a point through a step, and what is projected from it.

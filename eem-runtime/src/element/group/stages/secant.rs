@@ -4,9 +4,9 @@ use super::super::closing::pull_of_arms;
 use super::super::site::Site;
 use crate::element::group::view::Sites;
 use crate::element::kinematics::{Arms, Kinematics, Weights};
-use crate::material::free_energy::Array;
-use crate::number::compact::compact;
-use crate::number::scalar::Real;
+use eem_material::free_energy::Array;
+use eem_material::number::compact::compact;
+use eem_material::number::scalar::Real;
 
 /// The places of one element in the secant system.
 #[derive(Clone, Copy, Debug)]

@@ -10,7 +10,7 @@ use crate::element::group::site::{Contact, Site};
 use crate::element::group::view::Sites;
 use crate::element::kinematics::Kinematics;
 use crate::element::tableau::{MOST_SETS, Tableau};
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 /// Something for every two sets of unknowns: that of the rows, and that of the columns.
 pub(super) type PerPair<T> = [[T; MOST_SETS]; MOST_SETS];

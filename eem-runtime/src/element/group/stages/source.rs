@@ -9,8 +9,8 @@ use crate::element::recount::Recount;
 use crate::element::state::State;
 use crate::element::tableau::{MOST_SETS, Tableau};
 use crate::element::tally::Tally;
-use crate::material::free_energy::{Array, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
 
 /// What one step needs to remember of a point besides what every rule does, and what follows from it: forces,
 /// temperatures and rates of the stages, with their derivatives.

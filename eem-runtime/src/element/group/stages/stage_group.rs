@@ -18,8 +18,8 @@ use crate::element::recount::Recount;
 use crate::element::state::State;
 use crate::element::tableau::Tableau;
 use crate::element::tally::Tally;
-use crate::material::free_energy::Material;
-use crate::number::scalar::Real;
+use eem_material::free_energy::Material;
+use eem_material::number::scalar::Real;
 
 /// Elements of the model `M` with the kinematics `K`.
 pub(crate) struct StageGroup<

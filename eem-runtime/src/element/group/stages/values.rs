@@ -17,9 +17,9 @@ use crate::element::kinematics::{Arms, Blocks, Gradient, Kinematics, Weights};
 use crate::element::state::State;
 use crate::element::tableau::{MOST_SETS, MOST_STAGES, Tableau};
 use crate::element::tally::Tally;
-use crate::material::free_energy::{Array, FreeEnergy, Material};
-use crate::number::scalar::Real;
 use at_stage::AtStage;
+use eem_material::free_energy::{Array, FreeEnergy, Material};
+use eem_material::number::scalar::Real;
 
 /// The variables at the stages, and what the model says there.
 pub(crate) struct Values<S: Real, M: FreeEnergy<S>, K: Kinematics<S, D>, const D: usize> {

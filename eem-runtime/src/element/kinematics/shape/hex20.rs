@@ -1,8 +1,8 @@
 //! A hexahedron of twenty nodes, whose edges may bend, with 27 points.
 
 use crate::element::kinematics::shape::interpolation::{Shape, serendipity};
-use crate::material::free_energy::Entry;
-use crate::number::scalar::Real;
+use eem_material::free_energy::Entry;
+use eem_material::number::scalar::Real;
 
 /// A hexahedron of twenty nodes, whose edges may bend, with 27 points.
 #[derive(Clone, Copy, Debug)]

@@ -1,8 +1,8 @@
 //! A hexahedron of eight nodes, with eight points.
 
 use crate::element::kinematics::shape::interpolation::{Shape, multilinear};
-use crate::material::free_energy::Entry;
-use crate::number::scalar::Real;
+use eem_material::free_energy::Entry;
+use eem_material::number::scalar::Real;
 
 /// A hexahedron of eight nodes, with eight points.
 #[derive(Clone, Copy, Debug)]

@@ -4,8 +4,8 @@ use core::fmt::Debug;
 
 use crate::element::kinematics::measures::Points;
 use crate::element::kinematics::tensor::Symmetric;
-use crate::material::free_energy::{Array, Entry};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Entry};
+use eem_material::number::scalar::Real;
 
 /// The shape of a cell in `D` dimensions: [`Quad4`](super::Quad4), [`Quad8`](super::Quad8),
 /// [`Hex8`](super::Hex8) or [`Hex20`](super::Hex20).

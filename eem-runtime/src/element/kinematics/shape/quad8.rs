@@ -1,8 +1,8 @@
 //! A quadrilateral of eight nodes in plane strain, whose edges may bend, with nine points.
 
 use crate::element::kinematics::shape::interpolation::{Shape, serendipity};
-use crate::material::free_energy::Entry;
-use crate::number::scalar::Real;
+use eem_material::free_energy::Entry;
+use eem_material::number::scalar::Real;
 
 /// A quadrilateral of eight nodes in plane strain, whose edges may bend, with nine points.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 //! Gauss rules of two to four points per axis.
 
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 /// Abscissas and weights on [−1, 1].
 fn on_axis<S: Real>(points: usize) -> Vec<(S, S)> {

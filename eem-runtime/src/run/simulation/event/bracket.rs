@@ -1,7 +1,7 @@
 //! Step sizes on both sides of a change of sign, made narrow.
 
 use super::Sense;
-use crate::number::scalar::{Mask, Real};
+use eem_material::number::scalar::{Mask, Real};
 
 /// Step sizes on both sides of a change of sign, of a single number.
 #[derive(Clone, Copy, Debug)]

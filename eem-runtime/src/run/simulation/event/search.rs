@@ -8,12 +8,12 @@ use core::ops::ControlFlow;
 
 use super::bracket::Bracket;
 use super::{Event, Simulation};
-use crate::number::scalar::{Discord, Mask, Real};
 use crate::run::simulation::compiled::Aim;
 use crate::run::simulation::control_memory::Memory;
 use crate::run::simulation::run::RunEnd;
 use crate::step::error::{StepError, StepFailure};
 use crate::step::newton::StepReport;
+use eem_material::number::scalar::{Discord, Mask, Real};
 
 /// The least distance of two times that a search tells apart, in units in the last place.
 const SHARPEST: f64 = 4.0;

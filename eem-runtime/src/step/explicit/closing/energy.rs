@@ -4,9 +4,9 @@ use super::super::Explicit;
 use super::Verdict;
 use crate::element::group::{is_met, points};
 use crate::element::state::State;
-use crate::number::compensated::Total;
-use crate::number::scalar::{Mask, Real, unless};
 use core::ops::Range;
+use eem_material::number::compensated::Total;
+use eem_material::number::scalar::{Mask, Real, unless};
 
 /// The part of what elements produce in a step that heat may change.
 const HEAT_SHARE: f64 = 0.003;
@@ -23,7 +23,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let component = &self.components.all[index];
         let positions = points::<S, D>(&self.y[..self.offsets.momenta]);
         let momenta = points::<S, D>(&self.y[self.offsets.momenta..self.offsets.viscous]);
-        let (mut energy, half) = (Total::new(), S::from_f64(0.5));
+        let (mut energy, half) = (Total::default(), S::from_f64(0.5));
         let (mut magnitude, mut motion) = (self.scratch.energies[index].magnitude, S::zero());
         for place in component.masses.clone() {
             let mut square = S::zero();

@@ -7,8 +7,8 @@ use super::super::inertia::{Inertia, Moments, WEAK};
 use super::super::vector::{Origin, add, dot, size};
 use crate::algebra::bivector::Bivector;
 use crate::element::group::points;
-use crate::number::compensated::Sum;
-use crate::number::scalar::{MOST_LANES, Mask, Real, unless};
+use eem_material::number::compensated::Sum;
+use eem_material::number::scalar::{MOST_LANES, Mask, Real, unless};
 
 /// Roundings of `Σ |q||p|` that are left to the momenta: positions turn only for more.
 const OWN_ROUNDINGS: f64 = 2.0;

@@ -7,9 +7,9 @@ use super::momenta::Rigid;
 use crate::algebra::bivector::Bivector;
 use crate::element::group::points;
 use crate::element::state::State;
-use crate::number::compensated::Total;
-use crate::number::scalar::{Discord, Mask, Real};
 use crate::step::error::StepFailure;
+use eem_material::number::compensated::Total;
+use eem_material::number::scalar::{Discord, Mask, Real};
 
 impl<S: Real, const D: usize> Explicit<S, D> {
     /// Replaces the step of a component by a rigid motion of its old state, with all internal variables as
@@ -65,7 +65,7 @@ impl<S: Real, const D: usize> Explicit<S, D> {
         let progress = &mut self.scratch.progress[index];
         progress.is_rigid = true;
         progress.seen = None;
-        progress.production = Total::new();
+        progress.production = Total::default();
         progress.factor = S::zero();
         self.scratch.waits[index] = S::Mask::none();
         self.restore_momenta(index);

@@ -7,7 +7,7 @@ use super::momenta::Rigid;
 use super::{FROZEN, MOST_TURNS, Verdict};
 use crate::element::group::points;
 use crate::element::state::State;
-use crate::number::scalar::{Discord, Mask, Real, unless};
+use eem_material::number::scalar::{Discord, Mask, Real, unless};
 
 /// The least part of what can give energy that is motion, for motion to give it.
 const LEAST_MOTION: f64 = 0.05;

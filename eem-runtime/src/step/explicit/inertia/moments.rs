@@ -1,6 +1,6 @@
 //! Second moments of the masses of a body.
 
-use crate::number::scalar::Real;
+use eem_material::number::scalar::Real;
 
 /// The share of the trace of M below which the inertia in a plane is weak: the correction of momenta there would be
 /// a hundred times as large as in other planes and more, and the body is turned instead.

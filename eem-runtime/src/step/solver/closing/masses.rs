@@ -5,12 +5,12 @@ use core::array;
 use crate::element::group::{StepView, points};
 use crate::element::state::State;
 use crate::element::tally::Tally;
-use crate::number::scalar::{Mask, Real};
 use crate::step::certificate::{Motion, NodeStep, Speeds};
 use crate::step::error::StepFailure;
 use crate::step::newton::Largest;
 use crate::step::scheme::Closing;
 use crate::step::solver::Solver;
+use eem_material::number::scalar::{Mask, Real};
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// New positions and momenta, all finite. The impulses of the elements are replaced by those of the
@@ -31,8 +31,10 @@ impl<S: Real, const D: usize> Solver<S, D> {
         let takes_increments = self.scheme.closing() == Closing::Increments;
         let mut largest = Largest::none();
         let mut remembering = self.past.remember();
-        self.coupling
-            .find_impulses(0, (&self.nodes, &self.trial), twice_per_step);
+        if !self.coupling.is_none() {
+            let nodes = (self.nodes.as_slice(), &self.trial);
+            self.coupling.find_impulses(0, nodes, twice_per_step);
+        }
         for (moving, node) in self.nodes.iter().enumerate() {
             let at = node.place.node();
             let (displacement, rest) = (&self.trial.displacements[at], &self.trial.rests[at]);

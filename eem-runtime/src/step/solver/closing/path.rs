@@ -13,13 +13,13 @@ use core::array;
 use crate::element::group::{StepView, points};
 use crate::element::state::State;
 use crate::element::tally::Tally;
-use crate::number::scalar::Real;
 use crate::step::certificate::{Motion, NodeStep, Speeds};
 use crate::step::error::StepFailure;
 use crate::step::newton::Largest;
 use crate::step::solver::Solver;
 use crate::step::solver::closing::masses::{follow_coupled_masses, move_node};
 use crate::step::solver::stages::Stages;
+use eem_material::number::scalar::Real;
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// Judges the balances of the nodes at all stages.

@@ -7,12 +7,12 @@ use crate::element::impulse::Impulses;
 use crate::element::state::State;
 use crate::element::tableau::Ending;
 use crate::element::tally::Tally;
-use crate::number::scalar::Real;
 use crate::step::certificate::{Motion, NodeStep, Speeds};
 use crate::step::error::StepFailure;
 use crate::step::solver::Solver;
 use crate::step::solver::closing::masses::move_node;
 use crate::step::solver::stages::Stages;
+use eem_material::number::scalar::Real;
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// New positions and momenta, all finite, and the work of loads and supports.

@@ -11,11 +11,11 @@ use core::array;
 use crate::element::group::{StepView, points};
 use crate::element::state::State;
 use crate::element::tableau::{MOST_STAGES, Path};
-use crate::number::scalar::Real;
 use crate::step::certificate::{Motion, NodeStep, Speeds};
 use crate::step::solver::Solver;
 use crate::step::solver::coupling::changes_at_stages;
 use crate::step::solver::stages::Stages;
+use eem_material::number::scalar::Real;
 
 impl<S: Real, const D: usize> Solver<S, D> {
     /// Moved anchors are where the step has moved them, and their supports have done work.

@@ -10,8 +10,8 @@ use crate::element::group::stages::member::StatePoint;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::{Arms, QuadraticStrain};
 use crate::element::tableau::{MOST_POINTS, MOST_STAGES};
-use crate::material::free_energy::{Array, FreeEnergy, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, FreeEnergy, Material};
+use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> ProjectedPoint<S, M, K, D> {
     /// Takes y⁰ from the old state, where all increments are zero.

@@ -10,8 +10,8 @@ use crate::element::recount::Recount;
 use crate::element::state::State;
 use crate::element::tableau::Tableau;
 use crate::element::tally::{Care, Tally};
-use crate::material::free_energy::{Array, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> ProjectedPoint<S, M, K, D> {
     /// Counts its forces, and judges the balances of its internal variables, given the magnitude of the

@@ -17,8 +17,8 @@ use crate::element::kinematics::QuadraticStrain;
 use crate::element::state::State;
 use crate::element::tableau::{MOST_STAGES, Tableau};
 use crate::element::tally::Tally;
-use crate::material::free_energy::{Array, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
 
 /// What a step has given to an element, stage by stage.
 pub(super) type Booked<S> = [Received<S>; MOST_STAGES];

@@ -8,8 +8,8 @@
 use super::vector::{Matrix, Vector};
 use crate::element::group::arms::measures_in;
 use crate::element::kinematics::{PerStrain, QuadraticStrain};
-use crate::material::free_energy::{Array, FreeEnergy};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::number::scalar::Real;
 
 /// `∇ê` and `∇²ê` by `(C, γ, s)` from the derivatives of ψ by `x = (π, γ, θ)`.
 pub(super) fn derivatives<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize>(

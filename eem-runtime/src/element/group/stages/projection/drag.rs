@@ -14,8 +14,8 @@ use crate::element::group::stages::local::LocalStages;
 use crate::element::group::stages::member::StatePoint;
 use crate::element::kinematics::{Measures, PerStrain, QuadraticStrain};
 use crate::element::tableau::Tableau;
-use crate::material::free_energy::{Array, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> ProjectedPoint<S, M, K, D> {
     /// Adds the forces of the dashpot to conjugates that are exact without them.

@@ -2,8 +2,8 @@
 
 use crate::element::kinematics::{PerStrain, QuadraticStrain};
 use crate::element::tableau::MOST_SETS;
-use crate::material::free_energy::Array;
-use crate::number::scalar::Real;
+use eem_material::free_energy::Array;
+use eem_material::number::scalar::Real;
 
 /// What the dashpot turns into heat at a stage, `f ν`, J, and its derivatives by the increments of the strain, with the
 /// temperature held, and by the temperature.

@@ -4,8 +4,8 @@ use super::ProjectedPoint;
 use super::vector::Vector;
 use crate::element::kinematics::QuadraticStrain;
 use crate::element::tableau::{MOST_STAGES, Tableau};
-use crate::material::free_energy::Material;
-use crate::number::scalar::Real;
+use eem_material::free_energy::Material;
+use eem_material::number::scalar::Real;
 
 /// Roundings of the terms of `Δê − Σ b a·R` below which it is nothing else: a product and two sums of a term, in
 /// each of the two parts. The correction is then constant for the tangent, whose derivative of it would be

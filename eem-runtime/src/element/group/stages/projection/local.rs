@@ -18,8 +18,8 @@ use crate::element::group::stages::member::StatePoint;
 use crate::element::group::view::StepView;
 use crate::element::kinematics::QuadraticStrain;
 use crate::element::tableau::{MOST_STAGES, Tableau};
-use crate::material::free_energy::{Array, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> ProjectedPoint<S, M, K, D> {
     /// Writes the equations, all in J; the unknowns are in their units.

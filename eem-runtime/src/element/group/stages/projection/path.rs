@@ -11,8 +11,8 @@ use crate::element::group::stages::member::{StageArms, StatePoint};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Measures, PerStrain, QuadraticStrain};
 use crate::element::tableau::{MOST_POINTS, MOST_STAGES, Path, Tableau};
-use crate::material::free_energy::{Array, FreeEnergy, Material};
-use crate::number::scalar::{Real, is_positive};
+use eem_material::free_energy::{Array, FreeEnergy, Material};
+use eem_material::number::scalar::{Real, is_positive};
 
 /// `y = (C, γ, s)` and `x = (π, γ, θ)` somewhere along a path.
 type PathPoint<S, M, K, const D: usize> = (Vector<S, M, K, D>, <M as FreeEnergy<S>>::Variables);

@@ -3,8 +3,8 @@
 use core::ops::{Index, IndexMut};
 
 use crate::element::kinematics::{PerStrain, QuadraticStrain, StrainMatrix};
-use crate::material::free_energy::{Array, FreeEnergy};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::number::scalar::Real;
 
 /// A number per variable.
 #[derive(Debug)]

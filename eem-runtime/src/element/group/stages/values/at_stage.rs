@@ -1,8 +1,8 @@
 //! One element at one stage: forces, rates of its internal variables, and their derivatives.
 
 use crate::element::conduction::HeatFlow;
-use crate::material::free_energy::{Array, FreeEnergy};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::number::scalar::Real;
 
 /// What a model says at a stage.
 #[derive(Clone, Copy, Debug)]

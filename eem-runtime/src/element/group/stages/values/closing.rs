@@ -10,8 +10,8 @@ use crate::element::kinematics::{Arms, Ends, Kinematics, Weights};
 use crate::element::layout::Slots;
 use crate::element::state::State;
 use crate::element::tableau::{Ending, Tableau};
-use crate::material::free_energy::{Array, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ValuesPoint<S, M, K, D> {
     /// The forces on the nodes at a stage: their magnitudes as found, their directions from the trial.

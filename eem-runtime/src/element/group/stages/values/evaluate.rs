@@ -10,8 +10,8 @@ use crate::element::group::view::{StepView, Trial};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Kinematics};
 use crate::element::tableau::Tableau;
-use crate::material::free_energy::{Array, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, Material};
+use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ValuesPoint<S, M, K, D> {
     /// Evaluates the model at all stages of the trial.

@@ -11,8 +11,8 @@ use super::ValuesPoint;
 use crate::element::group::stages::local::{Column, LocalStages};
 use crate::element::kinematics::Kinematics;
 use crate::element::tableau::{EntropyBalance, Tableau};
-use crate::material::free_energy::{Array, FreeEnergy, Material};
-use crate::number::scalar::Real;
+use eem_material::free_energy::{Array, FreeEnergy, Material};
+use eem_material::number::scalar::Real;
 
 /// Sorts the derivative of a quantity of a stage by `x` into those by inputs and by unknowns.
 fn sort<S: Real, M: FreeEnergy<S>>(

@@ -1,0 +1,225 @@
+//! A free energy of joint invariants of E and Γ, as one of components of both.
+//!
+//! A material depends on invariants only: partitioned derivatives by components would depend on the axes. With
+//! the conjugates `f_m` of the invariants between two states,
+//!
+//! ```text
+//! f_E = Σ f_m P^E_m,   g_Γ = −Σ f_m P^Γ_m,   f_E:ΔE − g_Γ:ΔΓ = Σ f_m Δm   exactly
+//! ```
+//!
+//! are those of the components, which elements treat as any other measures and viscous strains: the
+//! components of Γ are dashpots with the same viscosity, so that `Σ η γ̇²` is `Γ̇:V⁻¹Γ̇`.
+
+mod chain;
+
+use crate::free_energy::{Array, Caloric, FreeEnergy};
+use crate::joint::JointEnergy;
+use crate::number::scalar::Real;
+
+/// The free energy of a material `M` with joint invariants, of N variables with K dashpots,
+///
+/// ```text
+/// x = (strains, components of E, γ of scalar dashpots, components of Γ, θ),
+/// ```
+///
+/// R algorithmic quantities, and room for A and B numbers of the old state in the two forms. Units are those of the
+/// material, per volume.
+///
+/// ```
+/// use eem::{FreeEnergy, StrainEnergy};
+///
+/// #[derive(Clone, FreeEnergy)]
+/// #[free_energy(|e2: StrainSquare, m3: ViscousStrain, m2: ViscousSquare| 3.0 * (e2 - 2 * m3 + m2))]
+/// #[viscosity(m3 = 5.0)]
+/// struct Fluid;
+///
+/// // E:E, five components of E and five of Γ, for E = 0.1 b_0 and Γ = 0.04 b_0.
+/// let energy = Fluid.at_point::<f64>();
+/// let mut x = [0.0; 11];
+/// (x[0], x[1], x[6]) = (0.01, 0.1, 0.04);
+/// assert!((energy.free_energy(&x) - 3.0_f64 * 0.06 * 0.06).abs() < 1e-15);
+/// // ∂ψ/∂Γ = −6 (E − Γ)
+/// assert!((energy.gradient(&x)[6] + 6.0_f64 * 0.06).abs() < 1e-15);
+/// assert_eq!(energy.viscosity(300.0).0, [5.0; 5]);
+/// ```
+#[derive(Clone, Debug)]
+pub struct ComponentEnergy<
+    M,
+    const N: usize,
+    const K: usize,
+    const R: usize,
+    const A: usize,
+    const B: usize,
+> {
+    material: M,
+}
+
+impl<M, const N: usize, const K: usize, const R: usize, const A: usize, const B: usize>
+    ComponentEnergy<M, N, K, R, A, B>
+{
+    /// Of a material.
+    pub fn new(material: M) -> Self {
+        Self { material }
+    }
+}
+
+// Lists of what implements the trait, in messages, are about materials.
+#[diagnostic::do_not_recommend]
+impl<
+    S: Real,
+    M: FreeEnergy<S> + JointEnergy,
+    const N: usize,
+    const K: usize,
+    const R: usize,
+    const A: usize,
+    const B: usize,
+> FreeEnergy<S> for ComponentEnergy<M, N, K, R, A, B>
+{
+    const MEASURES: usize = N - K - M::THERMAL as usize;
+    const DASHPOTS: usize = K;
+    const THERMAL: bool = M::THERMAL;
+    const PER_VOLUME: bool = true;
+    const VISCOUS_STRAIN: usize = K - M::DASHPOTS;
+    const MODEL: &'static str = M::MODEL;
+    const PARAMETERS: &'static [&'static str] = M::PARAMETERS;
+
+    type Variables = [S; N];
+    type Hessian = [[S; N]; N];
+    type Viscosities = [S; K];
+    type Drag = M::Drag;
+    type Corners = M::Corners;
+    type Response = [S; R];
+    type Tangent = [[S; N]; R];
+    type EntropyFormOld = [S; A];
+    type TemperatureFormOld = [S; B];
+
+    fn duplicate(&self) -> Self {
+        Self::new(self.material.duplicate())
+    }
+
+    fn parameter(&self, index: usize) -> S {
+        self.material.parameter(index)
+    }
+
+    fn free_energy(&self, x: &[S; N]) -> S {
+        self.material.free_energy(&Self::variables(x))
+    }
+
+    // Rounding of the invariants counts as well.
+    fn energy_magnitude(&self, x: &[S; N]) -> S {
+        let (tensors, variables) = (Self::tensors(x), Self::variables(x));
+        let gradient = self.material.gradient(&variables);
+        let own = self.material.energy_magnitude(&variables);
+        Self::invariants::<S>().fold(own, |sum, (index, joint)| {
+            sum + gradient[index].abs() * tensors.size(joint)
+        })
+    }
+
+    fn internal_energy(&self, x: &[S; N]) -> S {
+        self.material.internal_energy(&Self::variables(x))
+    }
+
+    fn gradient(&self, x: &[S; N]) -> [S; N] {
+        let gradient = self.material.gradient(&Self::variables(x));
+        Self::conjugates(&Self::tensors(x), gradient.as_ref(), S::one())
+    }
+
+    fn hessian(&self, x: &[S; N]) -> ([S; N], [[S; N]; N]) {
+        let tensors = Self::tensors(x);
+        let (gradient, hessian) = self.material.hessian(&Self::variables(x));
+        let gradient = gradient.as_ref();
+        let both = [&tensors, &tensors];
+        (
+            Self::conjugates(&tensors, gradient, S::one()),
+            Self::slopes(both, (gradient, hessian.as_ref()), [S::one(); 2]),
+        )
+    }
+
+    fn caloric(&self, x: &[S; N]) -> Caloric<S> {
+        self.material.caloric(&Self::variables(x))
+    }
+
+    fn caloric_at(&self, x: [S; N]) -> impl Fn(S) -> (Caloric<S>, S) {
+        self.material.caloric_at(Self::variables(&x))
+    }
+
+    // The states between two are mixed of strains and invariants.
+    fn caloric_between(
+        &self,
+        x0: &[S; N],
+        x1: &[S; N],
+        new: usize,
+    ) -> impl Fn(S) -> (Caloric<S>, S) {
+        let [x0, x1] = [x0, x1].map(Self::variables);
+        self.material.caloric_at(x0.beginning_as(&x1, new))
+    }
+
+    fn entropy_hessian(&self, x: &[S; N]) -> [[S; N]; N] {
+        let tensors = Self::tensors(x);
+        let variables = Self::variables(x);
+        let hessian = self.material.entropy_hessian(&variables);
+        // ∂s/∂x = −∂²ψ/∂θ∂x
+        let slopes = self.material.rates(&variables).slopes;
+        let both = [&tensors, &tensors];
+        Self::slopes(both, (slopes.as_ref(), hessian.as_ref()), [S::one(); 2])
+    }
+
+    fn viscosity(&self, theta: S) -> ([S; K], [S; K]) {
+        let (viscosities, slopes) = self.material.viscosity(theta);
+        (
+            Self::spread(viscosities.as_ref()),
+            Self::spread(slopes.as_ref()),
+        )
+    }
+
+    fn drag(&self, theta: S) -> (M::Drag, M::Drag) {
+        self.material.drag(theta)
+    }
+
+    fn entropy_form_old(&self, x0: &[S; N]) -> [S; A] {
+        let own = self.material.entropy_form_old(&Self::variables(x0));
+        Self::joined(own.as_ref(), x0)
+    }
+
+    fn entropy_form(
+        &self,
+        old: &[S; A],
+        x1: &[S; N],
+        corners: &M::Corners,
+    ) -> ([S; R], [[S; N]; R]) {
+        let (own, tensors) = Self::split(old);
+        let (response, tangent) = self
+            .material
+            .entropy_form(&own, &Self::variables(x1), corners);
+        Self::form(&tensors, x1, (&response, &tangent))
+    }
+
+    fn entropy_form_response(&self, old: &[S; A], x1: &[S; N], corners: &M::Corners) -> [S; R] {
+        let (own, tensors) = Self::split(old);
+        let variables = Self::variables(x1);
+        let response = self
+            .material
+            .entropy_form_response(&own, &variables, corners);
+        let mean = tensors.mean(&Self::tensors(x1));
+        Self::conjugates(&mean, response.as_ref(), -S::one())
+    }
+
+    fn temperature_form_old(&self, x0: &[S; N]) -> [S; B] {
+        let own = self.material.temperature_form_old(&Self::variables(x0));
+        Self::joined(own.as_ref(), x0)
+    }
+
+    fn temperature_form(&self, old: &[S; B], x1: &[S; N]) -> ([S; R], [[S; N]; R]) {
+        let (own, tensors) = Self::split(old);
+        let (response, tangent) = self.material.temperature_form(&own, &Self::variables(x1));
+        Self::form(&tensors, x1, (&response, &tangent))
+    }
+
+    fn temperature_form_response(&self, old: &[S; B], x1: &[S; N]) -> [S; R] {
+        let (own, tensors) = Self::split(old);
+        let variables = Self::variables(x1);
+        let response = self.material.temperature_form_response(&own, &variables);
+        let mean = tensors.mean(&Self::tensors(x1));
+        Self::conjugates(&mean, response.as_ref(), -S::one())
+    }
+}

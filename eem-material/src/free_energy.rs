@@ -1,0 +1,313 @@
+//! What a free energy offers to the schemes: the trait that the derive implements.
+
+use core::fmt::Debug;
+use core::ops::{Index, IndexMut};
+
+use crate::number::scalar::Scalar;
+
+/// A fixed-size array, named only by its element type.
+///
+/// Implemented for `[T; N]`. The lengths of the arrays of a model depend on its variables, so the trait
+/// [`FreeEnergy`] leaves them to associated types.
+///
+/// ```
+/// use eem::Array;
+///
+/// let row = <[f64; 3]>::filled(2.0);
+/// assert_eq!(<[f64; 3] as Array<f64>>::LEN, 3);
+/// assert_eq!(row.as_ref().iter().sum::<f64>(), 6.0);
+/// ```
+pub trait Array<T>:
+    Entry + AsRef<[T]> + AsMut<[T]> + Index<usize, Output = T> + IndexMut<usize>
+{
+    /// The number of elements.
+    const LEN: usize;
+
+    /// The array with `value` everywhere.
+    fn filled(value: T) -> Self;
+
+    /// The array with the first `count` elements of another one, and its own beyond.
+    #[must_use]
+    #[inline]
+    fn beginning_as(mut self, other: &Self, count: usize) -> Self
+    where
+        T: Copy,
+    {
+        for index in 0..Self::LEN {
+            if index < count {
+                self[index] = other[index];
+            }
+        }
+        self
+    }
+}
+
+/// Elements of an array. Implemented for every type that qualifies.
+pub trait Entry: Copy + Debug + Send + Sync + 'static {}
+
+impl<T: Copy + Debug + Send + Sync + 'static> Entry for T {}
+
+impl<T: Entry, const N: usize> Array<T> for [T; N] {
+    const LEN: usize = N;
+
+    #[inline]
+    fn filled(value: T) -> Self {
+        [value; N]
+    }
+}
+
+/// Entropy and heat capacity of an element at one temperature.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Caloric<S> {
+    /// `S(θ)`, J/K.
+    pub entropy: S,
+    /// `C = θ ∂S/∂θ`, J/K.
+    pub heat_capacity: S,
+    /// The sum of the absolute values of the terms of `S`, J/K; times ε it bounds the rounding of `entropy`.
+    pub magnitude: S,
+}
+
+/// Forces and slopes that determine the rates of a state. `V` is an array with an entry per variable of `x = (π₁ …
+/// π_M, γ₁ … γ_K, θ)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rates<V> {
+    /// `(f₁ … f_M, g₁ … g_K, c)` with `f = ∂ψ/∂π`, `g = −∂ψ/∂γ` and `c = θ ∂s/∂θ`, J/K; without c if there is no
+    /// temperature.
+    pub forces: V,
+    /// `(∂s/∂π₁ … ∂s/∂π_M, ∂s/∂γ₁ … ∂s/∂γ_K, 0)`; all zero without temperature.
+    pub slopes: V,
+}
+
+/// A Helmholtz free energy `ψ(x)` with everything that the schemes need.
+///
+/// `#[derive(FreeEnergy)]` generates every method as straight-line code; do not implement it by hand. The variables are
+///
+/// ```text
+/// x = (π₁ … π_M, γ₁ … γ_K, θ)      N = M + K + T components
+/// ```
+///
+/// measures of the deformation (`M = 1`, the stretch λ in m, for a spring),
+/// viscous stretches of the dashpots (m) and, if the model has one (`T = 1`),
+/// the temperature (K). Index 0 is the old, 1 the new state of a step. The
+/// algorithmic quantities of a step, the *response*, are
+///
+/// ```text
+/// (f*₁ … f*_M, g*₁ … g*_K, θ*, Δs)      R = M + K + 2T components
+/// f* = D_π e,   g* = −D_γ e,   θ* = D_s e,   Δs = S(x¹) − S(x⁰)
+/// ```
+///
+/// with the symmetrised partitioned discrete derivatives D of García Orden &
+/// Romero (2012), eq. (28). A model without temperature has `D ψ` instead.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no free energy in the scalar `{S}`",
+    label = "no material for `{S}`",
+    note = "write `#[derive(FreeEnergy)]` and `#[free_energy(|lambda: Stretch| …)]` on top of the struct"
+)]
+pub trait FreeEnergy<S: Scalar> {
+    /// Number of measures of the deformation, M.
+    const MEASURES: usize;
+    /// Number of dashpots, K.
+    const DASHPOTS: usize;
+    /// Whether there is a temperature, T.
+    const THERMAL: bool;
+    /// Whether ψ is per reference volume, a function of strains; then all units with J, N and J/K below are per m³.
+    /// See `StrainEnergy` in `eem-runtime`.
+    const PER_VOLUME: bool = false;
+    /// The number of dashpots, the last ones, that are components of a viscous strain tensor.
+    const VISCOUS_STRAIN: usize = 0;
+    /// The name of the struct.
+    const MODEL: &'static str;
+    /// The names of the parameters that the model uses.
+    const PARAMETERS: &'static [&'static str];
+
+    /// `[S; N]`, the variables.
+    type Variables: Array<S>;
+    /// `[[S; N]; N]`.
+    type Hessian: Array<Self::Variables>;
+    /// `[S; K]`; one or two more for the flows of a viscous strain, see [`JointEnergy`](crate::JointEnergy).
+    type Viscosities: Array<S>;
+    /// `[S; 1]` with a dashpot in parallel with the spring (Kelvin–Voigt), else `[S; 0]`.
+    type Drag: Array<S>;
+    /// `[S; 2(N − 1)]`, `[S; 0]` without temperature.
+    type Corners: Array<S>;
+    /// `[S; R]`.
+    type Response: Array<S>;
+    /// `[[S; N]; R]`.
+    type Tangent: Array<Self::Variables>;
+    /// Values of the old state that the entropy form reuses.
+    type EntropyFormOld: Array<S>;
+    /// Values of the old state that the temperature form reuses.
+    type TemperatureFormOld: Array<S>;
+
+    /// A copy of the material, for a copy of its scene. The derive clones all fields.
+    #[must_use]
+    fn duplicate(&self) -> Self
+    where
+        Self: Sized;
+
+    /// The value of parameter `index` of [`PARAMETERS`](Self::PARAMETERS).
+    fn parameter(&self, index: usize) -> S;
+
+    /// `ψ(x)`, J.
+    fn free_energy(&self, x: &Self::Variables) -> S;
+
+    /// `Σ |terms of ψ|`, J; times ε it bounds the rounding of [`free_energy`](Self::free_energy),
+    ///
+    /// ```text
+    /// |ψ_computed − ψ_exact| ≤ 8 ε · energy_magnitude      |ψ| ≤ energy_magnitude
+    /// ```
+    ///
+    /// to first order in ε, for the given x and parameters. Rounding inside functions, powers and products counts
+    /// with its effect on ψ: `ln(λ/l)` contributes `1 + |ln(λ/l)|`, because the quotient is rounded. If terms of ψ
+    /// cancel, the magnitude is far above |ψ|, and differences of energies below ε times the magnitude are
+    /// meaningless.
+    fn energy_magnitude(&self, x: &Self::Variables) -> S;
+
+    /// `e(x) = ψ − θ ∂ψ/∂θ`, J.
+    fn internal_energy(&self, x: &Self::Variables) -> S;
+
+    /// `∂ψ/∂x = (f, −g, −s)`.
+    fn gradient(&self, x: &Self::Variables) -> Self::Variables;
+
+    /// `∂ψ/∂x` and `∂²ψ/∂x²`.
+    fn hessian(&self, x: &Self::Variables) -> (Self::Variables, Self::Hessian);
+
+    /// Entropy and heat capacity; zero without temperature.
+    fn caloric(&self, x: &Self::Variables) -> Caloric<S>;
+
+    /// [`caloric`](Self::caloric) and [`free_energy`](Self::free_energy) as functions of the temperature with the
+    /// other variables of `x`, for inversions with several evaluations. Everything independent of the temperature
+    /// is computed once. Results differ by rounding.
+    fn caloric_at(&self, x: Self::Variables) -> impl Fn(S) -> (Caloric<S>, S) {
+        move |theta| {
+            let mut x = x;
+            if let Some(last) = x.as_mut().last_mut() {
+                *last = theta;
+            }
+            (self.caloric(&x), self.free_energy(&x))
+        }
+    }
+
+    /// [`caloric_at`](Self::caloric_at) of the mixed state with the first `new` measures and viscous variables
+    /// of `x1` and the others of `x0`, one of the [`Corners`](Self::Corners).
+    #[inline]
+    fn caloric_between(
+        &self,
+        x0: &Self::Variables,
+        x1: &Self::Variables,
+        new: usize,
+    ) -> impl Fn(S) -> (Caloric<S>, S) {
+        self.caloric_at(x0.beginning_as(x1, new))
+    }
+
+    /// Forces, heat capacity and the slopes of the entropy.
+    fn rates(&self, x: &Self::Variables) -> Rates<Self::Variables> {
+        let (gradient, hessian) = self.hessian(x);
+        let mut rates = Rates {
+            forces: gradient,
+            slopes: Self::Variables::filled(S::zero()),
+        };
+        let last = Self::MEASURES + Self::DASHPOTS;
+        for dashpot in Self::MEASURES..last {
+            rates.forces[dashpot] = -gradient[dashpot];
+        }
+        if Self::THERMAL {
+            rates.forces[last] = -x[last] * hessian[last][last];
+            for index in 0..last {
+                rates.slopes[index] = -hessian[last][index];
+            }
+        }
+        rates
+    }
+
+    /// [`rates`](Self::rates) with `[s, ψ]`, J/K and J, as functions of the temperature with the other variables of
+    /// `x`. Everything independent of the temperature is computed once. Without temperature the argument is
+    /// ignored, and s is zero.
+    fn rates_at(&self, x: Self::Variables) -> impl Fn(S) -> (Rates<Self::Variables>, [S; 2]) {
+        move |theta| {
+            let mut x = x;
+            let mut entropy = S::zero();
+            if Self::THERMAL {
+                let last = Self::MEASURES + Self::DASHPOTS;
+                x[last] = theta;
+                entropy = -self.gradient(&x)[last];
+            }
+            (self.rates(&x), [entropy, self.free_energy(&x)])
+        }
+    }
+
+    /// `∂²s/∂x²`, for the tangent of the classical schemes in temperature variables; zero without temperature.
+    fn entropy_hessian(&self, x: &Self::Variables) -> Self::Hessian;
+
+    /// `η_k(θ)` and `dη_k/dθ`, N s/m and N s/(m K).
+    fn viscosity(&self, theta: S) -> (Self::Viscosities, Self::Viscosities);
+
+    /// `η(θ)` and `dη/dθ` of the dashpot in parallel with the spring, whose force is `η λ̇`, N s/m and N s/(m K).
+    fn drag(&self, theta: S) -> (Self::Drag, Self::Drag);
+
+    /// The values of the old state for [`entropy_form`](Self::entropy_form).
+    fn entropy_form_old(&self, x0: &Self::Variables) -> Self::EntropyFormOld;
+
+    /// The response in entropy form and its tangent `∂(response)/∂x¹`.
+    ///
+    /// `corners` are the temperatures of the mixed states between old and new:
+    /// for `k = 1 … N − 1` the first `k` variables new, the rest old, with the
+    /// old entropy; then the first `k` old, the rest new, with the new entropy
+    /// `S(x¹)`. The tangent is total: corners move with `x¹`.
+    fn entropy_form(
+        &self,
+        old: &Self::EntropyFormOld,
+        x1: &Self::Variables,
+        corners: &Self::Corners,
+    ) -> (Self::Response, Self::Tangent);
+
+    /// The response of [`entropy_form`](Self::entropy_form) without the tangent, with the same bits and less work.
+    fn entropy_form_response(
+        &self,
+        old: &Self::EntropyFormOld,
+        x1: &Self::Variables,
+        corners: &Self::Corners,
+    ) -> Self::Response {
+        self.entropy_form(old, x1, corners).0
+    }
+
+    /// The values of the old state for [`temperature_form`](Self::temperature_form).
+    fn temperature_form_old(&self, x0: &Self::Variables) -> Self::TemperatureFormOld;
+
+    /// The response in temperature form and its tangent `∂(response)/∂x¹`
+    /// (Conde Martín, Betsch & García Orden 2016, eqs. 37–39):
+    /// `θ* = D_θ e / D_θ s`, `f* = D_λ e − θ* D_λ s`, `g* = −(D_γ e − θ* D_γ s)`.
+    fn temperature_form(
+        &self,
+        old: &Self::TemperatureFormOld,
+        x1: &Self::Variables,
+    ) -> (Self::Response, Self::Tangent);
+
+    /// The response of [`temperature_form`](Self::temperature_form) without the tangent, with the same bits and
+    /// less work.
+    fn temperature_form_response(
+        &self,
+        old: &Self::TemperatureFormOld,
+        x1: &Self::Variables,
+    ) -> Self::Response {
+        self.temperature_form(old, x1).0
+    }
+}
+
+/// A free energy that a scene can use. Implemented for every type that qualifies.
+///
+/// ```
+/// use eem::{FreeEnergy, Material};
+///
+/// #[derive(FreeEnergy)]
+/// #[free_energy(|lambda: Stretch| 3.0 * lambda.powi(2))]
+/// struct Spring;
+///
+/// fn measures<M: Material<f64>>(_: &M) -> usize {
+///     M::MEASURES
+/// }
+/// assert_eq!(measures(&Spring), 1);
+/// ```
+pub trait Material<S: Scalar>: FreeEnergy<S> + Send + Sync + 'static {}
+
+impl<S: Scalar, M: FreeEnergy<S> + Send + Sync + 'static> Material<S> for M {}

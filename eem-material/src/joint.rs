@@ -1,0 +1,173 @@
+//! Joint invariants of a strain and a viscous strain, from their components.
+//!
+//! ```text
+//! m1 = tr Γ,   m2 = Γ:Γ,   m3 = E:Γ
+//! Δm3 = Γ_m:ΔE + E_m:ΔΓ,   Δm2 = 2 Γ_m:ΔΓ,   Δm1 = 1:ΔΓ        exactly
+//! ```
+//!
+//! Symmetric tensors are given by their components `A:b_k` along six tensors of length one, each at a right
+//! angle to the others, so that `A:B = Σ (A:b_k)(B:b_k)`. The first five have no trace, the last is `1/√3`
+//! times the unit tensor: deviatoric and volumetric flow are flows of different components.
+
+use core::array;
+use core::f64::consts::FRAC_1_SQRT_2;
+
+use crate::number::scalar::Scalar;
+
+/// Components of a symmetric tensor of space.
+pub const COMPONENTS: usize = 6;
+
+/// Components of one without a trace.
+pub const DEVIATORIC: usize = 5;
+
+/// An invariant of the viscous strain Γ, or of E and Γ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Joint {
+    /// `tr Γ`; role `ViscousTrace`.
+    Trace,
+    /// `Γ:Γ`; role `ViscousSquare`.
+    Square,
+    /// `E:Γ`; role `ViscousStrain`.
+    Strain,
+}
+
+/// A free energy of joint invariants, which are the last of its measures. Its last viscosities are those of the
+/// deviatoric flow and, with a trace, of the volumetric flow.
+///
+/// `#[derive(FreeEnergy)]` implements it where an argument of the formula has the role `ViscousStrain`.
+///
+/// ```
+/// use eem::{FreeEnergy, Joint, JointEnergy};
+///
+/// #[derive(Clone, FreeEnergy)]
+/// #[free_energy(|e2: StrainSquare, m3: ViscousStrain, m2: ViscousSquare| 3.0 * (e2 - 2 * m3 + m2))]
+/// #[viscosity(m3 = 5.0)]
+/// struct Fluid;
+///
+/// assert_eq!(Fluid::JOINT, [Joint::Strain, Joint::Square]);
+/// assert_eq!(<Fluid as FreeEnergy<f64>>::MEASURES, 3);
+/// ```
+pub trait JointEnergy {
+    /// The invariants, in the order of the arguments.
+    const JOINT: &'static [Joint];
+}
+
+/// `1/√3`.
+const THIRD_ROOT: f64 = 0.577_350_269_189_625_8;
+/// `1/√6`.
+const SIXTH_ROOT: f64 = 0.408_248_290_463_863;
+
+/// `b_k` as `[xx, yy, zz, xy, xz, yz]`.
+pub fn basis<S: Scalar>(k: usize) -> [S; COMPONENTS] {
+    let [zero, half, third, sixth] = [0.0, FRAC_1_SQRT_2, THIRD_ROOT, SIXTH_ROOT].map(S::from_f64);
+    match k {
+        0 => [half, -half, zero, zero, zero, zero],
+        1 => [sixth, sixth, -(sixth + sixth), zero, zero, zero],
+        2 => [zero, zero, zero, half, zero, zero],
+        3 => [zero, zero, zero, zero, half, zero],
+        4 => [zero, zero, zero, zero, zero, half],
+        _ => [third, third, third, zero, zero, zero],
+    }
+}
+
+/// `A:b_k` of a tensor.
+pub fn components<S: Scalar>(tensor: &[[S; 3]; 3]) -> [S; COMPONENTS] {
+    let half = S::from_f64(0.5);
+    array::from_fn(|k| {
+        let [xx, yy, zz, xy, xz, yz] = basis::<S>(k);
+        let along = |axis: usize, b: S| b * tensor[axis][axis];
+        // Twice the mean of both.
+        let across = |i: usize, j: usize, b: S| (b + b) * (half * (tensor[i][j] + tensor[j][i]));
+        (along(0, xx) + along(1, yy) + along(2, zz))
+            + (across(0, 1, xy) + across(0, 2, xz) + across(1, 2, yz))
+    })
+}
+
+/// `Σ A_k b_k`.
+pub fn tensor<S: Scalar>(components: &[S]) -> [[S; 3]; 3] {
+    let mut sum = [S::zero(); COMPONENTS];
+    for (k, &component) in components.iter().enumerate() {
+        for (sum, entry) in sum.iter_mut().zip(basis::<S>(k)) {
+            *sum += component * entry;
+        }
+    }
+    let [xx, yy, zz, xy, xz, yz] = sum;
+    [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]
+}
+
+/// Components of E and Γ.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tensors<S> {
+    pub(super) strain: [S; COMPONENTS],
+    pub(super) viscous: [S; COMPONENTS],
+}
+
+impl<S: Scalar> Tensors<S> {
+    /// Those with these components; the others are zero.
+    pub(super) fn new(strain: &[S], viscous: &[S]) -> Self {
+        let all = |some: &[S]| {
+            let mut all = [S::zero(); COMPONENTS];
+            all[..some.len()].copy_from_slice(some);
+            all
+        };
+        Self {
+            strain: all(strain),
+            viscous: all(viscous),
+        }
+    }
+
+    /// The mean of two states.
+    pub(super) fn mean(&self, other: &Self) -> Self {
+        let half = S::from_f64(0.5);
+        let mean =
+            |a: &[S; COMPONENTS], b: &[S; COMPONENTS]| array::from_fn(|k| half * (a[k] + b[k]));
+        Self {
+            strain: mean(&self.strain, &other.strain),
+            viscous: mean(&self.viscous, &other.viscous),
+        }
+    }
+
+    /// The value of an invariant.
+    pub(super) fn value(&self, joint: Joint) -> S {
+        match joint {
+            Joint::Trace => S::from_f64(TRACE) * self.viscous[DEVIATORIC],
+            Joint::Square => dot(&self.viscous, &self.viscous),
+            Joint::Strain => dot(&self.strain, &self.viscous),
+        }
+    }
+
+    /// The sum of the absolute values of its terms.
+    pub(super) fn size(&self, joint: Joint) -> S {
+        let sizes = |components: &[S; COMPONENTS]| components.map(S::abs);
+        match joint {
+            Joint::Trace => self.value(joint).abs(),
+            Joint::Square => self.value(joint),
+            Joint::Strain => dot(&sizes(&self.strain), &sizes(&self.viscous)),
+        }
+    }
+
+    /// `∂m/∂E` along `b_k`; the mean-value gradient where this is a mean of two states.
+    pub(super) fn by_strain(&self, joint: Joint, k: usize) -> S {
+        match joint {
+            Joint::Trace | Joint::Square => S::zero(),
+            Joint::Strain => self.viscous[k],
+        }
+    }
+
+    /// `∂m/∂Γ` along `b_k`; the mean-value gradient where this is a mean of two states.
+    pub(super) fn by_viscous(&self, joint: Joint, k: usize) -> S {
+        match joint {
+            Joint::Trace if k == DEVIATORIC => S::from_f64(TRACE),
+            Joint::Trace => S::zero(),
+            Joint::Square => self.viscous[k] + self.viscous[k],
+            Joint::Strain => self.strain[k],
+        }
+    }
+}
+
+/// The trace of the last `b_k`, `√3`.
+const TRACE: f64 = 1.732_050_807_568_877_2;
+
+fn dot<S: Scalar>(a: &[S; COMPONENTS], b: &[S; COMPONENTS]) -> S {
+    (1..COMPONENTS).fold(a[0] * b[0], |sum, k| sum + a[k] * b[k])
+}

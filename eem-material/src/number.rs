@@ -1,0 +1,11 @@
+//! Numbers: what is stepped, sums to twice the precision, and the kernels of divided differences.
+
+pub mod compact;
+pub mod compensated;
+pub mod derivative;
+pub mod digest;
+pub mod kernel;
+#[cfg(feature = "lanes")]
+pub mod lanes;
+pub mod readable;
+pub mod scalar;

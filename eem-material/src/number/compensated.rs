@@ -1,0 +1,312 @@
+//! Sums that remember what rounding took from them.
+
+use crate::number::kernel::two_sum;
+use crate::number::scalar::{Real, Scalar};
+
+/// Accumulated quantities, each with the rounding error of all its additions so far.
+///
+/// The value plus the carry is the sum to twice the precision, so that the state after a million
+/// steps carries the rounding of one (Kahan 1965; `TwoSum`, Knuth 1969).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Compensated<S> {
+    values: Vec<S>,
+    carries: Vec<S>,
+}
+
+/// None.
+impl<S> Default for Compensated<S> {
+    fn default() -> Self {
+        Self {
+            values: Vec::new(),
+            carries: Vec::new(),
+        }
+    }
+}
+
+impl<S: Scalar> Compensated<S> {
+    /// Sums that start at `values`, exactly.
+    #[must_use]
+    pub fn new(values: Vec<S>) -> Self {
+        let carries = vec![S::zero(); values.len()];
+        Self { values, carries }
+    }
+
+    /// The sums, rounded.
+    #[inline]
+    #[must_use]
+    pub fn values(&self) -> &[S] {
+        &self.values
+    }
+
+    /// Every sum and what is still missing of it.
+    pub fn sums(&self) -> impl Iterator<Item = (S, S)> + Clone + '_ {
+        let carries = self.carries.iter().copied();
+        self.values.iter().copied().zip(carries)
+    }
+
+    /// One sum.
+    #[inline]
+    #[must_use]
+    pub fn sum(&self, index: usize) -> Sum<S> {
+        Sum {
+            value: self.values[index],
+            carry: self.carries[index],
+        }
+    }
+
+    /// Restarts one sum at `value`.
+    #[inline]
+    pub fn set(&mut self, index: usize, value: S) {
+        self.values[index] = value;
+        self.carries[index] = S::zero();
+    }
+
+    /// Replaces all of them, exactly.
+    pub fn write(&mut self, values: impl FnOnce(&mut [S])) {
+        values(&mut self.values);
+        self.carries.fill(S::zero());
+    }
+
+    /// One sum of `old` and an increment.
+    #[inline]
+    pub fn advance(&mut self, index: usize, old: &Self, increment: S) {
+        let sum = old.sum(index).plus(increment);
+        self.values[index] = sum.value;
+        self.carries[index] = sum.carry;
+    }
+
+    /// The sums of one point of `D` coordinates, of `old` and increments, each a value and the rounding
+    /// that is missing of it; all carries added up.
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "a few numbers in registers")]
+    pub fn advance_point<const D: usize>(
+        &mut self,
+        point: usize,
+        old: &Self,
+        [increments, rests]: [&[S; D]; 2],
+    ) -> S {
+        let from = old.point::<D>(point);
+        let values = &mut self.values.as_chunks_mut::<D>().0[point];
+        let carries = &mut self.carries.as_chunks_mut::<D>().0[point];
+        // Both arrays are stored as a whole: a load soon after a store of a single coordinate would stall.
+        let (mut sums, mut missing) = ([S::zero(); D], [S::zero(); D]);
+        for axis in 0..D {
+            let from = Sum {
+                value: from[0][axis],
+                carry: from[1][axis] + rests[axis],
+            };
+            let sum = from.plus(increments[axis]);
+            (sums[axis], missing[axis]) = (sum.value, sum.carry);
+        }
+        (*values, *carries) = (sums, missing);
+        missing.into_iter().fold(S::zero(), |sum, rest| sum + rest)
+    }
+
+    /// The values and the carries of one point of `D` coordinates.
+    #[inline]
+    #[must_use]
+    pub fn point<const D: usize>(&self, point: usize) -> [&[S; D]; 2] {
+        [&self.values, &self.carries].map(|all| &all.as_chunks::<D>().0[point])
+    }
+
+    /// Adds to one sum.
+    #[inline]
+    pub fn add(&mut self, index: usize, increment: S) {
+        let sum = self.sum(index).plus(increment);
+        self.values[index] = sum.value;
+        self.carries[index] = sum.carry;
+    }
+
+    /// `self − old` of one sum, to rounding of the difference.
+    #[inline]
+    #[must_use]
+    pub fn change(&self, index: usize, old: &Self) -> S {
+        self.sum(index).change(old.sum(index))
+    }
+
+    /// Takes over the sums of `other`, which has as many, without allocation.
+    pub fn copy_from(&mut self, other: &Self) {
+        if self.values.is_empty() {
+            return;
+        }
+        self.values.copy_from_slice(&other.values);
+        self.carries.copy_from_slice(&other.carries);
+    }
+}
+
+/// One accumulated quantity with the rounding error of all its additions so far.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sum<S> {
+    /// The sum, rounded.
+    pub value: S,
+    /// What rounding has left of it.
+    pub carry: S,
+}
+
+impl<S: Scalar> Sum<S> {
+    /// A sum that starts at `value`, exactly.
+    pub fn new(value: S) -> Self {
+        let carry = S::zero();
+        Self { value, carry }
+    }
+
+    /// Adds to the sum.
+    #[inline]
+    pub fn add(&mut self, increment: S) {
+        *self = self.plus(increment);
+    }
+
+    /// The sum with an increment.
+    ///
+    /// The carry is added to what rounding takes from `value + increment`, and not to the increment,
+    /// whose last digits it would lose (`Sum2`, Ogita, Rump & Oishi 2005).
+    #[inline]
+    fn plus(self, increment: S) -> Self {
+        let (high, error) = two_sum(self.value, increment);
+        let low = error + self.carry;
+        let value = high + low;
+        let carry = low - (value - high);
+        Self { value, carry }
+    }
+
+    /// `self − value`.
+    #[inline]
+    pub fn beyond(self, value: S) -> S {
+        (self.value - value) + self.carry
+    }
+
+    /// `self − old`, to rounding of the difference.
+    #[inline]
+    pub fn change(self, old: Self) -> S {
+        (self.value - old.value) + (self.carry - old.carry)
+    }
+}
+
+/// Adds to a value and what is missing of it a change that is large beside what is missing: the corrections
+/// of Newton's method. One addition less than [`Sum::add`], for which every digit of the carry counts.
+#[inline]
+pub fn correct<S: Scalar>(value: &mut S, carry: &mut S, change: S) {
+    (*value, *carry) = two_sum(*value, *carry + change);
+}
+
+/// A sum to twice the precision, so that adding up a large scene costs no digits.
+#[derive(Clone, Copy, Debug)]
+pub struct Total<S> {
+    value: S,
+    rest: S,
+}
+
+impl<S: Scalar> Default for Total<S> {
+    /// Of nothing.
+    fn default() -> Self {
+        let (value, rest) = (S::zero(), S::zero());
+        Self { value, rest }
+    }
+}
+
+impl<S: Scalar> Total<S> {
+    /// Adds a term.
+    #[inline]
+    pub fn add(&mut self, term: S) {
+        let (value, rest) = two_sum(self.value, term);
+        self.value = value;
+        self.rest += rest;
+    }
+
+    /// Adds a sum and what is still missing of it.
+    #[inline]
+    pub fn add_sum(&mut self, sum: Sum<S>) {
+        self.add(sum.value);
+        self.add(sum.carry);
+    }
+
+    /// Adds another sum.
+    pub fn add_total(&mut self, other: Self) {
+        self.add(other.value);
+        self.add(other.rest);
+    }
+
+    /// The sum, rounded once.
+    pub fn value(self) -> S {
+        self.value + self.rest
+    }
+
+    /// `then` where the mask holds and `otherwise` elsewhere.
+    pub fn select(mask: S::Mask, then: Self, otherwise: Self) -> Self
+    where
+        S: Real,
+    {
+        Self {
+            value: S::select(mask, then.value, otherwise.value),
+            rest: S::select(mask, then.rest, otherwise.rest),
+        }
+    }
+
+    /// Of some terms.
+    pub fn of(terms: impl IntoIterator<Item = S>) -> S {
+        let mut sum = Self::default();
+        for term in terms {
+            sum.add(term);
+        }
+        sum.value()
+    }
+}
+
+/// In a file, a pair: the sum and what is still missing of it.
+#[cfg(feature = "serde")]
+impl<S: serde::Serialize> serde::Serialize for Sum<S> {
+    fn serialize<T: serde::Serializer>(&self, serializer: T) -> Result<T::Ok, T::Error> {
+        (&self.value, &self.carry).serialize(serializer)
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<'de, S: serde::Deserialize<'de>> serde::Deserialize<'de> for Sum<S> {
+    fn deserialize<T: serde::Deserializer<'de>>(deserializer: T) -> Result<Self, T::Error> {
+        let (value, carry) = serde::Deserialize::deserialize(deserializer)?;
+        Ok(Self { value, carry })
+    }
+}
+
+/// In a file, pairs: each sum with what is still missing of it.
+#[cfg(feature = "serde")]
+impl<S: serde::Serialize> serde::Serialize for Compensated<S> {
+    fn serialize<T: serde::Serializer>(&self, serializer: T) -> Result<T::Ok, T::Error> {
+        serializer.collect_seq(self.values.iter().zip(&self.carries))
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<'de, S: serde::Deserialize<'de>> serde::Deserialize<'de> for Compensated<S> {
+    fn deserialize<T: serde::Deserializer<'de>>(deserializer: T) -> Result<Self, T::Error> {
+        let pairs = Vec::<(S, S)>::deserialize(deserializer)?;
+        let (values, carries) = pairs.into_iter().unzip();
+        Ok(Self { values, carries })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_small_increment_is_not_lost_beside_a_large_one_and_its_opposite() {
+        let mut sum = Sum::new(1.0_f64);
+        for increment in [1e-3, 1e-25, -1e-3] {
+            sum.add(increment);
+        }
+        assert_eq!(sum.value.to_bits(), 1.0_f64.to_bits());
+        // ε² of the value.
+        assert!((sum.carry - 1e-25).abs() < 1e-31, "{:e}", sum.carry);
+    }
+
+    #[test]
+    fn a_million_small_additions_leave_one_rounding() {
+        let mut sum = Compensated::new(vec![1.0e6_f64]);
+        for _ in 0..1_000_000 {
+            sum.add(0, 0.1);
+        }
+        // 10⁶ additions of the double nearest 0.1; the plain loop is off by 5e-5.
+        assert_eq!(sum.values()[0].to_bits(), 1.1e6_f64.to_bits());
+    }
+}

@@ -1,0 +1,131 @@
+//! The derivative of a function at the beginning of an interval, from values in it.
+//!
+//! Spans of which each is √3 times shorter than the one before give differences, and polynomials through these, by
+//! Neville's algorithm, their limit. Of all such limits that one is taken which seems the most accurate, by how much it
+//! differs from those of lower degree and by what rounding does to it, and with which those of all shorter spans agree:
+//! it may have taken a function for flat that only comes back to where it was (after C. J. F. Ridders, *Accurate
+//! computation of F′(x) and F′(x) F″(x)*, Adv. Eng. Softw. 4 (1982)).
+
+/// The ratio of a span to the next: irrational, so that no period is a multiple of two that follow each other.
+const RATIO: f64 = 1.732_050_807_568_877_2;
+
+/// How many spans there are: the shortest is 3e-5 of the interval. Shorter ones would show how a function is rounded
+/// that comes from larger numbers, as 1 − cos t.
+pub const SPANS: usize = 20;
+
+/// The highest degree of a polynomial.
+const DEGREE: usize = 8;
+
+/// Roundings of the two values of a difference, where those of a function are a few times that of its value.
+const ROUNDINGS: f64 = 4.0;
+
+/// How far two limits may be apart in units of what their errors seem to be.
+const AGREEMENT: f64 = 2.0;
+
+/// A limit, and what its error seems to be.
+#[derive(Clone, Copy)]
+struct Limit {
+    value: f64,
+    error: f64,
+}
+
+/// The spans after which the function is asked for, as shares of the interval.
+#[must_use]
+pub fn shares() -> [f64; SPANS] {
+    let mut shares = [1.0; SPANS];
+    for place in 1..SPANS {
+        shares[place] = shares[place - 1] / RATIO;
+    }
+    shares
+}
+
+/// The derivative from the value at the beginning and those after some spans, in numbers that are ε apart at 1; not a
+/// number where there is none.
+#[must_use]
+pub fn derivative(first: f64, (spans, values): ([f64; SPANS], [f64; SPANS]), epsilon: f64) -> f64 {
+    let limits = limits(first, (&spans, &values), epsilon);
+    let agree = |a: &Limit, b: &Limit| (a.value - b.value).abs() <= AGREEMENT * (a.error + b.error);
+    let sound = limits.iter().enumerate().filter(|&(place, limit)| {
+        let mut shorter = limits[place + 1..].iter();
+        limit.error.is_finite() && shorter.all(|other| agree(limit, other))
+    });
+    let best = sound.min_by(|(_, a), (_, b)| a.error.total_cmp(&b.error));
+    best.map_or(f64::NAN, |(_, limit)| limit.value)
+}
+
+/// The best limit of those that end with each span.
+fn limits(first: f64, (spans, values): (&[f64; SPANS], &[f64; SPANS]), epsilon: f64) -> Vec<Limit> {
+    let mut before = [f64::NAN; DEGREE + 1];
+    let of_span = |(place, (&value, &span)): (usize, (&f64, &f64))| {
+        let rounding = ROUNDINGS * epsilon * first.abs().max(value.abs()) / span;
+        let mut best = Limit {
+            value: f64::NAN,
+            error: f64::INFINITY,
+        };
+        let mut limits = [f64::NAN; DEGREE + 1];
+        limits[0] = (value - first) / span;
+        let mut ratio = 1.0;
+        for degree in 1..=place.min(DEGREE) {
+            ratio *= RATIO;
+            let (lower, longer) = (limits[degree - 1], before[degree - 1]);
+            let value = lower + (lower - longer) / (ratio - 1.0);
+            limits[degree] = value;
+            let error = (value - lower).abs().max((value - longer).abs()) + rounding;
+            if error < best.error {
+                best = Limit { value, error };
+            }
+        }
+        before = limits;
+        best
+    };
+    values.iter().zip(spans).enumerate().map(of_span).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::*;
+
+    fn of(function: impl Fn(f64) -> f64, interval: f64) -> f64 {
+        let spans = shares().map(|share| share * interval);
+        derivative(function(0.0), (spans, spans.map(&function)), f64::EPSILON)
+    }
+
+    #[test]
+    fn smooth_functions_have_theirs_whatever_the_interval() {
+        for interval in [1.0, 0.1, 1e-2, 1e-4] {
+            assert!((of(|t| 0.01 * (300.0 * t).sin(), interval) - 3.0).abs() <= 1e-12);
+            assert!((of(|t| 2.0 + 0.1 * (6.0 * t).sin(), interval) - 0.6).abs() <= 1e-10);
+            assert!((of(|t| (TAU * t).sin(), interval) - TAU).abs() <= 1e-12);
+            assert!((of(|t| 1.0 - (-1e3 * t).exp(), interval) - 1e3).abs() <= 1e-8);
+            assert!(of(|t| -1.5 * t * t, interval).abs() <= 1e-15);
+        }
+        assert!((of(|t| 0.01 * (300.0 * t).sin(), 10.0) - 3.0).abs() <= 1e-6);
+    }
+
+    #[test]
+    fn what_comes_later_does_not_count() {
+        for interval in [10.0, 1.0, 0.1] {
+            assert!(of(|t| 0.2 * (t - 0.05).max(0.0), interval).abs() <= 1e-15);
+            let pulse = |t: f64| if t < 0.03 { (100.0 * t).sin() } else { 0.0 };
+            assert!((of(pulse, interval) - 100.0).abs() <= 1e-9);
+        }
+    }
+
+    #[test]
+    fn what_is_no_number_has_none() {
+        let late = |t: f64| if t > 0.0 { f64::NAN } else { 0.0 };
+        assert!(of(late, 1.0).is_nan());
+        let at_first = |t: f64| {
+            if t > 0.0 && t < 1e-3 {
+                f64::NAN
+            } else {
+                3.0 * t
+            }
+        };
+        assert!(of(at_first, 1.0).is_nan());
+        let early = |t: f64| if t > 0.1 { f64::NAN } else { 3.0 * t };
+        assert!((of(early, 1.0) - 3.0).abs() <= 1e-14);
+    }
+}

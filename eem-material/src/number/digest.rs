@@ -1,0 +1,79 @@
+//! Many numbers in one: whether they are the same as others.
+
+use crate::number::scalar::Real;
+
+/// A 64-bit digest (FNV-1a; Fowler, Noll & Vo 1991). Against mistakes, not against malice.
+///
+/// Two numbers that differ in one bit have different digests; that of two scenes with other
+/// numbers is the same by chance in one of 2⁶⁴ cases.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Digest(u64);
+
+impl Digest {
+    /// That of nothing: the offset basis of the algorithm.
+    const NOTHING: Self = Self(0xcbf2_9ce4_8422_2325);
+
+    /// The prime of the algorithm.
+    const PRIME: u64 = 0x0000_0100_0000_01b3;
+
+    /// Adds some bytes.
+    pub fn bytes(&mut self, bytes: &[u8]) {
+        for &byte in bytes {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(Self::PRIME);
+        }
+    }
+
+    /// Adds a count or an index.
+    pub fn count(&mut self, count: usize) {
+        self.bytes(&(count as u64).to_le_bytes());
+    }
+
+    /// Adds the bits of a number.
+    pub fn number<S: Real>(&mut self, number: S) {
+        for lane in 0..S::LANES {
+            self.bytes(&number.lane(lane).to_bits().to_le_bytes());
+        }
+    }
+
+    /// What some work adds to nothing.
+    pub fn of(add: impl FnOnce(&mut Self)) -> Self {
+        let mut digest = Self::NOTHING;
+        add(&mut digest);
+        digest
+    }
+}
+
+/// In a file, 16 hexadecimal digits: not every format has integers of 64 bits.
+#[cfg(feature = "serde")]
+impl serde::Serialize for Digest {
+    fn serialize<T: serde::Serializer>(&self, serializer: T) -> Result<T::Ok, T::Error> {
+        serializer.collect_str(&format_args!("{:016x}", self.0))
+    }
+}
+
+#[cfg(feature = "serde")]
+impl<'de> serde::Deserialize<'de> for Digest {
+    fn deserialize<T: serde::Deserializer<'de>>(deserializer: T) -> Result<Self, T::Error> {
+        let digits = String::deserialize(deserializer)?;
+        u64::from_str_radix(&digits, 16).map(Self).map_err(|_| {
+            serde::de::Error::custom(format_args!("`{digits}` are not 16 hexadecimal digits"))
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Digest;
+
+    #[test]
+    fn digests_are_those_of_the_algorithm() {
+        // Test vectors of the authors.
+        for (text, digest) in [
+            ("", 0xcbf2_9ce4_8422_2325),
+            ("a", 0xaf63_dc4c_8601_ec8c),
+            ("foobar", 0x8594_4171_f739_67e8),
+        ] {
+            assert_eq!(Digest::of(|of| of.bytes(text.as_bytes())), Digest(digest));
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! The free energy of a point of a solid: that per volume, times the volume.
+
+use crate::free_energy::{Array, Caloric, FreeEnergy, Rates};
+use crate::number::scalar::Real;
+
+/// A free energy per volume at a point that stands for some volume. Energy, entropy, forces and viscosities
+/// are multiplied by it; temperatures are not.
+#[derive(Clone, Debug)]
+pub struct PointEnergy<S, M> {
+    density: M,
+    /// w, m³.
+    volume: S,
+}
+
+impl<S: Real, M: FreeEnergy<S>> PointEnergy<S, M> {
+    /// Of a material with this free energy per volume.
+    pub fn new(density: M, volume: S) -> Self {
+        Self { density, volume }
+    }
+
+    fn scaled<A: Array<S>>(&self, mut values: A) -> A {
+        for value in values.as_mut() {
+            *value *= self.volume;
+        }
+        values
+    }
+
+    fn scaled_rows(&self, mut rows: M::Hessian) -> M::Hessian {
+        for row in rows.as_mut() {
+            *row = self.scaled(*row);
+        }
+        rows
+    }
+
+    fn scaled_rates(&self, rates: Rates<M::Variables>) -> Rates<M::Variables> {
+        Rates {
+            forces: self.scaled(rates.forces),
+            slopes: self.scaled(rates.slopes),
+        }
+    }
+
+    fn scaled_caloric(&self, caloric: Caloric<S>) -> Caloric<S> {
+        Caloric {
+            entropy: self.volume * caloric.entropy,
+            heat_capacity: self.volume * caloric.heat_capacity,
+            magnitude: self.volume * caloric.magnitude,
+        }
+    }
+
+    /// Whether a row of a response is a temperature.
+    const fn is_temperature(row: usize) -> bool {
+        M::THERMAL && row == M::MEASURES + M::DASHPOTS
+    }
+
+    fn scaled_response(&self, mut response: M::Response) -> M::Response {
+        for (row, value) in response.as_mut().iter_mut().enumerate() {
+            if !Self::is_temperature(row) {
+                *value *= self.volume;
+            }
+        }
+        response
+    }
+
+    fn scaled_form(
+        &self,
+        (response, mut tangent): (M::Response, M::Tangent),
+    ) -> (M::Response, M::Tangent) {
+        for (row, values) in tangent.as_mut().iter_mut().enumerate() {
+            if !Self::is_temperature(row) {
+                *values = self.scaled(*values);
+            }
+        }
+        (self.scaled_response(response), tangent)
+    }
+}
+
+impl<S: Real, M: FreeEnergy<S>> FreeEnergy<S> for PointEnergy<S, M> {
+    const MEASURES: usize = M::MEASURES;
+    const DASHPOTS: usize = M::DASHPOTS;
+    const THERMAL: bool = M::THERMAL;
+    const VISCOUS_STRAIN: usize = M::VISCOUS_STRAIN;
+    const MODEL: &'static str = M::MODEL;
+    const PARAMETERS: &'static [&'static str] = M::PARAMETERS;
+
+    type Variables = M::Variables;
+    type Hessian = M::Hessian;
+    type Viscosities = M::Viscosities;
+    type Drag = M::Drag;
+    type Corners = M::Corners;
+    type Response = M::Response;
+    type Tangent = M::Tangent;
+    type EntropyFormOld = M::EntropyFormOld;
+    type TemperatureFormOld = M::TemperatureFormOld;
+
+    fn duplicate(&self) -> Self {
+        Self {
+            density: self.density.duplicate(),
+            volume: self.volume,
+        }
+    }
+
+    fn parameter(&self, index: usize) -> S {
+        self.density.parameter(index)
+    }
+
+    fn free_energy(&self, x: &M::Variables) -> S {
+        self.volume * self.density.free_energy(x)
+    }
+
+    fn energy_magnitude(&self, x: &M::Variables) -> S {
+        self.volume * self.density.energy_magnitude(x)
+    }
+
+    fn internal_energy(&self, x: &M::Variables) -> S {
+        self.volume * self.density.internal_energy(x)
+    }
+
+    fn gradient(&self, x: &M::Variables) -> M::Variables {
+        self.scaled(self.density.gradient(x))
+    }
+
+    fn hessian(&self, x: &M::Variables) -> (M::Variables, M::Hessian) {
+        let (gradient, hessian) = self.density.hessian(x);
+        (self.scaled(gradient), self.scaled_rows(hessian))
+    }
+
+    fn caloric(&self, x: &M::Variables) -> Caloric<S> {
+        self.scaled_caloric(self.density.caloric(x))
+    }
+
+    fn caloric_at(&self, x: M::Variables) -> impl Fn(S) -> (Caloric<S>, S) {
+        let density = self.density.caloric_at(x);
+        move |theta| {
+            let (caloric, psi) = density(theta);
+            (self.scaled_caloric(caloric), self.volume * psi)
+        }
+    }
+
+    fn caloric_between(
+        &self,
+        x0: &M::Variables,
+        x1: &M::Variables,
+        new: usize,
+    ) -> impl Fn(S) -> (Caloric<S>, S) {
+        let density = self.density.caloric_between(x0, x1, new);
+        move |theta| {
+            let (caloric, psi) = density(theta);
+            (self.scaled_caloric(caloric), self.volume * psi)
+        }
+    }
+
+    fn rates(&self, x: &M::Variables) -> Rates<M::Variables> {
+        self.scaled_rates(self.density.rates(x))
+    }
+
+    fn rates_at(&self, x: M::Variables) -> impl Fn(S) -> (Rates<M::Variables>, [S; 2]) {
+        let density = self.density.rates_at(x);
+        move |theta| {
+            let (rates, values) = density(theta);
+            (self.scaled_rates(rates), self.scaled(values))
+        }
+    }
+
+    fn entropy_hessian(&self, x: &M::Variables) -> M::Hessian {
+        self.scaled_rows(self.density.entropy_hessian(x))
+    }
+
+    fn viscosity(&self, theta: S) -> (M::Viscosities, M::Viscosities) {
+        let (viscosities, slopes) = self.density.viscosity(theta);
+        (self.scaled(viscosities), self.scaled(slopes))
+    }
+
+    fn drag(&self, theta: S) -> (M::Drag, M::Drag) {
+        let (drag, slope) = self.density.drag(theta);
+        (self.scaled(drag), self.scaled(slope))
+    }
+
+    fn entropy_form_old(&self, x0: &M::Variables) -> M::EntropyFormOld {
+        self.density.entropy_form_old(x0)
+    }
+
+    fn entropy_form(
+        &self,
+        old: &M::EntropyFormOld,
+        x1: &M::Variables,
+        corners: &M::Corners,
+    ) -> (M::Response, M::Tangent) {
+        self.scaled_form(self.density.entropy_form(old, x1, corners))
+    }
+
+    fn entropy_form_response(
+        &self,
+        old: &M::EntropyFormOld,
+        x1: &M::Variables,
+        corners: &M::Corners,
+    ) -> M::Response {
+        self.scaled_response(self.density.entropy_form_response(old, x1, corners))
+    }
+
+    fn temperature_form_old(&self, x0: &M::Variables) -> M::TemperatureFormOld {
+        self.density.temperature_form_old(x0)
+    }
+
+    fn temperature_form(
+        &self,
+        old: &M::TemperatureFormOld,
+        x1: &M::Variables,
+    ) -> (M::Response, M::Tangent) {
+        self.scaled_form(self.density.temperature_form(old, x1))
+    }
+
+    fn temperature_form_response(
+        &self,
+        old: &M::TemperatureFormOld,
+        x1: &M::Variables,
+    ) -> M::Response {
+        self.scaled_response(self.density.temperature_form_response(old, x1))
+    }
+}

@@ -1,0 +1,26 @@
+//! Work and precision: what each setting costs and how accurate it is, for a scene of the user's own.
+//!
+//! To compare schemes differently, look in `reference.rs`, `statement.rs` and `advice.rs`.
+
+mod advice;
+mod course;
+mod error;
+mod grid;
+mod measure;
+mod progress;
+mod quantity;
+mod reference;
+mod report;
+mod setting;
+mod statement;
+mod study;
+mod table;
+
+pub use advice::{Advice, Recommendation};
+pub use error::StudyError;
+pub use quantity::{EndState, StateQuantity};
+pub use reference::{ReferenceEnd, StudyReference};
+pub use report::{StudyReport, StudyRow};
+pub use setting::{Precision, Setting, StepChoice};
+pub use statement::Statement;
+pub use study::Study;

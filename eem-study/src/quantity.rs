@@ -1,0 +1,150 @@
+//! The kinds of quantities of a state, and how much two states differ in each.
+
+use core::fmt;
+
+use eem_material::number::scalar::Real;
+use eem_runtime::Simulation;
+
+/// A kind of quantity with an error of its own in a study.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum StateQuantity {
+    /// q of all masses.
+    Positions,
+    /// p of all masses.
+    Momenta,
+    /// θ of all elements that have one.
+    Temperatures,
+    /// γ of all dashpots.
+    ViscousStretches,
+}
+
+impl StateQuantity {
+    /// All kinds.
+    pub const ALL: [Self; 4] = [
+        Self::Positions,
+        Self::Momenta,
+        Self::Temperatures,
+        Self::ViscousStretches,
+    ];
+
+    /// The symbol: q, p, θ or γ.
+    #[must_use]
+    pub const fn symbol(self) -> &'static str {
+        match self {
+            Self::Positions => "q",
+            Self::Momenta => "p",
+            Self::Temperatures => "θ",
+            Self::ViscousStretches => "γ",
+        }
+    }
+
+    /// The place among [`ALL`](Self::ALL).
+    pub(crate) const fn index(self) -> usize {
+        self as usize
+    }
+}
+
+impl fmt::Display for StateQuantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Positions => "positions",
+            Self::Momenta => "momenta",
+            Self::Temperatures => "temperatures",
+            Self::ViscousStretches => "viscous stretches",
+        })
+    }
+}
+
+/// A number for each kind of quantity that the scene has.
+pub(crate) type PerQuantity = [Option<f64>; 4];
+
+/// A state in double precision, for comparison with others of the same scene.
+///
+/// ```
+/// use eem::{EndState, Scene, Scheme, Simulation, StateQuantity};
+///
+/// // A free mass after 1 s at 2 m/s.
+/// let mut scene = Scene::<1>::new();
+/// scene.mass(3.0, [1.0], [2.0]);
+/// let mut run = Simulation::new(scene, Scheme::EemEntropy, 1.0)?;
+/// let start = EndState::of(&run);
+/// run.step()?;
+/// let end = EndState::of(&run);
+/// assert_eq!(end.values(StateQuantity::Positions), [3.0]);
+/// assert_eq!(end.values(StateQuantity::Momenta), [6.0]);
+/// assert_eq!(start.difference(&end, StateQuantity::Positions), Some(2.0 / 3.0));
+/// assert_eq!(start.difference(&end, StateQuantity::Temperatures), None);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct EndState {
+    values: [Vec<f64>; 4],
+}
+
+impl EndState {
+    /// The present state of a simulation.
+    #[must_use]
+    pub fn of<const D: usize, S: Real>(run: &Simulation<D, S>) -> Self {
+        Self {
+            values: run.values(),
+        }
+    }
+
+    /// The values of one kind: q (m) and p (kg m/s) of the masses, component by component, θ (K) and γ (m) of
+    /// the elements, in the order of creation.
+    #[must_use]
+    pub fn values(&self, quantity: StateQuantity) -> &[f64] {
+        &self.values[quantity.index()]
+    }
+
+    /// The relative difference of this state from `exact` in one kind of quantity:
+    ///
+    /// ```text
+    /// max |Δq|/|q|₂,   max |Δp|/|p|₂,   max |Δθ|/θ,   max |Δγ|/|γ|₂
+    /// ```
+    ///
+    /// with the largest component of the difference in the numerator and the Euclidean norm of all components of
+    /// `exact` in the denominator; temperatures are compared one by one. `None` if there is no such quantity, or if
+    /// the numbers of values differ. Equal states differ by zero, also if all values vanish.
+    #[must_use]
+    pub fn difference(&self, exact: &Self, quantity: StateQuantity) -> Option<f64> {
+        let [values, exact] = [self, exact].map(|state| state.values(quantity));
+        if exact.is_empty() || values.len() != exact.len() {
+            return None;
+        }
+        let norm = exact.iter().map(|value| value * value).sum::<f64>().sqrt();
+        let shares = values.iter().zip(exact).map(|(value, exact)| {
+            let size = match quantity {
+                StateQuantity::Temperatures => exact.abs(),
+                _ => norm,
+            };
+            share((value - exact).abs(), size)
+        });
+        Some(shares.fold(0.0, larger))
+    }
+
+    /// The same for every kind.
+    pub(crate) fn differences(&self, exact: &Self) -> PerQuantity {
+        StateQuantity::ALL.map(|quantity| self.difference(exact, quantity))
+    }
+
+    /// A kind with a value that is not finite.
+    pub(crate) fn flaw(&self) -> Option<StateQuantity> {
+        let mut all = StateQuantity::ALL.into_iter();
+        all.find(|&quantity| self.values(quantity).iter().any(|value| !value.is_finite()))
+    }
+}
+
+/// A part of a whole; nothing is no part even of nothing.
+pub(crate) fn share(part: f64, whole: f64) -> f64 {
+    if part > 0.0 || part.is_nan() {
+        part / whole
+    } else {
+        0.0
+    }
+}
+
+/// The larger of two numbers, NaN if one of them is.
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
+}

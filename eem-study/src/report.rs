@@ -1,0 +1,191 @@
+//! What a study has found: a row per setting, and the reference that its errors are measured against.
+
+use crate::measure::{Measured, Times};
+use crate::quantity::{PerQuantity, StateQuantity};
+use crate::reference::StudyReference;
+use crate::setting::{Precision, Setting};
+use crate::statement::{Statement, largest};
+use eem_runtime::Scheme;
+use eem_runtime::StepError;
+
+/// The results and costs of one setting.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct StudyRow {
+    /// The setting.
+    pub setting: Setting,
+    /// Why the run did not reach the end time; the other numbers then cover the steps before.
+    pub failure: Option<StepError>,
+    /// The largest `|B − B₀|/|E₀|` of the run, with the balance `B = E − work − heat`.
+    pub energy_defect: f64,
+    /// The bound for rounding in a single step: the largest [`StepReport::bound`](crate::StepReport::bound) divided
+    /// by `|E₀|`.
+    pub step_bound: f64,
+    /// The smallest ΔS of a step, J/K. By the second law it is not negative, except for rounding. Infinite without
+    /// steps.
+    pub least_entropy_change: f64,
+    /// Accepted steps.
+    pub steps: u32,
+    /// Rejected steps. Zero with constant steps.
+    pub rejected: u32,
+    /// Newton iterations.
+    pub iterations: usize,
+    /// Evaluations of the forces of all elements, one per stage.
+    pub evaluations: u64,
+    /// Wall time of the steps alone, the minimum of all repeats, s.
+    pub seconds: f64,
+    /// The median of the repeats, s.
+    pub median_seconds: f64,
+    /// Wall time of building the scene and the simulation, the minimum of all repeats, s.
+    pub setup_seconds: f64,
+    pub(crate) differences: PerQuantity,
+    pub(crate) doubts: PerQuantity,
+}
+
+impl StudyRow {
+    /// Compares what was measured with the references.
+    pub(crate) fn new(
+        setting: Setting,
+        measured: Measured,
+        times: Times,
+        reference: &StudyReference,
+    ) -> Self {
+        let (differences, failure) = match measured.end {
+            Ok(state) => (reference.differences(&state), None),
+            Err(error) => ([None; 4], Some(error)),
+        };
+        Self {
+            setting,
+            failure,
+            energy_defect: measured.energy_defect,
+            step_bound: measured.step_bound,
+            least_entropy_change: measured.least_entropy_change,
+            steps: measured.steps,
+            rejected: measured.rejected,
+            iterations: measured.iterations,
+            evaluations: measured.evaluations,
+            seconds: times.least,
+            median_seconds: times.median,
+            setup_seconds: times.setup,
+            differences,
+            doubts: reference.doubts(),
+        }
+    }
+
+    /// The statement about the error of one kind of quantity at the end time, see
+    /// [`EndState::difference`](crate::EndState::difference).
+    #[must_use]
+    pub fn statement(&self, quantity: StateQuantity) -> Statement {
+        let index = quantity.index();
+        match (self.differences[index], self.doubts[index]) {
+            (Some(difference), Some(doubt)) => Statement::of(difference, doubt),
+            _ => Statement::Absent,
+        }
+    }
+
+    /// The error of one kind of quantity at the end time, if it is stated.
+    #[must_use]
+    pub fn error(&self, quantity: StateQuantity) -> Option<f64> {
+        self.statement(quantity).stated()
+    }
+
+    /// The statement about the largest error of all kinds. It can be stated even if a much smaller one is not.
+    #[must_use]
+    pub fn largest_error(&self) -> Statement {
+        match (largest(&self.differences), largest(&self.doubts)) {
+            (Some(difference), Some(doubt)) => Statement::of(difference, doubt),
+            _ => Statement::Absent,
+        }
+    }
+}
+
+/// The result of [`Study::run`](crate::Study::run).
+///
+/// `Display` prints a table, the reference and a recommendation for each accuracy.
+///
+/// ```
+/// use eem::materials::Hooke;
+/// use eem::prelude::*;
+/// use eem::{Advice, Setting, Study, StudyReport};
+///
+/// fn scene() -> Scene<1> {
+///     let mut scene = Scene::new();
+///     let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.5], [0.0])];
+///     scene.spring(Hooke { stiffness: 4.0, natural_length: 1.0 }, ends);
+///     scene
+/// }
+///
+/// // A mass that swings with ω = 2/s; the scheme has an error of (ωh)²ωt/12 in ωt.
+/// let report = Study::new(scene, 1.0)
+///     .settings(Setting::halved(Scheme::EemEntropy, 0.1, 2))
+///     .run()?;
+/// let [q, dq_dphase] = [1.0 + 0.5 * 2.0_f64.cos(), 0.5 * 2.0_f64.sin()];
+/// let expected = dq_dphase * 0.2_f64.powi(2) * 2.0 / 12.0 / q;
+/// let error = report.rows[0].error(eem::StateQuantity::Positions).unwrap();
+/// assert!((error / expected - 1.0).abs() < 0.02);
+///
+/// let Advice::Take { fastest, .. } = report.recommend(5e-4)?.advice else { unreachable!() };
+/// assert_eq!(fastest.setting.step(), Some(0.025));
+/// assert_eq!(report.csv_rows().count(), 3);
+/// # Ok::<(), eem::StudyError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct StudyReport {
+    /// The time at which errors are compared, s.
+    pub end: f64,
+    /// A row per setting, in their order.
+    pub rows: Vec<StudyRow>,
+    /// The references.
+    pub reference: StudyReference,
+    /// The accuracies that `Display` recommends settings for.
+    pub accuracies: Vec<f64>,
+}
+
+impl StudyReport {
+    /// The Pareto front: the rows that no other row beats in both time and largest error, from the fastest to the
+    /// most accurate.
+    #[must_use]
+    pub fn front(&self) -> Vec<&StudyRow> {
+        let stated = |row| Some((row, StudyRow::largest_error(row).stated()?));
+        let mut rows: Vec<(&StudyRow, f64)> = self.rows.iter().filter_map(stated).collect();
+        rows.sort_by(|(a, own), (b, other)| {
+            let by_time = a.seconds.total_cmp(&b.seconds);
+            by_time.then(own.total_cmp(other))
+        });
+        let mut least = f64::INFINITY;
+        rows.retain(|&(_, error)| {
+            let is_better = error < least;
+            least = least.min(error);
+            is_better
+        });
+        rows.into_iter().map(|(row, _)| row).collect()
+    }
+
+    /// The observed order of a scheme in double precision for one kind of quantity: the slope between the two
+    /// smallest steps with stated errors.
+    ///
+    /// ```text
+    /// ln(error₁/error₂) / ln(h₁/h₂)
+    /// ```
+    ///
+    /// `None` unless there are two such steps.
+    #[must_use]
+    pub fn order(&self, scheme: Scheme, quantity: StateQuantity) -> Option<f64> {
+        let point = |row: &StudyRow| {
+            let Setting {
+                scheme: own,
+                precision,
+                ..
+            } = row.setting;
+            let is_of_line = own == scheme && precision == Precision::Double;
+            let error = row.error(quantity).filter(|_| is_of_line)?;
+            Some((row.setting.step()?, error))
+        };
+        let mut points: Vec<_> = self.rows.iter().filter_map(point).collect();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        points.dedup_by(|a, b| a.0.total_cmp(&b.0).is_eq());
+        let [(small, fine), (large, coarse)] = *points.first_chunk()?;
+        Some((coarse / fine).ln() / (large / small).ln())
+    }
+}

@@ -1,0 +1,183 @@
+//! What a study runs: a scheme, how large its steps are, and in which precision, as data.
+
+use core::fmt;
+use core::iter;
+
+use eem_material::number::readable::Readable;
+use eem_runtime::Scheme;
+
+/// The sizes of the steps of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum StepChoice {
+    /// Constant, s.
+    Fixed(f64),
+    /// Chosen by step control for this relative tolerance, see [`Tolerance`](crate::Tolerance).
+    Tolerance(f64),
+}
+
+/// The number type of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Precision {
+    /// `f64`.
+    #[default]
+    Double,
+    /// `f32`.
+    Single,
+}
+
+/// One run of a [`Study`](crate::Study).
+///
+/// ```
+/// use eem::{Precision, Scheme, Setting};
+///
+/// let setting = Setting::fixed(Scheme::EemEntropy, 0.1);
+/// assert_eq!(setting.step(), Some(0.1));
+/// assert_eq!(setting.to_string(), "eem-entropy with h = 0.1 s");
+/// assert_eq!(setting.in_single_precision().precision, Precision::Single);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Setting {
+    /// The scheme.
+    pub scheme: Scheme,
+    /// The sizes of its steps.
+    pub steps: StepChoice,
+    /// The number type.
+    pub precision: Precision,
+}
+
+impl Setting {
+    /// A scheme with steps of the size `step`, s, in double precision.
+    #[must_use]
+    pub const fn fixed(scheme: Scheme, step: f64) -> Self {
+        Self {
+            scheme,
+            steps: StepChoice::Fixed(step),
+            precision: Precision::Double,
+        }
+    }
+
+    /// The steps `h, h/2, …, h/2ⁿ` of a scheme: `halvings` is n, `largest` is h, s.
+    ///
+    /// ```
+    /// use eem::{Scheme, Setting};
+    ///
+    /// let steps = Setting::halved(Scheme::Gauss4, 0.2, 2).filter_map(|setting| setting.step());
+    /// assert_eq!(steps.collect::<Vec<_>>(), [0.2, 0.1, 0.05]);
+    /// ```
+    pub fn halved(scheme: Scheme, largest: f64, halvings: u32) -> impl Iterator<Item = Self> {
+        let steps = iter::successors(Some(largest), |step| Some(0.5 * step));
+        let steps = (0..=halvings).zip(steps);
+        steps.map(move |(_, step)| Self::fixed(scheme, step))
+    }
+
+    /// A scheme with step control for a relative tolerance, in double precision.
+    ///
+    /// ```
+    /// use eem::{Scheme, Setting};
+    ///
+    /// let setting = Setting::controlled(Scheme::EemTemperature, 1e-4);
+    /// assert_eq!((setting.step(), setting.tolerance()), (None, Some(1e-4)));
+    /// assert_eq!(setting.to_string(), "eem-temperature at a tolerance of 0.0001");
+    /// ```
+    #[must_use]
+    pub const fn controlled(scheme: Scheme, tolerance: f64) -> Self {
+        Self {
+            scheme,
+            steps: StepChoice::Tolerance(tolerance),
+            precision: Precision::Double,
+        }
+    }
+
+    /// The tolerances `r, r/10, …, r/10ⁿ` of a scheme: `decades` is n, `largest` is r.
+    ///
+    /// ```
+    /// use eem::{Scheme, Setting};
+    ///
+    /// let settings = Setting::by_decades(Scheme::EemEntropy, 1e-2, 1);
+    /// let tolerances: Vec<_> = settings.filter_map(|setting| setting.tolerance()).collect();
+    /// assert_eq!(tolerances, [1e-2, 1e-3]);
+    /// ```
+    pub fn by_decades(scheme: Scheme, largest: f64, decades: u32) -> impl Iterator<Item = Self> {
+        let divisors = (0..=decades).map(|decade| 10.0_f64.powi(decade.cast_signed()));
+        divisors.map(move |divisor| Self::controlled(scheme, largest / divisor))
+    }
+
+    /// The same setting in `f32`; the study then needs [`Study::single`](crate::Study::single).
+    #[must_use]
+    pub const fn in_single_precision(self) -> Self {
+        Self {
+            precision: Precision::Single,
+            ..self
+        }
+    }
+
+    /// The constant step, s; `None` with step control.
+    #[must_use]
+    pub const fn step(&self) -> Option<f64> {
+        match self.steps {
+            StepChoice::Fixed(step) => Some(step),
+            StepChoice::Tolerance(_) => None,
+        }
+    }
+
+    /// The tolerance of step control; `None` with constant steps.
+    #[must_use]
+    pub const fn tolerance(&self) -> Option<f64> {
+        match self.steps {
+            StepChoice::Fixed(_) => None,
+            StepChoice::Tolerance(tolerance) => Some(tolerance),
+        }
+    }
+
+    /// The name of the scheme, with `-f32` in single precision.
+    ///
+    /// ```
+    /// use eem::{Scheme, Setting};
+    ///
+    /// let setting = Setting::fixed(Scheme::Midpoint, 0.1).in_single_precision();
+    /// assert_eq!(setting.name(), "midpoint-f32");
+    /// ```
+    #[must_use]
+    pub fn name(&self) -> String {
+        let suffix = match self.precision {
+            Precision::Double => "",
+            Precision::Single => "-f32",
+        };
+        format!("{}{suffix}", self.scheme)
+    }
+
+    /// The name of the curve in a picture: the name of the setting, and whether it uses step control.
+    ///
+    /// ```
+    /// use eem::{Scheme, Setting};
+    ///
+    /// assert_eq!(Setting::fixed(Scheme::EemEntropy, 0.1).line(), "eem-entropy");
+    /// assert_eq!(Setting::controlled(Scheme::EemEntropy, 0.1).line(), "eem-entropy, controlled");
+    /// ```
+    #[must_use]
+    pub fn line(&self) -> String {
+        let suffix = match self.steps {
+            StepChoice::Fixed(_) => "",
+            StepChoice::Tolerance(_) => ", controlled",
+        };
+        format!("{}{suffix}", self.name())
+    }
+}
+
+impl fmt::Display for Setting {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.steps {
+            StepChoice::Fixed(step) => write!(f, "{} with h = {} s", self.name(), Readable(step)),
+            StepChoice::Tolerance(tolerance) => {
+                write!(
+                    f,
+                    "{} at a tolerance of {}",
+                    self.name(),
+                    Readable(tolerance)
+                )
+            }
+        }
+    }
+}

@@ -1,0 +1,320 @@
+//! Work and precision: what each setting costs and how accurate it is, for a scene of the user's own.
+
+use core::fmt;
+
+use crate::advice::check_accuracy;
+use crate::course::{Build, Course};
+use crate::error::StudyError;
+use crate::measure::{Measured, Times, measure, time};
+use crate::progress::{Progress, Watch};
+use crate::quantity::{EndState, StateQuantity};
+use crate::reference::{Search, StudyReference};
+use crate::report::{StudyReport, StudyRow};
+use crate::setting::{Precision, Setting};
+use eem_runtime::Scene;
+use eem_runtime::SceneError;
+
+/// How often each setting is timed unless [`Study::repeats`] says otherwise.
+const REPEATS: usize = 3;
+
+/// How many times smaller than the smallest step of all settings those of the references are at most.
+const REFINEMENT: u32 = 32;
+
+/// What is recommended for: errors that show in a picture, those of a good simulation, those of a reference.
+const ACCURACIES: [f64; 3] = [1e-2, 1e-4, 1e-6];
+
+/// Runs one scene with many settings, compares the states at the end time with two independent references, and
+/// recommends a setting.
+///
+/// For your own scene:
+///
+/// ```
+/// use eem::prelude::*;
+/// use eem::{Setting, StateQuantity, Study};
+///
+/// #[derive(FreeEnergy)]
+/// #[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - length).powi(2))]
+/// struct Spring {
+///     stiffness: f64,
+///     length: f64,
+/// }
+///
+/// fn scene() -> Scene<2> {
+///     let mut scene = Scene::new();
+///     let ends = [scene.anchor([0.0, 0.0]), scene.mass(1.0, [1.1, 0.0], [0.0, 1.0])];
+///     scene.spring(Spring { stiffness: 20.0, length: 1.0 }, ends);
+///     scene
+/// }
+///
+/// let report = Study::new(scene, 2.0)
+///     .settings(Setting::halved(Scheme::EemEntropy, 0.1, 3))
+///     .settings(Setting::halved(Scheme::Variational4, 0.1, 3))
+///     .run()?;
+/// println!("{report}");
+///
+/// let order = |scheme| report.order(scheme, StateQuantity::Positions);
+/// assert!(order(Scheme::EemEntropy).is_some_and(|order| (order - 2.0).abs() < 0.1));
+/// assert!(order(Scheme::Variational4).is_some_and(|order| (order - 4.0).abs() < 0.1));
+/// assert!(report.rows[0].energy_defect < 1e-14 && report.rows[4].energy_defect > 1e-9);
+/// # Ok::<(), eem::StudyError>(())
+/// ```
+///
+/// Errors are relative, one per kind of quantity, measured from the first reference:
+///
+/// ```text
+/// max |Δq|/|q|₂,   max |Δp|/|p|₂,   max |Δθ|/θ,   max |Δγ|/|γ|₂
+/// ```
+///
+/// An error is stated only if the references differ by at most a hundredth of it, see
+/// [`Statement`](crate::Statement). Everything in the report except wall times has the same bits in every run.
+pub struct Study<'a, const D: usize> {
+    build: Box<Build<'a, D, f64>>,
+    single: Option<Box<Build<'a, D, f32>>>,
+    settings: Vec<Setting>,
+    end: f64,
+    repeats: usize,
+    refinement: u32,
+    accuracies: Vec<f64>,
+    reference: Option<[EndState; 2]>,
+    watch: Option<Box<Watch<'a>>>,
+}
+
+impl<const D: usize> fmt::Debug for Study<'_, D> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Study")
+            .field("settings", &self.settings)
+            .field("end", &self.end)
+            .field("repeats", &self.repeats)
+            .field("refinement", &self.refinement)
+            .field("accuracies", &self.accuracies)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'a, const D: usize> Study<'a, D> {
+    /// A study of the scene that `build` makes, from its start to the time `end`, s. Every run builds it again, so
+    /// it must be the same each time.
+    pub fn new(build: impl Fn() -> Scene<D> + 'a, end: f64) -> Self {
+        Self {
+            build: Box::new(build),
+            single: None,
+            settings: Vec::new(),
+            end,
+            repeats: REPEATS,
+            refinement: REFINEMENT,
+            accuracies: ACCURACIES.to_vec(),
+            reference: None,
+            watch: None,
+        }
+    }
+
+    /// The same scene with `f32`, for settings in single precision. Write one function that is generic in the
+    /// number type.
+    #[must_use]
+    pub fn single(mut self, build: impl Fn() -> Scene<D, f32> + 'a) -> Self {
+        self.single = Some(Box::new(build));
+        self
+    }
+
+    /// Adds a setting.
+    #[must_use]
+    pub fn setting(self, setting: Setting) -> Self {
+        self.settings([setting])
+    }
+
+    /// Adds settings.
+    #[must_use]
+    pub fn settings(mut self, settings: impl IntoIterator<Item = Setting>) -> Self {
+        self.settings.extend(settings);
+        self
+    }
+
+    /// How often each setting is timed, in addition to the run that is compared; 0 counts as 1. The default is 3.
+    #[must_use]
+    pub const fn repeats(mut self, repeats: usize) -> Self {
+        self.repeats = repeats;
+        self
+    }
+
+    /// How many times smaller than the smallest step the steps of the references may become; 32 by default. They
+    /// start 4 times smaller with schemes of order 4, and 16 times with schemes of order 2, which solids need; each
+    /// refinement halves the step.
+    #[must_use]
+    pub const fn refinement(mut self, factor: u32) -> Self {
+        self.refinement = factor;
+        self
+    }
+
+    /// The accuracies for which to recommend settings, as relative errors. By default 10⁻², 10⁻⁴ and 10⁻⁶.
+    #[must_use]
+    pub fn accuracies(mut self, accuracies: impl IntoIterator<Item = f64>) -> Self {
+        self.accuracies = accuracies.into_iter().collect();
+        self
+    }
+
+    /// Uses two given states at the end time as references. They should come from independent methods, because
+    /// their difference is all that is known about their errors.
+    #[must_use]
+    pub fn reference(mut self, states: [EndState; 2]) -> Self {
+        self.reference = Some(states);
+        self
+    }
+
+    /// Calls `watch` after every run with the number of steps made and planned. More are planned when the
+    /// references must be refined.
+    #[must_use]
+    pub fn watch(mut self, watch: impl FnMut(u64, u64) + 'a) -> Self {
+        self.watch = Some(Box::new(watch));
+        self
+    }
+
+    /// Runs everything, one run after the other.
+    ///
+    /// A failed step is not an error of the study: its setting has no error at the end time.
+    ///
+    /// # Errors
+    ///
+    /// [`StudyError`] if there are no settings, a step or the end time is not positive and finite, no whole number
+    /// of steps ends at the end time, or the scene is rejected. Nothing has run then, unless a scheme rejects the
+    /// scene.
+    pub fn run(mut self) -> Result<StudyReport, StudyError> {
+        let courses = self.check()?;
+        let mut progress = Progress::new(self.watch.take());
+        let runs = 1 + u64::try_from(self.repeats.max(1)).unwrap_or(u64::MAX);
+        for course in &courses {
+            progress.plan(runs * u64::from(course.planned()));
+        }
+        let mut measured = Vec::with_capacity(courses.len());
+        for (&setting, course) in self.settings.iter().zip(&courses) {
+            measured.push(self.measure(setting, course)?);
+            progress.advance(u64::from(course.planned()));
+        }
+        let times = self.time(&courses, &mut progress)?;
+        let reference = self.find_reference(&measured, &mut progress)?;
+        let rows = self.settings.iter().zip(measured).zip(times);
+        let rows = rows.map(|((&setting, measured), times)| {
+            StudyRow::new(setting, measured, times, &reference)
+        });
+        Ok(StudyReport {
+            end: self.end,
+            rows: rows.collect(),
+            reference,
+            accuracies: self.accuracies,
+        })
+    }
+
+    /// The courses of all settings, if nothing is wrong with the study.
+    fn check(&self) -> Result<Vec<Course>, StudyError> {
+        let end = self.end;
+        if !(end > 0.0 && end.is_finite()) {
+            return Err(StudyError::End { end });
+        }
+        let Some(&first) = self.settings.first() else {
+            return Err(StudyError::NoSettings);
+        };
+        for &accuracy in &self.accuracies {
+            check_accuracy(accuracy)?;
+        }
+        for &setting in &self.settings {
+            if setting.precision == Precision::Single && self.single.is_none() {
+                return Err(StudyError::NoSingleScene { setting });
+            }
+        }
+        let courses = self.settings.iter().map(|setting| Course::of(setting, end));
+        let courses = courses.collect::<Result<Vec<_>, _>>()?;
+        if let Some(states) = &self.reference {
+            self.check_reference(states, first, &courses[0])?;
+        }
+        Ok(courses)
+    }
+
+    /// The references that were given are states of this scene.
+    fn check_reference(
+        &self,
+        states: &[EndState; 2],
+        setting: Setting,
+        course: &Course,
+    ) -> Result<(), StudyError> {
+        let start = course.start(&*self.build);
+        let start = start.map_err(|source| StudyError::Scene { setting, source })?;
+        let start = EndState::of(&start);
+        for (index, state) in states.iter().enumerate() {
+            for quantity in StateQuantity::ALL {
+                let [got, expected] = [state, &start].map(|state| state.values(quantity).len());
+                if got != expected {
+                    return Err(StudyError::Reference {
+                        index,
+                        quantity,
+                        got,
+                        expected,
+                    });
+                }
+            }
+            if let Some(quantity) = state.flaw() {
+                return Err(StudyError::ReferenceNotFinite { index, quantity });
+            }
+        }
+        Ok(())
+    }
+
+    fn measure(&self, setting: Setting, course: &Course) -> Result<Measured, StudyError> {
+        let measured = match (setting.precision, &self.single) {
+            (Precision::Double, _) => measure(&*self.build, course),
+            (Precision::Single, Some(build)) => measure(&**build, course),
+            (Precision::Single, None) => return Err(StudyError::NoSingleScene { setting }),
+        };
+        measured.map_err(|source| StudyError::Scene { setting, source })
+    }
+
+    /// The times of all settings. Each repeat goes through all of them: when the machine is busy for a while,
+    /// it does not slow all repeats of one setting.
+    fn time(
+        &self,
+        courses: &[Course],
+        progress: &mut Progress<'_>,
+    ) -> Result<Vec<Times>, StudyError> {
+        let mut repeats = vec![Vec::new(); courses.len()];
+        for _ in 0..self.repeats.max(1) {
+            for ((&setting, course), times) in self.settings.iter().zip(courses).zip(&mut repeats) {
+                let taken = match (setting.precision, &self.single) {
+                    (Precision::Double, _) => time(&*self.build, course),
+                    (Precision::Single, Some(build)) => time(&**build, course),
+                    (Precision::Single, None) => return Err(StudyError::NoSingleScene { setting }),
+                };
+                times.push(taken.map_err(|source| StudyError::Scene { setting, source })?);
+                progress.advance(u64::from(course.planned()));
+            }
+        }
+        Ok(repeats.iter().map(|times| Times::of(times)).collect())
+    }
+
+    /// The references that were given, or those that are found.
+    fn find_reference(
+        &self,
+        measured: &[Measured],
+        progress: &mut Progress<'_>,
+    ) -> Result<StudyReference, StudyError> {
+        if let Some(states) = &self.reference {
+            return Ok(StudyReference::given(states.clone()));
+        }
+        let ends = measured.iter().filter_map(|run| run.end.clone().ok());
+        let ends: Vec<EndState> = ends.collect();
+        let search = Search {
+            end_time: self.end,
+            finest: measured
+                .iter()
+                .map(|run| run.steps)
+                .max()
+                .unwrap_or(1)
+                .max(1),
+            refinement: self.refinement,
+            ends: &ends,
+        };
+        let found = search.run(&*self.build, |planned, made| {
+            progress.plan(planned);
+            progress.advance(made);
+        });
+        let setting = self.settings[0];
+        found.map_err(|source: SceneError| StudyError::Scene { setting, source })
+    }
+}

@@ -1,0 +1,202 @@
+//! A report as text: a table of all settings, what failed, the reference, orders, recommendations; and CSV rows.
+
+use core::fmt::{self, Write};
+
+use crate::quantity::StateQuantity;
+use crate::reference::{ReferenceEnd, StudyReference};
+use crate::report::{StudyReport, StudyRow};
+use crate::setting::StepChoice;
+use crate::statement::Statement;
+use eem_material::number::readable::Readable;
+
+/// Column heads of the table.
+const HEADS: [&str; 15] = [
+    "scheme",
+    "h (s)",
+    "error of q",
+    "of p",
+    "of θ",
+    "of γ",
+    "energy defect",
+    "least ΔS (J/K)",
+    "steps",
+    "rejected",
+    "iterations",
+    "evaluations",
+    "ms",
+    "median",
+    "set-up",
+];
+
+/// What the signs in the table mean.
+const LEGEND: &str = "Errors at the end time, relative; ? where the references differ by more than 1 % of it. \
+    `*`: no other setting is\nfaster and more accurate. ms: the steps alone, the least of all repeats.";
+
+impl StudyReport {
+    /// The heads of [`csv_rows`](Self::csv_rows).
+    pub const CSV_HEADS: [&str; 11] = [
+        "scheme",
+        "tolerance",
+        "step",
+        "error_q",
+        "error_p",
+        "error_theta",
+        "energy_defect",
+        "steps",
+        "rejected",
+        "evaluations",
+        "seconds",
+    ];
+
+    /// A row of cells per setting: errors at the end time, empty where they are absent or refused, and the
+    /// minimum of the wall times. Numbers have 17 significant digits.
+    pub fn csv_rows(&self) -> impl Iterator<Item = [String; 11]> {
+        self.rows.iter().map(|row| {
+            let number = |value: Option<f64>| {
+                value.map_or_else(String::new, |value| format!("{value:.16e}"))
+            };
+            let error = |quantity| number(row.error(quantity));
+            [
+                row.setting.name(),
+                number(row.setting.tolerance()),
+                number(row.setting.step()),
+                error(StateQuantity::Positions),
+                error(StateQuantity::Momenta),
+                error(StateQuantity::Temperatures),
+                number(Some(row.energy_defect)),
+                row.steps.to_string(),
+                row.rejected.to_string(),
+                row.evaluations.to_string(),
+                number(Some(row.seconds)),
+            ]
+        })
+    }
+}
+
+impl fmt::Display for StudyReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let front = self.front();
+        let rows = self.rows.iter().map(|row| {
+            let is_best = front.iter().any(|best| core::ptr::eq(*best, row));
+            cells(row, is_best)
+        });
+        let heads = HEADS.map(str::to_owned);
+        let lines: Vec<_> = core::iter::once(heads).chain(rows).collect();
+        write_table(f, &lines)?;
+        writeln!(f, "\n{LEGEND}")?;
+        for row in &self.rows {
+            if let Some(error) = &row.failure {
+                writeln!(f, "{}: {error}.", row.setting)?;
+            }
+        }
+        write_reference(f, &self.reference)?;
+        write_orders(f, self)?;
+        for &accuracy in &self.accuracies {
+            let recommendation = self.recommend(accuracy).map_err(|_| fmt::Error)?;
+            writeln!(f, "{recommendation}")?;
+        }
+        Ok(())
+    }
+}
+
+/// The cells of a setting; a star marks what no other setting beats.
+fn cells(row: &StudyRow, is_best: bool) -> [String; 15] {
+    let star = if is_best { " *" } else { "" };
+    let step = match row.setting.steps {
+        StepChoice::Fixed(step) => Readable(step).to_string(),
+        StepChoice::Tolerance(tolerance) => format!("tol. {}", Readable(tolerance)),
+    };
+    let error = |quantity| match (&row.failure, row.statement(quantity)) {
+        (Some(_), _) => "failed".to_owned(),
+        (None, Statement::Stated(error)) => format!("{error:.1e}"),
+        (None, Statement::Refused { .. }) => "?".to_owned(),
+        (None, Statement::Absent) => "–".to_owned(),
+    };
+    let milliseconds = |seconds: f64| format!("{:.3}", 1e3 * seconds);
+    let [q, p, theta, gamma] = StateQuantity::ALL.map(error);
+    [
+        format!("{}{star}", row.setting.name()),
+        step,
+        q,
+        p,
+        theta,
+        gamma,
+        format!("{:.1e}", row.energy_defect),
+        format!("{:.1e}", row.least_entropy_change),
+        row.steps.to_string(),
+        row.rejected.to_string(),
+        row.iterations.to_string(),
+        row.evaluations.to_string(),
+        milliseconds(row.seconds),
+        milliseconds(row.median_seconds),
+        milliseconds(row.setup_seconds),
+    ]
+}
+
+/// Lines of cells below their heads, padded.
+fn write_table(f: &mut fmt::Formatter<'_>, lines: &[[String; 15]]) -> fmt::Result {
+    let width = |column: usize| {
+        let widths = lines.iter().map(|line| line[column].chars().count());
+        widths.max().unwrap_or(0)
+    };
+    for (number, line) in lines.iter().enumerate() {
+        for (column, cell) in line.iter().enumerate() {
+            write!(f, "| {cell:<0$} ", width(column))?;
+        }
+        writeln!(f, "|")?;
+        if number == 0 {
+            for column in 0..line.len() {
+                write!(f, "|{:-<1$}", "", width(column) + 2)?;
+            }
+            writeln!(f, "|")?;
+        }
+    }
+    Ok(())
+}
+
+/// What errors are measured against, and how well it is known.
+fn write_reference(f: &mut fmt::Formatter<'_>, reference: &StudyReference) -> fmt::Result {
+    f.write_str("References: ")?;
+    match (reference.schemes, reference.step) {
+        (Some([first, second]), Some(step)) => {
+            write!(f, "{first} and {second} with h = {} s", Readable(step))?;
+        }
+        _ => f.write_str("as given")?,
+    }
+    let mut before = "; they differ by ";
+    for quantity in StateQuantity::ALL {
+        if let Some(doubt) = reference.doubt(quantity).filter(|doubt| doubt.is_finite()) {
+            write!(f, "{before}{doubt:.0e} in {}", quantity.symbol())?;
+            before = ", ";
+        }
+    }
+    match &reference.end {
+        ReferenceEnd::Agreed | ReferenceEnd::Given => f.write_char('.')?,
+        ReferenceEnd::Floor => f.write_str(
+            ".\nSmaller steps bring them no closer: rounding, or rounding that a chaotic motion has enlarged.",
+        )?,
+        ReferenceEnd::Limit => f.write_str(
+            ".\nThat is not enough for all errors, and their steps are as small as `refinement` allows.",
+        )?,
+        ReferenceEnd::Failed(error) => write!(f, ".\nThey could not be refined further: {error}.")?,
+    }
+    f.write_char('\n')
+}
+
+/// The order that each scheme shows in the positions.
+fn write_orders(f: &mut fmt::Formatter<'_>, report: &StudyReport) -> fmt::Result {
+    let mut schemes: Vec<_> = report.rows.iter().map(|row| row.setting.scheme).collect();
+    schemes.dedup();
+    let mut before = "Orders of q between the two smallest steps: ";
+    for scheme in schemes {
+        if let Some(order) = report.order(scheme, StateQuantity::Positions) {
+            write!(f, "{before}{scheme} {order:.2}")?;
+            before = ", ";
+        }
+    }
+    if before == ", " {
+        f.write_str(".\n")
+    } else {
+        Ok(())
+    }
+}
