@@ -57,13 +57,8 @@ fn ends<H: Shape<D>, const D: usize>(
     point: &CellPoint<H, D>,
     [r0, r1]: [Arms<H, D>; 2],
 ) -> Ends<CellPoint<H, D>, f64, D> {
-    let (measures0, measures1) = (point.measure(&r0), point.measure(&r1));
-    Ends {
-        r0,
-        r1,
-        measures0,
-        measures1,
-    }
+    let measures = [point.measure(&r0), point.measure(&r1)];
+    Ends::new(point, [r0, r1], measures)
 }
 
 fn dot<const D: usize>(a: &[[f64; D]], b: &[[f64; D]]) -> f64 {

@@ -243,13 +243,8 @@ fn ends(numbers: &mut Numbers, step: f64) -> (QuadPoint, Ends<QuadPoint, f64, 2>
     let new = old.map(|[x, y]| [x + step * numbers.next(), y + step * numbers.next()]);
     let arms = |q: &[[f64; 2]; 4]| [1, 2, 3].map(|at| [q[at][0] - q[0][0], q[at][1] - q[0][1]]);
     let (r0, r1) = (arms(&old), arms(&new));
-    let ends = Ends {
-        r0,
-        r1,
-        measures0: point.measure(&r0),
-        measures1: point.measure(&r1),
-    };
-    (point, ends)
+    let measures = [point.measure(&r0), point.measure(&r1)];
+    (point, Ends::new(&point, [r0, r1], measures))
 }
 
 fn dot(a: &[[f64; 2]; 3], b: &[[f64; 2]; 3]) -> f64 {
@@ -287,11 +282,7 @@ fn moved_to(
     ends: &Ends<QuadPoint, f64, 2>,
     r1: [[f64; 2]; 3],
 ) -> Ends<QuadPoint, f64, 2> {
-    Ends {
-        r1,
-        measures1: point.measure(&r1),
-        ..*ends
-    }
+    Ends::new(point, [ends.r0, r1], [ends.measures0, point.measure(&r1)])
 }
 
 /// `Σ f_a gradient_a`.

@@ -154,23 +154,13 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     #[inline]
     fn secant(&self, [r0, r1]: [&Arms<K, S, D>; 2]) -> Weights<K, S, D> {
         let measures1 = measures_in::<K, S, D>(&self.x);
-        let ends = match self.scheme.placement() {
-            Placement::Middle => {
-                let middle = mean::<K, S, D>(r0, r1);
-                Ends {
-                    r0: middle,
-                    r1: middle,
-                    measures0: measures1,
-                    measures1,
-                }
+        let (arms, measures0) = match self.scheme.placement() {
+            Placement::Middle => ([mean::<K, S, D>(r0, r1); 2], measures1),
+            Placement::Ends | Placement::End | Placement::Start => {
+                ([*r0, *r1], measures_in::<K, S, D>(&self.start.x0))
             }
-            Placement::Ends | Placement::End | Placement::Start => Ends {
-                r0: *r0,
-                r1: *r1,
-                measures0: measures_in::<K, S, D>(&self.start.x0),
-                measures1,
-            },
         };
+        let ends = Ends::new(&self.kinematics, arms, [measures0, measures1]);
         self.kinematics.secant(&ends, &self.pulls())
     }
 

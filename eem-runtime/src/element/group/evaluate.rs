@@ -149,8 +149,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         share.momentum = None;
         for (point, heat) in self.points.as_mut().iter_mut().zip(share.heat.as_mut()) {
             let found = point.found_by(trial.settled);
-            let seen = point.locate_trial(arms.ends(), trial)?;
-            let pose = point.pose(&arms.old, &seen);
+            let measures = point.locate_trial(&arms.seen, trial)?;
+            let pose = point.pose(&arms, &measures);
             point.sensitivity = pose.sensitivity;
             let by_rate = point.extend(&pose, &arms.motion);
             // It stays where the model writes it: copies of it would be a good part of the work.

@@ -2,6 +2,7 @@
 
 use super::arms::{arms_in, change_in};
 use super::point::Point;
+use super::pose::seen_arms;
 use super::respond::TrialArms;
 use super::site::Site;
 use crate::element::conjugates::ElementScheme;
@@ -96,7 +97,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
     ) -> TrialArms<K, S, D> {
         TrialArms {
             old: self.r0,
-            new: self.new_arms(trial),
+            seen: seen_arms::<K, S, D>(self.scheme().placement(), &self.r0, self.new_arms(trial)),
             motion: self.motion(view, trial),
         }
     }

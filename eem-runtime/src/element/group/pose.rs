@@ -51,7 +51,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Pose<K, S, D> {
     /// Between the old arms and those of the configuration that the scheme looks at.
     #[inline]
     pub(super) fn new(kinematics: &K, at: Placement, ends: Ends<K, S, D>) -> Self {
-        let gradient = kinematics.gradient(&ends.r1, &ends.measures1);
+        let gradient = kinematics.new_gradient(&ends);
         let (direction, sensitivity) = match at {
             Placement::Ends => (kinematics.discrete_gradient(&ends), gradient),
             Placement::End => (gradient, gradient),
@@ -76,13 +76,8 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Pose<K, S, D> {
         measures0: Measures<K, S, D>,
     ) -> Self {
         let r1 = seen_arms::<K, S, D>(at, r0, *r1);
-        let ends = Ends {
-            r0: *r0,
-            r1,
-            measures0,
-            measures1: kinematics.measure(&r1),
-        };
-        Self::new(kinematics, at, ends)
+        let measures = [measures0, kinematics.measure(&r1)];
+        Self::new(kinematics, at, Ends::new(kinematics, [*r0, r1], measures))
     }
 
     /// `Σ_a f_a direction_a`.
@@ -96,14 +91,18 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Pose<K, S, D> {
         if at == Placement::Ends {
             return kinematics.pull(&self.ends, &self.direction, force);
         }
-        let mut ends = self.ends;
-        match at {
-            Placement::Ends => {}
-            Placement::End | Placement::Middle => {
-                (ends.r0, ends.measures0) = (ends.r1, ends.measures1);
-            }
-            Placement::Start => (ends.r1, ends.measures1) = (ends.r0, ends.measures0),
-        }
+        let Ends {
+            r0,
+            r1,
+            measures0,
+            measures1,
+            ..
+        } = self.ends;
+        let (r, measures) = match at {
+            Placement::Ends | Placement::End | Placement::Middle => (r1, measures1),
+            Placement::Start => (r0, measures0),
+        };
+        let ends = Ends::new(kinematics, [r; 2], [measures; 2]);
         kinematics.pull(&ends, &self.direction, force)
     }
 

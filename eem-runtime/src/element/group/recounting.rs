@@ -89,12 +89,8 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         [old, new]: [&State<S>; 2],
     ) -> M::Variables {
         let mut increments = M::Variables::filled(S::zero());
-        let ends = Ends {
-            r0: *r0,
-            r1: *r1,
-            measures0: measures_in::<K, S, D>(x0),
-            measures1: measures_in::<K, S, D>(x1),
-        };
+        let measures = [x0, x1].map(measures_in::<K, S, D>);
+        let ends = Ends::new(&self.kinematics, [*r0, *r1], measures);
         let gradient = self.kinematics.discrete_gradient(&ends);
         for (a, row) in gradient.as_ref().iter().enumerate() {
             increments[a] = along::<K, S, D>(row, change);

@@ -2,7 +2,7 @@
 
 use super::arms::measures_in;
 use super::point::{Point, temperature_in};
-use super::pose::{Pose, seen_arms, seen_measures};
+use super::pose::{Pose, seen_measures};
 use crate::element::conjugates::{ElementScheme, Form};
 use crate::element::error::StateError;
 use crate::element::group::view::{StepView, Trial};
@@ -14,39 +14,28 @@ use eem_material::number::scalar::{Mask, Real, is_positive};
 /// Arms of an element at a trial.
 pub(super) struct TrialArms<K: Kinematics<S, D>, S: Real, const D: usize> {
     pub(super) old: Arms<K, S, D>,
-    pub(super) new: Arms<K, S, D>,
+    /// The new ones, or where the scheme looks at the middle, the mean ones.
+    pub(super) seen: Arms<K, S, D>,
     /// `r¹ − r⁰ − (1 − w) h ṙ⁰`, if the scheme is one in temperature.
     pub(super) motion: Arms<K, S, D>,
 }
 
-impl<K: Kinematics<S, D>, S: Real, const D: usize> TrialArms<K, S, D> {
-    /// The old and the new ones.
-    #[inline]
-    pub(super) fn ends(&self) -> [&Arms<K, S, D>; 2] {
-        [&self.old, &self.new]
-    }
-}
-
-/// Arms and measures of the configuration that a scheme looks at.
-pub(super) type Seen<K, S, const D: usize> = (Arms<K, S, D>, Measures<K, S, D>);
-
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const D: usize>
     Point<S, M, K, C, D>
 {
-    /// Finds the measures of the trial state between old and new arms, its temperature if that is not an
-    /// unknown, and what the form of the scheme needs besides.
+    /// Finds the measures of the trial state, its temperature if that is not an unknown, and what the form of the
+    /// scheme needs besides. Returns the measures of the arms that the scheme looks at.
     #[inline]
     pub(super) fn locate_trial(
         &mut self,
-        [r0, r1]: [&Arms<K, S, D>; 2],
+        r1: &Arms<K, S, D>,
         trial: &Trial<S, D>,
-    ) -> Result<Seen<K, S, D>, StateError> {
+    ) -> Result<Measures<K, S, D>, StateError> {
         let kinematics = &self.kinematics;
-        let r1 = seen_arms::<K, S, D>(self.scheme.placement(), r0, *r1);
-        let measures1 = kinematics.measure(&r1);
+        let measures1 = kinematics.measure(r1);
         let measures0 = measures_in::<K, S, D>(&self.start.x0);
         let measures = seen_measures::<K, S, D>(self.scheme.placement(), &measures0, measures1);
-        check_measures::<K, S, D>(kinematics, self.element, &measures, &r1)?;
+        check_measures::<K, S, D>(kinematics, self.element, &measures, r1)?;
         for (a, &measure) in measures.as_ref().iter().enumerate() {
             self.x[a] = measure;
         }
@@ -64,18 +53,18 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
             C::prepare(&self.model, &self.start, &self.x, &mut self.memory)
                 .map_err(|infeasible| infeasible.of(self.element))?;
         }
-        Ok((r1, measures1))
+        Ok(measures1)
     }
 
-    /// The gradients at the configuration that the scheme looks at.
+    /// The gradients at the configuration that the scheme looks at, which has these measures.
     #[inline]
-    pub(super) fn pose(&self, r0: &Arms<K, S, D>, seen: &Seen<K, S, D>) -> Pose<K, S, D> {
-        let ends = Ends {
-            r0: *r0,
-            r1: seen.0,
-            measures0: measures_in::<K, S, D>(&self.start.x0),
-            measures1: seen.1,
-        };
+    pub(super) fn pose(
+        &self,
+        arms: &TrialArms<K, S, D>,
+        measures: &Measures<K, S, D>,
+    ) -> Pose<K, S, D> {
+        let measures = [measures_in::<K, S, D>(&self.start.x0), *measures];
+        let ends = Ends::new(&self.kinematics, [arms.old, arms.seen], measures);
         Pose::new(&self.kinematics, self.scheme.placement(), ends)
     }
 
@@ -108,9 +97,9 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         arms: &TrialArms<K, S, D>,
     ) -> Result<(), StateError> {
         let per_step = view.per_step;
-        let seen = self.locate_trial(arms.ends(), trial)?;
+        let measures = self.locate_trial(&arms.seen, trial)?;
         if Self::DRAGS > 0 {
-            let pose = self.pose(&arms.old, &seen);
+            let pose = self.pose(arms, &measures);
             self.extend(&pose, &arms.motion);
         }
         if trial.is_start {
@@ -121,7 +110,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: ElementScheme<S, M>, const
         }
         if M::THERMAL && self.scheme.is_in_temperature() {
             let mut form = self.form(trial);
-            let pose = self.pose(&arms.old, &seen);
+            let pose = self.pose(arms, &measures);
             self.change_entropy_at_rates(view.step, &pose, &arms.motion, &mut form);
             self.accept(per_step, &form)?;
             self.response = form.0;

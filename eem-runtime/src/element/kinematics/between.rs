@@ -103,6 +103,12 @@ impl<A: Symmetric<S, D>, S: Real, const D: usize> Between<A, S, D> {
         Self::with_volumes(ends.map(|strain| *strain), volumes)
     }
 
+    /// With the new strain at both ends.
+    #[inline]
+    pub(super) fn at_the_end(&self) -> Self {
+        Self::with_volumes([self.new; 2], [self.new_volume; 2])
+    }
+
     #[inline]
     fn with_volumes([old, new]: [A; 2], [old_volume, new_volume]: [S; 2]) -> Self {
         Self {

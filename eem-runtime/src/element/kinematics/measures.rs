@@ -34,6 +34,26 @@ pub struct Ends<K: Kinematics<S, D>, S: Real, const D: usize> {
     pub measures0: Measures<K, S, D>,
     /// New measures `π¹`.
     pub measures1: Measures<K, S, D>,
+    pub(super) between: K::Between,
+}
+
+impl<K: Kinematics<S, D>, S: Real, const D: usize> Ends<K, S, D> {
+    /// Old and new arms, whose measures are given.
+    #[inline]
+    pub fn new(
+        kinematics: &K,
+        [r0, r1]: [Arms<K, S, D>; 2],
+        [measures0, measures1]: [Measures<K, S, D>; 2],
+    ) -> Self {
+        let between = kinematics.between([&r0, &r1]);
+        Self {
+            r0,
+            r1,
+            measures0,
+            measures1,
+            between,
+        }
+    }
 }
 
 /// The measures at a point of an element as functions of its edge vectors from node 0 (arms), in `D` dimensions.
@@ -49,6 +69,9 @@ pub trait Kinematics<S: Real, const D: usize>:
 
     /// `[T; number of points]`, at which the free energy is evaluated.
     type PerPoint<T: Send + Sync>: Points<T>;
+
+    /// What the mean-value gradients between two states have in common.
+    type Between: Copy + core::fmt::Debug;
 
     /// Whether its measure is a length, to which a force belongs.
     const IS_SPRING: bool;
@@ -113,6 +136,15 @@ pub trait Kinematics<S: Real, const D: usize>:
         measures: &Measures<Self, S, D>,
         force: &Measures<Self, S, D>,
     ) -> Blocks<Self, S, D>;
+
+    /// What the mean-value gradients between old and new arms have in common.
+    fn between(&self, arms: [&Arms<Self, S, D>; 2]) -> Self::Between;
+
+    /// `∂π/∂r` at the new arms.
+    #[inline]
+    fn new_gradient(&self, ends: &Ends<Self, S, D>) -> Gradient<Self, S, D> {
+        self.gradient(&ends.r1, &ends.measures1)
+    }
 
     /// The mean-value gradient `D*π` between two states.
     fn discrete_gradient(&self, ends: &Ends<Self, S, D>) -> Gradient<Self, S, D>;

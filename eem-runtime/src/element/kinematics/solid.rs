@@ -4,7 +4,7 @@ use core::array;
 
 use crate::element::kinematics::between::Between;
 use crate::element::kinematics::integrals::{functions, jacobian};
-use crate::element::kinematics::measures::{Ends, Points};
+use crate::element::kinematics::measures::Points;
 use crate::element::kinematics::shape::Shape;
 use crate::element::kinematics::shape::rule::gauss;
 use crate::element::kinematics::strain::Measure;
@@ -187,14 +187,27 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
         weights
     }
 
-    /// The deformations at the ends and in the middle, and the strains.
+    /// The deformations at the end and in the middle, and the strains.
     #[inline]
-    pub(super) fn between(&self, ends: &Ends<Self, S, D>) -> ([Tensor<S, D>; 2], Strains<H, S, D>) {
-        let [old, new] = [&ends.r0, &ends.r1].map(|r| self.deformation(r));
+    pub(super) fn deformations(&self, arms: [&PerArm<H, S, D>; 2]) -> Deformations<H, S, D> {
+        let [old, new] = arms.map(|r| self.deformation(r));
         let half = S::from_f64(0.5);
         let mean = array::from_fn(|i| array::from_fn(|j| half * (old[i][j] + new[i][j])));
-        ([mean, new], Between::new([&old, &new]))
+        Deformations {
+            mean,
+            new,
+            strains: Between::new([&old, &new]),
+        }
     }
+}
+
+/// Deformations and strains of a cell between two states.
+#[derive(Clone, Copy, Debug)]
+pub struct Deformations<H: Shape<D>, S: Real, const D: usize> {
+    /// In the middle.
+    pub(super) mean: Tensor<S, D>,
+    pub(super) new: Tensor<S, D>,
+    pub(super) strains: Strains<H, S, D>,
 }
 
 /// Two strains of a cell.

@@ -5,7 +5,7 @@ use crate::element::handle::Element;
 use crate::element::kinematics::between::{Between, Deformed};
 use crate::element::kinematics::measures::{Ends, Kinematics};
 use crate::element::kinematics::shape::Shape;
-use crate::element::kinematics::solid::{PerArm, PerPair, SolidPoint, Strains};
+use crate::element::kinematics::solid::{Deformations, PerArm, PerPair, SolidPoint, Strains};
 use crate::element::kinematics::solid_state::SolidState;
 use crate::element::kinematics::strain::Measure;
 use crate::element::kinematics::tensor::{Symmetric, plus, pushed};
@@ -19,6 +19,8 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
     type PerArm<T: Entry> = H::PerArm<T>;
     type PerMeasure<T: Entry> = [T; N];
     type PerPoint<T: Send + Sync> = H::PerPoint<T>;
+
+    type Between = Deformations<H, S, D>;
 
     const IS_SPRING: bool = false;
     const VISCOUS_UNIT: &'static str = "";
@@ -140,9 +142,19 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
     }
 
     #[inline]
+    fn between(&self, arms: [&PerArm<H, S, D>; 2]) -> Deformations<H, S, D> {
+        self.deformations(arms)
+    }
+
+    #[inline]
+    fn new_gradient(&self, ends: &Ends<Self, S, D>) -> [PerArm<H, S, D>; N] {
+        let Deformations { new, strains, .. } = &ends.between;
+        self.along(new, &strains.at_the_end())
+    }
+
+    #[inline]
     fn discrete_gradient(&self, ends: &Ends<Self, S, D>) -> [PerArm<H, S, D>; N] {
-        let ([mean, _], between) = self.between(ends);
-        self.along(&mean, &between)
+        self.along(&ends.between.mean, &ends.between.strains)
     }
 
     #[inline]
@@ -152,9 +164,8 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
         _: &[PerArm<H, S, D>; N],
         force: &[S; N],
     ) -> PerArm<H, S, D> {
-        let ([mean, _], between) = self.between(ends);
-        let stress = self.stress(&between, force);
-        self.pulled(&mean, &stress)
+        let stress = self.stress(&ends.between.strains, force);
+        self.pulled(&ends.between.mean, &stress)
     }
 
     fn discrete_tangent(
@@ -175,15 +186,14 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
         force_by_arm: &[PerArm<H, S, D>; N],
         sum: &mut PerPair<H, S, D>,
     ) {
-        let ([mean, new], between) = self.between(ends);
+        let Deformations { mean, new, strains } = &ends.between;
         let (forces, half) = ((force, &force_by_arm[..]), S::from_f64(0.5));
-        self.add_stiffness([&mean, &new], &between, forces, half, sum);
+        self.add_stiffness([mean, new], strains, forces, half, sum);
     }
 
     // Σ f F_m P B_i = Σ_j (B_i·S* B_j) r_m,j
     fn secant(&self, ends: &Ends<Self, S, D>, force: &[S; N]) -> H::PerArm<H::PerArm<S>> {
-        let (_, between) = self.between(ends);
-        let stress = self.stress(&between, force);
+        let stress = self.stress(&ends.between.strains, force);
         self.stiffness_of(&stress)
     }
 }

@@ -59,6 +59,8 @@ impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
 
     type PerPoint<T: Send + Sync> = [T; 1];
 
+    type Between = ();
+
     const IS_SPRING: bool = true;
     const VISCOUS_UNIT: &'static str = "m";
     const VISCOSITY_UNIT: &'static str = "N s/m";
@@ -131,6 +133,9 @@ impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
         let n = scaled(r, shrink);
         [[block(force * shrink, n, n)]]
     }
+
+    #[inline]
+    fn between(&self, _: [&[[S; D]; 1]; 2]) {}
 
     #[inline]
     fn discrete_gradient(&self, ends: &Ends<Self, S, D>) -> [[[S; D]; 1]; 1] {

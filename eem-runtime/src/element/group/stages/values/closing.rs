@@ -40,12 +40,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> ValuesPoint<S
         let forces = measures_in::<K, S, D>(&self.own.points[stage].gradient);
         let nowhere = Arms::<K, S, D>::filled([S::zero(); D]);
         // At rest in the stage; the arms of an element with one point are not asked for.
-        let ends = Ends {
-            r0: nowhere,
-            r1: nowhere,
-            measures0: measures,
-            measures1: measures,
-        };
+        let ends = Ends::new(&self.kinematics, [nowhere; 2], [measures; 2]);
         self.kinematics.secant(&ends, &forces)
     }
 
