@@ -18,7 +18,7 @@ pub struct StudyRow {
     pub failure: Option<StepError>,
     /// The largest `|B − B₀|/|E₀|` of the run, with the balance `B = E − work − heat`.
     pub energy_defect: f64,
-    /// The bound for rounding in a single step: the largest [`StepReport::bound`](crate::StepReport::bound) divided
+    /// The bound for rounding in a single step: the largest [`StepReport::bound`](eem_runtime::StepReport::bound) divided
     /// by `|E₀|`.
     pub step_bound: f64,
     /// The smallest ΔS of a step, J/K. By the second law it is not negative, except for rounding. Infinite without

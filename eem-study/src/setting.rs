@@ -12,7 +12,7 @@ use eem_runtime::Scheme;
 pub enum StepChoice {
     /// Constant, s.
     Fixed(f64),
-    /// Chosen by step control for this relative tolerance, see [`Tolerance`](crate::Tolerance).
+    /// Chosen by step control for this relative tolerance, see [`Tolerance`](eem_runtime::Tolerance).
     Tolerance(f64),
 }
 

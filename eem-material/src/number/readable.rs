@@ -7,7 +7,7 @@ use core::fmt;
 const PLAIN: core::ops::Range<f64> = 1e-4..1e6;
 
 /// A number as error messages print it: the fewest digits that give back the same `f64`, with an
-/// exponent outside of [`PLAIN`]. `{}` alone would print 1e300 with 300 zeros.
+/// exponent outside of 1e-4 … 1e6. `{}` alone would print 1e300 with 300 zeros.
 ///
 /// A precision (`{:.6}`) is the number of digits behind the point, of the mantissa if there is an
 /// exponent.
