@@ -33,7 +33,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// let mut scene: Scene<1> = Scene::new();
     /// let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.0], [1.0])];
-    /// scene.spring(eem::materials::Hooke { stiffness: 1.0, length: 1.0 }, ends);
+    /// scene.spring(eem::materials::Hooke { stiffness: 1.0, natural_length: 1.0 }, ends);
     /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
     /// run.step()?;
     /// assert!(run.evaluations() >= 2);
