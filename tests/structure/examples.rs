@@ -6,27 +6,36 @@
 #![allow(clippy::unwrap_used, reason = "a test: what is missing is a failure")]
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 use std::sync::Mutex;
 use std::thread;
 
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 
-/// What the tests of all packages are built with, so that nothing is built for the programs but they themselves.
-const FEATURES: &str =
-    "eem/sparse,eem/csv,eem/parallel,eem/lanes,eem/vtk,eem/gmsh,eem/portable,eem/serde,eem/arrow";
+/// Held while the programs of a package are built and run: some of both packages have the same names.
+static BUILT: Mutex<()> = Mutex::new(());
 
-/// Runs a program of a package.
-fn run(package: &str, name: &str, arguments: &[&str]) -> Output {
+/// Builds the programs of a package, with the features of the tests of the whole workspace, so that nothing else is
+/// built; the folder in which they are.
+fn build(package: &str) -> PathBuf {
+    let other = if package == "eem-studies" {
+        "eem-examples"
+    } else {
+        "eem-studies"
+    };
     let mut command = Command::new(env!("CARGO"));
-    command.args(["run", "--quiet", "--features", FEATURES]);
-    command.args(["-p", package, "--bin", name, "--"]);
-    command.args(arguments).current_dir(ROOT).output().unwrap()
+    command.args(["build", "--quiet", "--locked", "--bins", "--all-features"]);
+    command.args(["--workspace", "--exclude", other]);
+    assert!(command.current_dir(ROOT).status().unwrap().success());
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).parent().unwrap();
+    target.join("debug")
 }
 
-fn study(name: &str, arguments: &[&str]) -> Output {
-    run("eem-studies", name, arguments)
+/// Runs a program from the folder of the workspace.
+fn run(folder: &Path, name: &str, arguments: &[&str]) -> Output {
+    let mut command = Command::new(folder.join(name));
+    command.args(arguments).current_dir(ROOT).output().unwrap()
 }
 
 /// The programs of a package, by the names of their files or folders.
@@ -40,12 +49,14 @@ fn programs(package: &str) -> Vec<String> {
 #[test]
 #[ignore = "runs examples; the gate asks for it"]
 fn examples_keep_their_claims() {
+    let _built = BUILT.lock().unwrap();
+    let folder = build("eem-examples");
     for name in programs("examples") {
-        // Built with another feature, and run by the tests of `eem-sweep`.
+        // Run by the tests of `eem-sweep`.
         if name == "sweep" {
             continue;
         }
-        let output = run("eem-examples", &name, &[]);
+        let output = run(&folder, &name, &[]);
         let said = String::from_utf8(output.stdout).unwrap();
         let errors = String::from_utf8_lossy(&output.stderr);
         assert!(output.status.success(), "{name}: {said}{errors}");
@@ -56,13 +67,15 @@ fn examples_keep_their_claims() {
 #[test]
 #[ignore = "runs examples; the gate asks for it"]
 fn options_without_effect_are_refused() {
+    let _built = BUILT.lock().unwrap();
+    let folder = build("eem-studies");
     for arguments in [["--scheme", "gauss-4"], ["--step", "0.1"]] {
-        let output = study("describe", &arguments);
+        let output = run(&folder, "describe", &arguments);
         assert!(!output.status.success(), "{arguments:?}");
         let said = String::from_utf8(output.stderr).unwrap();
         assert!(said.contains(arguments[0]), "{said}");
     }
-    let none = study("ensemble", &["--members", "0"]);
+    let none = run(&folder, "ensemble", &["--members", "0"]);
     let said = String::from_utf8(none.stderr).unwrap();
     assert!(
         !none.status.success() && said.contains("--members"),
@@ -99,13 +112,15 @@ fn studies_keep_their_claims_and_their_pictures_hold_their_texts() {
         left.extend(runs(&name).iter().map(|&options| (name.clone(), options)));
     }
     assert!(left.len() > 15);
+    let _built = BUILT.lock().unwrap();
+    let programs = build("eem-studies");
     let left = Mutex::new(left);
     let next = || left.lock().unwrap().pop();
     thread::scope(|scope| {
         for _ in 0..thread::available_parallelism().unwrap().get() {
             scope.spawn(|| {
                 while let Some((name, options)) = next() {
-                    assert_run(&name, options);
+                    assert_run(&programs, &name, options);
                 }
             });
         }
@@ -113,14 +128,12 @@ fn studies_keep_their_claims_and_their_pictures_hold_their_texts() {
 }
 
 /// A run of a study succeeds, which it does if its claims hold, and what it prints and draws can be looked at.
-fn assert_run(name: &str, options: &[&str]) {
+fn assert_run(programs: &Path, name: &str, options: &[&str]) {
     let folder = format!("study-{name}{}", options.concat());
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(folder);
     let _ = fs::remove_dir_all(&folder);
-    let output = study(
-        name,
-        &[options, &["--out", folder.to_str().unwrap()]].concat(),
-    );
+    let options = [options, &["--out", folder.to_str().unwrap()]].concat();
+    let output = run(programs, name, &options);
     let said = String::from_utf8(output.stdout).unwrap();
     let errors = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{name}: {said}{errors}");
