@@ -122,8 +122,9 @@ pub(crate) fn check_step<const D: usize>(
     };
     let mut defect = energy_change(facts, [before, after], &elements).value();
     let mut bound = energy_bound(facts, [before, after], &elements, report.step);
-    if defect.is_nan() && report.defect.is_finite() {
-        // A length beyond the end of a model by its rounding: only the rounded one has an energy.
+    // A length beyond the end of a model by its rounding: only the rounded one has an energy.
+    let is_beyond = defect.is_nan() && report.defect.is_finite();
+    if is_beyond {
         (defect, bound) = (report.defect, report.bound);
     }
     // A step proves what it reports: at most WIDE times the rounding of its energies, or it says so.
@@ -138,7 +139,7 @@ pub(crate) fn check_step<const D: usize>(
     }
     let energies = ROUNDINGS * f64::EPSILON * energies(facts, [before, after], &elements);
     let is_wide = report.is_bound_wide;
-    if !is_wide && !facts.has_halves {
+    if !(is_wide || is_beyond || facts.has_halves) {
         complaints.hold("bound without a flag", report.bound, SAME * WIDE * energies);
     }
     let entropy = complaints.hold_entropy(facts, [before, after], &elements, (report, bound));
