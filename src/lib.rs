@@ -96,6 +96,9 @@ pub mod guide {
 pub mod tutorial {}
 
 /// Choosing a scheme and a step: what each costs, by scene and accuracy.
+///
+/// [accuracy]: crate::accuracy
+///
 #[doc = include_str!("../docs/choosing.md")]
 pub mod choosing {}
 

@@ -1,4 +1,4 @@
-//! Ready materials, each derived from its free energy with [`FreeEnergy`](crate::FreeEnergy) as one would write it oneself.
+//! Ready materials. Each is a struct with a free energy and [`FreeEnergy`](crate::FreeEnergy), as you would write it.
 //!
 //! | | variables | free energy ψ |
 //! |---|---|---|
@@ -7,16 +7,16 @@
 //! | [`GentSpring`] | λ | −½ E J ln(1 − (I − 3)/J) |
 //! | [`ThermoelasticSpring`] | λ, θ | ½ k ε² − β (θ − θr) ε + c (θ − θr − θ ln(θ/θr)) |
 //! | [`LogarithmicStiffness`] | λ, θ | the same with k = C₀ − C₁ θr ln(θ/θr) |
-//! | [`MaxwellDamper`] | λ, γ, θ | a thermoelastic spring, beside it spring and dashpot in series |
-//! | [`KelvinVoigtDamper`] | λ, θ | a thermoelastic spring, beside it a dashpot |
+//! | [`MaxwellDamper`] | λ, γ, θ | a thermoelastic spring in parallel with a spring and a dashpot in series |
+//! | [`KelvinVoigtDamper`] | λ, θ | a thermoelastic spring in parallel with a dashpot |
 //! | [`ThermoViscoElastic`] | λ, γ, θ | the element of García Orden & Romero |
 //! | [`SaintVenantKirchhoff`] | E | ½ Λ tr²E + μ E:E |
-//! | [`NeoHooke`] | E | μ (tr E − ln J) + ½ Λ ln²J |
-//! | [`ThermoelasticSolid`] | E, θ | the same with heat, expansion and a shear modulus that falls with θ |
+//! | [`NeoHooke`] | E, J | μ (tr E − ln J) + ½ Λ ln²J |
+//! | [`ThermoelasticSolid`] | E, J, θ | the same with heat, expansion and a shear modulus that falls with θ |
 //!
-//! λ is the length of a spring, L its natural length, ε = ln(λ/L), γ a viscous variable, θ the temperature, E the strain of
-//! Green and Lagrange and J the ratio of volumes. Energies are in joules for springs, in joules per cubic metre of the
-//! undeformed body for solids; every field has an SI unit, which the derive has checked.
+//! λ is the length of a spring, L its natural length, ε = ln(λ/L), γ the extension of a dashpot, θ the temperature, E the
+//! Green–Lagrange strain and J = det F. Energies are in J for springs and in J/m³ of the undeformed body for solids. All
+//! fields have SI units, which the derive checks.
 //!
 //! ```
 //! use eem::materials::Hooke;

@@ -37,13 +37,13 @@
 //! |---|---|
 //! | change the syntax or a message | `parse`, `check`, `message`; a case per message in `eem-ui/tests/ui`; the reference is `eem-derive/src/free_energy.md` |
 //! | add a unit, or a rule for units | `unit/table.rs`, `units/rules` |
-//! | add a role of an argument | `Role` and `Strain` in `ast.rs`; the compiler lists the phases that lack it. Synonyms in `parse/closure.rs`, unit in `units/quantities.rs`, bound in `model/domain.rs` |
+//! | add a role of an argument | `Role` and `Strain` in `ast.rs`; the compiler then lists the phases to extend. Synonyms in `parse/closure.rs`, unit in `units/quantities.rs`, bound in `model/domain.rs` |
 //! | change constants, arrays or helpers | `constants.rs`, `parameters.rs`, `helpers.rs` in `check`; `Origin` in `checked.rs` |
 //! | change what a solid may do at rest | `model/rest.rs` |
 //! | change the generated code | `expand`; `expand/description.rs` for `Describe` |
 //! | see the generated code | `cargo run -p eem-language --example expand -- FILE` |
 
-// For `ctxt`, which asks whether a compiler runs it.
+// For `ctxt`, which behaves differently inside a compiler.
 extern crate proc_macro;
 
 mod ast;

@@ -1,7 +1,7 @@
-//! Materials of `eem`: what a free energy offers, its description, its inversion and its domain, and the numbers that
-//! it is evaluated with.
+//! Materials of `eem`: the trait [`FreeEnergy`], descriptions of models, the inversion of s(θ), checks of a domain, and
+//! the number types that formulas are evaluated with.
 //!
-//! `eem` exports what users need of it; the rest is for its runtime, and may change with it.
+//! `eem` re-exports what users need. The rest is for its runtime and may change with it.
 
 pub mod component_energy;
 pub mod describe;

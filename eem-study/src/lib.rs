@@ -1,6 +1,12 @@
-//! Work and precision: what each setting costs and how accurate it is, for a scene of the user's own.
+//! Work and precision: the cost and the error of many schemes and steps for a scene of your own.
 //!
-//! To compare schemes differently, look in `reference.rs`, `statement.rs` and `advice.rs`.
+//! # Where to change what
+//!
+//! | to | look in |
+//! |---|---|
+//! | change the reference | `reference.rs` |
+//! | change when an error is stated | `statement.rs` |
+//! | change the recommendation | `advice.rs` |
 
 mod advice;
 mod course;

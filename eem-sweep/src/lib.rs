@@ -1,8 +1,8 @@
 //! Parameter sweeps in many processes, on one machine or on a cluster.
 //!
-//! [`Ensemble`](eem_runtime::Ensemble) fills one machine. For more, use an engine: Slurm, PBS, HyperQueue, GNU parallel or
-//! MPI. The members of a sweep are independent, so this crate works with all of them: every process runs the same program
-//! with another `--shard`, and all processes share one directory.
+//! An [`Ensemble`](eem_runtime::Ensemble) uses the cores of one machine. For more, use a job system (in this crate, an
+//! *engine*): Slurm, PBS, HyperQueue, GNU parallel or MPI. The runs of a sweep, its *members*, are independent: every
+//! process runs the same program with another `--shard`, and all processes share one directory.
 //!
 //! | subject | types |
 //! |---|---|
@@ -18,7 +18,7 @@
 //! | `sweep.json` | digests of program and inputs, settings, columns; written by the first process, checked by all others |
 //! | `parts/FIRST-LAST.MEMBERS.gGENERATION.SWEEP.CONTENT.csv` | records of one batch, about a second of work; SWEEP and CONTENT are digests |
 //! | `progress/SHARD.json` | progress of a process |
-//! | `progress/SHARD.PROCESS-CHANCE.begun` | members that a thread is working on |
+//! | `progress/SHARD.PROCESS-RANDOM.begun` | members that a thread is working on |
 //! | `tables/DIGEST` | empty; marks a merged table that may be replaced |
 //! | `merged.csv`, `merged.csv.json` | the table of all members, and what `merge` has verified |
 //!
@@ -32,9 +32,9 @@
 //! | to | look in |
 //! |---|---|
 //! | change inputs, or which members a process takes | `inputs`, `selection.rs`; `engine.rs` for `--shard auto` |
-//! | change files, or what a kill can lose | `files.rs` (naming), `part.rs`, `manifest.rs`, `walk.rs` (which record counts), `begun.rs` (members that kill processes); `tests/sweeps/kills.rs` |
+//! | change files, or what a kill can lose | `files.rs` (naming), `part.rs`, `manifest.rs`, `walk.rs` (which of several records counts), `begun.rs` (members that kill their process); `tests/sweeps/kills.rs` |
 //! | write another format | `format` |
-//! | try an engine | the scripts in `cluster` |
+//! | test an engine | the scripts in `cluster` |
 
 #![warn(missing_docs)]
 #![allow(

@@ -29,7 +29,7 @@
 //!
 //! | to | look in |
 //! |---|---|
-//! | add an elementary function | its row in `function.rs`; the compiler lists the passes that lack it. Then its kernel in `eem-runtime/src/number/kernel` |
+//! | add an elementary function | its row in `function.rs`; the compiler then lists the passes to extend. Then its kernel in `eem-material/src/number/kernel` |
 //! | change what is generated | `programs.rs`, `discrete`; the printer is `expand` in `eem-language` |
 //! | compute several values in one call | an `Operation` in `operation.rs`, chosen in `joint.rs` |
 //! | change the order of operations, or what is shared | `schedule`, `factor.rs`; `discrete/logarithm.rs` for what an iteration can reuse |
@@ -108,7 +108,7 @@ pub use running_error::{Bounded, RunningError};
 pub use schedule::schedule;
 pub use verify_error::VerifyError;
 
-/// The example of the readme.
+/// The example of the README is part of the tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

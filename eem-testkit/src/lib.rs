@@ -1,8 +1,8 @@
-//! What tests of several packages share, compiled once.
+//! Code that tests of several packages share, compiled once.
 //!
-//! [`precise`] has numbers with any number of digits, which every oracle computes with; [`random`] random expressions that
-//! are always the same; `scenes` the published cases with their reference data, and models for many tests. A function
-//! of `scenes` has no type parameters where a test does not need them, so that the solver behind it is compiled here.
+//! [`precise`] has numbers with any number of digits, for oracles; [`random`] has random expressions that are the same in
+//! every run; `scenes` has the published cases with their reference data, and models for many tests. Functions of
+//! `scenes` have few type parameters, so that the solver they need is compiled here, once.
 
 #![allow(missing_docs, reason = "fields are named as in the formulas")]
 #![allow(
@@ -13,11 +13,11 @@
 )]
 #![allow(
     clippy::must_use_candidate,
-    reason = "a test that does not look is seen in the test"
+    reason = "a result that a test ignores is seen in the test"
 )]
 #![allow(
     clippy::should_implement_trait,
-    reason = "random numbers are no iterator"
+    reason = "a source of random numbers is not an iterator"
 )]
 
 #[cfg(feature = "scenes")]

@@ -1,3 +1,3 @@
-//! Nothing but tests: what the compiler makes of `#[derive(FreeEnergy)]`.
+//! Only tests: the compile errors and warnings of `#[derive(FreeEnergy)]`.
 //!
 //! `cargo test -p eem-ui` runs them.

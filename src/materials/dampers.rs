@@ -2,11 +2,11 @@
 
 use crate::FreeEnergy;
 
-/// A thermoelastic spring, and beside it a spring and a dashpot in series:
+/// A thermoelastic spring in parallel with a spring and a dashpot in series:
 /// ψ = ½ k ε² − β (θ − θr) ε + c (θ − θr − θ ln(θ/θr)) + ½ μ (λ − L − γ)², η = η₀ exp(a (1/θ − 1/θr)).
 ///
-/// Loaded fast it is stiffer than [`ThermoelasticSpring`](super::ThermoelasticSpring); at rest it is that spring. What
-/// the dashpot takes warms it. J. C. Maxwell, *Phil. Trans. R. Soc.* **157** (1867) 49–88.
+/// Under fast loads it is stiffer than [`ThermoelasticSpring`](super::ThermoelasticSpring), at rest it equals it. The
+/// dissipation of the dashpot warms it. J. C. Maxwell, *Phil. Trans. R. Soc.* **157** (1867) 49–88.
 ///
 /// ```
 /// use eem::FreeEnergy;
@@ -22,7 +22,7 @@ use crate::FreeEnergy;
 ///     mu: 40.0,
 ///     eta: 20.0,
 /// };
-/// // Pulled to twice its length at once: k ln 2/λ of the spring, and μ (λ − L) of the branch.
+/// // Pulled suddenly to twice its length: k ln 2/λ of the spring, and μ (λ − L) of the branch.
 /// let [force, _, _] = damper.gradient(&[2.0, 0.0, 300.0]);
 /// assert!((force - (50.0 * 2.0_f64.ln() + 40.0)).abs() < 1e-12);
 /// let ([eta], _) = damper.viscosity(300.0);
@@ -63,10 +63,10 @@ pub struct MaxwellDamper {
     pub eta: f64,
 }
 
-/// A thermoelastic spring and a dashpot beside it: ψ = ½ k ε² − β (θ − θr) ε + c (θ − θr − θ ln(θ/θr)), and a force
+/// A thermoelastic spring in parallel with a dashpot: ψ = ½ k ε² − β (θ − θr) ε + c (θ − θr − θ ln(θ/θr)), and a force
 /// η dλ/dt with η = η₀ exp(a (1/θ − 1/θr)).
 ///
-/// What the dashpot takes warms it. W. Voigt, *Ann. Phys.* **283** (1892) 671–693.
+/// The dissipation of the dashpot warms it. W. Voigt, *Ann. Phys.* **283** (1892) 671–693.
 ///
 /// ```
 /// use eem::FreeEnergy;
@@ -115,7 +115,7 @@ pub struct KelvinVoigtDamper {
     pub eta: f64,
 }
 
-/// The thermo-visco-elastic element of a published pendulum, which creeps with a ratio r of its elastic energy.
+/// The thermo-visco-elastic element of a published pendulum, whose viscous part has a ratio r of the elastic energy.
 ///
 /// With the elastic energy e = ½ (k₀ − k₁ ϑ) ε² − β ϑ ε + c (ϑ − θ ln(θ/θr)), ε = ln(λ/L) and ϑ = θ − θr:
 /// ψ = (1 + r) e + (μ₀ − μ₁ ϑ) γ² − r γ ∂e/∂λ, η = η₀ exp(a (1/θ − 1/θr)).
@@ -179,7 +179,7 @@ pub struct ThermoViscoElastic {
 }
 
 impl ThermoViscoElastic {
-    /// The published data.
+    /// The published parameters.
     pub const PENDULUM: Self = Self {
         k0: 100.0,
         k1: 0.5,

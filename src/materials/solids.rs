@@ -2,9 +2,9 @@
 
 use crate::FreeEnergy;
 
-/// Quadratic in the strain of Green and Lagrange, ψ = ½ Λ tr²E + μ E:E.
+/// Quadratic in the Green–Lagrange strain, ψ = ½ Λ tr²E + μ E:E.
 ///
-/// Right for large rotations and small strains; under strong pressure it becomes soft. A. J. C. Barré de Saint-Venant
+/// For large rotations and small strains; under strong compression it softens. A. J. C. Barré de Saint-Venant
 /// 1844, G. Kirchhoff 1852; e.g. P. G. Ciarlet, *Mathematical Elasticity I*, 1988, §3.9.
 ///
 /// ```
@@ -29,7 +29,7 @@ pub struct SaintVenantKirchhoff {
 
 /// Compressible rubber, ψ = μ (tr E − ln J) + ½ Λ ln²J.
 ///
-/// The volume never vanishes, whatever the pressure. J. C. Simo & K. S. Pister, *Comput. Methods Appl. Mech. Eng.* **46**
+/// The energy becomes infinite as the volume goes to zero. J. C. Simo & K. S. Pister, *Comput. Methods Appl. Mech. Eng.* **46**
 /// (1984) 201–215.
 ///
 /// ```
@@ -57,8 +57,8 @@ pub struct NeoHooke {
 
 /// [`NeoHooke`] with heat: ψ = (μ − μ′ ϑ) (tr E − ln J) + ½ Λ ln²J − β ϑ ln J + c (ϑ − θ ln(θ/θr)) with ϑ = θ − θr.
 ///
-/// It expands when it is warm, and its shear modulus falls; the heat capacity c is constant. The terms
-/// with heat are those of [`ThermoelasticSpring`](super::ThermoelasticSpring), with ln J for the strain.
+/// When it is heated, it expands and its shear modulus falls; the heat capacity c is constant. The thermal terms are
+/// those of [`ThermoelasticSpring`](super::ThermoelasticSpring), with ln J for the strain.
 ///
 /// ```
 /// use eem::FreeEnergy;
@@ -100,7 +100,7 @@ pub struct ThermoelasticSolid {
 }
 
 impl ThermoelasticSolid {
-    /// A soft rubber that shows all of it.
+    /// A soft rubber with strong thermal effects.
     pub const RUBBER: Self = Self {
         shear: 1000.0,
         softening: 2.0,

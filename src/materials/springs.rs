@@ -11,7 +11,7 @@ use crate::FreeEnergy;
 /// use eem::materials::Hooke;
 ///
 /// let spring = Hooke { stiffness: 100.0, natural_length: 1.0 };
-/// // Two newtons pull it two centimetres out.
+/// // A force of 2 N extends it by 2 cm.
 /// let [force]: [f64; 1] = spring.gradient(&[1.02]);
 /// assert!((force - 2.0).abs() < 1e-12);
 /// ```
@@ -50,9 +50,9 @@ pub struct Hencky {
     pub natural_length: f64,
 }
 
-/// A rubber band whose chains are straight in the end, ψ = −½ E J ln(1 − (I − 3)/J) with I = s² + 2/s and s = λ/L.
+/// A rubber band with a largest stretch, ψ = −½ E J ln(1 − (I − 3)/J) with I = s² + 2/s and s = λ/L.
 ///
-/// It is longest where I − 3 = J, and near its natural length a neo-Hookean band; E is the shear modulus times the volume.
+/// Its length is bounded by I − 3 = J; near its natural length it is neo-Hookean. E is the shear modulus times the volume.
 /// A. N. Gent, *Rubber Chem. Technol.* **69** (1996) 59–61, for uniaxial tension of an incompressible band.
 ///
 /// ```
@@ -83,7 +83,7 @@ pub struct GentSpring {
 
 /// A thermoelastic spring, ψ = ½ k ε² − β (θ − θr) ε + c (θ − θr − θ ln(θ/θr)) with ε = ln(λ/L).
 ///
-/// It expands when it is warm, and cools when it is pulled fast. S. Conde Martín, P. Betsch & J. C. García Orden,
+/// It expands when it is heated, and cools when it is pulled fast. S. Conde Martín, P. Betsch & J. C. García Orden,
 /// *Commun. Nonlinear Sci. Numer. Simul.* **32** (2016) 63–80, eq. 43 with constant stiffness, as in the double pendulums
 /// of Romero and Krüger.
 ///
@@ -128,8 +128,8 @@ pub struct ThermoelasticSpring {
     pub theta_ref: f64,
 }
 
-/// A thermoelastic spring with a stiffness that is logarithmic in the temperature, which rules out a closed inverse of
-/// the entropy: [`ThermoelasticSpring`] with k = C₀ − C₁ θr ln(θ/θr).
+/// A thermoelastic spring whose stiffness is logarithmic in the temperature, so that its entropy has no closed inverse:
+/// [`ThermoelasticSpring`] with k = C₀ − C₁ θr ln(θ/θr).
 ///
 /// S. Conde Martín, P. Betsch & J. C. García Orden, *Commun. Nonlinear Sci. Numer. Simul.* **32** (2016) 63–80,
 /// eq. 43.
@@ -138,7 +138,7 @@ pub struct ThermoelasticSpring {
 /// use eem::FreeEnergy;
 /// use eem::materials::LogarithmicStiffness;
 ///
-/// // At the reference temperature it is as stiff as C₀.
+/// // At the reference temperature its stiffness is C₀.
 /// let spring = LogarithmicStiffness::FIRST;
 /// let [force, _] = spring.gradient(&[4.0, 300.0]);
 /// assert!((force - 1250.0 * 2.0_f64.ln()).abs() < 1e-9);

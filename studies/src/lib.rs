@@ -1,5 +1,5 @@
-//! The shared part of all studies: command line, record of a run, tables, CSV files, figures, progress bar and claims; free
-//! energies and scenes for numbers of any type.
+//! Code that the studies share: command line, record of a run, tables, CSV files, figures, progress bar, checked claims;
+//! free energies and scenes for numbers of any type.
 //!
 //! # Where to change what
 //!

@@ -122,10 +122,11 @@ fn conductances(effort: Effort) -> Tally {
             }
         }
     }
-    let began = began.iter().max();
-    tally.note(format!(
-        "from κh/c = 10 the temperatures swap in every step, since step {began:?}"
-    ));
+    if let Some(began) = began.iter().max() {
+        tally.note(format!(
+            "from κh/c = 10 on the temperatures swap in every step, from step {began} on"
+        ));
+    }
     tally
 }
 

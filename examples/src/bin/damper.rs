@@ -1,13 +1,13 @@
-//! A damper that heats up: a mass on a rubber band with a dashpot, which gives its heat to the air.
+//! A damper that heats up: a mass on a rubber band with a dashpot; the band cools in the air.
 //!
 //! ```text
 //! ψ(λ, γ, θ) = ½ k ln²(λ/l) + ½ b (ln(λ/l) − γ/l)² − β (θ − θr) ln(λ/l) + c (θ − θr − θ ln(θ/θr))
-//! γ̇ = g/η,   g = −∂ψ/∂γ          the dashpot
-//! θ ṡ = g γ̇ + κ (θ_air − θ)      its heat, and that to the air
+//! γ̇ = g/η,   g = −∂ψ/∂γ          flow of the dashpot
+//! θ ṡ = g γ̇ + κ (θ_air − θ)      dissipation, and heat from the air
 //! ```
 //!
-//! What it claims: the motion dies away, all its energy is heat of the band and the air, to rounding, and the entropy
-//! never falls.
+//! Claim: while the motion decays into heat of band and air, the total energy stays constant to rounding, and the total
+//! entropy never falls.
 
 use eem::prelude::*;
 
@@ -59,7 +59,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.02)?;
     let start = run.ledger();
-    println!("  time   temperature   kinetic energy   energy of all   entropy of all");
+    println!("  time   temperature   kinetic energy   total energy    total entropy");
     let mut entropy = start.entropy;
     for second in 0..=20 {
         run.run_until(f64::from(second))?;
@@ -74,7 +74,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             );
         }
     }
-    // Rounding of the heat c θ of the band.
+    // The energies are rounded relative to the heat c θ of the band.
     let rounding = f64::EPSILON * 0.5 * 300.0;
     assert!((run.ledger().energy - start.energy).abs() < 20.0 * rounding);
     Ok(())

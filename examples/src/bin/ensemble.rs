@@ -4,12 +4,12 @@
 //! ψ(λ, γ) = ½ k (λ − l)² + ½ b (λ − l − γ)²,     γ̇ = b (λ − l − γ)/η
 //! ```
 //!
-//! Neither a soft nor a stiff dashpot takes much energy: in the first the force is small, in the second the motion.
-//! What it claims: the best viscosity lies between, near b/ω, and every member keeps its balance of energy.
+//! A soft dashpot dissipates little because its force is small, a stiff one because it hardly moves. Claim: the best
+//! viscosity lies between, near b/ω, and every run conserves its balance of energy.
 
 use eem::prelude::*;
 
-/// A spring beside a dashpot in series with a second spring.
+/// A spring in parallel with a Maxwell branch: a second spring and a dashpot in series.
 #[derive(FreeEnergy)]
 #[free_energy(|lambda: Stretch, gamma: Viscous| {
     let extension = lambda - length;
@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .map(|i| 10_f64.powf(-1.0 + 0.02 * f64::from(i)))
         .collect();
 
-    // One scene per viscosity; with the feature `parallel` on all cores.
+    // One run per viscosity; with the feature `parallel` on all cores. Results: the mechanical energy left, J.
     let left = Ensemble::new(Scheme::EemTemperature, 0.01).run(
         &viscosities,
         |&eta| {
@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             run.run_until(3.0)?;
             let end = run.ledger();
             assert!((end.balance - start).abs() < 1e-13);
-            // What is not heat yet, J.
+            // The material has no temperature: `energy` contains the heat of the dashpot as `lost_heat`.
             Ok(end.energy - end.lost_heat)
         },
     );
@@ -71,7 +71,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
     }
     println!("least with η = {:.2} N s/m: {:.1e} J", best.1, best.0);
-    // b/ω of the mass on the first spring alone is 10 N s/m, on both 7 N s/m.
+    // b/ω is 10 N s/m with the frequency of the first spring alone, 7 N s/m with that of both springs.
     assert!((5.0..15.0).contains(&best.1));
     Ok(())
 }

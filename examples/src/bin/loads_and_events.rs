@@ -1,12 +1,12 @@
-//! Loads and events: a crane lifts a mass, a gust pushes it, and the run stops where the rope would break.
+//! Loads and events: a crane lifts a mass, a gust pushes it, and the run stops when the rope breaks.
 //!
 //! ```text
 //! ψ(λ) = ½ k (λ − l)²
-//! balance = energy − work of the crane, of the gust and of gravity's potential
+//! balance = energy (kinetic, elastic and of gravity) − work of the crane and of the gust
 //! ```
 //!
-//! What it claims: the balance stays constant to rounding while energy comes and goes; the event is found at a step's
-//! end, where the force has the value that was asked for; from a checkpoint the run goes on with the same bits.
+//! Claim: the balance is constant to rounding while the loads change the energy; the run stops at the event, where the
+//! force is the strength of the rope; a run resumed from a checkpoint has the same bits.
 
 use core::f64::consts::PI;
 
@@ -26,7 +26,7 @@ const ROPE: Rope = Rope {
     length: 3.0,
 };
 
-/// The force at which it breaks, N.
+/// The force at which the rope breaks, N.
 const STRENGTH: f64 = 260.0;
 
 fn build() -> Result<(Simulation<2>, Element), SceneError> {
@@ -35,7 +35,7 @@ fn build() -> Result<(Simulation<2>, Element), SceneError> {
     let load = scene.mass(10.0, [0.0, -3.05], [0.0, 0.0]);
     let rope = scene.spring(ROPE, [crane, load]);
     scene.set_gravity([0.0, -9.81]);
-    // It hoists and comes to a stop every two seconds; the gust grows.
+    // The crane stops for a moment every two seconds; the gust grows.
     scene.move_anchor(crane, |t| [0.0, 0.4 * (t - (PI * t).sin() / PI)]);
     scene.force(load, |t| [20.0 * (1.5 * t).sin() * t, 0.0]);
     Ok((Simulation::new(scene, Scheme::EemTemperature, 0.02)?, rope))
@@ -46,7 +46,7 @@ fn force(run: &Simulation<2>, rope: Element) -> Result<f64, SceneError> {
     Ok(ROPE.stiffness * (run.stretch(rope)? - ROPE.length))
 }
 
-/// The event that it breaks.
+/// The event that the rope breaks.
 fn breaks<'a>(rope: Element) -> Event<'a, 2> {
     Event::rising(move |run: &Simulation<2>| Ok(force(run, rope)? - STRENGTH))
 }
@@ -75,7 +75,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     assert!((force(&run, rope)? - STRENGTH).abs() < 1e-6);
     assert!((now.balance - start).abs() < 1e-10);
 
-    // The same scene, from the checkpoint: the same step, bit for bit.
+    // The same scene, resumed from the checkpoint, stops at the same time, bit for bit.
     let (mut again, rope) = build()?;
     again.restore(&saved)?;
     again.run_until_event(20.0, &mut [breaks(rope)])?;

@@ -1,4 +1,4 @@
-//! A stiffness that depends on the temperature: how a spring that is pulled cools, and what that does to its frequency.
+//! A stiffness that depends on the temperature: a spring cools when it is pulled.
 //!
 //! ```text
 //! ψ(λ, θ) = ½ C(θ) ln²(λ/l) − β (θ − θr) ln(λ/l) + c (θ − θr − θ ln(θ/θr))
@@ -6,9 +6,9 @@
 //! s = −∂ψ/∂θ = ½ C1 θr/θ ln²(λ/l) + β ln(λ/l) + c ln(θ/θr)
 //! ```
 //!
-//! Material: Conde Martín, Betsch & García Orden (2016), eq. (43). Without conduction every motion is isentropic: the
-//! temperature follows from the stretch. What it claims: the entropy is kept to the last bit of its sum, and the
-//! temperature at the largest stretch is the one of the formula.
+//! Material: Conde Martín, Betsch & García Orden (2016), eq. (43). Without conduction and dashpots every motion is
+//! isentropic, so the temperature is a function of the stretch. Claim: the entropy is constant to the last bit, and the
+//! temperature at the largest stretch is that of the formula.
 
 use eem::prelude::*;
 
@@ -52,7 +52,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut run = Simulation::new(scene, Scheme::Auto, 0.01)?;
     run.control_steps(Tolerance::new(1e-10))?;
     let entropy = run.ledger().entropy;
-    // To where it turns back: the largest stretch.
+    // To the largest stretch, where the velocity changes its sign.
     let turns = Event::falling(move |run: &Simulation<1>| Ok(run.velocity(mass)?[0]));
     run.run_until_event(1.0, &mut [turns])?;
 
@@ -62,7 +62,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         run.time()
     );
 
-    // The temperature at which the entropy is that of the start, zero, by bisection of the formula.
+    // Bisection for the temperature at which the formula gives the entropy of the start, zero.
     let strain = stretch.ln();
     let of_formula = |theta: f64| {
         0.5 * material.softening * 300.0 / theta * strain.powi(2)

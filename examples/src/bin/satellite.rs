@@ -1,13 +1,12 @@
-//! A satellite with two soft panels that rockets turn: it spins up, the panels swing, and J is what the rockets gave.
+//! A satellite with two soft panels: rockets spin it up, and the panels swing.
 //!
 //! ```text
-//! ψ = ½ Λ e1² + μ e2          Saint-Venant and Kirchhoff, per volume
-//! J̇ = Σ r × F                 of the two rockets, which turn with the body
+//! ψ = ½ Λ e1² + μ e2          Saint-Venant–Kirchhoff, per volume; e1 = tr E, e2 = E:E
+//! J̇ = Σ r × F                 angular momentum; the forces F of two rockets turn with the body
 //! ```
 //!
-//! A short version of the study `satellite` in `studies`, which reproduces a published one. What it claims: while the
-//! rockets fire, the change of energy is their work; afterwards energy and angular momentum are kept to rounding,
-//! whatever the panels do.
+//! A short version of the study `satellite` in `studies`, which reproduces a published satellite. Claim: while the rockets
+//! fire, the change of energy is their work; afterwards energy and angular momentum are constant to rounding.
 
 use eem::kinematics::Hex8;
 use eem::prelude::*;
@@ -26,7 +25,7 @@ const BURN: f64 = 1.0;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut scene = Scene::<3>::new();
-    // A body of one cubic metre, and panels of 4 m × 1 m × 0.1 m on both sides of it.
+    // A body of 1 m × 1 m × 0.1 m, and panels of 4 m × 1 m × 0.1 m on both sides of it.
     let body = Mesh::<Hex8, 3>::block([1, 1, 1], [[-0.5, 0.5], [-0.5, 0.5], [-0.05, 0.05]])?;
     let stiff = Elastic { lame: 1e8, mu: 1e8 };
     let body = scene.solid(stiff, &body, &Bulk::new(5000.0));
@@ -39,7 +38,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             &Bulk::new(10.0).joined_to(&body, 1e-9),
         );
     }
-    // At opposite corners, each along the edge to the next corner.
+    // Rockets at opposite corners, each pushing along the edge to the next corner.
     let corners = [[0.5, -0.5], [0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5]];
     let [a, b, c, d] = corners.map(|[x, y]| body.node_at([x, y, 0.05], 1e-9));
     let [a, b, c, d] = [a?, b?, c?, d?];
@@ -65,7 +64,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let turned = (now.angular_momentum - burnt.angular_momentum).norm();
         assert!(turned < 1e-11 * burnt.angular_momentum.norm());
     }
-    // Two rockets with 40 N on arms of half a metre for a second.
+    // Two rockets of 40 N with lever arms of 0.5 m, for 1 s: 40 kg m²/s.
     assert!((burnt.angular_momentum[2] - 40.0).abs() < 1.0);
     Ok(())
 }

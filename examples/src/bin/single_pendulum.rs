@@ -1,7 +1,5 @@
-//! A hot pendulum with three schemes: what the laws of thermodynamics are worth.
-//!
-//! A mass moves in the plane on a spring that starts hot and three times too long. The spring creeps, which heats it,
-//! and gives its heat to the air.
+//! A hot pendulum with three schemes, one of which keeps the laws of thermodynamics: a mass moves in the plane on a spring
+//! that starts hot and at three times its natural length. Creep heats the spring; the air cools it.
 //!
 //! ```text
 //! q̇ = p/m,   ṗ = −f ∂λ/∂q,   γ̇ = g/η,   θ ṡ = g²/η + κ (θr − θ)
@@ -12,9 +10,9 @@
 //! k  = k0 − k1 (θ − θr),   μ = μ0 − μ1 (θ − θr),   η = η0 exp(a (1/θ − 1/θr))
 //! ```
 //!
-//! Source: García Orden & Romero, Eur. J. Mech. A/Solids 32 (2012), §4.1, with its step of 0.2 s, two periods of the
-//! fastest vibration. What it claims: the energy–entropy–momentum scheme keeps the energy to rounding and never loses
-//! entropy; the midpoint and the trapezoidal rule gain energy, or find no state at all.
+//! Source: García Orden & Romero, Eur. J. Mech. A/Solids 32 (2012), §4.1, with its step of 0.2 s, more than two periods of
+//! the fastest vibration. Claim: the energy–entropy–momentum scheme conserves the energy to rounding and never loses
+//! entropy; the energy of the midpoint and the trapezoidal rule is wrong by more than 1 J, or a step fails.
 
 use std::error::Error;
 use std::fs;
@@ -78,7 +76,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let [_, energy, _] = run.states[0];
         let changes = run.states.iter().map(|state| (state[1] - energy).abs());
         let change = changes.fold(0.0, f64::max);
-        // Beyond the rounding of the entropy.
+        // Losses larger than the rounding of the entropy.
         let loses = |s: &&[State]| s[1][2] - s[0][2] < -2.0 * f64::EPSILON * s[0][2].abs();
         let losses = run.states.windows(2).filter(loses).count();
         let [end, ..] = run.states[run.states.len() - 1];
@@ -101,7 +99,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// Changes of energy up to which curves are drawn, J.
 const LARGEST: f64 = 100.0;
 
-/// The energy over time; a cross where a curve ends early.
+/// The change of energy over time; a cross marks the early end of a curve.
 fn draw(file: &str, runs: &[Run]) -> Result<(), Box<dyn Error>> {
     let root = SVGBackend::new(file, (800, 400)).into_drawing_area();
     root.fill(&WHITE)?;

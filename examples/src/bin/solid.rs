@@ -1,11 +1,11 @@
-//! A block of rubber that is heated on one side, as files for `ParaView`.
+//! A block of rubber that is heated on one side; writes files for `ParaView`.
 //!
 //! ```text
 //! ψ = ½ Λ e1² + μ e2 − 3 α K (θ − θr) e1 + c (θ − θr − θ ln(θ/θr))     e1 = tr E, e2 = E:E
 //! ```
 //!
-//! The bottom stands on the ground, a plate of 400 K touches the left side, heat flows through the block, and it bends.
-//! What it claims: energy minus the heat of the plate is kept to rounding, the entropy of block and plate grows.
+//! The bottom is fixed, a plate of 400 K heats the left side, heat flows through the block, and the block bends. Claim: the
+//! energy of block and plate is constant to rounding, and their entropy grows.
 
 use eem::VtkSeries;
 use eem::kinematics::Hex8;
@@ -86,7 +86,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         end.entropy - start.entropy
     );
     println!("files for ParaView are in {}", folder.display());
-    // Rounding of the heat c θ V.
+    // The energies are rounded relative to the heat c θ V of the block.
     assert!((end.energy - start.energy).abs() < 1e-13 * 2e6 * 300.0 * 8e-5);
     assert!(end.entropy > start.entropy);
     assert!(hottest < 400.0 && coldest > 300.0);

@@ -1,4 +1,8 @@
-//! A parameter sweep in as many processes as one likes: run this program several times at once.
+//! A parameter sweep in any number of processes: run this program several times at once.
+//!
+//! ```text
+//! ψ(λ) = ½ k (λ − l)²,     t = (π/2) √(m/k)
+//! ```
 //!
 //! ```text
 //! cargo build --release -p eem-examples --features sweep --bin sweep
@@ -7,9 +11,9 @@
 //! target/release/sweep merge --dir out
 //! ```
 //!
-//! ψ(λ) = ½ k (λ − l)²: a mass is released, and the time after which it passes the rest position is recorded for a
-//! thousand stiffnesses and masses. What it claims: a process that is killed can be run again; the merged table has the
-//! bits of a single process. `docs/sweeps.md` says more.
+//! A mass on a spring is released, and the time at which it passes the rest position is recorded for a thousand pairs of
+//! stiffness and mass. A killed process can be run again, and the merged table has the bits of a run by one process; see
+//! `docs/sweeps.md`.
 
 use std::process::ExitCode;
 
@@ -25,7 +29,7 @@ struct Spring {
     length: f64,
 }
 
-/// What is recorded of a member.
+/// The result of one run.
 struct Passing {
     time: f64,
 }

@@ -10,17 +10,17 @@ use super::extremes::tally::Tally;
 const HEAD: &str = "\
 # Extremes
 
-Every step of an exact scheme (`eem-entropy`, `eem-temperature`, `staggered`) keeps the laws to rounding, or is rejected with a
-typed error that leaves the state unchanged. This page lists attempts to break that. A judge evaluates the laws of every step
-from the stored states, with 32 digits and with code that shares nothing with the schemes; `tests/extremes/judge.rs` documents
-its formulas and bounds.
+A step of an exact scheme (here `eem-entropy`, `eem-temperature`, `staggered`) satisfies the laws to rounding, or is rejected
+with a typed error that leaves the state unchanged. This page lists attempts to break that. For every step, a *judge* evaluates
+the laws from the stored states, with 32 digits and with code that shares nothing with the schemes; `tests/extremes/judge.rs`
+documents its formulas and bounds.
 
 - *Worst* is the largest energy defect of a step divided by its bound for rounding, 64 ε (A + A⁺). The limit is 1; a usual value
   is 0.007.
 - *Iterations* are the mean and the maximum per step.
 - *Errors* count the runs that ended with the error named.
 
-Momenta, entropy production and stored entropies were checked in every step, too. A line *Broken* would name a violated law.
+Momenta, entropy production and stored entropies were checked in every step, too. A violated law appears as a line *Broken*.
 ";
 
 /// The whole page.
