@@ -1,0 +1,111 @@
+//! Library and prototype end in the same state, and the prototype keeps its laws.
+
+use std::error::Error;
+
+use super::runs::{library_after, of_case, step};
+use crate::cases::CaseName;
+use crate::prototype::{Pendulum, ROUNDING, Run};
+use crate::systems::{Double, Single, State, System, Variables};
+
+/// Steps after which states are compared, before the double pendulums become chaotic.
+const STEPS: u32 = 20;
+
+/// How many roundings an energy may be away from its target: the closing allows 16, and a dozen make an energy from a
+/// state, which is done at the start and here, from θ instead of s.
+const ENERGY_ROUNDINGS: f64 = 40.0;
+
+/// The same of a momentum, relative to Σ |q| |p|: four roundings make each component from q and p, one changes p, and
+/// both counts at the start and here.
+const MOMENTUM_ROUNDINGS: f64 = 16.0;
+
+/// The same of a change of the entropy, relative to Σ |s|: one rounding of each s before and after the step, and one of
+/// each sum.
+const ENTROPY_ROUNDINGS: f64 = 4.0;
+
+/// An error unless library and prototype agree, and the prototype keeps energy and angular momentum and loses no entropy.
+///
+/// Let y be the exact state, and y(h) that of a run with step h. If halving the step at least halves the error, then
+/// |y(h) − y| ≤ |y(h) − y(h/2)| + |y(h) − y|/2, so that the error is at most 2 |y(h) − y(h/2)|. The states of library
+/// and prototype differ by no more than the sum of their errors.
+pub(crate) fn check(case: CaseName) -> Result<(), Box<dyn Error>> {
+    let (full, half) = (step(case), 0.5 * step(case));
+    let (library, _) = library_after(case, full, STEPS)?;
+    let (halved_library, _) = library_after(case, half, 2 * STEPS)?;
+    let prototype = of_case!(case, checked_steps(case, full, STEPS))?;
+    let halved_prototype = of_case!(case, checked_steps(case, half, 2 * STEPS))?;
+
+    let apart = library.errors(&prototype);
+    let library_changes = library.errors(&halved_library);
+    let prototype_changes = prototype.errors(&halved_prototype);
+    for (i, quantity) in ["positions", "momenta", "temperatures"]
+        .into_iter()
+        .enumerate()
+    {
+        let bound = 2.0 * (library_changes[i] + prototype_changes[i]);
+        if !(apart[i] <= bound) {
+            return Err(format!(
+                "{}: {quantity} of library and prototype differ by {:.1e}, more than their errors of {bound:.1e}",
+                case.name(),
+                apart[i],
+            )
+            .into());
+        }
+    }
+    Ok(())
+}
+
+/// An error unless the prototype keeps its laws over many steps of the case's size.
+#[cfg(test)]
+pub(crate) fn check_laws(case: CaseName, steps: u32) -> Result<(), Box<dyn Error>> {
+    of_case!(case, checked_steps(case, step(case), steps)).map(drop)
+}
+
+/// The prototype's state after some steps, with its laws checked after each.
+fn checked_steps<C: Pendulum<N, X>, const N: usize, const X: usize>(
+    case: CaseName,
+    step: f64,
+    steps: u32,
+) -> Result<State, Box<dyn Error>> {
+    let mut run = Run::<C, N, X>::new();
+    let first = energy(case, &run)?;
+    for _ in 0..steps {
+        let before: f64 = run.entropies().iter().sum();
+        run.step(step, None)
+            .map_err(|_| "the prototype rejects a step")?;
+        let defect = (energy(case, &run)? - first).abs();
+        let bound = ENERGY_ROUNDINGS * ROUNDING * run.energy_size();
+        if !(defect <= bound) {
+            return Err(format!("the prototype's energy is off by {defect:e} J").into());
+        }
+        let [defect, size] = run.momentum_defect();
+        if !(defect <= MOMENTUM_ROUNDINGS * ROUNDING * size) {
+            return Err(format!("the prototype's momentum is off by {defect:e} N m s").into());
+        }
+        let change = run.entropies().iter().sum::<f64>() - before;
+        let size: f64 = run.entropies().iter().map(|s| s.abs()).sum();
+        if !(change >= -ENTROPY_ROUNDINGS * ROUNDING * size) {
+            return Err(format!("the prototype's entropy changes by {change:e} J/K").into());
+        }
+    }
+    Ok(run.state())
+}
+
+/// E by the formulas of `springs`, in temperature variables, J.
+fn energy<C: Pendulum<N, X>, const N: usize, const X: usize>(
+    case: CaseName,
+    run: &Run<C, N, X>,
+) -> Result<f64, Box<dyn Error>> {
+    let state = run.state();
+    Ok(match case.double() {
+        None => {
+            let system = Single::new(Variables::Temperature, state);
+            let mut y = system.start();
+            y[6] = run.entropies()[1];
+            system.energy(&y)
+        }
+        Some(case) => {
+            let system = Double::new(&case, Variables::Temperature, state);
+            system.energy(&system.start())
+        }
+    })
+}

@@ -1,0 +1,39 @@
+//! The prototype is the library's explicit scheme, and keeps its laws.
+
+use crate::cases::CaseName;
+use crate::prototype::{Krueger, Run};
+use crate::ratios::{check, check_laws};
+use crate::systems::{State, larger};
+
+const ALL: [CaseName; 3] = [CaseName::Single, CaseName::Krueger, CaseName::Log];
+
+#[test]
+fn library_and_prototype_end_in_the_same_state() {
+    for case in ALL {
+        check(case).unwrap();
+    }
+}
+
+/// So many that the closing makes all of its corrections.
+#[test]
+fn the_prototype_keeps_its_laws() {
+    for case in ALL {
+        check_laws(case, 1000).unwrap();
+    }
+}
+
+/// A step of order 8 has an error that 256 becomes one; the check of agreement needs two.
+#[test]
+fn halving_the_step_divides_the_error_by_more_than_a_hundred() {
+    let after = |step: f64, steps: u32| -> State {
+        let mut run = Run::<Krueger, 14, 2>::new();
+        for _ in 0..steps {
+            run.step(step, None).unwrap();
+        }
+        run.state()
+    };
+    let states = [(0.1, 20), (0.05, 40), (0.025, 80)].map(|(step, steps)| after(step, steps));
+    let apart = |a: &State, b: &State| a.errors(b).into_iter().fold(0.0, larger);
+    let [coarse, fine] = [0, 1].map(|i| apart(&states[i], &states[i + 1]));
+    assert!(fine < 0.01 * coarse, "{coarse:e} and {fine:e}");
+}
