@@ -1,6 +1,6 @@
 //! The library's explicit scheme and the prototype in turn: fixed steps, and runs with a tolerance.
 
-mod agreement;
+pub(crate) mod agreement;
 mod clock;
 mod runs;
 
@@ -13,9 +13,7 @@ use eem_studies::{command_line, table, terminal};
 use crate::cases::CaseName;
 use crate::exit_code;
 use crate::summary::time_for;
-
-#[cfg(test)]
-pub(crate) use agreement::{check, check_laws};
+use runs::Form;
 
 const ABOUT: &str = "The library's explicit scheme and a prototype written by hand, in turn";
 
@@ -33,9 +31,17 @@ struct Options {
     /// Which scene; all of them unless given.
     #[arg(long, value_name = "NAME")]
     case: Option<CaseName>,
-    /// Makes steps of one side only, without clock or table, to count their instructions.
+    /// Makes fixed steps of one side only, without clock or table, to count their instructions.
     #[arg(long, value_name = "SIDE", requires = "case")]
     only: Option<Side>,
+    /// Which scheme, with `--only`.
+    #[arg(
+        long,
+        value_name = "FORM",
+        default_value = "explicit",
+        requires = "only"
+    )]
+    form: Form,
     /// How many steps a run with fixed steps makes.
     #[arg(long, value_name = "N", default_value_t = 400)]
     steps: u32,
@@ -55,10 +61,11 @@ pub fn ratios() -> ExitCode {
 }
 
 fn run(options: &Options) -> Result<(), Box<dyn Error>> {
+    let steps = options.steps;
     if let (Some(case), Some(side)) = (options.case, options.only) {
         match side {
-            Side::Library => runs::library_steps(case, options.steps)?,
-            Side::Prototype => runs::prototype_steps(case, options.steps)?,
+            Side::Library => runs::library_steps(case, options.form, steps)?,
+            Side::Prototype => runs::prototype_steps(case, options.form, steps)?,
         };
         return Ok(());
     }
@@ -69,25 +76,29 @@ fn run(options: &Options) -> Result<(), Box<dyn Error>> {
     for &case in &cases {
         agreement::check(case)?;
     }
-    fixed_steps(&cases, options.steps)?;
+    fixed_steps(&cases, Form::Explicit, steps)?;
+    if cases.contains(&CaseName::Log) {
+        agreement::check_temperature(CaseName::Log)?;
+        fixed_steps(&[CaseName::Log], Form::Temperature, steps)?;
+    }
     equal_errors(&cases)
 }
 
-fn fixed_steps(cases: &[CaseName], steps: u32) -> Result<(), Box<dyn Error>> {
-    let mut rows = table::headed([
-        "fixed steps",
-        "library ns/step",
-        "prototype ns/step",
-        "ratio",
-    ]);
+/// The table of times per step.
+fn fixed_steps(cases: &[CaseName], form: Form, steps: u32) -> Result<(), Box<dyn Error>> {
+    let title = match form {
+        Form::Explicit => "eem-explicit, fixed steps",
+        Form::Temperature => "eem-temperature, fixed steps",
+    };
+    let mut rows = table::headed([title, "library ns/step", "prototype ns/step", "ratio"]);
     for &case in cases {
         let [library, prototype] =
-            clock::in_turn([&mut || runs::library_steps(case, steps), &mut || {
-                runs::prototype_steps(case, steps)
+            clock::in_turn([&mut || runs::library_steps(case, form, steps), &mut || {
+                runs::prototype_steps(case, form, steps)
             }])?;
         let nanoseconds = |seconds: f64| format!("{:.0}", 1e9 * seconds / f64::from(steps));
         rows.add_row([
-            case.name().to_owned(),
+            format!("{}, h = {} s", case.name(), runs::step(case, form)),
             nanoseconds(library),
             nanoseconds(prototype),
             format!("{:.2}", library / prototype),
@@ -97,9 +108,10 @@ fn fixed_steps(cases: &[CaseName], steps: u32) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// The table of times of runs with a tolerance.
 fn equal_errors(cases: &[CaseName]) -> Result<(), Box<dyn Error>> {
     let mut rows = table::headed([
-        "error 1e-6 at 5 s",
+        "eem-explicit, error 1e-6 at 5 s",
         "library µs",
         "prototype µs",
         "dop853 µs",

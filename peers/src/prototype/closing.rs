@@ -6,10 +6,10 @@
 //! | correction | change | condition |
 //! |---|---|---|
 //! | heat | every spring scales the entropy that it has produced itself by 1 + ε | `\|ε\|` ≤ 0.003 |
-//! | motion | p += a p_int, p_int being the momentum without the rigid rotation | p_int carries a twentieth of D |
+//! | motion | p += a p′, with the momentum p′ relative to the rigid rotation | p′ carries a twentieth of D |
 //! | shape | p, q, γ and the conducted heat move along the gradient of E, by α = d/D | `\|α\|` < 0.1 |
 //!
-//! D = 2 T_int + h² Σ |F|²/m + h g²/η + 2hκ (θ₁ − θ₀)²/(θ₀ + θ₁) is the rate of E along that gradient. The library has
+//! D = 2 T′ + h² Σ |F|²/m + h g²/η + 2hκ (θ₁ − θ₀)²/(θ₀ + θ₁) is the rate of E along that gradient. The library has
 //! two more corrections, for steady rotation and rest; here such a step is rejected.
 
 use super::ROUNDING;
@@ -53,7 +53,7 @@ pub(super) struct Closing<const N: usize> {
     produced: [f64; 2],
 }
 
-/// p without the rigid rotation ω, its kinetic energy, and ω.
+/// p′, the momentum relative to the rigid rotation ω, its kinetic energy T′, and ω.
 struct Motion<const N: usize> {
     momenta: [f64; N],
     energy: f64,
@@ -263,7 +263,7 @@ impl<const N: usize> Closing<N> {
         }
     }
 
-    /// p += a p_int with T_int ((1 + a)² − 1) = d: exact, and J stays, as p_int has none.
+    /// p += a p′ with T′ ((1 + a)² − 1) = d: exact, and J stays, as p′ has none.
     #[inline(always)]
     fn scale_motion<C: Pendulum<N, X>, const X: usize>(&mut self, motion: &Motion<N>, defect: f64) {
         let x = defect / motion.energy;
@@ -323,9 +323,9 @@ impl<const N: usize> Closing<N> {
         motion: &Motion<N>,
         forces: &[f64; N],
     ) {
-        for i in 0..C::P {
-            self.y[C::P + i] += alpha * motion.momenta[i];
-            self.y[i] -= alpha * h * h * forces[i] / C::MASSES[i / C::DIMENSION];
+        for (i, (momentum, force)) in motion.momenta.iter().zip(forces).enumerate().take(C::P) {
+            self.y[C::P + i] += alpha * momentum;
+            self.y[i] -= alpha * h * h * force / C::MASSES[i / C::DIMENSION];
         }
         if C::DASHPOTS > 0 {
             let point = &self.points[0];

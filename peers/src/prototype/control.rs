@@ -1,7 +1,10 @@
 //! The size of steps for a tolerance.
 //!
-//! Hairer's estimate err = e₅²/√(e₅² + 0.01 e₃²) of the error in units of the tolerance, and steps that change by
-//! 0.8 err^(−0.095) err_old^0.04.
+//! Hairer's estimate of the error in units of the tolerance, and the factor by which the step changes:
+//!
+//! ```text
+//! err = e₅²/√(e₅² + 0.01 e₃²),     factor = 0.8 err^(−0.095) err_before^0.04
+//! ```
 
 use super::model::Pendulum;
 use super::run::Run;

@@ -66,7 +66,7 @@ impl Point {
     /// Whether the state is admissible.
     #[inline(always)]
     pub(super) fn is_admissible(&self) -> bool {
-        (self.theta > 0.0) & (self.capacity > 0.0)
+        self.theta > 0.0 && self.capacity > 0.0
     }
 }
 

@@ -67,7 +67,7 @@ impl<C: Pendulum<N, X>, const N: usize, const X: usize> Run<C, N, X> {
             *y += change;
         }
         let error = tolerance.map_or(0.0, |tolerance| error(self, h, &y, tolerance));
-        if !(error <= 1.0) {
+        if error.is_nan() || error > 1.0 {
             return Err(if error.is_finite() {
                 error
             } else {

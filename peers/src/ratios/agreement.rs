@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use super::runs::{library_after, of_case, step};
+use super::runs::{Form, library_after, of_case, step, temperature_after};
 use crate::cases::CaseName;
 use crate::prototype::{Pendulum, ROUNDING, Run};
 use crate::systems::{Double, Single, State, System, Variables};
@@ -28,21 +28,53 @@ const ENTROPY_ROUNDINGS: f64 = 4.0;
 /// |y(h) − y| ≤ |y(h) − y(h/2)| + |y(h) − y|/2, so that the error is at most 2 |y(h) − y(h/2)|. The states of library
 /// and prototype differ by no more than the sum of their errors.
 pub(crate) fn check(case: CaseName) -> Result<(), Box<dyn Error>> {
-    let (full, half) = (step(case), 0.5 * step(case));
-    let (library, _) = library_after(case, full, STEPS)?;
-    let (halved_library, _) = library_after(case, half, 2 * STEPS)?;
-    let prototype = of_case!(case, checked_steps(case, full, STEPS))?;
-    let halved_prototype = of_case!(case, checked_steps(case, half, 2 * STEPS))?;
+    let (full, half) = (step(case, Form::Explicit), 0.5 * step(case, Form::Explicit));
+    let library = |step, steps| library_after(case, Form::Explicit, step, steps);
+    let ((first, _), (halved, _)) = (library(full, STEPS)?, library(half, 2 * STEPS)?);
+    compare(
+        case,
+        [&first, &halved],
+        [
+            &of_case!(case, checked_steps(case, full, STEPS))?,
+            &of_case!(case, checked_steps(case, half, 2 * STEPS))?,
+        ],
+    )
+}
 
-    let apart = library.errors(&prototype);
-    let library_changes = library.errors(&halved_library);
-    let prototype_changes = prototype.errors(&halved_prototype);
-    for (i, quantity) in ["positions", "momenta", "temperatures"]
-        .into_iter()
-        .enumerate()
-    {
+/// The same of the states in temperature form.
+pub(crate) fn check_temperature(case: CaseName) -> Result<(), Box<dyn Error>> {
+    let [[library, prototype], [halved_library, halved_prototype]] = temperature_states(case)?;
+    compare(
+        case,
+        [&library, &halved_library],
+        [&prototype, &halved_prototype],
+    )
+}
+
+/// States of library and prototype in temperature form, with the step of the case and with half of it.
+pub(crate) fn temperature_states(case: CaseName) -> Result<[[State; 2]; 2], Box<dyn Error>> {
+    let full = step(case, Form::Temperature);
+    let states = |step, steps| -> Result<[State; 2], Box<dyn Error>> {
+        let (library, _) = library_after(case, Form::Temperature, step, steps)?;
+        let (prototype, _) = temperature_after(case, step, steps)?;
+        Ok([library, prototype.state()])
+    };
+    Ok([states(full, STEPS)?, states(0.5 * full, 2 * STEPS)?])
+}
+
+/// An error unless two states differ by no more than their errors. Of each, the state with half the step follows.
+fn compare(
+    case: CaseName,
+    [library, halved_library]: [&State; 2],
+    [prototype, halved_prototype]: [&State; 2],
+) -> Result<(), Box<dyn Error>> {
+    let apart = library.errors(prototype);
+    let library_changes = library.errors(halved_library);
+    let prototype_changes = prototype.errors(halved_prototype);
+    let quantities = ["positions", "momenta", "temperatures"];
+    for (i, quantity) in quantities.into_iter().enumerate() {
         let bound = 2.0 * (library_changes[i] + prototype_changes[i]);
-        if !(apart[i] <= bound) {
+        if exceeds(apart[i], bound) {
             return Err(format!(
                 "{}: {quantity} of library and prototype differ by {:.1e}, more than their errors of {bound:.1e}",
                 case.name(),
@@ -57,7 +89,7 @@ pub(crate) fn check(case: CaseName) -> Result<(), Box<dyn Error>> {
 /// An error unless the prototype keeps its laws over many steps of the case's size.
 #[cfg(test)]
 pub(crate) fn check_laws(case: CaseName, steps: u32) -> Result<(), Box<dyn Error>> {
-    of_case!(case, checked_steps(case, step(case), steps)).map(drop)
+    of_case!(case, checked_steps(case, step(case, Form::Explicit), steps)).map(drop)
 }
 
 /// The prototype's state after some steps, with its laws checked after each.
@@ -67,24 +99,24 @@ fn checked_steps<C: Pendulum<N, X>, const N: usize, const X: usize>(
     steps: u32,
 ) -> Result<State, Box<dyn Error>> {
     let mut run = Run::<C, N, X>::new();
-    let first = energy(case, &run)?;
+    let first = energy(case, &run);
     for _ in 0..steps {
         let before: f64 = run.entropies().iter().sum();
         run.step(step, None)
             .map_err(|_| "the prototype rejects a step")?;
-        let defect = (energy(case, &run)? - first).abs();
+        let defect = (energy(case, &run) - first).abs();
         let bound = ENERGY_ROUNDINGS * ROUNDING * run.energy_size();
-        if !(defect <= bound) {
+        if exceeds(defect, bound) {
             return Err(format!("the prototype's energy is off by {defect:e} J").into());
         }
         let [defect, size] = run.momentum_defect();
-        if !(defect <= MOMENTUM_ROUNDINGS * ROUNDING * size) {
+        if exceeds(defect, MOMENTUM_ROUNDINGS * ROUNDING * size) {
             return Err(format!("the prototype's momentum is off by {defect:e} N m s").into());
         }
-        let change = run.entropies().iter().sum::<f64>() - before;
+        let lost = before - run.entropies().iter().sum::<f64>();
         let size: f64 = run.entropies().iter().map(|s| s.abs()).sum();
-        if !(change >= -ENTROPY_ROUNDINGS * ROUNDING * size) {
-            return Err(format!("the prototype's entropy changes by {change:e} J/K").into());
+        if exceeds(lost, ENTROPY_ROUNDINGS * ROUNDING * size) {
+            return Err(format!("the prototype loses an entropy of {lost:e} J/K").into());
         }
     }
     Ok(run.state())
@@ -94,9 +126,9 @@ fn checked_steps<C: Pendulum<N, X>, const N: usize, const X: usize>(
 fn energy<C: Pendulum<N, X>, const N: usize, const X: usize>(
     case: CaseName,
     run: &Run<C, N, X>,
-) -> Result<f64, Box<dyn Error>> {
+) -> f64 {
     let state = run.state();
-    Ok(match case.double() {
+    match case.double() {
         None => {
             let system = Single::new(Variables::Temperature, state);
             let mut y = system.start();
@@ -107,5 +139,10 @@ fn energy<C: Pendulum<N, X>, const N: usize, const X: usize>(
             let system = Double::new(&case, Variables::Temperature, state);
             system.energy(&system.start())
         }
-    })
+    }
+}
+
+/// True for a value that is not a number, too.
+fn exceeds(value: f64, bound: f64) -> bool {
+    value.is_nan() || value > bound
 }

@@ -4,12 +4,13 @@ use std::error::Error;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
+use clap::ValueEnum;
 use eem::Tolerance;
 use eem::prelude::*;
 use eem_studies::pendulums::{self, Double};
 
 use crate::cases::{CaseName, state};
-use crate::prototype::{Pendulum, Run};
+use crate::prototype::{Pendulum, Run, TemperatureRun};
 use crate::reference::Reference;
 use crate::systems::{State, larger};
 
@@ -29,28 +30,31 @@ macro_rules! of_case {
 
 pub(super) use of_case;
 
-/// The fixed step of a case, s; that of the study `hot_cases`.
-pub(super) const fn step(case: CaseName) -> f64 {
-    match case {
-        CaseName::Single | CaseName::Log => 0.05,
-        CaseName::Krueger => 0.1,
+/// What is stepped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum Form {
+    /// `eem-explicit`.
+    Explicit,
+    /// `eem-temperature`, of the case `log` only.
+    Temperature,
+}
+
+impl Form {
+    const fn scheme(self) -> Scheme {
+        match self {
+            Self::Explicit => Scheme::EemExplicit,
+            Self::Temperature => Scheme::EemTemperature,
+        }
     }
 }
 
-/// Fixed steps of the library from the start; their time.
-pub(super) fn library_steps(case: CaseName, steps: u32) -> Result<Duration, Box<dyn Error>> {
-    let (_, time) = library_after(case, step(case), steps)?;
-    Ok(time)
-}
-
-/// The library's state after some steps of one size.
-pub(super) fn library_after(case: CaseName, step: f64, steps: u32) -> Timed<State> {
-    library(case, step, None, Length::Steps(steps))
-}
-
-/// A run of the library with a tolerance.
-pub(super) fn library_run(case: CaseName, end: f64, tolerance: f64) -> Timed<State> {
-    library(case, step(case), Some(tolerance), Length::Until(end))
+/// The fixed step of a case, s; that of the study `hot_cases`.
+pub(super) const fn step(case: CaseName, form: Form) -> f64 {
+    match (form, case) {
+        (Form::Temperature, _) => 0.01,
+        (Form::Explicit, CaseName::Single | CaseName::Log) => 0.05,
+        (Form::Explicit, CaseName::Krueger) => 0.1,
+    }
 }
 
 /// How long the library runs.
@@ -60,21 +64,62 @@ enum Length {
     Until(f64),
 }
 
-fn library(case: CaseName, step: f64, tolerance: Option<f64>, length: Length) -> Timed<State> {
-    match case {
-        CaseName::Single => go(pendulums::single(1.0).scene, step, tolerance, length),
-        CaseName::Krueger => go(Double::KRUEGER.build(1.0).scene, step, tolerance, length),
-        CaseName::Log => go(Double::LOG.build(1.0).scene, step, tolerance, length),
-    }
+/// Fixed steps of the library from the start; their time.
+pub(super) fn library_steps(
+    case: CaseName,
+    form: Form,
+    steps: u32,
+) -> Result<Duration, Box<dyn Error>> {
+    let (_, time) = library_after(case, form, step(case, form), steps)?;
+    Ok(time)
 }
 
-fn go<const D: usize>(
-    scene: Scene<D>,
+/// The library's state after some steps of one size.
+pub(super) fn library_after(case: CaseName, form: Form, step: f64, steps: u32) -> Timed<State> {
+    library(case, form, step, None, Length::Steps(steps))
+}
+
+/// A run of the library's explicit scheme with a tolerance.
+pub(super) fn library_run(case: CaseName, end: f64, tolerance: f64) -> Timed<State> {
+    let step = step(case, Form::Explicit);
+    library(
+        case,
+        Form::Explicit,
+        step,
+        Some(tolerance),
+        Length::Until(end),
+    )
+}
+
+fn library(
+    case: CaseName,
+    form: Form,
     step: f64,
     tolerance: Option<f64>,
     length: Length,
 ) -> Timed<State> {
-    let mut run = Simulation::new(scene, Scheme::EemExplicit, step)?;
+    let scheme = form.scheme();
+    match case {
+        CaseName::Single => {
+            let scene = pendulums::single(1.0).scene;
+            go(Simulation::new(scene, scheme, step)?, tolerance, length)
+        }
+        CaseName::Krueger => {
+            let scene = Double::KRUEGER.build(1.0).scene;
+            go(Simulation::new(scene, scheme, step)?, tolerance, length)
+        }
+        CaseName::Log => {
+            let scene = Double::LOG.build(1.0).scene;
+            go(Simulation::new(scene, scheme, step)?, tolerance, length)
+        }
+    }
+}
+
+fn go<const D: usize>(
+    mut run: Simulation<D>,
+    tolerance: Option<f64>,
+    length: Length,
+) -> Timed<State> {
     if let Some(tolerance) = tolerance {
         run.control_steps(Tolerance::new(tolerance))?;
     }
@@ -92,11 +137,37 @@ fn go<const D: usize>(
 }
 
 /// Fixed steps of the prototype from the start; their time.
-pub(super) fn prototype_steps(case: CaseName, steps: u32) -> Result<Duration, Box<dyn Error>> {
-    of_case!(case, prototype_steps_of(step(case), steps))
+pub(super) fn prototype_steps(
+    case: CaseName,
+    form: Form,
+    steps: u32,
+) -> Result<Duration, Box<dyn Error>> {
+    let step = step(case, form);
+    match form {
+        Form::Explicit => of_case!(case, explicit_steps(step, steps)),
+        Form::Temperature => {
+            let (run, time) = temperature_after(case, step, steps)?;
+            black_box(run);
+            Ok(time)
+        }
+    }
 }
 
-fn prototype_steps_of<C: Pendulum<N, X>, const N: usize, const X: usize>(
+/// The prototype in temperature form after some steps of one size.
+pub(super) fn temperature_after(case: CaseName, step: f64, steps: u32) -> Timed<TemperatureRun> {
+    if case != CaseName::Log {
+        return Err("the prototype in temperature form has the case log only".into());
+    }
+    let mut run = black_box(TemperatureRun::new());
+    let started = Instant::now();
+    for _ in 0..steps {
+        run.step(step).ok_or("Newton's method does not converge")?;
+    }
+    let time = started.elapsed();
+    Ok((run, time))
+}
+
+fn explicit_steps<C: Pendulum<N, X>, const N: usize, const X: usize>(
     step: f64,
     steps: u32,
 ) -> Result<Duration, Box<dyn Error>> {
@@ -113,10 +184,10 @@ fn prototype_steps_of<C: Pendulum<N, X>, const N: usize, const X: usize>(
 
 /// A run of the prototype with a tolerance.
 pub(super) fn prototype_run(case: CaseName, end: f64, tolerance: f64) -> Timed<State> {
-    of_case!(case, prototype_run_of(end, tolerance))
+    of_case!(case, tolerant_run(end, tolerance))
 }
 
-fn prototype_run_of<C: Pendulum<N, X>, const N: usize, const X: usize>(
+fn tolerant_run<C: Pendulum<N, X>, const N: usize, const X: usize>(
     end: f64,
     tolerance: f64,
 ) -> Timed<State> {
