@@ -22,7 +22,7 @@ fn the_prototype_keeps_its_laws() {
     }
 }
 
-/// A step of order 8 has an error that 256 becomes one; the check of agreement needs two.
+/// Order 8 divides the error by 256. The check of agreement needs a factor of two.
 #[test]
 fn halving_the_step_divides_the_error_by_more_than_a_hundred() {
     let after = |step: f64, steps: u32| -> State {
