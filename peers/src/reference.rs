@@ -47,7 +47,7 @@ impl Reference {
         let start = case.start()?;
         let mut steps = first_steps(end);
         let mut best = library(case, end, steps, &start)?;
-        let other = tight(case, end, &best)?;
+        let (other, _) = best.dop853(case, end, TIGHT)?;
         best.doubts = other.errors(&best.state);
         while steps < MOST_STEPS {
             steps *= 2;
@@ -63,6 +63,40 @@ impl Reference {
             }
         }
         Ok(best)
+    }
+
+    /// The state by DOP853 alone, at its tightest tolerance: for errors far above 10⁻¹².
+    pub(crate) fn by_dop853(case: CaseName, end: f64) -> Result<Self, Box<dyn Error>> {
+        // The run of the library finds the momentum.
+        let mut reference = library(case, end, first_steps(end), &case.start()?)?;
+        let (state, _) = reference.dop853(case, end, TIGHT)?;
+        reference.doubts = state.errors(&reference.state);
+        reference.state = state;
+        Ok(reference)
+    }
+
+    /// The state at the end of a run of DOP853 in temperature variables, and the time of its steps, s.
+    pub(crate) fn dop853(
+        &self,
+        case: CaseName,
+        end: f64,
+        tolerance: f64,
+    ) -> Result<(State, f64), String> {
+        let (variables, start) = (Variables::Temperature, self.start.clone());
+        match case.double() {
+            None => solve(
+                &Single::new(variables, start),
+                end,
+                self.momentum,
+                tolerance,
+            ),
+            Some(case) => solve(
+                &Double::new(&case, variables, start),
+                end,
+                self.momentum,
+                tolerance,
+            ),
+        }
     }
 
     /// The errors of a state, where the references are close enough to tell.
@@ -110,26 +144,18 @@ fn library(
     })
 }
 
-/// A run of DOP853 in temperature variables.
-fn tight(case: CaseName, end: f64, first: &Reference) -> Result<State, String> {
-    let (variables, start) = (Variables::Temperature, first.start.clone());
-    match case.double() {
-        None => tight_run(&Single::new(variables, start), end, first.momentum),
-        Some(case) => tight_run(&Double::new(&case, variables, start), end, first.momentum),
-    }
-}
-
-fn tight_run<const N: usize>(
+fn solve<const N: usize>(
     system: &impl System<N>,
     end: f64,
     momentum: f64,
-) -> Result<State, String> {
+    tolerance: f64,
+) -> Result<(State, f64), String> {
     let task = Task {
         system,
         sizes: system.sizes(momentum),
         end,
-        tolerance: TIGHT,
+        tolerance,
     };
     let solved = Solver::Dop853.solve(&task, |_| ())?;
-    Ok(system.state(&solved.y))
+    Ok((system.state(&solved.y), solved.seconds))
 }

@@ -7,8 +7,8 @@ use crate::cases::CaseName;
 use crate::reference::Reference;
 use crate::rows::Row;
 use crate::solvers::{Solver, Task};
-use eem_studies::terminal;
 use crate::systems::{Double, Single, System, Variables, larger};
+use eem_studies::terminal;
 
 /// By decades from 10⁻² to 10⁻¹¹.
 pub(crate) const TOLERANCES: [f64; 10] =
