@@ -76,12 +76,12 @@ pub use run::vtk::VtkSeries;
 pub use scene::Scene;
 pub use scene::body::Body;
 pub use scene::bulk::Bulk;
+pub use scene::error::RocketError;
 pub use scene::error::SceneError;
 #[cfg(feature = "gmsh")]
 pub use scene::gmsh::{LineFault, Msh, MshError};
 pub use scene::mesh::{Face, Mesh, MeshError, Outline};
 pub use scene::refused::RefusedScene;
-pub use scene::rocket_error::RocketError;
 pub use scene::solid::Section;
 pub use scene::solid_error::SolidError;
 pub use step::control::{StepStatistics, Tolerance};

@@ -1,4 +1,4 @@
-//! Many independent scenes in one call: on all cores, with the numbers of one after the other.
+//! Ensembles: many independent runs in one call, on all cores.
 
 mod bundle;
 mod error;
@@ -8,6 +8,7 @@ mod threads;
 
 use core::fmt;
 use core::ops::ControlFlow;
+use core::sync::atomic::AtomicBool;
 
 use crate::run::simulation::Simulation;
 use crate::scene::Scene;
@@ -161,12 +162,10 @@ impl<S: Real> Ensemble<'_, S> {
         };
         let progress = Progress::new(self.watch, inputs.len());
         threads::map(self.threads, inputs, |index, input| {
-            progress
-                .follow(|| member(input))
-                .map_err(|failure| MemberError {
-                    member: index,
-                    failure,
-                })
+            let result = progress.follow(1, || member(input));
+            let result = result.unwrap_or(Err(MemberFailure::Stopped));
+            let member = index;
+            result.map_err(|failure| MemberError { member, failure })
         })
     }
 }
@@ -254,11 +253,18 @@ impl Ensemble<'_> {
         experiment: &E,
         inputs: &[E::Input],
     ) -> Vec<Result<E::Output, MemberError>> {
-        let bundles = Bundles::new(self.scheme, self.step, self.newton);
+        let bundles = Bundles {
+            scheme: self.scheme,
+            step: self.step,
+            newton: self.newton,
+            is_unsuited: AtomicBool::new(false),
+        };
         let progress = Progress::new(self.watch, inputs.len());
-        let chunks: Vec<_> = inputs.chunks(Bundles::size()).collect();
+        let chunks: Vec<_> = inputs.chunks(bundle::SIZE).collect();
         let results = threads::map(self.threads, &chunks, |_, chunk| {
-            progress.follow_all(chunk.len(), || bundles.run(experiment, chunk))
+            let results = progress.follow(chunk.len(), || bundles.run(experiment, chunk));
+            let stopped = || chunk.iter().map(|_| Err(MemberFailure::Stopped)).collect();
+            results.unwrap_or_else(stopped)
         });
         let numbered = results.into_iter().flatten().enumerate();
         numbered

@@ -1,4 +1,4 @@
-//! What is kept of a run: chosen quantities, every k-th step, column by column.
+//! Recording chosen quantities of a run, every k-th step, column by column.
 
 #[cfg(feature = "csv")]
 mod csv;
@@ -59,7 +59,7 @@ pub struct Recorder<const D: usize, S: Real = f64> {
     /// Steps, and their Newton iterations, since the last row.
     steps: usize,
     iterations: usize,
-    /// The row that is being put together.
+    /// The next row.
     row: Vec<f64>,
 }
 
@@ -152,12 +152,13 @@ impl<const D: usize, S: Real> Recorder<D, S> {
             }
             recorder.quantities.push(quantity);
         }
-        let first = recorder.record(run);
-        first.map_err(|source| RecordError::Quantity {
-            name: TIME.to_owned(),
-            source,
-        })?;
-        Ok(recorder)
+        match recorder.record(run) {
+            Ok(()) => Ok(recorder),
+            Err(source) => {
+                let name = TIME.to_owned();
+                Err(RecordError::Quantity { name, source })
+            }
+        }
     }
 
     fn add_column(
@@ -185,7 +186,7 @@ impl<const D: usize, S: Real> Recorder<D, S> {
         self
     }
 
-    /// Makes room for this many more rows.
+    /// Reserves memory for this many more rows.
     pub fn reserve(&mut self, rows: usize) {
         for column in &mut self.columns {
             column.values.reserve(rows);

@@ -1,14 +1,15 @@
-//! States of a run as files that ParaView opens.
+//! States of a run as files for ParaView.
 
 mod cell;
-mod error;
 mod file;
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
+
+use thiserror::Error;
 
 use crate::element::handle::Node;
 use crate::run::simulation::Simulation;
@@ -16,7 +17,6 @@ use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use cell::{Cell, SCALARS, TENSORS, cells};
 use eem_material::number::scalar::Real;
-use error::{SeriesError, at};
 use file::Grid;
 
 /// Writes states of a run for ParaView: one `.vtu` file per time, and a `.pvd` file that lists them. Open the
@@ -50,11 +50,11 @@ pub struct VtkSeries<const D: usize> {
     folder: PathBuf,
     name: String,
     nodes: Vec<Node>,
-    /// Where the scene has them, m.
+    /// Their positions in the scene, m.
     reference: Vec<[f64; 3]>,
     cells: Vec<Cell>,
     times: Vec<f64>,
-    /// Whether it is known that no other series has the files.
+    /// Whether the files are reserved for this series.
     has_claimed: bool,
 }
 
@@ -69,13 +69,13 @@ impl<const D: usize> VtkSeries<D> {
         const {
             assert!(D <= 3, "ParaView shows at most three dimensions");
         }
-        let positions = scene.nodes.iter();
+        let positions = scene.nodes.iter().map(|node| node.position);
         Self {
             folder: folder.into(),
             name: name.into(),
             nodes: (0..scene.nodes.len()).map(|at| scene.node_at(at)).collect(),
             reference: positions
-                .map(|node| in_space(node.position.as_slice()))
+                .map(|position| in_space(position.as_slice()))
                 .collect(),
             cells: cells(scene),
             times: Vec::new(),
@@ -121,7 +121,7 @@ impl<const D: usize> VtkSeries<D> {
         fs::write(&file, list).map_err(at(&file))
     }
 
-    /// An error unless files can have the name, and a simulation has what the scene had.
+    /// An error unless the name is valid, and the simulation has as many nodes and elements as the scene.
     fn check<S: Real>(&self, run: &Simulation<D, S>) -> Result<(), SeriesError> {
         if self.name.is_empty() || self.name.contains(['/', '\\']) {
             return Err(SeriesError::Name(self.name.clone()));
@@ -135,7 +135,7 @@ impl<const D: usize> VtkSeries<D> {
         Ok(())
     }
 
-    /// Notes that the files are those of this series, unless they are those of another one.
+    /// Reserves the files for this series.
     fn claim(&mut self) -> io::Result<()> {
         static TAKEN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
         if self.has_claimed {
@@ -158,7 +158,7 @@ impl<const D: usize> VtkSeries<D> {
         format!("{}_{index:05}.vtu", self.name)
     }
 
-    /// What is in a state.
+    /// The grid with all values of a state.
     fn grid<S: Real>(&self, run: &Simulation<D, S>) -> Result<Grid, SceneError> {
         let mut grid = Grid::new(self.cells.iter().map(|cell| (cell.kind, &cell.nodes[..])));
         let mut moved = Vec::with_capacity(self.nodes.len());
@@ -191,11 +191,48 @@ impl<const D: usize> VtkSeries<D> {
     }
 }
 
-/// A vector of a space of at most three dimensions, in three.
+/// A vector in three dimensions.
 fn in_space<S: Real>(vector: &[S]) -> [f64; 3] {
-    let mut all = [0.0; 3];
-    for (component, value) in all.iter_mut().zip(vector) {
-        *component = value.to_f64();
+    core::array::from_fn(|axis| vector.get(axis).map_or(0.0, |value| value.to_f64()))
+}
+
+/// Why a state cannot be written, within an [`io::Error`] of the kind [`InvalidInput`](io::ErrorKind::InvalidInput).
+#[derive(Debug, Error)]
+enum SeriesError {
+    /// The name is invalid for a file.
+    #[error(
+        "`{0}` is no name of a series: it begins the names of files, so that it must not be empty and has neither `/` nor `\\`; the folder is given apart from it"
+    )]
+    Name(String),
+    /// Another series of the program has these files.
+    #[error(
+        "`{list}` is already that of another series of this program: give each series a name or a folder of its own",
+        list = .0.display()
+    )]
+    Taken(PathBuf),
+    /// The scene had other counts when the series was made.
+    #[error(
+        "the series has {series_nodes} nodes and {series_elements} elements, and the simulation {run_nodes} and {run_elements}: make the series when everything is in the scene",
+        series_nodes = series[0], series_elements = series[1], run_nodes = run[0], run_elements = run[1]
+    )]
+    OtherCounts {
+        /// Nodes and elements.
+        series: [usize; 2],
+        /// Nodes and elements.
+        run: [usize; 2],
+    },
+    /// The simulation is of another scene.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+}
+
+impl From<SeriesError> for io::Error {
+    fn from(error: SeriesError) -> Self {
+        Self::new(io::ErrorKind::InvalidInput, error)
     }
-    all
+}
+
+/// An error of a file or a folder, with its path.
+fn at(path: &Path) -> impl Fn(io::Error) -> io::Error + '_ {
+    |error| io::Error::new(error.kind(), format!("`{}`: {error}", path.display()))
 }

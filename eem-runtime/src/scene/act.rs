@@ -1,15 +1,15 @@
-//! What acts on a scene from outside.
+//! Loads, supports and thermostats.
 
 use std::sync::Arc;
 
 use nalgebra::SVector;
 
 use super::Scene;
+use super::entry::infinite;
 use crate::element::handle::{Element, Node};
 use crate::element::loads::PushLine;
-use crate::scene::error::SceneError;
+use crate::scene::error::{RocketError, SceneError};
 use crate::scene::loads::Rocket;
-use crate::scene::rocket_error::RocketError;
 use eem_material::number::scalar::Real;
 
 /// # Loads, supports and thermostats
@@ -22,12 +22,10 @@ impl<const D: usize, S: Real> Scene<D, S> {
 
     /// A constant force on a mass, N. The ledger counts its work.
     pub fn dead_load(&mut self, node: Node, force: [S; D]) {
-        if let Some(axis) = force.iter().position(|component| !component.is_finite()) {
-            let value = force[axis].to_f64();
-            self.misuse.push(SceneError::DeadLoad { node, axis, value });
-            return;
+        match infinite(&force).next() {
+            Some((axis, value)) => self.refuse(SceneError::DeadLoad { node, axis, value }),
+            None => self.force(node, move |_| force),
         }
-        self.force(node, move |_| force);
     }
 
     /// A force on a mass as a function of time, N of s. The ledger counts its work.
@@ -53,17 +51,14 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// and trapezoidal rules.
     ///
     /// ```
+    /// use eem::materials::Hooke;
     /// use eem::prelude::*;
-    ///
-    /// #[derive(FreeEnergy)]
-    /// #[free_energy(|lambda: Stretch| 0.5 * k * (lambda - 2.0).powi(2))]
-    /// struct Rod { k: f64 }
     ///
     /// // A rod of 2 m that is pushed at its end, along itself.
     /// let mut scene = Scene::<2>::new();
     /// let tail = scene.mass(1.0, [0.0, 0.0], [0.0, 0.0]);
     /// let head = scene.mass(1.0, [0.0, 2.0], [0.0, 0.0]);
-    /// scene.spring(Rod { k: 1e4 }, [tail, head]);
+    /// scene.spring(Hooke { stiffness: 1e4, natural_length: 2.0 }, [tail, head]);
     /// scene.rocket(tail, [tail, head], |_| 3.0);
     ///
     /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
@@ -83,8 +78,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             & self.expect_own(&tail)
             & self.expect_own(&head);
         if own && tail == head {
-            let misuse = RocketError::NoLine { node, end: tail };
-            self.misuse.push(misuse.into());
+            self.refuse(RocketError::NoLine { node, end: tail });
         } else if own {
             let line = PushLine { node, tail, head };
             let thrust = Arc::new(thrust);
@@ -132,9 +126,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
         temperature: impl Fn(S) -> S + Send + Sync + 'static,
     ) {
         if self.expect_own(&element) {
-            self.loads
-                .temperatures
-                .push((element, Arc::new(temperature)));
+            let temperature = Arc::new(temperature);
+            self.loads.temperatures.push((element, temperature));
         }
     }
 
@@ -165,20 +158,18 @@ impl<const D: usize, S: Real> Scene<D, S> {
         self.prescribe_temperature(element, move |_| temperature);
     }
 
-    /// Whether a node is of this scene and a mass or an anchor; if not, that is noted as misuse.
-    fn expect_kind(&mut self, node: Node, mass: bool, quantity: &'static str) -> bool {
+    /// Whether a node is of this scene, and a mass or an anchor as required; if not, that is an error.
+    pub(super) fn expect_kind(&mut self, node: Node, mass: bool, quantity: &'static str) -> bool {
         if !self.expect_own(&node) {
             return false;
         }
         let is_mass = self.nodes[node.index].mass.is_some();
         if is_mass != mass {
-            let kind = if is_mass { "a mass" } else { "an anchor" };
-            let misuse = SceneError::WrongKind {
+            self.refuse(SceneError::WrongKind {
                 node,
                 quantity,
-                kind,
-            };
-            self.misuse.push(misuse);
+                kind: if is_mass { "a mass" } else { "an anchor" },
+            });
         }
         is_mass == mass
     }

@@ -1,4 +1,4 @@
-//! Heat in solids, between them, and through their surface.
+//! Heat conduction in solids, between them, and through their surface.
 
 use std::collections::BTreeMap;
 
@@ -55,39 +55,38 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// [`Simulation::new`](crate::Simulation::new) returns [`SolidError::NoSharedFace`] or
     /// [`SolidError::NoConductivity`].
     pub fn conduct_between<H: Shape<D>>(&mut self, first: &Body<H, D>, second: &Body<H, D>) {
-        let elements = [first, second].map(|body| body.points()[0]);
+        let elements = [first.first(), second.first()];
         if !elements.iter().all(|element| self.expect_own(element)) {
             return;
         }
-        if elements[0] == elements[1] {
-            let [element, _] = elements;
-            self.misuse.push(SceneError::SelfConduction { element });
-            return;
+        let [element, other] = elements;
+        if element == other {
+            return self.refuse(SceneError::SelfConduction { element });
         }
-        let [Some(one), Some(other)] = [first, second].map(Body::conductivity) else {
-            for (body, element) in [first, second].into_iter().zip(elements) {
-                if body.conductivity().is_none() {
-                    self.misuse
-                        .push(SolidError::NoConductivity { element }.into());
-                }
+        let bodies = [first, second];
+        let Some([one, other]) = first
+            .conductivity
+            .zip(second.conductivity)
+            .map(<[f64; 2]>::from)
+        else {
+            for body in bodies
+                .into_iter()
+                .filter(|body| body.conductivity.is_none())
+            {
+                let element = body.first();
+                self.refuse(SolidError::NoConductivity { element });
             }
             return;
         };
         let sides = shared_sides(first, second);
         if sides.is_empty() {
-            self.misuse
-                .push(SolidError::NoSharedFace { elements }.into());
+            self.refuse(SolidError::NoSharedFace { elements });
         }
         for [near, far] in sides {
-            let pairs = facing(
-                first.mesh().sub_faces_of(near),
-                &second.mesh().sub_faces_of(far),
-            );
-            for [a, b] in pairs {
-                let [t_a, t_b] = [
-                    one * first.thickness() * a.reach,
-                    other * second.thickness() * b.reach,
-                ];
+            let near = first.mesh().sub_faces_of(near);
+            for [a, b] in facing(near, &second.mesh().sub_faces_of(far)) {
+                let t_a = one * first.thickness * a.reach;
+                let t_b = other * second.thickness * b.reach;
                 let [a, b] = [first.points()[a.point], second.points()[b.point]];
                 self.conduct(a, b, S::from_f64(t_a * t_b / (t_a + t_b)));
             }
@@ -140,9 +139,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
         film: S,
     ) {
         if !is_positive(film) {
-            let quantity = ("film coefficient", film.to_f64(), "W/(m^2 K)");
-            self.misuse.push(not_positive(body, quantity).into());
-            return;
+            let error = SolidError::section(body.first(), "film coefficient", film, "W/(m^2 K)");
+            return self.refuse(error);
         }
         self.connect(body, face, reservoir, |area, reach| {
             (film * area * reach) / (film * area + reach)
@@ -189,6 +187,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         self.connect(body, face, reservoir, |_, reach| reach);
     }
 
+    /// Conducts heat between a face and a reservoir, with the conductance of each point from its area and `t`.
     fn connect<H: Shape<D>>(
         &mut self,
         body: &Body<H, D>,
@@ -196,63 +195,46 @@ impl<const D: usize, S: Real> Scene<D, S> {
         reservoir: Reservoir,
         conductance: impl Fn(S, S) -> S,
     ) {
-        let element = body.points()[0];
-        let Some(conductivity) = body.conductivity() else {
-            self.misuse
-                .push(SolidError::NoConductivity { element }.into());
-            return;
+        let element = body.first();
+        let Some(conductivity) = body.conductivity else {
+            return self.refuse(SolidError::NoConductivity { element });
         };
         if !body.mesh().has(face) {
-            self.misuse.push(SolidError::ForeignFace { element }.into());
-            return;
+            return self.refuse(SolidError::ForeignFace { element });
         }
         for face in body.mesh().outside(face) {
-            let [area, reach] = [face.area, face.reach].map(|size| body.thickness() * size);
+            let [area, reach] = [face.area, face.reach].map(|size| body.thickness * size);
             let reach = S::from_f64(conductivity * reach);
             let conductance = conductance(S::from_f64(area), reach);
             self.conduct(body.points()[face.point], reservoir, conductance);
         }
     }
 
-    /// Paths of heat between the points of a solid, unless its cells are too skew for them.
+    /// Conducts heat between the points of a solid; an error if its cells are too skew.
     pub(super) fn conduct_in<H: Shape<D>>(&mut self, body: &Body<H, D>, allow_skew_cells: bool) {
-        let Some(conductivity) = body.conductivity() else {
+        let element = body.first();
+        let Some(conductivity) = body.conductivity else {
             return;
         };
-        if !(conductivity > 0.0 && conductivity.is_finite()) {
-            let quantity = ("conductivity", conductivity, "W/(m K)");
-            self.misuse.push(not_positive(body, quantity).into());
-            return;
+        if !is_positive(conductivity) {
+            let error = SolidError::section(element, "conductivity", conductivity, "W/(m K)");
+            return self.refuse(error);
         }
         let (links, skewness) = body.mesh().network();
         if skewness.is_too_much() && !allow_skew_cells {
-            let skew = SolidError::SkewCells {
-                element: body.points()[0],
+            self.refuse(SolidError::SkewCells {
+                element,
                 skew: skewness.skew,
                 faces: skewness.faces,
                 cosine: skewness.cosine,
                 cell: skewness.cell,
-            };
-            self.misuse.push(skew.into());
+            });
         }
         for (pair, reach) in links {
             let [first, second] = pair.map(|point| body.points()[point]);
-            let conductance = S::from_f64(conductivity * body.thickness() * reach);
+            let conductance = S::from_f64(conductivity * body.thickness * reach);
             self.conduct(first, second, conductance);
         }
-    }
-}
-
-/// What to say of a quantity of a solid, its value and its unit.
-fn not_positive<H: Shape<D>, const D: usize>(
-    body: &Body<H, D>,
-    (quantity, value, unit): (&'static str, f64, &'static str),
-) -> SolidError {
-    SolidError::Section {
-        element: body.points()[0],
-        quantity,
-        value,
-        unit,
     }
 }
 
@@ -270,6 +252,6 @@ fn shared_sides<H: Shape<D>, const D: usize>(
     let far = second.mesh().surface().into_iter();
     let far: BTreeMap<Vec<usize>, [usize; 2]> = far.map(|side| (key(second, side), side)).collect();
     let near = first.mesh().surface().into_iter();
-    near.filter_map(|side| Some([side, *far.get(&key(first, side))?]))
-        .collect()
+    let pairs = near.filter_map(|side| Some([side, *far.get(&key(first, side))?]));
+    pairs.collect()
 }

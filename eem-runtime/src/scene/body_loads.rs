@@ -1,4 +1,4 @@
-//! What acts on solids: tractions and body forces.
+//! Loads of solids: tractions and body forces.
 
 use std::sync::Arc;
 
@@ -43,13 +43,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
         traction: impl Fn(S) -> [S; D] + Send + Sync + 'static,
     ) {
         if !body.mesh().has(face) {
-            let element = body.points()[0];
-            self.misuse.push(SolidError::ForeignFace { element }.into());
-            return;
+            let element = body.first();
+            return self.refuse(SolidError::ForeignFace { element });
         }
-        let thickness = body.thickness();
         let shares = body.mesh().areas(face).into_iter();
-        let shares = shares.map(|(node, area)| (body.nodes()[node], thickness * area));
+        let shares = shares.map(|(node, area)| (body.nodes()[node], body.thickness * area));
         self.distribute(shares.collect(), &(Arc::new(traction) as _));
     }
 
@@ -79,12 +77,12 @@ impl<const D: usize, S: Real> Scene<D, S> {
         body: &Body<H, D>,
         force: impl Fn(S) -> [S; D] + Send + Sync + 'static,
     ) {
-        let thickness = body.thickness();
         let shares = body.nodes().iter().zip(body.mesh().volumes());
-        let shares = shares.map(|(&node, volume)| (node, thickness * volume));
+        let shares = shares.map(|(&node, volume)| (node, body.thickness * volume));
         self.distribute(shares.collect(), &(Arc::new(force) as _));
     }
 
+    /// Loads the nodes, except anchors, with their shares of the area or volume.
     fn distribute(&mut self, shares: Vec<(Node, f64)>, density: &Density<S, D>) {
         for (node, share) in shares {
             let own = self.expect_own(&node);

@@ -1,4 +1,4 @@
-//! What a solid is besides its material and its mesh.
+//! The properties of a solid besides its material and mesh.
 
 use crate::element::kinematics::Shape;
 use crate::scene::body::Body;

@@ -1,4 +1,4 @@
-//! Cells of solids of any shape: their points, and the mass that they give to their nodes.
+//! Cells of solids: their integration points, and their mass at the nodes.
 
 use super::Scene;
 use crate::element::group::LooseElements;
@@ -14,7 +14,7 @@ use eem_material::free_energy::{Array, FreeEnergy};
 use eem_material::number::scalar::{Mask, Real, is_positive};
 use eem_material::point_energy::PointEnergy;
 
-/// What a cell is besides its material and its nodes.
+/// The properties of a cell besides its material and nodes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stuff<'a, S, const D: usize> {
     /// kg/m³.
@@ -23,14 +23,14 @@ pub(super) struct Stuff<'a, S, const D: usize> {
     pub(super) thickness: S,
     /// The directions of the fibres.
     pub(super) fibres: &'a [[S; D]],
-    /// Whether each node has a mass of its own.
+    /// Whether masses do not couple nodes.
     pub(super) lumped: bool,
-    /// Whether it has been noted that something is wrong with it.
+    /// Whether it is invalid, which is already an error.
     pub(super) is_refused: bool,
 }
 
 impl<S: Real, const D: usize> Scene<D, S> {
-    /// Adds a cell, whose nodes are where they are now; its points. What is wrong with it becomes misuse.
+    /// Adds a cell in the present positions of its nodes; returns its points. Errors are recorded for `Simulation::new`.
     pub(super) fn push_cell<H, M, const N: usize>(
         &mut self,
         model: &M,
@@ -63,7 +63,7 @@ impl<S: Real, const D: usize> Scene<D, S> {
                 set.elements.push((first, parts));
                 [group, place]
             }
-            // Handles have to mean something until the scene is checked.
+            // The handles must be valid until the scene is checked.
             Err(misuse) => {
                 self.misuse.extend(misuse);
                 [UNMADE, 0]
@@ -75,7 +75,7 @@ impl<S: Real, const D: usize> Scene<D, S> {
         points
     }
 
-    /// The points of a cell, whose mass goes to its nodes.
+    /// The points of a cell, whose mass is added to its nodes; an error unless one is already recorded.
     fn expect_cell<H: Shape<D>, const N: usize>(
         &mut self,
         nodes: &H::PerNode<Node>,
@@ -128,7 +128,7 @@ impl<S: Real, const D: usize> Scene<D, S> {
         for (a, row) in masses.as_ref().iter().enumerate() {
             let entry = &mut self.nodes[nodes[a].index];
             let mass = entry.mass.as_mut().unwrap_or(&mut entry.held);
-            // That of the node itself, if it is not zero, as that of the solids is positive.
+            // A negative mass is that of the node itself, as masses of solids are positive.
             if mass.less(S::zero()).any() {
                 let (node, value) = (nodes[a], mass.to_f64());
                 self.misuse.push(SceneError::Mass { node, value });
@@ -143,37 +143,23 @@ impl<S: Real, const D: usize> Scene<D, S> {
 }
 
 impl<S: Real, const D: usize> Stuff<'_, S, D> {
-    /// An error unless density and thickness are positive.
-    fn check(&self, element: Element) -> Result<(), SolidError> {
+    /// The measures of a material along the fibres; an error if the solid with this first point is invalid.
+    pub(super) fn measures<const N: usize>(
+        &self,
+        strains: [Strain; N],
+        element: Element,
+    ) -> Result<[Measure<S, D>; N], SolidError> {
         let numbers = [
             ("density", self.density, "kg/m^3"),
             ("thickness", self.thickness, "m"),
         ];
         for (quantity, value, unit) in numbers {
             if !is_positive(value) {
-                return Err(SolidError::Section {
-                    element,
-                    quantity,
-                    value: value.to_f64(),
-                    unit,
-                });
+                return Err(SolidError::section(element, quantity, value, unit));
             }
         }
-        Ok(())
-    }
-
-    /// The measures of a material along the fibres; an error if something is wrong with the solid whose first point
-    /// the element is.
-    pub(super) fn measures<const N: usize>(
-        &self,
-        strains: [Strain; N],
-        element: Element,
-    ) -> Result<[Measure<S, D>; N], SolidError> {
-        self.check(element)?;
-        let needed = strains
-            .iter()
-            .filter(|&&strain| strain == Strain::Fibre)
-            .count();
+        let is_fibre = |strain: &&Strain| **strain == Strain::Fibre;
+        let needed = strains.iter().filter(is_fibre).count();
         let given = self.fibres.len();
         if needed != given {
             return Err(SolidError::Fibres {

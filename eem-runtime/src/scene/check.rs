@@ -1,23 +1,21 @@
-//! The rules that a scene must satisfy, one function per rule.
+//! The rules for a scene.
 
 use std::collections::BTreeSet;
 
 use super::Scene;
 use crate::element::error::StateError;
-use crate::element::handle::{Element, HeatPartner, Node, Reservoir};
+use crate::element::handle::{Element, HeatPartner, Node};
 use crate::element::layout::Shape;
 use crate::element::loads::PushLine;
-use crate::scene::entry::{ElementEntry, NodeEntry, UNMADE};
-use crate::scene::error::SceneError;
-use crate::scene::rocket_error::RocketError;
+use crate::scene::entry::{ElementEntry, NodeEntry, UNMADE, infinite};
+use crate::scene::error::{RocketError, SceneError};
 use eem_material::number::scalar::{Mask, Real, is_positive};
 
 impl<const D: usize, S: Real> Scene<D, S> {
-    /// Everything that is wrong with the description; what can only be said of numbers that are right by themselves,
-    /// if they are.
+    /// All errors; those of the initial state only if all numbers are valid by themselves.
     pub(crate) fn check(&self) -> Vec<SceneError> {
         let mut errors = self.misuse.clone();
-        // What follows from a solid that could not be made is nothing of its own.
+        // Nodes of an invalid solid are not checked: their errors would follow from its own.
         let unmade = self.elements.iter();
         let unmade = unmade.filter(|entry| entry.group == UNMADE);
         let unmade: BTreeSet<_> = unmade.flat_map(|entry| &entry.nodes).collect();
@@ -26,10 +24,23 @@ impl<const D: usize, S: Real> Scene<D, S> {
                 check_node(self.node_at(index), entry, &mut errors);
             }
         }
-        self.check_solids(&mut errors);
+        let coupled: BTreeSet<_> = self.pairs.iter().flat_map(|&(nodes, _)| nodes).collect();
+        for index in coupled {
+            if self.nodes[index].momentum.is_some() {
+                errors.push(SceneError::NodeOfSolid {
+                    node: self.node_at(index),
+                    quantity: "a momentum",
+                    instead: "give its velocity",
+                });
+            }
+        }
         for (index, &temperature) in self.reservoirs.iter().enumerate() {
-            let reservoir = self.reservoir_at(index);
-            errors.extend(check_reservoir(reservoir, temperature).err());
+            if !is_positive(temperature) {
+                errors.push(SceneError::ReservoirTemperature {
+                    reservoir: self.reservoir_at(index),
+                    value: temperature.to_f64(),
+                });
+            }
         }
         for (index, entry) in self.elements.iter().enumerate() {
             let Some(group) = self.groups.get(entry.group) else {
@@ -54,38 +65,24 @@ impl<const D: usize, S: Real> Scene<D, S> {
         errors
     }
 
-    /// Nodes of solids have velocities.
-    fn check_solids(&self, errors: &mut Vec<SceneError>) {
-        let coupled: BTreeSet<_> = self.pairs.iter().flat_map(|&(nodes, _)| nodes).collect();
-        for &index in &coupled {
-            if self.nodes[index].momentum.is_some() {
-                errors.push(SceneError::NodeOfSolid {
-                    node: self.node_at(index),
-                    quantity: "a momentum",
-                    instead: "give its velocity",
-                });
-            }
-        }
-    }
-
     fn check_loads(&self, errors: &mut Vec<SceneError>) {
-        for (axis, component) in self.loads.gravity.iter().enumerate() {
-            if !component.is_finite() {
-                let value = component.to_f64();
-                errors.push(SceneError::Gravity { axis, value });
-            }
-        }
+        let gravity = infinite(self.loads.gravity.as_slice());
+        errors.extend(gravity.map(|(axis, value)| SceneError::Gravity { axis, value }));
+        let twice = |handle: &dyn core::fmt::Display, quantity| SceneError::PrescribedTwice {
+            handle: handle.to_string(),
+            quantity,
+        };
         let mut prescribed = BTreeSet::new();
         for (element, _) in &self.loads.temperatures {
             self.check_thermal(*element, errors);
             if !prescribed.insert(element.index()) {
-                errors.push(prescribed_twice(element, "the temperature"));
+                errors.push(twice(element, "the temperature"));
             }
         }
         let mut moved = BTreeSet::new();
         for (anchor, _) in &self.loads.motions {
             if !moved.insert(anchor.index) {
-                errors.push(prescribed_twice(anchor, "the motion"));
+                errors.push(twice(anchor, "the motion"));
             }
         }
     }
@@ -134,22 +131,15 @@ impl<const D: usize, S: Real> Scene<D, S> {
     }
 }
 
-fn prescribed_twice(handle: &dyn core::fmt::Display, quantity: &'static str) -> SceneError {
-    let handle = handle.to_string();
-    SceneError::PrescribedTwice { handle, quantity }
-}
-
 fn check_node<S: Real, const D: usize>(
     node: Node,
     entry: &NodeEntry<S, D>,
     errors: &mut Vec<SceneError>,
 ) {
     errors.extend(check_position(node, entry).err());
-    for (axis, velocity) in entry.velocity.iter().enumerate() {
-        if entry.momentum.is_none() && !velocity.is_finite() {
-            let value = velocity.to_f64();
-            errors.push(SceneError::Velocity { node, axis, value });
-        }
+    if entry.momentum.is_none() {
+        let velocity = infinite(entry.velocity.as_slice());
+        errors.extend(velocity.map(|(axis, value)| SceneError::Velocity { node, axis, value }));
     }
     if let Some(mass) = entry.mass.filter(|&mass| !is_positive(mass)) {
         let value = mass.to_f64();
@@ -157,29 +147,15 @@ fn check_node<S: Real, const D: usize>(
     }
 }
 
-/// An error unless a node is somewhere.
+/// An error unless the position of a node is finite.
 pub(super) fn check_position<S: Real, const D: usize>(
     node: Node,
     entry: &NodeEntry<S, D>,
 ) -> Result<(), SceneError> {
-    for axis in 0..D {
-        let position = entry.position[axis];
-        if !position.is_finite() {
-            let value = position.to_f64();
-            return Err(SceneError::Position { node, axis, value });
-        }
+    match infinite(entry.position.as_slice()).next() {
+        Some((axis, value)) => Err(SceneError::Position { node, axis, value }),
+        None => Ok(()),
     }
-    Ok(())
-}
-
-fn check_reservoir<S: Real>(reservoir: Reservoir, temperature: S) -> Result<(), SceneError> {
-    if is_positive(temperature) {
-        return Ok(());
-    }
-    Err(SceneError::ReservoirTemperature {
-        reservoir,
-        value: temperature.to_f64(),
-    })
 }
 
 fn check_element<S: Real>(
@@ -195,8 +171,7 @@ fn check_element<S: Real>(
                 dashpot,
                 dashpots: shape.dashpots,
             });
-        }
-        if dashpot < shape.dashpots && !stretch.is_finite() {
+        } else if !stretch.is_finite() {
             let error = StateError::ViscousStretch {
                 element,
                 dashpot,

@@ -1,8 +1,7 @@
-//! Meshes of solids: places of nodes, and cells of one shape between them.
+//! Meshes of solids: positions of nodes, and cells of one shape.
 
 mod boundary;
 mod check;
-mod digest;
 mod error;
 mod extruded;
 mod face;
@@ -10,11 +9,9 @@ mod geometry;
 mod grid;
 mod lattice;
 mod network;
-mod outline;
 mod polygon;
 mod shares;
 mod sides;
-mod skewness;
 mod sub_face;
 
 pub use error::MeshError;
@@ -22,7 +19,8 @@ pub use face::{Face, Outline};
 pub(crate) use geometry::distance;
 pub(crate) use sub_face::facing;
 
-use digest::Digest;
+use face::Digest;
+use geometry::mean;
 use nalgebra::{Rotation, SVector};
 
 use crate::element::kinematics::Shape;
@@ -163,10 +161,9 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     ///
     /// [`MeshError::Empty`] if there are no such cells.
     pub fn kept(&self, condition: impl Fn([f64; D]) -> bool) -> Result<Self, MeshError> {
-        let cells = self
-            .cells
-            .iter()
-            .filter(|cell| condition(self.centre(cell)));
+        let centre =
+            |cell: &H::PerNode<usize>| mean(cell.as_ref().iter().map(|&node| self.nodes[node]));
+        let cells = self.cells.iter().filter(|cell| condition(centre(cell)));
         let mut cells: Vec<_> = cells.copied().collect();
         let mut indices = vec![None; self.nodes.len()];
         let named = cells.iter().flat_map(AsRef::as_ref);
@@ -182,14 +179,5 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
             *node = indices[*node].unwrap_or(usize::MAX);
         }
         Self::new(nodes, cells)
-    }
-
-    /// The mean of the nodes of a cell, m.
-    fn centre(&self, cell: &H::PerNode<usize>) -> [f64; D] {
-        let sum = cell.as_ref().iter().fold([0.0; D], |sum, &node| {
-            core::array::from_fn(|axis| sum[axis] + self.nodes[node][axis])
-        });
-        let count = cell.as_ref().iter().fold(0.0, |count, _| count + 1.0);
-        sum.map(|sum| sum / count)
     }
 }

@@ -2,8 +2,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use nalgebra::SVector;
-
 use super::Scene;
 use crate::element::handle::{Element, Node};
 use crate::element::kinematics::{Points, Shape, StrainEnergy};
@@ -35,11 +33,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// #[free_energy(|e1: StrainTrace, e2: StrainSquare, e4: FibreStrain| {
     ///     0.5 * lame * e1.powi(2) + shear * e2 + 0.5 * fibre * e4.powi(2)
     /// })]
-    /// struct Reinforced {
-    ///     lame: f64,
-    ///     shear: f64,
-    ///     fibre: f64,
-    /// }
+    /// struct Reinforced { lame: f64, shear: f64, fibre: f64 }
     ///
     /// let mut scene = Scene::<3>::new();
     /// let rubber = Reinforced { lame: 2000.0, shear: 1000.0, fibre: 500.0 };
@@ -77,17 +71,14 @@ impl<const D: usize, S: Real> Scene<D, S> {
             lumped: bulk.lumped,
             is_refused: false,
         };
-        // Once, and not for every cell.
+        // One error for the solid, not one per cell.
         if let Err(error) = stuff.measures(M::STRAINS, first) {
-            self.misuse.push(error.into());
+            self.refuse(error);
             stuff.is_refused = true;
         }
-        let mut conductivity = bulk.conductivity;
-        if conductivity.is_some() && !M::THERMAL {
-            let element = first;
-            self.misuse
-                .push(SolidError::NoTemperature { element }.into());
-            conductivity = None;
+        let conductivity = bulk.conductivity.filter(|_| M::THERMAL);
+        if conductivity.is_some() != bulk.conductivity.is_some() {
+            self.refuse(SolidError::NoTemperature { element: first });
         }
         let mut points = Vec::with_capacity(mesh.cells().len() * H::PerPoint::<Element>::LEN);
         for cell in mesh.cells() {
@@ -108,8 +99,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
         body
     }
 
-    /// The nodes of a mesh whose first point is `element`: new ones, and those of solids to which it is joined. What is
-    /// wrong with those becomes misuse, and they are new as well.
+    /// The nodes of a mesh whose first point is `element`: new ones, and those of solids to which it is joined. If a joint
+    /// is invalid, that is an error, and all are new.
     fn nodes_of_mesh<H: Shape<D>>(
         &mut self,
         mesh: &Mesh<H, D>,
@@ -122,7 +113,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             Ok(shared)
         });
         let shared = shared.unwrap_or_else(|error| {
-            self.misuse.push(error.into());
+            self.refuse(error);
             vec![None; mesh.nodes().len()]
         });
         let places = mesh.nodes().iter().zip(shared);
@@ -133,7 +124,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         nodes.collect()
     }
 
-    /// An error if a cell has all its nodes in common with one that there is.
+    /// An error if a cell has all its nodes in common with an existing one.
     fn check_joined_cells<H: Shape<D>>(
         &self,
         mesh: &Mesh<H, D>,
@@ -142,10 +133,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
     ) -> Result<(), SolidError> {
         let mut joined = BTreeMap::new();
         for (cell, nodes) in mesh.cells().iter().enumerate() {
-            let nodes = nodes.as_ref().iter();
-            let nodes: Option<BTreeSet<usize>> = nodes
-                .map(|&node| shared[node].map(|shared| shared.node.index))
-                .collect();
+            let nodes = nodes
+                .as_ref()
+                .iter()
+                .map(|&node| Some(shared[node]?.node.index));
+            let nodes: Option<BTreeSet<usize>> = nodes.collect();
             joined.extend(nodes.map(|nodes| (nodes, cell)));
         }
         if joined.is_empty() {
@@ -183,17 +175,9 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn set_velocity(&mut self, node: Node, velocity: [S; D]) {
-        if self.expect_own(&node) {
+        if self.expect_kind(node, true, "a velocity") {
             let entry = &mut self.nodes[node.index];
-            if entry.mass.is_none() {
-                self.misuse.push(SceneError::WrongKind {
-                    node,
-                    quantity: "a velocity",
-                    kind: "an anchor",
-                });
-                return;
-            }
-            entry.velocity = SVector::from(velocity);
+            entry.velocity = velocity.into();
             entry.momentum = None;
         }
     }
@@ -231,7 +215,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             let is_loaded = loads.forces.iter().any(|&(loaded, _)| loaded == node);
             let given = [(is_pushed, "a rocket"), (is_loaded, "a force")];
             for (_, quantity) in given.into_iter().filter(|&(is_given, _)| is_given) {
-                self.misuse.push(SceneError::WrongKind {
+                self.refuse(SceneError::WrongKind {
                     node,
                     quantity,
                     kind: "fixed later; fix nodes before faces and bodies are loaded, which leaves them out",
@@ -240,7 +224,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             let entry = &mut self.nodes[node.index];
             entry.held += entry.mass.take().unwrap_or(S::zero());
             entry.momentum = None;
-            entry.velocity = SVector::from([S::zero(); D]);
+            entry.velocity = [S::zero(); D].into();
         }
     }
 }

@@ -44,20 +44,13 @@ impl<S: Real> Scene<2, S> {
     /// anchors.
     ///
     /// ```
+    /// use eem::materials::SaintVenantKirchhoff;
     /// use eem::prelude::*;
-    ///
-    /// /// Saint-Venant and Kirchhoff.
-    /// #[derive(Clone, FreeEnergy)]
-    /// #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * lame * e1.powi(2) + shear * e2)]
-    /// struct Elastic {
-    ///     lame: f64,
-    ///     shear: f64,
-    /// }
     ///
     /// let mut scene = Scene::<2>::new();
     /// let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [0.0, 1.0]];
     /// let nodes = corners.map(|corner| scene.node(corner, [-corner[1], corner[0]]));
-    /// let steel = Elastic { lame: 2000.0, shear: 1000.0 };
+    /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
     /// let section = Section { density: 10.0, thickness: 1.0 };
     /// scene.quadrilateral(steel, nodes, section);
     ///

@@ -1,15 +1,15 @@
-//! The rules of the initial state: products of the user's numbers are finite, and what is
-//! prescribed begins where the scene does.
+//! The rules for the initial state: products of the user's numbers are finite, and prescribed motions and temperatures
+//! begin at the initial values.
 
 use super::Scene;
 use crate::element::handle::{Element, HeatPartner, Node};
-use crate::scene::entry::NodeEntry;
+use crate::scene::entry::{NodeEntry, infinite};
 use crate::scene::error::SceneError;
 use crate::scene::loads::{MOTION_ROUNDINGS, extent};
 use eem_material::number::scalar::{Mask, Real};
 
 impl<const D: usize, S: Real> Scene<D, S> {
-    /// Products that are not finite, and jumps at t = 0. All single numbers have been checked.
+    /// Products that are not finite, and jumps at t = 0. All numbers are valid by themselves.
     pub(super) fn check_start(&self, errors: &mut Vec<SceneError>) {
         for (index, entry) in self.nodes.iter().enumerate() {
             errors.extend(self.check_products(self.node_at(index), entry).err());
@@ -25,16 +25,14 @@ impl<const D: usize, S: Real> Scene<D, S> {
             return Ok(());
         };
         let momentum = entry.start_momentum(mass);
-        if let Some(axis) = (0..D).find(|&axis| !momentum[axis].is_finite()) {
-            let value = momentum[axis].to_f64();
+        if let Some((axis, value)) = infinite(momentum.as_slice()).next() {
             return Err(SceneError::Momentum { node, axis, value });
         }
         let components = momentum.iter();
         let energy = components.fold(S::zero(), |sum, &p| sum + p * p / (mass + mass));
         if !energy.is_finite() {
-            let momentum = momentum
-                .iter()
-                .fold(S::zero(), |length, &p| length.hypot(p));
+            let components = momentum.iter();
+            let momentum = components.fold(S::zero(), |length, &p| length.hypot(p));
             return Err(SceneError::KineticEnergy {
                 node,
                 value: energy.to_f64(),
@@ -43,17 +41,13 @@ impl<const D: usize, S: Real> Scene<D, S> {
             });
         }
         let weight = self.loads.gravity.map(|component| mass * component);
-        match (0..D).find(|&axis| !weight[axis].is_finite()) {
+        match infinite(weight.as_slice()).next() {
             None => Ok(()),
-            Some(axis) => Err(SceneError::Weight {
-                node,
-                axis,
-                value: weight[axis].to_f64(),
-            }),
+            Some((axis, value)) => Err(SceneError::Weight { node, axis, value }),
         }
     }
 
-    /// What flows along each path of heat, and along all paths to an element together.
+    /// The initial heat flow of each conductance, and the sum of all flows to an element.
     fn check_heat_flows(&self) -> Result<(), SceneError> {
         let temperature = |element: Element| self.elements[element.index()].temperature;
         let mut received = vec![S::zero(); self.elements.len()];
@@ -72,7 +66,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
                 received[end.index()] += flow.abs();
                 largest = largest.maximum(received[end.index()]);
             }
-            // The entropy is that of the colder end, the larger of the two.
+            // The flow of entropy at the colder end, which is the larger one.
             let entropy = flow / here.minimum(there);
             let flows = [
                 ("heat flow", flow, largest, "W"),
@@ -92,7 +86,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         Ok(())
     }
 
-    /// Moved anchors are where they were created.
+    /// Motions of anchors begin where the anchors were created.
     fn check_motions(&self, errors: &mut Vec<SceneError>) {
         let positions = self.nodes.iter().map(|node| &node.position);
         let scale = extent(positions.flat_map(|position| position.iter()));
@@ -130,7 +124,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     }
 }
 
-/// Whether a difference is a number and not more than rounding does to a function of this size.
+/// Whether rounding explains a difference from a function of this size. False for NaN.
 fn is_rounding<S: Real>(difference: S, size: S) -> bool {
     let bound = S::from_f64(MOTION_ROUNDINGS) * S::EPSILON * size;
     difference.abs().at_most(bound).all()

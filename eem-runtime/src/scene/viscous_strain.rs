@@ -1,4 +1,4 @@
-//! The viscous strain with which a solid starts.
+//! The initial viscous strain of a solid.
 
 use super::Scene;
 use crate::element::handle::Element;
@@ -38,31 +38,28 @@ impl<const D: usize, S: Real> Scene<D, S> {
         if !self.expect_own(&point) {
             return;
         }
-        let entry = &mut self.elements[point.index()];
-        // What could not be made has been noted.
+        let entry = &self.elements[point.index()];
+        // An invalid solid is already an error.
         let Some(group) = self.groups.get(entry.group) else {
             return;
         };
         let shape = group.shape();
-        let first = shape.scalar_dashpots();
         if shape.viscous_strain == 0 {
-            let error = SolidError::NoViscousStrain { element: point };
-            self.misuse.push(error.into());
+            self.refuse(SolidError::NoViscousStrain { element: point });
         }
-        if let Some(error) = misplaced(point, &strain, D == 2) {
-            self.misuse.push(error.into());
-            return;
+        if let Some(error) = invalid_shear(point, &strain, D == 2) {
+            return self.refuse(error);
         }
-        let components = components(&strain);
-        let components = components.iter().take(shape.viscous_strain);
-        let slots = (first..).zip(components.copied());
-        entry.viscous_stretches.extend(slots);
+        let components = components(&strain).into_iter().take(shape.viscous_strain);
+        let entry = &mut self.elements[point.index()];
+        entry
+            .viscous_stretches
+            .extend((shape.scalar_dashpots()..).zip(components));
     }
 }
 
-/// What keeps a tensor from being a viscous strain: both numbers of a shear are the same, and in plane strain none is
-/// between the plane and its normal.
-fn misplaced<S: Real>(
+/// The error of a tensor that is not symmetric or, in plane strain, has shear out of the plane.
+fn invalid_shear<S: Real>(
     element: Element,
     strain: &[[S; 3]; 3],
     is_plane: bool,

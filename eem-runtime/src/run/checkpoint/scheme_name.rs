@@ -1,4 +1,4 @@
-//! A scheme in a file is its name.
+//! Schemes are saved by name.
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serializer};

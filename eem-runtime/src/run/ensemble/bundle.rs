@@ -1,4 +1,4 @@
-//! One experiment on one member, or on several that move together.
+//! An experiment with one member, or with several in SIMD lanes.
 
 use core::slice;
 use core::sync::atomic::{AtomicBool, Ordering};
@@ -13,36 +13,24 @@ use crate::step::scheme::Scheme;
 use eem_material::number::lanes::Lanes;
 use eem_material::number::scalar::{Discord, Real};
 
-/// How members are stepped, and whether they can move together.
+/// How members are stepped, and whether they can be stepped in lanes.
 #[derive(Debug)]
 pub(super) struct Bundles {
-    scheme: Scheme,
-    step: f64,
-    newton: NewtonSettings<f64>,
-    /// Whether a scene has been found that cannot be stepped in lanes; the others are like it.
-    is_unsuited: AtomicBool,
+    pub(super) scheme: Scheme,
+    pub(super) step: f64,
+    pub(super) newton: NewtonSettings<f64>,
+    /// Whether a scene did not suit lanes; all scenes are alike in this.
+    pub(super) is_unsuited: AtomicBool,
 }
 
+/// The number of members that are stepped together.
+#[cfg(feature = "lanes")]
+pub(super) const SIZE: usize = Lanes::LANES;
+#[cfg(not(feature = "lanes"))]
+pub(super) const SIZE: usize = 1;
+
 impl Bundles {
-    /// With this scheme, time step and settings.
-    pub(super) fn new(scheme: Scheme, step: f64, newton: NewtonSettings<f64>) -> Self {
-        Self {
-            scheme,
-            step,
-            newton,
-            is_unsuited: AtomicBool::new(false),
-        }
-    }
-
-    /// How many members move together.
-    pub(super) const fn size() -> usize {
-        #[cfg(feature = "lanes")]
-        return Lanes::LANES;
-        #[cfg(not(feature = "lanes"))]
-        return 1;
-    }
-
-    /// The outcome of each of at most so many members.
+    /// The results of at most [`SIZE`] members.
     pub(super) fn run<const D: usize, E: Experiment<D>>(
         &self,
         experiment: &E,
@@ -52,10 +40,8 @@ impl Bundles {
         if let Some(outputs) = self.run_together(experiment, inputs) {
             return outputs.into_iter().map(Ok).collect();
         }
-        let inputs = inputs.iter();
-        inputs
-            .map(|input| self.run_one(experiment, input))
-            .collect()
+        let one = |input| self.run_one(experiment, input);
+        inputs.iter().map(one).collect()
     }
 
     fn run_one<const D: usize, E: Experiment<D>>(
@@ -68,8 +54,7 @@ impl Bundles {
         output.ok_or_else(|| MemberFailure::other("the experiment has no output"))
     }
 
-    /// The outputs of all members, moved together; nothing if one of them fails, or if they do not
-    /// go the same way.
+    /// The outputs of all members in lanes; `None` if one of them fails, or the lanes diverge.
     #[cfg(feature = "lanes")]
     fn run_together<const D: usize, E: Experiment<D>>(
         &self,
@@ -83,7 +68,6 @@ impl Bundles {
         outputs.filter(|outputs| outputs.len() == inputs.len())
     }
 
-    /// The experiment with numbers S.
     fn run_as<S: Real, const D: usize, E: Experiment<D>>(
         &self,
         experiment: &E,
@@ -103,7 +87,7 @@ impl Bundles {
         }
         let outputs = experiment.observe(&mut run, handles, members)?;
         if run.has_parted() {
-            // The experiment has gone on after an error.
+            // The experiment has ignored an error.
             return Err(Discord.into());
         }
         Ok(outputs.0)

@@ -1,4 +1,4 @@
-//! What can be recorded, and in how many columns.
+//! The quantities that can be recorded.
 
 use core::fmt;
 

@@ -1,4 +1,4 @@
-//! The equations of a scene in GENERIC form.
+//! The GENERIC form of a scene.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -8,7 +8,6 @@ use crate::element::conduction::Partner;
 use crate::element::group::{ElementGeneric, Elements};
 use crate::element::state::State;
 use crate::step::scheme::Scheme;
-use eem_material::number::compensated::Compensated;
 use eem_material::number::scalar::Real;
 
 /// The GENERIC form of a scene: the two gradients and the two matrices of `ż = L ∇E + M ∇S`.
@@ -38,25 +37,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// The state z of [`Generic`].
     #[must_use]
     pub fn generic_state(&self) -> DVector<S> {
-        let masses = self
-            .masses
-            .iter()
-            .enumerate()
-            .filter(|(_, mass)| mass.is_some());
-        let nodes = || {
-            masses
-                .clone()
-                .flat_map(|(node, _)| node * D..(node + 1) * D)
-        };
         let state = &self.state;
-        let of = |sums: &Compensated<S>| sums.values().to_vec();
-        let (q, p) = (state.positions.values(), state.momenta.values());
-        let mechanical = nodes().map(|at| q[at]).chain(nodes().map(|at| p[at]));
-        let internal = of(&state.viscous).into_iter().chain(of(&state.entropies));
-        let z = mechanical
-            .chain(internal)
-            .chain(of(&state.reservoir_entropies));
-        DVector::from_vec(z.collect())
+        let mut z = Vec::new();
+        for sums in [&state.positions, &state.momenta] {
+            let nodes = self.masses.iter().zip(sums.values().chunks_exact(D));
+            let of_masses = nodes.filter(|(mass, _)| mass.is_some());
+            z.extend(of_masses.flat_map(|(_, values)| values));
+        }
+        for sums in [&state.viscous, &state.entropies, &state.reservoir_entropies] {
+            z.extend_from_slice(sums.values());
+        }
+        DVector::from_vec(z)
     }
 
     /// Gradients and matrices at the present state.
@@ -64,9 +55,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.generic_and_elements().0
     }
 
-    /// The same with what the elements contribute to it.
+    /// The same with the contributions of the elements.
     pub(super) fn generic_and_elements(&mut self) -> (Generic<S>, Vec<ElementGeneric<S>>) {
-        // The elements look at another configuration than that of their last step.
+        // The elements are evaluated elsewhere than at the ends of their last step.
         self.has_stepped = false;
         let state = &self.state;
         let mut elements = Vec::new();
@@ -88,17 +79,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let Stepper::Newton(newton) = &self.stepper else {
             return None;
         };
-        let elements = newton.groups.iter();
-        let elements: Vec<_> = elements
+        let groups = newton.groups.iter();
+        let elements: Vec<_> = groups
             .flat_map(|group| group.generic_of_step(ends))
             .collect();
-        let half = S::from_f64(0.5);
-        let [old, new] = ends.map(|state| self.velocities_in(state));
-        let mean: Vec<_> = old
-            .iter()
-            .zip(&new)
-            .map(|(&old, &new)| half * (old + new))
-            .collect();
+        let [mut mean, new] = ends.map(|state| self.velocities_in(state));
+        for (mean, new) in mean.iter_mut().zip(new) {
+            *mean = S::from_f64(0.5) * (*mean + new);
+        }
         Some(self.generic_from(&elements, &mean))
     }
 
@@ -211,9 +199,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 }
 
-/// Where the parts of z begin.
+/// The indices in z at which its parts begin.
 pub(super) struct Places {
-    /// The place of each coordinate of a mass.
+    /// The index of each coordinate of a mass; `None` for anchors.
     pub(super) positions: Vec<Option<usize>>,
     momenta: usize,
     pub(super) viscous: usize,
@@ -223,7 +211,7 @@ pub(super) struct Places {
 }
 
 impl Places {
-    /// `w` of the dashpot beside a spring, `ηθ w wᵀ ∇S`: `ṗ = −η λ̇ ∂λ/∂q` and `ṡ = η λ̇²/θ`.
+    /// `w` of the dashpot in parallel with a spring, `ηθ w wᵀ ∇S`: `ṗ = −η λ̇ ∂λ/∂q` and `ṡ = η λ̇²/θ`.
     fn drag<S: Real>(
         &self,
         by_position: &[(usize, S)],

@@ -1,4 +1,4 @@
-//! The GENERIC form with temperatures in the place of entropies.
+//! The GENERIC form in temperatures instead of entropies.
 
 use super::Simulation;
 use super::generic::{Generic, Places};
@@ -69,19 +69,16 @@ impl<S: Real> Generic<S> {
         }
         let per_slope = slopes.by_temperature.recip();
         for matrix in [&mut self.reversible, &mut self.irreversible] {
-            for column in 0..matrix.ncols() {
-                let mut rate = matrix[(own, column)];
-                for &(place, slope) in &others {
-                    rate -= slope * matrix[(place, column)];
+            // First J⁻¹ L, then (L J⁻ᵀ)ᵀ = J⁻¹ Lᵀ.
+            for _ in 0..2 {
+                for column in 0..matrix.ncols() {
+                    let mut rate = matrix[(own, column)];
+                    for &(place, slope) in &others {
+                        rate -= slope * matrix[(place, column)];
+                    }
+                    matrix[(own, column)] = per_slope * rate;
                 }
-                matrix[(own, column)] = per_slope * rate;
-            }
-            for row in 0..matrix.nrows() {
-                let mut rate = matrix[(row, own)];
-                for &(place, slope) in &others {
-                    rate -= slope * matrix[(row, place)];
-                }
-                matrix[(row, own)] = per_slope * rate;
+                matrix.transpose_mut();
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Many steps in one call, watched from outside, up to an end time that is hit exactly.
+//! Many steps in one call, up to an end time that is hit exactly.
 
 use core::ops::ControlFlow;
 
@@ -20,9 +20,8 @@ pub enum RunEnd {
     Event(usize),
 }
 
-/// Roundings between the last full step and the end time: half a unit in the last place from the
-/// end time, as much from adding up steps that are themselves rounded, and as much again to be
-/// safe on both sides.
+/// Roundings between the last full step and the end time, in ε: half a unit in the last place from the end time, as
+/// much from the sum of rounded steps, and twice that to be safe.
 const END_ROUNDINGS: f64 = 2.0;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
@@ -153,63 +152,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.decide(self.time().less(end))
     }
 
-    /// One decision for all numbers in S.
+    /// One decision for all lanes.
     fn decide(&self, mask: S::Mask) -> Result<bool, StepError> {
         let decided = mask.decide();
         decided.map_err(|discord| self.refused(discord.into()))
     }
 
-    /// A run that ends before its first step.
-    pub(super) fn refused(&self, failure: StepFailure) -> StepError {
-        self.part();
-        StepError {
-            time: self.time().to_f64(),
-            step: self.step_size().to_f64(),
-            failure,
-            shorter: None,
-            history: Box::default(),
-        }
-    }
-
-    /// See [`advance`](Self::advance), compiled here.
-    pub(super) fn advance_here(&mut self, aim: Aim<S>) -> Result<StepReport<S>, StepError> {
-        match aim {
-            Aim::Towards(end) => self.step_towards(end),
-            Aim::InSchemeTowards(end) => self.step_in_scheme_towards(end),
-            Aim::Again(size) => self.step_again(size),
-        }
-    }
-
-    /// One step of the present size, or one that ends exactly at `end`.
-    fn step_towards(&mut self, end: S) -> Result<StepReport<S>, StepError> {
-        if self.control.is_some() {
-            return self.controlled_step(end);
-        }
-        let full = self.step_size();
-        let last = self.size_towards(end, full)?;
-        let size = last.unwrap_or(full);
-        let made = self.step_by(size);
-        let mut report = made.map_err(|error| self.with_shorter(error, size))?;
-        if last.is_some() {
-            self.arrive_at(end, &mut report);
-        }
-        Ok(report)
-    }
-
-    /// The same without another choice of the scheme.
-    fn step_in_scheme_towards(&mut self, end: S) -> Result<StepReport<S>, StepError> {
-        if self.control.is_none() {
-            return self.step_towards(end);
-        }
-        self.with_control(|run, control| match control {
-            Some(control) => run.find_accurate_step(control, end),
-            None => run.step_towards(end),
-        })
-    }
-
     /// The size of a step that ends at `end`, if one of this size would end there or beyond it.
     pub(super) fn size_towards(&self, end: S, full: S) -> Result<Option<S>, StepError> {
-        let left = self.time_left(end);
+        // With the time to twice the precision.
+        let Sum { value, carry } = self.state.time;
+        let left = (end - value) - carry;
         let scale = self.time().abs() + full.minimum(left);
         let rounding = S::from_f64(END_ROUNDINGS) * S::EPSILON * scale;
         if self.decide((full + rounding).less(left))? {
@@ -219,15 +172,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(Some(if is_full { full } else { left }))
     }
 
-    /// The step that has been made ends at this time to the last bit.
+    /// Sets the end of the last step to this time, which it misses by rounding.
     pub(super) fn arrive_at(&mut self, end: S, report: &mut StepReport<S>) {
         self.state.time = Sum::new(end);
         report.time = end;
-    }
-
-    /// `end − t`, with t to twice the precision, s.
-    pub(super) fn time_left(&self, end: S) -> S {
-        let Sum { value, carry } = self.state.time;
-        (end - value) - carry
     }
 }

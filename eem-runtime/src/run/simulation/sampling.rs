@@ -1,17 +1,12 @@
-//! States at times that the steps of a run know nothing of.
+//! States at given times within the steps of a run.
 
 use core::ops::ControlFlow;
 
 use super::Simulation;
 use super::compiled::Aim;
-use super::control_memory::Memory;
+use super::guard::Guard;
 use super::run::RunEnd;
-use crate::element::state::State;
 use crate::step::error::{StepError, StepFailure};
-use crate::step::explicit::SavedExplicit;
-use crate::step::newton::StepReport;
-use crate::step::outcome::Corrections;
-use crate::step::solver::SavedPast;
 use eem_material::number::scalar::{Discord, Mask, Real};
 
 impl<const D: usize, S: Real> Simulation<D, S> {
@@ -53,7 +48,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         mut observer: impl FnMut(&Self) -> ControlFlow<()>,
     ) -> Result<RunEnd, StepError> {
         if S::LANES > 1 {
-            // Each of the numbers may have steps of its own.
+            // Each lane may have steps of its own.
             return Err(self.refused(Discord.into()));
         }
         let mut last = self.time();
@@ -85,71 +80,27 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(RunEnd::Reached)
     }
 
-    /// Shows the states at these times, which the last step has passed.
+    /// Shows the states at these times, which the last step has passed, by shorter steps that are undone afterwards.
+    /// If the observer stops the run, it stays at that state.
     fn sample(
         &mut self,
         times: &[S],
         observer: &mut impl FnMut(&Self) -> ControlFlow<()>,
     ) -> Result<ControlFlow<()>, StepError> {
-        let mut sampled = Sampled::new(self);
-        sampled.run.undo();
-        let seen = sampled.run.sample_on_the_way(times, observer);
-        sampled.stays = matches!(seen, Ok(ControlFlow::Break(())));
-        seen
-    }
-
-    /// The same from where the last step began, one after the other, so that entropy does not fall between them.
-    fn sample_on_the_way(
-        &mut self,
-        times: &[S],
-        observer: &mut impl FnMut(&Self) -> ControlFlow<()>,
-    ) -> Result<ControlFlow<()>, StepError> {
+        let after = self.snapshot();
+        let mut guard = Guard::new(self, |run| run.return_to_snapshot(&after));
+        let run = &mut *guard.value;
+        run.undo();
+        // One after the other, so that entropy does not fall between the times.
         for &time in times {
-            while self.is_before(time)? {
-                self.advance(Aim::InSchemeTowards(time))?;
+            while run.is_before(time)? {
+                run.advance(Aim::InSchemeTowards(time))?;
             }
-            if observer(self).is_break() {
+            if observer(run).is_break() {
+                guard.keep();
                 return Ok(ControlFlow::Break(()));
             }
         }
         Ok(ControlFlow::Continue(()))
-    }
-}
-
-/// A simulation that looks into its last step. It gets back the state after the step, also where the observer or a
-/// load panics, unless it is to stay where it is.
-struct Sampled<'a, const D: usize, S: Real> {
-    run: &'a mut Simulation<D, S>,
-    after: State<S>,
-    past: (SavedPast<S>, Option<SavedExplicit<S>>),
-    memory: Memory<S>,
-    counted: (Option<StepReport<S>>, Corrections<S>),
-    stays: bool,
-}
-
-impl<'a, const D: usize, S: Real> Sampled<'a, D, S> {
-    fn new(run: &'a mut Simulation<D, S>) -> Self {
-        Self {
-            after: State::clone(&run.state),
-            past: run.stepper.past(&run.state),
-            memory: run.memory(),
-            counted: (run.worst, run.corrections),
-            stays: false,
-            run,
-        }
-    }
-}
-
-impl<const D: usize, S: Real> Drop for Sampled<'_, D, S> {
-    fn drop(&mut self) {
-        if self.stays {
-            return;
-        }
-        let run = &mut *self.run;
-        run.state.copy_all_from(&self.after);
-        run.stepper.restore(&self.past.0, self.past.1.as_ref());
-        run.remember(self.memory);
-        (run.worst, run.corrections) = self.counted;
-        run.has_stepped = false;
     }
 }

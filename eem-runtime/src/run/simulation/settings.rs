@@ -1,9 +1,10 @@
-//! How large a step is, and how hard it tries.
+//! Settings: the step size, Newton's method, the energy correction of the explicit scheme.
 
 use super::Simulation;
 use super::check::check_step;
 use crate::scene::error::SceneError;
 use crate::step::newton::NewtonSettings;
+use crate::step::scheme::Scheme;
 use eem_material::number::scalar::{Mask, Real, is_positive};
 
 impl<const D: usize, S: Real> Simulation<D, S> {
@@ -27,10 +28,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Whether the explicit scheme corrects the energy of a step by motion before heat.
     #[must_use]
     pub fn is_motion_first(&self) -> bool {
-        let automatic = self.automatic.as_ref();
-        automatic.map_or(self.stepper.is_motion_first(), |automatic| {
-            automatic.is_motion_first
-        })
+        match self.scheme {
+            Scheme::Auto => self.automatic.is_motion_first,
+            _ => self.stepper.is_motion_first(),
+        }
     }
 
     /// Selects how the explicit scheme corrects the energy of a step: first by heat (default), or first by motion.
@@ -38,9 +39,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// leaves it unchanged. No effect on other schemes.
     pub fn set_motion_first(&mut self, is_motion_first: bool) {
         self.stepper.set_motion_first(is_motion_first);
-        if let Some(automatic) = &mut self.automatic {
-            automatic.is_motion_first = is_motion_first;
-        }
+        self.automatic.is_motion_first = is_motion_first;
     }
 
     /// The settings of Newton's method.

@@ -1,12 +1,10 @@
-//! The state in which a scene begins.
+//! The initial state of a scene.
 
 use core::{array, mem};
 
 use nalgebra::SVector;
 
-use super::groups::Groups;
-use super::totals::check_totals;
-use crate::element::conduction::Conduction;
+use super::stepper::Groups;
 use crate::element::group::Placed;
 use crate::element::layout::Layout;
 use crate::element::masses::Masses;
@@ -17,34 +15,11 @@ use crate::scene::error::SceneError;
 use crate::scene::loads::OfTime;
 use crate::scene::solid_error::SolidError;
 use crate::step::scheme::Scheme;
-use crate::step::systems::Systems;
-use eem_material::number::compact::compact;
 use eem_material::number::compensated::{Compensated, Sum};
 use eem_material::number::derivative::{derivative, shares};
 use eem_material::number::scalar::Real;
 
-/// The group of each element, and its place there.
-pub(super) fn places_in<const D: usize, S: Real>(scene: &Scene<D, S>) -> Vec<[u32; 2]> {
-    let elements = scene.elements.iter();
-    let places = elements.map(|entry| [entry.group, entry.place].map(compact));
-    places.collect()
-}
-
-/// The linear systems of a scheme, unless they take more memory than they may.
-pub(super) fn systems_of<const D: usize, S: Real>(
-    scene: &Scene<D, S>,
-    scheme: Scheme,
-    layout: &Layout,
-    conduction: &Conduction<S>,
-) -> Result<Systems<S, D>, Vec<SceneError>> {
-    let elements = (&scene.elements[..], layout);
-    let rockets = scene.loads.rocket_lines();
-    Systems::new(scheme, elements, conduction, &rockets, scene.memory_limit)
-        .map_err(|error| vec![error.into()])
-}
-
-/// The state that the scene describes, given the first step, or the motions that it cannot have; its entropies are still
-/// to be found.
+/// The initial state, without entropies, given the first step; errors for motions without an initial velocity.
 pub(super) fn initial_state<const D: usize, S: Real>(
     scene: &Scene<D, S>,
     layout: &Layout,
@@ -79,8 +54,10 @@ pub(super) fn initial_state<const D: usize, S: Real>(
     if !errors.is_empty() {
         return Err(errors);
     }
-    let mut viscous = vec![S::zero(); layout.viscous];
-    let mut temperatures = vec![S::zero(); layout.thermal];
+    let zeros = |count| vec![S::zero(); count];
+    let zero = Sum::new(S::zero());
+    let mut viscous = zeros(layout.viscous);
+    let mut temperatures = zeros(layout.thermal);
     for (entry, slots) in scene.elements.iter().zip(&layout.elements) {
         for &(dashpot, stretch) in &entry.viscous_stretches {
             viscous[slots.viscous + dashpot] = stretch;
@@ -90,23 +67,23 @@ pub(super) fn initial_state<const D: usize, S: Real>(
         }
     }
     Ok(State {
-        time: Sum::new(S::zero()),
+        time: zero,
         positions: Compensated::new(positions),
         momenta: Compensated::new(momenta),
         velocities: Compensated::new(velocities),
         viscous: Compensated::new(viscous),
-        entropies: Compensated::new(vec![S::zero(); temperatures.len()]),
+        entropies: Compensated::new(zeros(layout.thermal)),
         temperatures,
         energies: vec![Energy::zero(); scene.elements.len()],
-        reservoir_entropies: Compensated::new(vec![S::zero(); scene.reservoirs.len()]),
-        work: Sum::new(S::zero()),
-        heat: Sum::new(S::zero()),
-        thermostat_entropy: Sum::new(S::zero()),
-        dissipated: Sum::new(S::zero()),
+        reservoir_entropies: Compensated::new(zeros(scene.reservoirs.len())),
+        work: zero,
+        heat: zero,
+        thermostat_entropy: zero,
+        dissipated: zero,
     })
 }
 
-/// The velocity with which a motion begins, from where it is within the first step, m/s; not a number if it has none.
+/// The initial velocity of a motion, from its positions within the first step, m/s; not a number if it has none.
 fn first_speed<const D: usize, S: Real>(motion: &OfTime<S, D>, step: S) -> [S; D] {
     let spans = shares().map(|share| S::from_f64(share) * step);
     let (first, places) = (motion(S::zero()), spans.map(|span| motion(span)));
@@ -123,8 +100,8 @@ fn first_speed<const D: usize, S: Real>(motion: &OfTime<S, D>, step: S) -> [S; D
     })
 }
 
-/// The elements of a scene, ready for a scheme in the initial state, whose entropies are found; or everything for which
-/// it cannot be one, and the scene as it was.
+/// Prepares the elements of a scene for a scheme, and finds the entropies of the initial state. If that state is invalid,
+/// returns all errors, and the scene is unchanged.
 pub(super) fn begin_groups<const D: usize, S: Real>(
     scene: &mut Scene<D, S>,
     scheme: Scheme,
@@ -142,7 +119,12 @@ pub(super) fn begin_groups<const D: usize, S: Real>(
     if errors.is_empty() {
         let all = groups.all().into_iter();
         let ledger = Ledger::of(state, masses, all, &scene.reservoirs, &scene.loads.gravity);
-        errors.extend(check_totals(&ledger).err());
+        let infinite = ledger.infinite_entry();
+        errors.extend(infinite.map(|(quantity, value, unit)| SceneError::Total {
+            quantity,
+            value,
+            unit,
+        }));
     }
     if errors.is_empty() {
         return Ok(groups);

@@ -1,11 +1,11 @@
-//! What steps a scene: its elements, what acts on them, and the solver.
+//! The elements of a scene with the solver of its scheme.
 
 use core::mem;
 
-use super::groups::Groups;
 use crate::algebra::system::MOST_FIXED;
 use crate::element::conduction::Conduction;
-use crate::element::group::{Elements, Group, Loose};
+use crate::element::error::StateError;
+use crate::element::group::{Elements, ExplicitGroup, Group, Loose, Placed};
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
@@ -15,12 +15,20 @@ use crate::scene::entry::ElementEntry;
 use crate::scene::loads::Loads;
 use crate::step::error::StepFailure;
 use crate::step::explicit::{Explicit, SavedExplicit, Site};
-use crate::step::scheme::Scheme;
+use crate::step::scheme::{Closing, Scheme};
 use crate::step::solver::{SavedPast, Solver};
 use crate::step::systems::Systems;
 use eem_material::number::scalar::Real;
 
-/// What steps a scene.
+/// The elements of a scene, a group per model, prepared for a scheme.
+pub(super) enum Groups<S: Real, const D: usize> {
+    /// For Newton's method.
+    Newton(Vec<Box<dyn Group<S, D>>>),
+    /// For an explicit scheme.
+    Explicit(Vec<Box<dyn ExplicitGroup<S, D>>>),
+}
+
+/// The solver of a scheme with the elements of a scene.
 pub(super) enum Stepper<S: Real, const D: usize> {
     /// Newton's method.
     Newton(Box<Newton<S, D>>),
@@ -28,19 +36,19 @@ pub(super) enum Stepper<S: Real, const D: usize> {
     Explicit(Box<Explicit<S, D>>),
 }
 
-/// Elements, loads and solver of a scene.
+/// Elements, loads and solver of an implicit scheme.
 pub(super) struct Newton<S: Real, const D: usize> {
     pub(super) groups: Vec<Box<dyn Group<S, D>>>,
     pub(super) solver: Solver<S, D>,
-    /// What acts in the next step.
+    /// The loads of the step.
     pub(super) loads: StepLoads<S>,
-    /// What acts at the times of its stages, if the scheme has some.
+    /// The loads at its stages, if the scheme has several.
     pub(super) stages: Vec<StepLoads<S>>,
-    /// The state between the two parts of a step of the staggered scheme.
+    /// The intermediate state of the staggered scheme.
     pub(super) between: Option<State<S>>,
 }
 
-/// What a stepper is made from, besides its groups.
+/// The parts of a scene from which a stepper is made, besides its groups.
 #[derive(Clone, Copy)]
 pub(super) struct Parts<'a, S: Real, const D: usize> {
     pub(super) scheme: Scheme,
@@ -51,8 +59,63 @@ pub(super) struct Parts<'a, S: Real, const D: usize> {
     pub(super) loads: &'a Loads<S, D>,
 }
 
+impl<S: Real, const D: usize> Groups<S, D> {
+    /// Prepares elements for a scheme.
+    pub(super) fn new(
+        elements: Vec<Box<dyn Loose<S, D>>>,
+        scheme: Scheme,
+        placed: Placed<'_>,
+    ) -> Self {
+        let elements = elements.into_iter();
+        if scheme.closing() == Closing::Explicit {
+            let groups = elements.map(|elements| elements.build_explicit(placed));
+            return Self::Explicit(groups.collect());
+        }
+        let by = scheme.conjugates();
+        let groups = elements.map(|elements| elements.build(by, placed));
+        Self::Newton(groups.collect())
+    }
+
+    /// Finds the entropies of an initial state; the elements that cannot be in it are errors.
+    pub(super) fn initialize(&mut self, state: &mut State<S>) -> Vec<StateError> {
+        let mut errors = Vec::new();
+        let mut initialize = |elements: &mut dyn Elements<S, D>| {
+            elements.initialize(state, &mut |error| errors.push(error));
+        };
+        match self {
+            Self::Newton(groups) => {
+                groups
+                    .iter_mut()
+                    .for_each(|group| initialize(group.elements_mut()));
+            }
+            Self::Explicit(groups) => {
+                groups
+                    .iter_mut()
+                    .for_each(|group| initialize(group.elements_mut()));
+            }
+        }
+        errors
+    }
+
+    /// All groups.
+    pub(super) fn all(&self) -> Vec<&dyn Elements<S, D>> {
+        match self {
+            Self::Newton(groups) => groups.iter().map(|group| group.elements()).collect(),
+            Self::Explicit(groups) => groups.iter().map(|group| group.elements()).collect(),
+        }
+    }
+
+    /// The elements without a scheme.
+    pub(super) fn into_loose(self) -> Vec<Box<dyn Loose<S, D>>> {
+        match self {
+            Self::Newton(groups) => groups.into_iter().map(Group::into_loose).collect(),
+            Self::Explicit(groups) => groups.into_iter().map(ExplicitGroup::into_loose).collect(),
+        }
+    }
+}
+
 impl<S: Real, const D: usize> Stepper<S, D> {
-    /// For groups in a state whose entropies are known, or still to be found, with the systems of the scheme.
+    /// For groups with the systems of the scheme.
     pub(super) fn new(
         groups: Groups<S, D>,
         systems: Systems<S, D>,
@@ -76,18 +139,15 @@ impl<S: Real, const D: usize> Stepper<S, D> {
         }
     }
 
-    /// Gives its elements away; it cannot step any more.
+    /// Takes its elements out, after which it cannot step.
     pub(super) fn take_elements(&mut self) -> Vec<Box<dyn Loose<S, D>>> {
         match self {
-            Self::Newton(newton) => {
-                let groups = mem::take(&mut newton.groups).into_iter();
-                groups.map(Group::into_loose).collect()
-            }
+            Self::Newton(newton) => Groups::Newton(mem::take(&mut newton.groups)).into_loose(),
             Self::Explicit(explicit) => explicit.take_elements(),
         }
     }
 
-    /// Whether an explicit scheme closes its steps by motion before heat.
+    /// Whether the explicit scheme corrects the energy by motion before heat.
     pub(super) fn is_motion_first(&self) -> bool {
         match self {
             Self::Newton(_) => false,
@@ -95,7 +155,7 @@ impl<S: Real, const D: usize> Stepper<S, D> {
         }
     }
 
-    /// Chooses what closes the steps of an explicit scheme.
+    /// Selects the energy correction of the explicit scheme.
     pub(super) fn set_motion_first(&mut self, is_motion_first: bool) {
         if let Self::Explicit(explicit) = self {
             explicit.set_motion_first(is_motion_first);
@@ -121,7 +181,7 @@ impl<S: Real, const D: usize> Stepper<S, D> {
         }
     }
 
-    /// Whether several numbers in one S can go through a step of so many unknowns together.
+    /// Whether lanes can take a step of so many unknowns together.
     pub(super) fn suits_lanes(&self, unknowns: usize) -> bool {
         match self {
             Self::Newton(newton) => newton.stages.is_empty() && unknowns <= MOST_FIXED,
@@ -129,7 +189,7 @@ impl<S: Real, const D: usize> Stepper<S, D> {
         }
     }
 
-    /// What the start of the step from this state depends on besides.
+    /// The history on which the step from this state depends.
     pub(super) fn past(&self, state: &State<S>) -> (SavedPast<S>, Option<SavedExplicit<S>>) {
         match self {
             Self::Newton(newton) => (newton.solver.past(), None),
@@ -137,14 +197,14 @@ impl<S: Real, const D: usize> Stepper<S, D> {
         }
     }
 
-    /// The past of Newton's method where it was saved before.
+    /// Overwrites a saved history of Newton's method.
     pub(super) fn save_past_to(&self, past: &mut SavedPast<S>) {
         if let Self::Newton(newton) = self {
             newton.solver.save_past_to(past);
         }
     }
 
-    /// Goes on from a saved past.
+    /// Continues from a saved history.
     pub(super) fn restore(&mut self, past: &SavedPast<S>, saved: Option<&SavedExplicit<S>>) {
         match self {
             Self::Newton(newton) => newton.solver.restore(past),
@@ -155,7 +215,7 @@ impl<S: Real, const D: usize> Stepper<S, D> {
         }
     }
 
-    /// Takes back what the last step left for the next ones.
+    /// Undoes the effect of the last step on the history.
     pub(super) fn undo(&mut self) {
         match self {
             Self::Newton(newton) => newton.solver.undo(),
@@ -180,7 +240,7 @@ impl<S: Real, const D: usize> Stepper<S, D> {
         (0..groups).map(|group| self.elements(group))
     }
 
-    /// Does something with all groups.
+    /// Calls a function with each group.
     pub(super) fn each_mut(&mut self, mut visit: impl FnMut(&mut dyn Elements<S, D>)) {
         match self {
             Self::Newton(newton) => {
@@ -241,7 +301,7 @@ impl<S: Real, const D: usize> Newton<S, D> {
         for (stage, &share) in self.stages.iter_mut().zip(rule.times) {
             stage.evaluate_forces_at(loads, masses, time + S::from_f64(share) * step)?;
         }
-        // The path of an element looks at what is prescribed at times of its own.
+        // The paths of elements have their own times for supports.
         let supports = rule.path.map_or(rule.times, |path| path.supports.times);
         for (stage, &share) in self.stages.iter_mut().zip(supports) {
             stage.evaluate_supports(loads, [time, S::from_f64(share) * step], q0)?;

@@ -1,4 +1,4 @@
-//! All values of a state, of one kind after the other.
+//! All values of a state, kind by kind, and the number of evaluations.
 
 use super::Simulation;
 use eem_material::number::scalar::Real;
@@ -8,14 +8,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     #[doc(hidden)]
     #[must_use]
     pub fn values(&self) -> [Vec<f64>; 4] {
+        let all = |values: &[S]| values.iter().map(|value| value.to_f64()).collect();
         let of_masses = |values: &[S]| {
             let nodes = self.masses.iter().zip(values.chunks_exact(D));
             let moving = nodes.filter(|(mass, _)| mass.is_some());
-            moving
-                .flat_map(|(_, value)| value.iter().map(|component| component.to_f64()))
-                .collect()
+            all(&moving
+                .flat_map(|(_, value)| value)
+                .copied()
+                .collect::<Vec<_>>())
         };
-        let all = |values: &[S]| values.iter().map(|value| value.to_f64()).collect();
         let state = &self.state;
         [
             of_masses(state.positions.values()),
@@ -41,10 +42,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// ```
     #[must_use]
     pub fn evaluations(&self) -> u64 {
-        let earlier = self
-            .automatic
-            .as_ref()
-            .map_or(0, |automatic| automatic.evaluations);
-        earlier + self.stepper.evaluations()
+        self.automatic.evaluations + self.stepper.evaluations()
     }
 }

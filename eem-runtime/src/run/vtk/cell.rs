@@ -1,4 +1,4 @@
-//! What files show of a node alone, of a spring and of a cell of a solid.
+//! The values of cells in files: of springs, cells of solids and single nodes.
 
 use core::array;
 
@@ -10,7 +10,7 @@ use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use eem_material::number::scalar::Real;
 
-/// The numbers of cells.
+/// The scalars of cells.
 pub(super) const SCALARS: [&str; 8] = [
     "temperature",
     "internal_energy",
@@ -32,16 +32,16 @@ pub(super) type Components = [f64; 6];
 #[derive(Debug)]
 pub(super) struct Cell {
     pub(super) nodes: Vec<usize>,
-    /// The number that the format has for its shape.
+    /// The number of its shape in the format.
     pub(super) kind: u8,
-    /// Its points; a node has none.
+    /// Its integration points; none for a node.
     pub(super) elements: Vec<Element>,
     is_spring: bool,
     is_thermal: bool,
     has_viscous_strain: bool,
 }
 
-/// What a cell has in a state; not a number where it has none.
+/// The values of a cell in a state; NaN where there is none.
 #[derive(Debug)]
 pub(super) struct Values {
     pub(super) scalars: [f64; SCALARS.len()],
@@ -49,7 +49,7 @@ pub(super) struct Values {
 }
 
 impl Cell {
-    /// Its quantities in a state: sums of energy and production, means of all others.
+    /// Its values in a state: sums of energy and production, means of all others.
     pub(super) fn values<const D: usize, S: Real>(
         &self,
         run: &Simulation<D, S>,
@@ -93,7 +93,7 @@ impl Cell {
         Ok(Values { scalars, tensors })
     }
 
-    /// Over its points.
+    /// The sum over its points.
     fn sum<const N: usize>(
         &self,
         of: impl Fn(Element) -> Result<[f64; N], SceneError>,
@@ -106,7 +106,7 @@ impl Cell {
         Ok(total)
     }
 
-    /// Over its points.
+    /// The mean over its points.
     fn mean<const N: usize>(
         &self,
         of: impl Fn(Element) -> Result<[f64; N], SceneError>,
@@ -116,7 +116,7 @@ impl Cell {
     }
 }
 
-/// Of a symmetric tensor.
+/// The components of a symmetric tensor.
 fn components<S: Real>(tensor: &SMatrix<S, 3, 3>) -> Components {
     let places = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
     places.map(|place| tensor[place].to_f64())
@@ -128,7 +128,7 @@ pub(super) fn cells<const D: usize, S: Real>(scene: &Scene<D, S>) -> Vec<Cell> {
     let mut is_alone = vec![true; scene.nodes.len()];
     let mut next = 0;
     while let Some(entry) = scene.elements.get(next) {
-        // A solid that could not be made has no group; the scene is refused for it.
+        // An invalid solid has no group; the scene is rejected for it.
         let Some(group) = scene.groups.get(entry.group) else {
             next += 1;
             continue;
@@ -162,7 +162,7 @@ pub(super) fn cells<const D: usize, S: Real>(scene: &Scene<D, S>) -> Vec<Cell> {
     cells
 }
 
-/// The number that the format has for a shape with so many nodes.
+/// The number of a shape with so many nodes in the format.
 const fn kind(nodes: usize, dimension: usize) -> u8 {
     match (nodes, dimension) {
         (1, _) => 1,

@@ -5,13 +5,13 @@ use core::fmt::{self, Display, Write as _};
 use super::cell::Components;
 
 /// An unstructured grid with data on points and cells.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Grid {
     /// m.
     pub(super) points: Vec<[f64; 3]>,
     kinds: Vec<u8>,
     connectivity: Vec<usize>,
-    /// Where the nodes of each cell end.
+    /// The end of the nodes of each cell.
     offsets: Vec<usize>,
     /// A vector per point.
     pub(super) vectors: Vec<(&'static str, Vec<[f64; 3]>)>,
@@ -24,15 +24,7 @@ pub(super) struct Grid {
 impl Grid {
     /// Cells of some kinds with their nodes, without points.
     pub(super) fn new<'a>(cells: impl Iterator<Item = (u8, &'a [usize])>) -> Self {
-        let mut grid = Self {
-            points: Vec::new(),
-            kinds: Vec::new(),
-            connectivity: Vec::new(),
-            offsets: Vec::new(),
-            vectors: Vec::new(),
-            scalars: Vec::new(),
-            tensors: Vec::new(),
-        };
+        let mut grid = Self::default();
         for (kind, nodes) in cells {
             grid.kinds.push(kind);
             grid.connectivity.extend_from_slice(nodes);
@@ -126,7 +118,7 @@ impl Xml {
     }
 }
 
-/// A number with as many digits as give it back.
+/// A number with enough digits to restore it.
 struct Number(f64);
 
 impl Display for Number {
@@ -139,7 +131,7 @@ impl Display for Number {
     }
 }
 
-/// Text within quotes of XML.
+/// Text in an attribute of XML.
 fn escaped(text: &str) -> String {
     let text = text.replace('&', "&amp;").replace('<', "&lt;");
     text.replace('"', "&quot;")

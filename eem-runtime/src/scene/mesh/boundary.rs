@@ -4,7 +4,7 @@ use core::convert::Infallible;
 
 use super::Mesh;
 use super::error::MeshError;
-use super::face::Face;
+use super::face::{Face, Outline};
 use super::sides;
 use crate::element::kinematics::Shape;
 
@@ -32,6 +32,40 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         self.face_of(sides)
     }
 
+    /// Lines for drawing the mesh: around each cell in the plane, around each surface face in space,
+    /// counterclockwise seen from outside. Mid-side nodes lie between their corners.
+    ///
+    /// ```
+    /// use eem::Mesh;
+    /// use eem::kinematics::{Hex8, Quad8};
+    ///
+    /// let square = Mesh::<Quad8, 2>::block([1, 1], [[0.0, 2.0]; 2])?;
+    /// let outlines = square.outlines();
+    /// let around = outlines[0].nodes.iter().map(|&node| square.nodes()[node]);
+    /// assert_eq!(around.take(3).collect::<Vec<_>>(), [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]);
+    ///
+    /// // The faces between cells are not to be seen.
+    /// let cube = Mesh::<Hex8, 3>::block([2, 2, 2], [[0.0, 1.0]; 3])?;
+    /// assert_eq!(cube.outlines().len(), 6 * 4);
+    /// # Ok::<(), eem::MeshError>(())
+    /// ```
+    #[must_use]
+    pub fn outlines(&self) -> Vec<Outline> {
+        let outline = |cell, nodes: &[usize]| Outline {
+            cell,
+            nodes: interleaved(nodes),
+        };
+        if D == 2 {
+            let cells = self.cells.iter().enumerate();
+            return cells
+                .map(|(cell, nodes)| outline(cell, nodes.as_ref()))
+                .collect();
+        }
+        let sides = self.surface().into_iter();
+        let around = |side: [usize; 2]| outline(side[0], &self.nodes_of(side).collect::<Vec<_>>());
+        sides.map(around).collect()
+    }
+
     /// These faces of cells, in ascending order.
     pub(crate) fn face_of(&self, sides: Vec<[usize; 2]>) -> Result<Face, MeshError> {
         if sides.is_empty() {
@@ -44,7 +78,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         Ok(Face { mesh, sides, nodes })
     }
 
-    /// Whether some faces are faces of this mesh, or of one that is equal to it.
+    /// Whether a face belongs to this mesh or to an equal one.
     pub(crate) fn has(&self, face: &Face) -> bool {
         face.mesh == self.digest
     }
@@ -67,14 +101,22 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         sides
     }
 
-    /// Shows the faces of all cells, those with the same nodes at once.
+    /// Calls a function with the faces of all cells, those with the same nodes together.
     pub(super) fn for_same_sides(&self, mut show: impl FnMut(&[[usize; 2]])) {
-        let shown = sides::for_same::<H, D, Infallible>(&self.cells, self.nodes.len(), |same| {
+        let Ok(()) = sides::for_same::<H, D, Infallible>(&self.cells, self.nodes.len(), |same| {
             show(same);
             Ok(())
         });
-        match shown {
-            Ok(()) => {}
-        }
     }
+}
+
+/// Four corners, each followed by the mid-side node behind it if there is one.
+fn interleaved(nodes: &[usize]) -> Vec<usize> {
+    let (corners, middles) = nodes.split_at(nodes.len().min(4));
+    let next = |at: usize| middles.get(at).copied();
+    let pairs = corners.iter().enumerate();
+    pairs
+        .flat_map(|(at, &corner)| [Some(corner), next(at)])
+        .flatten()
+        .collect()
 }

@@ -1,10 +1,10 @@
-//! Meshes in space from meshes in the plane.
+//! Extrusion of plane meshes.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::Mesh;
 use super::error::MeshError;
-use super::grid::check_axis;
+use super::grid::{check_axis, level};
 use crate::element::kinematics::{Hex8, Hex20, Quad4, Quad8, Shape};
 use eem_material::free_energy::Array;
 
@@ -56,8 +56,8 @@ impl Mesh<Hex20, 3> {
     }
 }
 
-/// The nodes of a hexahedron lie over those of its quadrilateral: at two heights all of them, half-way between
-/// at most the corners.
+/// The nodes of a hexahedron lie above those of its quadrilateral: all of them at two heights, at most the corners
+/// half-way between.
 fn extruded<P: Shape<2>, H: Shape<3>>(
     profile: &Mesh<P, 2>,
     heights: &[f64],
@@ -67,31 +67,23 @@ fn extruded<P: Shape<2>, H: Shape<3>>(
     let key = |layer: usize, cell: &P::PerNode<usize>, [x, y, z]: [i8; 3]| {
         let below = P::NODES.iter().position(|&node| node == [x, y]);
         let below = below.unwrap_or_else(|| unreachable!("hexahedra stand on quadrilaterals"));
-        let level = (2 * layer + 1).saturating_add_signed(isize::from(z));
-        [level, cell.as_ref()[below]]
+        let at = (2 * layer + 1).saturating_add_signed(isize::from(z));
+        [at, cell.as_ref()[below]]
     };
     let layers = 0..heights.len() - 1;
     let all = layers.flat_map(|layer| profile.cells.iter().map(move |cell| (layer, cell)));
-    let keys: Vec<Vec<[usize; 2]>> = all
-        .map(|(layer, cell)| {
-            H::NODES
-                .iter()
-                .map(|&node| key(layer, cell, node))
-                .collect()
-        })
-        .collect();
-    let mut nodes: BTreeMap<[usize; 2], usize> =
-        keys.iter().flatten().map(|&key| (key, 0)).collect();
-    let counted = nodes.values_mut().enumerate();
-    counted.for_each(|(index, node)| *node = index);
-    let place = |&[level, node]: &[usize; 2]| {
+    let keys = |(layer, cell)| {
+        H::NODES
+            .iter()
+            .map(|&node| key(layer, cell, node))
+            .collect()
+    };
+    let keys: Vec<Vec<[usize; 2]>> = all.map(keys).collect();
+    let sorted: BTreeSet<[usize; 2]> = keys.iter().flatten().copied().collect();
+    let nodes: BTreeMap<_, _> = sorted.into_iter().zip(0..).collect();
+    let place = |&[at, node]: &[usize; 2]| {
         let [x, y] = profile.nodes[node];
-        let below = heights[level / 2];
-        let height = match level % 2 {
-            0 => below,
-            _ => f64::midpoint(below, heights[level / 2 + 1]),
-        };
-        [x, y, height]
+        [x, y, level(heights, at)]
     };
     let cell = |keys: &Vec<[usize; 2]>| {
         let mut cell = H::PerNode::filled(0);

@@ -1,4 +1,4 @@
-//! Meshes of boxes that planes cut into cells.
+//! Meshes of boxes.
 
 use super::Mesh;
 use super::error::MeshError;
@@ -33,7 +33,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         let lattice = Lattice::of(cells)?;
         let cuts: [Vec<f64>; D] = core::array::from_fn(|axis| {
             let [from, to] = ranges[axis];
-            // There are no more nodes than that.
+            // A mesh has no more nodes.
             let parts = u32::try_from(cells[axis]).unwrap_or(u32::MAX);
             let all = f64::from(parts);
             let cut = |at: u32| {
@@ -77,13 +77,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
 
     fn on_lattice(lattice: &Lattice<H, D>, cuts: [&[f64]; D]) -> Result<Self, MeshError> {
         let place = |at: [usize; D]| -> [f64; D] {
-            core::array::from_fn(|axis| {
-                let before = cuts[axis][at[axis] / 2];
-                match at[axis] % 2 {
-                    0 => before,
-                    _ => f64::midpoint(before, cuts[axis][at[axis] / 2 + 1]),
-                }
-            })
+            core::array::from_fn(|axis| level(cuts[axis], at[axis]))
         };
         let named = |cell: [usize; D]| {
             let mut named = H::PerNode::filled(0);
@@ -99,6 +93,15 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         places.extend(lattice.places().map(place));
         cells.extend(indices(cuts.map(|cuts| cuts.len() - 1)).map(named));
         Self::new(places, cells)
+    }
+}
+
+/// A cut, or the middle between two, counted in halves.
+pub(super) fn level(cuts: &[f64], at: usize) -> f64 {
+    let below = cuts[at / 2];
+    match at % 2 {
+        0 => below,
+        _ => f64::midpoint(below, cuts[at / 2 + 1]),
     }
 }
 

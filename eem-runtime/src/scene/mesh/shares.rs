@@ -1,4 +1,4 @@
-//! The shares of nodes in areas and volumes, `∫ N_a dA` and `∫ N_a dV`.
+//! Nodal areas and volumes, `∫ N_a dA` and `∫ N_a dV`.
 
 use super::Mesh;
 use super::face::Face;
@@ -6,12 +6,12 @@ use crate::element::kinematics::{Shape, Symmetric, integrals};
 use eem_material::number::scalar::Scalar;
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
-    /// The area that belongs to each node of a face; m², m in the plane.
+    /// The area of each node of a face; m², m in the plane.
     pub(crate) fn areas(&self, face: &Face) -> Vec<(usize, f64)> {
         let mut areas = vec![0.0; self.nodes.len()];
         for &[cell, side] in &face.sides {
             let (axis, end) = (side / 2, if side % 2 == 0 { -1.0 } else { 1.0 });
-            // A rule of the cell whose points move to the face; each counts as often as there are across.
+            // The rule of the cell with its points moved to the face, where the weights across sum to 2.
             for (mut place, weight) in integrals::rule::<H, D>() {
                 place[axis] = end;
                 let (jacobian, functions) = self.jacobian(cell, place);
@@ -28,7 +28,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         face.nodes().iter().map(of).collect()
     }
 
-    /// The volume that belongs to each node; m³, m² in the plane.
+    /// The volume of each node; m³, m² in the plane.
     pub(crate) fn volumes(&self) -> Vec<f64> {
         let mut volumes = vec![0.0; self.nodes.len()];
         for cell in 0..self.cells.len() {
@@ -43,7 +43,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         volumes
     }
 
-    /// `∂X/∂ξ` at a place of a parent cell, with the shape functions.
+    /// `∂X/∂ξ` at a point of the parent cell, with the shape functions.
     fn jacobian(
         &self,
         cell: usize,
