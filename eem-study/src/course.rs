@@ -1,9 +1,8 @@
-//! How a run gets to the end: in equal steps, or in those that an accuracy needs.
+//! The steps of a run up to the end time: equal ones, or controlled ones.
 
 use core::ops::ControlFlow;
 
 use crate::error::StudyError;
-use crate::grid::Grid;
 use crate::setting::{Setting, StepChoice};
 use eem_material::number::scalar::Real;
 use eem_runtime::Scene;
@@ -14,16 +13,16 @@ use eem_runtime::StepError;
 use eem_runtime::StepReport;
 use eem_runtime::Tolerance;
 
-/// The first step that a run with a tolerance tries, as a share of the end time.
+/// The first step of a run with a tolerance, in units of the end time.
 const FIRST: f64 = 1.0 / 64.0;
 
-/// What a run with a tolerance counts for in the progress of a study: nobody knows its steps before.
+/// The steps of a run with a tolerance in the progress of a study, as they are not known before.
 const TYPICAL_STEPS: u32 = 1000;
 
 /// A scene that is built anew for every run.
 pub(crate) type Build<'a, const D: usize, S> = dyn Fn() -> Scene<D, S> + 'a;
 
-/// A scheme on its way to a common end time.
+/// A scheme with its steps up to a common end time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Course {
     scheme: Scheme,
@@ -39,7 +38,7 @@ enum Steps {
 }
 
 impl Course {
-    /// That of a setting up to the time `end`, s.
+    /// The course of a setting up to the time `end`, s.
     pub(crate) fn of(setting: &Setting, end: f64) -> Result<Self, StudyError> {
         let steps = match setting.steps {
             StepChoice::Fixed(step) => Steps::Equal(Grid::of(step, end)?),
@@ -52,7 +51,7 @@ impl Course {
         })
     }
 
-    /// That of a scheme on a grid up to the time `end`, s.
+    /// The course of a scheme with equal steps up to the time `end`, s.
     pub(crate) const fn on_grid(scheme: Scheme, grid: Grid, end: f64) -> Self {
         Self {
             scheme,
@@ -110,4 +109,61 @@ impl Course {
         }
         Ok(())
     }
+}
+
+/// The most steps of a run.
+pub(crate) const MOST_STEPS: u32 = u32::MAX;
+
+/// Roundings, in ε times the end time, by which a whole number of steps may miss the end: half a unit each from the
+/// step and the end as doubles and from their product, and more to be safe.
+const ROUNDINGS: f64 = 4.0;
+
+/// Equal steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Grid {
+    /// s.
+    pub(crate) step: f64,
+    pub(crate) steps: u32,
+}
+
+impl Grid {
+    /// Steps of this size up to the time `end`, s.
+    pub(crate) fn of(step: f64, end: f64) -> Result<Self, StudyError> {
+        if !(step > 0.0 && step.is_finite()) {
+            return Err(StudyError::Step { step });
+        }
+        let steps = (end / step).round();
+        if steps > f64::from(MOST_STEPS) {
+            let most = MOST_STEPS;
+            return Err(StudyError::TooManySteps { step, end, most });
+        }
+        let is_hit = (steps * step - end).abs() <= ROUNDINGS * f64::EPSILON * end;
+        if steps >= 1.0 && is_hit {
+            let steps = whole(steps);
+            return Ok(Self { step, steps });
+        }
+        let steps = (end / step).floor();
+        Err(StudyError::NoWholeSteps {
+            step,
+            end,
+            shorter: end / (steps + 1.0),
+            longer: end / steps.max(1.0),
+        })
+    }
+
+    /// This number of equal steps up to the time `end`, s; `None` if there are too many.
+    pub(crate) fn divided(end: f64, steps: u64) -> Option<Self> {
+        let steps = u32::try_from(steps).ok()?;
+        let step = end / f64::from(steps);
+        Some(Self { step, steps })
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a whole number from 1 to MOST_STEPS"
+)]
+fn whole(number: f64) -> u32 {
+    number as u32
 }

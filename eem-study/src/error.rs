@@ -1,4 +1,4 @@
-//! Why a study is not begun: what is wrong with it, and what to do.
+//! Errors of studies.
 
 use thiserror::Error;
 

@@ -1,13 +1,11 @@
-//! Work and precision: what each setting costs and how accurate it is, for a scene of the user's own.
+//! Work and precision: the cost and the accuracy of each setting for a scene.
 //!
 //! To compare schemes differently, look in `reference.rs`, `statement.rs` and `advice.rs`.
 
 mod advice;
 mod course;
 mod error;
-mod grid;
 mod measure;
-mod progress;
 mod quantity;
 mod reference;
 mod report;

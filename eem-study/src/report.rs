@@ -1,6 +1,5 @@
-//! What a study has found: a row per setting, and the reference that its errors are measured against.
+//! The results of a study: a row per setting, and the references.
 
-use crate::measure::{Measured, Times};
 use crate::quantity::{PerQuantity, StateQuantity};
 use crate::reference::StudyReference;
 use crate::setting::{Precision, Setting};
@@ -43,32 +42,23 @@ pub struct StudyRow {
 }
 
 impl StudyRow {
-    /// Compares what was measured with the references.
-    pub(crate) fn new(
-        setting: Setting,
-        measured: Measured,
-        times: Times,
-        reference: &StudyReference,
-    ) -> Self {
-        let (differences, failure) = match measured.end {
-            Ok(state) => (reference.differences(&state), None),
-            Err(error) => ([None; 4], Some(error)),
-        };
+    /// A row without steps.
+    pub(crate) const fn new(setting: Setting) -> Self {
         Self {
             setting,
-            failure,
-            energy_defect: measured.energy_defect,
-            step_bound: measured.step_bound,
-            least_entropy_change: measured.least_entropy_change,
-            steps: measured.steps,
-            rejected: measured.rejected,
-            iterations: measured.iterations,
-            evaluations: measured.evaluations,
-            seconds: times.least,
-            median_seconds: times.median,
-            setup_seconds: times.setup,
-            differences,
-            doubts: reference.doubts(),
+            failure: None,
+            energy_defect: 0.0,
+            step_bound: 0.0,
+            least_entropy_change: f64::INFINITY,
+            steps: 0,
+            rejected: 0,
+            iterations: 0,
+            evaluations: 0,
+            seconds: f64::NAN,
+            median_seconds: f64::NAN,
+            setup_seconds: f64::NAN,
+            differences: [None; 4],
+            doubts: [None; 4],
         }
     }
 
@@ -173,14 +163,10 @@ impl StudyReport {
     #[must_use]
     pub fn order(&self, scheme: Scheme, quantity: StateQuantity) -> Option<f64> {
         let point = |row: &StudyRow| {
-            let Setting {
-                scheme: own,
-                precision,
-                ..
-            } = row.setting;
-            let is_of_line = own == scheme && precision == Precision::Double;
+            let own = row.setting;
+            let is_of_line = own.scheme == scheme && own.precision == Precision::Double;
             let error = row.error(quantity).filter(|_| is_of_line)?;
-            Some((row.setting.step()?, error))
+            Some((own.step()?, error))
         };
         let mut points: Vec<_> = self.rows.iter().filter_map(point).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));

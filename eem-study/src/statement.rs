@@ -1,8 +1,8 @@
-//! Which errors are stated, and which are refused because the reference is not known well enough.
+//! Statements about errors, which need a reference that is known well enough.
 
 use crate::quantity::PerQuantity;
 
-/// An error is stated if the references differ by at most this share of it.
+/// The largest difference of the references for which an error is stated, relative to it.
 pub(crate) const DOUBT: f64 = 0.01;
 
 /// The statement of a study about one error at the end time.
@@ -24,7 +24,7 @@ pub enum Statement {
 }
 
 impl Statement {
-    /// What is said about a difference from the first of two references that differ by `doubt`.
+    /// The statement about a difference from the first of two references, which differ by `doubt`.
     pub(crate) fn of(difference: f64, doubt: f64) -> Self {
         if doubt <= DOUBT * difference {
             Self::Stated(difference)
@@ -50,7 +50,7 @@ impl Statement {
     }
 }
 
-/// The largest of all numbers that there are; NaN if one is.
+/// The largest number; NaN if there is one.
 pub(crate) fn largest(numbers: &PerQuantity) -> Option<f64> {
     let there = numbers.iter().copied().flatten();
     there.reduce(super::quantity::larger)

@@ -1,4 +1,4 @@
-//! A report as text: a table of all settings, what failed, the reference, orders, recommendations; and CSV rows.
+//! A report as text: a table of all settings, failures, the reference, orders, recommendations; and CSV rows.
 
 use core::fmt::{self, Write};
 
@@ -28,7 +28,7 @@ const HEADS: [&str; 15] = [
     "set-up",
 ];
 
-/// What the signs in the table mean.
+/// The legend of the table.
 const LEGEND: &str = "Errors at the end time, relative; ? where the references differ by more than 1 % of it. \
     `*`: no other setting is\nfaster and more accurate. ms: the steps alone, the least of all repeats.";
 
@@ -99,7 +99,7 @@ impl fmt::Display for StudyReport {
     }
 }
 
-/// The cells of a setting; a star marks what no other setting beats.
+/// The cells of a setting; a star marks the best ones.
 fn cells(row: &StudyRow, is_best: bool) -> [String; 15] {
     let star = if is_best { " *" } else { "" };
     let step = match row.setting.steps {
@@ -154,7 +154,7 @@ fn write_table(f: &mut fmt::Formatter<'_>, lines: &[[String; 15]]) -> fmt::Resul
     Ok(())
 }
 
-/// What errors are measured against, and how well it is known.
+/// The reference and its uncertainty.
 fn write_reference(f: &mut fmt::Formatter<'_>, reference: &StudyReference) -> fmt::Result {
     f.write_str("References: ")?;
     match (reference.schemes, reference.step) {
@@ -183,7 +183,7 @@ fn write_reference(f: &mut fmt::Formatter<'_>, reference: &StudyReference) -> fm
     f.write_char('\n')
 }
 
-/// The order that each scheme shows in the positions.
+/// The observed order of each scheme in the positions.
 fn write_orders(f: &mut fmt::Formatter<'_>, report: &StudyReport) -> fmt::Result {
     let mut schemes: Vec<_> = report.rows.iter().map(|row| row.setting.scheme).collect();
     schemes.dedup();

@@ -84,14 +84,14 @@ impl<S: Real, const D: usize> Groups<S, D> {
         };
         match self {
             Self::Newton(groups) => {
-                groups
-                    .iter_mut()
-                    .for_each(|group| initialize(group.elements_mut()));
+                for group in groups {
+                    initialize(group.elements_mut());
+                }
             }
             Self::Explicit(groups) => {
-                groups
-                    .iter_mut()
-                    .for_each(|group| initialize(group.elements_mut()));
+                for group in groups {
+                    initialize(group.elements_mut());
+                }
             }
         }
         errors

@@ -1,4 +1,4 @@
-//! What can be wrong with a file of Gmsh.
+//! Errors of Gmsh files.
 
 use std::path::PathBuf;
 
@@ -53,7 +53,7 @@ pub enum MshError {
         /// Where it begins, from 1.
         line: usize,
     },
-    /// There are two sections of which there has to be one.
+    /// A section appears twice.
     #[error(
         "line {line} of the mesh begins a second section `${name}`, the first begins in line {first}: leave one of them"
     )]
@@ -65,7 +65,7 @@ pub enum MshError {
         /// Where the second begins, from 1.
         line: usize,
     },
-    /// A line is not what it has to be.
+    /// A line is invalid.
     #[error("line {line} of the mesh, in `${section}`, is `{found}`: {fault}")]
     Line {
         /// The section.
@@ -138,7 +138,7 @@ pub enum MshError {
         /// The nodes.
         nodes: [u64; 2],
     },
-    /// Something is wrong with an element.
+    /// An element is invalid.
     #[error("element {element} of the file: {error}")]
     Element {
         /// The element.
@@ -146,7 +146,7 @@ pub enum MshError {
         /// What is wrong, in the numbering of the mesh.
         error: MeshError,
     },
-    /// Something is wrong between elements.
+    /// Elements contradict each other.
     #[error("elements {elements:?} of the file: {error}")]
     Elements {
         /// The elements.
@@ -154,7 +154,7 @@ pub enum MshError {
         /// What is wrong, in the numbering of the mesh.
         error: MeshError,
     },
-    /// Something else is wrong with the mesh, in its own numbering.
+    /// Another error of the mesh, in its own numbering.
     #[error(transparent)]
     Mesh(#[from] MeshError),
 }
@@ -163,13 +163,13 @@ pub enum MshError {
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum LineFault {
-    /// It has too many or too few numbers, or what is no such number.
+    /// It has too many or too few numbers, or invalid ones.
     #[error("these are not the numbers that have to be there")]
     Numbers,
-    /// The section goes on although all of its blocks have been read.
+    /// The section continues after its last block.
     #[error("the section has to end here, by what its first line says of it")]
     NotTheEnd,
-    /// The first line of a section says something else than what is in its blocks.
+    /// The first line of a section contradicts its blocks.
     #[error(
         "its blocks hold {count} in all, with tags from {least} to {largest}, which the second, third and fourth number have to be",
         least = range[0], largest = range[1]
@@ -188,7 +188,7 @@ pub enum LineFault {
         /// The line that has it first, from 1.
         first: usize,
     },
-    /// An entity has a dimension that there is not.
+    /// The dimension of an entity is invalid.
     #[error("the dimension of an entity is 0, 1, 2 or 3, and {found} is given first")]
     EntityDimension {
         /// The dimension.
@@ -204,7 +204,7 @@ pub enum LineFault {
         /// Theirs.
         needed: usize,
     },
-    /// It is not clear whether nodes have coordinates within their entity.
+    /// The number that tells whether nodes have coordinates within their entity is invalid.
     #[error(
         "the third number is 1 if nodes have coordinates within their entity and else 0, and {found} is given"
     )]

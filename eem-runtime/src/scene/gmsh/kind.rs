@@ -1,17 +1,17 @@
-//! The types of elements that Gmsh knows by numbers.
+//! The types of elements by their numbers in Gmsh.
 
 /// A type of elements.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Kind {
     pub(super) name: &'static str,
-    /// That of the entities that have such elements, where it is known.
+    /// The dimension of their entities, if it is known.
     pub(super) dimension: Option<usize>,
-    /// How many nodes an element has, where it is known.
+    /// The number of nodes of an element, if it is known.
     pub(super) nodes: Option<usize>,
 }
 
 impl Kind {
-    /// The type with a number. Those that no mesh is read from are named by their shape.
+    /// The type with a number. Types of which no mesh can be made are named by their shape.
     pub(super) const fn of(number: u32) -> Self {
         let (name, dimension, nodes) = match number {
             15 => ("points", 0, Some(1)),

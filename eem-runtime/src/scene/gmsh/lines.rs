@@ -1,60 +1,70 @@
-//! The lines of a file, read one after the other, with their numbers.
+//! The lines of a file, read one after the other, with their numbers and sections.
 
 use std::str::FromStr;
 
 use super::error::{LineFault, MshError};
 
-/// The lines of a file, of which those up to one have been read.
+/// The lines of a file, from the next one to be read.
 pub(super) struct Lines<'a> {
     all: Vec<&'a str>,
-    /// The next line, from 0.
-    at: usize,
+    /// The index of the next line.
+    next: usize,
+    /// The present section.
+    pub(super) section: Section<'a>,
 }
 
-/// A section that is being read.
+/// A section of a file.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Section<'a> {
     pub(super) name: &'a str,
-    /// The line with its name, from 1.
+    /// The number of the line with its name, from 1.
     pub(super) line: usize,
 }
 
-/// A line that has been read, with its number, from 1.
+/// A line of a section.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line<'a> {
+    section: Section<'a>,
+    /// Its number, from 1.
     pub(super) number: usize,
     pub(super) text: &'a str,
 }
 
 impl<'a> Lines<'a> {
-    /// All lines; a mark of the order of bytes before the first is none of it.
+    /// All lines, without a byte order mark.
     pub(super) fn of(text: &'a str) -> Self {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         Self {
             all: text.lines().map(str::trim).collect(),
-            at: 0,
+            next: 0,
+            section: Section { name: "", line: 0 },
         }
     }
 
     /// The next line that is not empty.
     fn next(&mut self) -> Option<Line<'a>> {
-        while let Some(&text) = self.all.get(self.at) {
-            self.at += 1;
-            if !text.is_empty() {
-                let number = self.at;
-                return Some(Line { number, text });
-            }
-        }
-        None
+        let index = self.next
+            + self.all[self.next..]
+                .iter()
+                .position(|text| !text.is_empty())?;
+        self.next = index + 1;
+        Some(Line {
+            section: self.section,
+            number: self.next,
+            text: self.all[index],
+        })
     }
 
-    /// The head of the next section.
-    pub(super) fn section(&mut self) -> Result<Option<Section<'a>>, MshError> {
-        let Some(Line { number, text }) = self.next() else {
-            return Ok(None);
+    /// Begins the next section; false at the end of the file.
+    pub(super) fn begin_section(&mut self) -> Result<bool, MshError> {
+        let Some(Line { number, text, .. }) = self.next() else {
+            return Ok(false);
         };
         match text.strip_prefix('$') {
-            Some(name) => Ok(Some(Section { name, line: number })),
+            Some(name) => {
+                self.section = Section { name, line: number };
+                Ok(true)
+            }
             None => Err(MshError::Outside {
                 line: number,
                 found: text.to_owned(),
@@ -62,33 +72,33 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// The next line of a section.
-    pub(super) fn line(&mut self, section: Section<'_>) -> Result<Line<'a>, MshError> {
-        self.next().ok_or_else(|| section.unended())
+    /// The next line of the section.
+    pub(super) fn line(&mut self) -> Result<Line<'a>, MshError> {
+        let Section { name, line } = self.section;
+        self.next().ok_or_else(|| MshError::Unended {
+            section: name.to_owned(),
+            line,
+        })
     }
 
-    /// The next line of a section, of numbers, as many as `wanted` says.
+    /// The next line, of as many numbers as `is_count` allows.
     pub(super) fn numbers<T: FromStr>(
         &mut self,
-        section: Section<'_>,
-        wanted: impl Fn(usize) -> bool,
+        is_count: impl Fn(usize) -> bool,
     ) -> Result<(Line<'a>, Vec<T>), MshError> {
-        let line = self.line(section)?;
+        let line = self.line()?;
         let words = line.text.split_ascii_whitespace().map(str::parse);
         let numbers: Result<Vec<T>, T::Err> = words.collect();
         match numbers {
-            Ok(numbers) if wanted(numbers.len()) => Ok((line, numbers)),
-            _ => Err(line.wrong(section, LineFault::Numbers)),
+            Ok(numbers) if is_count(numbers.len()) => Ok((line, numbers)),
+            _ => Err(line.wrong(LineFault::Numbers)),
         }
     }
 
-    /// The next line of a section, of four integers that are not negative but for the second.
-    pub(super) fn head(
-        &mut self,
-        section: Section<'_>,
-    ) -> Result<(Line<'a>, [u64; 4], i32), MshError> {
-        let (line, numbers) = self.numbers::<i128>(section, |count| count == 4)?;
-        let wrong = || line.wrong(section, LineFault::Numbers);
+    /// The next line, of four integers, of which only the second may be negative.
+    pub(super) fn head(&mut self) -> Result<(Line<'a>, [u64; 4], i32), MshError> {
+        let (line, numbers) = self.numbers::<i128>(|count| count == 4)?;
+        let wrong = || line.wrong(LineFault::Numbers);
         let mut all = [0; 4];
         for (at, (to, &from)) in all.iter_mut().zip(&numbers).enumerate() {
             if at != 1 {
@@ -99,44 +109,31 @@ impl<'a> Lines<'a> {
         Ok((line, all, entity))
     }
 
-    /// The end of a section.
-    pub(super) fn end(&mut self, section: Section<'_>) -> Result<(), MshError> {
-        let line = self.line(section)?;
-        if section.is_ended_by(line.text) {
+    /// Reads the end of the section.
+    pub(super) fn end(&mut self) -> Result<(), MshError> {
+        let line = self.line()?;
+        if line.is_end() {
             return Ok(());
         }
-        Err(line.wrong(section, LineFault::NotTheEnd))
+        Err(line.wrong(LineFault::NotTheEnd))
     }
 
-    /// Passes over the rest of a section.
-    pub(super) fn skip(&mut self, section: Section<'_>) -> Result<(), MshError> {
-        loop {
-            let line = self.line(section)?;
-            if section.is_ended_by(line.text) {
-                return Ok(());
-            }
-        }
-    }
-}
-
-impl Section<'_> {
-    fn is_ended_by(self, line: &str) -> bool {
-        line.strip_prefix("$End") == Some(self.name)
-    }
-
-    fn unended(self) -> MshError {
-        MshError::Unended {
-            section: self.name.to_owned(),
-            line: self.line,
-        }
+    /// Skips the rest of the section.
+    pub(super) fn skip(&mut self) -> Result<(), MshError> {
+        while !self.line()?.is_end() {}
+        Ok(())
     }
 }
 
 impl Line<'_> {
-    /// What is in the line is not what has to be there.
-    pub(super) fn wrong(self, section: Section<'_>, fault: LineFault) -> MshError {
+    fn is_end(self) -> bool {
+        self.text.strip_prefix("$End") == Some(self.section.name)
+    }
+
+    /// The error of the line.
+    pub(super) fn wrong(self, fault: LineFault) -> MshError {
         MshError::Line {
-            section: section.name.to_owned(),
+            section: self.section.name.to_owned(),
             line: self.number,
             found: self.text.to_owned(),
             fault,
