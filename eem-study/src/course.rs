@@ -5,13 +5,7 @@ use core::ops::ControlFlow;
 use crate::error::StudyError;
 use crate::setting::{Setting, StepChoice};
 use eem_material::number::scalar::Real;
-use eem_runtime::Scene;
-use eem_runtime::SceneError;
-use eem_runtime::Scheme;
-use eem_runtime::Simulation;
-use eem_runtime::StepError;
-use eem_runtime::StepReport;
-use eem_runtime::Tolerance;
+use eem_runtime::{Scene, SceneError, Scheme, Simulation, StepError, StepReport, Tolerance};
 
 /// The first step of a run with a tolerance, in units of the end time.
 const FIRST: f64 = 1.0 / 64.0;

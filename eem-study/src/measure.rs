@@ -6,10 +6,7 @@ use crate::course::{Build, Course};
 use crate::quantity::{EndState, larger, share};
 use crate::report::StudyRow;
 use eem_material::number::scalar::Real;
-use eem_runtime::SceneError;
-use eem_runtime::Simulation;
-use eem_runtime::StepError;
-use eem_runtime::StepReport;
+use eem_runtime::{SceneError, Simulation, StepError, StepReport};
 
 /// A run to the end time, or to its first failed step.
 #[derive(Clone, Debug)]

@@ -11,10 +11,7 @@ use crate::course::{Build, Course, Grid};
 use crate::measure::run;
 use crate::quantity::{EndState, PerQuantity, StateQuantity};
 use crate::statement::DOUBT;
-use eem_runtime::RocketError;
-use eem_runtime::SceneError;
-use eem_runtime::Scheme;
-use eem_runtime::StepError;
+use eem_runtime::{RocketError, SceneError, Scheme, StepError};
 
 /// Two schemes of one order.
 #[derive(Clone, Copy, Debug)]

@@ -4,8 +4,7 @@ use crate::quantity::{PerQuantity, StateQuantity};
 use crate::reference::StudyReference;
 use crate::setting::{Precision, Setting};
 use crate::statement::{Statement, largest};
-use eem_runtime::Scheme;
-use eem_runtime::StepError;
+use eem_runtime::{Scheme, StepError};
 
 /// The results and costs of one setting.
 #[derive(Clone, Debug, PartialEq)]

@@ -10,8 +10,7 @@ use crate::quantity::{EndState, StateQuantity};
 use crate::reference::{Search, StudyReference};
 use crate::report::{StudyReport, StudyRow};
 use crate::setting::{Precision, Setting};
-use eem_runtime::Scene;
-use eem_runtime::SceneError;
+use eem_runtime::{Scene, SceneError};
 
 /// How often each setting is timed unless [`Study::repeats`] says otherwise.
 const REPEATS: usize = 3;
@@ -28,20 +27,14 @@ const ACCURACIES: [f64; 3] = [1e-2, 1e-4, 1e-6];
 /// For your own scene:
 ///
 /// ```
+/// use eem::materials::Hooke;
 /// use eem::prelude::*;
 /// use eem::{Setting, StateQuantity, Study};
-///
-/// #[derive(FreeEnergy)]
-/// #[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - length).powi(2))]
-/// struct Spring {
-///     stiffness: f64,
-///     length: f64,
-/// }
 ///
 /// fn scene() -> Scene<2> {
 ///     let mut scene = Scene::new();
 ///     let ends = [scene.anchor([0.0, 0.0]), scene.mass(1.0, [1.1, 0.0], [0.0, 1.0])];
-///     scene.spring(Spring { stiffness: 20.0, length: 1.0 }, ends);
+///     scene.spring(Hooke { stiffness: 20.0, natural_length: 1.0 }, ends);
 ///     scene
 /// }
 ///

@@ -192,10 +192,7 @@ impl Ensemble<'_> {
     ///
     /// #[derive(FreeEnergy)]
     /// #[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - length).powi(2))]
-    /// struct Spring<S> {
-    ///     stiffness: S,
-    ///     length: S,
-    /// }
+    /// struct Spring<S> { stiffness: S, length: S }
     ///
     /// /// Hangs a mass on a spring and looks how far it falls within a tenth of a second.
     /// struct Fall;
@@ -206,13 +203,12 @@ impl Ensemble<'_> {
     ///     type Output = f64;
     ///
     ///     fn build<S: Real>(&self, members: Members<'_, f64, S>) -> (Scene<1, S>, Node) {
-    ///         let number = S::from_f64;
     ///         let mut scene = Scene::default();
-    ///         let hook = scene.anchor([number(0.0)]);
-    ///         let mass = scene.mass(number(1.0), [number(-1.0)], [number(0.0)]);
+    ///         let hook = scene.anchor([S::zero()]);
+    ///         let mass = scene.mass(S::one(), [-S::one()], [S::zero()]);
     ///         let stiffness = members.number(|&stiffness| stiffness);
-    ///         scene.spring(Spring { stiffness, length: number(1.0) }, [hook, mass]);
-    ///         scene.set_gravity([number(-10.0)]);
+    ///         scene.spring(Spring { stiffness, length: S::one() }, [hook, mass]);
+    ///         scene.set_gravity([S::from_f64(-10.0)]);
     ///         (scene, mass)
     ///     }
     ///

@@ -26,6 +26,7 @@ use core::fmt;
 use core::mem;
 use core::sync::atomic::{AtomicBool, Ordering};
 
+use crate::algebra::system::MOST_FIXED;
 use crate::element::conduction::Conduction;
 use crate::element::layout::{Layout, Shape};
 use crate::element::lineage::Lineage;
@@ -85,6 +86,9 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     /// set for a single number.
     has_parted: AtomicBool,
 }
+
+/// The report of a step, or why it failed.
+type StepResult<S> = Result<StepReport<S>, StepError>;
 
 /// A step that was tried.
 enum Tried<S> {
@@ -239,14 +243,19 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Number of unknowns of the linear system in a Newton iteration; 0 for the explicit scheme.
     #[must_use]
     pub fn unknowns(&self) -> usize {
-        self.stepper.sets() * self.layout.unknowns
+        match &self.stepper {
+            Stepper::Newton(newton) => newton.solver.sets() * self.layout.unknowns,
+            Stepper::Explicit(_) => 0,
+        }
     }
 
     /// Whether lanes can take steps together: by dense elimination of a few unknowns with pivots on the diagonal in a
     /// scheme with one set of forces, or by the explicit scheme; and with weight in all lanes or in none.
     pub(crate) fn suits_lanes(&self) -> bool {
-        self.control.is_none()
-            && self.stepper.suits_lanes(self.unknowns())
-            && self.loads.suit_lanes()
+        let suits = match &self.stepper {
+            Stepper::Newton(newton) => newton.stages.is_empty() && self.unknowns() <= MOST_FIXED,
+            Stepper::Explicit(_) => true,
+        };
+        suits && self.control.is_none() && self.loads.suit_lanes()
     }
 }

@@ -15,7 +15,7 @@ use crate::element::handle::Node;
 use crate::run::simulation::Simulation;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
-use cell::{Cell, SCALARS, TENSORS, cells};
+use cell::{Cell, DATA, cells};
 use eem_material::number::scalar::Real;
 use file::Grid;
 
@@ -170,23 +170,16 @@ impl<const D: usize> VtkSeries<D> {
             grid.points.push(position);
         }
         grid.vectors = vec![("displacement", moved), ("velocity", velocities)];
-        let mut scalars = [const { Vec::new() }; SCALARS.len()];
-        let mut tensors = [const { Vec::new() }; TENSORS.len()];
+        let mut columns = [const { Vec::new() }; DATA.len()];
         for cell in &self.cells {
-            let values = cell.values(run)?;
-            for (column, value) in scalars.iter_mut().zip(values.scalars) {
-                column.push(value);
-            }
-            for (column, value) in tensors.iter_mut().zip(values.tensors) {
-                column.push(value);
+            cell.append(run, &mut columns)?;
+        }
+        for ((name, components), values) in DATA.into_iter().zip(columns) {
+            let is_known = |value: &f64| !value.is_nan();
+            if components == 1 || values.iter().step_by(components).any(is_known) {
+                grid.cell_data.push((name, components, values));
             }
         }
-        grid.scalars = SCALARS.into_iter().zip(scalars).collect();
-        let tensors = TENSORS.into_iter().zip(tensors);
-        let is_known = |tensor: &[f64; 6]| !tensor[0].is_nan();
-        grid.tensors = tensors
-            .filter(|(_, column)| column.iter().any(is_known))
-            .collect();
         Ok(grid)
     }
 }

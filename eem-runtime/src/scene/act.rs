@@ -135,18 +135,16 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// and the entropy that the thermostat supplies.
     ///
     /// ```
+    /// use eem::materials::ThermoelasticSpring;
     /// use eem::prelude::*;
     ///
-    /// #[derive(FreeEnergy)]
-    /// #[free_energy(|lambda: Stretch, theta: Temperature| {
-    ///     0.5 * k * (lambda - 1.0).powi(2) - a * (theta - t0) * ln(lambda) - c * theta * ln(theta / t0)
-    /// })]
-    /// struct Wire { k: f64, a: f64, c: f64, t0: f64 }
-    ///
+    /// let wire = ThermoelasticSpring {
+    ///     stiffness: 5.0, coupling: 1.0, capacity: 2.0, natural_length: 1.0, theta_ref: 300.0,
+    /// };
     /// let mut scene = Scene::<1>::new();
     /// let wall = scene.anchor([0.0]);
     /// let mass = scene.mass(1.0, [1.1], [0.0]);
-    /// let wire = scene.spring(Wire { k: 5.0, a: 1.0, c: 2.0, t0: 300.0 }, [wall, mass]);
+    /// let wire = scene.spring(wire, [wall, mass]);
     /// scene.hold_temperature(wire, 310.0);
     /// let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.01)?;
     /// run.run_until(1.0)?;

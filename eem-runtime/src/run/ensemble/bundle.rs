@@ -37,37 +37,23 @@ impl Bundles {
         inputs: &[E::Input],
     ) -> Vec<Result<E::Output, MemberFailure>> {
         #[cfg(feature = "lanes")]
-        if let Some(outputs) = self.run_together(experiment, inputs) {
+        if inputs.len() > 1
+            && !self.is_unsuited.load(Ordering::Relaxed)
+            && let Ok(outputs) = self.run_as::<Lanes, D, E>(experiment, inputs)
+            && outputs.len() == inputs.len()
+        {
             return outputs.into_iter().map(Ok).collect();
         }
-        let one = |input| self.run_one(experiment, input);
+        let one = |input| {
+            let output = self
+                .run_as::<f64, D, E>(experiment, slice::from_ref(input))?
+                .pop();
+            output.ok_or_else(|| MemberFailure::other("the experiment has no output"))
+        };
         inputs.iter().map(one).collect()
     }
 
-    fn run_one<const D: usize, E: Experiment<D>>(
-        &self,
-        experiment: &E,
-        input: &E::Input,
-    ) -> Result<E::Output, MemberFailure> {
-        let mut outputs = self.run_as::<f64, D, E>(experiment, slice::from_ref(input))?;
-        let output = outputs.pop();
-        output.ok_or_else(|| MemberFailure::other("the experiment has no output"))
-    }
-
-    /// The outputs of all members in lanes; `None` if one of them fails, or the lanes diverge.
-    #[cfg(feature = "lanes")]
-    fn run_together<const D: usize, E: Experiment<D>>(
-        &self,
-        experiment: &E,
-        inputs: &[E::Input],
-    ) -> Option<Vec<E::Output>> {
-        if inputs.len() == 1 || self.is_unsuited.load(Ordering::Relaxed) {
-            return None;
-        }
-        let outputs = self.run_as::<Lanes, D, E>(experiment, inputs).ok();
-        outputs.filter(|outputs| outputs.len() == inputs.len())
-    }
-
+    /// The outputs of members in one number S; an error if one of them fails, or lanes diverge.
     fn run_as<S: Real, const D: usize, E: Experiment<D>>(
         &self,
         experiment: &E,

@@ -3,7 +3,7 @@
 use core::mem;
 
 use super::stepper::{Newton, Stepper};
-use super::{Simulation, Tried};
+use super::{Simulation, StepResult, Tried};
 use crate::element::phase::Phase;
 use crate::step::error::{StepError, StepFailure};
 use crate::step::explicit::Demand;
@@ -83,7 +83,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// One step of this size, whatever its error.
-    pub(super) fn step_by(&mut self, size: S) -> Result<StepReport<S>, StepError> {
+    pub(super) fn step_by(&mut self, size: S) -> StepResult<S> {
         match self.try_step(size, Demand::None)? {
             Tried::Made(report) => Ok(report),
             Tried::Rejected(_) => unreachable!("a step without a tolerance is not rejected"),

@@ -3,7 +3,7 @@
 use super::attempt::explicit_view;
 use super::memory::Control;
 use super::stepper::{Groups, Parts, Stepper};
-use super::{Simulation, Tried};
+use super::{Simulation, StepResult, Tried};
 use crate::algebra::memory::TooLarge;
 use crate::element::group::Placed;
 use crate::run::checkpoint::{Checkpoint, RestoreError, SavedChoice};
@@ -19,11 +19,7 @@ use eem_material::number::scalar::Real;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// An accurate step by the scheme that is likely to be the cheapest; the state is unchanged if there is none.
-    pub(super) fn step_of_choice(
-        &mut self,
-        control: &mut Control<S>,
-        end: S,
-    ) -> Result<StepReport<S>, StepError> {
+    pub(super) fn step_of_choice(&mut self, control: &mut Control<S>, end: S) -> StepResult<S> {
         self.judge_trial(control);
         if self.in_use.closing() == Closing::Explicit {
             self.measure_stability(control);
@@ -37,11 +33,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// A step of the present scheme, or of another one if it finds none.
-    fn step_by_some_scheme(
-        &mut self,
-        control: &mut Control<S>,
-        end: S,
-    ) -> Result<StepReport<S>, StepError> {
+    fn step_by_some_scheme(&mut self, control: &mut Control<S>, end: S) -> StepResult<S> {
         let (own, usual) = (self.in_use, self.step);
         let mut failed = match self.counted_step(control, end) {
             Ok(report) => return Ok(report),
@@ -79,11 +71,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// A step of the present scheme, whose effort is counted.
-    fn counted_step(
-        &mut self,
-        control: &mut Control<S>,
-        end: S,
-    ) -> Result<StepReport<S>, StepError> {
+    fn counted_step(&mut self, control: &mut Control<S>, end: S) -> StepResult<S> {
         let before = self.stepper.evaluations();
         let found = self.find_accurate_step(control, end);
         let time = found.as_ref().map_or(0.0, |report| report.step.to_f64());
@@ -233,7 +221,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         };
         let groups = Groups::new(self.stepper.take_elements(), scheme, placed);
         self.stepper = Stepper::new(groups, systems, parts, &self.state);
-        self.stepper.set_motion_first(automatic.is_motion_first);
+        if let Stepper::Explicit(explicit) = &mut self.stepper {
+            explicit.set_motion_first(automatic.is_motion_first);
+        }
         // As after a restart: each scheme evaluates them in its own way.
         let state = &mut self.state;
         self.stepper.each_mut(|group| group.find_energies(state));

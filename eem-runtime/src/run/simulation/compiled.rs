@@ -6,7 +6,7 @@
 
 use core::any::Any;
 
-use super::Simulation;
+use super::{Simulation, StepResult};
 use crate::run::checkpoint::{Checkpoint, RestoreError};
 use crate::run::ledger::Ledger;
 use crate::scene::Scene;
@@ -76,11 +76,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Makes one step.
-    pub(super) fn advance(&mut self, aim: Aim<S>) -> Result<StepReport<S>, StepError> {
+    pub(super) fn advance(&mut self, aim: Aim<S>) -> StepResult<S> {
         (Functions::get().advance)(self, aim)
     }
 
-    fn advance_here(&mut self, aim: Aim<S>) -> Result<StepReport<S>, StepError> {
+    fn advance_here(&mut self, aim: Aim<S>) -> StepResult<S> {
         match aim {
             Aim::Towards(end) => self.step_towards(end, true),
             Aim::InSchemeTowards(end) => self.step_towards(end, false),
@@ -91,18 +91,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
 /// The functions in which the work of a simulation starts.
 pub(super) struct Functions<const D: usize, S: Real> {
-    new: Begin<D, S>,
-    advance: Advance<D, S>,
+    new: fn(Scene<D, S>, Scheme, S) -> Result<Simulation<D, S>, RefusedScene<D, S>>,
+    advance: fn(&mut Simulation<D, S>, Aim<S>) -> StepResult<S>,
     pub(super) undo: fn(&mut Simulation<D, S>),
     pub(super) checkpoint: fn(&Simulation<D, S>) -> Checkpoint<S>,
     pub(super) restore: fn(&mut Simulation<D, S>, &Checkpoint<S>) -> Result<(), RestoreError>,
     pub(super) ledger: fn(&Simulation<D, S>) -> Ledger<D, S>,
 }
-
-type Begin<const D: usize, S> =
-    fn(Scene<D, S>, Scheme, S) -> Result<Simulation<D, S>, RefusedScene<D, S>>;
-type Advance<const D: usize, S> =
-    fn(&mut Simulation<D, S>, Aim<S>) -> Result<StepReport<S>, StepError>;
 
 static LINE: Functions<1, f64> = Functions::HERE;
 static PLANE: Functions<2, f64> = Functions::HERE;

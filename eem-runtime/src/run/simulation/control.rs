@@ -5,14 +5,13 @@ use core::mem;
 use super::compiled::Functions;
 use super::guard::Guard;
 use super::memory::{Control, History, SMALLEST, Snapshot};
-use super::{Simulation, Tried};
+use super::{Simulation, StepResult, Tried};
 use crate::element::state::State;
 use crate::run::checkpoint::SavedControl;
 use crate::scene::error::SceneError;
 use crate::step::control::{AFTER_FAILURE, Controller, Estimate, StepStatistics, Tolerance, norm};
-use crate::step::error::{StepError, StepFailure, StepLimit};
+use crate::step::error::{StepFailure, StepLimit};
 use crate::step::explicit::Demand;
-use crate::step::newton::StepReport;
 use crate::step::scheme::Scheme;
 use eem_material::number::scalar::{Discord, Mask, Real};
 
@@ -144,11 +143,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// One step by the scheme in use, not beyond `end`, of an accurate size if steps are controlled; by another scheme
     /// if that is allowed and cheaper.
-    pub(super) fn step_towards(
-        &mut self,
-        end: S,
-        may_switch: bool,
-    ) -> Result<StepReport<S>, StepError> {
+    pub(super) fn step_towards(&mut self, end: S, may_switch: bool) -> StepResult<S> {
         if self.control.is_none() {
             let full = self.step;
             let last = self.size_towards(end, full)?;
@@ -192,11 +187,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// An accurate step of the scheme in use, not beyond `end`.
-    pub(super) fn find_accurate_step(
-        &mut self,
-        control: &mut Control<S>,
-        end: S,
-    ) -> Result<StepReport<S>, StepError> {
+    pub(super) fn find_accurate_step(&mut self, control: &mut Control<S>, end: S) -> StepResult<S> {
         loop {
             let memory = &control.memory;
             self.step = self.step.maximum(memory.smallest).minimum(memory.largest);
@@ -270,7 +261,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Another step from the beginning of the one that was undone, of this size; as accurate as that one if possible.
-    pub(super) fn step_again(&mut self, size: S) -> Result<StepReport<S>, StepError> {
+    pub(super) fn step_again(&mut self, size: S) -> StepResult<S> {
         self.with_control(|run, control| {
             let Some(control) = control else {
                 return run.step_by(size);

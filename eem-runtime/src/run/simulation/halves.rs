@@ -12,12 +12,11 @@
 
 use super::guard::or_restore;
 use super::memory::{Control, Halves};
-use super::{Simulation, Tried};
+use super::{Simulation, StepResult, Tried};
 use crate::element::state::State;
 use crate::step::control::{Kinds, Scales};
 use crate::step::error::StepError;
 use crate::step::explicit::Demand;
-use crate::step::newton::StepReport;
 use eem_material::number::scalar::Real;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
@@ -64,11 +63,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Two steps of half a size, or none.
-    pub(super) fn step_in_halves(
-        &mut self,
-        halves: &Halves<S>,
-        size: S,
-    ) -> Result<StepReport<S>, StepError> {
+    pub(super) fn step_in_halves(&mut self, halves: &Halves<S>, size: S) -> StepResult<S> {
         let half = S::from_f64(0.5) * size;
         let first = self.step_by(half)?;
         let second = or_restore(self, |run| run.return_to(halves), |run| run.step_by(half))?;

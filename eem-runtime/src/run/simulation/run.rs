@@ -3,8 +3,7 @@
 use core::ops::ControlFlow;
 
 use super::Simulation;
-use super::compiled::Aim;
-use crate::step::error::{StepError, StepFailure};
+use crate::step::error::StepError;
 use crate::step::newton::StepReport;
 use eem_material::number::compensated::Sum;
 use eem_material::number::scalar::{Mask, Real};
@@ -87,16 +86,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub fn run_until_with(
         &mut self,
         end: S,
-        mut observer: impl FnMut(&Self, &StepReport<S>) -> ControlFlow<()>,
+        observer: impl FnMut(&Self, &StepReport<S>) -> ControlFlow<()>,
     ) -> Result<RunEnd, StepError> {
-        self.check_end(end)?;
-        while self.is_before(end)? {
-            let report = self.advance(Aim::Towards(end))?;
-            if observer(self, &report).is_break() {
-                return Ok(RunEnd::Stopped);
-            }
-        }
-        Ok(RunEnd::Reached)
+        self.run_until_event_with(end, &mut [], observer)
     }
 
     /// Steps to each of these times in turn, s, and calls `observer` there.
@@ -136,15 +128,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             }
         }
         Ok(RunEnd::Reached)
-    }
-
-    /// An error unless a run can end at this time.
-    pub(super) fn check_end(&self, end: S) -> Result<(), StepError> {
-        if self.time().at_most(end).all() {
-            return Ok(());
-        }
-        let end = end.to_f64();
-        Err(self.refused(StepFailure::End { end }))
     }
 
     /// Whether the end of a run lies ahead.

@@ -2,6 +2,7 @@
 
 use super::Simulation;
 use super::check::check_step;
+use super::stepper::Stepper;
 use crate::scene::error::SceneError;
 use crate::step::newton::NewtonSettings;
 use crate::step::scheme::Scheme;
@@ -28,9 +29,11 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Whether the explicit scheme corrects the energy of a step by motion before heat.
     #[must_use]
     pub fn is_motion_first(&self) -> bool {
-        match self.scheme {
-            Scheme::Auto => self.automatic.is_motion_first,
-            _ => self.stepper.is_motion_first(),
+        match &self.stepper {
+            Stepper::Explicit(explicit) if self.scheme != Scheme::Auto => {
+                explicit.is_motion_first()
+            }
+            _ => self.automatic.is_motion_first,
         }
     }
 
@@ -38,8 +41,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Heat is more accurate and changes the entropy production of elements in the step by at most 0.3 %; motion
     /// leaves it unchanged. No effect on other schemes.
     pub fn set_motion_first(&mut self, is_motion_first: bool) {
-        self.stepper.set_motion_first(is_motion_first);
-        self.automatic.is_motion_first = is_motion_first;
+        if let Stepper::Explicit(explicit) = &mut self.stepper {
+            explicit.set_motion_first(is_motion_first);
+        }
+        if self.scheme == Scheme::Auto {
+            self.automatic.is_motion_first = is_motion_first;
+        }
     }
 
     /// The settings of Newton's method.

@@ -2,7 +2,6 @@
 
 use core::mem;
 
-use crate::algebra::system::MOST_FIXED;
 use crate::element::conduction::Conduction;
 use crate::element::error::StateError;
 use crate::element::group::{Elements, ExplicitGroup, Group, Loose, Placed};
@@ -147,29 +146,6 @@ impl<S: Real, const D: usize> Stepper<S, D> {
         }
     }
 
-    /// Whether the explicit scheme corrects the energy by motion before heat.
-    pub(super) fn is_motion_first(&self) -> bool {
-        match self {
-            Self::Newton(_) => false,
-            Self::Explicit(explicit) => explicit.is_motion_first(),
-        }
-    }
-
-    /// Selects the energy correction of the explicit scheme.
-    pub(super) fn set_motion_first(&mut self, is_motion_first: bool) {
-        if let Self::Explicit(explicit) = self {
-            explicit.set_motion_first(is_motion_first);
-        }
-    }
-
-    /// Number of sets of unknowns of an iteration.
-    pub(super) fn sets(&self) -> usize {
-        match self {
-            Self::Newton(newton) => newton.solver.sets(),
-            Self::Explicit(_) => 0,
-        }
-    }
-
     /// How often all elements have been evaluated, at all stages.
     pub(super) fn evaluations(&self) -> u64 {
         match self {
@@ -178,14 +154,6 @@ impl<S: Real, const D: usize> Stepper<S, D> {
                 newton.solver.evaluations().saturating_mul(stages)
             }
             Self::Explicit(explicit) => explicit.evaluations(),
-        }
-    }
-
-    /// Whether lanes can take a step of so many unknowns together.
-    pub(super) fn suits_lanes(&self, unknowns: usize) -> bool {
-        match self {
-            Self::Newton(newton) => newton.stages.is_empty() && unknowns <= MOST_FIXED,
-            Self::Explicit(_) => true,
         }
     }
 
@@ -260,27 +228,21 @@ impl<S: Real, const D: usize> Newton<S, D> {
         parts: Parts<'_, S, D>,
         state: &State<S>,
     ) -> Self {
-        let Parts {
-            scheme,
-            masses,
-            layout,
-            conduction,
-            loads,
-            ..
-        } = parts;
-        let memory = || StepLoads::new(masses.len() * D, layout, loads, masses.are_coupled());
-        let stages = scheme.tableau().map_or(0, Tableau::stages);
-        let whole = memory();
-        let solver = Solver::new(scheme, systems, masses, layout, conduction, &whole);
+        let (masses, layout, conduction) = (parts.masses, parts.layout, parts.conduction);
+        let (coordinates, is_coupled) = (masses.len() * D, masses.are_coupled());
+        let memory = || StepLoads::new(coordinates, layout, parts.loads, is_coupled);
+        let stages = parts.scheme.tableau().map_or(0, Tableau::stages);
+        let loads = memory();
+        let solver = Solver::new(parts.scheme, systems, masses, layout, conduction, &loads);
         for group in &mut groups {
             group.connect(&solver.sites(layout, conduction));
         }
         Self {
             groups,
             solver,
-            loads: whole,
+            loads,
             stages: (0..stages).map(|_| memory()).collect(),
-            between: scheme.is_split().then(|| state.clone()),
+            between: parts.scheme.is_split().then(|| state.clone()),
         }
     }
 

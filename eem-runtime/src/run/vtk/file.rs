@@ -2,8 +2,6 @@
 
 use core::fmt::{self, Display, Write as _};
 
-use super::cell::Components;
-
 /// An unstructured grid with data on points and cells.
 #[derive(Debug, Default)]
 pub(super) struct Grid {
@@ -13,12 +11,10 @@ pub(super) struct Grid {
     connectivity: Vec<usize>,
     /// The end of the nodes of each cell.
     offsets: Vec<usize>,
-    /// A vector per point.
+    /// Vectors per point, by name.
     pub(super) vectors: Vec<(&'static str, Vec<[f64; 3]>)>,
-    /// A number per cell.
-    pub(super) scalars: Vec<(&'static str, Vec<f64>)>,
-    /// A symmetric tensor per cell.
-    pub(super) tensors: Vec<(&'static str, Vec<Components>)>,
+    /// Data per cell: names, numbers of components, and all components.
+    pub(super) cell_data: Vec<(&'static str, usize, Vec<f64>)>,
 }
 
 impl Grid {
@@ -46,11 +42,8 @@ impl Grid {
             xml.numbers(name, 3, vectors.as_flattened());
         }
         xml.line("</PointData>\n<CellData>");
-        for (name, values) in &self.scalars {
-            xml.numbers(name, 1, values);
-        }
-        for (name, tensors) in &self.tensors {
-            xml.numbers(name, 6, tensors.as_flattened());
+        for (name, components, values) in &self.cell_data {
+            xml.numbers(name, *components, values);
         }
         xml.line("</CellData>\n<Points>");
         xml.numbers("position", 3, self.points.as_flattened());

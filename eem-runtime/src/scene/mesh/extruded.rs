@@ -37,14 +37,10 @@ impl Mesh<Hex20, 3> {
     /// use eem::Mesh;
     /// use eem::kinematics::{Hex20, Quad8};
     ///
-    /// let strip = Mesh::<Quad8, 2>::block([4, 1], [[0.0, 1.0], [1.0, 2.0]])?;
-    /// // A quarter of a ring, whose edges bend.
-    /// let quarter = strip.mapped(|[turn, radius]| {
-    ///     let angle = std::f64::consts::FRAC_PI_2 * (1.0 - turn);
-    ///     [radius * angle.cos(), radius * angle.sin()]
-    /// })?;
-    /// let ring = Mesh::<Hex20, 3>::extruded(&quarter, &[0.0, 0.5])?;
-    /// assert_eq!((ring.cells().len(), ring.nodes().len()), (4, 56));
+    /// let strip = Mesh::<Quad8, 2>::block([4, 1], [[0.0, 4.0], [0.0, 1.0]])?;
+    /// let bent = strip.mapped(|[x, y]| [x, y + 0.1 * x * x])?;
+    /// let beam = Mesh::<Hex20, 3>::extruded(&bent, &[0.0, 0.5])?;
+    /// assert_eq!((beam.cells().len(), beam.nodes().len()), (4, 56));
     /// # Ok::<(), eem::MeshError>(())
     /// ```
     ///

@@ -8,6 +8,7 @@ use core::ops::ControlFlow;
 
 use super::bracket::Bracket;
 use super::{Event, Simulation};
+use crate::run::simulation::StepResult;
 use crate::run::simulation::compiled::Aim;
 use crate::run::simulation::guard::or_restore;
 use crate::run::simulation::run::RunEnd;
@@ -85,14 +86,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         events: &mut [Event<'_, D, S>],
         mut observer: impl FnMut(&Self, &StepReport<S>) -> ControlFlow<()>,
     ) -> Result<RunEnd, StepError> {
-        if S::LANES > 1 {
+        if S::LANES > 1 && !events.is_empty() {
             // Each lane has its events at other times.
             return Err(self.refused(Discord.into()));
         }
         for event in &mut *events {
             event.has_happened = false;
         }
-        self.check_end(end)?;
+        if !self.time().at_most(end).all() {
+            let end = end.to_f64();
+            return Err(self.refused(StepFailure::End { end }));
+        }
         self.begin_search(events)?;
         while self.is_before(end)? {
             let report = self.step_with_events(events, end)?;
@@ -108,18 +112,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// One step, which ends at the first event in it.
-    fn step_with_events(
-        &mut self,
-        events: &mut [Event<'_, D, S>],
-        end: S,
-    ) -> Result<StepReport<S>, StepError> {
+    fn step_with_events(&mut self, events: &mut [Event<'_, D, S>], end: S) -> StepResult<S> {
+        if events.is_empty() {
+            return self.advance(Aim::Towards(end));
+        }
         let before = self.history();
         let whole = self.advance(Aim::Towards(end))?;
-        or_restore(
-            self,
-            |run| run.restore_history(before),
-            |run| run.end_at_event(events, whole, end),
-        )
+        let restore = |run: &mut Self| run.restore_history(before);
+        or_restore(self, restore, |run| run.end_at_event(events, whole, end))
     }
 
     /// Evaluates the functions at the present state.
@@ -145,7 +145,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         events: &mut [Event<'_, D, S>],
         whole: StepReport<S>,
         end: S,
-    ) -> Result<StepReport<S>, StepError> {
+    ) -> StepResult<S> {
         let mut report = whole;
         let mut is_located = false;
         for place in 0..events.len() {
@@ -178,7 +178,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         whole: StepReport<S>,
         end: S,
         error: StepError,
-    ) -> Result<StepReport<S>, StepError> {
+    ) -> StepResult<S> {
         let is_of_event = matches!(
             error.failure,
             StepFailure::EventFunction { .. } | StepFailure::EventError { .. }
@@ -198,7 +198,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         whole: StepReport<S>,
         end: S,
         (event, place): (&mut Event<'_, D, S>, usize),
-    ) -> Result<StepReport<S>, StepError> {
+    ) -> StepResult<S> {
         let scale = whole.time.abs() + whole.step;
         let sharpest = S::from_f64(SHARPEST) * S::EPSILON * scale;
         let resolution = event.tolerance.maximum(sharpest);
