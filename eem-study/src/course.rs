@@ -34,15 +34,15 @@ enum Steps {
 impl Course {
     /// The course of a setting up to the time `end`, s.
     pub(crate) fn of(setting: &Setting, end: f64) -> Result<Self, StudyError> {
-        let steps = match setting.steps {
-            StepChoice::Fixed(step) => Steps::Equal(Grid::of(step, end)?),
-            StepChoice::Tolerance(relative) => Steps::Controlled(relative),
-        };
-        Ok(Self {
-            scheme: setting.scheme,
-            end,
-            steps,
-        })
+        let scheme = setting.scheme;
+        match setting.steps {
+            StepChoice::Fixed(step) => Ok(Self::on_grid(scheme, Grid::of(step, end)?, end)),
+            StepChoice::Tolerance(relative) => Ok(Self {
+                scheme,
+                end,
+                steps: Steps::Controlled(relative),
+            }),
+        }
     }
 
     /// The course of a scheme with equal steps up to the time `end`, s.
@@ -67,18 +67,19 @@ impl Course {
         &self,
         build: &Build<'_, D, S>,
     ) -> Result<Simulation<D, S>, SceneError> {
-        let step = match self.steps {
-            Steps::Equal(grid) => grid.step,
-            Steps::Controlled(_) => FIRST * self.end,
-        };
-        let mut run = Simulation::new(build(), self.scheme, S::from_f64(step))?;
+        let start = |step| Simulation::new(build(), self.scheme, S::from_f64(step));
         match self.steps {
-            Steps::Equal(_) => run.fix_steps(),
+            Steps::Equal(grid) => {
+                let mut run = start(grid.step)?;
+                run.fix_steps();
+                Ok(run)
+            }
             Steps::Controlled(relative) => {
+                let mut run = start(FIRST * self.end)?;
                 run.control_steps(Tolerance::new(S::from_f64(relative)))?;
+                Ok(run)
             }
         }
-        Ok(run)
     }
 
     /// All steps, or those up to the first that fails.

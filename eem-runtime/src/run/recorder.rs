@@ -74,6 +74,15 @@ pub struct Column {
 }
 
 impl Column {
+    const fn new(name: String, unit: &'static str, is_count: bool) -> Self {
+        Self {
+            name,
+            unit,
+            values: Vec::new(),
+            is_count,
+        }
+    }
+
     /// The name: that of the quantity, for a vector with `_x`, `_y`, `_z`.
     #[must_use]
     pub fn name(&self) -> &str {
@@ -135,20 +144,23 @@ impl<const D: usize, S: Real> Recorder<D, S> {
         let mut recorder = Self {
             scene: run.scene(),
             quantities: Vec::new(),
-            columns: Vec::new(),
+            columns: vec![Column::new(TIME.to_owned(), "s", false)],
             stride: 1,
             steps: 0,
             iterations: 0,
             row: Vec::new(),
         };
-        recorder.add_column(TIME.to_owned(), "s", false)?;
         for (name, quantity) in quantities {
             let name = name.into();
             if let Err(source) = quantity.check(run) {
                 return Err(RecordError::Quantity { name, source });
             }
-            for column in quantity.columns(&name) {
-                recorder.add_column(column, quantity.unit(), quantity.is_count())?;
+            for name in quantity.columns(&name) {
+                if recorder.column(&name).is_some() {
+                    return Err(RecordError::DuplicateColumn { name });
+                }
+                let column = Column::new(name, quantity.unit(), quantity.is_count());
+                recorder.columns.push(column);
             }
             recorder.quantities.push(quantity);
         }
@@ -159,24 +171,6 @@ impl<const D: usize, S: Real> Recorder<D, S> {
                 Err(RecordError::Quantity { name, source })
             }
         }
-    }
-
-    fn add_column(
-        &mut self,
-        name: String,
-        unit: &'static str,
-        is_count: bool,
-    ) -> Result<(), RecordError> {
-        if self.column(&name).is_some() {
-            return Err(RecordError::DuplicateColumn { name });
-        }
-        self.columns.push(Column {
-            name,
-            unit,
-            values: Vec::new(),
-            is_count,
-        });
-        Ok(())
     }
 
     /// Records only every `stride`-th step; 0 counts as 1.
@@ -255,9 +249,7 @@ impl<const D: usize, S: Real> Recorder<D, S> {
     #[must_use]
     pub fn column(&self, name: &str) -> Option<&[f64]> {
         let mut columns = self.columns.iter();
-        columns
-            .find(|column| column.name == name)
-            .map(Column::values)
+        Some(columns.find(|column| column.name == name)?.values())
     }
 
     /// The number of rows.

@@ -43,12 +43,11 @@ use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
-use crate::step::systems::Systems;
 use check::{check_all, needs_implicit};
 use eem_material::number::compact::compact;
 use eem_material::number::scalar::Real;
 use memory::{Automatic, Control};
-use start::{begin_groups, initial_state};
+use start::{find_entropies, initial_state};
 use stepper::{Parts, Stepper};
 
 /// A run: a scene, a scheme and the present state.
@@ -134,24 +133,24 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let shapes = scene.groups.iter().map(|group| group.shape()).collect();
         let masses = scene.masses();
         state.follow_velocities(D, &masses);
-        let elements = (&scene.elements[..], &layout);
-        let rockets = scene.loads.rocket_lines();
-        let systems = Systems::new(in_use, elements, &conduction, &rockets, scene.memory_limit)
-            .map_err(|error| vec![error.into()])?;
-        let groups = begin_groups(scene, in_use, (&layout, &masses), &mut state)?;
-        // Large, and contained in the masses and in the state.
-        drop((mem::take(&mut scene.nodes), mem::take(&mut scene.pairs)));
-        let mut elements = mem::take(&mut scene.elements);
-        let loads = mem::replace(&mut scene.loads, Loads::none());
         let parts = Parts {
             scheme: in_use,
             masses: &masses,
-            elements: &elements,
+            elements: &scene.elements,
             layout: &layout,
             conduction: &conduction,
-            loads: &loads,
+            loads: &scene.loads,
         };
-        let stepper = Stepper::new(groups, systems, parts, &state);
+        let systems = parts.systems(scene.memory_limit);
+        let systems = systems.map_err(|error| vec![error.into()])?;
+        let mut stepper = Stepper::new(mem::take(&mut scene.groups), systems, parts, &state);
+        let errors = find_entropies(&mut stepper, &mut state, parts);
+        if !errors.is_empty() {
+            scene.groups = stepper.take_elements();
+            return Err(errors);
+        }
+        let mut elements = mem::take(&mut scene.elements);
+        let loads = mem::replace(&mut scene.loads, Loads::none());
         let is_automatic = scheme == Scheme::Auto;
         if !is_automatic {
             elements = Vec::new();

@@ -3,13 +3,12 @@
 mod cell;
 mod file;
 
+use core::error::Error;
 use std::collections::BTreeSet;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
-
-use thiserror::Error;
 
 use crate::element::handle::Node;
 use crate::run::simulation::Simulation;
@@ -109,7 +108,7 @@ impl<const D: usize> VtkSeries<D> {
     /// another series of this program has written files with this name to the folder.
     pub fn write<S: Real>(&mut self, run: &Simulation<D, S>) -> io::Result<()> {
         self.check(run)?;
-        let grid = self.grid(run).map_err(SeriesError::from)?;
+        let grid = self.grid(run).map_err(invalid)?;
         fs::create_dir_all(&self.folder).map_err(at(&self.folder))?;
         self.claim()?;
         let file = self.folder.join(self.file_of(self.times.len()));
@@ -122,15 +121,21 @@ impl<const D: usize> VtkSeries<D> {
     }
 
     /// An error unless the name is valid, and the simulation has as many nodes and elements as the scene.
-    fn check<S: Real>(&self, run: &Simulation<D, S>) -> Result<(), SeriesError> {
+    fn check<S: Real>(&self, run: &Simulation<D, S>) -> io::Result<()> {
         if self.name.is_empty() || self.name.contains(['/', '\\']) {
-            return Err(SeriesError::Name(self.name.clone()));
+            return Err(invalid(format!(
+                "`{}` is no name of a series: it begins the names of files, so that it must not be empty and has neither `/` nor `\\`; the folder is given apart from it",
+                self.name
+            )));
         }
         let elements = self.cells.iter().map(|cell| cell.elements.len());
         let series = [self.nodes.len(), elements.sum()];
         let run = run.counts();
         if series != run {
-            return Err(SeriesError::OtherCounts { series, run });
+            return Err(invalid(format!(
+                "the series has {} nodes and {} elements, and the simulation {} and {}: make the series when everything is in the scene",
+                series[0], series[1], run[0], run[1]
+            )));
         }
         Ok(())
     }
@@ -144,7 +149,10 @@ impl<const D: usize> VtkSeries<D> {
         let folder = fs::canonicalize(&self.folder).map_err(at(&self.folder))?;
         let mut taken = TAKEN.lock().unwrap_or_else(PoisonError::into_inner);
         if !taken.insert(folder.join(&self.name)) {
-            return Err(SeriesError::Taken(self.list_file()).into());
+            return Err(invalid(format!(
+                "`{}` is already that of another series of this program: give each series a name or a folder of its own",
+                self.list_file().display()
+            )));
         }
         self.has_claimed = true;
         Ok(())
@@ -189,40 +197,9 @@ fn in_space<S: Real>(vector: &[S]) -> [f64; 3] {
     core::array::from_fn(|axis| vector.get(axis).map_or(0.0, |value| value.to_f64()))
 }
 
-/// Why a state cannot be written, within an [`io::Error`] of the kind [`InvalidInput`](io::ErrorKind::InvalidInput).
-#[derive(Debug, Error)]
-enum SeriesError {
-    /// The name is invalid for a file.
-    #[error(
-        "`{0}` is no name of a series: it begins the names of files, so that it must not be empty and has neither `/` nor `\\`; the folder is given apart from it"
-    )]
-    Name(String),
-    /// Another series of the program has these files.
-    #[error(
-        "`{list}` is already that of another series of this program: give each series a name or a folder of its own",
-        list = .0.display()
-    )]
-    Taken(PathBuf),
-    /// The scene had other counts when the series was made.
-    #[error(
-        "the series has {series_nodes} nodes and {series_elements} elements, and the simulation {run_nodes} and {run_elements}: make the series when everything is in the scene",
-        series_nodes = series[0], series_elements = series[1], run_nodes = run[0], run_elements = run[1]
-    )]
-    OtherCounts {
-        /// Nodes and elements.
-        series: [usize; 2],
-        /// Nodes and elements.
-        run: [usize; 2],
-    },
-    /// The simulation is of another scene.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-}
-
-impl From<SeriesError> for io::Error {
-    fn from(error: SeriesError) -> Self {
-        Self::new(io::ErrorKind::InvalidInput, error)
-    }
+/// An error that is not one of a file.
+fn invalid(error: impl Into<Box<dyn Error + Send + Sync>>) -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidInput, error)
 }
 
 /// An error of a file or a folder, with its path.

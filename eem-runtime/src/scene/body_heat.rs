@@ -63,18 +63,12 @@ impl<const D: usize, S: Real> Scene<D, S> {
         if element == other {
             return self.refuse(SceneError::SelfConduction { element });
         }
-        let bodies = [first, second];
-        let Some([one, other]) = first
-            .conductivity
-            .zip(second.conductivity)
-            .map(<[f64; 2]>::from)
-        else {
-            for body in bodies
-                .into_iter()
-                .filter(|body| body.conductivity.is_none())
-            {
-                let element = body.first();
-                self.refuse(SolidError::NoConductivity { element });
+        let (Some(one), Some(other)) = (first.conductivity, second.conductivity) else {
+            let is_insulated = [first.conductivity.is_none(), second.conductivity.is_none()];
+            for (element, is_insulated) in elements.into_iter().zip(is_insulated) {
+                if is_insulated {
+                    self.refuse(SolidError::NoConductivity { element });
+                }
             }
             return;
         };

@@ -9,8 +9,9 @@ use crate::element::kinematics::{
 use crate::scene::check::check_position;
 use crate::scene::entry::UNMADE;
 use crate::scene::error::SceneError;
+use crate::scene::mesh::per_node;
 use crate::scene::solid_error::SolidError;
-use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::free_energy::FreeEnergy;
 use eem_material::number::scalar::{Mask, Real, is_positive};
 use eem_material::point_energy::PointEnergy;
 
@@ -43,34 +44,28 @@ impl<S: Real, const D: usize> Scene<D, S> {
     {
         let first = self.next_element::<M>();
         let points = H::PerPoint::from_fn(|point| first.after(point));
-        let place = match self.expect_cell::<H, N>(nodes, (M::STRAINS, stuff), points.as_ref()) {
-            Ok(cell) => {
-                let new = LooseElements::<
-                    S,
-                    PointEnergy<S, M::AtPoint<S>>,
-                    SolidPoint<H, S, N, D>,
-                    D,
-                >::new;
-                let (group, set) = self.set_of(new);
-                let place = set.points();
-                let parts = H::PerPoint::from_fn(|at| {
-                    let point = cell.as_ref()[at];
-                    (
-                        PointEnergy::new(model.at_point::<S>(), point.volume()),
-                        point,
-                    )
-                });
-                set.elements.push((first, parts));
-                [group, place]
-            }
-            // The handles must be valid until the scene is checked.
-            Err(misuse) => {
-                self.misuse.extend(misuse);
-                [UNMADE, 0]
-            }
-        };
+        let (group, place) =
+            match self.expect_cell::<H, N>(nodes, (M::STRAINS, stuff), points.as_ref()) {
+                Ok(cell) => {
+                    let parts = H::PerPoint::from_fn(|at| {
+                        let point = cell.as_ref()[at];
+                        let energy = PointEnergy::new(model.at_point::<S>(), point.volume());
+                        (energy, point)
+                    });
+                    let new = LooseElements::<S, _, SolidPoint<H, S, N, D>, D>::new;
+                    let (group, set) = self.set_of(new);
+                    let place = set.points();
+                    set.elements.push((first, parts));
+                    (group, place)
+                }
+                // The handles must be valid until the scene is checked.
+                Err(misuse) => {
+                    self.misuse.extend(misuse);
+                    (UNMADE, 0)
+                }
+            };
         for point in 0..points.as_ref().len() {
-            self.push_element(nodes.as_ref(), [place[0], place[1] + point]);
+            self.push_element(nodes.as_ref(), [group, place + point]);
         }
         points
     }
@@ -91,12 +86,11 @@ impl<S: Real, const D: usize> Scene<D, S> {
         if stuff.is_refused {
             return Err(None);
         }
-        let measures = stuff.measures(strains, points[0]);
-        let measures = measures.map_err(SceneError::from)?;
-        let mut reference = H::PerNode::filled([S::zero(); D]);
-        for (position, node) in reference.as_mut().iter_mut().zip(nodes.as_ref()) {
-            *position = self.nodes[node.index].position.into();
-        }
+        let measures = stuff
+            .measures(strains, points[0])
+            .map_err(SceneError::from)?;
+        let position = |at: usize| self.nodes[nodes[at].index].position.into();
+        let reference = per_node::<H, _, D>(position);
         let cell = SolidPoint::<H, S, N, D>::points(&reference, stuff.thickness, measures);
         let cell = cell.map_err(|(point, size)| {
             SceneError::Solid(SolidError::InsideOut {

@@ -16,10 +16,10 @@ mod sub_face;
 
 pub use error::MeshError;
 pub use face::{Face, Outline};
-pub(crate) use geometry::distance;
+pub(crate) use geometry::{distance, per_node};
 pub(crate) use sub_face::facing;
 
-use face::Digest;
+use eem_material::number::digest::Digest;
 use geometry::mean;
 use nalgebra::{Rotation, SVector};
 
@@ -51,6 +51,7 @@ use crate::element::kinematics::Shape;
 pub struct Mesh<H: Shape<D>, const D: usize> {
     nodes: Vec<[f64; D]>,
     cells: Vec<H::PerNode<usize>>,
+    /// Tells meshes apart: equal meshes have the same digest.
     digest: Digest,
 }
 
@@ -74,7 +75,16 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     /// [`MeshError`] names the first invalid node or cell.
     pub fn new(nodes: Vec<[f64; D]>, cells: Vec<H::PerNode<usize>>) -> Result<Self, MeshError> {
         check::check::<H, D>(&nodes, &cells)?;
-        let digest = Digest::of(&nodes, &cells);
+        let digest = Digest::of(|digest| {
+            digest.count(nodes.len());
+            for &coordinate in nodes.as_flattened() {
+                // −0 and 0 are the same position.
+                digest.number(coordinate + 0.0);
+            }
+            for &node in cells.iter().flat_map(AsRef::as_ref) {
+                digest.count(node);
+            }
+        });
         Ok(Self {
             nodes,
             cells,

@@ -11,9 +11,9 @@ use crate::scene::cell::Stuff;
 use crate::scene::entry::UNMADE;
 use crate::scene::error::SceneError;
 use crate::scene::joints::{Shared, joined};
-use crate::scene::mesh::Mesh;
+use crate::scene::mesh::{Mesh, per_node};
 use crate::scene::solid_error::SolidError;
-use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::free_energy::FreeEnergy;
 use eem_material::number::scalar::Real;
 
 /// # Solids from meshes
@@ -82,10 +82,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
         let mut points = Vec::with_capacity(mesh.cells().len() * H::PerPoint::<Element>::LEN);
         for cell in mesh.cells() {
-            let mut named = H::PerNode::filled(nodes[0]);
-            for (handle, &node) in named.as_mut().iter_mut().zip(cell.as_ref()) {
-                *handle = nodes[node];
-            }
+            let named = per_node::<H, _, D>(|at| nodes[cell[at]]);
             points.extend(self.push_cell::<H, M, N>(&model, &named, stuff));
         }
         let body = Body {

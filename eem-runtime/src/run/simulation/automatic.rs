@@ -1,11 +1,12 @@
 //! `Scheme::Auto`: the scheme that follows the motion with the least effort.
 
+use core::mem;
+
 use super::attempt::explicit_view;
 use super::memory::Control;
-use super::stepper::{Groups, Parts, Stepper};
+use super::stepper::{Parts, Stepper};
 use super::{Simulation, StepResult, Tried};
 use crate::algebra::memory::TooLarge;
-use crate::element::group::Placed;
 use crate::run::checkpoint::{Checkpoint, RestoreError, SavedChoice};
 use crate::step::automatic::{CANDIDATES, Verdict, implicit};
 use crate::step::control::Controller;
@@ -14,7 +15,6 @@ use crate::step::explicit::SavedExplicit;
 use crate::step::newton::StepReport;
 use crate::step::scheme::{Closing, Scheme};
 use crate::step::solver::SavedPast;
-use crate::step::systems::Systems;
 use eem_material::number::scalar::Real;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
@@ -203,10 +203,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             return Ok(());
         }
         let automatic = &mut self.automatic;
-        let elements = (&automatic.elements[..], &self.layout);
-        let (rockets, limit) = (self.loads.rocket_lines(), automatic.memory_limit);
-        let systems = Systems::new(scheme, elements, &self.conduction, &rockets, limit)?;
-        automatic.evaluations += self.stepper.evaluations();
         let parts = Parts {
             scheme,
             masses: &self.masses,
@@ -215,12 +211,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             conduction: &self.conduction,
             loads: &self.loads,
         };
-        let placed = Placed {
-            nodes: &automatic.elements,
-            layout: &self.layout,
-        };
-        let groups = Groups::new(self.stepper.take_elements(), scheme, placed);
-        self.stepper = Stepper::new(groups, systems, parts, &self.state);
+        let systems = parts.systems(automatic.memory_limit)?;
+        let elements = self.stepper.take_elements();
+        let previous = mem::replace(
+            &mut self.stepper,
+            Stepper::new(elements, systems, parts, &self.state),
+        );
+        automatic.evaluations += previous.evaluations();
         if let Stepper::Explicit(explicit) = &mut self.stepper {
             explicit.set_motion_first(automatic.is_motion_first);
         }

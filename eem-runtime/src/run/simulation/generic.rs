@@ -92,20 +92,18 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// v, m/s; zero for anchors.
     fn velocities_in(&self, state: &State<S>) -> Vec<S> {
-        let nodes = self.masses.iter().enumerate();
-        let of = |(node, mass): (usize, Option<S>)| {
+        let velocity = |(node, mass): (usize, Option<S>)| {
             mass.map_or([S::zero(); D], |mass| state.velocity(node, mass))
         };
-        nodes.flat_map(of).collect()
+        self.masses.iter().enumerate().flat_map(velocity).collect()
     }
 
     fn generic_from(&self, elements: &[ElementGeneric<S>], velocities: &[S]) -> Generic<S> {
         let places = self.generic_places();
-        let size = places.size;
-        let mut energy_gradient = DVector::from_element(size, S::zero());
-        let mut entropy_gradient = energy_gradient.clone();
-        let mut reversible = DMatrix::from_element(size, size, S::zero());
-        let mut irreversible = reversible.clone();
+        let gradient = DVector::from_element(places.size, S::zero());
+        let (mut energy_gradient, mut entropy_gradient) = (gradient.clone(), gradient);
+        let matrix = DMatrix::from_element(places.size, places.size, S::zero());
+        let (mut reversible, mut irreversible) = (matrix.clone(), matrix);
         for (coordinate, place) in places.positions.iter().enumerate() {
             let Some(q) = *place else {
                 continue;
@@ -179,11 +177,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub(super) fn generic_places(&self) -> Places {
         let mut positions = Vec::with_capacity(self.masses.len() * D);
         let mut masses = 0;
-        for mass in self.masses.iter() {
-            for _ in 0..D {
-                positions.push(mass.map(|_| masses));
-                masses += usize::from(mass.is_some());
-            }
+        for mass in self.masses.iter().flat_map(|mass| [mass; D]) {
+            positions.push(mass.map(|_| masses));
+            masses += usize::from(mass.is_some());
         }
         let viscous = 2 * masses;
         let entropies = viscous + self.layout.viscous;

@@ -1,20 +1,17 @@
 //! The initial state of a scene.
 
-use core::{array, mem};
+use core::array;
 
 use nalgebra::SVector;
 
-use super::stepper::Groups;
-use crate::element::group::Placed;
+use super::stepper::{Parts, Stepper};
 use crate::element::layout::Layout;
-use crate::element::masses::Masses;
 use crate::element::state::{Energy, State};
 use crate::run::ledger::Ledger;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::scene::loads::OfTime;
 use crate::scene::solid_error::SolidError;
-use crate::step::scheme::Scheme;
 use eem_material::number::compensated::{Compensated, Sum};
 use eem_material::number::derivative::{derivative, shares};
 use eem_material::number::scalar::Real;
@@ -30,15 +27,14 @@ pub(super) fn initial_state<const D: usize, S: Real>(
     let mut positions = Vec::with_capacity(coordinates);
     let mut momenta = Vec::with_capacity(coordinates);
     let mut velocities = Vec::new();
-    let still = SVector::from([S::zero(); D]);
     let is_coupled = !scene.pairs.is_empty();
     for node in &scene.nodes {
         let mass = node.mass.unwrap_or(S::zero());
         positions.extend(node.position.iter());
         momenta.extend(node.start_momentum(mass).iter());
         if is_coupled {
-            let moving = node.mass.map_or(still, |_| node.velocity);
-            velocities.extend(moving.iter());
+            let still = SVector::from([S::zero(); D]);
+            velocities.extend(node.mass.map_or(still, |_| node.velocity).iter());
         }
     }
     if is_coupled {
@@ -100,25 +96,18 @@ fn first_speed<const D: usize, S: Real>(motion: &OfTime<S, D>, step: S) -> [S; D
     })
 }
 
-/// Prepares the elements of a scene for a scheme, and finds the entropies of the initial state. If that state is invalid,
-/// returns all errors, and the scene is unchanged.
-pub(super) fn begin_groups<const D: usize, S: Real>(
-    scene: &mut Scene<D, S>,
-    scheme: Scheme,
-    (layout, masses): (&Layout, &Masses<S>),
+/// Finds the entropies of the initial state. Returns everything for which the elements cannot be in it.
+pub(super) fn find_entropies<const D: usize, S: Real>(
+    stepper: &mut Stepper<S, D>,
     state: &mut State<S>,
-) -> Result<Groups<S, D>, Vec<SceneError>> {
-    let elements = mem::take(&mut scene.groups);
-    let placed = Placed {
-        nodes: &scene.elements,
-        layout,
-    };
-    let mut groups = Groups::new(elements, scheme, placed);
-    let errors = groups.initialize(state).into_iter();
-    let mut errors: Vec<_> = errors.map(SceneError::from).collect();
+    parts: Parts<'_, S, D>,
+) -> Vec<SceneError> {
+    let mut errors = Vec::new();
+    let mut refuse = |error| errors.push(SceneError::State(error));
+    stepper.each_mut(|group| group.initialize(state, &mut refuse));
     if errors.is_empty() {
-        let all = groups.all().into_iter();
-        let ledger = Ledger::of(state, masses, all, &scene.reservoirs, &scene.loads.gravity);
+        let (reservoirs, gravity) = (&parts.conduction.reservoirs, &parts.loads.gravity);
+        let ledger = Ledger::of(state, parts.masses, stepper.all(), reservoirs, gravity);
         let infinite = ledger.infinite_entry();
         errors.extend(infinite.map(|(quantity, value, unit)| SceneError::Total {
             quantity,
@@ -126,9 +115,5 @@ pub(super) fn begin_groups<const D: usize, S: Real>(
             unit,
         }));
     }
-    if errors.is_empty() {
-        return Ok(groups);
-    }
-    scene.groups = groups.into_loose();
-    Err(errors)
+    errors
 }

@@ -2,9 +2,9 @@
 
 use core::mem;
 
+use crate::algebra::memory::{MemoryLimit, TooLarge};
 use crate::element::conduction::Conduction;
-use crate::element::error::StateError;
-use crate::element::group::{Elements, ExplicitGroup, Group, Loose, Placed};
+use crate::element::group::{Elements, Group, Loose, Placed};
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
@@ -18,14 +18,6 @@ use crate::step::scheme::{Closing, Scheme};
 use crate::step::solver::{SavedPast, Solver};
 use crate::step::systems::Systems;
 use eem_material::number::scalar::Real;
-
-/// The elements of a scene, a group per model, prepared for a scheme.
-pub(super) enum Groups<S: Real, const D: usize> {
-    /// For Newton's method.
-    Newton(Vec<Box<dyn Group<S, D>>>),
-    /// For an explicit scheme.
-    Explicit(Vec<Box<dyn ExplicitGroup<S, D>>>),
-}
 
 /// The solver of a scheme with the elements of a scene.
 pub(super) enum Stepper<S: Real, const D: usize> {
@@ -58,90 +50,53 @@ pub(super) struct Parts<'a, S: Real, const D: usize> {
     pub(super) loads: &'a Loads<S, D>,
 }
 
-impl<S: Real, const D: usize> Groups<S, D> {
-    /// Prepares elements for a scheme.
-    pub(super) fn new(
-        elements: Vec<Box<dyn Loose<S, D>>>,
-        scheme: Scheme,
-        placed: Placed<'_>,
-    ) -> Self {
-        let elements = elements.into_iter();
-        if scheme.closing() == Closing::Explicit {
-            let groups = elements.map(|elements| elements.build_explicit(placed));
-            return Self::Explicit(groups.collect());
-        }
-        let by = scheme.conjugates();
-        let groups = elements.map(|elements| elements.build(by, placed));
-        Self::Newton(groups.collect())
-    }
-
-    /// Finds the entropies of an initial state; the elements that cannot be in it are errors.
-    pub(super) fn initialize(&mut self, state: &mut State<S>) -> Vec<StateError> {
-        let mut errors = Vec::new();
-        let mut initialize = |elements: &mut dyn Elements<S, D>| {
-            elements.initialize(state, &mut |error| errors.push(error));
-        };
-        match self {
-            Self::Newton(groups) => {
-                for group in groups {
-                    initialize(group.elements_mut());
-                }
-            }
-            Self::Explicit(groups) => {
-                for group in groups {
-                    initialize(group.elements_mut());
-                }
-            }
-        }
-        errors
-    }
-
-    /// All groups.
-    pub(super) fn all(&self) -> Vec<&dyn Elements<S, D>> {
-        match self {
-            Self::Newton(groups) => groups.iter().map(|group| group.elements()).collect(),
-            Self::Explicit(groups) => groups.iter().map(|group| group.elements()).collect(),
-        }
-    }
-
-    /// The elements without a scheme.
-    pub(super) fn into_loose(self) -> Vec<Box<dyn Loose<S, D>>> {
-        match self {
-            Self::Newton(groups) => groups.into_iter().map(Group::into_loose).collect(),
-            Self::Explicit(groups) => groups.into_iter().map(ExplicitGroup::into_loose).collect(),
-        }
+impl<S: Real, const D: usize> Parts<'_, S, D> {
+    /// The linear systems of the scheme.
+    pub(super) fn systems(&self, limit: MemoryLimit) -> Result<Systems<S, D>, TooLarge> {
+        let elements = (&self.elements[..], self.layout);
+        let rockets = self.loads.rocket_lines();
+        Systems::new(self.scheme, elements, self.conduction, &rockets, limit)
     }
 }
 
 impl<S: Real, const D: usize> Stepper<S, D> {
-    /// For groups with the systems of the scheme.
+    /// For elements in a state whose entropies may be unknown.
     pub(super) fn new(
-        groups: Groups<S, D>,
+        elements: Vec<Box<dyn Loose<S, D>>>,
         systems: Systems<S, D>,
         parts: Parts<'_, S, D>,
         state: &State<S>,
     ) -> Self {
-        match groups {
-            Groups::Newton(groups) => {
-                Self::Newton(Box::new(Newton::new(groups, systems, parts, state)))
-            }
-            Groups::Explicit(groups) => {
-                let site = Site {
-                    masses: parts.masses,
-                    elements: parts.elements,
-                    layout: parts.layout,
-                    conduction: parts.conduction,
-                    loads: parts.loads,
-                };
-                Self::Explicit(Box::new(Explicit::new(groups, site)))
-            }
+        let placed = Placed {
+            nodes: parts.elements,
+            layout: parts.layout,
+        };
+        let elements = elements.into_iter();
+        if parts.scheme.closing() == Closing::Explicit {
+            let groups = elements.map(|elements| elements.build_explicit(placed));
+            let site = Site {
+                masses: parts.masses,
+                elements: parts.elements,
+                layout: parts.layout,
+                conduction: parts.conduction,
+                loads: parts.loads,
+            };
+            return Self::Explicit(Box::new(Explicit::new(groups.collect(), site)));
         }
+        let by = parts.scheme.conjugates();
+        let groups = elements
+            .map(|elements| elements.build(by, placed))
+            .collect();
+        Self::Newton(Box::new(Newton::new(groups, systems, parts, state)))
     }
 
     /// Takes its elements out, after which it cannot step.
     pub(super) fn take_elements(&mut self) -> Vec<Box<dyn Loose<S, D>>> {
         match self {
-            Self::Newton(newton) => Groups::Newton(mem::take(&mut newton.groups)).into_loose(),
+            Self::Newton(newton) => {
+                let groups = mem::take(&mut newton.groups).into_iter();
+                groups.map(Group::into_loose).collect()
+            }
             Self::Explicit(explicit) => explicit.take_elements(),
         }
     }

@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::Mesh;
 use super::error::MeshError;
+use super::geometry::per_node;
 use super::grid::{check_axis, level};
 use crate::element::kinematics::{Hex8, Hex20, Quad4, Quad8, Shape};
-use eem_material::free_energy::Array;
 
 impl Mesh<Hex8, 3> {
     /// Extrudes a plane mesh along z through these heights, m: one layer of hexahedra between two heights.
@@ -68,26 +68,16 @@ fn extruded<P: Shape<2>, H: Shape<3>>(
     };
     let layers = 0..heights.len() - 1;
     let all = layers.flat_map(|layer| profile.cells.iter().map(move |cell| (layer, cell)));
-    let keys = |(layer, cell)| {
-        H::NODES
-            .iter()
-            .map(|&node| key(layer, cell, node))
-            .collect()
-    };
-    let keys: Vec<Vec<[usize; 2]>> = all.map(keys).collect();
+    let nodes = H::NODES.iter();
+    let keys = all.map(|(layer, cell)| nodes.clone().map(|&node| key(layer, cell, node)).collect());
+    let keys: Vec<Vec<[usize; 2]>> = keys.collect();
     let sorted: BTreeSet<[usize; 2]> = keys.iter().flatten().copied().collect();
     let nodes: BTreeMap<_, _> = sorted.into_iter().zip(0..).collect();
     let place = |&[at, node]: &[usize; 2]| {
         let [x, y] = profile.nodes[node];
         [x, y, level(heights, at)]
     };
-    let cell = |keys: &Vec<[usize; 2]>| {
-        let mut cell = H::PerNode::filled(0);
-        for (node, key) in cell.as_mut().iter_mut().zip(keys) {
-            *node = nodes[key];
-        }
-        cell
-    };
+    let cell = |keys: &Vec<[usize; 2]>| per_node::<H, _, 3>(|at| nodes[&keys[at]]);
     Mesh::new(
         nodes.keys().map(place).collect(),
         keys.iter().map(cell).collect(),

@@ -1,6 +1,7 @@
 //! Distances, means and areas.
 
 use crate::element::kinematics::{Shape, Symmetric};
+use eem_material::free_energy::{Array, Entry};
 use eem_material::number::scalar::Scalar;
 
 /// The normal, as long as the area, of an edge in the plane or of a quadrilateral in space (half the product of its
@@ -20,6 +21,17 @@ pub(super) fn area_vector<H: Shape<D>, const D: usize>(corners: &[[f64; D]]) -> 
     }
     let cofactor = H::Tensor::<f64>::cofactor(&rows);
     cofactor[D - 1].map(|component| share * component)
+}
+
+/// An entry per node of a cell.
+pub(crate) fn per_node<H: Shape<D>, T: Entry, const D: usize>(
+    mut entry: impl FnMut(usize) -> T,
+) -> H::PerNode<T> {
+    let mut all = H::PerNode::filled(entry(0));
+    for at in 1..H::NODES.len() {
+        all[at] = entry(at);
+    }
+    all
 }
 
 /// The mean of positions, m.

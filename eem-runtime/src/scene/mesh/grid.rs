@@ -2,9 +2,9 @@
 
 use super::Mesh;
 use super::error::MeshError;
+use super::geometry::per_node;
 use super::lattice::Lattice;
 use crate::element::kinematics::Shape;
-use eem_material::free_energy::Array;
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     /// A box between two coordinates per axis, m, divided into equal cells. The first coordinate varies fastest.
@@ -79,15 +79,13 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         let place = |at: [usize; D]| -> [f64; D] {
             core::array::from_fn(|axis| level(cuts[axis], at[axis]))
         };
+        // Middles of edges are between the corners of a cell.
         let named = |cell: [usize; D]| {
-            let mut named = H::PerNode::filled(0);
-            for (name, node) in named.as_mut().iter_mut().zip(H::NODES) {
-                // Middles of edges are between the corners of a cell.
-                *name = lattice.number(core::array::from_fn(|axis| {
-                    (2 * cell[axis] + 1).saturating_add_signed(isize::from(node[axis]))
-                }));
-            }
-            named
+            per_node::<H, _, D>(|at| {
+                lattice.number(core::array::from_fn(|axis| {
+                    (2 * cell[axis] + 1).saturating_add_signed(isize::from(H::NODES[at][axis]))
+                }))
+            })
         };
         let (mut places, mut cells) = lattice.reserved()?;
         places.extend(lattice.places().map(place));

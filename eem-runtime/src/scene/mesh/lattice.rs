@@ -36,16 +36,14 @@ impl<H: Shape<D>, const D: usize> Lattice<H, D> {
         }
         let size = Size::of::<H, D>(cells, &has);
         size.check()?;
+        let across = cells[1..].iter();
+        let rows = across.fold(1, |rows, &count| rows * (2 * count + 1));
         let mut lattice = Self {
             cells,
             has,
-            starts: Vec::new(),
+            starts: size.reserved(rows + 1)?,
             shape: PhantomData,
         };
-        let rows = cells[1..]
-            .iter()
-            .fold(1, |rows, &count| rows * (2 * count + 1));
-        lattice.starts = size.reserved(rows + 1)?;
         let mut start = 0;
         for row in 0..rows {
             lattice.starts.push(start);
@@ -84,15 +82,12 @@ impl<H: Shape<D>, const D: usize> Lattice<H, D> {
             let along = (0..=2 * self.cells[0]).filter(move |at| self.has[parities + at % 2]);
             along.map(move |at| {
                 let mut rest = row;
-                core::array::from_fn(|axis| {
-                    if axis == 0 {
-                        return at;
-                    }
-                    let steps = 2 * self.cells[axis] + 1;
-                    let own = rest % steps;
-                    rest /= steps;
-                    own
-                })
+                let mut place = [at; D];
+                for (at, count) in place.iter_mut().zip(&self.cells).skip(1) {
+                    *at = rest % (2 * count + 1);
+                    rest /= 2 * count + 1;
+                }
+                place
             })
         })
     }
