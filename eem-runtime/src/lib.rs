@@ -39,7 +39,7 @@
 //! | add a load, a support or a thermostat | `scene/loads.rs`, `scene/act.rs`, `step/loads.rs`; `step/solver/rockets.rs` if it follows the motion; the ledger |
 //! | add a conserved quantity | `run/ledger.rs` |
 //! | record, stop or resume a run | `run/recorder`, `run/vtk.rs`, `run/checkpoint.rs`; `run.rs` and `event` in `run/simulation` |
-//! | reject a scene, state or checkpoint | `scene/check.rs`, `scene/start.rs`, `run/simulation/audit.rs`, `element/group/audit.rs`; messages in each `error.rs` |
+//! | reject a scene, state or checkpoint | `scene/check.rs`, `run/simulation/audit.rs`, `element/group/audit.rs`; messages in each `error.rs` |
 //! | run many scenes at once | `run/ensemble`, `number/lanes.rs` in `eem-material`, `element/group/settled.rs` |
 //! | use more threads in one scene | `algebra/threads.rs`, `element/group/evaluate.rs`; `eem-sparse` for elimination |
 //! | check a material before use | `domain` in `eem-material` |

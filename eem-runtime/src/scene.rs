@@ -20,8 +20,6 @@ mod meshed_solid;
 pub(crate) mod refused;
 pub(crate) mod solid;
 pub(crate) mod solid_error;
-mod start;
-mod viscous_strain;
 
 use crate::algebra::memory::MemoryLimit;
 use crate::element::conduction::Conductor;

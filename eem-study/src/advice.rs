@@ -3,9 +3,9 @@
 use core::fmt;
 
 use crate::error::StudyError;
-use crate::quantity::StateQuantity;
-use crate::report::{StudyReport, StudyRow};
-use crate::statement::{DOUBT, largest};
+use crate::quantity::{DOUBT, StateQuantity};
+use crate::report::StudyReport;
+use crate::row::{StudyRow, largest};
 use eem_material::number::readable::Readable;
 
 /// A recommendation for an accuracy; `Display` prints it in words.

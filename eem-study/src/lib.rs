@@ -1,6 +1,6 @@
 //! Work and precision: the cost and the accuracy of each setting for a scene.
 //!
-//! To compare schemes differently, look in `reference.rs`, `statement.rs` and `advice.rs`.
+//! To compare schemes differently, look in `reference.rs`, `row.rs` and `advice.rs`.
 
 mod advice;
 mod course;
@@ -9,8 +9,8 @@ mod measure;
 mod quantity;
 mod reference;
 mod report;
+mod row;
 mod setting;
-mod statement;
 mod study;
 mod table;
 
@@ -18,7 +18,7 @@ pub use advice::{Advice, Recommendation};
 pub use error::StudyError;
 pub use quantity::{EndState, StateQuantity};
 pub use reference::{ReferenceEnd, StudyReference};
-pub use report::{StudyReport, StudyRow};
+pub use report::StudyReport;
+pub use row::{Statement, StudyRow};
 pub use setting::{Precision, Setting, StepChoice};
-pub use statement::Statement;
 pub use study::Study;

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use crate::course::{Build, Course};
 use crate::quantity::{EndState, larger, share};
-use crate::report::StudyRow;
+use crate::row::StudyRow;
 use eem_material::number::scalar::Real;
 use eem_runtime::{SceneError, Simulation, StepError, StepReport};
 

@@ -5,6 +5,9 @@ use core::fmt;
 use eem_material::number::scalar::Real;
 use eem_runtime::Simulation;
 
+/// The largest difference of the references for which an error is stated, relative to it.
+pub(crate) const DOUBT: f64 = 0.01;
+
 /// A kind of quantity with an error of its own in a study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum StateQuantity {

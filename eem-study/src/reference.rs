@@ -7,10 +7,9 @@
 //! hundred times the error of the reference. It is halved until the difference is at most a hundredth of each error of a
 //! setting, until halving no longer helps, or up to a limit.
 
-use crate::course::{Build, Course, Grid};
+use crate::course::{Build, Course};
 use crate::measure::run;
-use crate::quantity::{EndState, PerQuantity, StateQuantity};
-use crate::statement::DOUBT;
+use crate::quantity::{DOUBT, EndState, PerQuantity, StateQuantity};
 use eem_runtime::{RocketError, SceneError, Scheme, StepError};
 
 /// Two schemes of one order.
@@ -67,16 +66,6 @@ pub struct StudyReference {
 }
 
 impl StudyReference {
-    /// Two given states.
-    pub(crate) const fn given(states: [EndState; 2]) -> Self {
-        Self {
-            states: Some(states),
-            schemes: None,
-            step: None,
-            end: ReferenceEnd::Given,
-        }
-    }
-
     /// The relative difference of the two references; infinite if they failed. `None` if the scene has no such
     /// quantity.
     #[must_use]
@@ -142,12 +131,17 @@ impl Search<'_> {
         let mut found: Option<StudyReference> = None;
         let mut factor = pair.first;
         loop {
-            let Some(grid) = self.grid(factor, pair) else {
-                return Ok(limited(found, pair));
+            let Some(steps) = self.steps(factor, pair) else {
+                return Ok(found.unwrap_or(StudyReference {
+                    states: None,
+                    schemes: Some(pair.schemes),
+                    step: None,
+                    end: ReferenceEnd::Limit,
+                }));
             };
-            let planned = 2 * u64::from(grid.steps);
+            let planned = 2 * u64::from(steps);
             note(planned, 0);
-            let next = match solve(build, (pair, self.end_time), grid) {
+            let next = match solve(build, pair.schemes, (steps, self.end_time)) {
                 Err(
                     SceneError::NotForSolids { .. }
                     | SceneError::Rocket(RocketError::Scheme { .. }),
@@ -169,13 +163,11 @@ impl Search<'_> {
         }
     }
 
-    /// Steps `factor` times smaller than the smallest of all settings; `None` beyond the limit. The first are always
-    /// allowed.
-    fn grid(&self, factor: u32, pair: Pair) -> Option<Grid> {
-        if factor > self.refinement.max(pair.first) {
-            return None;
-        }
-        Grid::divided(self.end_time, u64::from(self.finest) * u64::from(factor))
+    /// The number of steps `factor` times smaller than the smallest of all settings; `None` beyond the limit. The first
+    /// are always allowed.
+    fn steps(&self, factor: u32, pair: Pair) -> Option<u32> {
+        let is_within = factor <= self.refinement.max(pair.first);
+        self.finest.checked_mul(factor).filter(|_| is_within)
     }
 
     /// The better one of two pairs of references, and whether the search ends with it.
@@ -211,32 +203,21 @@ impl Search<'_> {
 /// A pair of runs.
 fn solve<const D: usize>(
     build: &Build<'_, D, f64>,
-    (pair, end_time): (Pair, f64),
-    grid: Grid,
+    schemes: [Scheme; 2],
+    (steps, end_time): (u32, f64),
 ) -> Result<StudyReference, SceneError> {
     let end = |scheme| {
-        let finished = run(build, &Course::on_grid(scheme, grid, end_time), None);
+        let finished = run(build, &Course::equal(scheme, steps, end_time), None);
         finished.map(|finished| finished.end)
     };
-    let [first, second] = pair.schemes;
-    let (states, end) = match (end(first)?, end(second)?) {
+    let (states, end) = match (end(schemes[0])?, end(schemes[1])?) {
         (Ok(first), Ok(second)) => (Some([first, second]), ReferenceEnd::Limit),
         (Err(error), _) | (_, Err(error)) => (None, ReferenceEnd::Failed(error)),
     };
     Ok(StudyReference {
         states,
-        schemes: Some(pair.schemes),
-        step: Some(grid.step),
+        schemes: Some(schemes),
+        step: Some(end_time / f64::from(steps)),
         end,
-    })
-}
-
-/// The finest references within the limit.
-fn limited(found: Option<StudyReference>, pair: Pair) -> StudyReference {
-    found.unwrap_or(StudyReference {
-        states: None,
-        schemes: Some(pair.schemes),
-        step: None,
-        end: ReferenceEnd::Limit,
     })
 }

@@ -1,92 +1,10 @@
 //! The results of a study: a row per setting, and the references.
 
-use crate::quantity::{PerQuantity, StateQuantity};
+use crate::quantity::StateQuantity;
 use crate::reference::StudyReference;
-use crate::setting::{Precision, Setting};
-use crate::statement::{Statement, largest};
-use eem_runtime::{Scheme, StepError};
-
-/// The results and costs of one setting.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct StudyRow {
-    /// The setting.
-    pub setting: Setting,
-    /// Why the run did not reach the end time; the other numbers then cover the steps before.
-    pub failure: Option<StepError>,
-    /// The largest `|B − B₀|/|E₀|` of the run, with the balance `B = E − work − heat`.
-    pub energy_defect: f64,
-    /// The bound for rounding in a single step: the largest [`StepReport::bound`](eem_runtime::StepReport::bound) divided
-    /// by `|E₀|`.
-    pub step_bound: f64,
-    /// The smallest ΔS of a step, J/K. By the second law it is not negative, except for rounding. Infinite without
-    /// steps.
-    pub least_entropy_change: f64,
-    /// Accepted steps.
-    pub steps: u32,
-    /// Rejected steps. Zero with constant steps.
-    pub rejected: u32,
-    /// Newton iterations.
-    pub iterations: usize,
-    /// Evaluations of the forces of all elements, one per stage.
-    pub evaluations: u64,
-    /// Wall time of the steps alone, the minimum of all repeats, s.
-    pub seconds: f64,
-    /// The median of the repeats, s.
-    pub median_seconds: f64,
-    /// Wall time of building the scene and the simulation, the minimum of all repeats, s.
-    pub setup_seconds: f64,
-    pub(crate) differences: PerQuantity,
-    pub(crate) doubts: PerQuantity,
-}
-
-impl StudyRow {
-    /// A row without steps.
-    pub(crate) const fn new(setting: Setting) -> Self {
-        Self {
-            setting,
-            failure: None,
-            energy_defect: 0.0,
-            step_bound: 0.0,
-            least_entropy_change: f64::INFINITY,
-            steps: 0,
-            rejected: 0,
-            iterations: 0,
-            evaluations: 0,
-            seconds: f64::NAN,
-            median_seconds: f64::NAN,
-            setup_seconds: f64::NAN,
-            differences: [None; 4],
-            doubts: [None; 4],
-        }
-    }
-
-    /// The statement about the error of one kind of quantity at the end time, see
-    /// [`EndState::difference`](crate::EndState::difference).
-    #[must_use]
-    pub fn statement(&self, quantity: StateQuantity) -> Statement {
-        let index = quantity.index();
-        match (self.differences[index], self.doubts[index]) {
-            (Some(difference), Some(doubt)) => Statement::of(difference, doubt),
-            _ => Statement::Absent,
-        }
-    }
-
-    /// The error of one kind of quantity at the end time, if it is stated.
-    #[must_use]
-    pub fn error(&self, quantity: StateQuantity) -> Option<f64> {
-        self.statement(quantity).stated()
-    }
-
-    /// The statement about the largest error of all kinds. It can be stated even if a much smaller one is not.
-    #[must_use]
-    pub fn largest_error(&self) -> Statement {
-        match (largest(&self.differences), largest(&self.doubts)) {
-            (Some(difference), Some(doubt)) => Statement::of(difference, doubt),
-            _ => Statement::Absent,
-        }
-    }
-}
+use crate::row::StudyRow;
+use crate::setting::Precision;
+use eem_runtime::Scheme;
 
 /// The result of [`Study::run`](crate::Study::run).
 ///

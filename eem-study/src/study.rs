@@ -7,8 +7,9 @@ use crate::course::{Build, Course};
 use crate::error::StudyError;
 use crate::measure::{Finished, run};
 use crate::quantity::{EndState, StateQuantity};
-use crate::reference::{Search, StudyReference};
-use crate::report::{StudyReport, StudyRow};
+use crate::reference::{ReferenceEnd, Search, StudyReference};
+use crate::report::StudyReport;
+use crate::row::StudyRow;
 use crate::setting::{Precision, Setting};
 use eem_runtime::{Scene, SceneError};
 
@@ -179,14 +180,14 @@ impl<'a, const D: usize> Study<'a, D> {
         };
         let runs = 1 + u64::try_from(self.repeats.max(1)).unwrap_or(u64::MAX);
         for course in &courses {
-            progress.plan(runs * u64::from(course.planned()));
+            progress.plan(runs * u64::from(course.planned));
         }
         let mut rows: Vec<_> = self.settings.iter().copied().map(StudyRow::new).collect();
         let mut ends = Vec::with_capacity(rows.len());
         for (row, course) in rows.iter_mut().zip(&courses) {
             let finished = self.run_setting(row.setting, course, Some(row))?;
             ends.push(finished.end.ok());
-            progress.advance(u64::from(course.planned()));
+            progress.advance(u64::from(course.planned));
         }
         self.time(&courses, &mut rows, &mut progress)?;
         let reference = self.find_reference(&rows, &ends, &mut progress)?;
@@ -222,7 +223,8 @@ impl<'a, const D: usize> Study<'a, D> {
                 return Err(StudyError::NoSingleScene { setting });
             }
         }
-        let courses = self.settings.iter().map(|setting| Course::of(setting, end));
+        let settings = self.settings.iter();
+        let courses = settings.map(|&setting| Course::of(setting, end));
         let courses = courses.collect::<Result<Vec<_>, _>>()?;
         if let Some(states) = &self.reference {
             self.check_reference(states, first, &courses[0])?;
@@ -289,7 +291,7 @@ impl<'a, const D: usize> Study<'a, D> {
                 let finished = self.run_setting(row.setting, course, None)?;
                 setups.push(finished.setup);
                 times.push(finished.seconds);
-                progress.advance(u64::from(course.planned()));
+                progress.advance(u64::from(course.planned));
             }
         }
         for (row, (mut setups, mut times)) in rows.iter_mut().zip(repeats) {
@@ -310,7 +312,12 @@ impl<'a, const D: usize> Study<'a, D> {
         progress: &mut Progress<'_>,
     ) -> Result<StudyReference, StudyError> {
         if let Some(states) = &self.reference {
-            return Ok(StudyReference::given(states.clone()));
+            return Ok(StudyReference {
+                states: Some(states.clone()),
+                schemes: None,
+                step: None,
+                end: ReferenceEnd::Given,
+            });
         }
         let ends: Vec<EndState> = ends.iter().flatten().cloned().collect();
         let search = Search {

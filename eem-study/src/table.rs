@@ -4,9 +4,9 @@ use core::fmt::{self, Write};
 
 use crate::quantity::StateQuantity;
 use crate::reference::{ReferenceEnd, StudyReference};
-use crate::report::{StudyReport, StudyRow};
+use crate::report::StudyReport;
+use crate::row::{Statement, StudyRow};
 use crate::setting::StepChoice;
-use crate::statement::Statement;
 use eem_material::number::readable::Readable;
 
 /// A column of the table: its head and the cell of a row.
@@ -133,16 +133,15 @@ fn write_table(f: &mut fmt::Formatter<'_>, lines: &[[String; 15]]) -> fmt::Resul
         let widths = lines.iter().map(|line| line[column].chars().count());
         widths.max().unwrap_or(0)
     };
+    let widths: [usize; 15] = core::array::from_fn(width);
     for (number, line) in lines.iter().enumerate() {
-        for (column, cell) in line.iter().enumerate() {
-            write!(f, "| {cell:<0$} ", width(column))?;
+        for (cell, width) in line.iter().zip(widths) {
+            write!(f, "| {cell:<width$} ")?;
         }
         writeln!(f, "|")?;
         if number == 0 {
-            for column in 0..line.len() {
-                write!(f, "|{:-<1$}", "", width(column) + 2)?;
-            }
-            writeln!(f, "|")?;
+            let rules = widths.map(|width| format!("|{:-<1$}", "", width + 2));
+            writeln!(f, "{}|", rules.concat())?;
         }
     }
     Ok(())
@@ -188,9 +187,5 @@ fn write_orders(f: &mut fmt::Formatter<'_>, report: &StudyReport) -> fmt::Result
             before = ", ";
         }
     }
-    if before == ", " {
-        f.write_str(".\n")
-    } else {
-        Ok(())
-    }
+    f.write_str(if before == ", " { ".\n" } else { "" })
 }

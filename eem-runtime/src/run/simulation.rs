@@ -8,7 +8,6 @@ mod compiled;
 mod control;
 pub(crate) mod event;
 pub(crate) mod generic;
-mod generic_temperature;
 mod guard;
 mod halves;
 mod inspect;

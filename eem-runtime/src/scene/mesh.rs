@@ -3,7 +3,6 @@
 mod boundary;
 mod check;
 mod error;
-mod extruded;
 mod face;
 mod geometry;
 mod grid;
