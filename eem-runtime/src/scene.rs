@@ -61,7 +61,7 @@ pub struct Scene<const D: usize, S: Real = f64> {
     pub(crate) loads: Loads<S, D>,
     pub(crate) memory_limit: MemoryLimit,
     /// Errors so far, reported by `Simulation::new`.
-    pub(crate) misuse: Vec<SceneError>,
+    pub(crate) errors: Vec<SceneError>,
 }
 
 impl<const D: usize> Scene<D> {
@@ -87,7 +87,7 @@ impl<const D: usize, S: Real> Default for Scene<D, S> {
             groups: Vec::new(),
             loads: Loads::none(),
             memory_limit: MemoryLimit::NONE,
-            misuse: Vec::new(),
+            errors: Vec::new(),
         }
     }
 }
@@ -293,7 +293,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
 
     /// Records an error for `Simulation::new`.
     fn refuse(&mut self, error: impl Into<SceneError>) {
-        self.misuse.push(error.into());
+        self.errors.push(error.into());
     }
 
     /// Whether a handle is of this scene; if not, that is an error.
@@ -377,7 +377,7 @@ impl<const D: usize, S: Real> Clone for Scene<D, S> {
             groups: self.groups.iter().map(|group| group.duplicate()).collect(),
             loads: self.loads.clone(),
             memory_limit: self.memory_limit,
-            misuse: self.misuse.clone(),
+            errors: self.errors.clone(),
         }
     }
 }

@@ -212,7 +212,7 @@ impl<const D: usize, S: Real> Recorder<D, S> {
     /// [`SceneError::ForeignHandle`] if `run` belongs to another scene than the recorder. Nothing is recorded then.
     pub fn record(&mut self, run: &Simulation<D, S>) -> Result<(), SceneError> {
         // A row has one value per quantity.
-        run.part();
+        run.diverge();
         if run.scene() != self.scene {
             let handle = "the recorder".to_owned();
             return Err(SceneError::ForeignHandle { handle });

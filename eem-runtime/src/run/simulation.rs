@@ -82,7 +82,7 @@ pub struct Simulation<const D: usize, S: Real = f64> {
     corrections: Corrections<S>,
     /// Something failed in lanes, some of which might have succeeded alone, so that no further result counts. Never
     /// set for a single number.
-    has_parted: AtomicBool,
+    has_diverged: AtomicBool,
 }
 
 /// The report of a step, or why it failed.
@@ -175,7 +175,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             has_stepped: false,
             worst: None,
             corrections: Corrections::none(),
-            has_parted: AtomicBool::new(false),
+            has_diverged: AtomicBool::new(false),
         };
         if is_automatic {
             run.set_control(Some(run.new_control(Tolerance::default())));
@@ -185,14 +185,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Whether the lanes have to be run one by one.
     #[inline]
-    pub(crate) fn has_parted(&self) -> bool {
-        S::LANES > 1 && self.has_parted.load(Ordering::Relaxed)
+    pub(crate) fn has_diverged(&self) -> bool {
+        S::LANES > 1 && self.has_diverged.load(Ordering::Relaxed)
     }
 
     /// Records that something is impossible in lanes; no effect on a single number.
-    pub(crate) fn part(&self) {
+    pub(crate) fn diverge(&self) {
         if S::LANES > 1 {
-            self.has_parted.store(true, Ordering::Relaxed);
+            self.has_diverged.store(true, Ordering::Relaxed);
         }
     }
 
@@ -210,7 +210,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// The error of a run that ends before its first step.
     #[cold]
     fn refused(&self, failure: StepFailure) -> StepError {
-        self.part();
+        self.diverge();
         StepError {
             time: self.time().to_f64(),
             step: self.step.to_f64(),

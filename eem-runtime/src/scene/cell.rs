@@ -7,7 +7,7 @@ use crate::element::kinematics::{
     Measure, Points, Shape, SolidPoint, Strain, StrainEnergy, integrals,
 };
 use crate::scene::check::check_position;
-use crate::scene::entry::UNMADE;
+use crate::scene::entry::INVALID;
 use crate::scene::error::SceneError;
 use crate::scene::mesh::per_node;
 use crate::scene::solid_error::SolidError;
@@ -17,7 +17,7 @@ use eem_material::point_energy::PointEnergy;
 
 /// The properties of a cell besides its material and nodes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stuff<'a, S, const D: usize> {
+pub(super) struct CellProperties<'a, S, const D: usize> {
     /// kg/m³.
     pub(super) density: S,
     /// m in the plane, one in space.
@@ -27,7 +27,7 @@ pub(super) struct Stuff<'a, S, const D: usize> {
     /// Whether masses do not couple nodes.
     pub(super) lumped: bool,
     /// Whether it is invalid, which is already an error.
-    pub(super) is_refused: bool,
+    pub(super) is_invalid: bool,
 }
 
 impl<S: Real, const D: usize> Scene<D, S> {
@@ -36,7 +36,7 @@ impl<S: Real, const D: usize> Scene<D, S> {
         &mut self,
         model: &M,
         nodes: &H::PerNode<Node>,
-        stuff: Stuff<'_, S, D>,
+        properties: CellProperties<'_, S, D>,
     ) -> H::PerPoint<Element>
     where
         H: Shape<D>,
@@ -45,7 +45,7 @@ impl<S: Real, const D: usize> Scene<D, S> {
         let first = self.next_element::<M>();
         let points = H::PerPoint::from_fn(|point| first.after(point));
         let (group, place) =
-            match self.expect_cell::<H, N>(nodes, (M::STRAINS, stuff), points.as_ref()) {
+            match self.expect_cell::<H, N>(nodes, (M::STRAINS, properties), points.as_ref()) {
                 Ok(cell) => {
                     let parts = H::PerPoint::from_fn(|at| {
                         let point = cell.as_ref()[at];
@@ -59,9 +59,9 @@ impl<S: Real, const D: usize> Scene<D, S> {
                     (group, place)
                 }
                 // The handles must be valid until the scene is checked.
-                Err(misuse) => {
-                    self.misuse.extend(misuse);
-                    (UNMADE, 0)
+                Err(errors) => {
+                    self.errors.extend(errors);
+                    (INVALID, 0)
                 }
             };
         for point in 0..points.as_ref().len() {
@@ -74,7 +74,7 @@ impl<S: Real, const D: usize> Scene<D, S> {
     fn expect_cell<H: Shape<D>, const N: usize>(
         &mut self,
         nodes: &H::PerNode<Node>,
-        (strains, stuff): ([Strain; N], Stuff<'_, S, D>),
+        (strains, properties): ([Strain; N], CellProperties<'_, S, D>),
         points: &[Element],
     ) -> Result<H::PerPoint<SolidPoint<H, S, N, D>>, Option<SceneError>> {
         for node in nodes.as_ref() {
@@ -83,15 +83,15 @@ impl<S: Real, const D: usize> Scene<D, S> {
             }
             check_position(*node, &self.nodes[node.index])?;
         }
-        if stuff.is_refused {
+        if properties.is_invalid {
             return Err(None);
         }
-        let measures = stuff
+        let measures = properties
             .measures(strains, points[0])
             .map_err(SceneError::from)?;
         let position = |at: usize| self.nodes[nodes[at].index].position.into();
         let reference = per_node::<H, _, D>(position);
-        let cell = SolidPoint::<H, S, N, D>::points(&reference, stuff.thickness, measures);
+        let cell = SolidPoint::<H, S, N, D>::points(&reference, properties.thickness, measures);
         let cell = cell.map_err(|(point, size)| {
             SceneError::Solid(SolidError::InsideOut {
                 element: points[point],
@@ -104,7 +104,7 @@ impl<S: Real, const D: usize> Scene<D, S> {
                 },
             })
         })?;
-        self.add_masses::<H>(nodes.as_ref(), &reference, stuff);
+        self.add_masses::<H>(nodes.as_ref(), &reference, properties);
         Ok(cell)
     }
 
@@ -113,10 +113,11 @@ impl<S: Real, const D: usize> Scene<D, S> {
         &mut self,
         nodes: &[Node],
         reference: &H::PerNode<[S; D]>,
-        stuff: Stuff<'_, S, D>,
+        properties: CellProperties<'_, S, D>,
     ) {
-        let mut masses = integrals::masses::<H, S, D>(reference, stuff.density * stuff.thickness);
-        if stuff.lumped {
+        let mut masses =
+            integrals::masses::<H, S, D>(reference, properties.density * properties.thickness);
+        if properties.lumped {
             integrals::lump::<H, S, D>(&mut masses);
         }
         for (a, row) in masses.as_ref().iter().enumerate() {
@@ -125,7 +126,7 @@ impl<S: Real, const D: usize> Scene<D, S> {
             // A negative mass is that of the node itself, as masses of solids are positive.
             if mass.less(S::zero()).any() {
                 let (node, value) = (nodes[a], mass.to_f64());
-                self.misuse.push(SceneError::Mass { node, value });
+                self.errors.push(SceneError::Mass { node, value });
             }
             *mass += row[a];
             for (b, &mass) in row.as_ref().iter().enumerate().take(a) {
@@ -136,7 +137,7 @@ impl<S: Real, const D: usize> Scene<D, S> {
     }
 }
 
-impl<S: Real, const D: usize> Stuff<'_, S, D> {
+impl<S: Real, const D: usize> CellProperties<'_, S, D> {
     /// The measures of a material along the fibres; an error if the solid with this first point is invalid.
     pub(super) fn measures<const N: usize>(
         &self,

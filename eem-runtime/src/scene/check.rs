@@ -8,7 +8,7 @@ use crate::element::error::StateError;
 use crate::element::handle::{Element, HeatPartner, Node};
 use crate::element::layout::Shape;
 use crate::element::loads::PushLine;
-use crate::scene::entry::{ElementEntry, NodeEntry, UNMADE, infinite};
+use crate::scene::entry::{ElementEntry, INVALID, NodeEntry, infinite};
 use crate::scene::error::{RocketError, SceneError};
 use crate::scene::loads::{MOTION_ROUNDINGS, extent};
 use eem_material::number::scalar::{Mask, Real, is_positive};
@@ -16,13 +16,13 @@ use eem_material::number::scalar::{Mask, Real, is_positive};
 impl<const D: usize, S: Real> Scene<D, S> {
     /// All errors; those of the initial state only if all numbers are valid by themselves.
     pub(crate) fn check(&self) -> Vec<SceneError> {
-        let mut errors = self.misuse.clone();
+        let mut errors = self.errors.clone();
         // Nodes of an invalid solid are not checked: their errors would follow from its own.
-        let unmade = self.elements.iter();
-        let unmade = unmade.filter(|entry| entry.group == UNMADE);
-        let unmade: BTreeSet<_> = unmade.flat_map(|entry| &entry.nodes).collect();
+        let invalid = self.elements.iter();
+        let invalid = invalid.filter(|entry| entry.group == INVALID);
+        let invalid: BTreeSet<_> = invalid.flat_map(|entry| &entry.nodes).collect();
         for (index, entry) in self.nodes.iter().enumerate() {
-            if !unmade.contains(&index) {
+            if !invalid.contains(&index) {
                 check_node(self.node_at(index), entry, &mut errors);
             }
         }

@@ -35,7 +35,7 @@ pub(crate) fn infinite<S: Real>(vector: &[S]) -> impl Iterator<Item = (usize, f6
 }
 
 /// The group of the points of an invalid solid.
-pub(crate) const UNMADE: usize = usize::MAX;
+pub(crate) const INVALID: usize = usize::MAX;
 
 /// An element without its model.
 #[derive(Clone, Debug)]
@@ -44,7 +44,7 @@ pub(crate) struct ElementEntry<S> {
     pub(crate) temperature: Option<S>,
     /// `(dashpot, γ)` as given.
     pub(crate) viscous_stretches: Vec<(usize, S)>,
-    /// The group of the model, or [`UNMADE`] if an error is recorded, and the index there.
+    /// The group of the model, or [`INVALID`] if an error is recorded, and the index there.
     pub(crate) group: usize,
     pub(crate) place: usize,
 }

@@ -7,8 +7,8 @@ use crate::element::handle::{Element, Node};
 use crate::element::kinematics::{Points, Shape, StrainEnergy};
 use crate::scene::body::Body;
 use crate::scene::bulk::Bulk;
-use crate::scene::cell::Stuff;
-use crate::scene::entry::UNMADE;
+use crate::scene::cell::CellProperties;
+use crate::scene::entry::INVALID;
 use crate::scene::error::SceneError;
 use crate::scene::joints::{Shared, joined};
 use crate::scene::mesh::{Mesh, per_node};
@@ -64,17 +64,17 @@ impl<const D: usize, S: Real> Scene<D, S> {
     {
         let first = self.next_element::<M>();
         let nodes = self.nodes_of_mesh(mesh, bulk, first);
-        let mut stuff = Stuff {
+        let mut properties = CellProperties {
             density: bulk.density,
             thickness: S::from_f64(bulk.thickness),
             fibres: &bulk.fibres,
             lumped: bulk.lumped,
-            is_refused: false,
+            is_invalid: false,
         };
         // One error for the solid, not one per cell.
-        if let Err(error) = stuff.measures(M::STRAINS, first) {
+        if let Err(error) = properties.measures(M::STRAINS, first) {
             self.refuse(error);
-            stuff.is_refused = true;
+            properties.is_invalid = true;
         }
         let conductivity = bulk.conductivity.filter(|_| M::THERMAL);
         if conductivity.is_some() != bulk.conductivity.is_some() {
@@ -83,7 +83,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         let mut points = Vec::with_capacity(mesh.cells().len() * H::PerPoint::<Element>::LEN);
         for cell in mesh.cells() {
             let named = per_node::<H, _, D>(|at| nodes[cell[at]]);
-            points.extend(self.push_cell::<H, M, N>(&model, &named, stuff));
+            points.extend(self.push_cell::<H, M, N>(&model, &named, properties));
         }
         let body = Body {
             mesh: mesh.clone(),
@@ -142,7 +142,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
         for (index, entry) in self.elements.iter().enumerate() {
             let nodes = entry.nodes.iter().copied().collect();
-            let cell = joined.get(&nodes).filter(|_| entry.group != UNMADE);
+            let cell = joined.get(&nodes).filter(|_| entry.group != INVALID);
             if let Some(&cell) = cell {
                 let elements = [element, self.element_at(index)];
                 return Err(SolidError::JoinedCell { cell, elements });

@@ -3,7 +3,7 @@
 use super::Scene;
 use crate::element::handle::{Element, Node};
 use crate::element::kinematics::{Quad4, StrainEnergy};
-use crate::scene::cell::Stuff;
+use crate::scene::cell::CellProperties;
 use crate::scene::solid_error::SolidError;
 use eem_material::free_energy::FreeEnergy;
 use eem_material::joint::components;
@@ -77,14 +77,14 @@ impl<S: Real> Scene<2, S> {
         M: FreeEnergy<S> + StrainEnergy<N> + Send + Sync + 'static,
     {
         let Section { density, thickness } = section;
-        let stuff = Stuff {
+        let properties = CellProperties {
             density,
             thickness,
             fibres: &[],
             lumped: false,
-            is_refused: false,
+            is_invalid: false,
         };
-        self.push_cell::<Quad4, M, N>(&model, &nodes, stuff)
+        self.push_cell::<Quad4, M, N>(&model, &nodes, properties)
     }
 }
 

@@ -72,7 +72,7 @@ impl Bundles {
             return Err(MemberFailure::other("the scene does not suit lanes"));
         }
         let outputs = experiment.observe(&mut run, handles, members)?;
-        if run.has_parted() {
+        if run.has_diverged() {
             // The experiment has ignored an error.
             return Err(Discord.into());
         }

@@ -92,7 +92,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Writes the next state.
     fn find_next(&mut self, size: S, demand: Demand<S>) -> Result<Attempt<S>, StepFailure> {
-        if self.has_parted() {
+        if self.has_diverged() {
             // An experiment that ignores failed steps and waits for something would loop forever.
             return Err(Discord.into());
         }
@@ -114,15 +114,15 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             solver,
             loads,
             stages,
-            between,
+            intermediate,
         } = newton;
-        let Some(between) = between else {
+        let Some(intermediate) = intermediate else {
             let view = view!(self, size, Phase::Whole, &self.state, [loads, stages]);
             return Ok(Attempt::made(solver.solve(groups, &view, effort, next)?));
         };
         let view = view!(self, size, Phase::Mechanics, &self.state, [loads, stages]);
-        let motion = solver.solve(groups, &view, effort, between)?;
-        let view = view!(self, size, Phase::Heat, between, [loads, stages]);
+        let motion = solver.solve(groups, &view, effort, intermediate)?;
+        let view = view!(self, size, Phase::Heat, intermediate, [loads, stages]);
         let heat = solver.solve(groups, &view, effort, next)?;
         Ok(Attempt::made(motion.and(heat)))
     }

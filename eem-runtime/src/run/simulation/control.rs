@@ -76,7 +76,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             let scheme = self.scheme.name();
             Err(SceneError::FixedSteps { scheme })
         };
-        checked.inspect_err(|_| self.part())
+        checked.inspect_err(|_| self.diverge())
     }
 
     /// Continues step control from its history; `None` switches it off.
@@ -131,7 +131,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             }
             control => {
                 let is_controlled = control.is_some();
-                self.part();
+                self.diverge();
                 Err(SceneError::StepLimits {
                     smallest: smallest.to_f64(),
                     largest: largest.to_f64(),

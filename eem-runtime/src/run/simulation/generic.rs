@@ -99,52 +99,52 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     fn generic_from(&self, elements: &[ElementGeneric<S>], velocities: &[S]) -> Generic<S> {
-        let places = self.generic_places();
-        let gradient = DVector::from_element(places.size, S::zero());
+        let indices = self.generic_indices();
+        let gradient = DVector::from_element(indices.size, S::zero());
         let (mut energy_gradient, mut entropy_gradient) = (gradient.clone(), gradient);
-        let matrix = DMatrix::from_element(places.size, places.size, S::zero());
+        let matrix = DMatrix::from_element(indices.size, indices.size, S::zero());
         let (mut reversible, mut irreversible) = (matrix.clone(), matrix);
-        for (coordinate, place) in places.positions.iter().enumerate() {
+        for (coordinate, place) in indices.positions.iter().enumerate() {
             let Some(q) = *place else {
                 continue;
             };
-            let p = q + places.momenta;
+            let p = q + indices.momenta;
             energy_gradient[p] = velocities[coordinate];
             reversible[(q, p)] = S::one();
             reversible[(p, q)] = -S::one();
         }
         for (slot, &theta) in self.conduction.reservoirs.iter().enumerate() {
-            energy_gradient[places.reservoirs + slot] = theta;
-            entropy_gradient[places.reservoirs + slot] = S::one();
+            energy_gradient[indices.reservoirs + slot] = theta;
+            entropy_gradient[indices.reservoirs + slot] = S::one();
         }
         let mut temperatures = vec![S::zero(); self.layout.thermal];
         for element in elements {
             for &(coordinate, force) in &element.forces {
-                if let Some(q) = places.positions[coordinate] {
+                if let Some(q) = indices.positions[coordinate] {
                     energy_gradient[q] += force;
                 }
             }
             for &(slot, force, _) in &element.dashpots {
-                energy_gradient[places.viscous + slot] = -force;
+                energy_gradient[indices.viscous + slot] = -force;
             }
             if let Some((slot, theta)) = element.temperature {
-                energy_gradient[places.entropies + slot] = theta;
-                entropy_gradient[places.entropies + slot] = S::one();
+                energy_gradient[indices.entropies + slot] = theta;
+                entropy_gradient[indices.entropies + slot] = S::one();
                 temperatures[slot] = theta;
                 for &(viscous, force, eta) in &element.dashpots {
                     let w = [
-                        (places.viscous + viscous, S::one()),
-                        (places.entropies + slot, force / theta),
+                        (indices.viscous + viscous, S::one()),
+                        (indices.entropies + slot, force / theta),
                     ];
                     add_rank_one(&mut irreversible, theta / eta, &w);
                 }
                 for (eta, by_position) in &element.drags {
-                    let w = places.drag(by_position, velocities, (slot, theta));
+                    let w = indices.drag(by_position, velocities, (slot, theta));
                     add_rank_one(&mut irreversible, *eta * theta, &w);
                 }
             }
         }
-        self.add_conduction(&places, &temperatures, &mut irreversible);
+        self.add_conduction(&indices, &temperatures, &mut irreversible);
         Generic {
             energy_gradient,
             entropy_gradient,
@@ -154,19 +154,20 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// `κ θ_a θ_b w wᵀ` with `w = e_a/θ_a − e_b/θ_b` for every path of heat.
-    fn add_conduction(&self, places: &Places, temperatures: &[S], matrix: &mut DMatrix<S>) {
+    fn add_conduction(&self, indices: &Indices, temperatures: &[S], matrix: &mut DMatrix<S>) {
         for (slot, &theta) in temperatures.iter().enumerate() {
             for link in self.conduction.links(slot) {
                 let (partner, other) = match link.partner {
                     // Each path between elements is listed at both ends.
                     Partner::Slot(partner) if partner < slot => continue,
-                    Partner::Slot(partner) => (places.entropies + partner, temperatures[partner]),
-                    Partner::Reservoir(index) => {
-                        (places.reservoirs + index, self.conduction.reservoirs[index])
-                    }
+                    Partner::Slot(partner) => (indices.entropies + partner, temperatures[partner]),
+                    Partner::Reservoir(index) => (
+                        indices.reservoirs + index,
+                        self.conduction.reservoirs[index],
+                    ),
                 };
                 let w = [
-                    (places.entropies + slot, theta.recip()),
+                    (indices.entropies + slot, theta.recip()),
                     (partner, -other.recip()),
                 ];
                 add_rank_one(matrix, link.conductance * theta * other, &w);
@@ -174,7 +175,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    pub(super) fn generic_places(&self) -> Places {
+    pub(super) fn generic_indices(&self) -> Indices {
         let mut positions = Vec::with_capacity(self.masses.len() * D);
         let mut masses = 0;
         for mass in self.masses.iter().flat_map(|mass| [mass; D]) {
@@ -184,7 +185,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let viscous = 2 * masses;
         let entropies = viscous + self.layout.viscous;
         let reservoirs = entropies + self.layout.thermal;
-        Places {
+        Indices {
             positions,
             momenta: masses,
             viscous,
@@ -196,7 +197,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 }
 
 /// The indices in z at which its parts begin.
-pub(super) struct Places {
+pub(super) struct Indices {
     /// The index of each coordinate of a mass; `None` for anchors.
     pub(super) positions: Vec<Option<usize>>,
     momenta: usize,
@@ -206,7 +207,7 @@ pub(super) struct Places {
     size: usize,
 }
 
-impl Places {
+impl Indices {
     /// `w` of the dashpot in parallel with a spring, `ηθ w wᵀ ∇S`: `ṗ = −η λ̇ ∂λ/∂q` and `ṡ = η λ̇²/θ`.
     fn drag<S: Real>(
         &self,
@@ -269,12 +270,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// ```
     pub fn generic_in_temperature(&mut self) -> Generic<S> {
         let (mut form, elements) = self.generic_and_elements();
-        let places = self.generic_places();
+        let indices = self.generic_indices();
         for slopes in elements
             .iter()
             .filter_map(|element| element.entropy.as_ref())
         {
-            form.take_temperature(&places, slopes);
+            form.take_temperature(&indices, slopes);
         }
         form
     }
@@ -282,14 +283,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
 impl<S: Real> Generic<S> {
     /// Replaces the entropy of an element by its temperature.
-    fn take_temperature(&mut self, places: &Places, slopes: &EntropySlopes<S>) {
-        let own = places.entropies + slopes.slot;
+    fn take_temperature(&mut self, indices: &Indices, slopes: &EntropySlopes<S>) {
+        let own = indices.entropies + slopes.slot;
         let positions = slopes.by_position.iter();
         let positions = positions.filter_map(|&(coordinate, slope)| {
-            places.positions[coordinate].map(|place| (place, slope))
+            indices.positions[coordinate].map(|place| (place, slope))
         });
         let dashpots = slopes.by_viscous.iter();
-        let dashpots = dashpots.map(|&(slot, slope)| (places.viscous + slot, slope));
+        let dashpots = dashpots.map(|&(slot, slope)| (indices.viscous + slot, slope));
         let others: Vec<_> = positions.chain(dashpots).collect();
         for gradient in [&mut self.energy_gradient, &mut self.entropy_gradient] {
             let by_entropy = gradient[own];

@@ -74,11 +74,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let (past, explicit) = self.stepper.past(&self.state);
         let saved = self.choice_in(checkpoint)?;
         if let Some(saved) = saved.filter(|saved| saved.scheme != own) {
-            self.use_scheme(saved.scheme).inspect_err(|_| self.part())?;
+            self.use_scheme(saved.scheme)
+                .inspect_err(|_| self.diverge())?;
         }
         let restored = self.restore_in_scheme(checkpoint);
         if restored.is_err() {
-            self.part();
+            self.diverge();
             if self.in_use != own {
                 self.use_scheme(own)?;
                 self.stepper.restore(&past, explicit.as_ref());

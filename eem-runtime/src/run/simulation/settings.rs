@@ -21,7 +21,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// [`SceneError::Step`] if it is not positive and finite; the old size remains.
     pub fn set_step_size(&mut self, step: S) -> Result<(), SceneError> {
-        check_step(step).inspect_err(|_| self.part())?;
+        check_step(step).inspect_err(|_| self.diverge())?;
         self.step = step;
         Ok(())
     }
@@ -67,7 +67,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             tolerance,
         } = settings;
         if max_iterations == 0 || !is_positive(tolerance) || S::one().at_most(tolerance).any() {
-            self.part();
+            self.diverge();
             return Err(SceneError::NewtonSettings {
                 max_iterations,
                 tolerance: tolerance.to_f64(),

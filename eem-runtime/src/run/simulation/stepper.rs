@@ -36,7 +36,7 @@ pub(super) struct Newton<S: Real, const D: usize> {
     /// The loads at its stages, if the scheme has several.
     pub(super) stages: Vec<StepLoads<S>>,
     /// The intermediate state of the staggered scheme.
-    pub(super) between: Option<State<S>>,
+    pub(super) intermediate: Option<State<S>>,
 }
 
 /// The parts of a scene from which a stepper is made, besides its groups.
@@ -197,7 +197,7 @@ impl<S: Real, const D: usize> Newton<S, D> {
             solver,
             loads,
             stages: (0..stages).map(|_| memory()).collect(),
-            between: parts.scheme.is_split().then(|| state.clone()),
+            intermediate: parts.scheme.is_split().then(|| state.clone()),
         }
     }
 
