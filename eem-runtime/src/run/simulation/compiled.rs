@@ -89,9 +89,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 }
 
+/// A simulation, or why its scene is rejected.
+type NewResult<const D: usize, S> = Result<Simulation<D, S>, RefusedScene<D, S>>;
+
 /// The functions in which the work of a simulation starts.
 pub(super) struct Functions<const D: usize, S: Real> {
-    new: fn(Scene<D, S>, Scheme, S) -> Result<Simulation<D, S>, RefusedScene<D, S>>,
+    new: fn(Scene<D, S>, Scheme, S) -> NewResult<D, S>,
     advance: fn(&mut Simulation<D, S>, Aim<S>) -> StepResult<S>,
     pub(super) undo: fn(&mut Simulation<D, S>),
     pub(super) checkpoint: fn(&Simulation<D, S>) -> Checkpoint<S>,
