@@ -35,7 +35,7 @@
 //! | change viscous strain tensors | `joint.rs`, `component_energy.rs` in `eem-material` |
 //! | change the dashpot in parallel with a spring | `element/group/kelvin_voigt.rs`; `Scheme::takes_drag` |
 //! | add a shape of cell | a file in `element/kinematics/shape` |
-//! | change solids, meshes and their checks | `mesh`, `bulk.rs`, `body.rs`, `meshed_solid.rs`, `body_loads.rs`, `body_heat.rs`, `cell.rs`, `gmsh.rs` in `scene` |
+//! | change solids, meshes and their checks | `mesh`, `bulk.rs`, `body.rs`, `meshed_solid.rs`, `body_heat.rs`, `cell.rs`, `gmsh.rs` in `scene` |
 //! | add a load, a support or a thermostat | `scene/loads.rs`, `scene/act.rs`, `step/loads.rs`; `step/solver/rockets.rs` if it follows the motion; the ledger |
 //! | add a conserved quantity | `run/ledger.rs` |
 //! | record, stop or resume a run | `run/recorder`, `run/vtk.rs`, `run/checkpoint.rs`; `run.rs` and `event` in `run/simulation` |

@@ -5,7 +5,6 @@
 mod act;
 pub(crate) mod body;
 mod body_heat;
-mod body_loads;
 pub(crate) mod bulk;
 mod cell;
 mod check;

@@ -130,12 +130,6 @@ impl EndState {
     pub(crate) fn differences(&self, exact: &Self) -> PerQuantity {
         StateQuantity::ALL.map(|quantity| self.difference(exact, quantity))
     }
-
-    /// A kind of quantity with a value that is not finite.
-    pub(crate) fn flaw(&self) -> Option<StateQuantity> {
-        let mut all = StateQuantity::ALL.into_iter();
-        all.find(|&quantity| self.values(quantity).iter().any(|value| !value.is_finite()))
-    }
 }
 
 /// A part over a whole; zero if the part is zero.

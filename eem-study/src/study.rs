@@ -244,7 +244,8 @@ impl<'a, const D: usize> Study<'a, D> {
         let start = EndState::of(&start);
         for (index, state) in states.iter().enumerate() {
             for quantity in StateQuantity::ALL {
-                let [got, expected] = [state, &start].map(|state| state.values(quantity).len());
+                let values = state.values(quantity);
+                let (got, expected) = (values.len(), start.values(quantity).len());
                 if got != expected {
                     return Err(StudyError::Reference {
                         index,
@@ -253,9 +254,9 @@ impl<'a, const D: usize> Study<'a, D> {
                         expected,
                     });
                 }
-            }
-            if let Some(quantity) = state.flaw() {
-                return Err(StudyError::ReferenceNotFinite { index, quantity });
+                if values.iter().any(|value| !value.is_finite()) {
+                    return Err(StudyError::ReferenceNotFinite { index, quantity });
+                }
             }
         }
         Ok(())

@@ -44,7 +44,7 @@ use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
 use check::{check_all, needs_implicit};
 use eem_material::number::compact::compact;
-use eem_material::number::scalar::Real;
+use eem_material::number::scalar::{Mask, Real};
 use memory::{Automatic, Control};
 use start::{find_entropies, initial_state};
 use stepper::{Parts, Stepper};
@@ -254,6 +254,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             Stepper::Newton(newton) => newton.stages.is_empty() && self.unknowns() <= MOST_FIXED,
             Stepper::Explicit(_) => true,
         };
-        suits && self.control.is_none() && self.loads.suit_lanes()
+        suits && self.control.is_none() && self.loads.has_weight().decide().is_ok()
     }
 }

@@ -62,7 +62,12 @@ impl<const D: usize, S: Real> Scene<D, S> {
         self.check_rockets(&mut errors);
         self.check_conductors(&mut errors);
         if errors.is_empty() {
-            self.check_start(&mut errors);
+            for (index, entry) in self.nodes.iter().enumerate() {
+                errors.extend(self.check_products(self.node_at(index), entry).err());
+            }
+            errors.extend(self.check_heat_flows().err());
+            self.check_motions(&mut errors);
+            self.check_thermostats(&mut errors);
         }
         errors
     }
@@ -201,16 +206,6 @@ impl From<StateError> for SceneError {
 }
 
 impl<const D: usize, S: Real> Scene<D, S> {
-    /// Products that are not finite, and jumps at t = 0. All numbers are valid by themselves.
-    pub(super) fn check_start(&self, errors: &mut Vec<SceneError>) {
-        for (index, entry) in self.nodes.iter().enumerate() {
-            errors.extend(self.check_products(self.node_at(index), entry).err());
-        }
-        errors.extend(self.check_heat_flows().err());
-        self.check_motions(errors);
-        self.check_thermostats(errors);
-    }
-
     /// Momentum, kinetic energy and weight of a mass.
     fn check_products(&self, node: Node, entry: &NodeEntry<S, D>) -> Result<(), SceneError> {
         let Some(mass) = entry.mass else {

@@ -2,7 +2,6 @@
 
 mod error;
 mod file;
-mod kind;
 mod lines;
 
 pub use error::{LineFault, MshError};

@@ -75,15 +75,10 @@ impl<S: Real, const D: usize> Loads<S, D> {
     }
 
     /// Whether gravity is not zero, per lane.
-    fn has_weight(&self) -> S::Mask {
+    pub(crate) fn has_weight(&self) -> S::Mask {
         let none = S::Mask::none();
         let components = self.gravity.iter();
         components.fold(none, |any, &component| any | !component.equal(S::zero()))
-    }
-
-    /// Whether all lanes have weight, or none.
-    pub(crate) fn suit_lanes(&self) -> bool {
-        self.has_weight().decide().is_ok()
     }
 }
 

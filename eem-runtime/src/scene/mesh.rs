@@ -9,7 +9,6 @@ mod grid;
 mod lattice;
 mod network;
 mod polygon;
-mod shares;
 mod sides;
 mod sub_face;
 

@@ -99,7 +99,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         self.begin_search(events)?;
         while self.is_before(end)? {
-            let report = self.step_with_events(events, end)?;
+            let before = self.history();
+            let mut report = self.advance(Aim::Towards(end))?;
+            if !events.is_empty() {
+                let restore = |run: &mut Self| run.restore_history(before);
+                let locate = |run: &mut Self| run.end_at_event(events, report, end);
+                report = or_restore(self, restore, locate)?;
+            }
             let stopped = observer(self, &report).is_break();
             if let Some(first) = events.iter().position(Event::has_happened) {
                 return Ok(RunEnd::Event(first));
@@ -109,17 +115,6 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             }
         }
         Ok(RunEnd::Reached)
-    }
-
-    /// One step, which ends at the first event in it.
-    fn step_with_events(&mut self, events: &mut [Event<'_, D, S>], end: S) -> StepResult<S> {
-        if events.is_empty() {
-            return self.advance(Aim::Towards(end));
-        }
-        let before = self.history();
-        let whole = self.advance(Aim::Towards(end))?;
-        let restore = |run: &mut Self| run.restore_history(before);
-        or_restore(self, restore, |run| run.end_at_event(events, whole, end))
     }
 
     /// Evaluates the functions at the present state.
