@@ -111,6 +111,7 @@ impl<const D: usize, S: Real> Ledger<D, S> {
             reservoir_heat,
             lost_heat,
         ];
+        let momenta = state.momenta.values().chunks_exact(D);
         let mut entropy = totals.entropy;
         entropy.add_total(reservoir_entropy);
         entropy.add_sum(state.thermostat_entropy);
@@ -129,7 +130,9 @@ impl<const D: usize, S: Real> Ledger<D, S> {
             reservoir_entropy: reservoir_entropy.value(),
             thermostat_entropy: state.thermostat_entropy.value,
             entropy: entropy.value(),
-            linear_momentum: linear_momentum(state),
+            linear_momentum: SVector::from_fn(|axis, _| {
+                Total::of(momenta.clone().map(|p| p[axis]))
+            }),
             angular_momentum: angular_momentum::<S, D>(state, masses),
         }
     }
@@ -155,20 +158,15 @@ impl<const D: usize, S: Real> Ledger<D, S> {
 
 /// `Σ p·v/2`, J, which is `Σ p²/2m` where masses do not couple nodes.
 fn kinetic_energy<S: Real, const D: usize>(state: &State<S>, masses: &Masses<S>) -> S {
-    let mut sum = Total::default();
     let momenta = state.momenta.values();
     if masses.are_coupled() {
         let half = S::from_f64(0.5);
         let both = momenta.iter().zip(state.velocities.values());
         return Total::of(both.map(|(&p, &v)| half * p * v));
     }
-    for (p, mass) in momenta.chunks_exact(D).zip(masses.iter()) {
-        let Some(mass) = mass else { continue };
-        for &component in p {
-            sum.add(component * component / (mass + mass));
-        }
-    }
-    sum.value()
+    let nodes = momenta.chunks_exact(D).zip(masses.iter());
+    let nodes = nodes.filter_map(|(p, mass)| Some((p, mass?)));
+    Total::of(nodes.flat_map(|(p, mass)| p.iter().map(move |&p| p * p / (mass + mass))))
 }
 
 /// `−Σ m g·q`, J.
@@ -177,19 +175,12 @@ fn potential_energy<S: Real, const D: usize>(
     masses: &Masses<S>,
     gravity: &SVector<S, D>,
 ) -> S {
-    let mut sum = Total::default();
-    let positions = state.positions.values().chunks_exact(D);
-    for (q, mass) in positions.zip(masses.weights()) {
-        for (&coordinate, &component) in q.iter().zip(gravity.iter()) {
-            sum.add(-mass * component * coordinate);
-        }
-    }
-    sum.value()
-}
-
-fn linear_momentum<S: Real, const D: usize>(state: &State<S>) -> SVector<S, D> {
-    let momenta = state.momenta.values().chunks_exact(D);
-    SVector::from_fn(|axis, _| Total::of(momenta.clone().map(|p| p[axis])))
+    let nodes = state
+        .positions
+        .values()
+        .chunks_exact(D)
+        .zip(masses.weights());
+    Total::of(nodes.flat_map(|(q, mass)| q.iter().zip(gravity).map(move |(&q, &g)| -mass * g * q)))
 }
 
 fn angular_momentum<S: Real, const D: usize>(
@@ -203,10 +194,8 @@ fn angular_momentum<S: Real, const D: usize>(
         _ => None,
     };
     let mut sums = [Total::default(), Total::default(), Total::default()];
-    for (q, p) in positions
-        .chunks_exact(D)
-        .zip(state.momenta.values().chunks_exact(D))
-    {
+    let momenta = state.momenta.values().chunks_exact(D);
+    for (q, p) in positions.chunks_exact(D).zip(momenta) {
         let arm = |axis: usize| match (axis < D, anchor) {
             (false, _) => S::zero(),
             (true, None) => q[axis],

@@ -142,12 +142,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         };
         let systems = parts.systems(scene.memory_limit);
         let systems = systems.map_err(|error| vec![error.into()])?;
-        let mut stepper = Stepper::new(mem::take(&mut scene.groups), systems, parts, &state);
-        let errors = find_entropies(&mut stepper, &mut state, parts);
-        if !errors.is_empty() {
-            scene.groups = stepper.take_elements();
-            return Err(errors);
-        }
+        let groups = mem::take(&mut scene.groups);
+        let (nodes, pairs) = (&mut scene.nodes, &mut scene.pairs);
+        let stepper = Stepper::new(groups, systems, parts, &mut state, |state, elements| {
+            let found = find_entropies(elements, state, parts);
+            // Nodes and pairs are large, and contained in the masses and in the state.
+            found.map(|()| drop((mem::take(nodes), mem::take(pairs))))
+        });
+        let stepper = stepper.map_err(|(errors, groups)| {
+            scene.groups = groups;
+            errors
+        })?;
         let mut elements = mem::take(&mut scene.elements);
         let loads = mem::replace(&mut scene.loads, Loads::none());
         let is_automatic = scheme == Scheme::Auto;

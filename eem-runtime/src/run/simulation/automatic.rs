@@ -1,6 +1,6 @@
 //! `Scheme::Auto`: the scheme that follows the motion with the least effort.
 
-use core::mem;
+use core::convert::Infallible;
 
 use super::attempt::explicit_view;
 use super::memory::Control;
@@ -212,18 +212,20 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             loads: &self.loads,
         };
         let systems = parts.systems(automatic.memory_limit)?;
+        automatic.evaluations += self.stepper.evaluations();
         let elements = self.stepper.take_elements();
-        let previous = mem::replace(
-            &mut self.stepper,
-            Stepper::new(elements, systems, parts, &self.state),
-        );
-        automatic.evaluations += previous.evaluations();
+        let state = &mut self.state;
+        let Ok(stepper) = Stepper::new(elements, systems, parts, state, |state, elements| {
+            // As after a restart: each scheme evaluates them in its own way.
+            for group in elements {
+                group.find_energies(state);
+            }
+            Ok::<(), Infallible>(())
+        });
+        self.stepper = stepper;
         if let Stepper::Explicit(explicit) = &mut self.stepper {
             explicit.set_motion_first(automatic.is_motion_first);
         }
-        // As after a restart: each scheme evaluates them in its own way.
-        let state = &mut self.state;
-        self.stepper.each_mut(|group| group.find_energies(state));
         self.in_use = scheme;
         self.has_stepped = false;
         Ok(())

@@ -4,7 +4,8 @@ use core::array;
 
 use nalgebra::SVector;
 
-use super::stepper::{Parts, Stepper};
+use super::stepper::Parts;
+use crate::element::group::Elements;
 use crate::element::layout::Layout;
 use crate::element::state::{Energy, State};
 use crate::run::ledger::Ledger;
@@ -96,18 +97,20 @@ fn first_speed<const D: usize, S: Real>(motion: &OfTime<S, D>, step: S) -> [S; D
     })
 }
 
-/// Finds the entropies of the initial state. Returns everything for which the elements cannot be in it.
+/// Finds the entropies of the initial state; errors for everything that makes it impossible.
 pub(super) fn find_entropies<const D: usize, S: Real>(
-    stepper: &mut Stepper<S, D>,
+    elements: &mut [&mut dyn Elements<S, D>],
     state: &mut State<S>,
     parts: Parts<'_, S, D>,
-) -> Vec<SceneError> {
+) -> Result<(), Vec<SceneError>> {
     let mut errors = Vec::new();
-    let mut refuse = |error| errors.push(SceneError::State(error));
-    stepper.each_mut(|group| group.initialize(state, &mut refuse));
+    for group in &mut *elements {
+        group.initialize(state, &mut |error| errors.push(SceneError::State(error)));
+    }
     if errors.is_empty() {
         let (reservoirs, gravity) = (&parts.conduction.reservoirs, &parts.loads.gravity);
-        let ledger = Ledger::of(state, parts.masses, stepper.all(), reservoirs, gravity);
+        let groups = elements.iter().map(|group| &**group);
+        let ledger = Ledger::of(state, parts.masses, groups, reservoirs, gravity);
         let infinite = ledger.infinite_entry();
         errors.extend(infinite.map(|(quantity, value, unit)| SceneError::Total {
             quantity,
@@ -115,5 +118,9 @@ pub(super) fn find_entropies<const D: usize, S: Real>(
             unit,
         }));
     }
-    errors
+    if errors.is_empty() {
+        Ok(())
+    } else {
+        Err(errors)
+    }
 }

@@ -4,7 +4,7 @@ use core::mem;
 
 use crate::algebra::memory::{MemoryLimit, TooLarge};
 use crate::element::conduction::Conduction;
-use crate::element::group::{Elements, Group, Loose, Placed};
+use crate::element::group::{Elements, ExplicitGroup, Group, Loose, Placed};
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
@@ -60,13 +60,15 @@ impl<S: Real, const D: usize> Parts<'_, S, D> {
 }
 
 impl<S: Real, const D: usize> Stepper<S, D> {
-    /// For elements in a state whose entropies may be unknown.
-    pub(super) fn new(
+    /// For elements in a state. `begin` is called with them before memory for the solver is reserved; if it fails, they
+    /// are returned.
+    pub(super) fn new<E>(
         elements: Vec<Box<dyn Loose<S, D>>>,
         systems: Systems<S, D>,
         parts: Parts<'_, S, D>,
-        state: &State<S>,
-    ) -> Self {
+        state: &mut State<S>,
+        begin: impl FnOnce(&mut State<S>, &mut [&mut dyn Elements<S, D>]) -> Result<(), E>,
+    ) -> Result<Self, (E, Vec<Box<dyn Loose<S, D>>>)> {
         let placed = Placed {
             nodes: parts.elements,
             layout: parts.layout,
@@ -74,6 +76,12 @@ impl<S: Real, const D: usize> Stepper<S, D> {
         let elements = elements.into_iter();
         if parts.scheme.closing() == Closing::Explicit {
             let groups = elements.map(|elements| elements.build_explicit(placed));
+            let mut groups: Vec<_> = groups.collect();
+            let all = groups.iter_mut().map(|group| group.elements_mut());
+            if let Err(error) = begin(state, &mut all.collect::<Vec<_>>()) {
+                let groups = groups.into_iter();
+                return Err((error, groups.map(ExplicitGroup::into_loose).collect()));
+            }
             let site = Site {
                 masses: parts.masses,
                 elements: parts.elements,
@@ -81,13 +89,18 @@ impl<S: Real, const D: usize> Stepper<S, D> {
                 conduction: parts.conduction,
                 loads: parts.loads,
             };
-            return Self::Explicit(Box::new(Explicit::new(groups.collect(), site)));
+            return Ok(Self::Explicit(Box::new(Explicit::new(groups, site))));
         }
         let by = parts.scheme.conjugates();
-        let groups = elements
-            .map(|elements| elements.build(by, placed))
-            .collect();
-        Self::Newton(Box::new(Newton::new(groups, systems, parts, state)))
+        let groups = elements.map(|elements| elements.build(by, placed));
+        let mut groups: Vec<_> = groups.collect();
+        let all = groups.iter_mut().map(|group| group.elements_mut());
+        if let Err(error) = begin(state, &mut all.collect::<Vec<_>>()) {
+            let groups = groups.into_iter();
+            return Err((error, groups.map(Group::into_loose).collect()));
+        }
+        let newton = Newton::new(groups, systems, parts, state);
+        Ok(Self::Newton(Box::new(newton)))
     }
 
     /// Takes its elements out, after which it cannot step.
