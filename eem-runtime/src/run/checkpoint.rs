@@ -3,11 +3,12 @@
 mod entries;
 pub(crate) mod error;
 mod fingerprint;
-mod saved;
 #[cfg(feature = "serde")]
 mod scheme_name;
 
 use crate::element::state::State;
+use crate::step::automatic::Choice;
+use crate::step::control::{Controller, StepStatistics, Tolerance};
 use crate::step::explicit::SavedExplicit;
 use crate::step::newton::NewtonSettings;
 use crate::step::scheme::Scheme;
@@ -17,7 +18,6 @@ use eem_material::number::scalar::Real;
 
 pub use error::RestoreError;
 pub(crate) use fingerprint::{Numbers, Outline};
-pub(crate) use saved::{SavedChoice, SavedControl};
 
 /// A saved state of a [`Simulation`](crate::Simulation), to resume it later: values with their compensated rounding,
 /// time, step size and settings.
@@ -87,6 +87,40 @@ pub struct Checkpoint<S = f64> {
     pub(crate) explicit: Option<SavedExplicit<S>>,
     /// Digests of the entries that follow from the steps.
     pub(crate) seals: Vec<Digest>,
+}
+
+/// The history of step control.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
+pub(crate) struct SavedControl<S> {
+    pub(crate) tolerance: Tolerance<S>,
+    pub(crate) controller: Controller<S>,
+    pub(crate) statistics: StepStatistics,
+    /// The largest `|p|₂` so far, kg m/s.
+    pub(crate) largest_momentum: S,
+    /// The limits of the step size, s.
+    pub(crate) smallest: S,
+    pub(crate) largest: S,
+}
+
+/// The scheme in use by `Scheme::Auto`, and the effort of both kinds of schemes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(deny_unknown_fields)
+)]
+pub(crate) struct SavedChoice {
+    #[cfg_attr(feature = "serde", serde(with = "scheme_name"))]
+    pub(crate) scheme: Scheme,
+    /// The scheme before a trial.
+    #[cfg_attr(feature = "serde", serde(with = "scheme_name"))]
+    pub(crate) previous: Scheme,
+    pub(crate) choice: Choice,
 }
 
 impl<S: Copy> Checkpoint<S> {

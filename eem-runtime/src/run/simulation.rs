@@ -15,7 +15,6 @@ pub(crate) mod linearize;
 mod memory;
 mod resume;
 pub(crate) mod run;
-mod sampling;
 mod settings;
 mod start;
 mod stepper;

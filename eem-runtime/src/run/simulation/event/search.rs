@@ -99,9 +99,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         self.begin_search(events)?;
         while self.is_before(end)? {
-            let before = self.history();
+            let before = (!events.is_empty()).then(|| self.history());
             let mut report = self.advance(Aim::Towards(end))?;
-            if !events.is_empty() {
+            if let Some(before) = before {
                 let restore = |run: &mut Self| run.restore_history(before);
                 let locate = |run: &mut Self| run.end_at_event(events, report, end);
                 report = or_restore(self, restore, locate)?;
