@@ -6,6 +6,7 @@
 
 use core::any::Any;
 
+use super::event::Event;
 use super::{Simulation, StepResult};
 use crate::run::checkpoint::{Checkpoint, RestoreError};
 use crate::run::ledger::Ledger;
@@ -89,6 +90,10 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 }
 
+/// See [`end_at_event`](Simulation::end_at_event).
+type EndAtEvent<const D: usize, S> =
+    fn(&mut Simulation<D, S>, &mut [Event<'_, D, S>], StepReport<S>, S) -> StepResult<S>;
+
 /// A simulation, or why its scene is rejected.
 type NewResult<const D: usize, S> = Result<Simulation<D, S>, RefusedScene<D, S>>;
 
@@ -96,6 +101,7 @@ type NewResult<const D: usize, S> = Result<Simulation<D, S>, RefusedScene<D, S>>
 pub(super) struct Functions<const D: usize, S: Real> {
     new: fn(Scene<D, S>, Scheme, S) -> NewResult<D, S>,
     advance: fn(&mut Simulation<D, S>, Aim<S>) -> StepResult<S>,
+    pub(super) end_at_event: EndAtEvent<D, S>,
     pub(super) undo: fn(&mut Simulation<D, S>),
     pub(super) checkpoint: fn(&Simulation<D, S>) -> Checkpoint<S>,
     pub(super) restore: fn(&mut Simulation<D, S>, &Checkpoint<S>) -> Result<(), RestoreError>,
@@ -111,6 +117,7 @@ impl<const D: usize, S: Real> Functions<D, S> {
     const HERE: Self = Self {
         new: Simulation::begin,
         advance: Simulation::advance_here,
+        end_at_event: Simulation::end_at_event,
         undo: Simulation::undo_here,
         checkpoint: Simulation::checkpoint_here,
         restore: Simulation::restore_here,

@@ -9,7 +9,7 @@ use core::ops::ControlFlow;
 use super::bracket::Bracket;
 use super::{Event, Simulation};
 use crate::run::simulation::StepResult;
-use crate::run::simulation::compiled::Aim;
+use crate::run::simulation::compiled::{Aim, Functions};
 use crate::run::simulation::guard::or_restore;
 use crate::run::simulation::run::RunEnd;
 use crate::step::error::{StepError, StepFailure};
@@ -103,8 +103,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             let mut report = self.advance(Aim::Towards(end))?;
             if let Some(before) = before {
                 let restore = |run: &mut Self| run.restore_history(before);
-                let locate = |run: &mut Self| run.end_at_event(events, report, end);
-                report = or_restore(self, restore, locate)?;
+                let locate = Functions::get().end_at_event;
+                report = or_restore(self, restore, |run| locate(run, events, report, end))?;
             }
             let stopped = observer(self, &report).is_break();
             if let Some(first) = events.iter().position(Event::has_happened) {
@@ -135,7 +135,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     /// Ends the last step at the first event in it, if there is one, and marks the events that have happened then.
     /// Returns the report of the step that is kept.
-    fn end_at_event(
+    pub(in crate::run::simulation) fn end_at_event(
         &mut self,
         events: &mut [Event<'_, D, S>],
         whole: StepReport<S>,
