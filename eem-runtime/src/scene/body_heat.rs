@@ -79,8 +79,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
         for [near, far] in sides {
             let near = first.mesh().sub_faces_of(near);
             for [a, b] in facing(near, &second.mesh().sub_faces_of(far)) {
-                let t_a = one * first.thickness * a.reach;
-                let t_b = other * second.thickness * b.reach;
+                let t_a = one * first.thickness * a.shape_factor;
+                let t_b = other * second.thickness * b.shape_factor;
                 let [a, b] = [first.points()[a.point], second.points()[b.point]];
                 self.conduct(a, b, S::from_f64(t_a * t_b / (t_a + t_b)));
             }
@@ -134,8 +134,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
             let error = SolidError::section(body.first(), "film coefficient", film, "W/(m^2 K)");
             return self.refuse(error);
         }
-        self.connect(body, face, reservoir, |area, reach| {
-            (film * area * reach) / (film * area + reach)
+        self.connect(body, face, reservoir, |area, t| {
+            (film * area * t) / (film * area + t)
         });
     }
 
@@ -153,7 +153,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// [`Simulation::new`](crate::Simulation::new) returns [`SolidError::NoConductivity`],
     /// [`SolidError::ForeignFace`].
     pub fn wall<H: Shape<D>>(&mut self, body: &Body<H, D>, face: &Face, reservoir: Reservoir) {
-        self.connect(body, face, reservoir, |_, reach| reach);
+        self.connect(body, face, reservoir, |_, t| t);
     }
 
     /// Conducts heat between a face and a reservoir, with the conductance of each point from its area and `t`.
@@ -172,9 +172,9 @@ impl<const D: usize, S: Real> Scene<D, S> {
             return self.refuse(SolidError::ForeignFace { element });
         }
         for face in body.mesh().outside(face) {
-            let [area, reach] = [face.area, face.reach].map(|size| body.thickness * size);
-            let reach = S::from_f64(conductivity * reach);
-            let conductance = conductance(S::from_f64(area), reach);
+            let area = S::from_f64(body.thickness * face.area);
+            let t = S::from_f64(conductivity * (body.thickness * face.shape_factor));
+            let conductance = conductance(area, t);
             self.conduct(body.points()[face.point], reservoir, conductance);
         }
     }
@@ -199,9 +199,9 @@ impl<const D: usize, S: Real> Scene<D, S> {
                 cell: skewness.cell,
             });
         }
-        for (pair, reach) in links {
+        for (pair, shape_factor) in links {
             let [first, second] = pair.map(|point| body.points()[point]);
-            let conductance = S::from_f64(conductivity * body.thickness * reach);
+            let conductance = S::from_f64(conductivity * body.thickness * shape_factor);
             self.conduct(first, second, conductance);
         }
     }

@@ -51,13 +51,13 @@ impl<const D: usize> Joint<D> {
     }
 
     /// The error that no node of a mesh is near enough.
-    fn missed<H: Shape<D>>(&self, mesh: &Mesh<H, D>, element: Element) -> SolidError {
-        let endless = Self {
+    fn too_far<H: Shape<D>>(&self, mesh: &Mesh<H, D>, element: Element) -> SolidError {
+        let unlimited = Self {
             within: f64::INFINITY,
             ..self.clone()
         };
         let places = mesh.nodes().iter();
-        let nearest = places.filter_map(|&place| endless.nearest(place));
+        let nearest = places.filter_map(|&place| unlimited.nearest(place));
         SolidError::NotJoined {
             elements: [element, self.other],
             within: self.within,
@@ -90,7 +90,7 @@ pub(super) fn joined<H: Shape<D>, const D: usize>(
             }
         }
         if !is_joined {
-            return Err(joint.missed(mesh, element));
+            return Err(joint.too_far(mesh, element));
         }
     }
     let mut moved = nearest

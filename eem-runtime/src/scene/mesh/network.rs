@@ -1,7 +1,7 @@
-//! The network of conductances between the points of a mesh, per conductivity.
+//! The network of conductances between the integration points of a mesh, per conductivity.
 //!
-//! The parent cell is cut where Gauss weights add up, so that each point has its own sub-cell. From its centre
-//! c to the centre of a face with the area vector A, and through a face,
+//! The parent cell is divided in proportion to the Gauss weights, so that each point has its own sub-cell. The
+//! conductances from its centre c to the centre of a face with the area vector A, and through a face, are
 //!
 //! ```text
 //! t = k |A·d|/d²,   d = c_face − c,   κ = t_a t_b/(t_a + t_b)
@@ -28,8 +28,8 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         let pairs = self.pairs_of_faces();
         let skewness = Skewness::of(&pairs, H::PerPoint::<()>::LEN);
         let link = |[a, b]: [SubFace<D>; 2]| {
-            let reach = a.reach * b.reach / (a.reach + b.reach);
-            ([a.point, b.point], reach)
+            let shape_factor = a.shape_factor * b.shape_factor / (a.shape_factor + b.shape_factor);
+            ([a.point, b.point], shape_factor)
         };
         (pairs.into_iter().map(link).collect(), skewness)
     }
@@ -121,12 +121,12 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
                 };
                 place[along] = cuts[index[along] + end];
             }
-            self.image(cell, place)
+            self.position(cell, place)
         };
         let corners: Vec<_> = (0..1_usize << (D - 1)).map(corner).collect();
         let area = area_vector::<H, D>(&corners);
         let centre = mean(corners.iter().copied());
-        let own = self.image(cell, middle);
+        let own = self.position(cell, middle);
         let arm: [f64; D] = core::array::from_fn(|axis| centre[axis] - own[axis]);
         let product = (0..D).fold(0.0, |sum, axis| sum + area[axis] * arm[axis]);
         let product = product.abs();
@@ -136,21 +136,21 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         SubFace {
             point: cell * H::PerPoint::<()>::LEN + point,
             area: size,
-            reach: product / (length * length),
+            shape_factor: product / (length * length),
             centre,
-            alignment: product / (size * length),
+            cosine: product / (size * length),
         }
     }
 
     /// The position of a point of the parent cell, m.
-    fn image(&self, cell: usize, place: [f64; D]) -> [f64; D] {
-        let mut image = [0.0; D];
+    fn position(&self, cell: usize, place: [f64; D]) -> [f64; D] {
+        let mut position = [0.0; D];
         for (a, &node) in self.cells[cell].as_ref().iter().enumerate() {
             let (share, _) = H::function(a, place);
-            for (image, at) in image.iter_mut().zip(self.nodes[node]) {
-                *image += share * at;
+            for (sum, at) in position.iter_mut().zip(self.nodes[node]) {
+                *sum += share * at;
             }
         }
-        image
+        position
     }
 }

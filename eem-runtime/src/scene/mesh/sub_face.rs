@@ -10,11 +10,11 @@ pub(crate) struct SubFace<const D: usize> {
     /// `|A|`; m², m in the plane.
     pub(crate) area: f64,
     /// `t/k`; m, one in the plane.
-    pub(crate) reach: f64,
+    pub(crate) shape_factor: f64,
     /// m.
     pub(super) centre: [f64; D],
     /// `|A·d|/(|A| |d|)`
-    pub(super) alignment: f64,
+    pub(super) cosine: f64,
 }
 
 /// Pairs each sub-face on one side of a face with the nearest one on the other side.
@@ -62,12 +62,12 @@ impl Skewness {
         };
         for pair in pairs {
             for face in pair {
-                if face.alignment < skewness.cosine {
-                    skewness.cosine = face.alignment;
+                if face.cosine < skewness.cosine {
+                    skewness.cosine = face.cosine;
                     skewness.cell = face.point / per_cell;
                 }
             }
-            if pair.iter().any(|face| face.alignment < LEAST_COSINE) {
+            if pair.iter().any(|face| face.cosine < LEAST_COSINE) {
                 skewness.skew += 1;
             }
         }
