@@ -5,7 +5,6 @@
 mod advice;
 mod course;
 mod error;
-mod measure;
 mod quantity;
 mod reference;
 mod report;

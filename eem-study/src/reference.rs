@@ -7,8 +7,7 @@
 //! hundred times the error of the reference. It is halved until the difference is at most a hundredth of each error of a
 //! setting, until halving no longer helps, or up to a limit.
 
-use crate::course::{Build, Course};
-use crate::measure::run;
+use crate::course::{Build, Course, run};
 use crate::quantity::{DOUBT, EndState, PerQuantity, StateQuantity};
 use eem_runtime::{RocketError, SceneError, Scheme, StepError};
 

@@ -3,9 +3,8 @@
 use core::fmt;
 
 use crate::advice::check_accuracy;
-use crate::course::{Build, Course};
+use crate::course::{Build, Course, Finished, run};
 use crate::error::StudyError;
-use crate::measure::{Finished, run};
 use crate::quantity::{EndState, StateQuantity};
 use crate::reference::{ReferenceEnd, Search, StudyReference};
 use crate::report::StudyReport;

@@ -18,7 +18,6 @@ pub(crate) mod run;
 mod settings;
 mod start;
 mod stepper;
-pub(crate) mod values;
 
 use core::fmt;
 use core::mem;

@@ -2,7 +2,6 @@
 
 mod error;
 mod file;
-mod lines;
 
 pub use error::{LineFault, MshError};
 

@@ -10,12 +10,11 @@ mod lattice;
 mod network;
 mod polygon;
 mod sides;
-mod sub_face;
 
 pub use error::MeshError;
+pub(crate) use face::facing;
 pub use face::{Face, Outline};
 pub(crate) use geometry::{distance, per_node};
-pub(crate) use sub_face::facing;
 
 use eem_material::number::digest::Digest;
 use geometry::mean;

@@ -8,10 +8,9 @@
 //! ```
 
 use super::Mesh;
-use super::face::Face;
+use super::face::{Face, Skewness, SubFace, facing};
 use super::geometry::{area_vector, distance, mean};
 use super::grid::indices;
-use super::sub_face::{Skewness, SubFace, facing};
 use crate::element::kinematics::{Points, Shape};
 
 /// The cuts of the parent cell along each axis, from −1 by Gauss weights.
