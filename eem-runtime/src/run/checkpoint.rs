@@ -154,7 +154,7 @@ impl<S: Real> Checkpoint<S> {
 
     /// The same with digests of the entries that follow from the steps.
     pub(crate) fn sealed(mut self) -> Self {
-        self.seals = self.digests();
+        self.seals = self.digests().map(|(_, digest)| digest).collect();
         self
     }
 }

@@ -26,24 +26,23 @@ enum Rule {
 }
 
 /// A list of numbers of a checkpoint.
-#[derive(Debug)]
-struct Entry<S> {
+struct Entry<'a, S> {
     name: &'static str,
-    numbers: Vec<S>,
+    numbers: Box<dyn Iterator<Item = S> + 'a>,
     rule: Rule,
-    /// Whether a simulation of the same scene has as many.
-    has_count: bool,
+    /// The number of values, if a simulation of the same scene has as many.
+    count: Option<usize>,
     /// Whether it follows from the steps.
     is_sealed: bool,
 }
 
-impl<S: Real> Entry<S> {
-    fn new(name: &'static str, rule: Rule, numbers: impl IntoIterator<Item = S>) -> Self {
+impl<'a, S: Real> Entry<'a, S> {
+    fn new(name: &'static str, rule: Rule, numbers: impl IntoIterator<Item = S> + 'a) -> Self {
         Self {
             name,
-            numbers: numbers.into_iter().collect(),
+            numbers: Box::new(numbers.into_iter()),
             rule,
-            has_count: false,
+            count: None,
             is_sealed: false,
         }
     }
@@ -52,72 +51,73 @@ impl<S: Real> Entry<S> {
         Self::new(name, Rule::Sum, [value, carry])
     }
 
-    fn sums(name: &'static str, sums: &Compensated<S>) -> Self {
+    fn sums(name: &'static str, sums: &'a Compensated<S>) -> Self {
         let pairs = sums.sums().flat_map(|(value, carry)| [value, carry]);
-        Self::new(name, Rule::Sum, pairs).counted()
+        Self::new(name, Rule::Sum, pairs).counted(sums.values().len())
     }
 
-    const fn counted(mut self) -> Self {
-        self.has_count = true;
+    fn list(name: &'static str, list: &'a [S]) -> Self {
+        Self::new(name, Rule::Finite, list.iter().copied()).counted(list.len())
+    }
+
+    fn counted(mut self, count: usize) -> Self {
+        self.count = Some(count);
         self
     }
 
-    const fn sealed(mut self) -> Self {
+    fn sealed(mut self) -> Self {
         self.is_sealed = true;
         self
     }
 
-    fn count(&self) -> usize {
-        match self.rule {
-            Rule::Sum => self.numbers.len() / 2,
-            _ => self.numbers.len(),
-        }
-    }
-
-    fn digest(&self) -> Digest {
+    fn digest(self) -> Digest {
         Digest::of(|digest| {
-            for &number in &self.numbers {
+            let mut count = 0;
+            for number in self.numbers {
                 digest.number(number);
+                count += 1;
             }
-            digest.count(self.numbers.len());
+            digest.count(count);
         })
     }
 
     /// An error unless the numbers satisfy the rule, and are as many as in a simulation.
-    fn check(&self, simulation: &[Self]) -> Result<(), RestoreError> {
+    fn check(self, simulation: &[Self]) -> Result<(), RestoreError> {
         let same = simulation.iter().find(|other| other.name == self.name);
-        if let Some(other) = same.filter(|_| self.has_count) {
-            expect_count(self.name, self.count(), other.count())?;
-        }
+        let counts = self.count.zip(same.and_then(|other| other.count));
+        counts.map_or(Ok(()), |(own, other)| expect_count(self.name, own, other))?;
         let is_not_negative = |number| S::zero().at_most(number).all();
-        let is_met = |&number: &S| match self.rule {
-            Rule::None => true,
-            Rule::Sum | Rule::Finite => number.is_finite(),
-            Rule::Positive => is_positive(number),
-            Rule::NotNegative => is_not_negative(number),
-            Rule::FiniteNotNegative => number.is_finite() && is_not_negative(number),
-        };
-        if let Some(number) = self.numbers.iter().find(|number| !is_met(number)) {
-            return Err(RestoreError::Value {
-                quantity: self.name,
-                value: number.to_f64(),
-                required: match self.rule {
-                    Rule::Positive => "positive and finite",
-                    Rule::NotNegative | Rule::FiniteNotNegative => "not negative",
-                    Rule::None | Rule::Sum | Rule::Finite => "finite",
-                },
-            });
-        }
-        if self.rule == Rule::Sum {
-            let half = S::from_f64(0.5) * S::EPSILON;
-            for &[value, carry] in self.numbers.as_chunks().0 {
-                if !carry.abs().at_most(half * value.abs()).all() {
-                    return Err(RestoreError::Carry {
-                        quantity: self.name,
-                        value: value.to_f64(),
-                        carry: carry.to_f64(),
-                    });
+        let half = S::from_f64(0.5) * S::EPSILON;
+        let mut value = None;
+        for number in self.numbers {
+            let (is_met, required) = match self.rule {
+                Rule::None => (true, ""),
+                Rule::Sum | Rule::Finite => (number.is_finite(), "finite"),
+                Rule::Positive => (is_positive(number), "positive and finite"),
+                Rule::NotNegative => (is_not_negative(number), "not negative"),
+                Rule::FiniteNotNegative => {
+                    let is_met = number.is_finite() && is_not_negative(number);
+                    (is_met, "not negative")
                 }
+            };
+            if !is_met {
+                return Err(RestoreError::Value {
+                    quantity: self.name,
+                    value: number.to_f64(),
+                    required,
+                });
+            }
+            // Every second number of a sum is the compensation of the value before it.
+            let Some(value) = value.take().filter(|_| self.rule == Rule::Sum) else {
+                value = Some(number);
+                continue;
+            };
+            if !number.abs().at_most(half * S::abs(value)).all() {
+                return Err(RestoreError::Carry {
+                    quantity: self.name,
+                    value: S::to_f64(value),
+                    carry: number.to_f64(),
+                });
             }
         }
         Ok(())
@@ -126,10 +126,9 @@ impl<S: Real> Entry<S> {
 
 impl<S: Real> Checkpoint<S> {
     /// All numbers. The order of the sealed ones is part of the format.
-    fn entries(&self) -> Vec<Entry<S>> {
+    fn entries(&self) -> Vec<Entry<'_, S>> {
         use Rule::{Finite, FiniteNotNegative, NotNegative, Positive};
         let (state, [last, before]) = (&self.state, &self.past.forces);
-        let list = |name, list: &[S]| Entry::new(name, Finite, list.iter().copied()).counted();
         let temperatures = state.temperatures.iter().copied();
         let mut entries = vec![
             Entry::sums("coordinates", &state.positions),
@@ -144,10 +143,10 @@ impl<S: Real> Checkpoint<S> {
             Entry::sum("thermostat entropy", state.thermostat_entropy).sealed(),
             Entry::sum("lost heat", state.dissipated).sealed(),
             Entry::new("time", NotNegative, [state.time.value]),
-            Entry::new("temperatures", Positive, temperatures).counted(),
+            Entry::new("temperatures", Positive, temperatures).counted(state.temperatures.len()),
             Entry::new("step size", Positive, [self.step]),
-            list("last forces", last),
-            list("earlier forces", before),
+            Entry::list("last forces", last),
+            Entry::list("earlier forces", before),
             Entry::new("forces", Finite, last.iter().chain(before).copied()).sealed(),
             Entry::new("errors of predicted forces", NotNegative, self.past.errors).sealed(),
         ];
@@ -174,8 +173,13 @@ impl<S: Real> Checkpoint<S> {
             let flags = [explicit.is_new, explicit.is_motion_first];
             let flags = flags.map(|flag| S::from_f64(f64::from(u8::from(flag))));
             let lists = explicit.lists();
-            entries.push(Entry::new("targets", Rule::Sum, targets).counted().sealed());
-            entries.extend(lists.map(|(name, numbers)| list(name, numbers).sealed()));
+            let count = explicit.targets.len();
+            entries.push(
+                Entry::new("targets", Rule::Sum, targets)
+                    .counted(count)
+                    .sealed(),
+            );
+            entries.extend(lists.map(|(name, numbers)| Entry::list(name, numbers).sealed()));
             entries.extend([
                 Entry::sums("shares of reservoirs", &explicit.shares).sealed(),
                 Entry::new("the largest momentum", NotNegative, [momentum]).sealed(),
@@ -186,23 +190,24 @@ impl<S: Real> Checkpoint<S> {
         entries
     }
 
-    /// The digests of all sealed entries.
-    pub(super) fn digests(&self) -> Vec<Digest> {
-        let entries = self.entries().into_iter();
-        let sealed = entries.filter(|entry| entry.is_sealed);
-        sealed.map(|entry| entry.digest()).collect()
+    /// The names and digests of all sealed entries.
+    pub(super) fn digests(&self) -> impl Iterator<Item = (&'static str, Digest)> {
+        let sealed = self.entries().into_iter().filter(|entry| entry.is_sealed);
+        sealed.map(|entry| (entry.name, entry.digest()))
     }
 
     /// An error unless all numbers can be those of a run of this simulation.
     pub(super) fn check_numbers(&self, simulation: &Self) -> Result<(), RestoreError> {
-        let entries = self.entries();
         let others = simulation.entries();
-        entries.iter().try_for_each(|entry| entry.check(&others))?;
-        let sealed: Vec<_> = entries.iter().filter(|entry| entry.is_sealed).collect();
-        expect_count("seals", self.seals.len(), sealed.len())?;
-        let mut pairs = sealed.into_iter().zip(&self.seals);
-        match pairs.find(|(entry, seal)| entry.digest() != **seal) {
-            Some((entry, _)) => Err(RestoreError::Edited { entry: entry.name }),
+        for entry in self.entries() {
+            entry.check(&others)?;
+        }
+        let entries = self.entries().into_iter();
+        let sealed = entries.filter(|entry| entry.is_sealed).count();
+        expect_count("seals", self.seals.len(), sealed)?;
+        let mut pairs = self.digests().zip(&self.seals);
+        match pairs.find(|((_, digest), seal)| digest != *seal) {
+            Some(((entry, _), _)) => Err(RestoreError::Edited { entry }),
             None => Ok(()),
         }
     }
