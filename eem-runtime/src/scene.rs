@@ -1,6 +1,6 @@
 //! A scene as a user describes it: nodes, elements, reservoirs, conductances.
 //!
-//! Describing never fails; [`Simulation::new`](crate::Simulation::new) checks all of it and says what is wrong.
+//! Building a scene never fails; [`Simulation::new`](crate::Simulation::new) checks it and returns all errors.
 
 mod act;
 pub(crate) mod body;

@@ -68,7 +68,7 @@ pub enum StudyError {
     Scene {
         /// The setting that it was built for.
         setting: Setting,
-        /// What is wrong with it.
+        /// The error of the scene.
         r#source: SceneError,
     },
     /// A reference belongs to another scene.

@@ -12,13 +12,13 @@ use crate::row::StudyRow;
 use crate::setting::{Precision, Setting};
 use eem_runtime::{Scene, SceneError};
 
-/// How often each setting is timed unless [`Study::repeats`] says otherwise.
+/// The default of [`Study::repeats`].
 const REPEATS: usize = 3;
 
-/// How many times smaller than the smallest step of all settings those of the references are at most.
+/// The default of [`Study::refinement`].
 const REFINEMENT: u32 = 32;
 
-/// What is recommended for: errors that show in a picture, those of a good simulation, those of a reference.
+/// The default accuracies: visible in a picture, a good simulation, a reference.
 const ACCURACIES: [f64; 3] = [1e-2, 1e-4, 1e-6];
 
 /// Runs one scene with many settings, compares the states at the end time with two independent references, and

@@ -118,9 +118,9 @@ pub enum RecordError {
     /// The simulation has no such quantity.
     #[error("quantity `{name}`: {source}")]
     Quantity {
-        /// The name that it was given.
+        /// Its name in the recorder.
         name: String,
-        /// What is wrong with it.
+        /// The error of the quantity.
         r#source: SceneError,
     },
     /// Two columns would have the same name; the first of all is `time`.

@@ -54,7 +54,7 @@ pub enum SceneError {
         node: Node,
         /// The requested property.
         quantity: &'static str,
-        /// What to do.
+        /// The remedy.
         instead: &'static str,
     },
     /// A point of a solid has no stretch and no force.
@@ -136,7 +136,7 @@ pub enum SceneError {
     Conductance {
         /// The element.
         element: Element,
-        /// What it exchanges heat with.
+        /// The other end of the path of heat.
         partner: HeatPartner,
         /// The conductance, W/K.
         value: f64,
@@ -283,7 +283,7 @@ pub enum SceneError {
     HeatFlow {
         /// The element.
         element: Element,
-        /// What it exchanges heat with.
+        /// The other end of the path of heat.
         partner: HeatPartner,
         /// Heat flow `Q = κ (θ_partner − θ)`, or flow of entropy `Q/θ` at the colder end.
         quantity: &'static str,
@@ -338,7 +338,7 @@ pub enum SceneError {
     PrescribedTwice {
         /// The handle as text.
         handle: String,
-        /// What is prescribed.
+        /// The prescribed quantity.
         quantity: &'static str,
     },
     /// The initial state of an element is outside the domain of its model.

@@ -1,4 +1,4 @@
-//! The numbers of a checkpoint as one list: what each must satisfy, and which cannot be edited.
+//! All numbers of a checkpoint as one list of entries, with their rules and digests.
 //!
 //! Nobody can choose what a run has accumulated, nor the rates with which an explicit scheme continues: they follow
 //! from steps that a checkpoint does not contain. Computing the rates again would not give their bits, because a step
@@ -10,7 +10,7 @@ use eem_material::number::compensated::{Compensated, Sum};
 use eem_material::number::digest::Digest;
 use eem_material::number::scalar::{Mask, Real, is_positive};
 
-/// What the numbers of an entry must satisfy.
+/// A rule for the numbers of an entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Rule {
     /// Pairs of a value and a compensation as additions leave them: finite, and the compensation at most half a unit in

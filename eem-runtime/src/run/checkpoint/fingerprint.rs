@@ -1,4 +1,4 @@
-//! What tells the scenes of two states apart: their outline, and digests of their numbers.
+//! The fingerprint of a scene: its outline, and digests of its numbers.
 
 use crate::element::layout::Shape;
 use crate::element::masses::Masses;

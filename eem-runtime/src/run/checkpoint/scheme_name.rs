@@ -1,4 +1,4 @@
-//! Schemes are saved by name.
+//! Saving a scheme by its name.
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serializer};

@@ -1,4 +1,4 @@
-//! An experiment with one member, or with several in SIMD lanes.
+//! Running an experiment with one member, or with several in SIMD lanes.
 
 use core::slice;
 use core::sync::atomic::{AtomicBool, Ordering};

@@ -14,7 +14,7 @@ use eem_material::number::scalar::{Discord, Mask, Real};
 /// How often a step is halved in search of one that can be made.
 const HALVINGS: usize = 10;
 
-/// What all elements share during a step of a size; borrows only the fields that it names.
+/// The data shared by all elements during a step of a size; borrows only the fields that it names.
 macro_rules! view {
     ($simulation:ident, $step:expr, $phase:expr, $state:expr, [$loads:expr, $stages:expr]) => {
         crate::element::group::StepView {

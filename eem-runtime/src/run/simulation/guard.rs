@@ -1,4 +1,4 @@
-//! Putting things back after a failure or a panic of a user's function.
+//! Guards that restore a value after a failure, or after a panic of a user's function.
 
 /// A value on which a function is called at the end, also after a panic, unless it is [kept](Self::keep).
 pub(super) struct Guard<T, F: FnOnce(&mut T)> {

@@ -1,4 +1,4 @@
-//! What step control and the choice of a scheme keep between steps.
+//! Memory of step control and of the choice of a scheme between steps.
 
 use crate::algebra::memory::MemoryLimit;
 use crate::element::state::State;
@@ -59,7 +59,7 @@ pub(super) struct Halves<S> {
     pub(super) kinds: Kinds,
 }
 
-/// What a run with `Scheme::Auto` keeps to change its scheme.
+/// Memory of `Scheme::Auto`, and what it needs to change the scheme.
 pub(super) struct Automatic<S> {
     pub(super) choice: Choice,
     /// Whether only schemes of second order can step the scene.

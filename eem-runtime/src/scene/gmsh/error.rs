@@ -7,7 +7,7 @@ use thiserror::Error;
 use crate::scene::mesh::MeshError;
 use eem_material::number::readable::Readable;
 
-/// Why there is no mesh in a file of Gmsh. Nodes, elements and entities are named by their tags.
+/// Why a Gmsh file contains no mesh. Nodes, elements and entities are named by their tags.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MshError {
@@ -19,12 +19,12 @@ pub enum MshError {
         /// Why.
         reason: String,
     },
-    /// The file has another format.
+    /// The format of the file is not supported.
     #[error(
         "the mesh has the format `{found}`, and `4.1 0 8` is read, which is version 4.1 in ASCII: save it by `gmsh -format msh41 -save`, without `-bin`"
     )]
     Format {
-        /// What it says of its format.
+        /// The format in the file.
         found: String,
     },
     /// A section is missing.
@@ -40,7 +40,7 @@ pub enum MshError {
     Outside {
         /// From 1.
         line: usize,
-        /// What is there.
+        /// The text of the line.
         found: String,
     },
     /// A section has no end.
@@ -72,9 +72,9 @@ pub enum MshError {
         section: String,
         /// From 1.
         line: usize,
-        /// What is there.
+        /// The text of the line.
         found: String,
-        /// What is wrong with it.
+        /// Its error.
         fault: LineFault,
     },
     /// An element has a node that does not exist.
@@ -100,9 +100,9 @@ pub enum MshError {
     WrongElement {
         /// The entity.
         entity: i32,
-        /// What it has.
+        /// Its elements.
         found: &'static str,
-        /// What it has to have.
+        /// The requested shape.
         shape: &'static str,
     },
     /// There are no elements of a shape.
@@ -143,7 +143,7 @@ pub enum MshError {
     Element {
         /// The element.
         element: u64,
-        /// What is wrong, in the numbering of the mesh.
+        /// The error in the numbering of the mesh.
         error: MeshError,
     },
     /// Elements contradict each other.
@@ -151,7 +151,7 @@ pub enum MshError {
     Elements {
         /// The elements.
         elements: Vec<u64>,
-        /// What is wrong, in the numbering of the mesh.
+        /// The error in the numbering of the mesh.
         error: MeshError,
     },
     /// Another error of the mesh, in its own numbering.
@@ -159,7 +159,7 @@ pub enum MshError {
     Mesh(#[from] MeshError),
 }
 
-/// What is wrong with a line of a file of Gmsh.
+/// Why a line of a Gmsh file is invalid.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum LineFault {
@@ -209,7 +209,7 @@ pub enum LineFault {
         "the third number is 1 if nodes have coordinates within their entity and else 0, and {found} is given"
     )]
     Parametric {
-        /// What is given.
+        /// The number in the file.
         found: u64,
     },
 }

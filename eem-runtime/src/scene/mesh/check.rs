@@ -90,7 +90,7 @@ fn scaled_size<H: Shape<D>, const D: usize>(
     H::Tensor::<f64>::determinant(&integrals::jacobian(&arms, functions))
 }
 
-/// At most two faces of cells have the same nodes, and they face each other.
+/// An error unless at most two faces of cells have the same nodes, and face each other.
 fn check_same<H: Shape<D>, const D: usize>(
     cells: &[H::PerNode<usize>],
     same: &[[usize; 2]],
@@ -131,7 +131,7 @@ fn check_same<H: Shape<D>, const D: usize>(
     Ok(())
 }
 
-/// Cells have nodes that exist, each once, and every node has a cell.
+/// An error unless cells have existing nodes, each once, and every node has a cell.
 fn check_names<H: Shape<D>, const D: usize>(
     nodes: usize,
     cells: &[H::PerNode<usize>],
@@ -155,7 +155,7 @@ fn check_names<H: Shape<D>, const D: usize>(
     }
 }
 
-/// Coordinates are finite.
+/// An error unless all coordinates are finite.
 pub(super) fn check_finite<const D: usize>(nodes: &[[f64; D]]) -> Result<(), MeshError> {
     for (node, place) in nodes.iter().enumerate() {
         if let Some(axis) = place.iter().position(|coordinate| !coordinate.is_finite()) {
@@ -166,7 +166,7 @@ pub(super) fn check_finite<const D: usize>(nodes: &[[f64; D]]) -> Result<(), Mes
     Ok(())
 }
 
-/// No two nodes have the same position.
+/// An error if two nodes have the same position.
 fn check_distinct<const D: usize>(nodes: &[[f64; D]]) -> Result<(), MeshError> {
     // −0 and 0 are the same.
     let key = |&node: &usize| nodes[node].map(|coordinate| (coordinate + 0.0).to_bits());

@@ -131,7 +131,7 @@ fn twice_area(corners: &[[f64; 2]], order: &[usize]) -> f64 {
     })
 }
 
-/// There are at least three corners, and no two sides meet but at their common corner.
+/// An error unless there are at least three corners, and sides meet only at their common corner.
 fn check_polygon(corners: &[[f64; 2]]) -> Result<(), MeshError> {
     let count = corners.len();
     if count < 3 {
@@ -200,7 +200,7 @@ fn roundness([a, b, c]: [[f64; 2]; 3]) -> f64 {
     cross(a, b, c) / square(a, b).max(square(b, c)).max(square(c, a))
 }
 
-/// Whether a place is in a triangle or on its edges.
+/// Whether a position is inside a triangle or on its edges.
 fn holds([a, b, c]: [[f64; 2]; 3], place: [f64; 2]) -> bool {
     [[a, b], [b, c], [c, a]]
         .iter()

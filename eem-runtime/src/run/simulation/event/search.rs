@@ -1,8 +1,8 @@
-//! Events are found by repeating one step.
+//! Search for events by repeating one step.
 //!
-//! The state after a step is a continuous function of the step size, and all laws hold for every
-//! size. So an event within a step is located by repeating the step with other sizes, without interpolation; the
-//! state at the event obeys the laws like any other.
+//! The state after a step is a continuous function of the step size, and all laws hold for every size. So an event
+//! within a step is located by repeating the step with other sizes, without interpolation; the state at the event obeys
+//! the laws like any other.
 
 use core::ops::ControlFlow;
 
