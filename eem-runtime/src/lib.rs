@@ -35,11 +35,11 @@
 //! | change viscous strain tensors | `joint.rs`, `component_energy.rs` in `eem-material` |
 //! | change the dashpot in parallel with a spring | `element/group/kelvin_voigt.rs`; `Scheme::takes_drag` |
 //! | add a shape of cell | a file in `element/kinematics/shape` |
-//! | change solids, meshes and their checks | `mesh`, `bulk.rs`, `body.rs`, `meshed_solid.rs`, `body_loads.rs`, `body_heat.rs`, `cell.rs`, `gmsh.rs` in `scene` |
+//! | change solids, meshes and their checks | `mesh`, `bulk.rs`, `body.rs`, `meshed_solid.rs`, `body_heat.rs`, `cell.rs`, `gmsh.rs` in `scene` |
 //! | add a load, a support or a thermostat | `scene/loads.rs`, `scene/act.rs`, `step/loads.rs`; `step/solver/rockets.rs` if it follows the motion; the ledger |
 //! | add a conserved quantity | `run/ledger.rs` |
 //! | record, stop or resume a run | `run/recorder`, `run/vtk.rs`, `run/checkpoint.rs`; `run.rs` and `event` in `run/simulation` |
-//! | reject a scene, state or checkpoint | `scene/check.rs`, `scene/start.rs`, `run/simulation/audit.rs`, `element/group/audit.rs`; messages in each `error.rs` |
+//! | reject a scene, state or checkpoint | `scene/check.rs`, `run/simulation/audit.rs`, `element/group/audit.rs`; messages in each `error.rs` |
 //! | run many scenes at once | `run/ensemble`, `number/lanes.rs` in `eem-material`, `element/group/settled.rs` |
 //! | use more threads in one scene | `algebra/threads.rs`, `element/group/evaluate.rs`; `eem-sparse` for elimination |
 //! | check a material before use | `domain` in `eem-material` |
@@ -76,12 +76,12 @@ pub use run::vtk::VtkSeries;
 pub use scene::Scene;
 pub use scene::body::Body;
 pub use scene::bulk::Bulk;
+pub use scene::error::RocketError;
 pub use scene::error::SceneError;
 #[cfg(feature = "gmsh")]
 pub use scene::gmsh::{LineFault, Msh, MshError};
 pub use scene::mesh::{Face, Mesh, MeshError, Outline};
 pub use scene::refused::RefusedScene;
-pub use scene::rocket_error::RocketError;
 pub use scene::solid::Section;
 pub use scene::solid_error::SolidError;
 pub use step::control::{StepStatistics, Tolerance};

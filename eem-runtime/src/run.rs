@@ -1,4 +1,4 @@
-//! Runs: simulations, their ledger, recorder and checkpoints and ensembles of them.
+//! Runs: simulations with their ledger, recorder and checkpoints, and ensembles of simulations.
 
 pub(crate) mod checkpoint;
 pub(crate) mod ensemble;

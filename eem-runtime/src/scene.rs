@@ -1,11 +1,10 @@
 //! A scene as a user describes it: nodes, elements, reservoirs, conductances.
 //!
-//! Describing never fails; [`Simulation::new`](crate::Simulation::new) checks all of it and says what is wrong.
+//! Building a scene never fails; [`Simulation::new`](crate::Simulation::new) checks it and returns all errors.
 
 mod act;
 pub(crate) mod body;
 mod body_heat;
-mod body_loads;
 pub(crate) mod bulk;
 mod cell;
 mod check;
@@ -15,16 +14,11 @@ pub(crate) mod error;
 pub(crate) mod gmsh;
 mod joints;
 pub(crate) mod loads;
-mod masses;
-mod memory;
 pub(crate) mod mesh;
 mod meshed_solid;
 pub(crate) mod refused;
-pub(crate) mod rocket_error;
 pub(crate) mod solid;
 pub(crate) mod solid_error;
-mod start;
-mod viscous_strain;
 
 use crate::algebra::memory::MemoryLimit;
 use crate::element::conduction::Conductor;
@@ -33,6 +27,7 @@ use crate::element::handle::{Element, Handle, HeatPartner, Kind, Node, Reservoir
 use crate::element::kinematics::Stretch;
 use crate::element::layout::Layout;
 use crate::element::lineage::{Counts, Lineage};
+use crate::element::masses::Masses;
 use crate::scene::error::SceneError;
 use crate::scene::loads::Loads;
 use eem_material::free_energy::{FreeEnergy, Material};
@@ -64,8 +59,8 @@ pub struct Scene<const D: usize, S: Real = f64> {
     pub(crate) groups: Vec<Box<dyn Loose<S, D>>>,
     pub(crate) loads: Loads<S, D>,
     pub(crate) memory_limit: MemoryLimit,
-    /// What was asked for in vain, reported with everything else.
-    pub(crate) misuse: Vec<SceneError>,
+    /// Errors so far, reported by `Simulation::new`.
+    pub(crate) errors: Vec<SceneError>,
 }
 
 impl<const D: usize> Scene<D> {
@@ -91,7 +86,7 @@ impl<const D: usize, S: Real> Default for Scene<D, S> {
             groups: Vec::new(),
             loads: Loads::none(),
             memory_limit: MemoryLimit::NONE,
-            misuse: Vec::new(),
+            errors: Vec::new(),
         }
     }
 }
@@ -102,7 +97,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         self.push_node(None, position, [S::zero(); D])
     }
 
-    /// The numbering of its unknowns and variables.
+    /// The numbering of its unknowns and state variables.
     pub(crate) fn layout(&self) -> Layout {
         let is_mass = self.nodes.iter().map(|node| node.mass.is_some());
         let elements = self.elements.iter();
@@ -148,7 +143,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
         if nodes[0] == nodes[1] {
             let node = nodes[0];
-            self.misuse.push(SceneError::SelfSpring { element, node });
+            self.refuse(SceneError::SelfSpring { element, node });
         }
         let (group, set) = self.set_of(LooseElements::<S, M, Stretch<D>, D>::new);
         let place = set.points();
@@ -167,13 +162,13 @@ impl<const D: usize, S: Real> Scene<D, S> {
         });
     }
 
-    /// The handle of the element of the model `M` that is created next.
+    /// The handle of the next element, of the model `M`.
     fn next_element<M: FreeEnergy<S>>(&self) -> Element {
         let index = self.elements.len();
         Element::new(self.lineage.giver(Kind::Element, index), index, &M::MODEL)
     }
 
-    /// The elements of one type, new if there are none yet, and their group.
+    /// The set of elements of one type, created if necessary, and its group.
     fn set_of<B: Loose<S, D>>(&mut self, new: impl FnOnce() -> B) -> (usize, &mut B) {
         let mut groups = self.groups.iter();
         let same = groups.position(|group| group.as_any().is::<B>());
@@ -200,15 +195,15 @@ impl<const D: usize, S: Real> Scene<D, S> {
         if self.expect_own(&element) {
             let entry = &mut self.elements[element.index()];
             let shape = self.groups.get(entry.group).map(|group| group.shape());
-            match shape
-                .filter(|shape| shape.viscous_strain > 0 && dashpot >= shape.scalar_dashpots())
-            {
-                Some(shape) => self.misuse.push(SceneError::NoSuchDashpot {
+            let shape = shape.filter(|shape| shape.viscous_strain > 0);
+            let dashpots = shape.map(|shape| shape.scalar_dashpots());
+            match dashpots.filter(|&dashpots| dashpot >= dashpots) {
+                None => entry.viscous_stretches.push((dashpot, stretch)),
+                Some(dashpots) => self.refuse(SceneError::NoSuchDashpot {
                     element,
                     dashpot,
-                    dashpots: shape.scalar_dashpots(),
+                    dashpots,
                 }),
-                None => entry.viscous_stretches.push((dashpot, stretch)),
             }
         }
     }
@@ -231,10 +226,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// #[free_energy(|lambda: Stretch, theta: Temperature| {
     ///     0.5 * k * (lambda - 1.0).powi(2) + c * (theta - theta * ln(theta / 300.0))
     /// })]
-    /// struct Warm {
-    ///     k: f64,
-    ///     c: f64,
-    /// }
+    /// struct Warm { k: f64, c: f64 }
     ///
     /// let heat = |conductances: &[f64]| {
     ///     let mut scene = Scene::<1>::new();
@@ -254,12 +246,12 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// ```
     pub fn conduct(&mut self, element: Element, partner: impl Into<HeatPartner>, conductance: S) {
         let partner = partner.into();
-        let own = self.expect_own(&element)
-            & match partner {
-                HeatPartner::Element(other) => self.expect_own(&other),
-                HeatPartner::Reservoir(other) => self.expect_own(&other),
-            };
-        if own {
+        let is_own = self.expect_own(&element);
+        let is_partner_own = match partner {
+            HeatPartner::Element(other) => self.expect_own(&other),
+            HeatPartner::Reservoir(other) => self.expect_own(&other),
+        };
+        if is_own && is_partner_own {
             self.conductors.push(Conductor {
                 element,
                 partner,
@@ -268,14 +260,63 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
     }
 
-    /// Whether a handle is of this scene; if not, that is noted as misuse.
+    /// Limits the memory of the matrix of Newton's method and its factors, bytes. Without a limit it is the memory
+    /// available when the simulation begins.
+    ///
+    /// The factors of solids in space need most: about 16 GB for a block of 50³ cells with eight nodes. A scene
+    /// that does not fit is rejected before memory is reserved, with
+    /// [`SceneError::TooLarge`](crate::SceneError::TooLarge).
+    ///
+    /// ```
+    /// use eem::TooLarge;
+    /// use eem::materials::Hooke;
+    /// use eem::prelude::*;
+    ///
+    /// let mut scene = Scene::<2>::new();
+    /// let mut last = scene.anchor([0.0, 0.0]);
+    /// for index in 1..=100 {
+    ///     let next = scene.mass(1.0, [f64::from(index), 0.0], [0.0, 0.0]);
+    ///     scene.spring(Hooke { stiffness: 1.0, natural_length: 1.0 }, [last, next]);
+    ///     last = next;
+    /// }
+    /// scene.limit_memory(1_000);
+    /// let refused = Simulation::new(scene, Scheme::EemEntropy, 0.1).unwrap_err();
+    /// assert!(matches!(
+    ///     refused.errors(),
+    ///     [SceneError::TooLarge(TooLarge { unknowns: 200, available: Some(1_000), .. })]
+    /// ));
+    /// ```
+    pub fn limit_memory(&mut self, bytes: u64) {
+        self.memory_limit = MemoryLimit::new(Some(bytes));
+    }
+
+    /// Records an error for `Simulation::new`.
+    fn refuse(&mut self, error: impl Into<SceneError>) {
+        self.errors.push(error.into());
+    }
+
+    /// Whether a handle is of this scene; if not, that is an error.
     fn expect_own<H: Handle>(&mut self, handle: &H) -> bool {
         let own = self.lineage.owns(handle);
         if !own {
             let handle = handle.to_string();
-            self.misuse.push(SceneError::ForeignHandle { handle });
+            self.refuse(SceneError::ForeignHandle { handle });
         }
         own
+    }
+
+    /// The mass matrix. Anchors keep their masses as nodes of solids.
+    pub(crate) fn masses(&self) -> Masses<S> {
+        let mut pairs = self.pairs.clone();
+        let mut is_of_solid = vec![false; self.nodes.len()];
+        let coupled = self.pairs.iter().flat_map(|&(nodes, _)| nodes);
+        coupled.for_each(|node| is_of_solid[node] = true);
+        for (index, node) in self.nodes.iter().enumerate() {
+            if node.mass.is_none() && is_of_solid[index] {
+                pairs.push(([index; 2], node.held));
+            }
+        }
+        Masses::new(self.nodes.iter().map(|node| node.mass), pairs)
     }
 
     /// The handle of a node.
@@ -290,7 +331,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         Reservoir { scene, index }
     }
 
-    /// The handle of an element that could be made.
+    /// The handle of a valid element.
     pub(crate) fn element_at(&self, index: usize) -> Element {
         let scene = self.lineage.giver(Kind::Element, index);
         Element::new(scene, index, self.groups[self.elements[index].group].name())
@@ -335,7 +376,7 @@ impl<const D: usize, S: Real> Clone for Scene<D, S> {
             groups: self.groups.iter().map(|group| group.duplicate()).collect(),
             loads: self.loads.clone(),
             memory_limit: self.memory_limit,
-            misuse: self.misuse.clone(),
+            errors: self.errors.clone(),
         }
     }
 }

@@ -1,11 +1,11 @@
-//! Which setting to take for an accuracy, in words.
+//! Recommending a setting for an accuracy.
 
 use core::fmt;
 
 use crate::error::StudyError;
-use crate::quantity::StateQuantity;
-use crate::report::{StudyReport, StudyRow};
-use crate::statement::{DOUBT, largest};
+use crate::quantity::{DOUBT, StateQuantity};
+use crate::report::StudyReport;
+use crate::row::{StudyRow, largest};
 use eem_material::number::readable::Readable;
 
 /// A recommendation for an accuracy; `Display` prints it in words.
@@ -69,12 +69,11 @@ impl StudyReport {
             rows.filter(move |row| row.is_within(accuracy))
         };
         let fastest = |a: &&StudyRow, b: &&StudyRow| a.seconds.total_cmp(&b.seconds);
+        let lawful = within().filter(|row| row.setting.scheme.is_exact());
         match within().min_by(fastest) {
             Some(row) => Advice::Take {
                 fastest: row,
-                lawful: within()
-                    .filter(|row| row.setting.scheme.is_exact())
-                    .min_by(fastest),
+                lawful: lawful.min_by(fastest),
             },
             None => Advice::NoneReaches {
                 closest: self.closest(),
@@ -84,9 +83,8 @@ impl StudyReport {
 
     /// The most accurate row.
     fn closest(&self) -> Option<&StudyRow> {
-        let difference = |row: &'_ StudyRow| largest(&row.differences);
         let rows = self.rows.iter();
-        let rows = rows.filter_map(|row| Some((row, difference(row)?)));
+        let rows = rows.filter_map(|row| Some((row, largest(&row.differences)?)));
         let rows = rows.filter(|(_, difference)| difference.is_finite());
         let least = rows.min_by(|a, b| a.1.total_cmp(&b.1));
         least.map(|(row, _)| row)
@@ -94,7 +92,7 @@ impl StudyReport {
 }
 
 impl StudyRow {
-    /// Whether every error is within an accuracy even if the doubt about the reference is added to it.
+    /// Whether every error plus the uncertainty of the reference is within an accuracy.
     fn is_within(&self, accuracy: f64) -> bool {
         let pairs = self.differences.iter().zip(&self.doubts);
         let errors = pairs.filter_map(|(difference, doubt)| Some((*difference)? + (*doubt)?));
@@ -103,7 +101,7 @@ impl StudyRow {
     }
 }
 
-/// An accuracy is positive and finite.
+/// An error unless an accuracy is positive and finite.
 pub(crate) fn check_accuracy(accuracy: f64) -> Result<(), StudyError> {
     if accuracy > 0.0 && accuracy.is_finite() {
         Ok(())
@@ -117,35 +115,24 @@ impl fmt::Display for Recommendation<'_> {
         let accuracy = Readable(self.accuracy);
         write!(f, "For errors of at most {accuracy}: ")?;
         match self.advice {
-            Advice::Take {
-                fastest,
-                lawful: Some(lawful),
-            } if lawful == fastest => {
-                write!(
-                    f,
-                    "{}, which is the fastest and keeps the laws.",
-                    Words(lawful)
-                )
-            }
-            Advice::Take {
-                fastest,
-                lawful: Some(lawful),
-            } => {
-                let (lawful, fastest) = (Words(lawful), Words(fastest));
-                write!(
-                    f,
-                    "{lawful}, which keeps the laws; fastest of all is {fastest}."
-                )
-            }
-            Advice::Take {
-                fastest,
-                lawful: None,
-            } => {
-                let fastest = Words(fastest);
-                write!(
-                    f,
-                    "{fastest}, the fastest; none that keeps the laws is so accurate."
-                )
+            Advice::Take { fastest, lawful } => {
+                let words = words(fastest);
+                match lawful {
+                    Some(lawful) if lawful == fastest => {
+                        write!(f, "{words}, which is the fastest and keeps the laws.")
+                    }
+                    Some(lawful) => {
+                        let lawful = self::words(lawful);
+                        write!(
+                            f,
+                            "{lawful}, which keeps the laws; fastest of all is {words}."
+                        )
+                    }
+                    None => write!(
+                        f,
+                        "{words}, the fastest; none that keeps the laws is so accurate."
+                    ),
+                }
             }
             Advice::NoneReaches {
                 closest: Some(closest),
@@ -169,14 +156,9 @@ impl fmt::Display for Recommendation<'_> {
     }
 }
 
-/// A setting with what it costs.
-struct Words<'a>(&'a StudyRow);
-
-impl fmt::Display for Words<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self(row) = self;
-        let milliseconds = 1e3 * row.seconds;
-        let (setting, steps) = (row.setting, row.steps);
-        write!(f, "{setting} ({steps} steps, {milliseconds:.2} ms)")
-    }
+/// A setting and its cost.
+fn words(row: &StudyRow) -> String {
+    let milliseconds = 1e3 * row.seconds;
+    let (setting, steps) = (row.setting, row.steps);
+    format!("{setting} ({steps} steps, {milliseconds:.2} ms)")
 }

@@ -1,71 +1,61 @@
-//! How a run gets to the end: in equal steps, or in those that an accuracy needs.
+//! Runs of a study: their steps up to the end time, equal or controlled, how well they keep the laws, and wall times.
 
 use core::ops::ControlFlow;
+use std::time::Instant;
 
 use crate::error::StudyError;
-use crate::grid::Grid;
+use crate::quantity::{EndState, larger, share};
+use crate::row::StudyRow;
 use crate::setting::{Setting, StepChoice};
 use eem_material::number::scalar::Real;
-use eem_runtime::Scene;
-use eem_runtime::SceneError;
-use eem_runtime::Scheme;
-use eem_runtime::Simulation;
-use eem_runtime::StepError;
-use eem_runtime::StepReport;
-use eem_runtime::Tolerance;
+use eem_runtime::{Scene, SceneError, Scheme, Simulation, StepError, StepReport, Tolerance};
 
-/// The first step that a run with a tolerance tries, as a share of the end time.
+/// The first step of a run with a tolerance, in units of the end time.
 const FIRST: f64 = 1.0 / 64.0;
 
-/// What a run with a tolerance counts for in the progress of a study: nobody knows its steps before.
+/// The steps of a run with a tolerance in the progress of a study, as they are not known before.
 const TYPICAL_STEPS: u32 = 1000;
+
+/// The most steps of a run.
+const MOST_STEPS: u32 = u32::MAX;
+
+/// Roundings, in ε times the end time, by which a whole number of steps may miss the end: half a unit each from the
+/// step and the end as doubles and from their product, and more to be safe.
+const ROUNDINGS: f64 = 4.0;
 
 /// A scene that is built anew for every run.
 pub(crate) type Build<'a, const D: usize, S> = dyn Fn() -> Scene<D, S> + 'a;
 
-/// A scheme on its way to a common end time.
+/// A setting with its steps up to a common end time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Course {
-    scheme: Scheme,
+    setting: Setting,
     /// s.
     end: f64,
-    steps: Steps,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Steps {
-    Equal(Grid),
-    Controlled(f64),
+    /// The number of equal steps, or a typical number of controlled ones.
+    pub(crate) planned: u32,
 }
 
 impl Course {
-    /// That of a setting up to the time `end`, s.
-    pub(crate) fn of(setting: &Setting, end: f64) -> Result<Self, StudyError> {
-        let steps = match setting.steps {
-            StepChoice::Fixed(step) => Steps::Equal(Grid::of(step, end)?),
-            StepChoice::Tolerance(relative) => Steps::Controlled(relative),
+    /// The course of a setting up to the time `end`, s.
+    pub(crate) fn of(setting: Setting, end: f64) -> Result<Self, StudyError> {
+        let planned = match setting.steps {
+            StepChoice::Fixed(step) => whole_steps(step, end)?,
+            StepChoice::Tolerance(_) => TYPICAL_STEPS,
         };
         Ok(Self {
-            scheme: setting.scheme,
+            setting,
             end,
-            steps,
+            planned,
         })
     }
 
-    /// That of a scheme on a grid up to the time `end`, s.
-    pub(crate) const fn on_grid(scheme: Scheme, grid: Grid, end: f64) -> Self {
+    /// The course of a scheme with this number of equal steps up to the time `end`, s.
+    pub(crate) fn equal(scheme: Scheme, steps: u32, end: f64) -> Self {
         Self {
-            scheme,
+            setting: Setting::fixed(scheme, end / f64::from(steps)),
             end,
-            steps: Steps::Equal(grid),
-        }
-    }
-
-    /// How many steps it is likely to take.
-    pub(crate) const fn planned(&self) -> u32 {
-        match self.steps {
-            Steps::Equal(grid) => grid.steps,
-            Steps::Controlled(_) => TYPICAL_STEPS,
+            planned: steps,
         }
     }
 
@@ -74,16 +64,12 @@ impl Course {
         &self,
         build: &Build<'_, D, S>,
     ) -> Result<Simulation<D, S>, SceneError> {
-        let step = match self.steps {
-            Steps::Equal(grid) => grid.step,
-            Steps::Controlled(_) => FIRST * self.end,
-        };
-        let mut run = Simulation::new(build(), self.scheme, S::from_f64(step))?;
-        match self.steps {
-            Steps::Equal(_) => run.fix_steps(),
-            Steps::Controlled(relative) => {
-                run.control_steps(Tolerance::new(S::from_f64(relative)))?;
-            }
+        let (scheme, step) = (self.setting.scheme, self.setting.step());
+        let first = S::from_f64(step.unwrap_or(FIRST * self.end));
+        let mut run = Simulation::new(build(), scheme, first)?;
+        match self.setting.tolerance() {
+            Some(relative) => run.control_steps(Tolerance::new(S::from_f64(relative)))?,
+            None => run.fix_steps(),
         }
         Ok(run)
     }
@@ -94,14 +80,14 @@ impl Course {
         run: &mut Simulation<D, S>,
         mut watch: impl FnMut(&Simulation<D, S>, &StepReport<S>),
     ) -> Result<(), StepError> {
-        match self.steps {
-            Steps::Equal(grid) => {
-                for _ in 0..grid.steps {
+        match self.setting.steps {
+            StepChoice::Fixed(_) => {
+                for _ in 0..self.planned {
                     let report = run.step()?;
                     watch(run, &report);
                 }
             }
-            Steps::Controlled(_) => {
+            StepChoice::Tolerance(_) => {
                 run.run_until_with(S::from_f64(self.end), |run, report| {
                     watch(run, report);
                     ControlFlow::Continue(())
@@ -109,5 +95,107 @@ impl Course {
             }
         }
         Ok(())
+    }
+}
+
+/// The number of steps of this size up to the time `end`, s; an error unless it is whole.
+fn whole_steps(step: f64, end: f64) -> Result<u32, StudyError> {
+    if !(step > 0.0 && step.is_finite()) {
+        return Err(StudyError::Step { step });
+    }
+    let steps = (end / step).round();
+    if steps > f64::from(MOST_STEPS) {
+        let most = MOST_STEPS;
+        return Err(StudyError::TooManySteps { step, end, most });
+    }
+    let is_hit = (steps * step - end).abs() <= ROUNDINGS * f64::EPSILON * end;
+    if steps >= 1.0 && is_hit {
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a whole number from 1 to MOST_STEPS"
+        )]
+        return Ok(steps as u32);
+    }
+    let steps = (end / step).floor();
+    Err(StudyError::NoWholeSteps {
+        step,
+        end,
+        shorter: end / (steps + 1.0),
+        longer: end / steps.max(1.0),
+    })
+}
+
+/// A run to the end time, or to its first failed step.
+#[derive(Clone, Debug)]
+pub(crate) struct Finished {
+    pub(crate) end: Result<EndState, StepError>,
+    /// The time of building the scene and the simulation, s.
+    pub(crate) setup: f64,
+    /// The time of the steps alone, s.
+    pub(crate) seconds: f64,
+}
+
+/// Runs a setting. With a row, every step is watched, which takes time, and the row is filled in.
+pub(crate) fn run<const D: usize, S: Real>(
+    build: &Build<'_, D, S>,
+    course: &Course,
+    row: Option<&mut StudyRow>,
+) -> Result<Finished, SceneError> {
+    let start = Instant::now();
+    let mut run = course.start(build)?;
+    let setup = start.elapsed().as_secs_f64();
+    let mut laws = row.map(|row| Laws::new(&run, row));
+    let start = Instant::now();
+    let end = course.go(&mut run, |run, report| {
+        if let Some(laws) = &mut laws {
+            laws.watch(run, report);
+        }
+    });
+    let seconds = start.elapsed().as_secs_f64();
+    if let Some(Laws { row, .. }) = laws {
+        let statistics = run.step_statistics();
+        let rejected = statistics.map_or(0, |statistics| statistics.rejected());
+        row.rejected = u32::try_from(rejected).unwrap_or(u32::MAX);
+        row.evaluations = run.evaluations();
+        row.failure = end.clone().err();
+    }
+    Ok(Finished {
+        end: end.map(|()| EndState::of(&run)),
+        setup,
+        seconds,
+    })
+}
+
+/// Watches the laws during a run.
+struct Laws<'a> {
+    row: &'a mut StudyRow,
+    /// `B₀` and `|E₀|`, J, with `B = E − work − heat`.
+    first: [f64; 2],
+    /// The total entropy after the last step, J/K.
+    entropy: f64,
+}
+
+impl<'a> Laws<'a> {
+    fn new<const D: usize, S: Real>(run: &Simulation<D, S>, row: &'a mut StudyRow) -> Self {
+        let ledger = run.ledger();
+        Self {
+            row,
+            first: [ledger.balance.to_f64(), ledger.energy.to_f64().abs()],
+            entropy: ledger.entropy.to_f64(),
+        }
+    }
+
+    fn watch<const D: usize, S: Real>(&mut self, run: &Simulation<D, S>, report: &StepReport<S>) {
+        let (ledger, row) = (run.ledger(), &mut *self.row);
+        row.steps += 1;
+        row.iterations += report.iterations;
+        let [balance, energy] = self.first;
+        let defect = share((ledger.balance.to_f64() - balance).abs(), energy);
+        row.energy_defect = larger(row.energy_defect, defect);
+        row.step_bound = larger(row.step_bound, share(report.bound.to_f64(), energy));
+        let entropy = ledger.entropy.to_f64();
+        row.least_entropy_change = -larger(-row.least_entropy_change, self.entropy - entropy);
+        self.entropy = entropy;
     }
 }

@@ -1,4 +1,4 @@
-//! Why a study is not begun: what is wrong with it, and what to do.
+//! Errors of studies.
 
 use thiserror::Error;
 
@@ -68,7 +68,7 @@ pub enum StudyError {
     Scene {
         /// The setting that it was built for.
         setting: Setting,
-        /// What is wrong with it.
+        /// The error of the scene.
         r#source: SceneError,
     },
     /// A reference belongs to another scene.

@@ -1,9 +1,12 @@
-//! The kinds of quantities of a state, and how much two states differ in each.
+//! The kinds of quantities of a state, and the differences of two states.
 
 use core::fmt;
 
 use eem_material::number::scalar::Real;
 use eem_runtime::Simulation;
+
+/// The largest difference of the references for which an error is stated, relative to it.
+pub(crate) const DOUBT: f64 = 0.01;
 
 /// A kind of quantity with an error of its own in a study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -123,19 +126,13 @@ impl EndState {
         Some(shares.fold(0.0, larger))
     }
 
-    /// The same for every kind.
+    /// The differences of every kind.
     pub(crate) fn differences(&self, exact: &Self) -> PerQuantity {
         StateQuantity::ALL.map(|quantity| self.difference(exact, quantity))
     }
-
-    /// A kind with a value that is not finite.
-    pub(crate) fn flaw(&self) -> Option<StateQuantity> {
-        let mut all = StateQuantity::ALL.into_iter();
-        all.find(|&quantity| self.values(quantity).iter().any(|value| !value.is_finite()))
-    }
 }
 
-/// A part of a whole; nothing is no part even of nothing.
+/// A part over a whole; zero if the part is zero.
 pub(crate) fn share(part: f64, whole: f64) -> f64 {
     if part > 0.0 || part.is_nan() {
         part / whole

@@ -1,28 +1,21 @@
-//! What is taken for the exact state at the end time: two solutions that know nothing of each other.
+//! The reference: two independent discretisations whose difference bounds their errors.
 //!
-//! Both are runs of a scheme of the library, of the same order but with other equations: in one Gauss
-//! collocation on q, p, γ and s, in the other an action by Simpson's rule. They share the elements' formulas and
-//! Newton's method, and nothing of what makes their errors. Where they agree, the error of each is therefore of
-//! the size of the difference at most. Their step is the smallest of all settings over `r`, `r^p ≥ 100` with
-//! their order p, so that an error of a setting of the same order is a hundred times that of the reference;
-//! then it is halved until the difference is at most a hundredth of each error that it has to judge, until
-//! halving no longer helps, or up to a limit.
+//! Both are schemes of the library, of the same order but with different equations: one is Gauss collocation on q, p, γ
+//! and s, the other an action by Simpson's rule. They share the elements' formulas and Newton's method, but no source of
+//! errors. So where they agree, the error of each is at most of the size of the difference. Their first step is the
+//! smallest of all settings over `r`, with `r^p ≥ 100` for their order p, so that a setting of the same order has a
+//! hundred times the error of the reference. It is halved until the difference is at most a hundredth of each error of a
+//! setting, until halving no longer helps, or up to a limit.
 
-use crate::course::{Build, Course};
-use crate::grid::Grid;
-use crate::measure::end_state;
-use crate::quantity::{EndState, PerQuantity, StateQuantity};
-use crate::statement::DOUBT;
-use eem_runtime::RocketError;
-use eem_runtime::SceneError;
-use eem_runtime::Scheme;
-use eem_runtime::StepError;
+use crate::course::{Build, Course, run};
+use crate::quantity::{DOUBT, EndState, PerQuantity, StateQuantity};
+use eem_runtime::{RocketError, SceneError, Scheme, StepError};
 
 /// Two schemes of one order.
 #[derive(Clone, Copy, Debug)]
 struct Pair {
     schemes: [Scheme; 2],
-    /// How many times smaller than the smallest step the first ones are: 4⁴ ≥ 100, 16² ≥ 100.
+    /// The smallest step of all settings over the first step: 4⁴ ≥ 100, 16² ≥ 100.
     first: u32,
 }
 
@@ -31,13 +24,13 @@ const FOURTH_ORDER: Pair = Pair {
     first: 4,
 };
 
-/// For scenes with solids or rockets, which those schemes do not step.
+/// For scenes with solids or rockets, which schemes of fourth order do not step.
 const SECOND_ORDER: Pair = Pair {
     schemes: [Scheme::EemEntropy, Scheme::Midpoint],
     first: 16,
 };
 
-/// Halving a step has helped if the references are so much closer then; a scheme of second order comes closer by 4.
+/// Halving a step helps if it reduces the difference to this share; in second order it is a quarter.
 const HELPS: f64 = 0.5;
 
 /// Why the references were not refined further.
@@ -72,16 +65,6 @@ pub struct StudyReference {
 }
 
 impl StudyReference {
-    /// Two states that were given.
-    pub(crate) const fn given(states: [EndState; 2]) -> Self {
-        Self {
-            states: Some(states),
-            schemes: None,
-            step: None,
-            end: ReferenceEnd::Given,
-        }
-    }
-
     /// The relative difference of the two references; infinite if they failed. `None` if the scene has no such
     /// quantity.
     #[must_use]
@@ -106,7 +89,7 @@ impl StudyReference {
         StateQuantity::ALL.map(unknown)
     }
 
-    /// The kinds in which two references are too far from each other for one of the errors of these states.
+    /// The kinds of quantities in which the references differ too much for an error of these states.
     fn open(&self, ends: &[EndState]) -> [bool; 4] {
         let doubts = self.doubts();
         let mut open = [false; 4];
@@ -122,7 +105,7 @@ impl StudyReference {
     }
 }
 
-/// What a search for references goes by.
+/// The settings of a search for references.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Search<'a> {
     /// s.
@@ -136,8 +119,8 @@ pub(crate) struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Refines two runs until they agree, or cannot. Calls `note` with the steps that come, `(planned, 0)`,
-    /// and with those that are done, `(0, made)`.
+    /// Refines two runs until they agree, or cannot. Calls `note` with planned steps, `(planned, 0)`, and with those
+    /// made, `(0, made)`.
     pub(crate) fn run<const D: usize>(
         self,
         build: &Build<'_, D, f64>,
@@ -147,12 +130,17 @@ impl Search<'_> {
         let mut found: Option<StudyReference> = None;
         let mut factor = pair.first;
         loop {
-            let Some(grid) = self.grid(factor, pair) else {
-                return Ok(limited(found, pair));
+            let Some(steps) = self.steps(factor, pair) else {
+                return Ok(found.unwrap_or(StudyReference {
+                    states: None,
+                    schemes: Some(pair.schemes),
+                    step: None,
+                    end: ReferenceEnd::Limit,
+                }));
             };
-            let planned = 2 * u64::from(grid.steps);
+            let planned = 2 * u64::from(steps);
             note(planned, 0);
-            let next = match solve(build, (pair, self.end_time), grid) {
+            let next = match solve(build, pair.schemes, (steps, self.end_time)) {
                 Err(
                     SceneError::NotForSolids { .. }
                     | SceneError::Rocket(RocketError::Scheme { .. }),
@@ -174,16 +162,14 @@ impl Search<'_> {
         }
     }
 
-    /// The steps of references, `factor` times smaller than the smallest; `None` beyond the limit. The first
+    /// The number of steps `factor` times smaller than the smallest of all settings; `None` beyond the limit. The first
     /// are always allowed.
-    fn grid(&self, factor: u32, pair: Pair) -> Option<Grid> {
-        if factor > self.refinement.max(pair.first) {
-            return None;
-        }
-        Grid::divided(self.end_time, u64::from(self.finest) * u64::from(factor))
+    fn steps(&self, factor: u32, pair: Pair) -> Option<u32> {
+        let is_within = factor <= self.refinement.max(pair.first);
+        self.finest.checked_mul(factor).filter(|_| is_within)
     }
 
-    /// Which of two pairs of references to go on with, and whether it is good enough or as good as can be.
+    /// The better one of two pairs of references, and whether the search ends with it.
     fn judge(
         &self,
         before: Option<StudyReference>,
@@ -201,14 +187,11 @@ impl Search<'_> {
             before.end = next.end;
             return (before, true);
         }
-        let pairs = before.doubts().into_iter().zip(next.doubts()).zip(open);
-        let helps = |((old, new), is_open): ((Option<f64>, Option<f64>), bool)| {
-            let (Some(old), Some(new)) = (old, new) else {
-                return false;
-            };
-            is_open && new <= HELPS * old
-        };
-        let is_helped = pairs.into_iter().any(helps);
+        let doubts = [before.doubts(), next.doubts()];
+        let is_helped = (0..open.len()).any(|index| {
+            let pair = doubts[0][index].zip(doubts[1][index]);
+            open[index] && pair.is_some_and(|(old, new)| new <= HELPS * old)
+        });
         if !is_helped {
             next.end = ReferenceEnd::Floor;
         }
@@ -219,31 +202,21 @@ impl Search<'_> {
 /// A pair of runs.
 fn solve<const D: usize>(
     build: &Build<'_, D, f64>,
-    (pair, end_time): (Pair, f64),
-    grid: Grid,
+    schemes: [Scheme; 2],
+    (steps, end_time): (u32, f64),
 ) -> Result<StudyReference, SceneError> {
-    let [first, second] = pair
-        .schemes
-        .map(|scheme| Course::on_grid(scheme, grid, end_time));
-    let states = (end_state(build, &first)?, end_state(build, &second)?);
-    let (states, end) = match states {
+    let end = |scheme| {
+        let finished = run(build, &Course::equal(scheme, steps, end_time), None);
+        finished.map(|finished| finished.end)
+    };
+    let (states, end) = match (end(schemes[0])?, end(schemes[1])?) {
         (Ok(first), Ok(second)) => (Some([first, second]), ReferenceEnd::Limit),
         (Err(error), _) | (_, Err(error)) => (None, ReferenceEnd::Failed(error)),
     };
     Ok(StudyReference {
         states,
-        schemes: Some(pair.schemes),
-        step: Some(grid.step),
+        schemes: Some(schemes),
+        step: Some(end_time / f64::from(steps)),
         end,
-    })
-}
-
-/// The finest references within the limit.
-fn limited(found: Option<StudyReference>, pair: Pair) -> StudyReference {
-    found.unwrap_or(StudyReference {
-        states: None,
-        schemes: Some(pair.schemes),
-        step: None,
-        end: ReferenceEnd::Limit,
     })
 }

@@ -1,103 +1,10 @@
-//! What a study has found: a row per setting, and the reference that its errors are measured against.
+//! The results of a study: a row per setting, and the references.
 
-use crate::measure::{Measured, Times};
-use crate::quantity::{PerQuantity, StateQuantity};
+use crate::quantity::StateQuantity;
 use crate::reference::StudyReference;
-use crate::setting::{Precision, Setting};
-use crate::statement::{Statement, largest};
+use crate::row::StudyRow;
+use crate::setting::Precision;
 use eem_runtime::Scheme;
-use eem_runtime::StepError;
-
-/// The results and costs of one setting.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct StudyRow {
-    /// The setting.
-    pub setting: Setting,
-    /// Why the run did not reach the end time; the other numbers then cover the steps before.
-    pub failure: Option<StepError>,
-    /// The largest `|B − B₀|/|E₀|` of the run, with the balance `B = E − work − heat`.
-    pub energy_defect: f64,
-    /// The bound for rounding in a single step: the largest [`StepReport::bound`](eem_runtime::StepReport::bound) divided
-    /// by `|E₀|`.
-    pub step_bound: f64,
-    /// The smallest ΔS of a step, J/K. By the second law it is not negative, except for rounding. Infinite without
-    /// steps.
-    pub least_entropy_change: f64,
-    /// Accepted steps.
-    pub steps: u32,
-    /// Rejected steps. Zero with constant steps.
-    pub rejected: u32,
-    /// Newton iterations.
-    pub iterations: usize,
-    /// Evaluations of the forces of all elements, one per stage.
-    pub evaluations: u64,
-    /// Wall time of the steps alone, the minimum of all repeats, s.
-    pub seconds: f64,
-    /// The median of the repeats, s.
-    pub median_seconds: f64,
-    /// Wall time of building the scene and the simulation, the minimum of all repeats, s.
-    pub setup_seconds: f64,
-    pub(crate) differences: PerQuantity,
-    pub(crate) doubts: PerQuantity,
-}
-
-impl StudyRow {
-    /// Compares what was measured with the references.
-    pub(crate) fn new(
-        setting: Setting,
-        measured: Measured,
-        times: Times,
-        reference: &StudyReference,
-    ) -> Self {
-        let (differences, failure) = match measured.end {
-            Ok(state) => (reference.differences(&state), None),
-            Err(error) => ([None; 4], Some(error)),
-        };
-        Self {
-            setting,
-            failure,
-            energy_defect: measured.energy_defect,
-            step_bound: measured.step_bound,
-            least_entropy_change: measured.least_entropy_change,
-            steps: measured.steps,
-            rejected: measured.rejected,
-            iterations: measured.iterations,
-            evaluations: measured.evaluations,
-            seconds: times.least,
-            median_seconds: times.median,
-            setup_seconds: times.setup,
-            differences,
-            doubts: reference.doubts(),
-        }
-    }
-
-    /// The statement about the error of one kind of quantity at the end time, see
-    /// [`EndState::difference`](crate::EndState::difference).
-    #[must_use]
-    pub fn statement(&self, quantity: StateQuantity) -> Statement {
-        let index = quantity.index();
-        match (self.differences[index], self.doubts[index]) {
-            (Some(difference), Some(doubt)) => Statement::of(difference, doubt),
-            _ => Statement::Absent,
-        }
-    }
-
-    /// The error of one kind of quantity at the end time, if it is stated.
-    #[must_use]
-    pub fn error(&self, quantity: StateQuantity) -> Option<f64> {
-        self.statement(quantity).stated()
-    }
-
-    /// The statement about the largest error of all kinds. It can be stated even if a much smaller one is not.
-    #[must_use]
-    pub fn largest_error(&self) -> Statement {
-        match (largest(&self.differences), largest(&self.doubts)) {
-            (Some(difference), Some(doubt)) => Statement::of(difference, doubt),
-            _ => Statement::Absent,
-        }
-    }
-}
 
 /// The result of [`Study::run`](crate::Study::run).
 ///
@@ -173,14 +80,10 @@ impl StudyReport {
     #[must_use]
     pub fn order(&self, scheme: Scheme, quantity: StateQuantity) -> Option<f64> {
         let point = |row: &StudyRow| {
-            let Setting {
-                scheme: own,
-                precision,
-                ..
-            } = row.setting;
-            let is_of_line = own == scheme && precision == Precision::Double;
+            let own = row.setting;
+            let is_of_line = own.scheme == scheme && own.precision == Precision::Double;
             let error = row.error(quantity).filter(|_| is_of_line)?;
-            Some((row.setting.step()?, error))
+            Some((own.step()?, error))
         };
         let mut points: Vec<_> = self.rows.iter().filter_map(point).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));

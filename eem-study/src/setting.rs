@@ -1,4 +1,4 @@
-//! What a study runs: a scheme, how large its steps are, and in which precision, as data.
+//! Settings of a study: scheme, steps and precision.
 
 use core::fmt;
 use core::iter;
@@ -34,7 +34,13 @@ pub enum Precision {
 /// let setting = Setting::fixed(Scheme::EemEntropy, 0.1);
 /// assert_eq!(setting.step(), Some(0.1));
 /// assert_eq!(setting.to_string(), "eem-entropy with h = 0.1 s");
-/// assert_eq!(setting.in_single_precision().precision, Precision::Single);
+/// let single = setting.in_single_precision();
+/// assert_eq!((single.precision, single.name()), (Precision::Single, "eem-entropy-f32".to_owned()));
+///
+/// let setting = Setting::controlled(Scheme::EemTemperature, 1e-4);
+/// assert_eq!((setting.step(), setting.tolerance()), (None, Some(1e-4)));
+/// assert_eq!(setting.to_string(), "eem-temperature at a tolerance of 0.0001");
+/// assert_eq!(setting.line(), "eem-temperature, controlled");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -48,14 +54,18 @@ pub struct Setting {
 }
 
 impl Setting {
+    const fn new(scheme: Scheme, steps: StepChoice) -> Self {
+        Self {
+            scheme,
+            steps,
+            precision: Precision::Double,
+        }
+    }
+
     /// A scheme with steps of the size `step`, s, in double precision.
     #[must_use]
     pub const fn fixed(scheme: Scheme, step: f64) -> Self {
-        Self {
-            scheme,
-            steps: StepChoice::Fixed(step),
-            precision: Precision::Double,
-        }
+        Self::new(scheme, StepChoice::Fixed(step))
     }
 
     /// The steps `h, h/2, …, h/2ⁿ` of a scheme: `halvings` is n, `largest` is h, s.
@@ -73,21 +83,9 @@ impl Setting {
     }
 
     /// A scheme with step control for a relative tolerance, in double precision.
-    ///
-    /// ```
-    /// use eem::{Scheme, Setting};
-    ///
-    /// let setting = Setting::controlled(Scheme::EemTemperature, 1e-4);
-    /// assert_eq!((setting.step(), setting.tolerance()), (None, Some(1e-4)));
-    /// assert_eq!(setting.to_string(), "eem-temperature at a tolerance of 0.0001");
-    /// ```
     #[must_use]
     pub const fn controlled(scheme: Scheme, tolerance: f64) -> Self {
-        Self {
-            scheme,
-            steps: StepChoice::Tolerance(tolerance),
-            precision: Precision::Double,
-        }
+        Self::new(scheme, StepChoice::Tolerance(tolerance))
     }
 
     /// The tolerances `r, r/10, …, r/10ⁿ` of a scheme: `decades` is n, `largest` is r.
@@ -132,13 +130,6 @@ impl Setting {
     }
 
     /// The name of the scheme, with `-f32` in single precision.
-    ///
-    /// ```
-    /// use eem::{Scheme, Setting};
-    ///
-    /// let setting = Setting::fixed(Scheme::Midpoint, 0.1).in_single_precision();
-    /// assert_eq!(setting.name(), "midpoint-f32");
-    /// ```
     #[must_use]
     pub fn name(&self) -> String {
         let suffix = match self.precision {
@@ -149,13 +140,6 @@ impl Setting {
     }
 
     /// The name of the curve in a picture: the name of the setting, and whether it uses step control.
-    ///
-    /// ```
-    /// use eem::{Scheme, Setting};
-    ///
-    /// assert_eq!(Setting::fixed(Scheme::EemEntropy, 0.1).line(), "eem-entropy");
-    /// assert_eq!(Setting::controlled(Scheme::EemEntropy, 0.1).line(), "eem-entropy, controlled");
-    /// ```
     #[must_use]
     pub fn line(&self) -> String {
         let suffix = match self.steps {
@@ -168,15 +152,11 @@ impl Setting {
 
 impl fmt::Display for Setting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = self.name();
         match self.steps {
-            StepChoice::Fixed(step) => write!(f, "{} with h = {} s", self.name(), Readable(step)),
-            StepChoice::Tolerance(tolerance) => {
-                write!(
-                    f,
-                    "{} at a tolerance of {}",
-                    self.name(),
-                    Readable(tolerance)
-                )
+            StepChoice::Fixed(step) => write!(f, "{name} with h = {} s", Readable(step)),
+            StepChoice::Tolerance(relative) => {
+                write!(f, "{name} at a tolerance of {}", Readable(relative))
             }
         }
     }

@@ -1,26 +1,24 @@
-//! Work and precision: what each setting costs and how accurate it is, for a scene of the user's own.
+//! Studies: the cost and the accuracy of each setting for a scene.
 
 use core::fmt;
 
 use crate::advice::check_accuracy;
-use crate::course::{Build, Course};
+use crate::course::{Build, Course, Finished, run};
 use crate::error::StudyError;
-use crate::measure::{Measured, Times, measure, time};
-use crate::progress::{Progress, Watch};
 use crate::quantity::{EndState, StateQuantity};
-use crate::reference::{Search, StudyReference};
-use crate::report::{StudyReport, StudyRow};
+use crate::reference::{ReferenceEnd, Search, StudyReference};
+use crate::report::StudyReport;
+use crate::row::StudyRow;
 use crate::setting::{Precision, Setting};
-use eem_runtime::Scene;
-use eem_runtime::SceneError;
+use eem_runtime::{Scene, SceneError};
 
-/// How often each setting is timed unless [`Study::repeats`] says otherwise.
+/// The default of [`Study::repeats`].
 const REPEATS: usize = 3;
 
-/// How many times smaller than the smallest step of all settings those of the references are at most.
+/// The default of [`Study::refinement`].
 const REFINEMENT: u32 = 32;
 
-/// What is recommended for: errors that show in a picture, those of a good simulation, those of a reference.
+/// The default accuracies: visible in a picture, a good simulation, a reference.
 const ACCURACIES: [f64; 3] = [1e-2, 1e-4, 1e-6];
 
 /// Runs one scene with many settings, compares the states at the end time with two independent references, and
@@ -29,20 +27,14 @@ const ACCURACIES: [f64; 3] = [1e-2, 1e-4, 1e-6];
 /// For your own scene:
 ///
 /// ```
+/// use eem::materials::Hooke;
 /// use eem::prelude::*;
 /// use eem::{Setting, StateQuantity, Study};
-///
-/// #[derive(FreeEnergy)]
-/// #[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - length).powi(2))]
-/// struct Spring {
-///     stiffness: f64,
-///     length: f64,
-/// }
 ///
 /// fn scene() -> Scene<2> {
 ///     let mut scene = Scene::new();
 ///     let ends = [scene.anchor([0.0, 0.0]), scene.mass(1.0, [1.1, 0.0], [0.0, 1.0])];
-///     scene.spring(Spring { stiffness: 20.0, length: 1.0 }, ends);
+///     scene.spring(Hooke { stiffness: 20.0, natural_length: 1.0 }, ends);
 ///     scene
 /// }
 ///
@@ -179,31 +171,40 @@ impl<'a, const D: usize> Study<'a, D> {
     /// scene.
     pub fn run(mut self) -> Result<StudyReport, StudyError> {
         let courses = self.check()?;
-        let mut progress = Progress::new(self.watch.take());
+        let watch = self.watch.take();
+        let mut progress = Progress {
+            watch,
+            done: 0,
+            planned: 0,
+        };
         let runs = 1 + u64::try_from(self.repeats.max(1)).unwrap_or(u64::MAX);
         for course in &courses {
-            progress.plan(runs * u64::from(course.planned()));
+            progress.plan(runs * u64::from(course.planned));
         }
-        let mut measured = Vec::with_capacity(courses.len());
-        for (&setting, course) in self.settings.iter().zip(&courses) {
-            measured.push(self.measure(setting, course)?);
-            progress.advance(u64::from(course.planned()));
+        let mut rows: Vec<_> = self.settings.iter().copied().map(StudyRow::new).collect();
+        let mut ends = Vec::with_capacity(rows.len());
+        for (row, course) in rows.iter_mut().zip(&courses) {
+            let finished = self.run_setting(row.setting, course, Some(row))?;
+            ends.push(finished.end.ok());
+            progress.advance(u64::from(course.planned));
         }
-        let times = self.time(&courses, &mut progress)?;
-        let reference = self.find_reference(&measured, &mut progress)?;
-        let rows = self.settings.iter().zip(measured).zip(times);
-        let rows = rows.map(|((&setting, measured), times)| {
-            StudyRow::new(setting, measured, times, &reference)
-        });
+        self.time(&courses, &mut rows, &mut progress)?;
+        let reference = self.find_reference(&rows, &ends, &mut progress)?;
+        for (row, end) in rows.iter_mut().zip(&ends) {
+            row.doubts = reference.doubts();
+            if let Some(end) = end {
+                row.differences = reference.differences(end);
+            }
+        }
         Ok(StudyReport {
             end: self.end,
-            rows: rows.collect(),
+            rows,
             reference,
             accuracies: self.accuracies,
         })
     }
 
-    /// The courses of all settings, if nothing is wrong with the study.
+    /// The courses of all settings, if the study is valid.
     fn check(&self) -> Result<Vec<Course>, StudyError> {
         let end = self.end;
         if !(end > 0.0 && end.is_finite()) {
@@ -212,15 +213,17 @@ impl<'a, const D: usize> Study<'a, D> {
         let Some(&first) = self.settings.first() else {
             return Err(StudyError::NoSettings);
         };
-        for &accuracy in &self.accuracies {
-            check_accuracy(accuracy)?;
-        }
+        self.accuracies
+            .iter()
+            .copied()
+            .try_for_each(check_accuracy)?;
         for &setting in &self.settings {
             if setting.precision == Precision::Single && self.single.is_none() {
                 return Err(StudyError::NoSingleScene { setting });
             }
         }
-        let courses = self.settings.iter().map(|setting| Course::of(setting, end));
+        let settings = self.settings.iter();
+        let courses = settings.map(|&setting| Course::of(setting, end));
         let courses = courses.collect::<Result<Vec<_>, _>>()?;
         if let Some(states) = &self.reference {
             self.check_reference(states, first, &courses[0])?;
@@ -228,7 +231,7 @@ impl<'a, const D: usize> Study<'a, D> {
         Ok(courses)
     }
 
-    /// The references that were given are states of this scene.
+    /// An error unless given references are states of this scene.
     fn check_reference(
         &self,
         states: &[EndState; 2],
@@ -240,7 +243,8 @@ impl<'a, const D: usize> Study<'a, D> {
         let start = EndState::of(&start);
         for (index, state) in states.iter().enumerate() {
             for quantity in StateQuantity::ALL {
-                let [got, expected] = [state, &start].map(|state| state.values(quantity).len());
+                let values = state.values(quantity);
+                let (got, expected) = (values.len(), start.values(quantity).len());
                 if got != expected {
                     return Err(StudyError::Reference {
                         index,
@@ -249,64 +253,76 @@ impl<'a, const D: usize> Study<'a, D> {
                         expected,
                     });
                 }
-            }
-            if let Some(quantity) = state.flaw() {
-                return Err(StudyError::ReferenceNotFinite { index, quantity });
+                if values.iter().any(|value| !value.is_finite()) {
+                    return Err(StudyError::ReferenceNotFinite { index, quantity });
+                }
             }
         }
         Ok(())
     }
 
-    fn measure(&self, setting: Setting, course: &Course) -> Result<Measured, StudyError> {
-        let measured = match (setting.precision, &self.single) {
-            (Precision::Double, _) => measure(&*self.build, course),
-            (Precision::Single, Some(build)) => measure(&**build, course),
+    /// One run of a setting, see [`run`].
+    fn run_setting(
+        &self,
+        setting: Setting,
+        course: &Course,
+        row: Option<&mut StudyRow>,
+    ) -> Result<Finished, StudyError> {
+        let finished = match (setting.precision, &self.single) {
+            (Precision::Double, _) => run(&*self.build, course, row),
+            (Precision::Single, Some(build)) => run(&**build, course, row),
             (Precision::Single, None) => return Err(StudyError::NoSingleScene { setting }),
         };
-        measured.map_err(|source| StudyError::Scene { setting, source })
+        finished.map_err(|source| StudyError::Scene { setting, source })
     }
 
-    /// The times of all settings. Each repeat goes through all of them: when the machine is busy for a while,
-    /// it does not slow all repeats of one setting.
+    /// Measures the times of all settings. Each repeat runs all of them, so that a busy machine does not slow all
+    /// repeats of one setting.
     fn time(
         &self,
         courses: &[Course],
+        rows: &mut [StudyRow],
         progress: &mut Progress<'_>,
-    ) -> Result<Vec<Times>, StudyError> {
-        let mut repeats = vec![Vec::new(); courses.len()];
+    ) -> Result<(), StudyError> {
+        let mut repeats = vec![(Vec::new(), Vec::new()); rows.len()];
         for _ in 0..self.repeats.max(1) {
-            for ((&setting, course), times) in self.settings.iter().zip(courses).zip(&mut repeats) {
-                let taken = match (setting.precision, &self.single) {
-                    (Precision::Double, _) => time(&*self.build, course),
-                    (Precision::Single, Some(build)) => time(&**build, course),
-                    (Precision::Single, None) => return Err(StudyError::NoSingleScene { setting }),
-                };
-                times.push(taken.map_err(|source| StudyError::Scene { setting, source })?);
-                progress.advance(u64::from(course.planned()));
+            for ((row, course), (setups, times)) in rows.iter().zip(courses).zip(&mut repeats) {
+                // The end is the same as that of the watched run.
+                let finished = self.run_setting(row.setting, course, None)?;
+                setups.push(finished.setup);
+                times.push(finished.seconds);
+                progress.advance(u64::from(course.planned));
             }
         }
-        Ok(repeats.iter().map(|times| Times::of(times)).collect())
+        for (row, (mut setups, mut times)) in rows.iter_mut().zip(repeats) {
+            setups.sort_by(f64::total_cmp);
+            times.sort_by(f64::total_cmp);
+            let count = times.len();
+            (row.setup_seconds, row.seconds) = (setups[0], times[0]);
+            row.median_seconds = f64::midpoint(times[(count - 1) / 2], times[count / 2]);
+        }
+        Ok(())
     }
 
-    /// The references that were given, or those that are found.
+    /// The given references, or new ones.
     fn find_reference(
         &self,
-        measured: &[Measured],
+        rows: &[StudyRow],
+        ends: &[Option<EndState>],
         progress: &mut Progress<'_>,
     ) -> Result<StudyReference, StudyError> {
         if let Some(states) = &self.reference {
-            return Ok(StudyReference::given(states.clone()));
+            return Ok(StudyReference {
+                states: Some(states.clone()),
+                schemes: None,
+                step: None,
+                end: ReferenceEnd::Given,
+            });
         }
-        let ends = measured.iter().filter_map(|run| run.end.clone().ok());
-        let ends: Vec<EndState> = ends.collect();
+        let ends: Vec<EndState> = ends.iter().flatten().cloned().collect();
         let search = Search {
             end_time: self.end,
-            finest: measured
-                .iter()
-                .map(|run| run.steps)
-                .max()
-                .unwrap_or(1)
-                .max(1),
+            finest: rows.iter().fold(1, |most, row| most.max(row.steps)),
             refinement: self.refinement,
             ends: &ends,
         };
@@ -316,5 +332,30 @@ impl<'a, const D: usize> Study<'a, D> {
         });
         let setting = self.settings[0];
         found.map_err(|source: SceneError| StudyError::Scene { setting, source })
+    }
+}
+
+/// A function of the numbers of steps made and planned.
+type Watch<'a> = dyn FnMut(u64, u64) + 'a;
+
+/// The steps made and planned, and the function that watches them.
+struct Progress<'a> {
+    watch: Option<Box<Watch<'a>>>,
+    done: u64,
+    planned: u64,
+}
+
+impl Progress<'_> {
+    /// Adds planned steps.
+    fn plan(&mut self, steps: u64) {
+        self.planned = self.planned.saturating_add(steps);
+    }
+
+    /// Adds steps that have been made, and calls the function.
+    fn advance(&mut self, steps: u64) {
+        self.done = self.done.saturating_add(steps);
+        if let Some(watch) = self.watch.as_mut().filter(|_| steps > 0) {
+            watch(self.done, self.planned);
+        }
     }
 }

@@ -1,34 +1,38 @@
-//! A report as text: a table of all settings, what failed, the reference, orders, recommendations; and CSV rows.
+//! A report as text: a table of all settings, failures, the reference, orders, recommendations; and CSV rows.
 
 use core::fmt::{self, Write};
 
 use crate::quantity::StateQuantity;
 use crate::reference::{ReferenceEnd, StudyReference};
-use crate::report::{StudyReport, StudyRow};
+use crate::report::StudyReport;
+use crate::row::{Statement, StudyRow};
 use crate::setting::StepChoice;
-use crate::statement::Statement;
 use eem_material::number::readable::Readable;
 
-/// Column heads of the table.
-const HEADS: [&str; 15] = [
-    "scheme",
-    "h (s)",
-    "error of q",
-    "of p",
-    "of θ",
-    "of γ",
-    "energy defect",
-    "least ΔS (J/K)",
-    "steps",
-    "rejected",
-    "iterations",
-    "evaluations",
-    "ms",
-    "median",
-    "set-up",
+/// A column of the table: its head and the cell of a row.
+type Column = (&'static str, fn(&StudyRow) -> String);
+
+const COLUMNS: [Column; 15] = [
+    ("scheme", |row| row.setting.name()),
+    ("h (s)", step),
+    ("error of q", |row| error(row, StateQuantity::Positions)),
+    ("of p", |row| error(row, StateQuantity::Momenta)),
+    ("of θ", |row| error(row, StateQuantity::Temperatures)),
+    ("of γ", |row| error(row, StateQuantity::ViscousStretches)),
+    ("energy defect", |row| format!("{:.1e}", row.energy_defect)),
+    ("least ΔS (J/K)", |row| {
+        format!("{:.1e}", row.least_entropy_change)
+    }),
+    ("steps", |row| row.steps.to_string()),
+    ("rejected", |row| row.rejected.to_string()),
+    ("iterations", |row| row.iterations.to_string()),
+    ("evaluations", |row| row.evaluations.to_string()),
+    ("ms", |row| milliseconds(row.seconds)),
+    ("median", |row| milliseconds(row.median_seconds)),
+    ("set-up", |row| milliseconds(row.setup_seconds)),
 ];
 
-/// What the signs in the table mean.
+/// The legend of the table.
 const LEGEND: &str = "Errors at the end time, relative; ? where the references differ by more than 1 % of it. \
     `*`: no other setting is\nfaster and more accurate. ms: the steps alone, the least of all repeats.";
 
@@ -76,12 +80,15 @@ impl StudyReport {
 impl fmt::Display for StudyReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let front = self.front();
-        let rows = self.rows.iter().map(|row| {
-            let is_best = front.iter().any(|best| core::ptr::eq(*best, row));
-            cells(row, is_best)
-        });
-        let heads = HEADS.map(str::to_owned);
-        let lines: Vec<_> = core::iter::once(heads).chain(rows).collect();
+        let mut lines = vec![COLUMNS.map(|(head, _)| head.to_owned())];
+        for row in &self.rows {
+            let mut cells = COLUMNS.map(|(_, cell)| cell(row));
+            // A star marks the best ones.
+            if front.iter().any(|best| core::ptr::eq(*best, row)) {
+                cells[0].push_str(" *");
+            }
+            lines.push(cells);
+        }
         write_table(f, &lines)?;
         writeln!(f, "\n{LEGEND}")?;
         for row in &self.rows {
@@ -99,38 +106,25 @@ impl fmt::Display for StudyReport {
     }
 }
 
-/// The cells of a setting; a star marks what no other setting beats.
-fn cells(row: &StudyRow, is_best: bool) -> [String; 15] {
-    let star = if is_best { " *" } else { "" };
-    let step = match row.setting.steps {
+/// The step or the tolerance.
+fn step(row: &StudyRow) -> String {
+    match row.setting.steps {
         StepChoice::Fixed(step) => Readable(step).to_string(),
         StepChoice::Tolerance(tolerance) => format!("tol. {}", Readable(tolerance)),
-    };
-    let error = |quantity| match (&row.failure, row.statement(quantity)) {
-        (Some(_), _) => "failed".to_owned(),
-        (None, Statement::Stated(error)) => format!("{error:.1e}"),
-        (None, Statement::Refused { .. }) => "?".to_owned(),
-        (None, Statement::Absent) => "–".to_owned(),
-    };
-    let milliseconds = |seconds: f64| format!("{:.3}", 1e3 * seconds);
-    let [q, p, theta, gamma] = StateQuantity::ALL.map(error);
-    [
-        format!("{}{star}", row.setting.name()),
-        step,
-        q,
-        p,
-        theta,
-        gamma,
-        format!("{:.1e}", row.energy_defect),
-        format!("{:.1e}", row.least_entropy_change),
-        row.steps.to_string(),
-        row.rejected.to_string(),
-        row.iterations.to_string(),
-        row.evaluations.to_string(),
-        milliseconds(row.seconds),
-        milliseconds(row.median_seconds),
-        milliseconds(row.setup_seconds),
-    ]
+    }
+}
+
+fn error(row: &StudyRow, quantity: StateQuantity) -> String {
+    match row.statement(quantity) {
+        _ if row.failure.is_some() => "failed".to_owned(),
+        Statement::Stated(error) => format!("{error:.1e}"),
+        Statement::Refused { .. } => "?".to_owned(),
+        Statement::Absent => "–".to_owned(),
+    }
+}
+
+fn milliseconds(seconds: f64) -> String {
+    format!("{:.3}", 1e3 * seconds)
 }
 
 /// Lines of cells below their heads, padded.
@@ -139,22 +133,21 @@ fn write_table(f: &mut fmt::Formatter<'_>, lines: &[[String; 15]]) -> fmt::Resul
         let widths = lines.iter().map(|line| line[column].chars().count());
         widths.max().unwrap_or(0)
     };
+    let widths: [usize; 15] = core::array::from_fn(width);
     for (number, line) in lines.iter().enumerate() {
-        for (column, cell) in line.iter().enumerate() {
-            write!(f, "| {cell:<0$} ", width(column))?;
+        for (cell, width) in line.iter().zip(widths) {
+            write!(f, "| {cell:<width$} ")?;
         }
         writeln!(f, "|")?;
         if number == 0 {
-            for column in 0..line.len() {
-                write!(f, "|{:-<1$}", "", width(column) + 2)?;
-            }
-            writeln!(f, "|")?;
+            let rules = widths.map(|width| format!("|{:-<1$}", "", width + 2));
+            writeln!(f, "{}|", rules.concat())?;
         }
     }
     Ok(())
 }
 
-/// What errors are measured against, and how well it is known.
+/// The reference and its uncertainty.
 fn write_reference(f: &mut fmt::Formatter<'_>, reference: &StudyReference) -> fmt::Result {
     f.write_str("References: ")?;
     match (reference.schemes, reference.step) {
@@ -183,7 +176,7 @@ fn write_reference(f: &mut fmt::Formatter<'_>, reference: &StudyReference) -> fm
     f.write_char('\n')
 }
 
-/// The order that each scheme shows in the positions.
+/// The observed order of each scheme in the positions.
 fn write_orders(f: &mut fmt::Formatter<'_>, report: &StudyReport) -> fmt::Result {
     let mut schemes: Vec<_> = report.rows.iter().map(|row| row.setting.scheme).collect();
     schemes.dedup();
@@ -194,9 +187,5 @@ fn write_orders(f: &mut fmt::Formatter<'_>, report: &StudyReport) -> fmt::Result
             before = ", ";
         }
     }
-    if before == ", " {
-        f.write_str(".\n")
-    } else {
-        Ok(())
-    }
+    f.write_str(if before == ", " { ".\n" } else { "" })
 }

@@ -1,4 +1,4 @@
-//! Many independent scenes in one call: on all cores, with the numbers of one after the other.
+//! Ensembles: many independent runs in one call, on all cores.
 
 mod bundle;
 mod error;
@@ -8,6 +8,7 @@ mod threads;
 
 use core::fmt;
 use core::ops::ControlFlow;
+use core::sync::atomic::AtomicBool;
 
 use crate::run::simulation::Simulation;
 use crate::scene::Scene;
@@ -161,12 +162,10 @@ impl<S: Real> Ensemble<'_, S> {
         };
         let progress = Progress::new(self.watch, inputs.len());
         threads::map(self.threads, inputs, |index, input| {
-            progress
-                .follow(|| member(input))
-                .map_err(|failure| MemberError {
-                    member: index,
-                    failure,
-                })
+            let result = progress.follow(1, || member(input));
+            let result = result.unwrap_or(Err(MemberFailure::Stopped));
+            let member = index;
+            result.map_err(|failure| MemberError { member, failure })
         })
     }
 }
@@ -193,10 +192,7 @@ impl Ensemble<'_> {
     ///
     /// #[derive(FreeEnergy)]
     /// #[free_energy(|lambda: Stretch| 0.5 * stiffness * (lambda - length).powi(2))]
-    /// struct Spring<S> {
-    ///     stiffness: S,
-    ///     length: S,
-    /// }
+    /// struct Spring<S> { stiffness: S, length: S }
     ///
     /// /// Hangs a mass on a spring and looks how far it falls within a tenth of a second.
     /// struct Fall;
@@ -207,13 +203,12 @@ impl Ensemble<'_> {
     ///     type Output = f64;
     ///
     ///     fn build<S: Real>(&self, members: Members<'_, f64, S>) -> (Scene<1, S>, Node) {
-    ///         let number = S::from_f64;
     ///         let mut scene = Scene::default();
-    ///         let hook = scene.anchor([number(0.0)]);
-    ///         let mass = scene.mass(number(1.0), [number(-1.0)], [number(0.0)]);
+    ///         let hook = scene.anchor([S::zero()]);
+    ///         let mass = scene.mass(S::one(), [-S::one()], [S::zero()]);
     ///         let stiffness = members.number(|&stiffness| stiffness);
-    ///         scene.spring(Spring { stiffness, length: number(1.0) }, [hook, mass]);
-    ///         scene.set_gravity([number(-10.0)]);
+    ///         scene.spring(Spring { stiffness, length: S::one() }, [hook, mass]);
+    ///         scene.set_gravity([S::from_f64(-10.0)]);
     ///         (scene, mass)
     ///     }
     ///
@@ -254,11 +249,18 @@ impl Ensemble<'_> {
         experiment: &E,
         inputs: &[E::Input],
     ) -> Vec<Result<E::Output, MemberError>> {
-        let bundles = Bundles::new(self.scheme, self.step, self.newton);
+        let bundles = Bundles {
+            scheme: self.scheme,
+            step: self.step,
+            newton: self.newton,
+            is_unsuited: AtomicBool::new(false),
+        };
         let progress = Progress::new(self.watch, inputs.len());
-        let chunks: Vec<_> = inputs.chunks(Bundles::size()).collect();
+        let chunks: Vec<_> = inputs.chunks(bundle::SIZE).collect();
         let results = threads::map(self.threads, &chunks, |_, chunk| {
-            progress.follow_all(chunk.len(), || bundles.run(experiment, chunk))
+            let results = progress.follow(chunk.len(), || bundles.run(experiment, chunk));
+            let stopped = || chunk.iter().map(|_| Err(MemberFailure::Stopped)).collect();
+            results.unwrap_or_else(stopped)
         });
         let numbered = results.into_iter().flatten().enumerate();
         numbered

@@ -1,11 +1,10 @@
-//! Energy, entropy and momenta of a state: what the free energies say of it, beside what the steps have booked.
+//! The balance sheet of a state: energy, entropy and momenta.
 //!
 //! Kinetic, potential and internal energy and the momenta are evaluated from positions, momenta, viscous
-//! stretches, temperatures and the kept entropies of the state. The entropies of elements, reservoirs and
-//! thermostats, work, heat and lost heat are sums that the steps have kept; of the entropy there is also
-//! the value of the state, [`Ledger::element_entropy_of_state`], which no step has touched.
+//! stretches, temperatures and stored entropies. The entropies of elements, reservoirs and thermostats, work, heat and
+//! lost heat are sums that the steps have accumulated; [`Ledger::element_entropy_of_state`] is evaluated from the state.
 
-mod sheet;
+use core::fmt;
 
 use nalgebra::SVector;
 
@@ -89,71 +88,85 @@ impl<const D: usize, S: Real> Ledger<D, S> {
         reservoirs: &[S],
         gravity: &SVector<S, D>,
     ) -> Self {
-        let (kinetic, potential) = (
-            kinetic_energy::<S, D>(state, masses),
-            potential_energy(state, masses, gravity),
-        );
+        let kinetic_energy = kinetic_energy::<S, D>(state, masses);
+        let potential_energy = potential_energy(state, masses, gravity);
         let mut totals = ElementTotals::new();
         for group in groups {
             group.add_totals(state, &mut totals);
         }
-        let (mut heat, mut reservoir_entropy) = (Total::default(), Total::default());
+        let (mut reservoir_heat, mut reservoir_entropy) = (Total::default(), Total::default());
         for (index, &theta) in reservoirs.iter().enumerate() {
             let received = state.reservoir_entropies.sum(index);
-            heat.add(theta * received.value);
+            reservoir_heat.add(theta * received.value);
             reservoir_entropy.add_sum(received);
         }
-        let [lost_heat, work, given_heat] =
-            [state.dissipated, state.work, state.heat].map(|booked| booked.value);
+        let [lost_heat, work, heat] =
+            [state.dissipated, state.work, state.heat].map(|sum| sum.value);
         let internal_energy = totals.energy.value();
-        let reservoir_heat = heat.value();
+        let reservoir_heat = reservoir_heat.value();
         let energy = [
-            kinetic,
-            potential,
+            kinetic_energy,
+            potential_energy,
             internal_energy,
             reservoir_heat,
             lost_heat,
         ];
+        let momenta = state.momenta.values().chunks_exact(D);
         let mut entropy = totals.entropy;
         entropy.add_total(reservoir_entropy);
         entropy.add_sum(state.thermostat_entropy);
         Self {
-            kinetic_energy: kinetic,
-            potential_energy: potential,
+            kinetic_energy,
+            potential_energy,
             internal_energy,
             reservoir_heat,
             lost_heat,
             energy: Total::of(energy),
             work,
-            heat: given_heat,
-            balance: Total::of(energy.into_iter().chain([-work, -given_heat])),
+            heat,
+            balance: Total::of(energy.into_iter().chain([-work, -heat])),
             element_entropy: totals.entropy.value(),
             element_entropy_of_state: totals.entropy_of_state.value(),
             reservoir_entropy: reservoir_entropy.value(),
             thermostat_entropy: state.thermostat_entropy.value,
             entropy: entropy.value(),
-            linear_momentum: linear_momentum(state),
+            linear_momentum: SVector::from_fn(|axis, _| {
+                Total::of(momenta.clone().map(|p| p[axis]))
+            }),
             angular_momentum: angular_momentum::<S, D>(state, masses),
         }
+    }
+
+    /// The name, value and unit of an entry that is not finite. The laws could not be checked with it.
+    pub(crate) fn infinite_entry(&self) -> Option<(&'static str, f64, &'static str)> {
+        let energies = [
+            ("kinetic energy", self.kinetic_energy, "J"),
+            ("potential energy", self.potential_energy, "J"),
+            ("internal energy", self.internal_energy, "J"),
+            ("energy", self.energy, "J"),
+            ("entropy", self.entropy, "J/K"),
+        ];
+        let linear = self.linear_momentum.iter();
+        let linear = linear.map(|&component| ("linear momentum", component, "kg m/s"));
+        let angular = self.angular_momentum.iter();
+        let angular = angular.map(|&component| ("angular momentum", component, "kg m²/s"));
+        let mut all = energies.into_iter().chain(linear).chain(angular);
+        let (name, value, unit) = all.find(|(_, value, _)| !value.is_finite())?;
+        Some((name, value.to_f64(), unit))
     }
 }
 
 /// `Σ p·v/2`, J, which is `Σ p²/2m` where masses do not couple nodes.
 fn kinetic_energy<S: Real, const D: usize>(state: &State<S>, masses: &Masses<S>) -> S {
-    let mut sum = Total::default();
     let momenta = state.momenta.values();
     if masses.are_coupled() {
         let half = S::from_f64(0.5);
         let both = momenta.iter().zip(state.velocities.values());
         return Total::of(both.map(|(&p, &v)| half * p * v));
     }
-    for (p, mass) in momenta.chunks_exact(D).zip(masses.iter()) {
-        let Some(mass) = mass else { continue };
-        for &component in p {
-            sum.add(component * component / (mass + mass));
-        }
-    }
-    sum.value()
+    let nodes = momenta.chunks_exact(D).zip(masses.iter());
+    let nodes = nodes.filter_map(|(p, mass)| Some((p, mass?)));
+    Total::of(nodes.flat_map(|(p, mass)| p.iter().map(move |&p| p * p / (mass + mass))))
 }
 
 /// `−Σ m g·q`, J.
@@ -162,19 +175,12 @@ fn potential_energy<S: Real, const D: usize>(
     masses: &Masses<S>,
     gravity: &SVector<S, D>,
 ) -> S {
-    let mut sum = Total::default();
-    let positions = state.positions.values().chunks_exact(D);
-    for (q, mass) in positions.zip(masses.weights()) {
-        for (&coordinate, &component) in q.iter().zip(gravity.iter()) {
-            sum.add(-mass * component * coordinate);
-        }
-    }
-    sum.value()
-}
-
-fn linear_momentum<S: Real, const D: usize>(state: &State<S>) -> SVector<S, D> {
-    let momenta = state.momenta.values().chunks_exact(D);
-    SVector::from_fn(|axis, _| Total::of(momenta.clone().map(|p| p[axis])))
+    let nodes = state
+        .positions
+        .values()
+        .chunks_exact(D)
+        .zip(masses.weights());
+    Total::of(nodes.flat_map(|(q, mass)| q.iter().zip(gravity).map(move |(&q, &g)| -mass * g * q)))
 }
 
 fn angular_momentum<S: Real, const D: usize>(
@@ -188,10 +194,8 @@ fn angular_momentum<S: Real, const D: usize>(
         _ => None,
     };
     let mut sums = [Total::default(), Total::default(), Total::default()];
-    for (q, p) in positions
-        .chunks_exact(D)
-        .zip(state.momenta.values().chunks_exact(D))
-    {
+    let momenta = state.momenta.values().chunks_exact(D);
+    for (q, p) in positions.chunks_exact(D).zip(momenta) {
         let arm = |axis: usize| match (axis < D, anchor) {
             (false, _) => S::zero(),
             (true, None) => q[axis],
@@ -205,4 +209,44 @@ fn angular_momentum<S: Real, const D: usize>(
         }
     }
     SVector::from_fn(|axis, _| sums[axis].value())
+}
+
+impl<const D: usize, S: Real> fmt::Display for Ledger<D, S> {
+    /// A balance sheet, a line per quantity.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let scalars = [
+            ("kinetic energy", self.kinetic_energy, "J"),
+            ("potential energy", self.potential_energy, "J"),
+            ("internal energy", self.internal_energy, "J"),
+            ("heat in reservoirs", self.reservoir_heat, "J"),
+            ("heat lost", self.lost_heat, "J"),
+            ("energy E", self.energy, "J"),
+            ("work of loads", self.work, "J"),
+            ("heat of thermostats", self.heat, "J"),
+            ("E − work − heat", self.balance, "J"),
+            ("entropy of elements", self.element_entropy, "J/K"),
+            ("… of their state", self.element_entropy_of_state, "J/K"),
+            ("… of reservoirs", self.reservoir_entropy, "J/K"),
+            ("… of thermostats", self.thermostat_entropy, "J/K"),
+            ("entropy S", self.entropy, "J/K"),
+        ];
+        for (quantity, value, unit) in scalars {
+            line(f, quantity, value, unit)?;
+        }
+        for (axis, &momentum) in ["x", "y", "z"].iter().zip(self.linear_momentum.iter()) {
+            line(f, &format!("momentum, {axis}"), momentum, "N s")?;
+        }
+        // In the plane only the last has a value.
+        let first = if D == 2 { 2 } else { 0 };
+        let axes = ["x", "y", "z"].iter().zip(self.angular_momentum.iter());
+        for (axis, &momentum) in axes.skip(first) {
+            line(f, &format!("angular, {axis}"), momentum, "N m s")?;
+        }
+        Ok(())
+    }
+}
+
+fn line<S: Real>(f: &mut fmt::Formatter<'_>, name: &str, value: S, unit: &str) -> fmt::Result {
+    let value = format!("{:.15e}", value.to_f64());
+    writeln!(f, "| {name:<19} | {value:<20} | {unit:<5} |")
 }

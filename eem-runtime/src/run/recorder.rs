@@ -1,4 +1,4 @@
-//! What is kept of a run: chosen quantities, every k-th step, column by column.
+//! Recording chosen quantities of a run, every k-th step, column by column.
 
 #[cfg(feature = "csv")]
 mod csv;
@@ -59,7 +59,7 @@ pub struct Recorder<const D: usize, S: Real = f64> {
     /// Steps, and their Newton iterations, since the last row.
     steps: usize,
     iterations: usize,
-    /// The row that is being put together.
+    /// The next row.
     row: Vec<f64>,
 }
 
@@ -74,6 +74,15 @@ pub struct Column {
 }
 
 impl Column {
+    const fn new(name: String, unit: &'static str, is_count: bool) -> Self {
+        Self {
+            name,
+            unit,
+            values: Vec::new(),
+            is_count,
+        }
+    }
+
     /// The name: that of the quantity, for a vector with `_x`, `_y`, `_z`.
     #[must_use]
     pub fn name(&self) -> &str {
@@ -109,9 +118,9 @@ pub enum RecordError {
     /// The simulation has no such quantity.
     #[error("quantity `{name}`: {source}")]
     Quantity {
-        /// The name that it was given.
+        /// Its name in the recorder.
         name: String,
-        /// What is wrong with it.
+        /// The error of the quantity.
         r#source: SceneError,
     },
     /// Two columns would have the same name; the first of all is `time`.
@@ -135,47 +144,33 @@ impl<const D: usize, S: Real> Recorder<D, S> {
         let mut recorder = Self {
             scene: run.scene(),
             quantities: Vec::new(),
-            columns: Vec::new(),
+            columns: vec![Column::new(TIME.to_owned(), "s", false)],
             stride: 1,
             steps: 0,
             iterations: 0,
             row: Vec::new(),
         };
-        recorder.add_column(TIME.to_owned(), "s", false)?;
         for (name, quantity) in quantities {
             let name = name.into();
             if let Err(source) = quantity.check(run) {
                 return Err(RecordError::Quantity { name, source });
             }
-            for column in quantity.columns(&name) {
-                recorder.add_column(column, quantity.unit(), quantity.is_count())?;
+            for name in quantity.columns(&name) {
+                if recorder.column(&name).is_some() {
+                    return Err(RecordError::DuplicateColumn { name });
+                }
+                let column = Column::new(name, quantity.unit(), quantity.is_count());
+                recorder.columns.push(column);
             }
             recorder.quantities.push(quantity);
         }
-        let first = recorder.record(run);
-        first.map_err(|source| RecordError::Quantity {
-            name: TIME.to_owned(),
-            source,
-        })?;
-        Ok(recorder)
-    }
-
-    fn add_column(
-        &mut self,
-        name: String,
-        unit: &'static str,
-        is_count: bool,
-    ) -> Result<(), RecordError> {
-        if self.column(&name).is_some() {
-            return Err(RecordError::DuplicateColumn { name });
+        match recorder.record(run) {
+            Ok(()) => Ok(recorder),
+            Err(source) => {
+                let name = TIME.to_owned();
+                Err(RecordError::Quantity { name, source })
+            }
         }
-        self.columns.push(Column {
-            name,
-            unit,
-            values: Vec::new(),
-            is_count,
-        });
-        Ok(())
     }
 
     /// Records only every `stride`-th step; 0 counts as 1.
@@ -185,7 +180,7 @@ impl<const D: usize, S: Real> Recorder<D, S> {
         self
     }
 
-    /// Makes room for this many more rows.
+    /// Reserves memory for this many more rows.
     pub fn reserve(&mut self, rows: usize) {
         for column in &mut self.columns {
             column.values.reserve(rows);
@@ -217,7 +212,7 @@ impl<const D: usize, S: Real> Recorder<D, S> {
     /// [`SceneError::ForeignHandle`] if `run` belongs to another scene than the recorder. Nothing is recorded then.
     pub fn record(&mut self, run: &Simulation<D, S>) -> Result<(), SceneError> {
         // A row has one value per quantity.
-        run.part();
+        run.diverge();
         if run.scene() != self.scene {
             let handle = "the recorder".to_owned();
             return Err(SceneError::ForeignHandle { handle });
@@ -254,9 +249,7 @@ impl<const D: usize, S: Real> Recorder<D, S> {
     #[must_use]
     pub fn column(&self, name: &str) -> Option<&[f64]> {
         let mut columns = self.columns.iter();
-        columns
-            .find(|column| column.name == name)
-            .map(Column::values)
+        Some(columns.find(|column| column.name == name)?.values())
     }
 
     /// The number of rows.

@@ -3,34 +3,27 @@
 mod attempt;
 mod audit;
 mod automatic;
-mod automatic_memory;
 mod check;
 mod compiled;
 mod control;
-mod control_memory;
 pub(crate) mod event;
 pub(crate) mod generic;
-mod generic_temperature;
-mod groups;
+mod guard;
 mod halves;
 mod inspect;
 pub(crate) mod linearize;
-mod remembering;
+mod memory;
 mod resume;
 pub(crate) mod run;
-mod sampling;
 mod settings;
-mod shorter;
 mod start;
 mod stepper;
-mod totals;
-pub(crate) mod values;
-mod viscous_strain;
 
 use core::fmt;
 use core::mem;
 use core::sync::atomic::{AtomicBool, Ordering};
 
+use crate::algebra::system::MOST_FIXED;
 use crate::element::conduction::Conduction;
 use crate::element::layout::{Layout, Shape};
 use crate::element::lineage::Lineage;
@@ -47,11 +40,11 @@ use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
 use crate::step::scheme::Scheme;
 use crate::step::solver::Effort;
-use automatic_memory::Automatic;
 use check::{check_all, needs_implicit};
-use control_memory::Control;
-use eem_material::number::scalar::Real;
-use start::{begin_groups, initial_state, places_in, systems_of};
+use eem_material::number::compact::compact;
+use eem_material::number::scalar::{Mask, Real};
+use memory::{Automatic, Control};
+use start::{find_entropies, initial_state};
 use stepper::{Parts, Stepper};
 
 /// A run: a scene, a scheme and the present state.
@@ -60,42 +53,45 @@ use stepper::{Parts, Stepper};
 pub struct Simulation<const D: usize, S: Real = f64> {
     scene: Lineage,
     scheme: Scheme,
-    /// The same, unless it is chosen on the way.
+    /// That of the present steps, if `scheme` is `Scheme::Auto`.
     in_use: Scheme,
-    /// Where the scheme is chosen on the way.
-    automatic: Option<Box<Automatic<S>>>,
+    /// Used by `Scheme::Auto` only.
+    automatic: Automatic<S>,
     step: S,
     masses: Masses<S>,
-    /// The group and the place in it of each element.
+    /// The group of each element, and its index there.
     places: Vec<[u32; 2]>,
-    /// What the elements of each group have.
+    /// Capabilities of the elements of each group.
     shapes: Vec<Shape>,
     layout: Layout,
     conduction: Conduction<S>,
     loads: Loads<S, D>,
     stepper: Stepper<S, D>,
     effort: Effort<S>,
-    /// None while all steps have the size that they are given.
+    /// `None` without step control.
     control: Option<Box<Control<S>>>,
     state: Box<State<S>>,
-    /// Where the next state is written.
+    /// Memory for the new state; after a step the old one.
     next: Box<State<S>>,
-    /// The last step succeeded, and the elements still know what they did in it.
+    /// The last step succeeded, and the elements still have the values of its ends.
     has_stepped: bool,
     /// The report with the largest `|defect|/bound` so far.
     worst: Option<StepReport<S>>,
     corrections: Corrections<S>,
-    /// Something failed while S was several numbers: alone, some of them might not have failed, so that
-    /// nothing that follows counts. Never set where S is a single number.
-    has_parted: AtomicBool,
+    /// Something failed in lanes, some of which might have succeeded alone, so that no further result counts. Never
+    /// set for a single number.
+    has_diverged: AtomicBool,
 }
+
+/// The report of a step, or why it failed.
+type StepResult<S> = Result<StepReport<S>, StepError>;
 
 /// A step that was tried.
 enum Tried<S> {
     /// It is made.
     Made(StepReport<S>),
-    /// Its error is so many tolerances; nothing has changed.
-    Refused(S),
+    /// Its error, in units of the tolerance, is too large; nothing has changed.
+    Rejected(S),
 }
 
 impl<const D: usize, S: Real> fmt::Debug for Simulation<D, S> {
@@ -109,7 +105,6 @@ impl<const D: usize, S: Real> fmt::Debug for Simulation<D, S> {
 }
 
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// See [`new`](Self::new), compiled here.
     pub(super) fn begin(
         mut scene: Scene<D, S>,
         scheme: Scheme,
@@ -122,42 +117,52 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Self::take(&mut scene, scheme, step).map_err(|errors| RefusedScene::new(scene, errors))
     }
 
-    /// Takes what a scene consists of, unless something is wrong with its initial state.
+    /// A simulation with the contents of a scene, unless its initial state is invalid.
     fn take(scene: &mut Scene<D, S>, scheme: Scheme, step: S) -> Result<Self, Vec<SceneError>> {
         let is_second = needs_implicit(scene);
         let in_use = first(scheme, is_second);
         let mut layout = scene.layout();
         let conduction = Conduction::new(&scene.conductors, &scene.reservoirs, &layout);
         let mut state = Box::new(initial_state(scene, &layout, step)?);
-        let places = places_in(scene);
+        let elements = scene.elements.iter();
+        let places = elements.map(|entry| [entry.group, entry.place].map(compact));
+        let places = places.collect();
         let shapes = scene.groups.iter().map(|group| group.shape()).collect();
         let masses = scene.masses();
         state.follow_velocities(D, &masses);
-        let systems = systems_of(scene, in_use, &layout, &conduction)?;
-        let groups = begin_groups(scene, in_use, (&layout, &masses), &mut state)?;
-        // Large, and all that they said is in the masses and in the state.
-        drop((mem::take(&mut scene.nodes), mem::take(&mut scene.pairs)));
-        let elements = mem::take(&mut scene.elements);
-        let loads = mem::replace(&mut scene.loads, Loads::none());
         let parts = Parts {
             scheme: in_use,
             masses: &masses,
-            elements: &elements,
+            elements: &scene.elements,
             layout: &layout,
             conduction: &conduction,
-            loads: &loads,
+            loads: &scene.loads,
         };
-        let stepper = Stepper::new(groups, systems, parts, &state);
-        let automatic = (scheme == Scheme::Auto)
-            .then(|| Box::new(Automatic::new(elements, is_second, scene.memory_limit)));
-        if automatic.is_none() {
+        let systems = parts.systems(scene.memory_limit);
+        let systems = systems.map_err(|error| vec![error.into()])?;
+        let groups = mem::take(&mut scene.groups);
+        let (nodes, pairs) = (&mut scene.nodes, &mut scene.pairs);
+        let stepper = Stepper::new(groups, systems, parts, &mut state, |state, elements| {
+            let found = find_entropies(elements, state, parts);
+            // Nodes and pairs are large, and contained in the masses and in the state.
+            found.map(|()| drop((mem::take(nodes), mem::take(pairs))))
+        });
+        let stepper = stepper.map_err(|(errors, groups)| {
+            scene.groups = groups;
+            errors
+        })?;
+        let mut elements = mem::take(&mut scene.elements);
+        let loads = mem::replace(&mut scene.loads, Loads::none());
+        let is_automatic = scheme == Scheme::Auto;
+        if !is_automatic {
+            elements = Vec::new();
             layout.forget_places();
         }
         let mut run = Self {
             scene: scene.lineage.clone(),
             scheme,
             in_use,
-            automatic,
+            automatic: Automatic::new(elements, is_second, scene.memory_limit),
             step,
             masses,
             places,
@@ -173,41 +178,48 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             has_stepped: false,
             worst: None,
             corrections: Corrections::none(),
-            has_parted: AtomicBool::new(false),
+            has_diverged: AtomicBool::new(false),
         };
-        if run.automatic.is_some() {
-            run.go_on_with(Some(run.new_control(Tolerance::default())));
+        if is_automatic {
+            run.set_control(Some(run.new_control(Tolerance::default())));
         }
         Ok(run)
     }
 
-    /// Whether several numbers in one S have to be run one by one.
+    /// Whether the lanes have to be run one by one.
     #[inline]
-    pub(crate) fn has_parted(&self) -> bool {
-        S::LANES > 1 && self.has_parted.load(Ordering::Relaxed)
+    pub(crate) fn has_diverged(&self) -> bool {
+        S::LANES > 1 && self.has_diverged.load(Ordering::Relaxed)
     }
 
-    /// Notes that something is not possible for several numbers together; nothing for a single one.
-    pub(crate) fn part(&self) {
+    /// Records that something is impossible in lanes; no effect on a single number.
+    pub(crate) fn diverge(&self) {
         if S::LANES > 1 {
-            self.has_parted.store(true, Ordering::Relaxed);
+            self.has_diverged.store(true, Ordering::Relaxed);
         }
     }
 
+    /// The error of a step of this size, with the iterations so far.
     #[cold]
-    fn failed(&self, failure: StepFailure) -> StepError {
-        self.part();
+    fn failed(&self, size: S, failure: StepFailure) -> StepError {
+        let iterations = self.effort.history.iter();
+        StepError {
+            step: size.to_f64(),
+            history: iterations.map(|iteration| iteration.to_f64()).collect(),
+            ..self.refused(failure)
+        }
+    }
+
+    /// The error of a run that ends before its first step.
+    #[cold]
+    fn refused(&self, failure: StepFailure) -> StepError {
+        self.diverge();
         StepError {
             time: self.time().to_f64(),
             step: self.step.to_f64(),
             failure,
             shorter: None,
-            history: self
-                .effort
-                .history
-                .iter()
-                .map(|iteration| iteration.to_f64())
-                .collect(),
+            history: Box::default(),
         }
     }
 
@@ -232,15 +244,19 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Number of unknowns of the linear system in a Newton iteration; 0 for the explicit scheme.
     #[must_use]
     pub fn unknowns(&self) -> usize {
-        self.stepper.sets() * self.layout.unknowns
+        match &self.stepper {
+            Stepper::Newton(newton) => newton.solver.sets() * self.layout.unknowns,
+            Stepper::Explicit(_) => 0,
+        }
     }
 
-    /// Whether several numbers in one S can go through a step together: in the dense elimination of a
-    /// few unknowns, whose pivots are on the diagonal, in a scheme with one set of forces, or in the explicit
-    /// one; and with weight for all of them or for none.
+    /// Whether lanes can take steps together: by dense elimination of a few unknowns with pivots on the diagonal in a
+    /// scheme with one set of forces, or by the explicit scheme; and with weight in all lanes or in none.
     pub(crate) fn suits_lanes(&self) -> bool {
-        self.control.is_none()
-            && self.stepper.suits_lanes(self.unknowns())
-            && self.loads.suit_lanes()
+        let suits = match &self.stepper {
+            Stepper::Newton(newton) => newton.stages.is_empty() && self.unknowns() <= MOST_FIXED,
+            Stepper::Explicit(_) => true,
+        };
+        suits && self.control.is_none() && self.loads.has_weight().decide().is_ok()
     }
 }

@@ -1,22 +1,21 @@
-//! States of a run as files that ParaView opens.
+//! States of a run as files for ParaView.
 
 mod cell;
-mod error;
 mod file;
 
+use core::error::Error;
 use std::collections::BTreeSet;
 use std::fs;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use crate::element::handle::Node;
 use crate::run::simulation::Simulation;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
-use cell::{Cell, SCALARS, TENSORS, cells};
+use cell::{Cell, DATA, cells};
 use eem_material::number::scalar::Real;
-use error::{SeriesError, at};
 use file::Grid;
 
 /// Writes states of a run for ParaView: one `.vtu` file per time, and a `.pvd` file that lists them. Open the
@@ -50,11 +49,11 @@ pub struct VtkSeries<const D: usize> {
     folder: PathBuf,
     name: String,
     nodes: Vec<Node>,
-    /// Where the scene has them, m.
+    /// Their positions in the scene, m.
     reference: Vec<[f64; 3]>,
     cells: Vec<Cell>,
     times: Vec<f64>,
-    /// Whether it is known that no other series has the files.
+    /// Whether the files are reserved for this series.
     has_claimed: bool,
 }
 
@@ -69,13 +68,13 @@ impl<const D: usize> VtkSeries<D> {
         const {
             assert!(D <= 3, "ParaView shows at most three dimensions");
         }
-        let positions = scene.nodes.iter();
+        let positions = scene.nodes.iter().map(|node| node.position);
         Self {
             folder: folder.into(),
             name: name.into(),
             nodes: (0..scene.nodes.len()).map(|at| scene.node_at(at)).collect(),
             reference: positions
-                .map(|node| in_space(node.position.as_slice()))
+                .map(|position| in_space(position.as_slice()))
                 .collect(),
             cells: cells(scene),
             times: Vec::new(),
@@ -109,7 +108,7 @@ impl<const D: usize> VtkSeries<D> {
     /// another series of this program has written files with this name to the folder.
     pub fn write<S: Real>(&mut self, run: &Simulation<D, S>) -> io::Result<()> {
         self.check(run)?;
-        let grid = self.grid(run).map_err(SeriesError::from)?;
+        let grid = self.grid(run).map_err(invalid)?;
         fs::create_dir_all(&self.folder).map_err(at(&self.folder))?;
         self.claim()?;
         let file = self.folder.join(self.file_of(self.times.len()));
@@ -121,21 +120,27 @@ impl<const D: usize> VtkSeries<D> {
         fs::write(&file, list).map_err(at(&file))
     }
 
-    /// An error unless files can have the name, and a simulation has what the scene had.
-    fn check<S: Real>(&self, run: &Simulation<D, S>) -> Result<(), SeriesError> {
+    /// An error unless the name is valid, and the simulation has as many nodes and elements as the scene.
+    fn check<S: Real>(&self, run: &Simulation<D, S>) -> io::Result<()> {
         if self.name.is_empty() || self.name.contains(['/', '\\']) {
-            return Err(SeriesError::Name(self.name.clone()));
+            return Err(invalid(format!(
+                "`{}` is no name of a series: it begins the names of files, so that it must not be empty and has neither `/` nor `\\`; the folder is given apart from it",
+                self.name
+            )));
         }
         let elements = self.cells.iter().map(|cell| cell.elements.len());
         let series = [self.nodes.len(), elements.sum()];
         let run = run.counts();
         if series != run {
-            return Err(SeriesError::OtherCounts { series, run });
+            return Err(invalid(format!(
+                "the series has {} nodes and {} elements, and the simulation {} and {}: make the series when everything is in the scene",
+                series[0], series[1], run[0], run[1]
+            )));
         }
         Ok(())
     }
 
-    /// Notes that the files are those of this series, unless they are those of another one.
+    /// Reserves the files for this series.
     fn claim(&mut self) -> io::Result<()> {
         static TAKEN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
         if self.has_claimed {
@@ -144,7 +149,10 @@ impl<const D: usize> VtkSeries<D> {
         let folder = fs::canonicalize(&self.folder).map_err(at(&self.folder))?;
         let mut taken = TAKEN.lock().unwrap_or_else(PoisonError::into_inner);
         if !taken.insert(folder.join(&self.name)) {
-            return Err(SeriesError::Taken(self.list_file()).into());
+            return Err(invalid(format!(
+                "`{}` is already that of another series of this program: give each series a name or a folder of its own",
+                self.list_file().display()
+            )));
         }
         self.has_claimed = true;
         Ok(())
@@ -158,7 +166,7 @@ impl<const D: usize> VtkSeries<D> {
         format!("{}_{index:05}.vtu", self.name)
     }
 
-    /// What is in a state.
+    /// The grid with all values of a state.
     fn grid<S: Real>(&self, run: &Simulation<D, S>) -> Result<Grid, SceneError> {
         let mut grid = Grid::new(self.cells.iter().map(|cell| (cell.kind, &cell.nodes[..])));
         let mut moved = Vec::with_capacity(self.nodes.len());
@@ -170,32 +178,31 @@ impl<const D: usize> VtkSeries<D> {
             grid.points.push(position);
         }
         grid.vectors = vec![("displacement", moved), ("velocity", velocities)];
-        let mut scalars = [const { Vec::new() }; SCALARS.len()];
-        let mut tensors = [const { Vec::new() }; TENSORS.len()];
+        let mut columns = [const { Vec::new() }; DATA.len()];
         for cell in &self.cells {
-            let values = cell.values(run)?;
-            for (column, value) in scalars.iter_mut().zip(values.scalars) {
-                column.push(value);
-            }
-            for (column, value) in tensors.iter_mut().zip(values.tensors) {
-                column.push(value);
+            cell.append(run, &mut columns)?;
+        }
+        for ((name, components), values) in DATA.into_iter().zip(columns) {
+            let is_known = |value: &f64| !value.is_nan();
+            if components == 1 || values.iter().step_by(components).any(is_known) {
+                grid.cell_data.push((name, components, values));
             }
         }
-        grid.scalars = SCALARS.into_iter().zip(scalars).collect();
-        let tensors = TENSORS.into_iter().zip(tensors);
-        let is_known = |tensor: &[f64; 6]| !tensor[0].is_nan();
-        grid.tensors = tensors
-            .filter(|(_, column)| column.iter().any(is_known))
-            .collect();
         Ok(grid)
     }
 }
 
-/// A vector of a space of at most three dimensions, in three.
+/// A vector in three dimensions.
 fn in_space<S: Real>(vector: &[S]) -> [f64; 3] {
-    let mut all = [0.0; 3];
-    for (component, value) in all.iter_mut().zip(vector) {
-        *component = value.to_f64();
-    }
-    all
+    core::array::from_fn(|axis| vector.get(axis).map_or(0.0, |value| value.to_f64()))
+}
+
+/// An error that is not one of a file.
+fn invalid(error: impl Into<Box<dyn Error + Send + Sync>>) -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidInput, error)
+}
+
+/// An error of a file or a folder, with its path.
+fn at(path: &Path) -> impl Fn(io::Error) -> io::Error + '_ {
+    |error| io::Error::new(error.kind(), format!("`{}`: {error}", path.display()))
 }

@@ -1,15 +1,19 @@
-//! What acts on a scene from outside.
+//! Loads, supports and thermostats of masses and solids.
 
 use std::sync::Arc;
 
 use nalgebra::SVector;
 
 use super::Scene;
+use super::entry::infinite;
 use crate::element::handle::{Element, Node};
+use crate::element::kinematics::Shape;
 use crate::element::loads::PushLine;
-use crate::scene::error::SceneError;
+use crate::scene::body::Body;
+use crate::scene::error::{RocketError, SceneError};
 use crate::scene::loads::Rocket;
-use crate::scene::rocket_error::RocketError;
+use crate::scene::mesh::Face;
+use crate::scene::solid_error::SolidError;
 use eem_material::number::scalar::Real;
 
 /// # Loads, supports and thermostats
@@ -22,12 +26,10 @@ impl<const D: usize, S: Real> Scene<D, S> {
 
     /// A constant force on a mass, N. The ledger counts its work.
     pub fn dead_load(&mut self, node: Node, force: [S; D]) {
-        if let Some(axis) = force.iter().position(|component| !component.is_finite()) {
-            let value = force[axis].to_f64();
-            self.misuse.push(SceneError::DeadLoad { node, axis, value });
-            return;
+        match infinite(&force).next() {
+            Some((axis, value)) => self.refuse(SceneError::DeadLoad { node, axis, value }),
+            None => self.force(node, move |_| force),
         }
-        self.force(node, move |_| force);
     }
 
     /// A force on a mass as a function of time, N of s. The ledger counts its work.
@@ -53,17 +55,14 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// and trapezoidal rules.
     ///
     /// ```
+    /// use eem::materials::Hooke;
     /// use eem::prelude::*;
-    ///
-    /// #[derive(FreeEnergy)]
-    /// #[free_energy(|lambda: Stretch| 0.5 * k * (lambda - 2.0).powi(2))]
-    /// struct Rod { k: f64 }
     ///
     /// // A rod of 2 m that is pushed at its end, along itself.
     /// let mut scene = Scene::<2>::new();
     /// let tail = scene.mass(1.0, [0.0, 0.0], [0.0, 0.0]);
     /// let head = scene.mass(1.0, [0.0, 2.0], [0.0, 0.0]);
-    /// scene.spring(Rod { k: 1e4 }, [tail, head]);
+    /// scene.spring(Hooke { stiffness: 1e4, natural_length: 2.0 }, [tail, head]);
     /// scene.rocket(tail, [tail, head], |_| 3.0);
     ///
     /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
@@ -83,8 +82,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             & self.expect_own(&tail)
             & self.expect_own(&head);
         if own && tail == head {
-            let misuse = RocketError::NoLine { node, end: tail };
-            self.misuse.push(misuse.into());
+            self.refuse(RocketError::NoLine { node, end: tail });
         } else if own {
             let line = PushLine { node, tail, head };
             let thrust = Arc::new(thrust);
@@ -132,9 +130,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
         temperature: impl Fn(S) -> S + Send + Sync + 'static,
     ) {
         if self.expect_own(&element) {
-            self.loads
-                .temperatures
-                .push((element, Arc::new(temperature)));
+            let temperature = Arc::new(temperature);
+            self.loads.temperatures.push((element, temperature));
         }
     }
 
@@ -142,18 +139,16 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// and the entropy that the thermostat supplies.
     ///
     /// ```
+    /// use eem::materials::ThermoelasticSpring;
     /// use eem::prelude::*;
     ///
-    /// #[derive(FreeEnergy)]
-    /// #[free_energy(|lambda: Stretch, theta: Temperature| {
-    ///     0.5 * k * (lambda - 1.0).powi(2) - a * (theta - t0) * ln(lambda) - c * theta * ln(theta / t0)
-    /// })]
-    /// struct Wire { k: f64, a: f64, c: f64, t0: f64 }
-    ///
+    /// let wire = ThermoelasticSpring {
+    ///     stiffness: 5.0, coupling: 1.0, capacity: 2.0, natural_length: 1.0, theta_ref: 300.0,
+    /// };
     /// let mut scene = Scene::<1>::new();
     /// let wall = scene.anchor([0.0]);
     /// let mass = scene.mass(1.0, [1.1], [0.0]);
-    /// let wire = scene.spring(Wire { k: 5.0, a: 1.0, c: 2.0, t0: 300.0 }, [wall, mass]);
+    /// let wire = scene.spring(wire, [wall, mass]);
     /// scene.hold_temperature(wire, 310.0);
     /// let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.01)?;
     /// run.run_until(1.0)?;
@@ -165,21 +160,103 @@ impl<const D: usize, S: Real> Scene<D, S> {
         self.prescribe_temperature(element, move |_| temperature);
     }
 
-    /// Whether a node is of this scene and a mass or an anchor; if not, that is noted as misuse.
-    fn expect_kind(&mut self, node: Node, mass: bool, quantity: &'static str) -> bool {
+    /// Whether a node is of this scene, and a mass or an anchor as required; if not, that is an error.
+    pub(super) fn expect_kind(&mut self, node: Node, mass: bool, quantity: &'static str) -> bool {
         if !self.expect_own(&node) {
             return false;
         }
         let is_mass = self.nodes[node.index].mass.is_some();
         if is_mass != mass {
-            let kind = if is_mass { "a mass" } else { "an anchor" };
-            let misuse = SceneError::WrongKind {
+            self.refuse(SceneError::WrongKind {
                 node,
                 quantity,
-                kind,
-            };
-            self.misuse.push(misuse);
+                kind: if is_mass { "a mass" } else { "an anchor" },
+            });
         }
         is_mass == mass
+    }
+}
+
+/// A force per area or volume as a function of time.
+type Density<S, const D: usize> = Arc<dyn Fn(S) -> [S; D] + Send + Sync>;
+
+/// # Loads of solids
+impl<const D: usize, S: Real> Scene<D, S> {
+    /// A traction on some faces of a solid, N/m² of the reference configuration, as a function of time. Its
+    /// direction does not follow the body. The ledger counts its work. It has no effect on fixed nodes.
+    ///
+    /// ```
+    /// use eem::kinematics::Hex8;
+    /// use eem::materials::SaintVenantKirchhoff;
+    /// use eem::prelude::*;
+    ///
+    /// let mut scene = Scene::<3>::new();
+    /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
+    /// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
+    /// let beam = scene.solid(steel, &mesh, &Bulk::new(10.0));
+    /// let end = mesh.face(|[x, ..]| x >= 2.0)?;
+    /// scene.traction(&beam, &end, |t| [0.0, 0.0, 5.0 * t]);
+    ///
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// run.step()?;
+    /// // 0.25 N in the middle of the step, on 1 m², for 0.1 s.
+    /// assert!((run.ledger().linear_momentum[2] - 0.025).abs() < 1e-16);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn traction<H: Shape<D>>(
+        &mut self,
+        body: &Body<H, D>,
+        face: &Face,
+        traction: impl Fn(S) -> [S; D] + Send + Sync + 'static,
+    ) {
+        if !body.mesh().has(face) {
+            let element = body.first();
+            return self.refuse(SolidError::ForeignFace { element });
+        }
+        let shares = body.mesh().areas(face).into_iter();
+        let shares = shares.map(|(node, area)| (body.nodes()[node], body.thickness * area));
+        self.distribute(shares.collect(), &(Arc::new(traction) as _));
+    }
+
+    /// A force per reference volume, N/m³, as a function of time. The ledger counts its work. It has no effect on
+    /// fixed nodes. For weight use [`set_gravity`](Self::set_gravity).
+    ///
+    /// ```
+    /// use eem::kinematics::Quad8;
+    /// use eem::materials::SaintVenantKirchhoff;
+    /// use eem::prelude::*;
+    ///
+    /// let mut scene = Scene::<2>::new();
+    /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
+    /// let mesh = Mesh::<Quad8, 2>::block([1, 1], [[0.0, 2.0], [0.0, 1.0]])?;
+    /// let plate = scene.solid(steel, &mesh, &Bulk::new(10.0).thickness(0.5));
+    /// scene.body_force(&plate, |_| [3.0, 0.0]);
+    ///
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// run.step()?;
+    /// // 3 N on 1 m³ for 0.1 s, on all of its 10 kg alike.
+    /// assert!((run.ledger().linear_momentum[0] - 0.3).abs() < 1e-15);
+    /// assert!((run.velocity(plate.nodes()[0])?[0] - 0.03).abs() < 1e-14);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn body_force<H: Shape<D>>(
+        &mut self,
+        body: &Body<H, D>,
+        force: impl Fn(S) -> [S; D] + Send + Sync + 'static,
+    ) {
+        let shares = body.nodes().iter().zip(body.mesh().volumes());
+        let shares = shares.map(|(&node, volume)| (node, body.thickness * volume));
+        self.distribute(shares.collect(), &(Arc::new(force) as _));
+    }
+
+    /// Loads the nodes, except anchors, with their shares of the area or volume.
+    fn distribute(&mut self, shares: Vec<(Node, f64)>, density: &Density<S, D>) {
+        for (node, share) in shares {
+            let own = self.expect_own(&node);
+            if own && self.nodes[node.index].mass.is_some() {
+                let (density, share) = (Arc::clone(density), S::from_f64(share));
+                self.force(node, move |time| density(time).map(|force| share * force));
+            }
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! A solid in a scene: its mesh, nodes and points.
+//! Bodies: solids of a scene with their meshes, nodes and points.
 
 use crate::element::handle::{Element, Node};
 use crate::element::kinematics::Shape;
@@ -6,103 +6,65 @@ use crate::scene::mesh::{Mesh, MeshError, distance};
 
 /// A solid of a scene: its mesh and the handles of its nodes and integration points, in the reference
 /// configuration.
+///
+/// ```
+/// use eem::kinematics::Hex8;
+/// use eem::materials::SaintVenantKirchhoff;
+/// use eem::prelude::*;
+///
+/// let mut scene = Scene::<3>::new();
+/// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
+/// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
+/// let body = scene.solid(steel, &mesh, &Bulk::new(10.0));
+/// assert_eq!(body.mesh().nodes(), mesh.nodes());
+/// // Twelve nodes, and eight points per hexahedron of eight nodes.
+/// assert_eq!((body.nodes().len(), body.points().len()), (12, 16));
+///
+/// assert_eq!(body.nodes_where(|[x, ..]| x >= 2.0).len(), 4);
+/// assert_eq!(body.node_at([2.0, 0.0, 0.0], 1e-9)?, body.nodes()[2]);
+/// let error = body.node_at([2.0, 0.5, 0.0], 1e-9).unwrap_err();
+/// assert!(error.to_string().starts_with("no node is at [2.0, 0.5, 0.0] m: the nearest is at [2.0,"));
+///
+/// let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+/// assert!(run.solid_state(body.points()[15])?.von_mises() < 1e-10);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Body<H: Shape<D>, const D: usize> {
     pub(super) mesh: Mesh<H, D>,
     pub(super) nodes: Vec<Node>,
     pub(super) points: Vec<Element>,
+    /// m; one in space.
     pub(super) thickness: f64,
+    /// W/(m K).
     pub(super) conductivity: Option<f64>,
 }
 
 impl<H: Shape<D>, const D: usize> Body<H, D> {
     /// Its mesh.
-    ///
-    /// ```
-    /// use eem::kinematics::Hex8;
-    /// use eem::materials::SaintVenantKirchhoff;
-    /// use eem::prelude::*;
-    ///
-    /// let mut scene = Scene::<3>::new();
-    /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
-    /// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
-    /// let body = scene.solid(steel, &mesh, &Bulk::new(10.0));
-    /// assert_eq!(body.mesh().cells().len(), 2);
-    /// assert_eq!(body.mesh().nodes(), mesh.nodes());
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     #[must_use]
     pub fn mesh(&self) -> &Mesh<H, D> {
         &self.mesh
     }
 
     /// The handles of its nodes, in the order of the mesh.
-    ///
-    /// ```
-    /// use eem::kinematics::Hex8;
-    /// use eem::materials::SaintVenantKirchhoff;
-    /// use eem::prelude::*;
-    ///
-    /// let mut scene = Scene::<3>::new();
-    /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
-    /// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
-    /// let body = scene.solid(steel, &mesh, &Bulk::new(10.0));
-    /// assert_eq!(body.nodes().len(), 12);
-    /// assert_eq!(body.nodes()[0], body.node_at([0.0, 0.0, 0.0], 0.0)?);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     #[must_use]
     pub fn nodes(&self) -> &[Node] {
         &self.nodes
     }
 
     /// The handles of its integration points, cell by cell; the first coordinate of a cell varies fastest.
-    ///
-    /// ```
-    /// use eem::kinematics::Hex8;
-    /// use eem::materials::SaintVenantKirchhoff;
-    /// use eem::prelude::*;
-    ///
-    /// let mut scene = Scene::<3>::new();
-    /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
-    /// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
-    /// let body = scene.solid(steel, &mesh, &Bulk::new(10.0));
-    /// // Eight per hexahedron of eight nodes.
-    /// assert_eq!(body.points().len(), 16);
-    /// let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
-    /// assert!(run.solid_state(body.points()[15])?.von_mises() < 1e-10);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     #[must_use]
     pub fn points(&self) -> &[Element] {
         &self.points
     }
 
-    /// m; one in space.
-    pub(super) fn thickness(&self) -> f64 {
-        self.thickness
-    }
-
-    /// W/(m K).
-    pub(super) fn conductivity(&self) -> Option<f64> {
-        self.conductivity
+    /// Its first point, which names it in errors.
+    pub(super) fn first(&self) -> Element {
+        self.points[0]
     }
 
     /// The nodes whose position in the reference configuration satisfies a condition.
-    ///
-    /// ```
-    /// use eem::kinematics::Hex8;
-    /// use eem::materials::SaintVenantKirchhoff;
-    /// use eem::prelude::*;
-    ///
-    /// let mut scene = Scene::<3>::new();
-    /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
-    /// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
-    /// let body = scene.solid(steel, &mesh, &Bulk::new(10.0));
-    /// assert_eq!(body.nodes_where(|[x, ..]| x >= 2.0).len(), 4);
-    /// assert!(body.nodes_where(|[x, ..]| x > 2.0).is_empty());
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     pub fn nodes_where(&self, condition: impl Fn([f64; D]) -> bool) -> Vec<Node> {
         let all = self.mesh.nodes().iter().zip(&self.nodes);
         let found = all.filter(|(place, _)| condition(**place));
@@ -110,22 +72,6 @@ impl<H: Shape<D>, const D: usize> Body<H, D> {
     }
 
     /// The node nearest to a position of the reference configuration, m, at most `within` away.
-    ///
-    /// ```
-    /// use eem::kinematics::Hex8;
-    /// use eem::materials::SaintVenantKirchhoff;
-    /// use eem::prelude::*;
-    ///
-    /// let mut scene = Scene::<3>::new();
-    /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
-    /// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
-    /// let body = scene.solid(steel, &mesh, &Bulk::new(10.0));
-    /// let corner = body.node_at([2.0, 0.0, 0.0], 1e-9)?;
-    /// assert_eq!(corner, body.nodes()[2]);
-    /// let error = body.node_at([2.0, 0.5, 0.0], 1e-9).unwrap_err();
-    /// assert!(error.to_string().starts_with("no node is at [2.0, 0.5, 0.0] m: the nearest is at [2.0,"));
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
     ///
     /// # Errors
     ///

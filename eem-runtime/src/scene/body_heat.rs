@@ -1,4 +1,4 @@
-//! Heat in solids, between them, and through their surface.
+//! Heat conduction in solids, between them, and through their surface.
 
 use std::collections::BTreeMap;
 
@@ -55,39 +55,32 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// [`Simulation::new`](crate::Simulation::new) returns [`SolidError::NoSharedFace`] or
     /// [`SolidError::NoConductivity`].
     pub fn conduct_between<H: Shape<D>>(&mut self, first: &Body<H, D>, second: &Body<H, D>) {
-        let elements = [first, second].map(|body| body.points()[0]);
+        let elements = [first.first(), second.first()];
         if !elements.iter().all(|element| self.expect_own(element)) {
             return;
         }
-        if elements[0] == elements[1] {
-            let [element, _] = elements;
-            self.misuse.push(SceneError::SelfConduction { element });
-            return;
+        let [element, other] = elements;
+        if element == other {
+            return self.refuse(SceneError::SelfConduction { element });
         }
-        let [Some(one), Some(other)] = [first, second].map(Body::conductivity) else {
-            for (body, element) in [first, second].into_iter().zip(elements) {
-                if body.conductivity().is_none() {
-                    self.misuse
-                        .push(SolidError::NoConductivity { element }.into());
+        let (Some(one), Some(other)) = (first.conductivity, second.conductivity) else {
+            let is_insulated = [first.conductivity.is_none(), second.conductivity.is_none()];
+            for (element, is_insulated) in elements.into_iter().zip(is_insulated) {
+                if is_insulated {
+                    self.refuse(SolidError::NoConductivity { element });
                 }
             }
             return;
         };
         let sides = shared_sides(first, second);
         if sides.is_empty() {
-            self.misuse
-                .push(SolidError::NoSharedFace { elements }.into());
+            self.refuse(SolidError::NoSharedFace { elements });
         }
         for [near, far] in sides {
-            let pairs = facing(
-                first.mesh().sub_faces_of(near),
-                &second.mesh().sub_faces_of(far),
-            );
-            for [a, b] in pairs {
-                let [t_a, t_b] = [
-                    one * first.thickness() * a.reach,
-                    other * second.thickness() * b.reach,
-                ];
+            let near = first.mesh().sub_faces_of(near);
+            for [a, b] in facing(near, &second.mesh().sub_faces_of(far)) {
+                let t_a = one * first.thickness * a.shape_factor;
+                let t_b = other * second.thickness * b.shape_factor;
                 let [a, b] = [first.points()[a.point], second.points()[b.point]];
                 self.conduct(a, b, S::from_f64(t_a * t_b / (t_a + t_b)));
             }
@@ -108,23 +101,21 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// use eem::materials::ThermoelasticSolid;
     /// use eem::prelude::*;
     ///
-    /// let solid = ThermoelasticSolid::RUBBER;
     /// let mut scene = Scene::<3>::new();
     /// let mesh = Mesh::<Hex8, 3>::block([1; 3], [[0.0, 1.0]; 3])?;
-    /// let body = scene.solid(solid, &mesh, &Bulk::new(10.0).conductivity(10.0));
-    /// for &point in body.points() {
-    ///     scene.set_temperature(point, 300.0);
-    /// }
-    /// let end = mesh.face(|[x, ..]| x >= 1.0)?;
-    /// let air = scene.reservoir(320.0);
-    /// scene.exchange(&body, &end, air, 5.0);
+    /// let bulk = Bulk::new(10.0).conductivity(10.0);
+    /// let body = scene.solid(ThermoelasticSolid::RUBBER, &mesh, &bulk);
+    /// body.points().iter().for_each(|&point| scene.set_temperature(point, 300.0));
+    /// let (air, water) = (scene.reservoir(320.0), scene.reservoir(320.0));
+    /// scene.exchange(&body, &mesh.face(|[x, ..]| x >= 1.0)?, air, 5.0);
+    /// scene.wall(&body, &mesh.face(|[x, ..]| x <= 0.0)?, water);
     ///
     /// let mut run = Simulation::new(scene, Scheme::EemTemperature, 1e-5)?;
     /// run.step()?;
-    /// // Four points, each with t = 10 W/K behind a film of 5 · 0.25 W/K, and 20 K.
-    /// let flow = -run.reservoir_heat(air)? / 1e-5;
-    /// let known = 4.0 * 20.0 / (1.0 / 1.25 + 1.0 / 10.0);
-    /// assert!((flow - known).abs() < 1e-4 * known);
+    /// // Four points, each with t = 10 W/K behind a film of 5 · 0.25 W/K, and 20 K; no film at the wall.
+    /// let film = 4.0 * 20.0 / (1.0 / 1.25 + 1.0 / 10.0);
+    /// assert!((-run.reservoir_heat(air)? / 1e-5 - film).abs() < 1e-4 * film);
+    /// assert!((-run.reservoir_heat(water)? / 1e-5 - 800.0).abs() < 1e-4 * 800.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///
@@ -140,12 +131,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
         film: S,
     ) {
         if !is_positive(film) {
-            let quantity = ("film coefficient", film.to_f64(), "W/(m^2 K)");
-            self.misuse.push(not_positive(body, quantity).into());
-            return;
+            let error = SolidError::section(body.first(), "film coefficient", film, "W/(m^2 K)");
+            return self.refuse(error);
         }
-        self.connect(body, face, reservoir, |area, reach| {
-            (film * area * reach) / (film * area + reach)
+        self.connect(body, face, reservoir, |area, t| {
+            (film * area * t) / (film * area + t)
         });
     }
 
@@ -155,40 +145,18 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// κ = t = k |A·d|/d²     per point, d from its centre to the surface
     /// ```
     ///
-    /// The solid needs a conductivity, [`Bulk::conductivity`](crate::Bulk::conductivity).
-    ///
-    /// ```
-    /// use eem::kinematics::Hex8;
-    /// use eem::materials::ThermoelasticSolid;
-    /// use eem::prelude::*;
-    ///
-    /// let solid = ThermoelasticSolid::RUBBER;
-    /// let mut scene = Scene::<3>::new();
-    /// let mesh = Mesh::<Hex8, 3>::block([1; 3], [[0.0, 1.0]; 3])?;
-    /// let body = scene.solid(solid, &mesh, &Bulk::new(10.0).conductivity(10.0));
-    /// for &point in body.points() {
-    ///     scene.set_temperature(point, 300.0);
-    /// }
-    /// let end = mesh.face(|[x, ..]| x >= 1.0)?;
-    /// let air = scene.reservoir(320.0);
-    /// scene.wall(&body, &end, air);
-    ///
-    /// let mut run = Simulation::new(scene, Scheme::EemTemperature, 1e-5)?;
-    /// run.step()?;
-    /// // Four points, each with t = 10 W/(m K) · 0.25 m²/0.25 m, and 20 K.
-    /// let flow = -run.reservoir_heat(air)? / 1e-5;
-    /// assert!((flow - 800.0).abs() < 1e-4 * 800.0);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
+    /// The solid needs a conductivity, [`Bulk::conductivity`](crate::Bulk::conductivity). For an example see
+    /// [`exchange`](Self::exchange).
     ///
     /// # Errors
     ///
     /// [`Simulation::new`](crate::Simulation::new) returns [`SolidError::NoConductivity`],
     /// [`SolidError::ForeignFace`].
     pub fn wall<H: Shape<D>>(&mut self, body: &Body<H, D>, face: &Face, reservoir: Reservoir) {
-        self.connect(body, face, reservoir, |_, reach| reach);
+        self.connect(body, face, reservoir, |_, t| t);
     }
 
+    /// Conducts heat between a face and a reservoir, with the conductance of each point from its area and `t`.
     fn connect<H: Shape<D>>(
         &mut self,
         body: &Body<H, D>,
@@ -196,63 +164,46 @@ impl<const D: usize, S: Real> Scene<D, S> {
         reservoir: Reservoir,
         conductance: impl Fn(S, S) -> S,
     ) {
-        let element = body.points()[0];
-        let Some(conductivity) = body.conductivity() else {
-            self.misuse
-                .push(SolidError::NoConductivity { element }.into());
-            return;
+        let element = body.first();
+        let Some(conductivity) = body.conductivity else {
+            return self.refuse(SolidError::NoConductivity { element });
         };
         if !body.mesh().has(face) {
-            self.misuse.push(SolidError::ForeignFace { element }.into());
-            return;
+            return self.refuse(SolidError::ForeignFace { element });
         }
         for face in body.mesh().outside(face) {
-            let [area, reach] = [face.area, face.reach].map(|size| body.thickness() * size);
-            let reach = S::from_f64(conductivity * reach);
-            let conductance = conductance(S::from_f64(area), reach);
+            let area = S::from_f64(body.thickness * face.area);
+            let t = S::from_f64(conductivity * (body.thickness * face.shape_factor));
+            let conductance = conductance(area, t);
             self.conduct(body.points()[face.point], reservoir, conductance);
         }
     }
 
-    /// Paths of heat between the points of a solid, unless its cells are too skew for them.
+    /// Conducts heat between the points of a solid; an error if its cells are too skew.
     pub(super) fn conduct_in<H: Shape<D>>(&mut self, body: &Body<H, D>, allow_skew_cells: bool) {
-        let Some(conductivity) = body.conductivity() else {
+        let element = body.first();
+        let Some(conductivity) = body.conductivity else {
             return;
         };
-        if !(conductivity > 0.0 && conductivity.is_finite()) {
-            let quantity = ("conductivity", conductivity, "W/(m K)");
-            self.misuse.push(not_positive(body, quantity).into());
-            return;
+        if !is_positive(conductivity) {
+            let error = SolidError::section(element, "conductivity", conductivity, "W/(m K)");
+            return self.refuse(error);
         }
         let (links, skewness) = body.mesh().network();
         if skewness.is_too_much() && !allow_skew_cells {
-            let skew = SolidError::SkewCells {
-                element: body.points()[0],
+            self.refuse(SolidError::SkewCells {
+                element,
                 skew: skewness.skew,
                 faces: skewness.faces,
                 cosine: skewness.cosine,
                 cell: skewness.cell,
-            };
-            self.misuse.push(skew.into());
+            });
         }
-        for (pair, reach) in links {
+        for (pair, shape_factor) in links {
             let [first, second] = pair.map(|point| body.points()[point]);
-            let conductance = S::from_f64(conductivity * body.thickness() * reach);
+            let conductance = S::from_f64(conductivity * body.thickness * shape_factor);
             self.conduct(first, second, conductance);
         }
-    }
-}
-
-/// What to say of a quantity of a solid, its value and its unit.
-fn not_positive<H: Shape<D>, const D: usize>(
-    body: &Body<H, D>,
-    (quantity, value, unit): (&'static str, f64, &'static str),
-) -> SolidError {
-    SolidError::Section {
-        element: body.points()[0],
-        quantity,
-        value,
-        unit,
     }
 }
 
@@ -270,6 +221,6 @@ fn shared_sides<H: Shape<D>, const D: usize>(
     let far = second.mesh().surface().into_iter();
     let far: BTreeMap<Vec<usize>, [usize; 2]> = far.map(|side| (key(second, side), side)).collect();
     let near = first.mesh().surface().into_iter();
-    near.filter_map(|side| Some([side, *far.get(&key(first, side))?]))
-        .collect()
+    let pairs = near.filter_map(|side| Some([side, *far.get(&key(first, side))?]));
+    pairs.collect()
 }

@@ -1,4 +1,4 @@
-//! What a solid is besides its material and its mesh.
+//! The properties of a solid besides its material and mesh.
 
 use crate::element::kinematics::Shape;
 use crate::scene::body::Body;
@@ -63,7 +63,6 @@ impl<const D: usize, S: Real> Bulk<D, S> {
     ///
     /// ```
     /// use eem::kinematics::Quad4;
-    /// use eem::SolidError;
     /// use eem::materials::ThermoelasticSolid;
     /// use eem::prelude::*;
     ///
@@ -76,11 +75,7 @@ impl<const D: usize, S: Real> Bulk<D, S> {
     ///     Simulation::new(scene, Scheme::EemTemperature, 0.1)
     /// };
     /// let bulk = Bulk::new(10.0).conductivity(20.0);
-    /// let error = build(bulk.clone()).unwrap_err().into();
-    /// assert!(matches!(
-    ///     error,
-    ///     SceneError::Solid(SolidError::SkewCells { skew: 24, faces: 24, .. })
-    /// ));
+    /// assert!(build(bulk.clone()).unwrap_err().to_string().contains("crosses 24 of 24 faces"));
     /// assert!(build(bulk.allow_skew_cells()).is_ok());
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
@@ -111,7 +106,6 @@ impl<const D: usize, S: Real> Bulk<D, S> {
     ///
     /// ```
     /// use eem::kinematics::Quad4;
-    /// use eem::SolidError;
     /// use eem::materials::SaintVenantKirchhoff;
     /// use eem::prelude::*;
     ///
@@ -119,19 +113,9 @@ impl<const D: usize, S: Real> Bulk<D, S> {
     /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
     /// let mesh = Mesh::<Quad4, 2>::block([1, 1], [[0.0, 1.0]; 2])?;
     /// let first = scene.solid(steel.clone(), &mesh, &Bulk::new(10.0));
-    /// let beside = mesh.translated([1.0, 0.0])?;
     /// let joined = Bulk::new(10.0).joined_to(&first, 1e-9);
-    /// let second = scene.solid(steel.clone(), &beside, &joined);
+    /// let second = scene.solid(steel, &mesh.translated([1.0, 0.0])?, &joined);
     /// assert_eq!(second.nodes()[0], first.nodes()[1]);
-    ///
-    /// // Half a metre is in between.
-    /// let mut apart = scene.clone();
-    /// apart.solid(steel, &mesh.translated([1.5, 0.0])?, &joined);
-    /// let error = Simulation::new(apart, Scheme::EemEntropy, 0.1).unwrap_err().into();
-    /// assert!(matches!(
-    ///     error,
-    ///     SceneError::Solid(SolidError::NotJoined { nearest: 0.5, .. })
-    /// ));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     ///

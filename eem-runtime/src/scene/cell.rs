@@ -1,4 +1,4 @@
-//! Cells of solids of any shape: their points, and the mass that they give to their nodes.
+//! Cells of solids: their integration points, and their mass at the nodes.
 
 use super::Scene;
 use crate::element::group::LooseElements;
@@ -7,35 +7,36 @@ use crate::element::kinematics::{
     Measure, Points, Shape, SolidPoint, Strain, StrainEnergy, integrals,
 };
 use crate::scene::check::check_position;
-use crate::scene::entry::UNMADE;
+use crate::scene::entry::INVALID;
 use crate::scene::error::SceneError;
+use crate::scene::mesh::per_node;
 use crate::scene::solid_error::SolidError;
-use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::free_energy::FreeEnergy;
 use eem_material::number::scalar::{Mask, Real, is_positive};
 use eem_material::point_energy::PointEnergy;
 
-/// What a cell is besides its material and its nodes.
+/// The properties of a cell besides its material and nodes.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stuff<'a, S, const D: usize> {
+pub(super) struct CellProperties<'a, S, const D: usize> {
     /// kg/m³.
     pub(super) density: S,
     /// m in the plane, one in space.
     pub(super) thickness: S,
     /// The directions of the fibres.
     pub(super) fibres: &'a [[S; D]],
-    /// Whether each node has a mass of its own.
+    /// Whether masses do not couple nodes.
     pub(super) lumped: bool,
-    /// Whether it has been noted that something is wrong with it.
-    pub(super) is_refused: bool,
+    /// Whether it is invalid, which is already an error.
+    pub(super) is_invalid: bool,
 }
 
 impl<S: Real, const D: usize> Scene<D, S> {
-    /// Adds a cell, whose nodes are where they are now; its points. What is wrong with it becomes misuse.
+    /// Adds a cell in the present positions of its nodes; returns its points. Errors are recorded for `Simulation::new`.
     pub(super) fn push_cell<H, M, const N: usize>(
         &mut self,
         model: &M,
         nodes: &H::PerNode<Node>,
-        stuff: Stuff<'_, S, D>,
+        properties: CellProperties<'_, S, D>,
     ) -> H::PerPoint<Element>
     where
         H: Shape<D>,
@@ -43,43 +44,37 @@ impl<S: Real, const D: usize> Scene<D, S> {
     {
         let first = self.next_element::<M>();
         let points = H::PerPoint::from_fn(|point| first.after(point));
-        let place = match self.expect_cell::<H, N>(nodes, (M::STRAINS, stuff), points.as_ref()) {
-            Ok(cell) => {
-                let new = LooseElements::<
-                    S,
-                    PointEnergy<S, M::AtPoint<S>>,
-                    SolidPoint<H, S, N, D>,
-                    D,
-                >::new;
-                let (group, set) = self.set_of(new);
-                let place = set.points();
-                let parts = H::PerPoint::from_fn(|at| {
-                    let point = cell.as_ref()[at];
-                    (
-                        PointEnergy::new(model.at_point::<S>(), point.volume()),
-                        point,
-                    )
-                });
-                set.elements.push((first, parts));
-                [group, place]
-            }
-            // Handles have to mean something until the scene is checked.
-            Err(misuse) => {
-                self.misuse.extend(misuse);
-                [UNMADE, 0]
-            }
-        };
+        let (group, place) =
+            match self.expect_cell::<H, N>(nodes, (M::STRAINS, properties), points.as_ref()) {
+                Ok(cell) => {
+                    let parts = H::PerPoint::from_fn(|at| {
+                        let point = cell.as_ref()[at];
+                        let energy = PointEnergy::new(model.at_point::<S>(), point.volume());
+                        (energy, point)
+                    });
+                    let new = LooseElements::<S, _, SolidPoint<H, S, N, D>, D>::new;
+                    let (group, set) = self.set_of(new);
+                    let place = set.points();
+                    set.elements.push((first, parts));
+                    (group, place)
+                }
+                // The handles must be valid until the scene is checked.
+                Err(errors) => {
+                    self.errors.extend(errors);
+                    (INVALID, 0)
+                }
+            };
         for point in 0..points.as_ref().len() {
-            self.push_element(nodes.as_ref(), [place[0], place[1] + point]);
+            self.push_element(nodes.as_ref(), [group, place + point]);
         }
         points
     }
 
-    /// The points of a cell, whose mass goes to its nodes.
+    /// The points of a cell, whose mass is added to its nodes; an error unless one is already recorded.
     fn expect_cell<H: Shape<D>, const N: usize>(
         &mut self,
         nodes: &H::PerNode<Node>,
-        (strains, stuff): ([Strain; N], Stuff<'_, S, D>),
+        (strains, properties): ([Strain; N], CellProperties<'_, S, D>),
         points: &[Element],
     ) -> Result<H::PerPoint<SolidPoint<H, S, N, D>>, Option<SceneError>> {
         for node in nodes.as_ref() {
@@ -88,16 +83,15 @@ impl<S: Real, const D: usize> Scene<D, S> {
             }
             check_position(*node, &self.nodes[node.index])?;
         }
-        if stuff.is_refused {
+        if properties.is_invalid {
             return Err(None);
         }
-        let measures = stuff.measures(strains, points[0]);
-        let measures = measures.map_err(SceneError::from)?;
-        let mut reference = H::PerNode::filled([S::zero(); D]);
-        for (position, node) in reference.as_mut().iter_mut().zip(nodes.as_ref()) {
-            *position = self.nodes[node.index].position.into();
-        }
-        let cell = SolidPoint::<H, S, N, D>::points(&reference, stuff.thickness, measures);
+        let measures = properties
+            .measures(strains, points[0])
+            .map_err(SceneError::from)?;
+        let position = |at: usize| self.nodes[nodes[at].index].position.into();
+        let reference = per_node::<H, _, D>(position);
+        let cell = SolidPoint::<H, S, N, D>::points(&reference, properties.thickness, measures);
         let cell = cell.map_err(|(point, size)| {
             SceneError::Solid(SolidError::InsideOut {
                 element: points[point],
@@ -110,7 +104,7 @@ impl<S: Real, const D: usize> Scene<D, S> {
                 },
             })
         })?;
-        self.add_masses::<H>(nodes.as_ref(), &reference, stuff);
+        self.add_masses::<H>(nodes.as_ref(), &reference, properties);
         Ok(cell)
     }
 
@@ -119,19 +113,20 @@ impl<S: Real, const D: usize> Scene<D, S> {
         &mut self,
         nodes: &[Node],
         reference: &H::PerNode<[S; D]>,
-        stuff: Stuff<'_, S, D>,
+        properties: CellProperties<'_, S, D>,
     ) {
-        let mut masses = integrals::masses::<H, S, D>(reference, stuff.density * stuff.thickness);
-        if stuff.lumped {
+        let mut masses =
+            integrals::masses::<H, S, D>(reference, properties.density * properties.thickness);
+        if properties.lumped {
             integrals::lump::<H, S, D>(&mut masses);
         }
         for (a, row) in masses.as_ref().iter().enumerate() {
             let entry = &mut self.nodes[nodes[a].index];
             let mass = entry.mass.as_mut().unwrap_or(&mut entry.held);
-            // That of the node itself, if it is not zero, as that of the solids is positive.
+            // A negative mass is that of the node itself, as masses of solids are positive.
             if mass.less(S::zero()).any() {
                 let (node, value) = (nodes[a], mass.to_f64());
-                self.misuse.push(SceneError::Mass { node, value });
+                self.errors.push(SceneError::Mass { node, value });
             }
             *mass += row[a];
             for (b, &mass) in row.as_ref().iter().enumerate().take(a) {
@@ -142,38 +137,24 @@ impl<S: Real, const D: usize> Scene<D, S> {
     }
 }
 
-impl<S: Real, const D: usize> Stuff<'_, S, D> {
-    /// An error unless density and thickness are positive.
-    fn check(&self, element: Element) -> Result<(), SolidError> {
+impl<S: Real, const D: usize> CellProperties<'_, S, D> {
+    /// The measures of a material along the fibres; an error if the solid with this first point is invalid.
+    pub(super) fn measures<const N: usize>(
+        &self,
+        strains: [Strain; N],
+        element: Element,
+    ) -> Result<[Measure<S, D>; N], SolidError> {
         let numbers = [
             ("density", self.density, "kg/m^3"),
             ("thickness", self.thickness, "m"),
         ];
         for (quantity, value, unit) in numbers {
             if !is_positive(value) {
-                return Err(SolidError::Section {
-                    element,
-                    quantity,
-                    value: value.to_f64(),
-                    unit,
-                });
+                return Err(SolidError::section(element, quantity, value, unit));
             }
         }
-        Ok(())
-    }
-
-    /// The measures of a material along the fibres; an error if something is wrong with the solid whose first point
-    /// the element is.
-    pub(super) fn measures<const N: usize>(
-        &self,
-        strains: [Strain; N],
-        element: Element,
-    ) -> Result<[Measure<S, D>; N], SolidError> {
-        self.check(element)?;
-        let needed = strains
-            .iter()
-            .filter(|&&strain| strain == Strain::Fibre)
-            .count();
+        let is_fibre = |strain: &&Strain| **strain == Strain::Fibre;
+        let needed = strains.iter().filter(is_fibre).count();
         let given = self.fibres.len();
         if needed != given {
             return Err(SolidError::Fibres {

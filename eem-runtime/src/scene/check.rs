@@ -1,35 +1,48 @@
-//! The rules that a scene must satisfy, one function per rule.
+//! The rules for a scene, and for its initial state: products of the user's numbers are finite, and prescribed motions
+//! and temperatures begin at the initial values.
 
 use std::collections::BTreeSet;
 
 use super::Scene;
 use crate::element::error::StateError;
-use crate::element::handle::{Element, HeatPartner, Node, Reservoir};
+use crate::element::handle::{Element, HeatPartner, Node};
 use crate::element::layout::Shape;
 use crate::element::loads::PushLine;
-use crate::scene::entry::{ElementEntry, NodeEntry, UNMADE};
-use crate::scene::error::SceneError;
-use crate::scene::rocket_error::RocketError;
+use crate::scene::entry::{ElementEntry, INVALID, NodeEntry, infinite};
+use crate::scene::error::{RocketError, SceneError};
+use crate::scene::loads::{MOTION_ROUNDINGS, extent};
 use eem_material::number::scalar::{Mask, Real, is_positive};
 
 impl<const D: usize, S: Real> Scene<D, S> {
-    /// Everything that is wrong with the description; what can only be said of numbers that are right by themselves,
-    /// if they are.
+    /// All errors; those of the initial state only if all numbers are valid by themselves.
     pub(crate) fn check(&self) -> Vec<SceneError> {
-        let mut errors = self.misuse.clone();
-        // What follows from a solid that could not be made is nothing of its own.
-        let unmade = self.elements.iter();
-        let unmade = unmade.filter(|entry| entry.group == UNMADE);
-        let unmade: BTreeSet<_> = unmade.flat_map(|entry| &entry.nodes).collect();
+        let mut errors = self.errors.clone();
+        // Nodes of an invalid solid are not checked: their errors would follow from its own.
+        let invalid = self.elements.iter();
+        let invalid = invalid.filter(|entry| entry.group == INVALID);
+        let invalid: BTreeSet<_> = invalid.flat_map(|entry| &entry.nodes).collect();
         for (index, entry) in self.nodes.iter().enumerate() {
-            if !unmade.contains(&index) {
+            if !invalid.contains(&index) {
                 check_node(self.node_at(index), entry, &mut errors);
             }
         }
-        self.check_solids(&mut errors);
+        let coupled: BTreeSet<_> = self.pairs.iter().flat_map(|&(nodes, _)| nodes).collect();
+        for index in coupled {
+            if self.nodes[index].momentum.is_some() {
+                errors.push(SceneError::NodeOfSolid {
+                    node: self.node_at(index),
+                    quantity: "a momentum",
+                    instead: "give its velocity",
+                });
+            }
+        }
         for (index, &temperature) in self.reservoirs.iter().enumerate() {
-            let reservoir = self.reservoir_at(index);
-            errors.extend(check_reservoir(reservoir, temperature).err());
+            if !is_positive(temperature) {
+                errors.push(SceneError::ReservoirTemperature {
+                    reservoir: self.reservoir_at(index),
+                    value: temperature.to_f64(),
+                });
+            }
         }
         for (index, entry) in self.elements.iter().enumerate() {
             let Some(group) = self.groups.get(entry.group) else {
@@ -49,43 +62,34 @@ impl<const D: usize, S: Real> Scene<D, S> {
         self.check_rockets(&mut errors);
         self.check_conductors(&mut errors);
         if errors.is_empty() {
-            self.check_start(&mut errors);
+            for (index, entry) in self.nodes.iter().enumerate() {
+                errors.extend(self.check_products(self.node_at(index), entry).err());
+            }
+            errors.extend(self.check_heat_flows().err());
+            self.check_motions(&mut errors);
+            self.check_thermostats(&mut errors);
         }
         errors
     }
 
-    /// Nodes of solids have velocities.
-    fn check_solids(&self, errors: &mut Vec<SceneError>) {
-        let coupled: BTreeSet<_> = self.pairs.iter().flat_map(|&(nodes, _)| nodes).collect();
-        for &index in &coupled {
-            if self.nodes[index].momentum.is_some() {
-                errors.push(SceneError::NodeOfSolid {
-                    node: self.node_at(index),
-                    quantity: "a momentum",
-                    instead: "give its velocity",
-                });
-            }
-        }
-    }
-
     fn check_loads(&self, errors: &mut Vec<SceneError>) {
-        for (axis, component) in self.loads.gravity.iter().enumerate() {
-            if !component.is_finite() {
-                let value = component.to_f64();
-                errors.push(SceneError::Gravity { axis, value });
-            }
-        }
+        let gravity = infinite(self.loads.gravity.as_slice());
+        errors.extend(gravity.map(|(axis, value)| SceneError::Gravity { axis, value }));
+        let twice = |handle: &dyn core::fmt::Display, quantity| SceneError::PrescribedTwice {
+            handle: handle.to_string(),
+            quantity,
+        };
         let mut prescribed = BTreeSet::new();
         for (element, _) in &self.loads.temperatures {
             self.check_thermal(*element, errors);
             if !prescribed.insert(element.index()) {
-                errors.push(prescribed_twice(element, "the temperature"));
+                errors.push(twice(element, "the temperature"));
             }
         }
         let mut moved = BTreeSet::new();
         for (anchor, _) in &self.loads.motions {
             if !moved.insert(anchor.index) {
-                errors.push(prescribed_twice(anchor, "the motion"));
+                errors.push(twice(anchor, "the motion"));
             }
         }
     }
@@ -134,22 +138,15 @@ impl<const D: usize, S: Real> Scene<D, S> {
     }
 }
 
-fn prescribed_twice(handle: &dyn core::fmt::Display, quantity: &'static str) -> SceneError {
-    let handle = handle.to_string();
-    SceneError::PrescribedTwice { handle, quantity }
-}
-
 fn check_node<S: Real, const D: usize>(
     node: Node,
     entry: &NodeEntry<S, D>,
     errors: &mut Vec<SceneError>,
 ) {
     errors.extend(check_position(node, entry).err());
-    for (axis, velocity) in entry.velocity.iter().enumerate() {
-        if entry.momentum.is_none() && !velocity.is_finite() {
-            let value = velocity.to_f64();
-            errors.push(SceneError::Velocity { node, axis, value });
-        }
+    if entry.momentum.is_none() {
+        let velocity = infinite(entry.velocity.as_slice());
+        errors.extend(velocity.map(|(axis, value)| SceneError::Velocity { node, axis, value }));
     }
     if let Some(mass) = entry.mass.filter(|&mass| !is_positive(mass)) {
         let value = mass.to_f64();
@@ -157,29 +154,15 @@ fn check_node<S: Real, const D: usize>(
     }
 }
 
-/// An error unless a node is somewhere.
+/// An error unless the position of a node is finite.
 pub(super) fn check_position<S: Real, const D: usize>(
     node: Node,
     entry: &NodeEntry<S, D>,
 ) -> Result<(), SceneError> {
-    for axis in 0..D {
-        let position = entry.position[axis];
-        if !position.is_finite() {
-            let value = position.to_f64();
-            return Err(SceneError::Position { node, axis, value });
-        }
+    match infinite(entry.position.as_slice()).next() {
+        Some((axis, value)) => Err(SceneError::Position { node, axis, value }),
+        None => Ok(()),
     }
-    Ok(())
-}
-
-fn check_reservoir<S: Real>(reservoir: Reservoir, temperature: S) -> Result<(), SceneError> {
-    if is_positive(temperature) {
-        return Ok(());
-    }
-    Err(SceneError::ReservoirTemperature {
-        reservoir,
-        value: temperature.to_f64(),
-    })
 }
 
 fn check_element<S: Real>(
@@ -195,8 +178,7 @@ fn check_element<S: Real>(
                 dashpot,
                 dashpots: shape.dashpots,
             });
-        }
-        if dashpot < shape.dashpots && !stretch.is_finite() {
+        } else if !stretch.is_finite() {
             let error = StateError::ViscousStretch {
                 element,
                 dashpot,
@@ -221,4 +203,116 @@ impl From<StateError> for SceneError {
     fn from(error: StateError) -> Self {
         Self::State(error)
     }
+}
+
+impl<const D: usize, S: Real> Scene<D, S> {
+    /// Momentum, kinetic energy and weight of a mass.
+    fn check_products(&self, node: Node, entry: &NodeEntry<S, D>) -> Result<(), SceneError> {
+        let Some(mass) = entry.mass else {
+            return Ok(());
+        };
+        let momentum = entry.start_momentum(mass);
+        if let Some((axis, value)) = infinite(momentum.as_slice()).next() {
+            return Err(SceneError::Momentum { node, axis, value });
+        }
+        let components = momentum.iter();
+        let energy = components.fold(S::zero(), |sum, &p| sum + p * p / (mass + mass));
+        if !energy.is_finite() {
+            let components = momentum.iter();
+            let momentum = components.fold(S::zero(), |length, &p| length.hypot(p));
+            return Err(SceneError::KineticEnergy {
+                node,
+                value: energy.to_f64(),
+                momentum: momentum.to_f64(),
+                mass: mass.to_f64(),
+            });
+        }
+        let weight = self.loads.gravity.map(|component| mass * component);
+        match infinite(weight.as_slice()).next() {
+            None => Ok(()),
+            Some((axis, value)) => Err(SceneError::Weight { node, axis, value }),
+        }
+    }
+
+    /// The initial heat flow of each conductance, and the sum of all flows to an element.
+    fn check_heat_flows(&self) -> Result<(), SceneError> {
+        let temperature = |element: Element| self.elements[element.index()].temperature;
+        let mut received = vec![S::zero(); self.elements.len()];
+        for conductor in &self.conductors {
+            let (element, partner) = (conductor.element, conductor.partner);
+            let (there, other) = match partner {
+                HeatPartner::Element(other) => (temperature(other), Some(other)),
+                HeatPartner::Reservoir(reservoir) => (Some(self.reservoirs[reservoir.index]), None),
+            };
+            let (Some(here), Some(there)) = (temperature(element), there) else {
+                continue;
+            };
+            let flow = conductor.conductance * (there - here);
+            let mut largest = flow.abs();
+            for end in [Some(element), other].into_iter().flatten() {
+                received[end.index()] += flow.abs();
+                largest = largest.maximum(received[end.index()]);
+            }
+            // The flow of entropy at the colder end, which is the larger one.
+            let entropy = flow / here.minimum(there);
+            let flows = [
+                ("heat flow", flow, largest, "W"),
+                ("flow of entropy", entropy, entropy, "W/K"),
+            ];
+            let infinite = flows.iter().find(|(.., largest, _)| !largest.is_finite());
+            if let Some(&(quantity, value, _, unit)) = infinite {
+                return Err(SceneError::HeatFlow {
+                    element,
+                    partner,
+                    quantity,
+                    value: value.to_f64(),
+                    unit,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Motions of anchors begin where the anchors were created.
+    fn check_motions(&self, errors: &mut Vec<SceneError>) {
+        let positions = self.nodes.iter().map(|node| &node.position);
+        let scale = extent(positions.flat_map(|position| position.iter()));
+        for (anchor, motion) in &self.loads.motions {
+            let created = self.nodes[anchor.index].position;
+            let prescribed = motion(S::zero());
+            for axis in 0..D {
+                if !is_rounding(prescribed[axis] - created[axis], scale) {
+                    errors.push(SceneError::AnchorJump {
+                        node: *anchor,
+                        axis,
+                        created: created[axis].to_f64(),
+                        prescribed: prescribed[axis].to_f64(),
+                    });
+                }
+            }
+        }
+    }
+
+    /// Thermostats begin at the initial temperature.
+    fn check_thermostats(&self, errors: &mut Vec<SceneError>) {
+        for (element, temperature) in &self.loads.temperatures {
+            let Some(initial) = self.elements[element.index()].temperature else {
+                continue;
+            };
+            let prescribed = temperature(S::zero());
+            if !is_rounding(prescribed - initial, initial) {
+                errors.push(SceneError::TemperatureJump {
+                    element: *element,
+                    initial: initial.to_f64(),
+                    prescribed: prescribed.to_f64(),
+                });
+            }
+        }
+    }
+}
+
+/// Whether rounding explains a difference from a function of this size. False for NaN.
+fn is_rounding<S: Real>(difference: S, size: S) -> bool {
+    let bound = S::from_f64(MOTION_ROUNDINGS) * S::EPSILON * size;
+    difference.abs().at_most(bound).all()
 }

@@ -1,4 +1,4 @@
-//! What a scene knows of its nodes and elements.
+//! The nodes and elements of a scene.
 
 use nalgebra::SVector;
 
@@ -11,11 +11,11 @@ use eem_material::number::scalar::Real;
 pub(crate) struct NodeEntry<S, const D: usize> {
     /// `None` for an anchor.
     pub(crate) mass: Option<S>,
-    /// What solids have at an anchor, kg.
+    /// The mass of solids at an anchor, kg.
     pub(crate) held: S,
     pub(crate) position: SVector<S, D>,
     pub(crate) velocity: SVector<S, D>,
-    /// Given instead of the velocity.
+    /// The initial momentum, if it is given instead of the velocity.
     pub(crate) momentum: Option<SVector<S, D>>,
 }
 
@@ -27,18 +27,24 @@ impl<S: Real, const D: usize> NodeEntry<S, D> {
     }
 }
 
-/// No group.
-pub(crate) const UNMADE: usize = usize::MAX;
+/// The components of a vector that are not finite, with their axes.
+pub(crate) fn infinite<S: Real>(vector: &[S]) -> impl Iterator<Item = (usize, f64)> {
+    let components = vector.iter().enumerate();
+    let infinite = components.filter(|(_, component)| !component.is_finite());
+    infinite.map(|(axis, component)| (axis, component.to_f64()))
+}
 
-/// What the scene knows of an element apart from its model.
+/// The group of the points of an invalid solid.
+pub(crate) const INVALID: usize = usize::MAX;
+
+/// An element without its model.
 #[derive(Clone, Debug)]
 pub(crate) struct ElementEntry<S> {
     pub(crate) nodes: Vec<usize>,
     pub(crate) temperature: Option<S>,
     /// `(dashpot, γ)` as given.
     pub(crate) viscous_stretches: Vec<(usize, S)>,
-    /// The group that holds the model, and its place there; [`UNMADE`] for points of a solid that could not be made,
-    /// which has been noted.
+    /// The group of the model, or [`INVALID`] if an error is recorded, and the index there.
     pub(crate) group: usize,
     pub(crate) place: usize,
 }

@@ -1,8 +1,7 @@
-//! What can be wrong with a scene.
+//! Errors of scenes and rockets.
 
 use crate::element::error::StateError;
 use crate::element::handle::{Element, HeatPartner, Node, Reservoir};
-use crate::scene::rocket_error::RocketError;
 use crate::scene::solid_error::SolidError;
 use eem_material::number::readable::Readable;
 use thiserror::Error;
@@ -55,7 +54,7 @@ pub enum SceneError {
         node: Node,
         /// The requested property.
         quantity: &'static str,
-        /// What to do.
+        /// The remedy.
         instead: &'static str,
     },
     /// A point of a solid has no stretch and no force.
@@ -137,7 +136,7 @@ pub enum SceneError {
     Conductance {
         /// The element.
         element: Element,
-        /// What it exchanges heat with.
+        /// The other end of the path of heat.
         partner: HeatPartner,
         /// The conductance, W/K.
         value: f64,
@@ -284,7 +283,7 @@ pub enum SceneError {
     HeatFlow {
         /// The element.
         element: Element,
-        /// What it exchanges heat with.
+        /// The other end of the path of heat.
         partner: HeatPartner,
         /// Heat flow `Q = κ (θ_partner − θ)`, or flow of entropy `Q/θ` at the colder end.
         quantity: &'static str,
@@ -339,10 +338,48 @@ pub enum SceneError {
     PrescribedTwice {
         /// The handle as text.
         handle: String,
-        /// What is prescribed.
+        /// The prescribed quantity.
         quantity: &'static str,
     },
     /// The initial state of an element is outside the domain of its model.
     #[error("at t = 0 s: {0}")]
     State(StateError),
+}
+
+/// Why a [rocket](crate::Scene::rocket) is rejected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum RocketError {
+    /// The scheme does not support forces that turn within a step.
+    #[error(
+        "{scheme} does not step the rocket at {node}, whose force turns within a step; use eem-entropy or eem-temperature"
+    )]
+    Scheme {
+        /// The name of the scheme.
+        scheme: &'static str,
+        /// The node with the first rocket.
+        node: Node,
+    },
+    /// The line goes from a node to itself.
+    #[error(
+        "the rocket at {node} pushes along a line from {end} to itself, which has no direction"
+    )]
+    NoLine {
+        /// The node that it pushes.
+        node: Node,
+        /// The only node of the line.
+        end: Node,
+    },
+    /// The line joins two anchors at the same position.
+    #[error(
+        "the rocket at {node} pushes along a line from {tail} to {head}, which are anchors in the same place, so that it has no direction; put one of them elsewhere"
+    )]
+    NoLength {
+        /// The node that it pushes.
+        node: Node,
+        /// The beginning of the line.
+        tail: Node,
+        /// The end of the line.
+        head: Node,
+    },
 }

@@ -2,8 +2,6 @@
 
 mod error;
 mod file;
-mod kind;
-mod lines;
 
 pub use error::{LineFault, MshError};
 
@@ -41,7 +39,7 @@ const HEX20: [usize; 20] = [
 /// ```
 #[derive(Clone, Debug)]
 pub struct Msh {
-    /// Places, m, by tag.
+    /// Positions, m, by tag.
     nodes: BTreeMap<u64, [f64; 3]>,
     blocks: Vec<Block>,
 }
@@ -60,7 +58,7 @@ impl Msh {
             path: path.to_owned(),
             reason: error.to_string(),
         })?;
-        // A binary file has a head in ASCII, which says so.
+        // Binary files have a head in ASCII, which tells their format.
         Self::parse(&String::from_utf8_lossy(&bytes))
     }
 
@@ -110,12 +108,13 @@ impl Msh {
         &self,
         entities: &[i32],
     ) -> Result<Mesh<H, D>, MshError> {
-        for &entity in entities {
-            let of_entity = |block: &Block| block.dimension == D && block.entity == entity;
-            if !self.blocks.iter().any(of_entity) {
-                let (shape, entity) = (H::NAME, Some(entity));
-                return Err(MshError::NoElements { shape, entity });
-            }
+        let has = |entity| {
+            let mut blocks = self.blocks.iter();
+            blocks.any(|block| block.dimension == D && block.entity == entity)
+        };
+        if let Some(&entity) = entities.iter().find(|&&entity| !has(entity)) {
+            let (shape, entity) = (H::NAME, Some(entity));
+            return Err(MshError::NoElements { shape, entity });
         }
         self.mesh_from(
             |entity| entities.contains(&entity),
@@ -134,19 +133,17 @@ impl Msh {
         mesh: &Mesh<H, D>,
         entity: i32,
     ) -> Result<Face, MshError> {
-        // Nodes of a mesh are in the places of the file, bit by bit; −0 and 0 are one place.
+        // Nodes of a mesh have the positions of the file, bit by bit; −0 and 0 are the same.
         let key = |place: [f64; D]| place.map(|coordinate| (coordinate + 0.0).to_bits());
         let of_entity = |block: &&Block| block.dimension + 1 == D && block.entity == entity;
         let blocks = self.blocks.iter().filter(of_entity);
         let elements = blocks.flat_map(|block| &block.elements);
-        let wanted: BTreeSet<BTreeSet<[u64; D]>> = elements
-            .map(|(_, nodes)| {
-                let places = nodes.iter().filter_map(|node| self.nodes.get(node));
-                places
-                    .map(|place| key(core::array::from_fn(|axis| place[axis])))
-                    .collect()
-            })
-            .collect();
+        let keys = elements.map(|(_, nodes)| {
+            let places = nodes.iter().filter_map(|node| self.nodes.get(node));
+            let keys = places.map(|place| key(core::array::from_fn(|axis| place[axis])));
+            keys.collect()
+        });
+        let wanted: BTreeSet<BTreeSet<[u64; D]>> = keys.collect();
         let mut sides = mesh.surface();
         sides.retain(|&side| {
             let places = mesh.nodes_of(side).map(|node| key(mesh.nodes()[node]));
@@ -155,6 +152,7 @@ impl Msh {
         mesh.face_of(sides).map_err(|_| MshError::NoFace { entity })
     }
 
+    /// The mesh of the wanted entities; `entity` names them in an error.
     fn mesh_from<H: Shape<D>, const D: usize>(
         &self,
         wanted: impl Fn(i32) -> bool,
@@ -182,41 +180,41 @@ impl Msh {
         let mut named = Vec::new();
         for (element, nodes) in &cells {
             let mut cell = H::PerNode::filled(0);
-            let order = |at: usize| if shape == "Hex20" { HEX20[at] } else { at };
-            for (at, node) in cell.as_mut().iter_mut().enumerate() {
-                let tag = nodes[order(at)];
-                *node = tags.binary_search(&tag).unwrap_or(usize::MAX);
-                if !self.nodes.contains_key(&tag) {
-                    let (element, node) = (*element, tag);
+            for (at, to) in cell.as_mut().iter_mut().enumerate() {
+                let node = nodes[if shape == "Hex20" { HEX20[at] } else { at }];
+                *to = tags.binary_search(&node).unwrap_or(usize::MAX);
+                if !self.nodes.contains_key(&node) {
+                    let element = *element;
                     return Err(MshError::NoNode { element, node });
                 }
             }
             named.push(cell);
         }
-        let elements: Vec<u64> = cells.iter().map(|(element, _)| *element).collect();
-        Mesh::new(places, named).map_err(|error| match error {
+        let tag = |&cell: &usize| cells[cell].0;
+        let tags_of = |cells: &[usize]| cells.iter().map(tag).collect();
+        Mesh::new(places, named).map_err(|error| match &error {
             MeshError::InsideOut { cell, .. }
             | MeshError::InsideOutAtNode { cell, .. }
             | MeshError::Repeated { cell, .. } => {
-                let element = elements[cell];
+                let element = tag(cell);
                 MshError::Element { element, error }
             }
             MeshError::SameNodes { cells } | MeshError::SameSide { cells, .. } => {
-                let elements = cells.map(|cell| elements[cell]).to_vec();
+                let elements = tags_of(cells);
                 MshError::Elements { elements, error }
             }
             MeshError::CrowdedFace { cells, .. } => {
-                let elements = cells.map(|cell| elements[cell]).to_vec();
+                let elements = tags_of(cells);
                 MshError::Elements { elements, error }
             }
             MeshError::Duplicate { nodes } => MshError::Duplicate {
                 nodes: nodes.map(|node| tags[node]),
             },
-            error => MshError::Mesh(error),
+            _ => MshError::Mesh(error),
         })
     }
 
-    /// The places of nodes that exist, in the plane those with one z.
+    /// The positions of nodes; in the plane all must have the same z.
     fn places<const D: usize>(&self, tags: &[u64]) -> Result<Vec<[f64; D]>, MshError> {
         let mut height = None;
         let mut places = Vec::new();

@@ -1,23 +1,23 @@
-//! Nodes that a solid shares with others: which they are, and what is wrong with the wish for them.
+//! Joints: nodes that a solid shares with others, and why a requested joint is rejected.
 
 use crate::element::handle::{Element, Node};
 use crate::element::kinematics::Shape;
 use crate::scene::body::Body;
-use crate::scene::mesh::{Mesh, MeshError, distance};
+use crate::scene::mesh::{Mesh, distance};
 use crate::scene::solid_error::SolidError;
 
-/// A solid of which nodes become part that are not farther away from one of its own than a distance.
+/// Another solid, with whose nodes those of a new mesh are merged within a distance.
 #[derive(Clone, Debug)]
 pub(super) struct Joint<const D: usize> {
-    /// Its first point.
+    /// The first point of the other solid.
     other: Element,
-    /// By the first coordinate.
+    /// Sorted by the first coordinate.
     nodes: Vec<Shared<D>>,
     /// m.
     within: f64,
 }
 
-/// A node of another solid, with its place, m.
+/// A node of another solid and its position, m.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shared<const D: usize> {
     pub(super) node: Node,
@@ -26,19 +26,20 @@ pub(super) struct Shared<const D: usize> {
 
 impl<const D: usize> Joint<D> {
     pub(super) fn new<H: Shape<D>>(other: &Body<H, D>, within: f64) -> Self {
-        let nodes = other.nodes().iter().zip(other.mesh().nodes());
+        let places = other.mesh().nodes().iter();
+        let nodes = other.nodes().iter().zip(places);
         let mut nodes: Vec<_> = nodes
             .map(|(&node, &place)| Shared { node, place })
             .collect();
         nodes.sort_by(|a, b| a.place[0].total_cmp(&b.place[0]));
         Self {
-            other: other.points()[0],
+            other: other.first(),
             nodes,
             within,
         }
     }
 
-    /// The nearest node that is not too far from a place, with its distance, m.
+    /// The nearest node within the distance from a position, and how far it is, m.
     fn nearest(&self, place: [f64; D]) -> Option<(f64, Shared<D>)> {
         let is_before = |shared: &Shared<D>| place[0] - shared.place[0] > self.within;
         let from = self.nodes.partition_point(is_before);
@@ -49,14 +50,14 @@ impl<const D: usize> Joint<D> {
         near.min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// That no node of a mesh is near enough.
-    fn missed<H: Shape<D>>(&self, mesh: &Mesh<H, D>, element: Element) -> SolidError {
-        let endless = Self {
+    /// The error that no node of a mesh is near enough.
+    fn too_far<H: Shape<D>>(&self, mesh: &Mesh<H, D>, element: Element) -> SolidError {
+        let unlimited = Self {
             within: f64::INFINITY,
             ..self.clone()
         };
         let places = mesh.nodes().iter();
-        let nearest = places.filter_map(|&place| endless.nearest(place));
+        let nearest = places.filter_map(|&place| unlimited.nearest(place));
         SolidError::NotJoined {
             elements: [element, self.other],
             within: self.within,
@@ -65,7 +66,7 @@ impl<const D: usize> Joint<D> {
     }
 }
 
-/// The nodes of other solids that those of a mesh become, or what is wrong with that.
+/// For each node of a mesh the node of another solid with which it is merged, if there is one.
 pub(super) fn joined<H: Shape<D>, const D: usize>(
     joints: &[Joint<D>],
     mesh: &Mesh<H, D>,
@@ -89,19 +90,19 @@ pub(super) fn joined<H: Shape<D>, const D: usize>(
             }
         }
         if !is_joined {
-            return Err(joint.missed(mesh, element));
+            return Err(joint.too_far(mesh, element));
         }
     }
-    let shared: Vec<_> = nearest
-        .iter()
-        .map(|known| known.map(|(_, shared)| shared))
-        .collect();
-    if nearest
+    let mut moved = nearest
         .iter()
         .flatten()
-        .any(|(distance, _)| *distance > 0.0)
-    {
-        check_moved(mesh, &shared).map_err(|error| SolidError::JoinedNodes {
+        .filter(|(distance, _)| *distance > 0.0);
+    if moved.next().is_some() {
+        // The mesh must be valid with its nodes in their new positions.
+        let places = mesh.nodes().iter().zip(&nearest);
+        let places = places.map(|(&place, known)| known.map_or(place, |(_, shared)| shared.place));
+        let checked = Mesh::<H, D>::new(places.collect(), mesh.cells().to_vec());
+        checked.map_err(|error| SolidError::JoinedNodes {
             element,
             within: joints
                 .iter()
@@ -109,15 +110,6 @@ pub(super) fn joined<H: Shape<D>, const D: usize>(
             error,
         })?;
     }
-    Ok(shared)
-}
-
-/// An error unless a mesh is sound with its nodes where those are that they become.
-fn check_moved<H: Shape<D>, const D: usize>(
-    mesh: &Mesh<H, D>,
-    shared: &[Option<Shared<D>>],
-) -> Result<(), MeshError> {
-    let places = mesh.nodes().iter().zip(shared);
-    let places = places.map(|(&place, shared)| shared.map_or(place, |shared| shared.place));
-    Mesh::<H, D>::new(places.collect(), mesh.cells().to_vec()).map(|_| ())
+    let shared = nearest.into_iter().map(|known| Some(known?.1));
+    Ok(shared.collect())
 }

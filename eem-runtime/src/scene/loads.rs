@@ -1,4 +1,4 @@
-//! What acts on a scene from outside: forces, moved anchors, prescribed temperatures.
+//! The loads of a scene: forces, moved anchors, prescribed temperatures.
 
 use std::sync::Arc;
 
@@ -8,18 +8,18 @@ use crate::element::handle::{Element, Node};
 use crate::element::loads::PushLine;
 use eem_material::number::scalar::{Mask, Real};
 
-/// By how many ε of its size a prescribed function may differ from a state that follows it: a
-/// formula `c + a f(t)` rounds function, product and sum, each by ε at most of a size that is also
-/// that of the result or of the scene; a fourth ε is for the state, whose value is itself rounded.
+/// The largest difference, in ε of its size, between a prescribed function and a state that follows it: a formula
+/// `c + a f(t)` rounds function, product and sum, each by at most ε of the size of the result or of the scene; a fourth ε
+/// is for the rounded state.
 ///
-/// In a step, `q⁰ + (x(t) − q⁰)` differs from `x(t)` by less: half an ε for each of the two sums, of
-/// at most twice the size, and half an ε for what was carried over.
+/// In a step, `q⁰ + (x(t) − q⁰)` differs from `x(t)` by less: half an ε for each of the two sums, of at most twice the
+/// size, and half an ε for the compensation.
 pub(crate) const MOTION_ROUNDINGS: f64 = 4.0;
 
-/// The largest magnitude of some coordinates, m.
+/// The largest magnitude of coordinates, m.
 ///
-/// Motions are judged in this unit and not in that of their own coordinates: elements see
-/// differences of positions, which have the rounding of the largest ones.
+/// Errors of motions are measured in this unit, not in that of their own coordinates: elements depend on differences of
+/// positions, which have the rounding of the largest ones.
 pub(crate) fn extent<'a, S: Real>(coordinates: impl Iterator<Item = &'a S>) -> S {
     coordinates.fold(S::zero(), |most, coordinate| most.maximum(coordinate.abs()))
 }
@@ -37,7 +37,7 @@ pub(crate) struct Rocket<S> {
     pub(crate) thrust: Arc<dyn Fn(S) -> S + Send + Sync>,
 }
 
-/// Everything that acts on a scene, as the user gave it.
+/// All loads of a scene, as given.
 #[derive(Clone)]
 pub(crate) struct Loads<S: Real, const D: usize> {
     /// Acceleration of free fall, m/s².
@@ -65,7 +65,7 @@ impl<S: Real, const D: usize> Loads<S, D> {
         !has_force && self.motions.is_empty() && self.temperatures.is_empty()
     }
 
-    /// Where rockets push.
+    /// The lines of all rockets.
     pub(crate) fn rocket_lines(&self) -> Vec<PushLine> {
         self.rockets.iter().map(|rocket| rocket.line).collect()
     }
@@ -74,16 +74,11 @@ impl<S: Real, const D: usize> Loads<S, D> {
         self.has_weight().any()
     }
 
-    fn has_weight(&self) -> S::Mask {
+    /// Whether gravity is not zero, per lane.
+    pub(crate) fn has_weight(&self) -> S::Mask {
         let none = S::Mask::none();
         let components = self.gravity.iter();
         components.fold(none, |any, &component| any | !component.equal(S::zero()))
-    }
-
-    /// Whether several numbers in one S have weight all of them, or none of them.
-    pub(crate) fn suit_lanes(&self) -> bool {
-        let has_weight = self.has_weight();
-        has_weight.decide().is_ok()
     }
 }
 

@@ -1,28 +1,23 @@
-//! Meshes of solids: places of nodes, and cells of one shape between them.
+//! Meshes of solids: positions of nodes, and cells of one shape.
 
 mod boundary;
 mod check;
-mod digest;
 mod error;
-mod extruded;
 mod face;
 mod geometry;
 mod grid;
 mod lattice;
 mod network;
-mod outline;
 mod polygon;
-mod shares;
 mod sides;
-mod skewness;
-mod sub_face;
 
 pub use error::MeshError;
+pub(crate) use face::facing;
 pub use face::{Face, Outline};
-pub(crate) use geometry::distance;
-pub(crate) use sub_face::facing;
+pub(crate) use geometry::{distance, per_node};
 
-use digest::Digest;
+use eem_material::number::digest::Digest;
+use geometry::mean;
 use nalgebra::{Rotation, SVector};
 
 use crate::element::kinematics::Shape;
@@ -53,6 +48,7 @@ use crate::element::kinematics::Shape;
 pub struct Mesh<H: Shape<D>, const D: usize> {
     nodes: Vec<[f64; D]>,
     cells: Vec<H::PerNode<usize>>,
+    /// Tells meshes apart: equal meshes have the same digest.
     digest: Digest,
 }
 
@@ -76,7 +72,16 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     /// [`MeshError`] names the first invalid node or cell.
     pub fn new(nodes: Vec<[f64; D]>, cells: Vec<H::PerNode<usize>>) -> Result<Self, MeshError> {
         check::check::<H, D>(&nodes, &cells)?;
-        let digest = Digest::of(&nodes, &cells);
+        let digest = Digest::of(|digest| {
+            digest.count(nodes.len());
+            for &coordinate in nodes.as_flattened() {
+                // −0 and 0 are the same position.
+                digest.number(coordinate + 0.0);
+            }
+            for &node in cells.iter().flat_map(AsRef::as_ref) {
+                digest.count(node);
+            }
+        });
         Ok(Self {
             nodes,
             cells,
@@ -163,10 +168,9 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     ///
     /// [`MeshError::Empty`] if there are no such cells.
     pub fn kept(&self, condition: impl Fn([f64; D]) -> bool) -> Result<Self, MeshError> {
-        let cells = self
-            .cells
-            .iter()
-            .filter(|cell| condition(self.centre(cell)));
+        let centre =
+            |cell: &H::PerNode<usize>| mean(cell.as_ref().iter().map(|&node| self.nodes[node]));
+        let cells = self.cells.iter().filter(|cell| condition(centre(cell)));
         let mut cells: Vec<_> = cells.copied().collect();
         let mut indices = vec![None; self.nodes.len()];
         let named = cells.iter().flat_map(AsRef::as_ref);
@@ -182,14 +186,5 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
             *node = indices[*node].unwrap_or(usize::MAX);
         }
         Self::new(nodes, cells)
-    }
-
-    /// The mean of the nodes of a cell, m.
-    fn centre(&self, cell: &H::PerNode<usize>) -> [f64; D] {
-        let sum = cell.as_ref().iter().fold([0.0; D], |sum, &node| {
-            core::array::from_fn(|axis| sum[axis] + self.nodes[node][axis])
-        });
-        let count = cell.as_ref().iter().fold(0.0, |count, _| count + 1.0);
-        sum.map(|sum| sum / count)
     }
 }

@@ -2,20 +2,18 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use nalgebra::SVector;
-
 use super::Scene;
 use crate::element::handle::{Element, Node};
 use crate::element::kinematics::{Points, Shape, StrainEnergy};
 use crate::scene::body::Body;
 use crate::scene::bulk::Bulk;
-use crate::scene::cell::Stuff;
-use crate::scene::entry::UNMADE;
+use crate::scene::cell::CellProperties;
+use crate::scene::entry::INVALID;
 use crate::scene::error::SceneError;
 use crate::scene::joints::{Shared, joined};
-use crate::scene::mesh::Mesh;
+use crate::scene::mesh::{Mesh, per_node};
 use crate::scene::solid_error::SolidError;
-use eem_material::free_energy::{Array, FreeEnergy};
+use eem_material::free_energy::FreeEnergy;
 use eem_material::number::scalar::Real;
 
 /// # Solids from meshes
@@ -35,11 +33,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// #[free_energy(|e1: StrainTrace, e2: StrainSquare, e4: FibreStrain| {
     ///     0.5 * lame * e1.powi(2) + shear * e2 + 0.5 * fibre * e4.powi(2)
     /// })]
-    /// struct Reinforced {
-    ///     lame: f64,
-    ///     shear: f64,
-    ///     fibre: f64,
-    /// }
+    /// struct Reinforced { lame: f64, shear: f64, fibre: f64 }
     ///
     /// let mut scene = Scene::<3>::new();
     /// let rubber = Reinforced { lame: 2000.0, shear: 1000.0, fibre: 500.0 };
@@ -70,32 +64,26 @@ impl<const D: usize, S: Real> Scene<D, S> {
     {
         let first = self.next_element::<M>();
         let nodes = self.nodes_of_mesh(mesh, bulk, first);
-        let mut stuff = Stuff {
+        let mut properties = CellProperties {
             density: bulk.density,
             thickness: S::from_f64(bulk.thickness),
             fibres: &bulk.fibres,
             lumped: bulk.lumped,
-            is_refused: false,
+            is_invalid: false,
         };
-        // Once, and not for every cell.
-        if let Err(error) = stuff.measures(M::STRAINS, first) {
-            self.misuse.push(error.into());
-            stuff.is_refused = true;
+        // One error for the solid, not one per cell.
+        if let Err(error) = properties.measures(M::STRAINS, first) {
+            self.refuse(error);
+            properties.is_invalid = true;
         }
-        let mut conductivity = bulk.conductivity;
-        if conductivity.is_some() && !M::THERMAL {
-            let element = first;
-            self.misuse
-                .push(SolidError::NoTemperature { element }.into());
-            conductivity = None;
+        let conductivity = bulk.conductivity.filter(|_| M::THERMAL);
+        if conductivity.is_some() != bulk.conductivity.is_some() {
+            self.refuse(SolidError::NoTemperature { element: first });
         }
         let mut points = Vec::with_capacity(mesh.cells().len() * H::PerPoint::<Element>::LEN);
         for cell in mesh.cells() {
-            let mut named = H::PerNode::filled(nodes[0]);
-            for (handle, &node) in named.as_mut().iter_mut().zip(cell.as_ref()) {
-                *handle = nodes[node];
-            }
-            points.extend(self.push_cell::<H, M, N>(&model, &named, stuff));
+            let named = per_node::<H, _, D>(|at| nodes[cell[at]]);
+            points.extend(self.push_cell::<H, M, N>(&model, &named, properties));
         }
         let body = Body {
             mesh: mesh.clone(),
@@ -108,8 +96,8 @@ impl<const D: usize, S: Real> Scene<D, S> {
         body
     }
 
-    /// The nodes of a mesh whose first point is `element`: new ones, and those of solids to which it is joined. What is
-    /// wrong with those becomes misuse, and they are new as well.
+    /// The nodes of a mesh whose first point is `element`: new ones, and those of solids to which it is joined. If a joint
+    /// is invalid, that is an error, and all are new.
     fn nodes_of_mesh<H: Shape<D>>(
         &mut self,
         mesh: &Mesh<H, D>,
@@ -122,7 +110,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             Ok(shared)
         });
         let shared = shared.unwrap_or_else(|error| {
-            self.misuse.push(error.into());
+            self.refuse(error);
             vec![None; mesh.nodes().len()]
         });
         let places = mesh.nodes().iter().zip(shared);
@@ -133,7 +121,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         nodes.collect()
     }
 
-    /// An error if a cell has all its nodes in common with one that there is.
+    /// An error if a cell has all its nodes in common with an existing one.
     fn check_joined_cells<H: Shape<D>>(
         &self,
         mesh: &Mesh<H, D>,
@@ -142,10 +130,11 @@ impl<const D: usize, S: Real> Scene<D, S> {
     ) -> Result<(), SolidError> {
         let mut joined = BTreeMap::new();
         for (cell, nodes) in mesh.cells().iter().enumerate() {
-            let nodes = nodes.as_ref().iter();
-            let nodes: Option<BTreeSet<usize>> = nodes
-                .map(|&node| shared[node].map(|shared| shared.node.index))
-                .collect();
+            let nodes = nodes
+                .as_ref()
+                .iter()
+                .map(|&node| Some(shared[node]?.node.index));
+            let nodes: Option<BTreeSet<usize>> = nodes.collect();
             joined.extend(nodes.map(|nodes| (nodes, cell)));
         }
         if joined.is_empty() {
@@ -153,7 +142,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
         }
         for (index, entry) in self.elements.iter().enumerate() {
             let nodes = entry.nodes.iter().copied().collect();
-            let cell = joined.get(&nodes).filter(|_| entry.group != UNMADE);
+            let cell = joined.get(&nodes).filter(|_| entry.group != INVALID);
             if let Some(&cell) = cell {
                 let elements = [element, self.element_at(index)];
                 return Err(SolidError::JoinedCell { cell, elements });
@@ -165,35 +154,19 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// Sets the initial velocity of a node, m/s, instead of its momentum. Not for anchors.
     ///
     /// ```
-    /// use eem::kinematics::Hex8;
-    /// use eem::materials::SaintVenantKirchhoff;
     /// use eem::prelude::*;
     ///
-    /// let mut scene = Scene::<3>::new();
-    /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
-    /// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
-    /// let body = scene.solid(steel, &mesh, &Bulk::new(10.0));
-    /// for &node in body.nodes() {
-    ///     scene.set_velocity(node, [3.0, 0.0, 0.0]);
-    /// }
-    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let mass = scene.mass(2.0, [0.0], [0.0]);
+    /// scene.set_velocity(mass, [3.0]);
     /// let run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
-    /// // 20 kg.
-    /// assert!((run.ledger().linear_momentum[0] - 60.0).abs() < 1e-13);
+    /// assert_eq!(run.momentum(mass)?[0], 6.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn set_velocity(&mut self, node: Node, velocity: [S; D]) {
-        if self.expect_own(&node) {
+        if self.expect_kind(node, true, "a velocity") {
             let entry = &mut self.nodes[node.index];
-            if entry.mass.is_none() {
-                self.misuse.push(SceneError::WrongKind {
-                    node,
-                    quantity: "a velocity",
-                    kind: "an anchor",
-                });
-                return;
-            }
-            entry.velocity = SVector::from(velocity);
+            entry.velocity = velocity.into();
             entry.momentum = None;
         }
     }
@@ -204,24 +177,20 @@ impl<const D: usize, S: Real> Scene<D, S> {
     /// by the others, and moving the node takes work.
     ///
     /// ```
-    /// use eem::kinematics::Hex8;
+    /// use eem::kinematics::Quad4;
     /// use eem::materials::SaintVenantKirchhoff;
     /// use eem::prelude::*;
     ///
-    /// let mut scene = Scene::<3>::new();
+    /// let mut scene = Scene::<2>::new();
     /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
-    /// let mesh = Mesh::<Hex8, 3>::block([2, 1, 1], [[0.0, 2.0], [0.0, 1.0], [0.0, 1.0]])?;
+    /// let mesh = Mesh::<Quad4, 2>::block([2, 1], [[0.0, 2.0], [0.0, 1.0]])?;
     /// let body = scene.solid(steel, &mesh, &Bulk::new(10.0));
-    /// for node in body.nodes_where(|[x, ..]| x <= 0.0) {
-    ///     scene.fix(node);
-    /// }
-    /// scene.set_gravity([0.0, 0.0, -9.81]);
-    ///
-    /// let corner = body.node_at([0.0, 1.0, 1.0], 0.0)?;
+    /// body.nodes_where(|[x, _]| x <= 0.0).into_iter().for_each(|node| scene.fix(node));
+    /// scene.set_gravity([0.0, -9.81]);
     /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
     /// run.step()?;
-    /// assert_eq!(run.position(corner)?[2], 1.0);
-    /// assert!(run.position(body.node_at([2.0, 1.0, 1.0], 0.0)?)?[2] < 1.0);
+    /// assert_eq!(run.position(body.node_at([0.0, 1.0], 0.0)?)?[1], 1.0);
+    /// assert!(run.position(body.node_at([2.0, 1.0], 0.0)?)?[1] < 1.0);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn fix(&mut self, node: Node) {
@@ -231,7 +200,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             let is_loaded = loads.forces.iter().any(|&(loaded, _)| loaded == node);
             let given = [(is_pushed, "a rocket"), (is_loaded, "a force")];
             for (_, quantity) in given.into_iter().filter(|&(is_given, _)| is_given) {
-                self.misuse.push(SceneError::WrongKind {
+                self.refuse(SceneError::WrongKind {
                     node,
                     quantity,
                     kind: "fixed later; fix nodes before faces and bodies are loaded, which leaves them out",
@@ -240,7 +209,7 @@ impl<const D: usize, S: Real> Scene<D, S> {
             let entry = &mut self.nodes[node.index];
             entry.held += entry.mass.take().unwrap_or(S::zero());
             entry.momentum = None;
-            entry.velocity = SVector::from([S::zero(); D]);
+            entry.velocity = [S::zero(); D].into();
         }
     }
 }

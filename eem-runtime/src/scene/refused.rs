@@ -1,4 +1,4 @@
-//! A scene that cannot be simulated, given back with everything that is wrong with it.
+//! A scene that is rejected, with all its errors.
 
 use core::error::Error;
 use core::fmt;
@@ -7,7 +7,7 @@ use super::Scene;
 use crate::scene::error::SceneError;
 use eem_material::number::scalar::Real;
 
-/// The message names so many errors, and how many more there are.
+/// The largest number of errors in a message.
 const MOST_NAMED: usize = 20;
 
 /// A scene that [`Simulation::new`](crate::Simulation::new) rejects, and its errors: the first error of each part
@@ -35,7 +35,7 @@ const MOST_NAMED: usize = 20;
 /// ```
 pub struct RefusedScene<const D: usize, S: Real = f64> {
     scene: Box<Scene<D, S>>,
-    /// One at least.
+    /// At least one.
     errors: Vec<SceneError>,
 }
 

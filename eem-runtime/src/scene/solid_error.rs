@@ -1,10 +1,11 @@
-//! What can be wrong with a solid.
+//! Errors of solids.
 
 use thiserror::Error;
 
 use crate::element::handle::{Element, Node};
 use crate::scene::mesh::MeshError;
 use eem_material::number::readable::Readable;
+use eem_material::number::scalar::Real;
 
 /// Why a solid is rejected.
 #[derive(Clone, Debug, PartialEq, Error)]
@@ -190,4 +191,21 @@ pub enum SolidError {
         /// Whether this is plane strain.
         is_plane: bool,
     },
+}
+
+impl SolidError {
+    /// The error of a quantity that is not positive and finite.
+    pub(super) fn section<S: Real>(
+        element: Element,
+        quantity: &'static str,
+        value: S,
+        unit: &'static str,
+    ) -> Self {
+        Self::Section {
+            element,
+            quantity,
+            value: value.to_f64(),
+            unit,
+        }
+    }
 }

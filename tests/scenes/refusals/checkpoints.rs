@@ -257,7 +257,7 @@ fn what_follows_from_the_steps() {
         ("/explicit/held_energies/1", "energies of thermostats"),
         ("/explicit/targets/0/0", "targets"),
         ("/explicit/largest_momentum", "the largest momentum"),
-        ("/explicit/residue", "what the energy is off by"),
+        ("/explicit/residue", "the energy defect"),
     ];
     for (scheme, own) in [
         (Scheme::EemEntropy, &newton[..]),

@@ -1,4 +1,4 @@
-//! Why a simulation cannot go on from a checkpoint.
+//! Errors of restoring a checkpoint.
 
 use thiserror::Error;
 
@@ -10,7 +10,7 @@ use crate::scene::error::SceneError;
 use crate::step::scheme::Scheme;
 use eem_material::number::readable::Readable;
 
-/// How a checkpoint differs from the simulation, or what is wrong with the checkpoint. The simulation is unchanged.
+/// Why a checkpoint cannot be restored. The simulation is unchanged.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RestoreError {
@@ -26,7 +26,7 @@ pub enum RestoreError {
         /// The scheme of the simulation.
         simulation: Scheme,
     },
-    /// There are more or fewer of something.
+    /// A count differs.
     #[error(
         "number of {quantity}: the checkpoint has {checkpoint}, the simulation has {simulation}"
     )]
@@ -79,7 +79,7 @@ pub enum RestoreError {
         /// The requirement.
         required: &'static str,
     },
-    /// More is missing of a sum than rounding takes.
+    /// The compensation of a sum is larger than rounding leaves.
     #[error(
         "the checkpoint carries {carry} over to a value of {quantity} of {value}, rounding leaves at most half a unit in its last place",
         value = Readable(*value), carry = Readable(*carry)
@@ -228,4 +228,20 @@ impl From<StateError> for RestoreError {
     fn from(error: StateError) -> Self {
         Self::State(error)
     }
+}
+
+/// An error unless two counts agree.
+pub(super) fn expect_count(
+    quantity: &'static str,
+    checkpoint: usize,
+    simulation: usize,
+) -> Result<(), RestoreError> {
+    if checkpoint == simulation {
+        return Ok(());
+    }
+    Err(RestoreError::Count {
+        quantity,
+        checkpoint,
+        simulation,
+    })
 }

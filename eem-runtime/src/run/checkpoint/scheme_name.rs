@@ -1,4 +1,4 @@
-//! A scheme in a file is its name.
+//! Saving a scheme by its name.
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serializer};

@@ -1,4 +1,4 @@
-//! One experiment on one member, or on several that move together.
+//! Running an experiment with one member, or with several in SIMD lanes.
 
 use core::slice;
 use core::sync::atomic::{AtomicBool, Ordering};
@@ -13,77 +13,47 @@ use crate::step::scheme::Scheme;
 use eem_material::number::lanes::Lanes;
 use eem_material::number::scalar::{Discord, Real};
 
-/// How members are stepped, and whether they can move together.
+/// How members are stepped, and whether they can be stepped in lanes.
 #[derive(Debug)]
 pub(super) struct Bundles {
-    scheme: Scheme,
-    step: f64,
-    newton: NewtonSettings<f64>,
-    /// Whether a scene has been found that cannot be stepped in lanes; the others are like it.
-    is_unsuited: AtomicBool,
+    pub(super) scheme: Scheme,
+    pub(super) step: f64,
+    pub(super) newton: NewtonSettings<f64>,
+    /// Whether a scene did not suit lanes; all scenes are alike in this.
+    pub(super) is_unsuited: AtomicBool,
 }
 
+/// The number of members that are stepped together.
+#[cfg(feature = "lanes")]
+pub(super) const SIZE: usize = Lanes::LANES;
+#[cfg(not(feature = "lanes"))]
+pub(super) const SIZE: usize = 1;
+
 impl Bundles {
-    /// With this scheme, time step and settings.
-    pub(super) fn new(scheme: Scheme, step: f64, newton: NewtonSettings<f64>) -> Self {
-        Self {
-            scheme,
-            step,
-            newton,
-            is_unsuited: AtomicBool::new(false),
-        }
-    }
-
-    /// How many members move together.
-    pub(super) const fn size() -> usize {
-        #[cfg(feature = "lanes")]
-        return Lanes::LANES;
-        #[cfg(not(feature = "lanes"))]
-        return 1;
-    }
-
-    /// The outcome of each of at most so many members.
+    /// The results of at most [`SIZE`] members.
     pub(super) fn run<const D: usize, E: Experiment<D>>(
         &self,
         experiment: &E,
         inputs: &[E::Input],
     ) -> Vec<Result<E::Output, MemberFailure>> {
         #[cfg(feature = "lanes")]
-        if let Some(outputs) = self.run_together(experiment, inputs) {
+        if inputs.len() > 1
+            && !self.is_unsuited.load(Ordering::Relaxed)
+            && let Ok(outputs) = self.run_as::<Lanes, D, E>(experiment, inputs)
+            && outputs.len() == inputs.len()
+        {
             return outputs.into_iter().map(Ok).collect();
         }
-        let inputs = inputs.iter();
-        inputs
-            .map(|input| self.run_one(experiment, input))
-            .collect()
+        let one = |input| {
+            let output = self
+                .run_as::<f64, D, E>(experiment, slice::from_ref(input))?
+                .pop();
+            output.ok_or_else(|| MemberFailure::other("the experiment has no output"))
+        };
+        inputs.iter().map(one).collect()
     }
 
-    fn run_one<const D: usize, E: Experiment<D>>(
-        &self,
-        experiment: &E,
-        input: &E::Input,
-    ) -> Result<E::Output, MemberFailure> {
-        let mut outputs = self.run_as::<f64, D, E>(experiment, slice::from_ref(input))?;
-        let output = outputs.pop();
-        output.ok_or_else(|| MemberFailure::other("the experiment has no output"))
-    }
-
-    /// The outputs of all members, moved together; nothing if one of them fails, or if they do not
-    /// go the same way.
-    #[cfg(feature = "lanes")]
-    fn run_together<const D: usize, E: Experiment<D>>(
-        &self,
-        experiment: &E,
-        inputs: &[E::Input],
-    ) -> Option<Vec<E::Output>> {
-        if inputs.len() == 1 || self.is_unsuited.load(Ordering::Relaxed) {
-            return None;
-        }
-        let outputs = self.run_as::<Lanes, D, E>(experiment, inputs).ok();
-        outputs.filter(|outputs| outputs.len() == inputs.len())
-    }
-
-    /// The experiment with numbers S.
+    /// The outputs of members in one number S; an error if one of them fails, or lanes diverge.
     fn run_as<S: Real, const D: usize, E: Experiment<D>>(
         &self,
         experiment: &E,
@@ -102,8 +72,8 @@ impl Bundles {
             return Err(MemberFailure::other("the scene does not suit lanes"));
         }
         let outputs = experiment.observe(&mut run, handles, members)?;
-        if run.has_parted() {
-            // The experiment has gone on after an error.
+        if run.has_diverged() {
+            // The experiment has ignored an error.
             return Err(Discord.into());
         }
         Ok(outputs.0)

@@ -1,4 +1,4 @@
-//! Which member of an ensemble has no result, and why.
+//! Errors of ensembles.
 
 use core::error::Error;
 

@@ -1,4 +1,4 @@
-//! An ensemble described for numbers of any type, so that several of its members can move together.
+//! Experiments: an ensemble described for any number type, so that its members can run in SIMD lanes.
 
 use core::marker::PhantomData;
 
@@ -63,7 +63,7 @@ impl<I, S> Clone for Members<'_, I, S> {
 impl<I, S> Copy for Members<'_, I, S> {}
 
 impl<'a, I, S: Real> Members<'a, I, S> {
-    /// At least one, and not more than S has numbers; what is left over repeats the last one.
+    /// From one to as many inputs as S has lanes; further lanes repeat the last one.
     pub(super) fn new(inputs: &'a [I]) -> Self {
         Self {
             inputs,
@@ -86,6 +86,6 @@ impl<'a, I, S: Real> Members<'a, I, S> {
     }
 }
 
-/// An output for each member that moved together.
+/// An output for each member.
 #[derive(Debug)]
 pub struct Outputs<T>(pub(super) Vec<T>);

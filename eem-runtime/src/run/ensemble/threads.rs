@@ -1,4 +1,4 @@
-//! A function of each element of a slice, in the order of the slice, on several threads or on one.
+//! Maps a slice in order, on several threads or on one.
 
 /// `f(i, &inputs[i])` for all `i`, on the calling thread.
 fn in_turn<I, T>(inputs: &[I], f: impl Fn(usize, &I) -> T) -> Vec<T> {
@@ -6,7 +6,7 @@ fn in_turn<I, T>(inputs: &[I], f: impl Fn(usize, &I) -> T) -> Vec<T> {
     indexed.map(|(index, input)| f(index, input)).collect()
 }
 
-/// `f(i, &inputs[i])` for all `i`, on so many threads; 0 means those of the present pool.
+/// `f(i, &inputs[i])` for all `i`, on this number of threads; 0 means those of the present pool.
 ///
 /// If the system refuses the threads, the calling one does all the work.
 #[cfg(feature = "parallel")]
@@ -40,7 +40,7 @@ pub(super) fn map<I: Sync, T: Send>(
 fn at_once<I: Sync, T: Send>(inputs: &[I], f: impl Fn(usize, &I) -> T + Sync) -> Vec<T> {
     use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
-    // Every member is a piece of work of its own: one may take a thousand times as long as another.
+    // No pieces of several members: one may take a thousand times as long as another.
     let indexed = inputs.par_iter().enumerate().with_max_len(1);
     indexed.map(|(index, input)| f(index, input)).collect()
 }

@@ -1,4 +1,4 @@
-//! Recorded columns as text that gives back every value bit for bit.
+//! Recorded columns as CSV, with enough digits to restore every bit.
 
 use std::io;
 

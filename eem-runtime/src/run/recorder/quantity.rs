@@ -1,4 +1,4 @@
-//! What can be recorded, and in how many columns.
+//! The quantities that can be recorded.
 
 use core::fmt;
 
@@ -166,42 +166,32 @@ impl<const D: usize, S: Real> Quantity<D, S> {
         row: &mut Vec<f64>,
     ) -> Result<(), SceneError> {
         let mut totals = || *ledger.get_or_insert_with(|| run.ledger());
-        let value = match self {
-            Self::Position(node) => return vector(row, run.position(*node)?.as_slice()),
-            Self::Momentum(node) => return vector(row, run.momentum(*node)?.as_slice()),
-            Self::Velocity(node) => return vector(row, run.velocity(*node)?.as_slice()),
-            Self::LinearMomentum => return vector(row, totals().linear_momentum.as_slice()),
-            Self::AngularMomentum if D > 2 => {
-                return vector(row, totals().angular_momentum.as_slice());
+        let mut push = |components: &[S]| row.extend(components.iter().map(|x| x.to_f64()));
+        match self {
+            Self::Position(node) => push(run.position(*node)?.as_slice()),
+            Self::Momentum(node) => push(run.momentum(*node)?.as_slice()),
+            Self::Velocity(node) => push(run.velocity(*node)?.as_slice()),
+            Self::LinearMomentum => push(totals().linear_momentum.as_slice()),
+            Self::AngularMomentum if D > 2 => push(totals().angular_momentum.as_slice()),
+            Self::AngularMomentum => push(&[totals().angular_momentum[2]]),
+            Self::Stretch(element) => push(&[run.stretch(*element)?]),
+            Self::Force(element) => push(&[run.force(*element)?]),
+            Self::InternalEnergy(element) => push(&[run.internal_energy(*element)?]),
+            Self::Temperature(element) => push(&[run.temperature(*element)?]),
+            Self::Entropy(element) => push(&[run.entropy(*element)?]),
+            Self::ViscousStretch(element, dashpot) => {
+                push(&[run.viscous_stretch(*element, *dashpot)?]);
             }
-            Self::AngularMomentum => totals().angular_momentum[2],
-            Self::Stretch(element) => run.stretch(*element)?,
-            Self::Force(element) => run.force(*element)?,
-            Self::InternalEnergy(element) => run.internal_energy(*element)?,
-            Self::Temperature(element) => run.temperature(*element)?,
-            Self::Entropy(element) => run.entropy(*element)?,
-            Self::ViscousStretch(element, dashpot) => run.viscous_stretch(*element, *dashpot)?,
-            Self::ReservoirEntropy(reservoir) => run.reservoir_entropy(*reservoir)?,
-            Self::ReservoirHeat(reservoir) => run.reservoir_heat(*reservoir)?,
-            Self::TotalEnergy => totals().energy,
-            Self::TotalEntropy => totals().entropy,
-            Self::Ledger(entry) => entry(&totals()),
+            Self::ReservoirEntropy(reservoir) => push(&[run.reservoir_entropy(*reservoir)?]),
+            Self::ReservoirHeat(reservoir) => push(&[run.reservoir_heat(*reservoir)?]),
+            Self::TotalEnergy => push(&[totals().energy]),
+            Self::TotalEntropy => push(&[totals().entropy]),
+            Self::Ledger(entry) => push(&[entry(&totals())]),
             Self::NewtonIterations => {
                 row.push(u32::try_from(iterations).map_or(f64::INFINITY, f64::from));
-                return Ok(());
             }
-            Self::Custom(custom) => (custom.function)(run),
-        };
-        vector(row, &[value])
+            Self::Custom(custom) => push(&[(custom.function)(run)]),
+        }
+        Ok(())
     }
-}
-
-/// Appends components.
-#[expect(
-    clippy::unnecessary_wraps,
-    reason = "what `append` returns where it is the last call"
-)]
-fn vector<S: Real>(row: &mut Vec<f64>, components: &[S]) -> Result<(), SceneError> {
-    row.extend(components.iter().map(|component| component.to_f64()));
-    Ok(())
 }

@@ -1,10 +1,9 @@
-//! One step of the present size by the scheme in use.
+//! One step of a given size by the scheme in use.
 
 use core::mem;
 
-use super::check::check_end;
 use super::stepper::{Newton, Stepper};
-use super::{Simulation, Tried};
+use super::{Simulation, StepResult, Tried};
 use crate::element::phase::Phase;
 use crate::step::error::{StepError, StepFailure};
 use crate::step::explicit::Demand;
@@ -12,13 +11,16 @@ use crate::step::newton::StepReport;
 use crate::step::outcome::Attempt;
 use eem_material::number::scalar::{Discord, Mask, Real};
 
-/// What the elements share during the next step; borrows only the fields that it names.
+/// How often a step is halved in search of one that can be made.
+const HALVINGS: usize = 10;
+
+/// The data shared by all elements during a step of a size; borrows only the fields that it names.
 macro_rules! view {
-    ($simulation:ident, $phase:expr, $state:expr, [$loads:expr, $stages:expr]) => {
+    ($simulation:ident, $step:expr, $phase:expr, $state:expr, [$loads:expr, $stages:expr]) => {
         crate::element::group::StepView {
             phase: $phase,
-            step: $simulation.step,
-            per_step: $simulation.step.recip(),
+            step: $step,
+            per_step: $step.recip(),
             state: $state,
             conduction: &$simulation.conduction,
             loads: $loads,
@@ -29,11 +31,11 @@ macro_rules! view {
 }
 pub(super) use view;
 
-/// What an explicit step starts from; borrows only the fields that it names.
+/// The start of an explicit step of a size; borrows only the fields that it names.
 macro_rules! explicit_view {
-    ($simulation:ident) => {
+    ($simulation:ident, $step:expr) => {
         crate::step::explicit::ExplicitView {
-            step: $simulation.step,
+            step: $step,
             state: &$simulation.state,
             conduction: &$simulation.conduction,
             loads: &$simulation.loads,
@@ -44,38 +46,20 @@ macro_rules! explicit_view {
 pub(super) use explicit_view;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// One step of this size, which later steps do not have, unless it estimates its own error and that is not within
-    /// what is demanded.
+    /// One step of this size. It is rejected if the scheme estimates its error and that is not within the demand.
     pub(super) fn try_step(&mut self, size: S, demand: Demand<S>) -> Result<Tried<S>, StepError> {
-        let usual = mem::replace(&mut self.step, size);
-        OtherSize { run: self, usual }
-            .run
-            .try_step_of_its_size(demand)
-    }
-
-    /// One step of this size, whatever its error.
-    pub(super) fn step_by(&mut self, size: S) -> Result<StepReport<S>, StepError> {
-        match self.try_step(size, Demand::None)? {
-            Tried::Made(report) => Ok(report),
-            Tried::Refused(_) => unreachable!("a step without a tolerance has no error"),
-        }
-    }
-
-    fn try_step_of_its_size(&mut self, demand: Demand<S>) -> Result<Tried<S>, StepError> {
         self.has_stepped = false;
         self.effort.restart();
-        let Attempt { error, outcome } = match self.find_next(demand) {
-            Ok(attempt) => attempt,
-            Err(failure) => return Err(self.failed(failure)),
-        };
+        let found = self.find_next(size, demand);
+        let Attempt { error, outcome } = found.map_err(|failure| self.failed(size, failure))?;
         let Some(outcome) = outcome else {
-            return Ok(Tried::Refused(error));
+            return Ok(Tried::Rejected(error));
         };
         mem::swap(&mut self.state, &mut self.next);
         self.has_stepped = true;
         let report = StepReport {
             time: self.time(),
-            step: self.step,
+            step: size,
             iterations: self.effort.history.len(),
             update: self.effort.end.update,
             residual: self.effort.end.residual,
@@ -88,23 +72,41 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             error,
         };
         self.corrections.note(outcome.correction);
-        self.note_worst(&report);
+        let is_worse = self.worst.is_none_or(|worst| {
+            let (own, other) = (report.defect.abs(), worst.defect.abs());
+            (other * report.bound).less(own * worst.bound).any()
+        });
+        if is_worse {
+            self.worst = Some(report);
+        }
         Ok(Tried::Made(report))
     }
 
+    /// One step of this size, whatever its error.
+    pub(super) fn step_by(&mut self, size: S) -> StepResult<S> {
+        match self.try_step(size, Demand::None)? {
+            Tried::Made(report) => Ok(report),
+            Tried::Rejected(_) => unreachable!("a step without a tolerance is not rejected"),
+        }
+    }
+
     /// Writes the next state.
-    fn find_next(&mut self, demand: Demand<S>) -> Result<Attempt<S>, StepFailure> {
-        if self.has_parted() {
+    fn find_next(&mut self, size: S, demand: Demand<S>) -> Result<Attempt<S>, StepFailure> {
+        if self.has_diverged() {
             // An experiment that ignores failed steps and waits for something would loop forever.
             return Err(Discord.into());
         }
-        check_end(self.time() + self.step)?;
-        self.evaluate_loads()?;
+        let end = self.time() + size;
+        if !end.is_finite() {
+            let value = end.to_f64();
+            return Err(StepFailure::Time { value });
+        }
+        self.evaluate_loads(size)?;
         let (effort, next) = (&mut self.effort, &mut *self.next);
         let newton = match &mut self.stepper {
-            Stepper::Newton(newton) => newton,
+            Stepper::Newton(newton) => &mut **newton,
             Stepper::Explicit(explicit) => {
-                return explicit.step(&explicit_view!(self), demand, next);
+                return explicit.step(&explicit_view!(self, size), demand, next);
             }
         };
         let Newton {
@@ -112,58 +114,47 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             solver,
             loads,
             stages,
-            between,
-        } = &mut **newton;
-        let Some(between) = between else {
-            let view = view!(self, Phase::Whole, &self.state, [loads, stages]);
+            intermediate,
+        } = newton;
+        let Some(intermediate) = intermediate else {
+            let view = view!(self, size, Phase::Whole, &self.state, [loads, stages]);
             return Ok(Attempt::made(solver.solve(groups, &view, effort, next)?));
         };
-        let view = view!(self, Phase::Mechanics, &self.state, [loads, stages]);
-        let motion = solver.solve(groups, &view, effort, between)?;
-        let view = view!(self, Phase::Heat, between, [loads, stages]);
+        let view = view!(self, size, Phase::Mechanics, &self.state, [loads, stages]);
+        let motion = solver.solve(groups, &view, effort, intermediate)?;
+        let view = view!(self, size, Phase::Heat, intermediate, [loads, stages]);
         let heat = solver.solve(groups, &view, effort, next)?;
         Ok(Attempt::made(motion.and(heat)))
     }
 
-    /// Keeps a report if it comes closer to its bound than all before.
-    fn note_worst(&mut self, report: &StepReport<S>) {
-        let is_worse = self.worst.is_none_or(|worst| {
-            let (own, other) = (report.defect.abs(), worst.defect.abs());
-            (other * report.bound).less(own * worst.bound).any()
-        });
-        if is_worse {
-            self.worst = Some(*report);
+    /// The loads of a step of this size.
+    pub(super) fn evaluate_loads(&mut self, size: S) -> Result<(), StepFailure> {
+        let span = [self.time(), size];
+        match &mut self.stepper {
+            Stepper::Newton(newton) if !self.loads.are_none() => {
+                let q0 = self.state.positions.values();
+                newton.evaluate_loads(&self.loads, &self.masses, self.in_use, span, q0)
+            }
+            _ => Ok(()),
         }
     }
 
-    /// The loads of the next step.
-    pub(super) fn evaluate_loads(&mut self) -> Result<(), StepFailure> {
-        if self.loads.are_none() {
-            return Ok(());
+    /// The error with a shorter step that can be made instead, if trying finds one; the simulation is unchanged.
+    #[cold]
+    pub(super) fn with_shorter(&mut self, mut error: StepError, size: S) -> StepError {
+        if S::LANES > 1 || self.control.is_some() || !error.failure.depends_on_step() {
+            return error;
         }
-        let span = [self.time(), self.step];
-        let Stepper::Newton(newton) = &mut self.stepper else {
-            return Ok(());
-        };
-        newton.evaluate_loads(
-            &self.loads,
-            &self.masses,
-            self.in_use,
-            span,
-            self.state.positions.values(),
-        )
-    }
-}
-
-/// A simulation that makes one step of another size. It gets its own size back even where a load
-/// panics.
-struct OtherSize<'a, const D: usize, S: Real> {
-    run: &'a mut Simulation<D, S>,
-    usual: S,
-}
-
-impl<const D: usize, S: Real> Drop for OtherSize<'_, D, S> {
-    fn drop(&mut self) {
-        self.run.step = self.usual;
+        let before = self.snapshot();
+        let mut shorter = size;
+        for _ in 0..HALVINGS {
+            shorter *= S::from_f64(0.5);
+            if self.step_by(shorter).is_ok() {
+                error.shorter = Some(shorter.to_f64());
+                break;
+            }
+        }
+        self.return_to_snapshot(&before);
+        error
     }
 }

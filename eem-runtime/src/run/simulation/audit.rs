@@ -1,9 +1,8 @@
-//! Whether a saved state is one that this scene can have at its time.
+//! Validation of a saved state: whether this scene can have it at its time.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::Simulation;
-use super::totals::{Overflow, overflow};
 use crate::element::conduction::Partner;
 use crate::element::state::State;
 use crate::run::checkpoint::{Numbers, RestoreError};
@@ -12,15 +11,18 @@ use crate::scene::loads::{MOTION_ROUNDINGS, extent};
 use eem_material::number::digest::Digest;
 use eem_material::number::scalar::{Mask, Real};
 
-/// By how many ε of the time a function of time may have been evaluated beside the time of a state.
+/// The distance in time, in ε of the time, at which a function of time may have been evaluated for a state.
 ///
-/// A step evaluates at `t + h` and leaves out what is carried over, one ε with its own rounding; it
-/// then adds both up, another; and a run moves the time to its end by at most two more.
+/// A step evaluates at `t + h` without the compensation of t, one ε with its own rounding; it then adds both up,
+/// another; and a run moves the time to its end by at most two more.
 const TIME_ROUNDINGS: f64 = 4.0;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
     /// Digests of the numbers of the scene.
     pub(super) fn numbers(&self) -> Numbers {
+        let of_list = |numbers: &[S]| {
+            Digest::of(|digest| numbers.iter().for_each(|&number| digest.number(number)))
+        };
         Numbers {
             materials: Digest::of(|digest| {
                 for group in self.stepper.all() {
@@ -39,16 +41,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 }
             }),
             conductances: Digest::of(|digest| self.digest_conductances(digest)),
-            reservoirs: Digest::of(|digest| {
-                for &theta in &self.conduction.reservoirs {
-                    digest.number(theta);
-                }
-            }),
-            gravity: Digest::of(|digest| {
-                for &component in &self.loads.gravity {
-                    digest.number(component);
-                }
-            }),
+            reservoirs: of_list(&self.conduction.reservoirs),
+            gravity: of_list(self.loads.gravity.as_slice()),
         }
     }
 
@@ -67,8 +61,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// An error unless a state of this outline, whose numbers are finite, is one that the scene can
-    /// have after a step of this size.
+    /// An error unless the scene can have a state of finite numbers after a step of this size.
     pub(super) fn audit(&self, state: &State<S>, step: S) -> Result<(), RestoreError> {
         self.audit_anchors(state, step)?;
         self.audit_velocities(state)?;
@@ -79,13 +72,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let reservoirs = &self.conduction.reservoirs;
         let (groups, gravity) = (self.stepper.all(), &self.loads.gravity);
         let ledger = Ledger::of(state, &self.masses, groups, reservoirs, gravity);
-        match overflow(&ledger) {
+        match ledger.infinite_entry() {
             None => Ok(()),
-            Some(Overflow {
-                quantity,
-                value,
-                unit,
-            }) => Err(RestoreError::Total {
+            Some((quantity, value, unit)) => Err(RestoreError::Total {
                 quantity,
                 value,
                 unit,
@@ -96,12 +85,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Where masses couple nodes, momenta are those of the velocities, which anchors have only if they are moved.
     fn audit_velocities(&self, state: &State<S>) -> Result<(), RestoreError> {
         let velocities: Vec<_> = state.velocities.sums().collect();
-        let moved: BTreeSet<_> = self
-            .loads
-            .motions
-            .iter()
-            .map(|(node, _)| node.index)
-            .collect();
+        let motions = self.loads.motions.iter();
+        let moved: BTreeSet<_> = motions.map(|(node, _)| node.index).collect();
         let still = |node: &usize| !velocities.is_empty() && !moved.contains(node);
         for node in self.masses.anchors().filter(still) {
             for axis in 0..D {
@@ -178,7 +163,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 }
 
-/// An error unless a momentum, and what is carried over to it, is zero.
+/// An error unless a momentum and its compensation are zero.
 fn audit_zero<S: Real>(
     node: usize,
     axis: usize,
@@ -193,10 +178,9 @@ fn audit_zero<S: Real>(
 
 /// Whether a value of this scale is that of a function at a time, to the rounding of both.
 ///
-/// The function may have been evaluated a few roundings before or behind the time. What it can do
-/// in between is not known but from its values at both ends, and these are asked for only if the
-/// time itself does not explain the value. The scale of a position includes where the function was
-/// at the beginning of the step, as the step added the difference.
+/// The function may have been evaluated a few roundings before or after the time. Its values there are compared only if
+/// its value at the time does not explain the value. The scale of a position includes the function at the beginning of
+/// the step, because the step added the difference.
 fn follows<S: Real>(function: &dyn Fn(S) -> S, value: S, (time, step): (S, S), scale: S) -> bool {
     let now = function(time);
     let roundings = S::from_f64(MOTION_ROUNDINGS) * S::EPSILON;

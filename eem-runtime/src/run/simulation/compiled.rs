@@ -1,12 +1,13 @@
 //! Simulations in double precision in one to three dimensions are compiled with this crate.
 //!
-//! Generic functions are compiled anew in every optimised program that calls them: a program with one material took 30 CPU
-//! seconds, and takes 7 without those of `Simulation`. What a simulation does starts in one of the functions of a table,
-//! which is either that of this crate or, for other scalars and dimensions, made where it is asked for.
+//! Generic functions are compiled again in every optimised program that calls them: a program with one material took 30
+//! CPU seconds, and takes 7 without those of `Simulation`. So the work of a simulation starts in a table of functions:
+//! that of this crate or, for other scalars and dimensions, one that is compiled where it is used.
 
 use core::any::Any;
 
-use super::Simulation;
+use super::event::Event;
+use super::{Simulation, StepResult};
 use crate::run::checkpoint::{Checkpoint, RestoreError};
 use crate::run::ledger::Ledger;
 use crate::scene::Scene;
@@ -16,14 +17,14 @@ use crate::step::newton::StepReport;
 use crate::step::scheme::Scheme;
 use eem_material::number::scalar::Real;
 
-/// Which step is asked for.
+/// The kind of a step.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Aim<S> {
-    /// One that ends at this time, s, or before it.
+    /// To this time, s, or to an earlier one.
     Towards(S),
-    /// The same by the scheme in use, also where a run chooses its scheme.
+    /// The same without a change of the scheme.
     InSchemeTowards(S),
-    /// One of this size, s, from where the last step has been undone.
+    /// Of this size, s, after the last step has been undone.
     Again(S),
 }
 
@@ -76,50 +77,62 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// Makes one step.
-    pub(super) fn advance(&mut self, aim: Aim<S>) -> Result<StepReport<S>, StepError> {
+    pub(super) fn advance(&mut self, aim: Aim<S>) -> StepResult<S> {
         (Functions::get().advance)(self, aim)
+    }
+
+    fn advance_here(&mut self, aim: Aim<S>) -> StepResult<S> {
+        match aim {
+            Aim::Towards(end) => self.step_towards(end, true),
+            Aim::InSchemeTowards(end) => self.step_towards(end, false),
+            Aim::Again(size) => self.step_again(size),
+        }
     }
 }
 
+/// See [`end_at_event`](Simulation::end_at_event).
+type EndAtEvent<const D: usize, S> =
+    fn(&mut Simulation<D, S>, &mut [Event<'_, D, S>], StepReport<S>, S) -> StepResult<S>;
+
+/// A simulation, or why its scene is rejected.
+type NewResult<const D: usize, S> = Result<Simulation<D, S>, RefusedScene<D, S>>;
+
 /// The functions in which the work of a simulation starts.
 pub(super) struct Functions<const D: usize, S: Real> {
-    new: Begin<D, S>,
-    advance: Advance<D, S>,
+    new: fn(Scene<D, S>, Scheme, S) -> NewResult<D, S>,
+    advance: fn(&mut Simulation<D, S>, Aim<S>) -> StepResult<S>,
+    pub(super) end_at_event: EndAtEvent<D, S>,
     pub(super) undo: fn(&mut Simulation<D, S>),
     pub(super) checkpoint: fn(&Simulation<D, S>) -> Checkpoint<S>,
     pub(super) restore: fn(&mut Simulation<D, S>, &Checkpoint<S>) -> Result<(), RestoreError>,
     pub(super) ledger: fn(&Simulation<D, S>) -> Ledger<D, S>,
 }
 
-type Begin<const D: usize, S> =
-    fn(Scene<D, S>, Scheme, S) -> Result<Simulation<D, S>, RefusedScene<D, S>>;
-type Advance<const D: usize, S> =
-    fn(&mut Simulation<D, S>, Aim<S>) -> Result<StepReport<S>, StepError>;
-
 static LINE: Functions<1, f64> = Functions::HERE;
 static PLANE: Functions<2, f64> = Functions::HERE;
 static SPACE: Functions<3, f64> = Functions::HERE;
 
 impl<const D: usize, S: Real> Functions<D, S> {
-    /// Compiled where they are asked for.
+    /// Compiled where they are used.
     const HERE: Self = Self {
         new: Simulation::begin,
         advance: Simulation::advance_here,
+        end_at_event: Simulation::end_at_event,
         undo: Simulation::undo_here,
         checkpoint: Simulation::checkpoint_here,
         restore: Simulation::restore_here,
         ledger: Simulation::ledger_here,
     };
 
-    /// Those of this crate if it has them. A branch that a constant rules out is not compiled.
+    /// The table of this crate if it has one. A branch that a constant rules out is not compiled.
     #[inline]
     pub(super) fn get() -> &'static Self {
         if const { S::IS_DOUBLE && D == 1 } {
-            of_this_crate(&LINE)
+            cast(&LINE)
         } else if const { S::IS_DOUBLE && D == 2 } {
-            of_this_crate(&PLANE)
+            cast(&PLANE)
         } else if const { S::IS_DOUBLE && D == 3 } {
-            of_this_crate(&SPACE)
+            cast(&SPACE)
         } else {
             const { &Self::HERE }
         }
@@ -128,7 +141,7 @@ impl<const D: usize, S: Real> Functions<D, S> {
 
 /// The same table by its own type.
 #[inline]
-fn of_this_crate<const D: usize, S: Real>(functions: &'static dyn Any) -> &'static Functions<D, S> {
+fn cast<const D: usize, S: Real>(functions: &'static dyn Any) -> &'static Functions<D, S> {
     functions
         .downcast_ref()
         .expect("the scalar is f64, and the dimension that of the table")

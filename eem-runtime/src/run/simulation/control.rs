@@ -1,16 +1,18 @@
-//! Steps whose size follows from an accuracy: they are tried, judged, and kept or made again.
+//! Step control: steps are tried, and repeated with a smaller size until they are accurate.
 
 use core::mem;
 
 use super::compiled::Functions;
-use super::control_memory::{Control, SMALLEST};
-use super::{Simulation, Tried};
+use super::guard::Guard;
+use super::memory::{Control, History, SMALLEST, Snapshot};
+use super::{Simulation, StepResult, Tried};
+use crate::element::state::State;
 use crate::run::checkpoint::SavedControl;
 use crate::scene::error::SceneError;
 use crate::step::control::{AFTER_FAILURE, Controller, Estimate, StepStatistics, Tolerance, norm};
-use crate::step::error::{StepError, StepFailure, StepLimit};
+use crate::step::error::{StepFailure, StepLimit};
 use crate::step::explicit::Demand;
-use crate::step::newton::StepReport;
+use crate::step::scheme::Scheme;
 use eem_material::number::scalar::{Discord, Mask, Real};
 
 /// # Step control
@@ -27,22 +29,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// scheme can reach; [`SceneError::FixedSteps`] for the variational schemes.
     ///
     /// ```
-    /// use core::ops::ControlFlow;
-    /// use eem::prelude::*;
     /// use eem::Tolerance;
-    ///
-    /// /// A linear spring.
-    /// #[derive(Clone, FreeEnergy)]
-    /// #[free_energy(|lambda: Stretch| 0.5 * k * (lambda - length).powi(2))]
-    /// struct Spring {
-    ///     k: f64,
-    ///     length: f64,
-    /// }
+    /// use eem::materials::Hooke;
+    /// use eem::prelude::*;
     ///
     /// let mut scene = Scene::<1>::new();
     /// let wall = scene.anchor([0.0]);
     /// let mass = scene.mass(1.0, [1.1], [0.0]);
-    /// scene.spring(Spring { k: 1.0, length: 1.0 }, [wall, mass]);
+    /// scene.spring(Hooke { stiffness: 1.0, natural_length: 1.0 }, [wall, mass]);
     /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
     /// run.control_steps(Tolerance::new(1e-6))?;
     /// run.run_until(5.0)?;
@@ -53,13 +47,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn control_steps(&mut self, tolerance: Tolerance<S>) -> Result<(), SceneError> {
-        let memory = self.new_control(tolerance);
-        self.check_control(Some(memory))?;
-        self.go_on_with(Some(memory));
+        let memory = Some(self.new_control(tolerance));
+        self.check_control(memory)?;
+        self.set_control(memory);
         Ok(())
     }
 
-    /// What control remembers before the first step.
+    /// The history of step control before the first step.
     pub(super) fn new_control(&self, tolerance: Tolerance<S>) -> SavedControl<S> {
         SavedControl {
             tolerance,
@@ -82,18 +76,18 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             let scheme = self.scheme.name();
             Err(SceneError::FixedSteps { scheme })
         };
-        checked.inspect_err(|_| self.part())
+        checked.inspect_err(|_| self.diverge())
     }
 
-    /// Controls steps like this, or makes all of one size.
-    pub(super) fn go_on_with(&mut self, memory: Option<SavedControl<S>>) {
+    /// Continues step control from its history; `None` switches it off.
+    pub(super) fn set_control(&mut self, memory: Option<SavedControl<S>>) {
         self.control = memory.map(|memory| Box::new(self.control_of(memory)));
     }
 
-    /// What controls steps of the scheme in use like this.
+    /// Step control of the scheme in use with this history.
     pub(super) fn control_of(&self, memory: SavedControl<S>) -> Control<S> {
         let accuracy = self.in_use.accuracy();
-        let halves = (accuracy.estimate == Estimate::Halves).then(|| self.room_for_halves());
+        let halves = (accuracy.estimate == Estimate::Halves).then(|| self.new_halves());
         Control {
             memory,
             accuracy,
@@ -110,17 +104,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// The tolerance of step control; `None` if it is off.
     #[must_use]
     pub fn tolerance(&self) -> Option<Tolerance<S>> {
-        self.control
-            .as_ref()
-            .map(|control| control.memory.tolerance)
+        Some(self.control.as_ref()?.memory.tolerance)
     }
 
     /// Statistics of step control; `None` if it is off.
     #[must_use]
     pub fn step_statistics(&self) -> Option<StepStatistics> {
-        self.control
-            .as_ref()
-            .map(|control| control.memory.statistics)
+        Some(self.control.as_ref()?.memory.statistics)
     }
 
     /// Limits the size of controlled steps, s: smallest and largest. By default the smallest is 16 ε times the
@@ -141,7 +131,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             }
             control => {
                 let is_controlled = control.is_some();
-                self.part();
+                self.diverge();
                 Err(SceneError::StepLimits {
                     smallest: smallest.to_f64(),
                     largest: largest.to_f64(),
@@ -151,54 +141,65 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    /// A step that is accurate, not beyond `end`.
-    pub(super) fn controlled_step(&mut self, end: S) -> Result<StepReport<S>, StepError> {
+    /// One step by the scheme in use, not beyond `end`, of an accurate size if steps are controlled; by another scheme
+    /// if that is allowed and cheaper.
+    pub(super) fn step_towards(&mut self, end: S, may_switch: bool) -> StepResult<S> {
+        if self.control.is_none() {
+            let full = self.step;
+            let last = self.size_towards(end, full)?;
+            let size = last.unwrap_or(full);
+            let made = self.step_by(size);
+            let mut report = made.map_err(|error| self.with_shorter(error, size))?;
+            if last.is_some() {
+                self.arrive_at(end, &mut report);
+            }
+            return Ok(report);
+        }
         if S::LANES > 1 {
-            // Each of the numbers needs steps of its own.
+            // Each lane needs steps of its own.
             return Err(self.refused(Discord.into()));
         }
-        let memory = self.memory();
+        let may_switch = may_switch && self.scheme == Scheme::Auto;
+        let history = self.history();
         let found = self.with_control(|run, control| match control {
             None => run.step_by(run.step),
-            Some(control) if run.automatic.is_some() => run.step_of_choice(control, end),
+            Some(control) if may_switch => run.step_of_choice(control, end),
             Some(control) => run.find_accurate_step(control, end),
         });
         if found.is_err() {
-            self.remember_uncounted(memory);
+            let statistics = self.step_statistics();
+            self.restore_history(history);
+            if let (Some(control), Some(statistics)) = (&mut self.control, statistics) {
+                control.memory.statistics = statistics;
+            }
         }
         found
     }
 
-    /// Does something with the control taken out of the run, which gets it back even where a load panics.
-    pub(super) fn with_control<T>(
-        &mut self,
-        act: impl FnOnce(&mut Self, Option<&mut Control<S>>) -> T,
-    ) -> T {
+    /// Calls a function with step control taken out of the simulation; it is put back even if a load panics.
+    fn with_control<T>(&mut self, act: impl FnOnce(&mut Self, Option<&mut Control<S>>) -> T) -> T {
         let control = self.control.take();
-        let mut held = Held { run: self, control };
-        let Held { run, control } = &mut held;
+        let mut guard = Guard::new((self, control), |(run, control)| {
+            run.control = control.take();
+        });
+        let (run, control) = &mut guard.value;
         act(run, control.as_deref_mut())
     }
 
     /// An accurate step of the scheme in use, not beyond `end`.
-    pub(super) fn find_accurate_step(
-        &mut self,
-        control: &mut Control<S>,
-        end: S,
-    ) -> Result<StepReport<S>, StepError> {
+    pub(super) fn find_accurate_step(&mut self, control: &mut Control<S>, end: S) -> StepResult<S> {
         loop {
             let memory = &control.memory;
             self.step = self.step.maximum(memory.smallest).minimum(memory.largest);
             let full = self.step;
             let arriving = self.size_towards(end, full)?;
             let size = arriving.unwrap_or(full);
-            let mut controller = control.memory.controller;
             let (next, limit) = match self.attempt(control, size) {
                 Ok(Tried::Made(mut report)) => {
                     // A step that the end has shortened says nothing about the next ones.
                     if !size.less(full).all() {
+                        let controller = &mut control.memory.controller;
                         self.step = controller.next(size, report.error, control.accuracy);
-                        control.memory.controller = controller;
                     }
                     if arriving.is_some() {
                         self.arrive_at(end, &mut report);
@@ -206,7 +207,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                     self.accept(control);
                     return Ok(report);
                 }
-                Ok(Tried::Refused(error)) => {
+                Ok(Tried::Rejected(error)) => {
                     control.memory.statistics.rejected_by_error += 1;
                     let next = size * control.accuracy.left_after(error);
                     let error = error.to_f64();
@@ -222,37 +223,20 @@ impl<const D: usize, S: Real> Simulation<D, S> {
                 }
             };
             let smallest = control.smallest(self.time());
-            // Also where it is not a number.
+            // Also if `next` is not a number.
             if !smallest.at_most(next).all() {
-                let smallest = smallest.to_f64();
-                let too_large = control.memory.statistics.too_large;
-                return Err(self.failed(StepFailure::TooSmall {
-                    smallest,
+                let failure = StepFailure::TooSmall {
+                    smallest: smallest.to_f64(),
                     limit,
-                    too_large,
-                }));
+                    too_large: control.memory.statistics.too_large,
+                };
+                return Err(self.failed(full, failure));
             }
             self.step = next;
         }
     }
 
-    /// A step of this size and its error; the state is what it was if there is none.
-    pub(super) fn attempt(
-        &mut self,
-        control: &mut Control<S>,
-        size: S,
-    ) -> Result<Tried<S>, StepError> {
-        let Control {
-            memory,
-            accuracy,
-            halves,
-        } = control;
-        match halves {
-            Some(halves) => self.try_halves(halves, (memory, *accuracy), size),
-            None => self.try_step(size, Demand::Within(memory.tolerance)),
-        }
-    }
-
+    /// Counts an accepted step.
     pub(super) fn accept(&self, control: &mut Control<S>) {
         let memory = &mut control.memory;
         memory.statistics.accepted += 1;
@@ -260,63 +244,81 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         memory.largest_momentum = memory.largest_momentum.maximum(momentum);
     }
 
-    /// Takes back the step that has just been made.
+    /// Undoes the last step.
     pub(super) fn undo(&mut self) {
         (Functions::get().undo)(self);
     }
 
     pub(super) fn undo_here(&mut self) {
         self.with_control(|run, control| {
-            match control.and_then(|control| control.halves.as_ref()) {
-                Some(halves) => run.return_to(halves),
-                None => run.swap_back(),
+            if let Some(halves) = control.and_then(|control| control.halves.as_ref()) {
+                return run.return_to(halves);
             }
+            mem::swap(&mut run.state, &mut run.next);
+            run.has_stepped = false;
+            run.stepper.undo();
         });
     }
 
-    fn swap_back(&mut self) {
-        mem::swap(&mut self.state, &mut self.next);
-        self.has_stepped = false;
-        self.stepper.undo();
-    }
-
-    /// Another step from where the last one began, of this size.
-    pub(super) fn step_again(&mut self, size: S) -> Result<StepReport<S>, StepError> {
-        self.with_control(|run, control| match control {
-            Some(Control {
-                halves: Some(halves),
-                ..
-            }) => run.step_in_halves(halves, size),
-            Some(control) => {
-                // As accurate as the last one, if that can be.
-                let demand = Demand::Within(control.memory.tolerance);
-                match run.try_step(size, demand) {
-                    Ok(Tried::Made(report)) => Ok(report),
-                    _ => run.step_by(size),
-                }
+    /// Another step from the beginning of the one that was undone, of this size; as accurate as that one if possible.
+    pub(super) fn step_again(&mut self, size: S) -> StepResult<S> {
+        self.with_control(|run, control| {
+            let Some(control) = control else {
+                return run.step_by(size);
+            };
+            if let Some(halves) = &control.halves {
+                return run.step_in_halves(halves, size);
             }
-            None => run.step_by(size),
+            match run.try_step(size, Demand::Within(control.memory.tolerance)) {
+                Ok(Tried::Made(report)) => Ok(report),
+                _ => run.step_by(size),
+            }
         })
     }
-}
 
-/// A simulation whose control has been taken out. It gets it back, and the state from which a step began, even
-/// where a load panics.
-struct Held<'a, const D: usize, S: Real> {
-    run: &'a mut Simulation<D, S>,
-    control: Option<Box<Control<S>>>,
-}
-
-impl<const D: usize, S: Real> Drop for Held<'_, D, S> {
-    fn drop(&mut self) {
-        let halves = self
-            .control
-            .as_mut()
-            .and_then(|control| control.halves.as_mut());
-        if let Some(halves) = halves.filter(|halves| halves.is_under_way) {
-            halves.is_under_way = false;
-            self.run.return_to(halves);
+    /// The history of step control and of the choice of a scheme.
+    pub(super) fn history(&self) -> History<S> {
+        History {
+            step: self.step,
+            control: self.control.as_ref().map(|control| control.memory),
+            choice: self.saved_choice(),
         }
-        self.run.control = self.control.take();
+    }
+
+    /// Forgets the steps since this history.
+    pub(super) fn restore_history(&mut self, history: History<S>) {
+        self.step = history.step;
+        let choice = history.choice;
+        let mut too_large = None;
+        if let Some(saved) = choice.filter(|saved| saved.scheme != self.in_use) {
+            // Without memory for that scheme, the present one continues.
+            too_large = self.use_scheme(saved.scheme).err();
+            self.set_control(history.control);
+        }
+        if let (Some(control), Some(before)) = (&mut self.control, history.control) {
+            control.memory = before;
+            control.memory.statistics.too_large = too_large.or(before.statistics.too_large);
+        }
+        self.restore_choice(choice);
+    }
+
+    /// A copy of everything that further steps change.
+    pub(super) fn snapshot(&self) -> Snapshot<S> {
+        Snapshot {
+            state: State::clone(&self.state),
+            past: self.stepper.past(&self.state),
+            history: self.history(),
+            worst: self.worst,
+            corrections: self.corrections,
+        }
+    }
+
+    pub(super) fn return_to_snapshot(&mut self, snapshot: &Snapshot<S>) {
+        self.state.copy_all_from(&snapshot.state);
+        let (past, explicit) = &snapshot.past;
+        self.stepper.restore(past, explicit.as_ref());
+        self.restore_history(snapshot.history);
+        (self.worst, self.corrections) = (snapshot.worst, snapshot.corrections);
+        self.has_stepped = false;
     }
 }

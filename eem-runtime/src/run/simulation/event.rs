@@ -1,4 +1,4 @@
-//! Events: what a run looks for besides its end.
+//! Events: conditions that end a run.
 
 mod bracket;
 mod search;
@@ -17,7 +17,7 @@ enum Sense {
     Either,
 }
 
-/// What the function of an event gives: a number whose sign counts, or an error that ends the run.
+/// The result of the function of an event: a number whose sign counts, or an error that ends the run.
 type Value<S> = Result<S, Box<dyn Error>>;
 
 /// The function of an event.
@@ -50,7 +50,7 @@ pub struct Event<'f, const D: usize, S: Real = f64> {
     function: Box<Function<'f, D, S>>,
     sense: Sense,
     tolerance: S,
-    /// The function at the beginning of the step that is looked at, and at its end.
+    /// The function at the beginning and at the end of the step.
     before: S,
     after: S,
     has_happened: bool,

@@ -1,14 +1,13 @@
-//! The equations of a scene in GENERIC form.
+//! The GENERIC form of a scene, in entropies or in temperatures.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::Simulation;
 use super::stepper::Stepper;
 use crate::element::conduction::Partner;
-use crate::element::group::{ElementGeneric, Elements};
+use crate::element::group::{ElementGeneric, Elements, EntropySlopes};
 use crate::element::state::State;
 use crate::step::scheme::Scheme;
-use eem_material::number::compensated::Compensated;
 use eem_material::number::scalar::Real;
 
 /// The GENERIC form of a scene: the two gradients and the two matrices of `ż = L ∇E + M ∇S`.
@@ -38,25 +37,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// The state z of [`Generic`].
     #[must_use]
     pub fn generic_state(&self) -> DVector<S> {
-        let masses = self
-            .masses
-            .iter()
-            .enumerate()
-            .filter(|(_, mass)| mass.is_some());
-        let nodes = || {
-            masses
-                .clone()
-                .flat_map(|(node, _)| node * D..(node + 1) * D)
-        };
         let state = &self.state;
-        let of = |sums: &Compensated<S>| sums.values().to_vec();
-        let (q, p) = (state.positions.values(), state.momenta.values());
-        let mechanical = nodes().map(|at| q[at]).chain(nodes().map(|at| p[at]));
-        let internal = of(&state.viscous).into_iter().chain(of(&state.entropies));
-        let z = mechanical
-            .chain(internal)
-            .chain(of(&state.reservoir_entropies));
-        DVector::from_vec(z.collect())
+        let mut z = Vec::new();
+        for sums in [&state.positions, &state.momenta] {
+            let nodes = self.masses.iter().zip(sums.values().chunks_exact(D));
+            let of_masses = nodes.filter(|(mass, _)| mass.is_some());
+            z.extend(of_masses.flat_map(|(_, values)| values));
+        }
+        for sums in [&state.viscous, &state.entropies, &state.reservoir_entropies] {
+            z.extend_from_slice(sums.values());
+        }
+        DVector::from_vec(z)
     }
 
     /// Gradients and matrices at the present state.
@@ -64,9 +55,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.generic_and_elements().0
     }
 
-    /// The same with what the elements contribute to it.
+    /// The same with the contributions of the elements.
     pub(super) fn generic_and_elements(&mut self) -> (Generic<S>, Vec<ElementGeneric<S>>) {
-        // The elements look at another configuration than that of their last step.
+        // The elements are evaluated elsewhere than at the ends of their last step.
         self.has_stepped = false;
         let state = &self.state;
         let mut elements = Vec::new();
@@ -88,77 +79,72 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let Stepper::Newton(newton) = &self.stepper else {
             return None;
         };
-        let elements = newton.groups.iter();
-        let elements: Vec<_> = elements
+        let groups = newton.groups.iter();
+        let elements: Vec<_> = groups
             .flat_map(|group| group.generic_of_step(ends))
             .collect();
-        let half = S::from_f64(0.5);
-        let [old, new] = ends.map(|state| self.velocities_in(state));
-        let mean: Vec<_> = old
-            .iter()
-            .zip(&new)
-            .map(|(&old, &new)| half * (old + new))
-            .collect();
+        let [mut mean, new] = ends.map(|state| self.velocities_in(state));
+        for (mean, new) in mean.iter_mut().zip(new) {
+            *mean = S::from_f64(0.5) * (*mean + new);
+        }
         Some(self.generic_from(&elements, &mean))
     }
 
     /// v, m/s; zero for anchors.
     fn velocities_in(&self, state: &State<S>) -> Vec<S> {
-        let nodes = self.masses.iter().enumerate();
-        let of = |(node, mass): (usize, Option<S>)| {
+        let velocity = |(node, mass): (usize, Option<S>)| {
             mass.map_or([S::zero(); D], |mass| state.velocity(node, mass))
         };
-        nodes.flat_map(of).collect()
+        self.masses.iter().enumerate().flat_map(velocity).collect()
     }
 
     fn generic_from(&self, elements: &[ElementGeneric<S>], velocities: &[S]) -> Generic<S> {
-        let places = self.generic_places();
-        let size = places.size;
-        let mut energy_gradient = DVector::from_element(size, S::zero());
-        let mut entropy_gradient = energy_gradient.clone();
-        let mut reversible = DMatrix::from_element(size, size, S::zero());
-        let mut irreversible = reversible.clone();
-        for (coordinate, place) in places.positions.iter().enumerate() {
+        let indices = self.generic_indices();
+        let gradient = DVector::from_element(indices.size, S::zero());
+        let (mut energy_gradient, mut entropy_gradient) = (gradient.clone(), gradient);
+        let matrix = DMatrix::from_element(indices.size, indices.size, S::zero());
+        let (mut reversible, mut irreversible) = (matrix.clone(), matrix);
+        for (coordinate, place) in indices.positions.iter().enumerate() {
             let Some(q) = *place else {
                 continue;
             };
-            let p = q + places.momenta;
+            let p = q + indices.momenta;
             energy_gradient[p] = velocities[coordinate];
             reversible[(q, p)] = S::one();
             reversible[(p, q)] = -S::one();
         }
         for (slot, &theta) in self.conduction.reservoirs.iter().enumerate() {
-            energy_gradient[places.reservoirs + slot] = theta;
-            entropy_gradient[places.reservoirs + slot] = S::one();
+            energy_gradient[indices.reservoirs + slot] = theta;
+            entropy_gradient[indices.reservoirs + slot] = S::one();
         }
         let mut temperatures = vec![S::zero(); self.layout.thermal];
         for element in elements {
             for &(coordinate, force) in &element.forces {
-                if let Some(q) = places.positions[coordinate] {
+                if let Some(q) = indices.positions[coordinate] {
                     energy_gradient[q] += force;
                 }
             }
             for &(slot, force, _) in &element.dashpots {
-                energy_gradient[places.viscous + slot] = -force;
+                energy_gradient[indices.viscous + slot] = -force;
             }
             if let Some((slot, theta)) = element.temperature {
-                energy_gradient[places.entropies + slot] = theta;
-                entropy_gradient[places.entropies + slot] = S::one();
+                energy_gradient[indices.entropies + slot] = theta;
+                entropy_gradient[indices.entropies + slot] = S::one();
                 temperatures[slot] = theta;
                 for &(viscous, force, eta) in &element.dashpots {
                     let w = [
-                        (places.viscous + viscous, S::one()),
-                        (places.entropies + slot, force / theta),
+                        (indices.viscous + viscous, S::one()),
+                        (indices.entropies + slot, force / theta),
                     ];
                     add_rank_one(&mut irreversible, theta / eta, &w);
                 }
                 for (eta, by_position) in &element.drags {
-                    let w = places.drag(by_position, velocities, (slot, theta));
+                    let w = indices.drag(by_position, velocities, (slot, theta));
                     add_rank_one(&mut irreversible, *eta * theta, &w);
                 }
             }
         }
-        self.add_conduction(&places, &temperatures, &mut irreversible);
+        self.add_conduction(&indices, &temperatures, &mut irreversible);
         Generic {
             energy_gradient,
             entropy_gradient,
@@ -168,19 +154,20 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     /// `κ θ_a θ_b w wᵀ` with `w = e_a/θ_a − e_b/θ_b` for every path of heat.
-    fn add_conduction(&self, places: &Places, temperatures: &[S], matrix: &mut DMatrix<S>) {
+    fn add_conduction(&self, indices: &Indices, temperatures: &[S], matrix: &mut DMatrix<S>) {
         for (slot, &theta) in temperatures.iter().enumerate() {
             for link in self.conduction.links(slot) {
                 let (partner, other) = match link.partner {
                     // Each path between elements is listed at both ends.
                     Partner::Slot(partner) if partner < slot => continue,
-                    Partner::Slot(partner) => (places.entropies + partner, temperatures[partner]),
-                    Partner::Reservoir(index) => {
-                        (places.reservoirs + index, self.conduction.reservoirs[index])
-                    }
+                    Partner::Slot(partner) => (indices.entropies + partner, temperatures[partner]),
+                    Partner::Reservoir(index) => (
+                        indices.reservoirs + index,
+                        self.conduction.reservoirs[index],
+                    ),
                 };
                 let w = [
-                    (places.entropies + slot, theta.recip()),
+                    (indices.entropies + slot, theta.recip()),
                     (partner, -other.recip()),
                 ];
                 add_rank_one(matrix, link.conductance * theta * other, &w);
@@ -188,19 +175,17 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
     }
 
-    pub(super) fn generic_places(&self) -> Places {
+    pub(super) fn generic_indices(&self) -> Indices {
         let mut positions = Vec::with_capacity(self.masses.len() * D);
         let mut masses = 0;
-        for mass in self.masses.iter() {
-            for _ in 0..D {
-                positions.push(mass.map(|_| masses));
-                masses += usize::from(mass.is_some());
-            }
+        for mass in self.masses.iter().flat_map(|mass| [mass; D]) {
+            positions.push(mass.map(|_| masses));
+            masses += usize::from(mass.is_some());
         }
         let viscous = 2 * masses;
         let entropies = viscous + self.layout.viscous;
         let reservoirs = entropies + self.layout.thermal;
-        Places {
+        Indices {
             positions,
             momenta: masses,
             viscous,
@@ -211,9 +196,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 }
 
-/// Where the parts of z begin.
-pub(super) struct Places {
-    /// The place of each coordinate of a mass.
+/// The indices in z at which its parts begin.
+pub(super) struct Indices {
+    /// The index of each coordinate of a mass; `None` for anchors.
     pub(super) positions: Vec<Option<usize>>,
     momenta: usize,
     pub(super) viscous: usize,
@@ -222,8 +207,8 @@ pub(super) struct Places {
     size: usize,
 }
 
-impl Places {
-    /// `w` of the dashpot beside a spring, `ηθ w wᵀ ∇S`: `ṗ = −η λ̇ ∂λ/∂q` and `ṡ = η λ̇²/θ`.
+impl Indices {
+    /// `w` of the dashpot in parallel with a spring, `ηθ w wᵀ ∇S`: `ṗ = −η λ̇ ∂λ/∂q` and `ṡ = η λ̇²/θ`.
     fn drag<S: Real>(
         &self,
         by_position: &[(usize, S)],
@@ -248,6 +233,85 @@ fn add_rank_one<S: Real>(matrix: &mut DMatrix<S>, factor: S, w: &[(usize, S)]) {
     for &(row, left) in w {
         for &(column, right) in w {
             matrix[(row, column)] += factor * (left * right);
+        }
+    }
+}
+
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// The GENERIC form at the present state with temperatures instead of entropies as variables (Conde Martín,
+    /// Betsch & García Orden 2016, eqs. 21–23):
+    ///
+    /// ```text
+    /// z = (q, p of the masses; γ of all dashpots; θ of all elements; σ of all reservoirs)
+    /// ∇_θ = Jᵀ ∇_s,   L_θ = J⁻¹ L_s J⁻ᵀ,   M_θ = J⁻¹ M_s J⁻ᵀ,   J = ∂(q, p, γ, s, σ)/∂(q, p, γ, θ, σ)
+    /// ```
+    ///
+    /// L then depends on the state and couples momenta with temperatures.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    ///
+    /// /// `c = 2 J/K`, `∂s/∂λ = 3 J/(K m)`.
+    /// #[derive(FreeEnergy)]
+    /// #[free_energy(|lambda: Stretch, theta: Temperature| {
+    ///     5.0 * lambda.powi(2) - 3.0 * theta * lambda - 2.0 * theta * ln(theta)
+    /// })]
+    /// struct Wire;
+    ///
+    /// let mut scene = Scene::<1>::new();
+    /// let nodes = [scene.anchor([0.0]), scene.mass(1.0, [1.1], [0.0])];
+    /// let wire = scene.spring(Wire, nodes);
+    /// scene.set_temperature(wire, 300.0);
+    /// let mut run = Simulation::new(scene, Scheme::EemTemperature, 0.01)?;
+    /// let form = run.generic_in_temperature();
+    /// // z = (q, p, θ): ṗ has the part (∂s/∂θ)⁻¹ ∂s/∂λ ∂E/∂θ with ∂s/∂θ = c/θ.
+    /// assert!((form.reversible[(1, 2)] - 3.0 * 300.0 / 2.0).abs() < 1e-9);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn generic_in_temperature(&mut self) -> Generic<S> {
+        let (mut form, elements) = self.generic_and_elements();
+        let indices = self.generic_indices();
+        for slopes in elements
+            .iter()
+            .filter_map(|element| element.entropy.as_ref())
+        {
+            form.take_temperature(&indices, slopes);
+        }
+        form
+    }
+}
+
+impl<S: Real> Generic<S> {
+    /// Replaces the entropy of an element by its temperature.
+    fn take_temperature(&mut self, indices: &Indices, slopes: &EntropySlopes<S>) {
+        let own = indices.entropies + slopes.slot;
+        let positions = slopes.by_position.iter();
+        let positions = positions.filter_map(|&(coordinate, slope)| {
+            indices.positions[coordinate].map(|place| (place, slope))
+        });
+        let dashpots = slopes.by_viscous.iter();
+        let dashpots = dashpots.map(|&(slot, slope)| (indices.viscous + slot, slope));
+        let others: Vec<_> = positions.chain(dashpots).collect();
+        for gradient in [&mut self.energy_gradient, &mut self.entropy_gradient] {
+            let by_entropy = gradient[own];
+            for &(place, slope) in &others {
+                gradient[place] += slope * by_entropy;
+            }
+            gradient[own] = slopes.by_temperature * by_entropy;
+        }
+        let per_slope = slopes.by_temperature.recip();
+        for matrix in [&mut self.reversible, &mut self.irreversible] {
+            // First J⁻¹ L, then (L J⁻ᵀ)ᵀ = J⁻¹ Lᵀ.
+            for _ in 0..2 {
+                for column in 0..matrix.ncols() {
+                    let mut rate = matrix[(own, column)];
+                    for &(place, slope) in &others {
+                        rate -= slope * matrix[(place, column)];
+                    }
+                    matrix[(own, column)] = per_slope * rate;
+                }
+                matrix.transpose_mut();
+            }
         }
     }
 }

@@ -1,27 +1,27 @@
-//! The error of a step from its two halves, for schemes that have no estimate of their own.
+//! The error of a step from its two halves, for schemes without an estimate of their own.
 //!
-//! A step of the size H is made at once, and in two halves. The halves are what is kept; their difference from the
-//! whole says how accurate they are,
+//! A step of the size H is made whole, and in two halves. The halves are kept; their difference from the whole
+//! step estimates their error,
 //!
 //! ```text
 //! error = |y_H − y_{H/2, H/2}|/(2ᵖ − 1)
 //! ```
 //!
-//! Every part is a step of the scheme like any other, and proves its laws. The estimate asks nothing of the
-//! scheme but its order p, so that it stays right where the motion is stiff or conduction is fast.
+//! Every part is a step of the scheme like any other, and proves its laws. The estimate needs only the order p of the
+//! scheme, so that it stays right where the motion is stiff or conduction is fast.
 
-use super::control_memory::Halves;
-use super::{Simulation, Tried};
+use super::guard::or_restore;
+use super::memory::{Control, Halves};
+use super::{Simulation, StepResult, Tried};
 use crate::element::state::State;
-use crate::run::checkpoint::SavedControl;
-use crate::step::control::{Accuracy, Kinds, Scales};
+use crate::step::control::{Kinds, Scales};
 use crate::step::error::StepError;
-use crate::step::newton::StepReport;
+use crate::step::explicit::Demand;
 use eem_material::number::scalar::Real;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
-    /// Memory for the two ways of a step.
-    pub(super) fn room_for_halves(&self) -> Halves<S> {
+    /// Work arrays for both ways.
+    pub(super) fn new_halves(&self) -> Halves<S> {
         let (past, _) = self.stepper.past(&self.state);
         Halves {
             before: State::clone(&self.state),
@@ -29,20 +29,21 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             whole: State::clone(&self.state),
             kinds: Kinds {
                 are_strains: self.viscous_strains(),
-                are_given: self.given_momenta(),
+                are_given: self.prescribed_momenta(),
             },
-            is_under_way: false,
         }
     }
 
-    /// A step of this size in two halves, unless they are not accurate; the state is what it was if a part
-    /// fails.
-    pub(super) fn try_halves(
+    /// A step of this size and its error; the state is unchanged if the step fails or is rejected.
+    pub(super) fn attempt(
         &mut self,
-        halves: &mut Halves<S>,
-        (memory, accuracy): (&SavedControl<S>, Accuracy),
+        control: &mut Control<S>,
         size: S,
     ) -> Result<Tried<S>, StepError> {
+        let (memory, accuracy) = (&control.memory, control.accuracy);
+        let Some(halves) = &mut control.halves else {
+            return self.try_step(size, Demand::Within(memory.tolerance));
+        };
         halves.before.copy_all_from(&self.state);
         self.stepper.save_past_to(&mut halves.past);
         let whole = self.step_by(size)?;
@@ -51,52 +52,39 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         let mut report = self.step_in_halves(halves, size)?;
         report.iterations += whole.iterations;
         let ends = [&halves.before, &*self.state];
-        let largest = memory.largest_momentum;
-        let scales = Scales::new(&memory.tolerance, accuracy, ends, largest);
+        let scales = Scales::new(&memory.tolerance, accuracy, ends, memory.largest_momentum);
         let share = S::from_f64(accuracy.order().exp2() - 1.0).recip();
         report.error = share * scales.error([&halves.whole, &self.state], &halves.kinds);
         if accuracy.accepts(report.error) {
             return Ok(Tried::Made(report));
         }
         self.return_to(halves);
-        Ok(Tried::Refused(report.error))
+        Ok(Tried::Rejected(report.error))
     }
 
-    /// Two steps of half a size.
-    pub(super) fn step_in_halves(
-        &mut self,
-        halves: &mut Halves<S>,
-        size: S,
-    ) -> Result<StepReport<S>, StepError> {
+    /// Two steps of half a size, or none.
+    pub(super) fn step_in_halves(&mut self, halves: &Halves<S>, size: S) -> StepResult<S> {
         let half = S::from_f64(0.5) * size;
         let first = self.step_by(half)?;
-        halves.is_under_way = true;
-        let second = self.step_by(half);
-        halves.is_under_way = false;
-        match second {
-            Ok(second) => Ok(first.and(second)),
-            Err(error) => {
-                self.return_to(halves);
-                Err(error)
-            }
-        }
+        let second = or_restore(self, |run| run.return_to(halves), |run| run.step_by(half))?;
+        Ok(first.and(second))
     }
 
-    /// Goes back to where the last step began.
+    /// Goes back to the beginning of the last step.
     pub(super) fn return_to(&mut self, halves: &Halves<S>) {
         self.has_stepped = false;
         self.state.copy_all_from(&halves.before);
         self.stepper.restore(&halves.past, None);
     }
 
-    /// Which momenta, by coordinate, are those of nodes that are moved.
-    fn given_momenta(&self) -> Vec<bool> {
-        let mut are_given = Vec::new();
+    /// Which momenta, by coordinate, are those of moved anchors. Empty without any.
+    fn prescribed_momenta(&self) -> Vec<bool> {
+        let mut are_prescribed = Vec::new();
         for (node, _) in &self.loads.motions {
-            are_given.resize(self.masses.len() * D, false);
-            are_given[node.index * D..][..D].fill(true);
+            are_prescribed.resize(self.masses.len() * D, false);
+            are_prescribed[node.index * D..][..D].fill(true);
         }
-        are_given
+        are_prescribed
     }
 
     /// Which viscous variables are strains of solids.

@@ -1,6 +1,6 @@
-//! What can be asked of a simulation at any time.
+//! Queries of the present state.
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use super::Simulation;
 use super::compiled::Functions;
@@ -8,13 +8,14 @@ use crate::element::conduction::Partner;
 use crate::element::group::ElementView;
 use crate::element::handle::{Element, Handle, Node, Reservoir, SceneId};
 use crate::element::kinematics::SolidState;
-use crate::element::layout::Slots;
+use crate::element::layout::{Shape, Slots};
 use crate::element::loads::point;
 use crate::run::ledger::Ledger;
 use crate::scene::error::SceneError;
 use crate::scene::solid_error::SolidError;
 use crate::step::newton::StepReport;
 use crate::step::outcome::Corrections;
+use eem_material::joint::{COMPONENTS, tensor};
 use eem_material::number::scalar::Real;
 
 /// # The present state
@@ -101,15 +102,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// ```
     /// use eem::kinematics::Quad4;
+    /// use eem::materials::SaintVenantKirchhoff;
     /// use eem::prelude::*;
-    ///
-    /// #[derive(FreeEnergy)]
-    /// #[free_energy(|e1: StrainTrace, e2: StrainSquare| 0.5 * lame * e1.powi(2) + shear * e2)]
-    /// struct Elastic { lame: f64, shear: f64 }
     ///
     /// let mut scene = Scene::<2>::new();
     /// let mesh = Mesh::<Quad4, 2>::block([1, 1], [[0.0, 1.0], [0.0, 1.0]])?;
-    /// let plate = scene.solid(Elastic { lame: 2000.0, shear: 1000.0 }, &mesh, &Bulk::new(10.0));
+    /// let steel = SaintVenantKirchhoff { lame: 2000.0, shear: 1000.0 };
+    /// let plate = scene.solid(steel, &mesh, &Bulk::new(10.0));
     /// // Twice as long: E₁₁ = 3/2, S₁₁ = (λ + 2μ) E₁₁, σ₁₁ = F₁₁ S₁₁ F₁₁/J = 2 S₁₁.
     /// for (&node, [x, y]) in plate.nodes().iter().zip(mesh.nodes()) {
     ///     scene.set_position(node, [2.0 * x, *y]);
@@ -209,8 +208,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// For a foreign handle; [`SceneError::NoSuchDashpot`].
     pub fn viscous_stretch(&self, element: Element, dashpot: usize) -> Result<S, SceneError> {
         self.expect_own(&element)?;
-        let [group, _] = self.place(element);
-        let dashpots = self.shapes[group].scalar_dashpots();
+        let dashpots = self.shape(element).scalar_dashpots();
         if dashpot >= dashpots {
             return Err(SceneError::NoSuchDashpot {
                 element,
@@ -220,6 +218,53 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         }
         let first = self.slots(element).viscous;
         Ok(self.state.viscous.values()[first + dashpot])
+    }
+
+    /// The viscous strain Γ at a point of a solid. It has three dimensions also in plane strain, where Γ₃₃ flows
+    /// too.
+    ///
+    /// # Errors
+    ///
+    /// For a foreign handle; [`SolidError::NoViscousStrain`] unless an argument of the free energy has the role
+    /// `ViscousStrain`.
+    ///
+    /// ```
+    /// use eem::kinematics::Quad4;
+    /// use eem::prelude::*;
+    ///
+    /// #[derive(Clone, FreeEnergy)]
+    /// #[free_energy(|e2: StrainSquare, m3: ViscousStrain, m2: ViscousSquare| 2.0 * (e2 - 2 * m3 + m2))]
+    /// #[viscosity(m3 = 4.0)]
+    /// struct Fluid;
+    ///
+    /// let mut scene = Scene::<2>::new();
+    /// let mesh = Mesh::<Quad4, 2>::block([1, 1], [[0.0, 1.0], [0.0, 1.0]])?;
+    /// let plate = scene.solid(Fluid, &mesh, &Bulk::new(10.0));
+    /// // Held at E₁₁ = 3/2, with dev E = (1, −½, −½): Γ follows it with the time 4/(2 · 2) = 1 s.
+    /// for (&node, [x, y]) in plate.nodes().iter().zip(mesh.nodes()) {
+    ///     scene.set_position(node, [2.0 * x, *y]);
+    ///     scene.fix(node);
+    /// }
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 40.0)?;
+    /// run.step()?;
+    /// // Γ¹ = h (dev E − ½Γ¹)
+    /// let strain = run.viscous_strain(plate.points()[0])?;
+    /// assert!((strain[(0, 0)] - 40.0 / 21.0).abs() < 1e-14);
+    /// assert!((strain[(2, 2)] + 20.0 / 21.0).abs() < 1e-14);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn viscous_strain(&self, point: Element) -> Result<SMatrix<S, 3, 3>, SceneError> {
+        self.expect_own(&point)?;
+        let shape = self.shape(point);
+        if shape.viscous_strain == 0 {
+            return Err(SolidError::NoViscousStrain { element: point }.into());
+        }
+        let first = self.slots(point).viscous + shape.scalar_dashpots();
+        let values = &self.state.viscous.values()[first..];
+        let mut components = [S::zero(); COMPONENTS];
+        components[..shape.viscous_strain].copy_from_slice(&values[..shape.viscous_strain]);
+        let strain = tensor(&components);
+        Ok(SMatrix::from_fn(|row, column| strain[row][column]))
     }
 
     /// The entropy that a reservoir has received since the start, J/K.
@@ -242,6 +287,47 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(self.conduction.reservoirs[reservoir.index] * entropy)
     }
 
+    /// q (m) and p (kg m/s) of the masses, θ (K) and γ (m) of the elements, each in the order of creation.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn values(&self) -> [Vec<f64>; 4] {
+        let all = |values: &[S]| values.iter().map(|value| value.to_f64()).collect();
+        let of_masses = |values: &[S]| {
+            let nodes = self.masses.iter().zip(values.chunks_exact(D));
+            let moving = nodes.filter(|(mass, _)| mass.is_some());
+            all(&moving
+                .flat_map(|(_, value)| value)
+                .copied()
+                .collect::<Vec<_>>())
+        };
+        let state = &self.state;
+        [
+            of_masses(state.positions.values()),
+            of_masses(state.momenta.values()),
+            all(&state.temperatures),
+            all(state.viscous.values()),
+        ]
+    }
+
+    /// How often the forces of all elements have been evaluated since the simulation was made, once for each
+    /// stage of a scheme with several.
+    ///
+    /// ```
+    /// use eem::prelude::*;
+    ///
+    /// let mut scene: Scene<1> = Scene::new();
+    /// let ends = [scene.anchor([0.0]), scene.mass(1.0, [1.0], [1.0])];
+    /// scene.spring(eem::materials::Hooke { stiffness: 1.0, natural_length: 1.0 }, ends);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.1)?;
+    /// run.step()?;
+    /// assert!(run.evaluations() >= 2);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn evaluations(&self) -> u64 {
+        self.automatic.evaluations + self.stepper.evaluations()
+    }
+
     /// Energies, entropies and momenta, computed from the state by their definitions.
     #[must_use]
     pub fn ledger(&self) -> Ledger<D, S> {
@@ -261,8 +347,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// An error unless an element is a spring of this scene.
     fn expect_spring(&self, element: Element, quantity: &'static str) -> Result<(), SceneError> {
         self.expect_own(&element)?;
-        let [group, _] = self.place(element);
-        if self.shapes[group].is_spring {
+        if self.shape(element).is_spring {
             return Ok(());
         }
         Err(SceneError::NotASpring { element, quantity })
@@ -274,18 +359,23 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(self.stepper.elements(group).inspect(place, &self.state))
     }
 
-    /// How many nodes and elements there are.
+    /// The numbers of nodes and elements.
     #[cfg(feature = "vtk")]
     pub(crate) fn counts(&self) -> [usize; 2] {
         [self.state.positions.values().len() / D, self.places.len()]
     }
 
-    /// The group and the place in it of an own element.
-    pub(super) fn place(&self, element: Element) -> [usize; 2] {
+    /// The capabilities of an element of this scene.
+    fn shape(&self, element: Element) -> Shape {
+        self.shapes[self.place(element)[0]]
+    }
+
+    /// The group of an element of this scene, and its index there.
+    fn place(&self, element: Element) -> [usize; 2] {
         self.places[element.index()].map(|number| number as usize)
     }
 
-    /// Where an own element keeps its internal variables.
+    /// The state indices of an element of this scene.
     pub(super) fn slots(&self, element: Element) -> Slots {
         let [group, place] = self.place(element);
         self.stepper.elements(group).slots(place)
@@ -297,7 +387,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         slot.ok_or(SceneError::NotThermal { element })
     }
 
-    /// The scene that it was made from.
+    /// The scene from which it was made.
     pub(crate) const fn scene(&self) -> SceneId {
         self.scene.scene()
     }

@@ -43,18 +43,19 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// [`StepError`] if an element has no admissible state there, or if the number of unknowns is wrong
     /// ([`StepFailure::Unknowns`]).
     pub fn linearize(&mut self, unknowns: &[S]) -> Result<StepTangent<S>, StepError> {
-        // The elements look at another configuration than that of their last step.
+        // The elements are evaluated elsewhere than at the ends of their last step.
         self.has_stepped = false;
         self.effort.restart();
-        if unknowns.len() != self.unknowns() {
-            return Err(self.failed(StepFailure::Unknowns {
-                given: unknowns.len(),
-                expected: self.unknowns(),
-            }));
+        let found = self.find_tangent(unknowns);
+        found.map_err(|failure| self.failed(self.step, failure))
+    }
+
+    fn find_tangent(&mut self, unknowns: &[S]) -> Result<StepTangent<S>, StepFailure> {
+        let (given, expected) = (unknowns.len(), self.unknowns());
+        if given != expected {
+            return Err(StepFailure::Unknowns { given, expected });
         }
-        if let Err(failure) = self.evaluate_loads() {
-            return Err(self.failed(failure));
-        }
+        self.evaluate_loads(self.step)?;
         let Stepper::Newton(newton) = &mut self.stepper else {
             // An explicit scheme solves no system.
             let (residual, tangent) = (Vec::new(), Vec::new());
@@ -67,11 +68,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             stages,
             ..
         } = &mut **newton;
-        let view = view!(self, Phase::Whole, &self.state, [loads, stages]);
-        let linearized = solver.linearize(groups, &view, unknowns, &mut self.effort);
-        match linearized {
-            Ok((residual, tangent)) => Ok(StepTangent { residual, tangent }),
-            Err(failure) => Err(self.failed(failure)),
-        }
+        let view = view!(self, self.step, Phase::Whole, &self.state, [loads, stages]);
+        let (residual, tangent) = solver.linearize(groups, &view, unknowns, &mut self.effort)?;
+        Ok(StepTangent { residual, tangent })
     }
 }

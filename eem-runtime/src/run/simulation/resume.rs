@@ -1,9 +1,9 @@
-//! Saving a state and going on from it.
+//! Saving and restoring checkpoints.
 
 use super::Simulation;
 use super::compiled::Functions;
 use crate::element::state::State;
-use crate::run::checkpoint::{Checkpoint, Outline, RestoreError, Seals};
+use crate::run::checkpoint::{Checkpoint, Outline, RestoreError};
 use crate::step::outcome::Corrections;
 use eem_material::number::scalar::Real;
 
@@ -32,9 +32,12 @@ impl<const D: usize, S: Real> Simulation<D, S> {
 
     pub(super) fn checkpoint_here(&self) -> Checkpoint<S> {
         let (past, explicit) = self.stepper.past(&self.state);
+        let shapes = self.places.iter();
+        let shapes = shapes.map(|&[group, _]| self.shapes[group as usize]);
+        let reservoirs = self.conduction.reservoirs.len();
         Checkpoint {
             scheme: self.scheme,
-            outline: self.outline(),
+            outline: Outline::new(D, &self.masses, shapes, reservoirs),
             numbers: self.numbers(),
             step: self.step,
             newton: self.newton_settings(),
@@ -46,9 +49,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             },
             past,
             explicit,
-            seals: Seals::none(),
+            seals: Vec::new(),
         }
-        .sealed_up()
+        .sealed()
     }
 
     /// Restores a saved state, of this simulation or of one of the same scene in another process. Nodes, elements
@@ -67,31 +70,28 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     }
 
     pub(super) fn restore_here(&mut self, checkpoint: &Checkpoint<S>) -> Result<(), RestoreError> {
-        let own = (self.in_use, self.stepper.past(&self.state));
+        let own = self.in_use;
+        let (past, explicit) = self.stepper.past(&self.state);
         let saved = self.choice_in(checkpoint)?;
-        if let Some(saved) = saved.filter(|saved| saved.scheme != own.0) {
-            self.use_scheme(saved.scheme).inspect_err(|_| self.part())?;
+        if let Some(saved) = saved.filter(|saved| saved.scheme != own) {
+            self.use_scheme(saved.scheme)
+                .inspect_err(|_| self.diverge())?;
         }
-        let Err(error) = self.restore_in_scheme(checkpoint) else {
-            return Ok(());
-        };
-        self.part();
-        let (scheme, past) = own;
-        if self.in_use != scheme {
-            self.use_scheme(scheme)?;
-            self.stepper.restore(&past.0, past.1.as_ref());
+        let restored = self.restore_in_scheme(checkpoint);
+        if restored.is_err() {
+            self.diverge();
+            if self.in_use != own {
+                self.use_scheme(own)?;
+                self.stepper.restore(&past, explicit.as_ref());
+            }
         }
-        Err(error)
+        restored
     }
 
-    /// The same where the scheme of the checkpoint is in use.
+    /// The same once the scheme of the checkpoint is in use.
     fn restore_in_scheme(&mut self, checkpoint: &Checkpoint<S>) -> Result<(), RestoreError> {
-        let past = self.stepper.past(&self.state);
-        let past = (&past.0, past.1.as_ref());
-        let scene = (&self.outline(), &self.numbers());
-        checkpoint
-            .check(self.scheme, scene, &self.state, past)
-            .and_then(|()| self.audit(&checkpoint.state, checkpoint.step))?;
+        checkpoint.check(&self.checkpoint_here())?;
+        self.audit(&checkpoint.state, checkpoint.step)?;
         self.check_control(checkpoint.control)?;
         self.set_newton_settings(checkpoint.newton)?;
         self.has_stepped = false;
@@ -101,20 +101,13 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         self.stepper.each_mut(|group| group.find_energies(state));
         self.worst = None;
         self.corrections = Corrections::none();
-        // Of a state that has been edited nothing is known.
+        // They are those of another state if that has been edited.
         let explicit = checkpoint.explicit.as_ref();
         let explicit = explicit.filter(|saved| saved.state == self.state.digest());
         self.stepper.restore(&checkpoint.past, explicit);
         self.step = checkpoint.step;
-        self.go_on_with(checkpoint.control);
+        self.set_control(checkpoint.control);
         self.restore_choice(checkpoint.choice);
         Ok(())
-    }
-
-    fn outline(&self) -> Outline {
-        let reservoirs = self.conduction.reservoirs.len();
-        let places = self.places.iter();
-        let shapes = places.map(|&[group, _]| self.shapes[group as usize]);
-        Outline::new(D, &self.masses, shapes, reservoirs)
     }
 }

@@ -1,13 +1,14 @@
-//! Many steps in one call, watched from outside, up to an end time that is hit exactly.
+//! Many steps in one call: up to an end time that is hit exactly, or with states at given times.
 
 use core::ops::ControlFlow;
 
 use super::Simulation;
 use super::compiled::Aim;
+use super::guard::Guard;
 use crate::step::error::{StepError, StepFailure};
 use crate::step::newton::StepReport;
 use eem_material::number::compensated::Sum;
-use eem_material::number::scalar::{Mask, Real};
+use eem_material::number::scalar::{Discord, Mask, Real};
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -20,9 +21,8 @@ pub enum RunEnd {
     Event(usize),
 }
 
-/// Roundings between the last full step and the end time: half a unit in the last place from the
-/// end time, as much from adding up steps that are themselves rounded, and as much again to be
-/// safe on both sides.
+/// Roundings between the last full step and the end time, in ε: half a unit in the last place from the end time, as
+/// much from the sum of rounded steps, and twice that to be safe.
 const END_ROUNDINGS: f64 = 2.0;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
@@ -88,16 +88,9 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     pub fn run_until_with(
         &mut self,
         end: S,
-        mut observer: impl FnMut(&Self, &StepReport<S>) -> ControlFlow<()>,
+        observer: impl FnMut(&Self, &StepReport<S>) -> ControlFlow<()>,
     ) -> Result<RunEnd, StepError> {
-        self.check_end(end)?;
-        while self.is_before(end)? {
-            let report = self.advance(Aim::Towards(end))?;
-            if observer(self, &report).is_break() {
-                return Ok(RunEnd::Stopped);
-            }
-        }
-        Ok(RunEnd::Reached)
+        self.run_until_event_with(end, &mut [], observer)
     }
 
     /// Steps to each of these times in turn, s, and calls `observer` there.
@@ -139,77 +132,22 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(RunEnd::Reached)
     }
 
-    /// An error unless a run can end at this time.
-    pub(super) fn check_end(&self, end: S) -> Result<(), StepError> {
-        if self.time().at_most(end).all() {
-            return Ok(());
-        }
-        let end = end.to_f64();
-        Err(self.refused(StepFailure::End { end }))
-    }
-
     /// Whether the end of a run lies ahead.
     pub(super) fn is_before(&self, end: S) -> Result<bool, StepError> {
         self.decide(self.time().less(end))
     }
 
-    /// One decision for all numbers in S.
+    /// One decision for all lanes.
     fn decide(&self, mask: S::Mask) -> Result<bool, StepError> {
         let decided = mask.decide();
         decided.map_err(|discord| self.refused(discord.into()))
     }
 
-    /// A run that ends before its first step.
-    pub(super) fn refused(&self, failure: StepFailure) -> StepError {
-        self.part();
-        StepError {
-            time: self.time().to_f64(),
-            step: self.step_size().to_f64(),
-            failure,
-            shorter: None,
-            history: Box::default(),
-        }
-    }
-
-    /// See [`advance`](Self::advance), compiled here.
-    pub(super) fn advance_here(&mut self, aim: Aim<S>) -> Result<StepReport<S>, StepError> {
-        match aim {
-            Aim::Towards(end) => self.step_towards(end),
-            Aim::InSchemeTowards(end) => self.step_in_scheme_towards(end),
-            Aim::Again(size) => self.step_again(size),
-        }
-    }
-
-    /// One step of the present size, or one that ends exactly at `end`.
-    fn step_towards(&mut self, end: S) -> Result<StepReport<S>, StepError> {
-        if self.control.is_some() {
-            return self.controlled_step(end);
-        }
-        let full = self.step_size();
-        let last = self.size_towards(end, full)?;
-        let size = last.unwrap_or(full);
-        let made = self.step_by(size);
-        let mut report = made.map_err(|error| self.with_shorter(error, size))?;
-        if last.is_some() {
-            self.arrive_at(end, &mut report);
-        }
-        Ok(report)
-    }
-
-    /// The same without another choice of the scheme.
-    fn step_in_scheme_towards(&mut self, end: S) -> Result<StepReport<S>, StepError> {
-        if self.control.is_none() {
-            return self.step_towards(end);
-        }
-        self.with_control(|run, control| match control {
-            Some(control) => run.find_accurate_step(control, end),
-            None => run.step_towards(end),
-        })
-    }
-
     /// The size of a step that ends at `end`, if one of this size would end there or beyond it.
     pub(super) fn size_towards(&self, end: S, full: S) -> Result<Option<S>, StepError> {
-        let left = self.time_left(end);
+        // With the time to twice the precision.
+        let Sum { value, carry } = self.state.time;
+        let left = (end - value) - carry;
         let scale = self.time().abs() + full.minimum(left);
         let rounding = S::from_f64(END_ROUNDINGS) * S::EPSILON * scale;
         if self.decide((full + rounding).less(left))? {
@@ -219,15 +157,105 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(Some(if is_full { full } else { left }))
     }
 
-    /// The step that has been made ends at this time to the last bit.
+    /// Sets the end of the last step to this time, which it misses by rounding.
     pub(super) fn arrive_at(&mut self, end: S, report: &mut StepReport<S>) {
         self.state.time = Sum::new(end);
         report.time = end;
     }
+}
 
-    /// `end − t`, with t to twice the precision, s.
-    pub(super) fn time_left(&self, end: S) -> S {
-        let Sum { value, carry } = self.state.time;
-        (end - value) - carry
+impl<const D: usize, S: Real> Simulation<D, S> {
+    /// Runs to the last of these times, s, with the same steps as [`run_until`](Self::run_until), and calls
+    /// `observer` at each of them.
+    ///
+    /// For a time within a step, the scheme makes an additional step from the beginning of that step, or from the
+    /// previous time, and undoes it afterwards; so the run has the same bits as without. The observer sees states
+    /// of the scheme, as accurate as the others, which obey the laws; an interpolation would not. The entropy at
+    /// the end of a step can be lower than that of the last sample in it, by the error of the step. Each time costs
+    /// a step. [`run_at`](Self::run_at) ends steps at the times instead. This is cheaper for a few times, and right
+    /// for discontinuous loads.
+    ///
+    /// If the observer stops the run, the simulation stays at the state it has seen.
+    ///
+    /// # Errors
+    ///
+    /// As for [`run_until`](Self::run_until) with each of the times, which must not decrease.
+    ///
+    /// ```
+    /// use core::ops::ControlFlow;
+    /// use eem::{RunEnd, Scene, Scheme, Simulation};
+    ///
+    /// let mut scene = Scene::<2>::new();
+    /// scene.mass(1.0, [0.0, 0.0], [1.0, 0.0]);
+    /// let mut run = Simulation::new(scene, Scheme::EemEntropy, 0.4)?;
+    /// let mut rows = Vec::new();
+    /// let end = run.sample_at(&[0.1, 0.3, 1.0, 1.6], |run| {
+    ///     rows.push((run.time(), run.ledger().kinetic_energy));
+    ///     ControlFlow::Continue(())
+    /// })?;
+    /// assert_eq!((end, run.time()), (RunEnd::Reached, 1.6));
+    /// assert_eq!(rows, [(0.1, 0.5), (0.3, 0.5), (1.0, 0.5), (1.6, 0.5)]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn sample_at(
+        &mut self,
+        times: &[S],
+        mut observer: impl FnMut(&Self) -> ControlFlow<()>,
+    ) -> Result<RunEnd, StepError> {
+        if S::LANES > 1 {
+            // Each lane may have steps of its own.
+            return Err(self.refused(Discord.into()));
+        }
+        let mut last = self.time();
+        for &time in times {
+            if !last.at_most(time).all() {
+                let end = time.to_f64();
+                return Err(self.refused(StepFailure::End { end }));
+            }
+            last = time;
+        }
+        let mut left = times;
+        while let [time, ..] = *left {
+            let mut passed = 0;
+            if self.is_before(time)? {
+                self.advance(Aim::Towards(last))?;
+                let is_passed = |time: &&S| time.less(self.time()).all();
+                passed = left.iter().take_while(is_passed).count();
+                if passed > 0 && self.sample(&left[..passed], &mut observer)?.is_break() {
+                    return Ok(RunEnd::Stopped);
+                }
+            } else {
+                passed += 1;
+                if observer(self).is_break() {
+                    return Ok(RunEnd::Stopped);
+                }
+            }
+            left = &left[passed..];
+        }
+        Ok(RunEnd::Reached)
+    }
+
+    /// Shows the states at these times, which the last step has passed, by shorter steps that are undone afterwards.
+    /// If the observer stops the run, it stays at that state.
+    fn sample(
+        &mut self,
+        times: &[S],
+        observer: &mut impl FnMut(&Self) -> ControlFlow<()>,
+    ) -> Result<ControlFlow<()>, StepError> {
+        let after = self.snapshot();
+        let mut guard = Guard::new(self, |run| run.return_to_snapshot(&after));
+        let run = &mut *guard.value;
+        run.undo();
+        // One after the other, so that entropy does not fall between the times.
+        for &time in times {
+            while run.is_before(time)? {
+                run.advance(Aim::InSchemeTowards(time))?;
+            }
+            if observer(run).is_break() {
+                guard.keep();
+                return Ok(ControlFlow::Break(()));
+            }
+        }
+        Ok(ControlFlow::Continue(()))
     }
 }

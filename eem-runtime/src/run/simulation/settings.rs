@@ -1,9 +1,11 @@
-//! How large a step is, and how hard it tries.
+//! Settings: the step size, Newton's method, the energy correction of the explicit scheme.
 
 use super::Simulation;
 use super::check::check_step;
+use super::stepper::Stepper;
 use crate::scene::error::SceneError;
 use crate::step::newton::NewtonSettings;
+use crate::step::scheme::Scheme;
 use eem_material::number::scalar::{Mask, Real, is_positive};
 
 impl<const D: usize, S: Real> Simulation<D, S> {
@@ -19,7 +21,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     ///
     /// [`SceneError::Step`] if it is not positive and finite; the old size remains.
     pub fn set_step_size(&mut self, step: S) -> Result<(), SceneError> {
-        check_step(step).inspect_err(|_| self.part())?;
+        check_step(step).inspect_err(|_| self.diverge())?;
         self.step = step;
         Ok(())
     }
@@ -27,19 +29,23 @@ impl<const D: usize, S: Real> Simulation<D, S> {
     /// Whether the explicit scheme corrects the energy of a step by motion before heat.
     #[must_use]
     pub fn is_motion_first(&self) -> bool {
-        let automatic = self.automatic.as_ref();
-        automatic.map_or(self.stepper.is_motion_first(), |automatic| {
-            automatic.is_motion_first
-        })
+        match &self.stepper {
+            Stepper::Explicit(explicit) if self.scheme != Scheme::Auto => {
+                explicit.is_motion_first()
+            }
+            _ => self.automatic.is_motion_first,
+        }
     }
 
     /// Selects how the explicit scheme corrects the energy of a step: first by heat (default), or first by motion.
     /// Heat is more accurate and changes the entropy production of elements in the step by at most 0.3 %; motion
     /// leaves it unchanged. No effect on other schemes.
     pub fn set_motion_first(&mut self, is_motion_first: bool) {
-        self.stepper.set_motion_first(is_motion_first);
-        if let Some(automatic) = &mut self.automatic {
-            automatic.is_motion_first = is_motion_first;
+        if let Stepper::Explicit(explicit) = &mut self.stepper {
+            explicit.set_motion_first(is_motion_first);
+        }
+        if self.scheme == Scheme::Auto {
+            self.automatic.is_motion_first = is_motion_first;
         }
     }
 
@@ -61,7 +67,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             tolerance,
         } = settings;
         if max_iterations == 0 || !is_positive(tolerance) || S::one().at_most(tolerance).any() {
-            self.part();
+            self.diverge();
             return Err(SceneError::NewtonSettings {
                 max_iterations,
                 tolerance: tolerance.to_f64(),

@@ -1,50 +1,23 @@
-//! The state in which a scene begins.
+//! The initial state of a scene.
 
-use core::{array, mem};
+use core::array;
 
 use nalgebra::SVector;
 
-use super::groups::Groups;
-use super::totals::check_totals;
-use crate::element::conduction::Conduction;
-use crate::element::group::Placed;
+use super::stepper::Parts;
+use crate::element::group::Elements;
 use crate::element::layout::Layout;
-use crate::element::masses::Masses;
 use crate::element::state::{Energy, State};
 use crate::run::ledger::Ledger;
 use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use crate::scene::loads::OfTime;
 use crate::scene::solid_error::SolidError;
-use crate::step::scheme::Scheme;
-use crate::step::systems::Systems;
-use eem_material::number::compact::compact;
 use eem_material::number::compensated::{Compensated, Sum};
 use eem_material::number::derivative::{derivative, shares};
 use eem_material::number::scalar::Real;
 
-/// The group of each element, and its place there.
-pub(super) fn places_in<const D: usize, S: Real>(scene: &Scene<D, S>) -> Vec<[u32; 2]> {
-    let elements = scene.elements.iter();
-    let places = elements.map(|entry| [entry.group, entry.place].map(compact));
-    places.collect()
-}
-
-/// The linear systems of a scheme, unless they take more memory than they may.
-pub(super) fn systems_of<const D: usize, S: Real>(
-    scene: &Scene<D, S>,
-    scheme: Scheme,
-    layout: &Layout,
-    conduction: &Conduction<S>,
-) -> Result<Systems<S, D>, Vec<SceneError>> {
-    let elements = (&scene.elements[..], layout);
-    let rockets = scene.loads.rocket_lines();
-    Systems::new(scheme, elements, conduction, &rockets, scene.memory_limit)
-        .map_err(|error| vec![error.into()])
-}
-
-/// The state that the scene describes, given the first step, or the motions that it cannot have; its entropies are still
-/// to be found.
+/// The initial state, without entropies, given the first step; errors for motions without an initial velocity.
 pub(super) fn initial_state<const D: usize, S: Real>(
     scene: &Scene<D, S>,
     layout: &Layout,
@@ -55,15 +28,14 @@ pub(super) fn initial_state<const D: usize, S: Real>(
     let mut positions = Vec::with_capacity(coordinates);
     let mut momenta = Vec::with_capacity(coordinates);
     let mut velocities = Vec::new();
-    let still = SVector::from([S::zero(); D]);
     let is_coupled = !scene.pairs.is_empty();
     for node in &scene.nodes {
         let mass = node.mass.unwrap_or(S::zero());
         positions.extend(node.position.iter());
         momenta.extend(node.start_momentum(mass).iter());
         if is_coupled {
-            let moving = node.mass.map_or(still, |_| node.velocity);
-            velocities.extend(moving.iter());
+            let still = SVector::from([S::zero(); D]);
+            velocities.extend(node.mass.map_or(still, |_| node.velocity).iter());
         }
     }
     if is_coupled {
@@ -79,8 +51,10 @@ pub(super) fn initial_state<const D: usize, S: Real>(
     if !errors.is_empty() {
         return Err(errors);
     }
-    let mut viscous = vec![S::zero(); layout.viscous];
-    let mut temperatures = vec![S::zero(); layout.thermal];
+    let zeros = |count| vec![S::zero(); count];
+    let zero = Sum::new(S::zero());
+    let mut viscous = zeros(layout.viscous);
+    let mut temperatures = zeros(layout.thermal);
     for (entry, slots) in scene.elements.iter().zip(&layout.elements) {
         for &(dashpot, stretch) in &entry.viscous_stretches {
             viscous[slots.viscous + dashpot] = stretch;
@@ -90,23 +64,23 @@ pub(super) fn initial_state<const D: usize, S: Real>(
         }
     }
     Ok(State {
-        time: Sum::new(S::zero()),
+        time: zero,
         positions: Compensated::new(positions),
         momenta: Compensated::new(momenta),
         velocities: Compensated::new(velocities),
         viscous: Compensated::new(viscous),
-        entropies: Compensated::new(vec![S::zero(); temperatures.len()]),
+        entropies: Compensated::new(zeros(layout.thermal)),
         temperatures,
         energies: vec![Energy::zero(); scene.elements.len()],
-        reservoir_entropies: Compensated::new(vec![S::zero(); scene.reservoirs.len()]),
-        work: Sum::new(S::zero()),
-        heat: Sum::new(S::zero()),
-        thermostat_entropy: Sum::new(S::zero()),
-        dissipated: Sum::new(S::zero()),
+        reservoir_entropies: Compensated::new(zeros(scene.reservoirs.len())),
+        work: zero,
+        heat: zero,
+        thermostat_entropy: zero,
+        dissipated: zero,
     })
 }
 
-/// The velocity with which a motion begins, from where it is within the first step, m/s; not a number if it has none.
+/// The initial velocity of a motion, from its positions within the first step, m/s; not a number if it has none.
 fn first_speed<const D: usize, S: Real>(motion: &OfTime<S, D>, step: S) -> [S; D] {
     let spans = shares().map(|share| S::from_f64(share) * step);
     let (first, places) = (motion(S::zero()), spans.map(|span| motion(span)));
@@ -123,30 +97,30 @@ fn first_speed<const D: usize, S: Real>(motion: &OfTime<S, D>, step: S) -> [S; D
     })
 }
 
-/// The elements of a scene, ready for a scheme in the initial state, whose entropies are found; or everything for which
-/// it cannot be one, and the scene as it was.
-pub(super) fn begin_groups<const D: usize, S: Real>(
-    scene: &mut Scene<D, S>,
-    scheme: Scheme,
-    (layout, masses): (&Layout, &Masses<S>),
+/// Finds the entropies of the initial state; errors for everything that makes it impossible.
+pub(super) fn find_entropies<const D: usize, S: Real>(
+    elements: &mut [&mut dyn Elements<S, D>],
     state: &mut State<S>,
-) -> Result<Groups<S, D>, Vec<SceneError>> {
-    let elements = mem::take(&mut scene.groups);
-    let placed = Placed {
-        nodes: &scene.elements,
-        layout,
-    };
-    let mut groups = Groups::new(elements, scheme, placed);
-    let errors = groups.initialize(state).into_iter();
-    let mut errors: Vec<_> = errors.map(SceneError::from).collect();
-    if errors.is_empty() {
-        let all = groups.all().into_iter();
-        let ledger = Ledger::of(state, masses, all, &scene.reservoirs, &scene.loads.gravity);
-        errors.extend(check_totals(&ledger).err());
+    parts: Parts<'_, S, D>,
+) -> Result<(), Vec<SceneError>> {
+    let mut errors = Vec::new();
+    for group in &mut *elements {
+        group.initialize(state, &mut |error| errors.push(SceneError::State(error)));
     }
     if errors.is_empty() {
-        return Ok(groups);
+        let (reservoirs, gravity) = (&parts.conduction.reservoirs, &parts.loads.gravity);
+        let groups = elements.iter().map(|group| &**group);
+        let ledger = Ledger::of(state, parts.masses, groups, reservoirs, gravity);
+        let infinite = ledger.infinite_entry();
+        errors.extend(infinite.map(|(quantity, value, unit)| SceneError::Total {
+            quantity,
+            value,
+            unit,
+        }));
     }
-    scene.groups = groups.into_loose();
-    Err(errors)
+    if errors.is_empty() {
+        Ok(())
+    } else {
+        Err(errors)
+    }
 }

@@ -1,11 +1,10 @@
-//! What steps a scene: its elements, what acts on them, and the solver.
+//! The elements of a scene with the solver of its scheme.
 
 use core::mem;
 
-use super::groups::Groups;
-use crate::algebra::system::MOST_FIXED;
+use crate::algebra::memory::{MemoryLimit, TooLarge};
 use crate::element::conduction::Conduction;
-use crate::element::group::{Elements, Group, Loose};
+use crate::element::group::{Elements, ExplicitGroup, Group, Loose, Placed};
 use crate::element::layout::Layout;
 use crate::element::loads::StepLoads;
 use crate::element::masses::Masses;
@@ -15,12 +14,12 @@ use crate::scene::entry::ElementEntry;
 use crate::scene::loads::Loads;
 use crate::step::error::StepFailure;
 use crate::step::explicit::{Explicit, SavedExplicit, Site};
-use crate::step::scheme::Scheme;
+use crate::step::scheme::{Closing, Scheme};
 use crate::step::solver::{SavedPast, Solver};
 use crate::step::systems::Systems;
 use eem_material::number::scalar::Real;
 
-/// What steps a scene.
+/// The solver of a scheme with the elements of a scene.
 pub(super) enum Stepper<S: Real, const D: usize> {
     /// Newton's method.
     Newton(Box<Newton<S, D>>),
@@ -28,19 +27,19 @@ pub(super) enum Stepper<S: Real, const D: usize> {
     Explicit(Box<Explicit<S, D>>),
 }
 
-/// Elements, loads and solver of a scene.
+/// Elements, loads and solver of an implicit scheme.
 pub(super) struct Newton<S: Real, const D: usize> {
     pub(super) groups: Vec<Box<dyn Group<S, D>>>,
     pub(super) solver: Solver<S, D>,
-    /// What acts in the next step.
+    /// The loads of the step.
     pub(super) loads: StepLoads<S>,
-    /// What acts at the times of its stages, if the scheme has some.
+    /// The loads at its stages, if the scheme has several.
     pub(super) stages: Vec<StepLoads<S>>,
-    /// The state between the two parts of a step of the staggered scheme.
-    pub(super) between: Option<State<S>>,
+    /// The intermediate state of the staggered scheme.
+    pub(super) intermediate: Option<State<S>>,
 }
 
-/// What a stepper is made from, besides its groups.
+/// The parts of a scene from which a stepper is made, besides its groups.
 #[derive(Clone, Copy)]
 pub(super) struct Parts<'a, S: Real, const D: usize> {
     pub(super) scheme: Scheme,
@@ -51,32 +50,60 @@ pub(super) struct Parts<'a, S: Real, const D: usize> {
     pub(super) loads: &'a Loads<S, D>,
 }
 
+impl<S: Real, const D: usize> Parts<'_, S, D> {
+    /// The linear systems of the scheme.
+    pub(super) fn systems(&self, limit: MemoryLimit) -> Result<Systems<S, D>, TooLarge> {
+        let elements = (&self.elements[..], self.layout);
+        let rockets = self.loads.rocket_lines();
+        Systems::new(self.scheme, elements, self.conduction, &rockets, limit)
+    }
+}
+
 impl<S: Real, const D: usize> Stepper<S, D> {
-    /// For groups in a state whose entropies are known, or still to be found, with the systems of the scheme.
-    pub(super) fn new(
-        groups: Groups<S, D>,
+    /// For elements in a state. `begin` is called with them before memory for the solver is reserved; if it fails, they
+    /// are returned.
+    pub(super) fn new<E>(
+        elements: Vec<Box<dyn Loose<S, D>>>,
         systems: Systems<S, D>,
         parts: Parts<'_, S, D>,
-        state: &State<S>,
-    ) -> Self {
-        match groups {
-            Groups::Newton(groups) => {
-                Self::Newton(Box::new(Newton::new(groups, systems, parts, state)))
+        state: &mut State<S>,
+        begin: impl FnOnce(&mut State<S>, &mut [&mut dyn Elements<S, D>]) -> Result<(), E>,
+    ) -> Result<Self, (E, Vec<Box<dyn Loose<S, D>>>)> {
+        let placed = Placed {
+            nodes: parts.elements,
+            layout: parts.layout,
+        };
+        let elements = elements.into_iter();
+        if parts.scheme.closing() == Closing::Explicit {
+            let groups = elements.map(|elements| elements.build_explicit(placed));
+            let mut groups: Vec<_> = groups.collect();
+            let all = groups.iter_mut().map(|group| group.elements_mut());
+            if let Err(error) = begin(state, &mut all.collect::<Vec<_>>()) {
+                let groups = groups.into_iter();
+                return Err((error, groups.map(ExplicitGroup::into_loose).collect()));
             }
-            Groups::Explicit(groups) => {
-                let site = Site {
-                    masses: parts.masses,
-                    elements: parts.elements,
-                    layout: parts.layout,
-                    conduction: parts.conduction,
-                    loads: parts.loads,
-                };
-                Self::Explicit(Box::new(Explicit::new(groups, site)))
-            }
+            let site = Site {
+                masses: parts.masses,
+                elements: parts.elements,
+                layout: parts.layout,
+                conduction: parts.conduction,
+                loads: parts.loads,
+            };
+            return Ok(Self::Explicit(Box::new(Explicit::new(groups, site))));
         }
+        let by = parts.scheme.conjugates();
+        let groups = elements.map(|elements| elements.build(by, placed));
+        let mut groups: Vec<_> = groups.collect();
+        let all = groups.iter_mut().map(|group| group.elements_mut());
+        if let Err(error) = begin(state, &mut all.collect::<Vec<_>>()) {
+            let groups = groups.into_iter();
+            return Err((error, groups.map(Group::into_loose).collect()));
+        }
+        let newton = Newton::new(groups, systems, parts, state);
+        Ok(Self::Newton(Box::new(newton)))
     }
 
-    /// Gives its elements away; it cannot step any more.
+    /// Takes its elements out, after which it cannot step.
     pub(super) fn take_elements(&mut self) -> Vec<Box<dyn Loose<S, D>>> {
         match self {
             Self::Newton(newton) => {
@@ -84,29 +111,6 @@ impl<S: Real, const D: usize> Stepper<S, D> {
                 groups.map(Group::into_loose).collect()
             }
             Self::Explicit(explicit) => explicit.take_elements(),
-        }
-    }
-
-    /// Whether an explicit scheme closes its steps by motion before heat.
-    pub(super) fn is_motion_first(&self) -> bool {
-        match self {
-            Self::Newton(_) => false,
-            Self::Explicit(explicit) => explicit.is_motion_first(),
-        }
-    }
-
-    /// Chooses what closes the steps of an explicit scheme.
-    pub(super) fn set_motion_first(&mut self, is_motion_first: bool) {
-        if let Self::Explicit(explicit) = self {
-            explicit.set_motion_first(is_motion_first);
-        }
-    }
-
-    /// Number of sets of unknowns of an iteration.
-    pub(super) fn sets(&self) -> usize {
-        match self {
-            Self::Newton(newton) => newton.solver.sets(),
-            Self::Explicit(_) => 0,
         }
     }
 
@@ -121,15 +125,7 @@ impl<S: Real, const D: usize> Stepper<S, D> {
         }
     }
 
-    /// Whether several numbers in one S can go through a step of so many unknowns together.
-    pub(super) fn suits_lanes(&self, unknowns: usize) -> bool {
-        match self {
-            Self::Newton(newton) => newton.stages.is_empty() && unknowns <= MOST_FIXED,
-            Self::Explicit(_) => true,
-        }
-    }
-
-    /// What the start of the step from this state depends on besides.
+    /// The history on which the step from this state depends.
     pub(super) fn past(&self, state: &State<S>) -> (SavedPast<S>, Option<SavedExplicit<S>>) {
         match self {
             Self::Newton(newton) => (newton.solver.past(), None),
@@ -137,14 +133,14 @@ impl<S: Real, const D: usize> Stepper<S, D> {
         }
     }
 
-    /// The past of Newton's method where it was saved before.
+    /// Overwrites a saved history of Newton's method.
     pub(super) fn save_past_to(&self, past: &mut SavedPast<S>) {
         if let Self::Newton(newton) = self {
             newton.solver.save_past_to(past);
         }
     }
 
-    /// Goes on from a saved past.
+    /// Continues from a saved history.
     pub(super) fn restore(&mut self, past: &SavedPast<S>, saved: Option<&SavedExplicit<S>>) {
         match self {
             Self::Newton(newton) => newton.solver.restore(past),
@@ -155,7 +151,7 @@ impl<S: Real, const D: usize> Stepper<S, D> {
         }
     }
 
-    /// Takes back what the last step left for the next ones.
+    /// Undoes the effect of the last step on the history.
     pub(super) fn undo(&mut self) {
         match self {
             Self::Newton(newton) => newton.solver.undo(),
@@ -180,7 +176,7 @@ impl<S: Real, const D: usize> Stepper<S, D> {
         (0..groups).map(|group| self.elements(group))
     }
 
-    /// Does something with all groups.
+    /// Calls a function with each group.
     pub(super) fn each_mut(&mut self, mut visit: impl FnMut(&mut dyn Elements<S, D>)) {
         match self {
             Self::Newton(newton) => {
@@ -200,27 +196,21 @@ impl<S: Real, const D: usize> Newton<S, D> {
         parts: Parts<'_, S, D>,
         state: &State<S>,
     ) -> Self {
-        let Parts {
-            scheme,
-            masses,
-            layout,
-            conduction,
-            loads,
-            ..
-        } = parts;
-        let memory = || StepLoads::new(masses.len() * D, layout, loads, masses.are_coupled());
-        let stages = scheme.tableau().map_or(0, Tableau::stages);
-        let whole = memory();
-        let solver = Solver::new(scheme, systems, masses, layout, conduction, &whole);
+        let (masses, layout, conduction) = (parts.masses, parts.layout, parts.conduction);
+        let (coordinates, is_coupled) = (masses.len() * D, masses.are_coupled());
+        let memory = || StepLoads::new(coordinates, layout, parts.loads, is_coupled);
+        let stages = parts.scheme.tableau().map_or(0, Tableau::stages);
+        let loads = memory();
+        let solver = Solver::new(parts.scheme, systems, masses, layout, conduction, &loads);
         for group in &mut groups {
             group.connect(&solver.sites(layout, conduction));
         }
         Self {
             groups,
             solver,
-            loads: whole,
+            loads,
             stages: (0..stages).map(|_| memory()).collect(),
-            between: scheme.is_split().then(|| state.clone()),
+            intermediate: parts.scheme.is_split().then(|| state.clone()),
         }
     }
 
@@ -241,7 +231,7 @@ impl<S: Real, const D: usize> Newton<S, D> {
         for (stage, &share) in self.stages.iter_mut().zip(rule.times) {
             stage.evaluate_forces_at(loads, masses, time + S::from_f64(share) * step)?;
         }
-        // The path of an element looks at what is prescribed at times of its own.
+        // The paths of elements have their own times for supports.
         let supports = rule.path.map_or(rule.times, |path| path.supports.times);
         for (stage, &share) in self.stages.iter_mut().zip(supports) {
             stage.evaluate_supports(loads, [time, S::from_f64(share) * step], q0)?;

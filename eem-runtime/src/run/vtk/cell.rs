@@ -1,4 +1,4 @@
-//! What files show of a node alone, of a spring and of a cell of a solid.
+//! The values of cells in files: of springs, cells of solids and single nodes.
 
 use core::array;
 
@@ -10,63 +10,46 @@ use crate::scene::Scene;
 use crate::scene::error::SceneError;
 use eem_material::number::scalar::Real;
 
-/// The numbers of cells.
-pub(super) const SCALARS: [&str; 8] = [
-    "temperature",
-    "internal_energy",
-    "entropy_production",
-    "stretch",
-    "force",
-    "strain_trace",
-    "dilatation",
-    "von_mises",
+/// The data of cells: names and numbers of components. Symmetric tensors have the order of the format: 11, 22, 33, 12,
+/// 23, 13.
+pub(super) const DATA: [(&str, usize); 11] = [
+    ("temperature", 1),
+    ("internal_energy", 1),
+    ("entropy_production", 1),
+    ("stretch", 1),
+    ("force", 1),
+    ("strain_trace", 1),
+    ("dilatation", 1),
+    ("von_mises", 1),
+    ("strain", 6),
+    ("stress", 6),
+    ("viscous_strain", 6),
 ];
-
-/// The symmetric tensors of cells.
-pub(super) const TENSORS: [&str; 3] = ["strain", "stress", "viscous_strain"];
-
-/// The components of a symmetric tensor in the order of the format: 11, 22, 33, 12, 23, 13.
-pub(super) type Components = [f64; 6];
 
 /// A node of no element, a spring, or a cell of a solid.
 #[derive(Debug)]
 pub(super) struct Cell {
     pub(super) nodes: Vec<usize>,
-    /// The number that the format has for its shape.
+    /// The number of its shape in the format.
     pub(super) kind: u8,
-    /// Its points; a node has none.
+    /// Its integration points; none for a node.
     pub(super) elements: Vec<Element>,
     is_spring: bool,
     is_thermal: bool,
     has_viscous_strain: bool,
 }
 
-/// What a cell has in a state; not a number where it has none.
-#[derive(Debug)]
-pub(super) struct Values {
-    pub(super) scalars: [f64; SCALARS.len()],
-    pub(super) tensors: [Components; TENSORS.len()],
-}
-
 impl Cell {
-    /// Its quantities in a state: sums of energy and production, means of all others.
-    pub(super) fn values<const D: usize, S: Real>(
+    /// Appends its values in a state to the columns of [`DATA`]: sums of energy and production, means of all others, and
+    /// NaN where there is none.
+    pub(super) fn append<const D: usize, S: Real>(
         &self,
         run: &Simulation<D, S>,
-    ) -> Result<Values, SceneError> {
-        let mut scalars = [f64::NAN; SCALARS.len()];
-        let mut tensors = [[f64::NAN; 6]; TENSORS.len()];
-        let [
-            temperature,
-            energy,
-            production,
-            stretch,
-            force,
-            trace,
-            dilatation,
-            von_mises,
-        ] = &mut scalars;
-        let [strain, stress, viscous_strain] = &mut tensors;
+        columns: &mut [Vec<f64>; DATA.len()],
+    ) -> Result<(), SceneError> {
+        let mut scalars = [f64::NAN; 8];
+        let [temperature, energy, production, mechanical @ ..] = &mut scalars;
+        let mut tensors = [[f64::NAN; 6]; 3];
         if !self.elements.is_empty() {
             [*energy] = self.sum(|element| Ok([run.internal_energy(element)?.to_f64()]))?;
         }
@@ -74,26 +57,32 @@ impl Cell {
             [*temperature] = self.mean(|element| Ok([run.temperature(element)?.to_f64()]))?;
             [*production] = self.sum(|element| Ok([run.entropy_production(element)?.to_f64()]))?;
         }
+        let [stretch, force, of_solid @ ..] = mechanical;
         if self.is_spring {
             [*stretch] = self.mean(|element| Ok([run.stretch(element)?.to_f64()]))?;
             [*force] = self.mean(|element| Ok([run.force(element)?.to_f64()]))?;
         } else if !self.elements.is_empty() {
-            [*trace, *dilatation, *von_mises] = self.mean(|element| {
+            *of_solid = self.mean(|element| {
                 let state = run.solid_state(element)?;
                 let e = |axis| state.strain[(axis, axis)];
                 let trace = e(0) + e(1) + e(2);
                 Ok([trace, state.dilatation, state.von_mises()].map(Real::to_f64))
             })?;
-            *strain = self.mean(|element| Ok(components(&run.solid_state(element)?.strain)))?;
-            *stress = self.mean(|element| Ok(components(&run.solid_state(element)?.stress)))?;
+            tensors[0] = self.mean(|element| Ok(components(&run.solid_state(element)?.strain)))?;
+            tensors[1] = self.mean(|element| Ok(components(&run.solid_state(element)?.stress)))?;
         }
         if self.has_viscous_strain {
-            *viscous_strain = self.mean(|element| Ok(components(&run.viscous_strain(element)?)))?;
+            tensors[2] = self.mean(|element| Ok(components(&run.viscous_strain(element)?)))?;
         }
-        Ok(Values { scalars, tensors })
+        let tensors = tensors.iter().map(|tensor| &tensor[..]);
+        let values = scalars.chunks_exact(1).chain(tensors);
+        for (column, values) in columns.iter_mut().zip(values) {
+            column.extend_from_slice(values);
+        }
+        Ok(())
     }
 
-    /// Over its points.
+    /// The sum over its points.
     fn sum<const N: usize>(
         &self,
         of: impl Fn(Element) -> Result<[f64; N], SceneError>,
@@ -106,7 +95,7 @@ impl Cell {
         Ok(total)
     }
 
-    /// Over its points.
+    /// The mean over its points.
     fn mean<const N: usize>(
         &self,
         of: impl Fn(Element) -> Result<[f64; N], SceneError>,
@@ -116,8 +105,8 @@ impl Cell {
     }
 }
 
-/// Of a symmetric tensor.
-fn components<S: Real>(tensor: &SMatrix<S, 3, 3>) -> Components {
+/// The components of a symmetric tensor.
+fn components<S: Real>(tensor: &SMatrix<S, 3, 3>) -> [f64; 6] {
     let places = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
     places.map(|place| tensor[place].to_f64())
 }
@@ -128,7 +117,7 @@ pub(super) fn cells<const D: usize, S: Real>(scene: &Scene<D, S>) -> Vec<Cell> {
     let mut is_alone = vec![true; scene.nodes.len()];
     let mut next = 0;
     while let Some(entry) = scene.elements.get(next) {
-        // A solid that could not be made has no group; the scene is refused for it.
+        // An invalid solid has no group; the scene is rejected for it.
         let Some(group) = scene.groups.get(entry.group) else {
             next += 1;
             continue;
@@ -162,7 +151,7 @@ pub(super) fn cells<const D: usize, S: Real>(scene: &Scene<D, S>) -> Vec<Cell> {
     cells
 }
 
-/// The number that the format has for a shape with so many nodes.
+/// The number of a shape with so many nodes in the format.
 const fn kind(nodes: usize, dimension: usize) -> u8 {
     match (nodes, dimension) {
         (1, _) => 1,

@@ -2,37 +2,25 @@
 
 use core::fmt::{self, Display, Write as _};
 
-use super::cell::Components;
-
 /// An unstructured grid with data on points and cells.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Grid {
     /// m.
     pub(super) points: Vec<[f64; 3]>,
     kinds: Vec<u8>,
     connectivity: Vec<usize>,
-    /// Where the nodes of each cell end.
+    /// The end of the nodes of each cell.
     offsets: Vec<usize>,
-    /// A vector per point.
+    /// Vectors per point, by name.
     pub(super) vectors: Vec<(&'static str, Vec<[f64; 3]>)>,
-    /// A number per cell.
-    pub(super) scalars: Vec<(&'static str, Vec<f64>)>,
-    /// A symmetric tensor per cell.
-    pub(super) tensors: Vec<(&'static str, Vec<Components>)>,
+    /// Data per cell: names, numbers of components, and all components.
+    pub(super) cell_data: Vec<(&'static str, usize, Vec<f64>)>,
 }
 
 impl Grid {
     /// Cells of some kinds with their nodes, without points.
     pub(super) fn new<'a>(cells: impl Iterator<Item = (u8, &'a [usize])>) -> Self {
-        let mut grid = Self {
-            points: Vec::new(),
-            kinds: Vec::new(),
-            connectivity: Vec::new(),
-            offsets: Vec::new(),
-            vectors: Vec::new(),
-            scalars: Vec::new(),
-            tensors: Vec::new(),
-        };
+        let mut grid = Self::default();
         for (kind, nodes) in cells {
             grid.kinds.push(kind);
             grid.connectivity.extend_from_slice(nodes);
@@ -54,11 +42,8 @@ impl Grid {
             xml.numbers(name, 3, vectors.as_flattened());
         }
         xml.line("</PointData>\n<CellData>");
-        for (name, values) in &self.scalars {
-            xml.numbers(name, 1, values);
-        }
-        for (name, tensors) in &self.tensors {
-            xml.numbers(name, 6, tensors.as_flattened());
+        for (name, components, values) in &self.cell_data {
+            xml.numbers(name, *components, values);
         }
         xml.line("</CellData>\n<Points>");
         xml.numbers("position", 3, self.points.as_flattened());
@@ -126,7 +111,7 @@ impl Xml {
     }
 }
 
-/// A number with as many digits as give it back.
+/// A number with enough digits to restore it.
 struct Number(f64);
 
 impl Display for Number {
@@ -139,7 +124,7 @@ impl Display for Number {
     }
 }
 
-/// Text within quotes of XML.
+/// Text in an attribute of XML.
 fn escaped(text: &str) -> String {
     let text = text.replace('&', "&amp;").replace('<', "&lt;");
     text.replace('"', "&quot;")

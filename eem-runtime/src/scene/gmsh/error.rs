@@ -1,4 +1,4 @@
-//! What can be wrong with a file of Gmsh.
+//! Errors of Gmsh files.
 
 use std::path::PathBuf;
 
@@ -7,7 +7,7 @@ use thiserror::Error;
 use crate::scene::mesh::MeshError;
 use eem_material::number::readable::Readable;
 
-/// Why there is no mesh in a file of Gmsh. Nodes, elements and entities are named by their tags.
+/// Why a Gmsh file contains no mesh. Nodes, elements and entities are named by their tags.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MshError {
@@ -19,12 +19,12 @@ pub enum MshError {
         /// Why.
         reason: String,
     },
-    /// The file has another format.
+    /// The format of the file is not supported.
     #[error(
         "the mesh has the format `{found}`, and `4.1 0 8` is read, which is version 4.1 in ASCII: save it by `gmsh -format msh41 -save`, without `-bin`"
     )]
     Format {
-        /// What it says of its format.
+        /// The format in the file.
         found: String,
     },
     /// A section is missing.
@@ -40,7 +40,7 @@ pub enum MshError {
     Outside {
         /// From 1.
         line: usize,
-        /// What is there.
+        /// The text of the line.
         found: String,
     },
     /// A section has no end.
@@ -53,7 +53,7 @@ pub enum MshError {
         /// Where it begins, from 1.
         line: usize,
     },
-    /// There are two sections of which there has to be one.
+    /// A section appears twice.
     #[error(
         "line {line} of the mesh begins a second section `${name}`, the first begins in line {first}: leave one of them"
     )]
@@ -65,16 +65,16 @@ pub enum MshError {
         /// Where the second begins, from 1.
         line: usize,
     },
-    /// A line is not what it has to be.
+    /// A line is invalid.
     #[error("line {line} of the mesh, in `${section}`, is `{found}`: {fault}")]
     Line {
         /// The section.
         section: String,
         /// From 1.
         line: usize,
-        /// What is there.
+        /// The text of the line.
         found: String,
-        /// What is wrong with it.
+        /// Its error.
         fault: LineFault,
     },
     /// An element has a node that does not exist.
@@ -100,9 +100,9 @@ pub enum MshError {
     WrongElement {
         /// The entity.
         entity: i32,
-        /// What it has.
+        /// Its elements.
         found: &'static str,
-        /// What it has to have.
+        /// The requested shape.
         shape: &'static str,
     },
     /// There are no elements of a shape.
@@ -138,38 +138,38 @@ pub enum MshError {
         /// The nodes.
         nodes: [u64; 2],
     },
-    /// Something is wrong with an element.
+    /// An element is invalid.
     #[error("element {element} of the file: {error}")]
     Element {
         /// The element.
         element: u64,
-        /// What is wrong, in the numbering of the mesh.
+        /// The error in the numbering of the mesh.
         error: MeshError,
     },
-    /// Something is wrong between elements.
+    /// Elements contradict each other.
     #[error("elements {elements:?} of the file: {error}")]
     Elements {
         /// The elements.
         elements: Vec<u64>,
-        /// What is wrong, in the numbering of the mesh.
+        /// The error in the numbering of the mesh.
         error: MeshError,
     },
-    /// Something else is wrong with the mesh, in its own numbering.
+    /// Another error of the mesh, in its own numbering.
     #[error(transparent)]
     Mesh(#[from] MeshError),
 }
 
-/// What is wrong with a line of a file of Gmsh.
+/// Why a line of a Gmsh file is invalid.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum LineFault {
-    /// It has too many or too few numbers, or what is no such number.
+    /// It has too many or too few numbers, or invalid ones.
     #[error("these are not the numbers that have to be there")]
     Numbers,
-    /// The section goes on although all of its blocks have been read.
+    /// The section continues after its last block.
     #[error("the section has to end here, by what its first line says of it")]
     NotTheEnd,
-    /// The first line of a section says something else than what is in its blocks.
+    /// The first line of a section contradicts its blocks.
     #[error(
         "its blocks hold {count} in all, with tags from {least} to {largest}, which the second, third and fourth number have to be",
         least = range[0], largest = range[1]
@@ -188,7 +188,7 @@ pub enum LineFault {
         /// The line that has it first, from 1.
         first: usize,
     },
-    /// An entity has a dimension that there is not.
+    /// The dimension of an entity is invalid.
     #[error("the dimension of an entity is 0, 1, 2 or 3, and {found} is given first")]
     EntityDimension {
         /// The dimension.
@@ -204,12 +204,12 @@ pub enum LineFault {
         /// Theirs.
         needed: usize,
     },
-    /// It is not clear whether nodes have coordinates within their entity.
+    /// The number that tells whether nodes have coordinates within their entity is invalid.
     #[error(
         "the third number is 1 if nodes have coordinates within their entity and else 0, and {found} is given"
     )]
     Parametric {
-        /// What is given.
+        /// The number in the file.
         found: u64,
     },
 }

@@ -1,12 +1,12 @@
-//! The surface of a mesh.
+//! The surface of a mesh, and the areas and volumes of its nodes, `∫ N_a dA` and `∫ N_a dV`.
 
 use core::convert::Infallible;
 
-use super::Mesh;
 use super::error::MeshError;
-use super::face::Face;
-use super::sides;
-use crate::element::kinematics::Shape;
+use super::face::{Face, Outline};
+use super::{Mesh, sides};
+use crate::element::kinematics::{Shape, Symmetric, integrals};
+use eem_material::number::scalar::Scalar;
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     /// The surface faces whose nodes all satisfy a condition.
@@ -32,6 +32,40 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         self.face_of(sides)
     }
 
+    /// Lines for drawing the mesh: around each cell in the plane, around each surface face in space,
+    /// counterclockwise seen from outside. Mid-side nodes lie between their corners.
+    ///
+    /// ```
+    /// use eem::Mesh;
+    /// use eem::kinematics::{Hex8, Quad8};
+    ///
+    /// let square = Mesh::<Quad8, 2>::block([1, 1], [[0.0, 2.0]; 2])?;
+    /// let outlines = square.outlines();
+    /// let around = outlines[0].nodes.iter().map(|&node| square.nodes()[node]);
+    /// assert_eq!(around.take(3).collect::<Vec<_>>(), [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]);
+    ///
+    /// // The faces between cells are not to be seen.
+    /// let cube = Mesh::<Hex8, 3>::block([2, 2, 2], [[0.0, 1.0]; 3])?;
+    /// assert_eq!(cube.outlines().len(), 6 * 4);
+    /// # Ok::<(), eem::MeshError>(())
+    /// ```
+    #[must_use]
+    pub fn outlines(&self) -> Vec<Outline> {
+        let outline = |cell, nodes: &[usize]| Outline {
+            cell,
+            nodes: interleaved(nodes),
+        };
+        if D == 2 {
+            let cells = self.cells.iter().enumerate();
+            return cells
+                .map(|(cell, nodes)| outline(cell, nodes.as_ref()))
+                .collect();
+        }
+        let sides = self.surface().into_iter();
+        let around = |side: [usize; 2]| outline(side[0], &self.nodes_of(side).collect::<Vec<_>>());
+        sides.map(around).collect()
+    }
+
     /// These faces of cells, in ascending order.
     pub(crate) fn face_of(&self, sides: Vec<[usize; 2]>) -> Result<Face, MeshError> {
         if sides.is_empty() {
@@ -44,7 +78,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         Ok(Face { mesh, sides, nodes })
     }
 
-    /// Whether some faces are faces of this mesh, or of one that is equal to it.
+    /// Whether a face belongs to this mesh or to an equal one.
     pub(crate) fn has(&self, face: &Face) -> bool {
         face.mesh == self.digest
     }
@@ -67,14 +101,73 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         sides
     }
 
-    /// Shows the faces of all cells, those with the same nodes at once.
+    /// Calls a function with the faces of all cells, those with the same nodes together.
     pub(super) fn for_same_sides(&self, mut show: impl FnMut(&[[usize; 2]])) {
-        let shown = sides::for_same::<H, D, Infallible>(&self.cells, self.nodes.len(), |same| {
+        let Ok(()) = sides::for_same::<H, D, Infallible>(&self.cells, self.nodes.len(), |same| {
             show(same);
             Ok(())
         });
-        match shown {
-            Ok(()) => {}
+    }
+}
+
+/// Four corners, each followed by the mid-side node behind it if there is one.
+fn interleaved(nodes: &[usize]) -> Vec<usize> {
+    let (corners, middles) = nodes.split_at(nodes.len().min(4));
+    let next = |at: usize| middles.get(at).copied();
+    let pairs = corners.iter().enumerate();
+    pairs
+        .flat_map(|(at, &corner)| [Some(corner), next(at)])
+        .flatten()
+        .collect()
+}
+
+impl<H: Shape<D>, const D: usize> Mesh<H, D> {
+    /// The area of each node of a face; m², m in the plane.
+    pub(crate) fn areas(&self, face: &Face) -> Vec<(usize, f64)> {
+        let mut areas = vec![0.0; self.nodes.len()];
+        for &[cell, side] in &face.sides {
+            let (axis, end) = (side / 2, if side % 2 == 0 { -1.0 } else { 1.0 });
+            // The rule of the cell with its points moved to the face, where the weights across sum to 2.
+            for (mut place, weight) in integrals::rule::<H, D>() {
+                place[axis] = end;
+                let (jacobian, functions) = self.jacobian(cell, place);
+                let cofactor = H::Tensor::<f64>::cofactor(&jacobian);
+                let size = cofactor
+                    .iter()
+                    .fold(0.0, |size: f64, row| Scalar::hypot(size, row[axis]));
+                for (&node, (share, _)) in self.cells[cell].as_ref().iter().zip(&functions) {
+                    areas[node] += share * (0.5 * weight * size);
+                }
+            }
         }
+        let of = |&node: &usize| (node, areas[node]);
+        face.nodes().iter().map(of).collect()
+    }
+
+    /// The volume of each node; m³, m² in the plane.
+    pub(crate) fn volumes(&self) -> Vec<f64> {
+        let mut volumes = vec![0.0; self.nodes.len()];
+        for cell in 0..self.cells.len() {
+            for (place, weight) in integrals::rule::<H, D>() {
+                let (jacobian, functions) = self.jacobian(cell, place);
+                let size = weight * H::Tensor::<f64>::determinant(&jacobian);
+                for (&node, (share, _)) in self.cells[cell].as_ref().iter().zip(&functions) {
+                    volumes[node] += share * size;
+                }
+            }
+        }
+        volumes
+    }
+
+    /// `∂X/∂ξ` at a point of the parent cell, with the shape functions.
+    fn jacobian(
+        &self,
+        cell: usize,
+        place: [f64; D],
+    ) -> ([[f64; D]; D], integrals::Functions<f64, D>) {
+        let nodes = self.cells[cell].as_ref().iter();
+        let reference: Vec<_> = nodes.map(|&node| self.nodes[node]).collect();
+        let functions = integrals::functions::<H, f64, D>(place);
+        (integrals::jacobian(&reference, &functions), functions)
     }
 }

@@ -1,4 +1,4 @@
-//! The rules that a mesh must satisfy.
+//! The rules for a mesh.
 
 use super::error::MeshError;
 use super::geometry::power_of_two;
@@ -6,7 +6,7 @@ use super::sides;
 use crate::element::kinematics::{Shape, Symmetric, integrals};
 use eem_material::free_energy::Array;
 
-/// The first thing that is wrong.
+/// The first error of a mesh.
 pub(super) fn check<H: Shape<D>, const D: usize>(
     nodes: &[[f64; D]],
     cells: &[H::PerNode<usize>],
@@ -15,7 +15,8 @@ pub(super) fn check<H: Shape<D>, const D: usize>(
         return Err(MeshError::Empty);
     }
     check_names::<H, D>(nodes.len(), cells)?;
-    check_places(nodes)?;
+    check_finite(nodes)?;
+    check_distinct(nodes)?;
     check_sizes::<H, D>(nodes, cells)?;
     sides::for_same::<H, D, _>(cells, nodes.len(), |same| check_same::<H, D>(cells, same))
 }
@@ -46,40 +47,41 @@ fn check_sizes<H: Shape<D>, const D: usize>(
             let is_there = is_size(scaled_size::<H, D>(reference.as_ref(), functions));
             is_there.then_some(MeshError::Scale { cell, value, unit })
         };
-        let sizes = points.iter().map(size);
-        if let Some((point, value)) = sizes.enumerate().find(|&(_, value)| !is_size(value)) {
-            let inside_out = MeshError::InsideOut {
-                cell,
-                point,
-                value,
-                unit,
+        for (at, functions) in points.iter().chain(&at_nodes).enumerate() {
+            let value = size(functions);
+            if is_size(value) {
+                continue;
+            }
+            let inside_out = match at.checked_sub(points.len()) {
+                None => MeshError::InsideOut {
+                    cell,
+                    point: at,
+                    value,
+                    unit,
+                },
+                Some(node) => MeshError::InsideOutAtNode {
+                    cell,
+                    node: its_nodes.as_ref()[node],
+                    value,
+                    unit,
+                },
             };
-            return Err(scale(&points[point], value).unwrap_or(inside_out));
-        }
-        let sizes = at_nodes.iter().map(size);
-        if let Some((at, value)) = sizes.enumerate().find(|&(_, value)| !is_size(value)) {
-            let inside_out = MeshError::InsideOutAtNode {
-                cell,
-                node: its_nodes.as_ref()[at],
-                value,
-                unit,
-            };
-            return Err(scale(&at_nodes[at], value).unwrap_or(inside_out));
+            return Err(scale(functions, value).unwrap_or(inside_out));
         }
     }
     Ok(())
 }
 
-/// `det ∂X/∂ξ` of a cell that is of about the size one, by powers of two.
+/// `det ∂X/∂ξ` of a cell scaled to about the size one by powers of two.
 fn scaled_size<H: Shape<D>, const D: usize>(
     reference: &[[f64; D]],
     functions: &integrals::Functions<f64, D>,
 ) -> f64 {
     let power = power_of_two(reference.as_flattened().iter());
     let first = reference[0];
-    let arms = reference
-        .iter()
-        .map(|place| core::array::from_fn(|axis| power * place[axis] - power * first[axis]));
+    let places = reference.iter();
+    let arms =
+        places.map(|place| core::array::from_fn(|axis| power * place[axis] - power * first[axis]));
     let mut arms: Vec<[f64; D]> = arms.collect();
     let power = power_of_two(arms.as_flattened().iter());
     for coordinate in arms.as_flattened_mut() {
@@ -88,7 +90,7 @@ fn scaled_size<H: Shape<D>, const D: usize>(
     H::Tensor::<f64>::determinant(&integrals::jacobian(&arms, functions))
 }
 
-/// Of faces of cells with the same nodes there are at most two, one of which is seen from either side.
+/// An error unless at most two faces of cells have the same nodes, and face each other.
 fn check_same<H: Shape<D>, const D: usize>(
     cells: &[H::PerNode<usize>],
     same: &[[usize; 2]],
@@ -105,11 +107,11 @@ fn check_same<H: Shape<D>, const D: usize>(
     if all_nodes(pair[0]) == all_nodes(pair[1]) {
         return Err(MeshError::SameNodes { cells: pair });
     }
-    // The corners against the clock seen from outside.
+    // The corners counterclockwise, seen from outside.
     let corners = |[cell, face]: [usize; 2]| {
         let corners = H::FACES[face].iter().take(1 << (D - 1));
         let mut corners: Vec<usize> = corners.map(|&node| cells[cell].as_ref()[node]).collect();
-        // Around a face in space one may begin anywhere.
+        // Around a face in space, from the one with the least number.
         if D == 3 {
             let least = (0..corners.len()).min_by_key(|&at| corners[at]);
             corners.rotate_left(least.unwrap_or_default());
@@ -129,7 +131,7 @@ fn check_same<H: Shape<D>, const D: usize>(
     Ok(())
 }
 
-/// Cells have nodes that exist, each once, and every node has a cell.
+/// An error unless cells have existing nodes, each once, and every node has a cell.
 fn check_names<H: Shape<D>, const D: usize>(
     nodes: usize,
     cells: &[H::PerNode<usize>],
@@ -153,15 +155,20 @@ fn check_names<H: Shape<D>, const D: usize>(
     }
 }
 
-/// Places are finite, and no two are the same.
-fn check_places<const D: usize>(nodes: &[[f64; D]]) -> Result<(), MeshError> {
+/// An error unless all coordinates are finite.
+pub(super) fn check_finite<const D: usize>(nodes: &[[f64; D]]) -> Result<(), MeshError> {
     for (node, place) in nodes.iter().enumerate() {
         if let Some(axis) = place.iter().position(|coordinate| !coordinate.is_finite()) {
             let value = place[axis];
             return Err(MeshError::Place { node, axis, value });
         }
     }
-    // −0 and 0 are one place.
+    Ok(())
+}
+
+/// An error if two nodes have the same position.
+fn check_distinct<const D: usize>(nodes: &[[f64; D]]) -> Result<(), MeshError> {
+    // −0 and 0 are the same.
     let key = |&node: &usize| nodes[node].map(|coordinate| (coordinate + 0.0).to_bits());
     let mut order: Vec<usize> = (0..nodes.len()).collect();
     order.sort_by_key(key);

@@ -1,4 +1,4 @@
-//! What can be wrong with a mesh.
+//! Errors of meshes.
 
 use thiserror::Error;
 
@@ -123,7 +123,7 @@ pub enum MeshError {
         /// Its unit, m² or m³.
         unit: &'static str,
     },
-    /// A cell is inside out at one of its nodes, or its edges go on in one line there.
+    /// A cell is inside out at one of its nodes, or two edges are collinear there.
     #[error(
         "cell {cell} is inside out, or flat, at its node {node}: det dX/dxi is {value} {unit} there, it must be positive and finite; at a corner less than half a turn lies between its edges",
         value = Readable(*value)
@@ -138,7 +138,7 @@ pub enum MeshError {
         /// Its unit, m² or m³.
         unit: &'static str,
     },
-    /// A cell is not inside out, but too large or too small for its volume to be a number.
+    /// The volume of a cell overflows or underflows.
     #[error(
         "cell {cell} is too large or too small: det dX/dxi is {value} {unit}, outside of what a number holds; give lengths in m",
         value = Readable(*value)

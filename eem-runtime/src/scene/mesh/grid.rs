@@ -1,10 +1,12 @@
-//! Meshes of boxes that planes cut into cells.
+//! Meshes of boxes, and extrusion of plane meshes.
+
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::Mesh;
 use super::error::MeshError;
+use super::geometry::per_node;
 use super::lattice::Lattice;
-use crate::element::kinematics::Shape;
-use eem_material::free_energy::Array;
+use crate::element::kinematics::{Hex8, Hex20, Quad4, Quad8, Shape};
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     /// A box between two coordinates per axis, m, divided into equal cells. The first coordinate varies fastest.
@@ -33,7 +35,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
         let lattice = Lattice::of(cells)?;
         let cuts: [Vec<f64>; D] = core::array::from_fn(|axis| {
             let [from, to] = ranges[axis];
-            // There are no more nodes than that.
+            // A mesh has no more nodes.
             let parts = u32::try_from(cells[axis]).unwrap_or(u32::MAX);
             let all = f64::from(parts);
             let cut = |at: u32| {
@@ -77,28 +79,29 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
 
     fn on_lattice(lattice: &Lattice<H, D>, cuts: [&[f64]; D]) -> Result<Self, MeshError> {
         let place = |at: [usize; D]| -> [f64; D] {
-            core::array::from_fn(|axis| {
-                let before = cuts[axis][at[axis] / 2];
-                match at[axis] % 2 {
-                    0 => before,
-                    _ => f64::midpoint(before, cuts[axis][at[axis] / 2 + 1]),
-                }
-            })
+            core::array::from_fn(|axis| level(cuts[axis], at[axis]))
         };
+        // Middles of edges are between the corners of a cell.
         let named = |cell: [usize; D]| {
-            let mut named = H::PerNode::filled(0);
-            for (name, node) in named.as_mut().iter_mut().zip(H::NODES) {
-                // Middles of edges are between the corners of a cell.
-                *name = lattice.number(core::array::from_fn(|axis| {
-                    (2 * cell[axis] + 1).saturating_add_signed(isize::from(node[axis]))
-                }));
-            }
-            named
+            per_node::<H, _, D>(|at| {
+                lattice.number(core::array::from_fn(|axis| {
+                    (2 * cell[axis] + 1).saturating_add_signed(isize::from(H::NODES[at][axis]))
+                }))
+            })
         };
         let (mut places, mut cells) = lattice.reserved()?;
         places.extend(lattice.places().map(place));
         cells.extend(indices(cuts.map(|cuts| cuts.len() - 1)).map(named));
         Self::new(places, cells)
+    }
+}
+
+/// A cut, or the middle between two, counted in halves.
+pub(super) fn level(cuts: &[f64], at: usize) -> f64 {
+    let below = cuts[at / 2];
+    match at % 2 {
+        0 => below,
+        _ => f64::midpoint(below, cuts[at / 2 + 1]),
     }
 }
 
@@ -134,4 +137,80 @@ pub(super) fn indices<const D: usize>(counts: [usize; D]) -> impl Iterator<Item 
         })
     };
     (0..number).map(index)
+}
+
+impl Mesh<Hex8, 3> {
+    /// Extrudes a plane mesh along z through these heights, m: one layer of hexahedra between two heights.
+    ///
+    /// ```
+    /// use eem::Mesh;
+    /// use eem::kinematics::{Hex8, Quad4};
+    ///
+    /// let profile = Mesh::<Quad4, 2>::polygon(&[[0.0, 0.0], [2.0, 0.0], [0.0, 1.0]])?;
+    /// let wedge = Mesh::<Hex8, 3>::extruded(&profile, &[0.0, 0.5, 2.0])?;
+    /// assert_eq!((profile.cells().len(), wedge.cells().len()), (3, 6));
+    /// assert_eq!(wedge.nodes().len(), 3 * profile.nodes().len());
+    /// # Ok::<(), eem::MeshError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`MeshError::Cut`] if the heights do not ascend, [`MeshError::Empty`] if there are fewer than two.
+    pub fn extruded(profile: &Mesh<Quad4, 2>, heights: &[f64]) -> Result<Self, MeshError> {
+        extruded(profile, heights)
+    }
+}
+
+impl Mesh<Hex20, 3> {
+    /// Extrudes a plane mesh along z through these heights, m: one layer of hexahedra between two heights.
+    ///
+    /// ```
+    /// use eem::Mesh;
+    /// use eem::kinematics::{Hex20, Quad8};
+    ///
+    /// let strip = Mesh::<Quad8, 2>::block([4, 1], [[0.0, 4.0], [0.0, 1.0]])?;
+    /// let bent = strip.mapped(|[x, y]| [x, y + 0.1 * x * x])?;
+    /// let beam = Mesh::<Hex20, 3>::extruded(&bent, &[0.0, 0.5])?;
+    /// assert_eq!((beam.cells().len(), beam.nodes().len()), (4, 56));
+    /// # Ok::<(), eem::MeshError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`MeshError::Cut`] if the heights do not ascend, [`MeshError::Empty`] if there are fewer than two.
+    pub fn extruded(profile: &Mesh<Quad8, 2>, heights: &[f64]) -> Result<Self, MeshError> {
+        extruded(profile, heights)
+    }
+}
+
+/// The nodes of a hexahedron lie above those of its quadrilateral: all of them at two heights, at most the corners
+/// half-way between.
+fn extruded<P: Shape<2>, H: Shape<3>>(
+    profile: &Mesh<P, 2>,
+    heights: &[f64],
+) -> Result<Mesh<H, 3>, MeshError> {
+    check_axis(2, heights)?;
+    // Twice the index of a height, which sorts first, and the node of the profile.
+    let key = |layer: usize, cell: &P::PerNode<usize>, [x, y, z]: [i8; 3]| {
+        let below = P::NODES.iter().position(|&node| node == [x, y]);
+        let below = below.unwrap_or_else(|| unreachable!("hexahedra stand on quadrilaterals"));
+        let at = (2 * layer + 1).saturating_add_signed(isize::from(z));
+        [at, cell.as_ref()[below]]
+    };
+    let layers = 0..heights.len() - 1;
+    let all = layers.flat_map(|layer| profile.cells.iter().map(move |cell| (layer, cell)));
+    let nodes = H::NODES.iter();
+    let keys = all.map(|(layer, cell)| nodes.clone().map(|&node| key(layer, cell, node)).collect());
+    let keys: Vec<Vec<[usize; 2]>> = keys.collect();
+    let sorted: BTreeSet<[usize; 2]> = keys.iter().flatten().copied().collect();
+    let nodes: BTreeMap<_, _> = sorted.into_iter().zip(0..).collect();
+    let place = |&[at, node]: &[usize; 2]| {
+        let [x, y] = profile.nodes[node];
+        [x, y, level(heights, at)]
+    };
+    let cell = |keys: &Vec<[usize; 2]>| per_node::<H, _, 3>(|at| nodes[&keys[at]]);
+    Mesh::new(
+        nodes.keys().map(place).collect(),
+        keys.iter().map(cell).collect(),
+    )
 }

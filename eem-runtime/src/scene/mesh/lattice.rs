@@ -1,7 +1,7 @@
-//! The numbering of the nodes of a box of cells, and how much memory they take.
+//! The numbering of the nodes of a box of cells, and their memory.
 //!
-//! Nodes are on a lattice of twice as many steps as there are cells: corners at even places, middles of edges at one
-//! odd one. The first coordinate runs fastest. A *row* has all nodes along the first axis.
+//! Nodes are on a lattice with two steps per cell: corners at even positions, middles of edges at one odd one. The first
+//! coordinate varies fastest. A *row* has all nodes along the first axis.
 
 use core::marker::PhantomData;
 
@@ -13,35 +13,37 @@ use crate::element::kinematics::Shape;
 #[derive(Debug)]
 pub(super) struct Lattice<H, const D: usize> {
     cells: [usize; D],
-    /// Whether nodes are where these axes have odd places, by the sum of `2^axis`.
+    /// Whether there are nodes at positions that are odd along these axes, by the sum of `2^axis`.
     has: Vec<bool>,
-    /// The first node of each row; how many nodes there are.
+    /// The first node of each row, and the number of nodes.
     starts: Vec<usize>,
     shape: PhantomData<H>,
 }
 
 impl<H: Shape<D>, const D: usize> Lattice<H, D> {
-    /// An error if there are no cells, or if nodes and cells do not fit in 32 bits or in the memory.
+    /// An error if there are no cells, or if nodes and cells do not fit in 32 bits or in memory.
     pub(super) fn of(cells: [usize; D]) -> Result<Self, MeshError> {
         if cells.contains(&0) {
             return Err(MeshError::Empty);
         }
         let mut has = vec![false; 1 << D];
         for node in H::NODES {
-            has[odd(&node.map(|side| side == 0))] = true;
+            // Along an axis with 0, the node is in the middle.
+            let axes = node.iter().enumerate();
+            has[axes.fold(0, |sum, (axis, &side)| {
+                sum + (usize::from(side == 0) << axis)
+            })] = true;
         }
         let size = Size::of::<H, D>(cells, &has);
         size.check()?;
+        let across = cells[1..].iter();
+        let rows = across.fold(1, |rows, &count| rows * (2 * count + 1));
         let mut lattice = Self {
             cells,
             has,
-            starts: Vec::new(),
+            starts: size.reserved(rows + 1)?,
             shape: PhantomData,
         };
-        let rows = cells[1..]
-            .iter()
-            .fold(1, |rows, &count| rows * (2 * count + 1));
-        lattice.starts = size.reserved(rows + 1)?;
         let mut start = 0;
         for row in 0..rows {
             lattice.starts.push(start);
@@ -53,7 +55,7 @@ impl<H: Shape<D>, const D: usize> Lattice<H, D> {
         Ok(lattice)
     }
 
-    /// Which axes but the first are odd in a row.
+    /// The sum of `2^axis` of the axes, except the first, that are odd in a row.
     fn parities(&self, mut row: usize) -> usize {
         let mut odd = 0;
         for (axis, count) in self.cells.iter().enumerate().skip(1) {
@@ -63,7 +65,7 @@ impl<H: Shape<D>, const D: usize> Lattice<H, D> {
         odd
     }
 
-    /// The number of the node at a place of the lattice.
+    /// The number of the node at a position of the lattice.
     pub(super) fn number(&self, place: [usize; D]) -> usize {
         let axes = place.iter().zip(&self.cells).skip(1).rev();
         let row = axes.fold(0, |row, (at, count)| row * (2 * count + 1) + at);
@@ -73,27 +75,24 @@ impl<H: Shape<D>, const D: usize> Lattice<H, D> {
         self.starts[row] + own
     }
 
-    /// The places of all nodes in the order of their numbers.
+    /// The positions of all nodes, in order.
     pub(super) fn places(&self) -> impl Iterator<Item = [usize; D]> + '_ {
         (0..self.starts.len() - 1).flat_map(move |row| {
             let parities = self.parities(row);
             let along = (0..=2 * self.cells[0]).filter(move |at| self.has[parities + at % 2]);
             along.map(move |at| {
                 let mut rest = row;
-                core::array::from_fn(|axis| {
-                    if axis == 0 {
-                        return at;
-                    }
-                    let steps = 2 * self.cells[axis] + 1;
-                    let own = rest % steps;
-                    rest /= steps;
-                    own
-                })
+                let mut place = [at; D];
+                for (at, count) in place.iter_mut().zip(&self.cells).skip(1) {
+                    *at = rest % (2 * count + 1);
+                    rest /= 2 * count + 1;
+                }
+                place
             })
         })
     }
 
-    /// Lists that all nodes and all cells fit in.
+    /// Empty lists with memory for all nodes and cells.
     #[expect(clippy::type_complexity, reason = "what a mesh is made of")]
     pub(super) fn reserved(&self) -> Result<(Vec<[f64; D]>, Vec<H::PerNode<usize>>), MeshError> {
         let size = Size::of::<H, D>(self.cells, &self.has);
@@ -103,20 +102,12 @@ impl<H: Shape<D>, const D: usize> Lattice<H, D> {
     }
 }
 
-/// The sum of `2^axis` of the odd axes.
-fn odd<const D: usize>(is_odd: &[bool; D]) -> usize {
-    let axes = is_odd.iter().enumerate();
-    axes.fold(0, |sum, (axis, &is_odd)| {
-        sum + (usize::from(is_odd) << axis)
-    })
-}
-
-/// How large a mesh is, known before it is made; `u128::MAX` is that or more.
+/// The size of a mesh before it is made; `u128::MAX` stands for that or more.
 #[derive(Clone, Copy, Debug)]
 struct Size {
     cells: u128,
     nodes: u128,
-    /// What they take while they are made and checked.
+    /// Their memory while they are made and checked.
     bytes: u128,
 }
 
@@ -145,18 +136,13 @@ impl Size {
         }
     }
 
-    /// An error if nodes have no numbers, or the machine no memory.
+    /// An error if nodes do not fit in 32 bits, or the mesh in memory.
     fn check(self) -> Result<(), MeshError> {
         if self.nodes > u128::from(u32::MAX) {
-            let Self {
-                cells,
-                nodes,
-                bytes,
-            } = self;
             return Err(MeshError::TooMany {
-                cells,
-                nodes,
-                bytes,
+                cells: self.cells,
+                nodes: self.nodes,
+                bytes: self.bytes,
             });
         }
         let bytes = u64::try_from(self.bytes).unwrap_or(u64::MAX);
@@ -164,7 +150,7 @@ impl Size {
         refused.map_err(|refused| self.too_large(refused.available))
     }
 
-    /// An empty list with a place for so many.
+    /// An empty list with memory for `count` entries.
     fn reserved<T>(self, count: usize) -> Result<Vec<T>, MeshError> {
         let mut list = Vec::new();
         match list.try_reserve_exact(count) {
@@ -174,15 +160,10 @@ impl Size {
     }
 
     const fn too_large(self, available: Option<u64>) -> MeshError {
-        let Self {
-            cells,
-            nodes,
-            bytes,
-        } = self;
         MeshError::TooLarge {
-            cells,
-            nodes,
-            bytes,
+            cells: self.cells,
+            nodes: self.nodes,
+            bytes: self.bytes,
             available,
         }
     }
@@ -203,28 +184,14 @@ mod tests {
     #[cfg(feature = "sparse")]
     fn the_machine_is_asked_for_its_memory() {
         let error = ENDLESS.check().unwrap_err();
-        let has_some = |error| {
-            matches!(
-                error,
-                MeshError::TooLarge {
-                    available: Some(_),
-                    ..
-                }
-            )
-        };
-        assert!(has_some(error.clone()), "{error}");
-        assert!(error.to_string().contains("are available: use fewer cells"));
+        let text = error.to_string();
+        assert!(text.contains("are available: use fewer cells"), "{text}");
     }
 
     #[test]
     fn what_the_machine_refuses_is_an_error() {
-        let error = ENDLESS.reserved::<u64>(usize::MAX).unwrap_err();
-        assert!(
-            error.to_string().starts_with("8 cells with 27 nodes take")
-                && error
-                    .to_string()
-                    .contains("bytes, which the system refuses"),
-            "{error}"
-        );
+        let text = ENDLESS.reserved::<u64>(usize::MAX).unwrap_err().to_string();
+        assert!(text.starts_with("8 cells with 27 nodes take"), "{text}");
+        assert!(text.contains("bytes, which the system refuses"), "{text}");
     }
 }

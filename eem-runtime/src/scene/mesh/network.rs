@@ -1,21 +1,19 @@
-//! The network of conductances between the points of a mesh, per conductivity.
+//! The network of conductances between the integration points of a mesh, per conductivity.
 //!
-//! The parent cell is cut where Gauss weights add up, so that each point has its own sub-cell. From its centre
-//! c to the centre of a face with the area vector A, and through a face,
+//! The parent cell is divided in proportion to the Gauss weights, so that each point has its own sub-cell. The
+//! conductances from its centre c to the centre of a face with the area vector A, and through a face, are
 //!
 //! ```text
 //! t = k |A·d|/d²,   d = c_face − c,   κ = t_a t_b/(t_a + t_b)
 //! ```
 
 use super::Mesh;
-use super::face::Face;
+use super::face::{Face, Skewness, SubFace, facing};
 use super::geometry::{area_vector, distance, mean};
 use super::grid::indices;
-use super::skewness::Skewness;
-use super::sub_face::{SubFace, facing};
 use crate::element::kinematics::{Points, Shape};
 
-/// Where the parent cell is cut along each axis, from −1 by Gauss weights.
+/// The cuts of the parent cell along each axis, from −1 by Gauss weights.
 fn cuts(per_axis: usize) -> &'static [f64] {
     match per_axis {
         2 => &[-1.0, 0.0, 1.0],
@@ -24,13 +22,13 @@ fn cuts(per_axis: usize) -> &'static [f64] {
 }
 
 impl<H: Shape<D>, const D: usize> Mesh<H, D> {
-    /// Pairs of points with `κ/k`, within and between cells; m, one in the plane. And how skew they are.
+    /// Pairs of points with `κ/k`, within and between cells; m, one in the plane. And their skewness.
     pub(crate) fn network(&self) -> (Vec<([usize; 2], f64)>, Skewness) {
         let pairs = self.pairs_of_faces();
         let skewness = Skewness::of(&pairs, H::PerPoint::<()>::LEN);
         let link = |[a, b]: [SubFace<D>; 2]| {
-            let reach = a.reach * b.reach / (a.reach + b.reach);
-            ([a.point, b.point], reach)
+            let shape_factor = a.shape_factor * b.shape_factor / (a.shape_factor + b.shape_factor);
+            ([a.point, b.point], shape_factor)
         };
         (pairs.into_iter().map(link).collect(), skewness)
     }
@@ -65,8 +63,10 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
 
     /// The sub-faces on the surface.
     pub(crate) fn outside(&self, face: &Face) -> Vec<SubFace<D>> {
-        let sides = face.sides.iter();
-        sides.flat_map(|&side| self.sub_faces_of(side)).collect()
+        face.sides
+            .iter()
+            .flat_map(|&side| self.sub_faces_of(side))
+            .collect()
     }
 
     /// Both sides of each face between two points.
@@ -77,8 +77,10 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
                 for axis in (0..D).filter(|&axis| index[axis] + 1 < H::PER_AXIS) {
                     let mut next = index;
                     next[axis] += 1;
-                    let faces = [(index, 1), (next, 0)];
-                    pairs.push(faces.map(|(index, side)| self.sub_face(cell, index, axis, side)));
+                    pairs.push([
+                        self.sub_face(cell, index, axis, 1),
+                        self.sub_face(cell, next, axis, 0),
+                    ]);
                 }
             }
         }
@@ -95,8 +97,7 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
     pub(crate) fn sub_faces_of(&self, [cell, face]: [usize; 2]) -> Vec<SubFace<D>> {
         let (axis, side) = (face / 2, face % 2);
         let end = side * (H::PER_AXIS - 1);
-        let all = indices([H::PER_AXIS; D]);
-        let outer = all.filter(|index| index[axis] == end);
+        let outer = indices([H::PER_AXIS; D]).filter(|index| index[axis] == end);
         outer
             .map(|index| self.sub_face(cell, index, axis, side))
             .collect()
@@ -119,39 +120,36 @@ impl<H: Shape<D>, const D: usize> Mesh<H, D> {
                 };
                 place[along] = cuts[index[along] + end];
             }
-            self.image(cell, place)
+            self.position(cell, place)
         };
         let corners: Vec<_> = (0..1_usize << (D - 1)).map(corner).collect();
         let area = area_vector::<H, D>(&corners);
-        let centre = mean(&corners);
-        let own = self.image(cell, middle);
+        let centre = mean(corners.iter().copied());
+        let own = self.position(cell, middle);
         let arm: [f64; D] = core::array::from_fn(|axis| centre[axis] - own[axis]);
-        let product = (0..D)
-            .fold(0.0, |sum, axis| sum + area[axis] * arm[axis])
-            .abs();
+        let product = (0..D).fold(0.0, |sum, axis| sum + area[axis] * arm[axis]);
+        let product = product.abs();
         let [size, length] = [area, arm].map(|vector| distance(vector, [0.0; D]));
-        let point = index
-            .iter()
-            .rev()
-            .fold(0, |point, at| point * H::PER_AXIS + at);
+        let axes = index.iter().rev();
+        let point = axes.fold(0, |point, at| point * H::PER_AXIS + at);
         SubFace {
             point: cell * H::PerPoint::<()>::LEN + point,
             area: size,
-            reach: product / (length * length),
+            shape_factor: product / (length * length),
             centre,
-            alignment: product / (size * length),
+            cosine: product / (size * length),
         }
     }
 
-    /// Where a place of the parent cell is, m.
-    fn image(&self, cell: usize, place: [f64; D]) -> [f64; D] {
-        let mut image = [0.0; D];
+    /// The position of a point of the parent cell, m.
+    fn position(&self, cell: usize, place: [f64; D]) -> [f64; D] {
+        let mut position = [0.0; D];
         for (a, &node) in self.cells[cell].as_ref().iter().enumerate() {
             let (share, _) = H::function(a, place);
-            for (image, at) in image.iter_mut().zip(self.nodes[node]) {
-                *image += share * at;
+            for (sum, at) in position.iter_mut().zip(self.nodes[node]) {
+                *sum += share * at;
             }
         }
-        image
+        position
     }
 }

@@ -1,8 +1,9 @@
-//! Quadrilaterals that fill a polygon.
+//! Meshes of polygons, and refinement.
 
 use std::collections::BTreeMap;
 
 use super::Mesh;
+use super::check::check_finite;
 use super::error::MeshError;
 use super::geometry::{mean, power_of_two};
 use crate::element::kinematics::Quad4;
@@ -34,8 +35,8 @@ impl Mesh<Quad4, 2> {
     /// [`MeshError::Empty`] if there are fewer than three corners or all are on a line; [`MeshError::Scale`] if
     /// areas overflow or underflow.
     pub fn polygon(corners: &[[f64; 2]]) -> Result<Self, MeshError> {
-        check_places(corners)?;
-        // Areas of what is very large or very small are no numbers.
+        check_finite(corners)?;
+        // Without this, areas may overflow or underflow.
         let power = power_of_two(corners.as_flattened().iter());
         let scaled: Vec<_> = corners.iter().map(|at| at.map(|x| power * x)).collect();
         check_polygon(&scaled)?;
@@ -43,20 +44,11 @@ impl Mesh<Quad4, 2> {
         if twice_area(&scaled, &order) < 0.0 {
             order.reverse();
         }
-        let triangles = triangles(&scaled, order)?;
-        let mut nodes = corners.to_vec();
-        let mut middles = Middles::default();
-        let mut cells = Vec::new();
-        for triangle in triangles {
-            let centre = nodes.len();
-            nodes.push(mean(&triangle.map(|corner| corners[corner])));
-            for [before, at, after] in turns(triangle) {
-                let [into, out] =
-                    [[before, at], [at, after]].map(|edge| middles.of(edge, &mut nodes));
-                cells.push([at, out, centre, into]);
-            }
+        let mut division = Division::of(corners.to_vec());
+        for triangle in triangles(&scaled, order)? {
+            division.divide(&triangle);
         }
-        Self::new(nodes, cells)
+        Self::new(division.nodes, division.cells)
     }
 
     /// The same mesh with each cell divided into four at the middles of its edges.
@@ -76,47 +68,61 @@ impl Mesh<Quad4, 2> {
     ///
     /// If two nodes coincide after rounding.
     pub fn refined(&self) -> Result<Self, MeshError> {
-        let mut nodes = self.nodes.clone();
-        let mut middles = Middles::default();
-        let mut cells = Vec::new();
-        for &[a, b, c, d] in &self.cells {
-            let centre = nodes.len();
-            nodes.push(mean(&[a, b, c, d].map(|node| self.nodes[node])));
-            for [before, at, after] in [[d, a, b], [a, b, c], [b, c, d], [c, d, a]] {
-                let [into, out] =
-                    [[before, at], [at, after]].map(|edge| middles.of(edge, &mut nodes));
-                cells.push([at, out, centre, into]);
-            }
+        let mut division = Division::of(self.nodes.clone());
+        for cell in &self.cells {
+            division.divide(cell);
         }
-        Self::new(nodes, cells)
+        Self::new(division.nodes, division.cells)
     }
 }
 
-/// The nodes in the middles of edges.
-#[derive(Debug, Default)]
-struct Middles(BTreeMap<[usize; 2], usize>);
+/// The division of cells into quadrilaterals, one per corner.
+#[derive(Debug)]
+struct Division {
+    nodes: Vec<[f64; 2]>,
+    cells: Vec<[usize; 4]>,
+    /// The node in the middle of each edge.
+    middles: BTreeMap<[usize; 2], usize>,
+}
 
-impl Middles {
-    /// That of an edge, new if there is none yet.
-    fn of(&mut self, [a, b]: [usize; 2], nodes: &mut Vec<[f64; 2]>) -> usize {
-        *self.0.entry([a.min(b), a.max(b)]).or_insert_with(|| {
-            nodes.push(mean(&[nodes[a], nodes[b]]));
+impl Division {
+    const fn of(nodes: Vec<[f64; 2]>) -> Self {
+        Self {
+            nodes,
+            cells: Vec::new(),
+            middles: BTreeMap::new(),
+        }
+    }
+
+    /// Divides a cell with these corners, counterclockwise.
+    fn divide(&mut self, corners: &[usize]) {
+        let centre = self.nodes.len();
+        let places = corners.iter().map(|&corner| self.nodes[corner]);
+        self.nodes.push(mean(places));
+        let count = corners.len();
+        for (at, &corner) in corners.iter().enumerate() {
+            let into = self.middle([corners[(at + count - 1) % count], corner]);
+            let out = self.middle([corner, corners[(at + 1) % count]]);
+            self.cells.push([corner, out, centre, into]);
+        }
+    }
+
+    /// The node in the middle of an edge, new if there is none yet.
+    fn middle(&mut self, [a, b]: [usize; 2]) -> usize {
+        let nodes = &mut self.nodes;
+        *self.middles.entry([a.min(b), a.max(b)]).or_insert_with(|| {
+            nodes.push(mean([nodes[a], nodes[b]]));
             nodes.len() - 1
         })
     }
 }
 
-/// Each corner of a triangle between those before and after it.
-fn turns([a, b, c]: [usize; 3]) -> [[usize; 3]; 3] {
-    [[c, a, b], [a, b, c], [b, c, a]]
-}
-
-/// Twice the area of a triangle, m²; positive against the clock.
+/// Twice the area of a triangle, m²; positive if counterclockwise.
 fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// Twice the area of a polygon, m²; positive against the clock.
+/// Twice the area of a polygon, m²; positive if counterclockwise.
 fn twice_area(corners: &[[f64; 2]], order: &[usize]) -> f64 {
     let from = corners[order[0]];
     let pairs = order.windows(2);
@@ -125,18 +131,7 @@ fn twice_area(corners: &[[f64; 2]], order: &[usize]) -> f64 {
     })
 }
 
-/// Corners are somewhere.
-fn check_places(corners: &[[f64; 2]]) -> Result<(), MeshError> {
-    for (node, corner) in corners.iter().enumerate() {
-        if let Some(axis) = corner.iter().position(|coordinate| !coordinate.is_finite()) {
-            let value = corner[axis];
-            return Err(MeshError::Place { node, axis, value });
-        }
-    }
-    Ok(())
-}
-
-/// There are at least three corners, and no two sides meet but at their common corner.
+/// An error unless there are at least three corners, and sides meet only at their common corner.
 fn check_polygon(corners: &[[f64; 2]]) -> Result<(), MeshError> {
     let count = corners.len();
     if count < 3 {
@@ -176,18 +171,12 @@ fn touch([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> bool {
     boxes_meet && !apart(cross(a, b, c), cross(a, b, d)) && !apart(cross(c, d, a), cross(c, d, b))
 }
 
-/// Cuts off corners, that with the largest least angle first, until a triangle is left.
+/// Cuts off corners, the roundest triangle first, until none is left.
 fn triangles(corners: &[[f64; 2]], mut order: Vec<usize>) -> Result<Vec<[usize; 3]>, MeshError> {
     let mut triangles = Vec::new();
     while order.len() >= 3 {
         let count = order.len();
-        let around = |at: usize| {
-            [
-                order[(at + count - 1) % count],
-                order[at],
-                order[(at + 1) % count],
-            ]
-        };
+        let around = |at: usize| [count - 1, 0, 1].map(|shift| order[(at + shift) % count]);
         let is_free = |triangle: [usize; 3]| {
             let mut others = order.iter().filter(|other| !triangle.contains(other));
             others.all(|&other| !holds(triangle.map(|at| corners[at]), corners[other]))
@@ -196,7 +185,7 @@ fn triangles(corners: &[[f64; 2]], mut order: Vec<usize>) -> Result<Vec<[usize; 
         let ears = ears.filter(|&(at, roundness)| roundness > 0.0 && is_free(around(at)));
         let best = ears.max_by(|a, b| a.1.total_cmp(&b.1));
         let Some((at, _)) = best else {
-            // What is left has no area.
+            // The rest has no area.
             return Err(MeshError::Empty);
         };
         triangles.push(around(at));
@@ -205,13 +194,13 @@ fn triangles(corners: &[[f64; 2]], mut order: Vec<usize>) -> Result<Vec<[usize; 
     Ok(triangles)
 }
 
-/// The area of a triangle in parts of the square of its longest side; negative for clockwise ones.
+/// Twice the area of a triangle over the square of its longest side; negative if clockwise.
 fn roundness([a, b, c]: [[f64; 2]; 3]) -> f64 {
     let square = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).powi(2) + (a[1] - b[1]).powi(2);
     cross(a, b, c) / square(a, b).max(square(b, c)).max(square(c, a))
 }
 
-/// Whether a place is in a triangle or on its edges.
+/// Whether a position is inside a triangle or on its edges.
 fn holds([a, b, c]: [[f64; 2]; 3], place: [f64; 2]) -> bool {
     [[a, b], [b, c], [c, a]]
         .iter()

@@ -1,4 +1,4 @@
-//! The faces of cells, those with the same nodes together.
+//! The faces of all cells, grouped by their nodes.
 
 use crate::element::kinematics::Shape;
 
@@ -18,8 +18,8 @@ fn key<H: Shape<D>, const D: usize>(cell: &H::PerNode<usize>, face: usize) -> Ke
     key
 }
 
-/// Shows the faces, a cell with the number of its face each, those with the same nodes at once; in the order of their
-/// nodes, beginning with the least. Stops at an error.
+/// Calls a function with the faces, each a cell and the number of its face, those with the same nodes together; in the
+/// order of their sorted nodes. Stops at an error.
 pub(super) fn for_same<H: Shape<D>, const D: usize, E>(
     cells: &[H::PerNode<usize>],
     nodes: usize,
@@ -27,7 +27,7 @@ pub(super) fn for_same<H: Shape<D>, const D: usize, E>(
 ) -> Result<(), E> {
     let faces = H::FACES.len();
     let least = |cell: &H::PerNode<usize>, face: usize| key::<H, D>(cell, face)[0];
-    // Where the faces begin whose least node is a node; then where they end.
+    // Counting sort by the least node: the beginning of its faces, and later their end.
     let mut ends = vec![0; nodes + 1];
     for cell in cells {
         (0..faces).for_each(|face| ends[least(cell, face) + 1] += 1);

@@ -33,12 +33,6 @@ pub(crate) struct SavedExplicit<S> {
 }
 
 impl<S: Real> SavedExplicit<S> {
-    /// All sums with their names.
-    pub(crate) fn sums(&self) -> [(&'static str, impl Iterator<Item = (S, S)> + Clone + '_); 1] {
-        let targets = self.targets.iter();
-        [("targets", targets.map(|sum| (sum.value, sum.carry)))]
-    }
-
     /// Forgets what belongs to no state.
     pub(super) fn clear(&mut self) {
         self.targets.fill(Sum::new(S::zero()));

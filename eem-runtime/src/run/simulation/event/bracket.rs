@@ -1,9 +1,9 @@
-//! Step sizes on both sides of a change of sign, made narrow.
+//! A bracket of step sizes around a change of sign, which is narrowed.
 
 use super::Sense;
 use eem_material::number::scalar::{Mask, Real};
 
-/// Step sizes on both sides of a change of sign, of a single number.
+/// Step sizes on both sides of a change of sign. For single numbers only, no lanes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bracket<S> {
     low: S,
@@ -19,7 +19,7 @@ pub(super) struct Bracket<S> {
 }
 
 impl<S: Real> Bracket<S> {
-    /// From zero to a whole step, if the sign of the function changes in it in one of the senses that count.
+    /// From zero to a whole step, if the sign of the function changes in it in the given sense.
     pub(super) fn new(sense: Sense, step: S, [before, after]: [S; 2]) -> Option<Self> {
         let zero = S::zero();
         let is_rising = before.less(zero);
@@ -41,11 +41,10 @@ impl<S: Real> Bracket<S> {
         counts.all().then_some(bracket)
     }
 
-    /// The next size to try; none if the bracket is as narrow as wanted.
+    /// The next size to try; `None` if the bracket is as narrow as the resolution.
     ///
-    /// It is where the secant meets zero, but half the resolution inside the bracket, so that a good
-    /// guess narrows it from both sides. If two candidates have not halved the width, it is
-    /// the middle.
+    /// It is the zero of the secant, at least half the resolution inside the bracket, so that a good guess narrows it
+    /// from both sides. If two candidates have not halved the width, it is the middle.
     pub(super) fn candidate(&self, resolution: S) -> Option<S> {
         let half = S::from_f64(0.5);
         let width = self.high - self.low;
@@ -67,7 +66,7 @@ impl<S: Real> Bracket<S> {
         is_inside.all().then_some(guess)
     }
 
-    /// Takes the value at a size between; whether that size lies behind the event.
+    /// Narrows the bracket by the value at a size. True if the event lies before that size.
     pub(super) fn narrow(&mut self, size: S, value: S) -> bool {
         self.widths = [self.widths[1], self.high - self.low];
         let is_behind = if self.is_rising {

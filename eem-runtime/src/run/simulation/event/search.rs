@@ -1,21 +1,22 @@
-//! Events are found by repeating one step.
+//! Search for events by repeating one step.
 //!
-//! The state after a step is a continuous function of the step size, and all laws hold for every
-//! size. So an event within a step is located by repeating the step with other sizes; nothing is
-//! interpolated, and the state at the event obeys the laws like any other.
+//! The state after a step is a continuous function of the step size, and all laws hold for every size. So an event
+//! within a step is located by repeating the step with other sizes, without interpolation; the state at the event obeys
+//! the laws like any other.
 
 use core::ops::ControlFlow;
 
 use super::bracket::Bracket;
 use super::{Event, Simulation};
-use crate::run::simulation::compiled::Aim;
-use crate::run::simulation::control_memory::Memory;
+use crate::run::simulation::StepResult;
+use crate::run::simulation::compiled::{Aim, Functions};
+use crate::run::simulation::guard::or_restore;
 use crate::run::simulation::run::RunEnd;
 use crate::step::error::{StepError, StepFailure};
 use crate::step::newton::StepReport;
 use eem_material::number::scalar::{Discord, Mask, Real};
 
-/// The least distance of two times that a search tells apart, in units in the last place.
+/// The finest resolution of the time of an event, in units in the last place.
 const SHARPEST: f64 = 4.0;
 
 impl<const D: usize, S: Real> Simulation<D, S> {
@@ -85,17 +86,26 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         events: &mut [Event<'_, D, S>],
         mut observer: impl FnMut(&Self, &StepReport<S>) -> ControlFlow<()>,
     ) -> Result<RunEnd, StepError> {
-        if S::LANES > 1 {
-            // Each of the numbers has its events at other times.
+        if S::LANES > 1 && !events.is_empty() {
+            // Each lane has its events at other times.
             return Err(self.refused(Discord.into()));
         }
         for event in &mut *events {
             event.has_happened = false;
         }
-        self.check_end(end)?;
-        self.start_looking(events)?;
+        if !self.time().at_most(end).all() {
+            let end = end.to_f64();
+            return Err(self.refused(StepFailure::End { end }));
+        }
+        self.begin_search(events)?;
         while self.is_before(end)? {
-            let report = self.step_with_events(events, end)?;
+            let before = (!events.is_empty()).then(|| self.history());
+            let mut report = self.advance(Aim::Towards(end))?;
+            if let Some(before) = before {
+                let restore = |run: &mut Self| run.restore_history(before);
+                let locate = Functions::get().end_at_event;
+                report = or_restore(self, restore, |run| locate(run, events, report, end))?;
+            }
             let stopped = observer(self, &report).is_break();
             if let Some(first) = events.iter().position(Event::has_happened) {
                 return Ok(RunEnd::Event(first));
@@ -107,25 +117,8 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(RunEnd::Reached)
     }
 
-    /// One step, which ends at the first event in it.
-    fn step_with_events(
-        &mut self,
-        events: &mut [Event<'_, D, S>],
-        end: S,
-    ) -> Result<StepReport<S>, StepError> {
-        let before = self.memory();
-        let whole = self.advance(Aim::Towards(end))?;
-        let mut looking = Looking {
-            run: self,
-            before: Some(before),
-        };
-        let report = looking.run.look_for(events, whole, end)?;
-        looking.before = None;
-        Ok(report)
-    }
-
-    /// The functions at the present state.
-    fn start_looking(&self, events: &mut [Event<'_, D, S>]) -> Result<(), StepError> {
+    /// Evaluates the functions at the present state.
+    fn begin_search(&self, events: &mut [Event<'_, D, S>]) -> Result<(), StepError> {
         for (event, place) in events.iter_mut().zip(0..) {
             let value = event.tolerance.to_f64();
             if value.is_nan() || value < 0.0 {
@@ -140,18 +133,18 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(())
     }
 
-    /// Ends the last step at the first event in it, if there is one, and notes what has happened then; the report
-    /// of the step that is kept.
-    fn look_for(
+    /// Ends the last step at the first event in it, if there is one, and marks the events that have happened then.
+    /// Returns the report of the step that is kept.
+    pub(in crate::run::simulation) fn end_at_event(
         &mut self,
         events: &mut [Event<'_, D, S>],
         whole: StepReport<S>,
         end: S,
-    ) -> Result<StepReport<S>, StepError> {
+    ) -> StepResult<S> {
         let mut report = whole;
         let mut is_located = false;
         for place in 0..events.len() {
-            // What an earlier one of the list has left of the step.
+            // An earlier event of the list may have shortened the step.
             let event = &mut events[place];
             event.after = self.value(event, place)?;
             let Some(bracket) = event.bracket(report.step) else {
@@ -160,7 +153,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             is_located = true;
             match self.locate(bracket, report, end, (event, place)) {
                 Ok(located) => report = located,
-                Err(error) => return self.look_in_half(events, report, end, error),
+                Err(error) => return self.end_at_event_in_half(events, report, end, error),
             }
         }
         for (event, place) in events.iter_mut().zip(0..) {
@@ -173,15 +166,14 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(report)
     }
 
-    /// Where a step of the size that an event needs fails, one of half the size is kept, and events are looked for
-    /// from there on.
-    fn look_in_half(
+    /// Searches in a step of half the size, which is kept, after the step that ends at the event has failed.
+    fn end_at_event_in_half(
         &mut self,
         events: &mut [Event<'_, D, S>],
         whole: StepReport<S>,
         end: S,
         error: StepError,
-    ) -> Result<StepReport<S>, StepError> {
+    ) -> StepResult<S> {
         let is_of_event = matches!(
             error.failure,
             StepFailure::EventFunction { .. } | StepFailure::EventError { .. }
@@ -191,7 +183,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
             return Err(error);
         }
         let shorter = self.advance(Aim::InSchemeTowards(middle))?;
-        self.look_for(events, shorter, end)
+        self.end_at_event(events, shorter, end)
     }
 
     /// Replaces the last step, `whole`, by a shorter one that ends just behind the event.
@@ -201,7 +193,7 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         whole: StepReport<S>,
         end: S,
         (event, place): (&mut Event<'_, D, S>, usize),
-    ) -> Result<StepReport<S>, StepError> {
+    ) -> StepResult<S> {
         let scale = whole.time.abs() + whole.step;
         let sharpest = S::from_f64(SHARPEST) * S::EPSILON * scale;
         let resolution = event.tolerance.maximum(sharpest);
@@ -228,56 +220,20 @@ impl<const D: usize, S: Real> Simulation<D, S> {
         Ok(report)
     }
 
-    /// The function of an event at the present state; if there is none, the last step is undone.
+    /// The function of an event at the present state. If it fails, the last step is undone.
     fn value(&mut self, event: &mut Event<'_, D, S>, place: usize) -> Result<S, StepError> {
-        let mut made = Made {
-            run: self,
-            is_kept: false,
-        };
-        let value = event.value(place, made.run);
-        made.is_kept = value.is_ok();
-        drop(made);
-        value.map_err(|failure| self.failed(failure))
-    }
-}
-
-/// A simulation that looks for events in its last step. Where that fails, and where a function panics, it goes on as if
-/// the step had never been made.
-struct Looking<'a, const D: usize, S: Real> {
-    run: &'a mut Simulation<D, S>,
-    /// What was remembered before the step, unless that is kept.
-    before: Option<Memory<S>>,
-}
-
-impl<const D: usize, S: Real> Drop for Looking<'_, D, S> {
-    fn drop(&mut self) {
-        if let Some(before) = self.before.take() {
-            self.run.remember(before);
-        }
-    }
-}
-
-/// A simulation with a step that is undone unless it is kept, also where the function of an event panics.
-struct Made<'a, const D: usize, S: Real> {
-    run: &'a mut Simulation<D, S>,
-    is_kept: bool,
-}
-
-impl<const D: usize, S: Real> Drop for Made<'_, D, S> {
-    fn drop(&mut self) {
-        if !self.is_kept {
-            self.run.undo();
-        }
+        let value = or_restore(self, Self::undo, |run| event.value(place, run));
+        value.map_err(|failure| self.failed(self.step, failure))
     }
 }
 
 impl<const D: usize, S: Real> Event<'_, D, S> {
-    /// Step sizes between which the function changes its sign, if it does so within a step in a sense that counts.
+    /// Step sizes around the change of sign within a step, if there is one in the sense of the event.
     fn bracket(&self, step: S) -> Option<Bracket<S>> {
         Bracket::new(self.sense, step, [self.before, self.after])
     }
 
-    /// The function in a state, a number.
+    /// The function in a state; an error unless it is a number.
     fn value(&mut self, place: usize, run: &Simulation<D, S>) -> Result<S, StepFailure> {
         let value = (self.function)(run).map_err(|error| StepFailure::EventError {
             event: place,

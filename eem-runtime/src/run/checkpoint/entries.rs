@@ -1,0 +1,214 @@
+//! All numbers of a checkpoint as one list of entries, with their rules and digests.
+//!
+//! Nobody can choose what a run has accumulated, nor the rates with which an explicit scheme continues: they follow
+//! from steps that a checkpoint does not contain. Computing the rates again would not give their bits, because a step
+//! finds them in another way than the start of a run. So each such entry has a digest.
+
+use super::Checkpoint;
+use super::error::{RestoreError, expect_count};
+use eem_material::number::compensated::{Compensated, Sum};
+use eem_material::number::digest::Digest;
+use eem_material::number::scalar::{Mask, Real, is_positive};
+
+/// A rule for the numbers of an entry.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Rule {
+    /// Pairs of a value and a compensation as additions leave them: finite, and the compensation at most half a unit in
+    /// the last place of the value v, which is at most ½ε|v|. Sums so small that this underflows are exact.
+    Sum,
+    Finite,
+    Positive,
+    /// Sums of squares may overflow.
+    NotNegative,
+    FiniteNotNegative,
+    /// Only the digest is checked.
+    None,
+}
+
+/// A list of numbers of a checkpoint.
+struct Entry<'a, S> {
+    name: &'static str,
+    numbers: Box<dyn Iterator<Item = S> + 'a>,
+    rule: Rule,
+    /// The number of values, if a simulation of the same scene has as many.
+    count: Option<usize>,
+    /// Whether it follows from the steps.
+    is_sealed: bool,
+}
+
+impl<'a, S: Real> Entry<'a, S> {
+    fn new(name: &'static str, rule: Rule, numbers: impl IntoIterator<Item = S> + 'a) -> Self {
+        Self {
+            name,
+            numbers: Box::new(numbers.into_iter()),
+            rule,
+            count: None,
+            is_sealed: false,
+        }
+    }
+
+    fn sum(name: &'static str, Sum { value, carry }: Sum<S>) -> Self {
+        Self::new(name, Rule::Sum, [value, carry])
+    }
+
+    fn sums(name: &'static str, sums: &'a Compensated<S>) -> Self {
+        let pairs = sums.sums().flat_map(|(value, carry)| [value, carry]);
+        Self::new(name, Rule::Sum, pairs).counted(sums.values().len())
+    }
+
+    fn list(name: &'static str, list: &'a [S]) -> Self {
+        Self::new(name, Rule::Finite, list.iter().copied()).counted(list.len())
+    }
+
+    fn counted(mut self, count: usize) -> Self {
+        self.count = Some(count);
+        self
+    }
+
+    fn sealed(mut self) -> Self {
+        self.is_sealed = true;
+        self
+    }
+
+    fn digest(self) -> Digest {
+        Digest::of(|digest| {
+            let mut count = 0;
+            for number in self.numbers {
+                digest.number(number);
+                count += 1;
+            }
+            digest.count(count);
+        })
+    }
+
+    /// An error unless the numbers satisfy the rule, and are as many as in a simulation.
+    fn check(self, simulation: &[Self]) -> Result<(), RestoreError> {
+        let same = simulation.iter().find(|other| other.name == self.name);
+        let counts = self.count.zip(same.and_then(|other| other.count));
+        counts.map_or(Ok(()), |(own, other)| expect_count(self.name, own, other))?;
+        let is_not_negative = |number| S::zero().at_most(number).all();
+        let half = S::from_f64(0.5) * S::EPSILON;
+        let mut value = None;
+        for number in self.numbers {
+            let (is_met, required) = match self.rule {
+                Rule::None => (true, ""),
+                Rule::Sum | Rule::Finite => (number.is_finite(), "finite"),
+                Rule::Positive => (is_positive(number), "positive and finite"),
+                Rule::NotNegative => (is_not_negative(number), "not negative"),
+                Rule::FiniteNotNegative => {
+                    let is_met = number.is_finite() && is_not_negative(number);
+                    (is_met, "not negative")
+                }
+            };
+            if !is_met {
+                return Err(RestoreError::Value {
+                    quantity: self.name,
+                    value: number.to_f64(),
+                    required,
+                });
+            }
+            // Every second number of a sum is the compensation of the value before it.
+            let Some(value) = value.take().filter(|_| self.rule == Rule::Sum) else {
+                value = Some(number);
+                continue;
+            };
+            if !number.abs().at_most(half * S::abs(value)).all() {
+                return Err(RestoreError::Carry {
+                    quantity: self.name,
+                    value: S::to_f64(value),
+                    carry: number.to_f64(),
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<S: Real> Checkpoint<S> {
+    /// All numbers. The order of the sealed ones is part of the format.
+    fn entries(&self) -> Vec<Entry<'_, S>> {
+        use Rule::{Finite, FiniteNotNegative, NotNegative, Positive};
+        let (state, [last, before]) = (&self.state, &self.past.forces);
+        let temperatures = state.temperatures.iter().copied();
+        let mut entries = vec![
+            Entry::sums("coordinates", &state.positions),
+            Entry::sums("momenta", &state.momenta),
+            Entry::sums("velocities", &state.velocities),
+            Entry::sums("viscous stretches", &state.viscous),
+            Entry::sums("entropies", &state.entropies),
+            Entry::sums("reservoir entropies", &state.reservoir_entropies).sealed(),
+            Entry::sum("time", state.time),
+            Entry::sum("work", state.work).sealed(),
+            Entry::sum("heat", state.heat).sealed(),
+            Entry::sum("thermostat entropy", state.thermostat_entropy).sealed(),
+            Entry::sum("lost heat", state.dissipated).sealed(),
+            Entry::new("time", NotNegative, [state.time.value]),
+            Entry::new("temperatures", Positive, temperatures).counted(state.temperatures.len()),
+            Entry::new("step size", Positive, [self.step]),
+            Entry::list("last forces", last),
+            Entry::list("earlier forces", before),
+            Entry::new("forces", Finite, last.iter().chain(before).copied()).sealed(),
+            Entry::new("errors of predicted forces", NotNegative, self.past.errors).sealed(),
+        ];
+        if let Some(control) = &self.control {
+            let last = control.controller.last;
+            let last_step = last.into_iter().flatten();
+            let momentum = control.largest_momentum;
+            entries.extend([
+                Entry::new("the smallest step", Positive, [control.smallest]).sealed(),
+                Entry::new("the largest step", Positive, [control.largest]).sealed(),
+                Entry::new("the largest momentum", FiniteNotNegative, [momentum]).sealed(),
+                Entry::new("the last step under control", FiniteNotNegative, last_step).sealed(),
+                Entry::new("step size", Positive, last.map(|[_, size]| size)),
+            ]);
+        }
+        if let Some(saved) = &self.choice {
+            let numbers = saved.choice.numbers().map(S::from_f64);
+            entries.push(Entry::new("choice of a scheme", FiniteNotNegative, numbers).sealed());
+        }
+        if let Some(explicit) = &self.explicit {
+            let targets = explicit.targets.iter();
+            let targets = targets.flat_map(|sum| [sum.value, sum.carry]);
+            let momentum = explicit.largest_momentum;
+            let flags = [explicit.is_new, explicit.is_motion_first];
+            let flags = flags.map(|flag| S::from_f64(f64::from(u8::from(flag))));
+            let lists = explicit.lists();
+            let count = explicit.targets.len();
+            entries.push(
+                Entry::new("targets", Rule::Sum, targets)
+                    .counted(count)
+                    .sealed(),
+            );
+            entries.extend(lists.map(|(name, numbers)| Entry::list(name, numbers).sealed()));
+            entries.extend([
+                Entry::sums("shares of reservoirs", &explicit.shares).sealed(),
+                Entry::new("the largest momentum", NotNegative, [momentum]).sealed(),
+                Entry::new("the energy defect", Rule::None, [explicit.residue]).sealed(),
+                Entry::new("the start of a step", Rule::None, flags).sealed(),
+            ]);
+        }
+        entries
+    }
+
+    /// The names and digests of all sealed entries.
+    pub(super) fn digests(&self) -> impl Iterator<Item = (&'static str, Digest)> {
+        let sealed = self.entries().into_iter().filter(|entry| entry.is_sealed);
+        sealed.map(|entry| (entry.name, entry.digest()))
+    }
+
+    /// An error unless all numbers can be those of a run of this simulation.
+    pub(super) fn check_numbers(&self, simulation: &Self) -> Result<(), RestoreError> {
+        let others = simulation.entries();
+        for entry in self.entries() {
+            entry.check(&others)?;
+        }
+        let entries = self.entries().into_iter();
+        let sealed = entries.filter(|entry| entry.is_sealed).count();
+        expect_count("seals", self.seals.len(), sealed)?;
+        let mut pairs = self.digests().zip(&self.seals);
+        match pairs.find(|((_, digest), seal)| digest != *seal) {
+            Some(((entry, _), _)) => Err(RestoreError::Edited { entry }),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! Memory of step control and of the choice of a scheme between steps.
+
+use crate::algebra::memory::MemoryLimit;
+use crate::element::state::State;
+use crate::run::checkpoint::{SavedChoice, SavedControl};
+use crate::scene::entry::ElementEntry;
+use crate::step::automatic::Choice;
+use crate::step::control::{Accuracy, Kinds};
+use crate::step::explicit::SavedExplicit;
+use crate::step::newton::StepReport;
+use crate::step::outcome::Corrections;
+use crate::step::scheme::Scheme;
+use crate::step::solver::SavedPast;
+use eem_material::number::scalar::Real;
+
+/// The smallest step that is tried, in units in the last place of the time, and of the first size.
+pub(super) const SMALLEST: f64 = 16.0;
+
+/// The history of steps that decides the size and the scheme of the next one.
+#[derive(Clone, Copy)]
+pub(super) struct History<S> {
+    pub(super) step: S,
+    pub(super) control: Option<SavedControl<S>>,
+    pub(super) choice: Option<SavedChoice>,
+}
+
+/// Everything that further steps change, restored after trial steps.
+pub(super) struct Snapshot<S> {
+    pub(super) state: State<S>,
+    pub(super) past: (SavedPast<S>, Option<SavedExplicit<S>>),
+    pub(super) history: History<S>,
+    pub(super) worst: Option<StepReport<S>>,
+    pub(super) corrections: Corrections<S>,
+}
+
+/// Step control: its history, and work arrays for its estimate of the error.
+pub(super) struct Control<S> {
+    pub(super) memory: SavedControl<S>,
+    pub(super) accuracy: Accuracy,
+    /// For schemes without an estimate of their own.
+    pub(super) halves: Option<Halves<S>>,
+}
+
+impl<S: Real> Control<S> {
+    /// The smallest step at a time, s.
+    pub(super) fn smallest(&self, time: S) -> S {
+        let by_time = S::from_f64(SMALLEST) * S::EPSILON * time.abs();
+        self.memory.smallest.maximum(by_time)
+    }
+}
+
+/// Work arrays for a step that is made whole and in two halves.
+pub(super) struct Halves<S> {
+    /// The state at its beginning, and the history of Newton's method.
+    pub(super) before: State<S>,
+    pub(super) past: SavedPast<S>,
+    /// The state after the whole step.
+    pub(super) whole: State<S>,
+    pub(super) kinds: Kinds,
+}
+
+/// Memory of `Scheme::Auto`, and what it needs to change the scheme.
+pub(super) struct Automatic<S> {
+    pub(super) choice: Choice,
+    /// Whether only schemes of second order can step the scene.
+    pub(super) is_second: bool,
+    /// The scheme before a trial.
+    pub(super) previous: Scheme,
+    pub(super) elements: Vec<ElementEntry<S>>,
+    /// How often all elements have been evaluated by earlier schemes.
+    pub(super) evaluations: u64,
+    /// A setting of the explicit scheme.
+    pub(super) is_motion_first: bool,
+    /// The limit for the linear systems of the next scheme.
+    pub(super) memory_limit: MemoryLimit,
+}
+
+impl<S> Automatic<S> {
+    pub(super) const fn new(
+        elements: Vec<ElementEntry<S>>,
+        is_second: bool,
+        memory_limit: MemoryLimit,
+    ) -> Self {
+        Self {
+            choice: Choice::new(),
+            is_second,
+            previous: Scheme::EemTemperature,
+            elements,
+            evaluations: 0,
+            is_motion_first: false,
+            memory_limit,
+        }
+    }
+}
