@@ -1,4 +1,4 @@
-//! Heat between elements at the stages, as a function of the temperatures that neighbours see.
+//! Heat between elements at the stages, as a function of the coupled interface temperatures Θ.
 //!
 //! ```text
 //! Q_i = Σ κ (θ_i,partner − θ_i),   θ_i = Σ_k t_ik Θ_k
@@ -6,6 +6,7 @@
 //!
 //! except that a thermostat gives its `θ_i` directly.
 
+use super::member::StagePoint;
 use crate::element::conduction::Partner;
 use crate::element::group::site::Contact;
 use crate::element::group::view::{StepView, Trial};
@@ -18,8 +19,7 @@ pub(super) fn received<S: Real, const D: usize>(
     rule: &Tableau,
     stage: usize,
     slot: usize,
-    view: &StepView<'_, S>,
-    trial: &Trial<S, D>,
+    (view, trial): (&StepView<'_, S>, &Trial<S, D>),
 ) -> S {
     let mut heat = S::zero();
     for link in view.conduction.links(slot) {
@@ -36,7 +36,7 @@ pub(super) fn received<S: Real, const D: usize>(
     heat
 }
 
-/// By how much a prescribed temperature at a stage differs from the combination of those that are seen, K.
+/// The difference of a prescribed temperature at a stage and the combination of interface temperatures there, K.
 fn excess<S: Real>(rule: &Tableau, stage: usize, slot: usize, view: &StepView<'_, S>) -> S {
     let Some(prescribed) = view.prescribed_at_stages(slot) else {
         return S::zero();
@@ -47,12 +47,21 @@ fn excess<S: Real>(rule: &Tableau, stage: usize, slot: usize, view: &StepView<'_
     })
 }
 
-/// `Σ_i factor_i t_ik`, the derivative of `Σ_i factor_i θ_i` by Θ of a set k.
-pub(super) fn by_seen<S: Real>(rule: &Tableau, set: usize, factors: &[S]) -> S {
-    let terms = factors.iter().enumerate();
-    terms.fold(S::zero(), |sum, (stage, &factor)| {
-        sum + S::from_f64(rule.share(stage, set)) * factor
-    })
+impl<K: Kinematics<S, D>, S: Real, const D: usize> StagePoint<K, S, D> {
+    /// The change of Q at a stage by a global solution, W.
+    pub(super) fn heat_change(&self, stage: usize, solution: &[[S; 1]]) -> S {
+        let mut change = S::zero();
+        let contacts = self.contacts.iter().flatten().enumerate();
+        for (set, contacts) in contacts.take(self.rule.sets()) {
+            let share = S::from_f64(self.rule.share(stage, set));
+            let near = solution[contacts[set].unknown as usize][0];
+            for partner in &contacts[set].partners {
+                let far = solution[partner.unknown as usize][0];
+                change += share * partner.conductance * (far - near);
+            }
+        }
+        change
+    }
 }
 
 impl<K: Kinematics<S, D>, S: Real, const D: usize> Contact<K, S, D> {

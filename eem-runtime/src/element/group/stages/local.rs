@@ -1,39 +1,30 @@
-//! The working memory in which the internal variables of one element are eliminated.
+//! The elimination of the internal variables of one point.
 //!
-//! The local unknowns u of all sets depend on the rest of the scene through the inputs y, measures (or increments of
-//! the strain) and heat from other elements, so that `δu = −(constant + Σ_j by_j δy_j)`.
+//! The local unknowns u, `γ…` and then `Θ` set after set, depend on the rest of the scene through the inputs y: measures
+//! (or increments of the strain), and heat from other elements. Solved, their equations are
+//! `δu = −(c + Σ_j by_j δy_j)`, stored as the constant c followed by the columns `by_j`.
 
-use super::member::{StagePoint, unknowns};
+use super::member::StagePoint;
+use crate::algebra::lu::{self, Singular};
 use crate::element::kinematics::Kinematics;
-use crate::element::tableau::Tableau;
-use eem_material::free_energy::{FreeEnergy, Material};
 use eem_material::number::scalar::Real;
 
-/// Working memory for the local systems of one group.
+/// Workspace for the local systems of one group.
 #[derive(Clone, Debug)]
 pub(crate) struct LocalStages<S> {
     /// `∂r/∂u`, row-major.
     pub(super) matrix: Vec<S>,
-    pub(super) pivots: Vec<usize>,
-    /// The derivative of one quantity by the local unknowns.
+    pivots: Vec<usize>,
+    /// The derivatives of one quantity by the local unknowns, and, behind a zero, by the inputs; once the local unknowns
+    /// are eliminated, its change without changes of the inputs in the place of the zero.
     pub(super) by_unknown: Vec<S>,
-    /// One quantity as `constant + Σ_j by_j δy_j` relative to its present value, the constant first.
     pub(super) row: Vec<S>,
     /// Changes of the inputs.
     pub(super) inputs: Vec<S>,
 }
 
-/// On what a quantity of an element depends.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Column {
-    Input(usize),
-    Unknown(usize),
-}
-
 impl<S: Real> LocalStages<S> {
-    /// Memory for elements of a model, given the number of inputs.
-    pub(super) fn new<M: FreeEnergy<S>>(rule: &Tableau, inputs: usize) -> Self {
-        let unknowns = unknowns::<S, M>(rule);
+    pub(super) fn new(unknowns: usize, inputs: usize) -> Self {
         let zeros = |length: usize| vec![S::zero(); length];
         Self {
             matrix: zeros(unknowns * unknowns),
@@ -49,20 +40,47 @@ impl<S: Real> LocalStages<S> {
         self.pivots.len()
     }
 
-    /// The change of a local unknown that the solved local system says, for the changes of the inputs.
+    /// Starts another quantity.
+    pub(super) fn clear_row(&mut self) {
+        self.by_unknown.fill(S::zero());
+        self.row.fill(S::zero());
+    }
+
+    /// The change of a local unknown by the solved local system, for the changes of the inputs.
     pub(super) fn change(&self, solved: &[S], unknown: usize) -> S {
-        let unknowns = self.unknowns();
-        let mut change = -solved[unknown];
-        for (j, &input) in self.inputs.iter().enumerate() {
-            change -= solved[(1 + j) * unknowns + unknown] * input;
-        }
-        change
+        let columns = solved[self.unknowns()..].chunks_exact(self.unknowns());
+        let terms = columns.zip(&self.inputs);
+        terms.fold(-solved[unknown], |change, (column, &input)| {
+            change - column[unknown] * input
+        })
     }
 }
 
-impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C, const D: usize> StagePoint<S, M, K, C, D> {
-    /// Eliminates the local unknowns from a quantity whose derivatives by them and by the inputs are given.
-    pub(super) fn substitute(&self, local: &mut LocalStages<S>) {
+impl<K: Kinematics<S, D>, S: Real, const D: usize> StagePoint<K, S, D> {
+    /// Adds a multiple of the quantity in the row to an equation.
+    pub(super) fn add_row(&mut self, local: &mut LocalStages<S>, equation: usize, factor: S) {
+        let unknowns = local.unknowns();
+        let columns = self.solved.chunks_exact_mut(unknowns).zip(&local.row);
+        for (column, &entry) in columns.skip(1) {
+            column[equation] += factor * entry;
+        }
+        let row = local.matrix[equation * unknowns..].iter_mut();
+        for (sum, &entry) in row.zip(&local.by_unknown) {
+            *sum += factor * entry;
+        }
+    }
+
+    /// Solves the local equations.
+    pub(super) fn solve(&mut self, local: &mut LocalStages<S>) -> Result<(), Singular> {
+        lu::factor(&mut local.matrix, &mut local.pivots)?;
+        for column in self.solved.chunks_exact_mut(local.unknowns()) {
+            lu::solve::<S, 1>(&local.matrix, &local.pivots, column.as_chunks_mut().0);
+        }
+        Ok(())
+    }
+
+    /// Eliminates the local unknowns from the quantity in the row.
+    pub(super) fn eliminate(&self, local: &mut LocalStages<S>) {
         if local.by_unknown.is_empty() {
             return;
         }

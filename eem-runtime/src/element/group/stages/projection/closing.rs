@@ -8,42 +8,46 @@
 //! with the exchange `u` and the production `P ≥ 0` of every path of heat at every stage, see
 //! [`conduction`](crate::element::conduction).
 
-use super::ProjectedPoint;
+use super::Projections;
 use super::vector::Vector;
 use crate::element::balances::{Balances, Received, reservoir_correction};
 use crate::element::group::stages::member::StatePoint;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::QuadraticStrain;
 use crate::element::state::State;
-use crate::element::tableau::{MOST_STAGES, Tableau};
+use crate::element::tableau::MOST_STAGES;
 use crate::element::tally::Tally;
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
-/// What a step has given to an element, stage by stage.
+/// What an element has received in a step, stage by stage.
 pub(super) type Booked<S> = [Received<S>; MOST_STAGES];
 
-impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> ProjectedPoint<S, M, K, D> {
+impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projections<S, M, K, D> {
     /// Books the increments of the internal variables and of the reservoirs' entropies.
     pub(super) fn book(
         &self,
         in_state: &StatePoint<S, M, K, D>,
-        rule: &Tableau,
         (view, trial): (&StepView<'_, S>, &Trial<S, D>),
         next: &mut State<S>,
         tally: &mut Tally<S>,
     ) -> Booked<S> {
-        let mut booked = self.book_dashpots(in_state, rule, view, next, tally);
+        let mut booked = self.book_dashpots(in_state, view, next, tally);
+        let sum = |of: fn(&Received<S>) -> S| {
+            let terms = booked.iter().map(of);
+            terms.fold(S::zero(), |sum, term| sum + term)
+        };
         let Some(slot) = in_state.slots().thermal else {
             if M::DASHPOTS + M::Drag::LEN > 0 {
-                next.dissipated.add(sum(&booked, |received| received.heat));
+                next.dissipated.add(sum(|received| received.heat));
             }
             return booked;
         };
-        let produced = sum(&booked, |received| received.entropy);
+        let produced = sum(|received| received.entropy);
         let mut balances = Balances { next, tally };
         (balances.next.entropies).advance(slot, &view.state.entropies, produced);
-        for ((stage, &weight), received) in rule.weights.iter().enumerate().zip(&mut booked) {
+        let weights = self.point.rule.weights.iter();
+        for ((stage, &weight), received) in weights.enumerate().zip(&mut booked) {
             let share = view.step * S::from_f64(weight);
             self.book_paths((stage, share), slot, trial, &mut balances, received);
             let theta = self.mean_temperature(stage);
@@ -54,48 +58,42 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecte
         booked
     }
 
-    /// Books the viscous stretches; what the dashpots give, in J and in J/K.
+    /// Books the viscous stretches; returns heat and entropy of the dashpots.
     fn book_dashpots(
         &self,
         in_state: &StatePoint<S, M, K, D>,
-        rule: &Tableau,
         view: &StepView<'_, S>,
         next: &mut State<S>,
         tally: &mut Tally<S>,
     ) -> Booked<S> {
         let mut booked = [Received::none(); MOST_STAGES];
-        let slots = in_state.slots();
-        let creep = self.increments(rule.weights);
+        let (weights, slots) = (self.point.rule.weights, in_state.slots());
+        let mut dissipate = |stage: usize, heat: S| {
+            let entropy = heat / self.temperature_or_one(stage);
+            booked[stage].heat += heat;
+            booked[stage].add(entropy);
+            tally.produce(entropy);
+            tally.turn_over(heat);
+        };
+        let creep = self.increments(weights);
         for k in 0..M::DASHPOTS {
             let index = Vector::<S, M, K, D>::STRAINS + k;
-            next.viscous
-                .advance(slots.viscous + k, &view.state.viscous, creep[index]);
-            for (stage, &weight) in rule.weights.iter().enumerate() {
-                let rate = self.own.rates[stage][index];
-                let drag = self.own.viscosities[stage].0[k] * view.per_step * rate;
-                let heat = S::from_f64(weight) * (drag * rate);
-                self.dissipate(stage, heat, &mut booked, tally);
+            (next.viscous).advance(slots.viscous + k, &view.state.viscous, creep[index]);
+            for (stage, &weight) in weights.iter().enumerate() {
+                let rate = self.rates[stage][index];
+                let drag = self.viscosities[stage].0[k] * view.per_step * rate;
+                dissipate(stage, S::from_f64(weight) * (drag * rate));
             }
         }
         if M::Drag::LEN > 0 {
-            for (stage, &weight) in rule.weights.iter().enumerate() {
-                let heat = S::from_f64(weight) * self.own.drags[stage].heat;
-                self.dissipate(stage, heat, &mut booked, tally);
+            for (stage, &weight) in weights.iter().enumerate() {
+                dissipate(stage, S::from_f64(weight) * self.drag_heat[stage]);
             }
         }
         booked
     }
 
-    /// Books heat of a dashpot at a stage, J.
-    fn dissipate(&self, stage: usize, heat: S, booked: &mut Booked<S>, tally: &mut Tally<S>) {
-        let entropy = heat / self.temperature_or_one(stage);
-        booked[stage].heat += heat;
-        booked[stage].add(entropy);
-        tally.produce(entropy);
-        tally.turn_over(heat);
-    }
-
-    /// Books what flows to other elements at a stage, during its share of the step, s.
+    /// Books the heat to other elements at a stage, during its share of the step, s.
     fn book_paths(
         &self,
         (stage, share): (usize, S),
@@ -104,7 +102,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecte
         balances: &mut Balances<'_, S>,
         received: &mut Received<S>,
     ) {
-        let Some(contacts) = &self.contacts else {
+        let Some(contacts) = &self.point.contacts else {
             return;
         };
         for partner in &contacts[stage][stage].partners {
@@ -123,34 +121,28 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecte
         view: &StepView<'_, S>,
         heat: S,
     ) -> S {
-        if self.prescribed.is_some() {
+        if self.point.prescribed.is_some() {
             return S::zero();
         }
         let theta = self.mean_temperature(stage);
         let flow = view.conduction.reservoir_flow(slot, theta);
         let weight = share * view.per_step;
-        let taken = weight * theta * self.own.rates[stage][Vector::<S, M, K, D>::ENTROPY];
+        let taken = weight * theta * self.rates[stage][Vector::<S, M, K, D>::ENTROPY];
         reservoir_correction(&flow, [share, theta], [taken, S::zero(), heat])
     }
 
-    /// Books the heat of the thermostat of an element whose new entropy is given, stage by stage; what is left
-    /// of the entropy by rounding it gives at the last one.
-    pub(super) fn book_thermostat(
-        &self,
-        rule: &Tableau,
-        booked: &Booked<S>,
-        entropy: S,
-        next: &mut State<S>,
-    ) {
-        let mut total = entropy - self.entropy;
+    /// Books the heat of the thermostat of an element whose new entropy is given, stage by stage; the rounding of the
+    /// entropy at the last one.
+    pub(super) fn book_thermostat(&self, booked: &Booked<S>, entropy: S, next: &mut State<S>) {
+        let rule = self.point.rule;
+        let mut total = entropy - self.point.entropy;
         let mut heat = S::zero();
         let mut rest = total;
-        for (stage, &weight) in rule.weights.iter().enumerate() {
-            let taken = S::from_f64(weight) * self.own.rates[stage][Vector::<S, M, K, D>::ENTROPY];
-            let received = booked[stage].entropy;
-            heat += self.mean_temperature(stage) * (taken - received);
+        for ((stage, &weight), received) in rule.weights.iter().enumerate().zip(booked) {
+            let taken = S::from_f64(weight) * self.rates[stage][Vector::<S, M, K, D>::ENTROPY];
+            heat += self.mean_temperature(stage) * (taken - received.entropy);
             rest -= taken;
-            total -= received;
+            total -= received.entropy;
         }
         heat += self.mean_temperature(rule.stages() - 1) * rest;
         next.book_thermostat(heat, total);
@@ -164,11 +156,4 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecte
             S::one()
         }
     }
-}
-
-/// The same of all stages together.
-fn sum<S: Real>(booked: &Booked<S>, of: impl Fn(&Received<S>) -> S) -> S {
-    booked
-        .iter()
-        .fold(S::zero(), |sum, received| sum + of(received))
 }

@@ -19,9 +19,10 @@ pub(super) fn derivatives<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, c
 ) -> (Vector<S, M, K, D>, Matrix<S, M, K, D>) {
     let (first, second) = by_entropy::<S, M>(of_model);
     let along = kinematics.strain_slopes([strain, strain]);
-    let mut slopes = Vector::zero();
-    slopes.take_rest(&first);
-    slopes.strain = chained::<S, K, D>(&along, first.as_ref());
+    let slopes = Vector {
+        strain: chained::<S, K, D>(&along, first.as_ref()),
+        rest: first,
+    };
     let mut curvatures = Matrix::zero();
     let turning = kinematics.strain_curvature(strain, &measures_in::<K, S, D>(&first));
     let strains = Vector::<S, M, K, D>::STRAINS;
@@ -66,11 +67,11 @@ fn by_entropy<S: Real, M: FreeEnergy<S>>(
     let by_theta = hessian[last];
     let per_capacity = -by_theta[last].recip();
     for row in 0..last {
-        let answer = per_capacity * by_theta[row];
+        let response = per_capacity * by_theta[row];
         for column in 0..last {
-            second[row][column] += answer * by_theta[column];
+            second[row][column] += response * by_theta[column];
         }
-        (second[row][last], second[last][row]) = (answer, answer);
+        (second[row][last], second[last][row]) = (response, response);
     }
     second[last][last] = per_capacity;
     first[last] = x[last];

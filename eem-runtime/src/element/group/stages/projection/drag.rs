@@ -1,4 +1,4 @@
-//! The dashpot beside a spring or a solid at the stages.
+//! The Kelvin–Voigt dashpot, in parallel with a spring or a solid, at the stages.
 //!
 //! ```text
 //! ν_i = P_i·R_i,   f_i = η(Θ_i) ν_i/h,   a_i += f_i P_i,   heat f_i ν_i        P_i = ∂π/∂C at C(c_i)
@@ -6,35 +6,33 @@
 //!
 //! with the strain of the path, so that its power is what the nodes lose.
 
-use super::ProjectedPoint;
-use super::drag_heat::DragHeat;
+use super::Projections;
 use super::vector::Vector;
 use crate::element::error::StateError;
-use crate::element::group::stages::local::LocalStages;
 use crate::element::group::stages::member::StatePoint;
 use crate::element::kinematics::{Measures, PerStrain, QuadraticStrain};
-use crate::element::tableau::Tableau;
+use crate::element::tableau::MOST_SETS;
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
-impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> ProjectedPoint<S, M, K, D> {
+impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projections<S, M, K, D> {
     /// Adds the forces of the dashpot to conjugates that are exact without them.
     pub(super) fn add_drag(
         &mut self,
         in_state: &mut StatePoint<S, M, K, D>,
-        rule: &Tableau,
         per_step: S,
     ) -> Result<(), StateError> {
         if M::Drag::LEN == 0 {
             return Ok(());
         }
-        for stage in 0..rule.stages() {
+        for stage in 0..self.point.rule.stages() {
             in_state.find_drag_viscosity(self.mean_temperature(stage))?;
             let (viscosities, slopes) = in_state.drag.viscosity;
-            self.own.drags[stage] = DragHeat::zero();
+            (self.drag_heat[stage], self.drag_heat_by_theta[stage]) = (S::zero(), S::zero());
+            self.drag_heat_by_strain[stage] = [PerStrain::<K, S, D>::filled(S::zero()); MOST_SETS];
             for a in 0..M::Drag::LEN {
                 let per_step = [viscosities[a] * per_step, slopes[a] * per_step];
-                self.add_drag_of(in_state, (rule, stage), a, per_step)?;
+                self.add_drag_of(in_state, [stage, a], per_step)?;
             }
         }
         Ok(())
@@ -44,19 +42,18 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecte
     fn add_drag_of(
         &mut self,
         in_state: &StatePoint<S, M, K, D>,
-        (rule, stage): (&Tableau, usize),
-        measure: usize,
+        [stage, measure]: [usize; 2],
         [eta, slope]: [S; 2],
     ) -> Result<(), StateError> {
         let (strains, last) = (Vector::<S, M, K, D>::STRAINS, Vector::<S, M, K, D>::ENTROPY);
-        let strain = self.path_at(rule.rates[stage]).strain;
+        let (kinematics, reaches) = (self.point.kinematics, self.point.rule.rates[stage]);
+        let strain = self.path_at(reaches).strain;
         self.measures_in_path(in_state.element, &strain)?;
-        let direction = self.kinematics.strain_slopes([&strain, &strain])[measure];
+        let direction = kinematics.strain_slopes([&strain, &strain])[measure];
         let mut unit = Measures::<K, S, D>::filled(S::zero());
         unit[measure] = S::one();
-        let turning = self.kinematics.strain_curvature(&strain, &unit);
-        let own = &mut self.own;
-        let rates = own.rates[stage].strain;
+        let turning = kinematics.strain_curvature(&strain, &unit);
+        let rates = self.rates[stage].strain;
         // ∂P/∂C·R
         let mut turned = PerStrain::<K, S, D>::filled(S::zero());
         let mut extension = S::zero();
@@ -66,21 +63,20 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecte
                 turned[q] += turning[q][p] * rates[p];
             }
         }
-        // What the extension is computed from, whatever is left of it.
-        let sizes = self.kinematics.strain_sizes(&strain);
+        // The terms of the extension, which may cancel.
+        let sizes = kinematics.strain_sizes(&strain);
         let terms = direction.as_ref().iter().zip(sizes.as_ref());
         let size = terms.fold(S::zero(), |sum, (&slope, &size)| sum + (slope * size).abs());
         let (force, thinning) = (eta * extension, slope * extension);
-        let drag = &mut own.drags[stage];
-        drag.heat += force * extension;
-        drag.by_theta += thinning * extension;
+        self.drag_heat[stage] += force * extension;
+        self.drag_heat_by_theta[stage] += thinning * extension;
         for q in 0..strains {
-            own.conjugates[stage][q] += force * direction[q];
-            own.resolution[stage][q] += (direction[q] * eta * size).abs();
+            self.conjugates[stage][q] += force * direction[q];
+            self.resolution[stage][q] += (direction[q] * eta * size).abs();
         }
-        for (set, &reach) in rule.rates[stage].iter().enumerate() {
+        for (set, &reach) in reaches.iter().enumerate() {
             let reach = S::from_f64(reach);
-            let by = &mut own.by_rates[stage][set];
+            let by = &mut self.by_rates[stage][set];
             for p in 0..strains {
                 let direct = if set == stage {
                     direction[p]
@@ -88,7 +84,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecte
                     S::zero()
                 };
                 let by_extension = direct + reach * turned[p];
-                drag.by_strain[set][p] += (force + force) * by_extension;
+                self.drag_heat_by_strain[stage][set][p] += (force + force) * by_extension;
                 for q in 0..strains {
                     by[[q, p]] += eta * by_extension * direction[q] + force * reach * turning[q][p];
                 }
@@ -101,21 +97,5 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecte
             }
         }
         Ok(())
-    }
-
-    /// Adds how the heat at a stage depends on the increments of the strain to its balance.
-    pub(super) fn add_heat_of_drag(
-        &mut self,
-        rule: &Tableau,
-        (local, equation): (&LocalStages<S>, usize),
-        stage: usize,
-    ) {
-        let by_strain = self.own.drags[stage].by_strain;
-        for (set, by) in by_strain.iter().enumerate().take(rule.sets()) {
-            for (q, &by) in by.as_ref().iter().enumerate() {
-                let input = 1 + set * Vector::<S, M, K, D>::STRAINS + q;
-                self.solved[input * local.unknowns() + equation] -= by;
-            }
-        }
     }
 }

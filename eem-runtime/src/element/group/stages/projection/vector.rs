@@ -11,15 +11,15 @@ use eem_material::number::scalar::Real;
 pub(super) struct Vector<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> {
     /// Of the components of the strain.
     pub(super) strain: PerStrain<K, S, D>,
-    /// Of γ and s, at their places among the variables of the model; none of measures.
-    rest: M::Variables,
+    /// Of γ and s, at their indices among the variables of the model, whose measures are ignored.
+    pub(super) rest: M::Variables,
 }
 
 /// A number per two variables.
 #[derive(Debug)]
 pub(super) struct Matrix<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> {
     strains: StrainMatrix<K, S, D>,
-    /// Rows of the strain in columns of the rest, and the other way round.
+    /// Rows of the strain in columns of the rest, and, transposed, the other way round.
     right: K::PerStrain<M::Variables>,
     below: K::PerStrain<M::Variables>,
     rest: M::Hessian,
@@ -40,17 +40,11 @@ impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Vector
         }
     }
 
-    /// The viscous stretches.
-    pub(super) fn dashpots() -> core::ops::Range<usize> {
-        Self::STRAINS..Self::ENTROPY
-    }
-
-    /// All entries.
     pub(super) fn entries(&self) -> impl Iterator<Item = S> + '_ {
         (0..Self::LEN).map(|index| self[index])
     }
 
-    /// The variables of the model with these γ, and what is given for measures and temperature.
+    /// The variables of the model with these γ, and the given measures and temperature.
     pub(super) fn variables(&self, measures: &[S], theta: S) -> M::Variables {
         let mut x = self.rest;
         x.as_mut()[..M::MEASURES].copy_from_slice(measures);
@@ -58,11 +52,6 @@ impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Vector
             x[M::MEASURES + M::DASHPOTS] = theta;
         }
         x
-    }
-
-    /// Takes γ and the last one from variables of the model.
-    pub(super) fn take_rest(&mut self, of: &M::Variables) {
-        self.rest = *of;
     }
 }
 
