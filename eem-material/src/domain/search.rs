@@ -4,24 +4,24 @@ use super::error::DomainError;
 use super::point::{DomainReport, Least, Space};
 use super::sample;
 
-/// From how many of the worst points the search goes downhill.
+/// Number of the worst points from which the search descends.
 const STARTS: usize = 4;
 /// First and last step of the search, parts of the box.
 const STEPS: [f64; 2] = [0.125, 1e-6];
 /// Limit of the moves from one start, for quantities that fall in tiny steps.
 const MOVES: usize = 500;
 
-/// Heat capacity and viscosities of a state, or what is wrong with it.
+/// Heat capacity and viscosities of a state, or why it is invalid.
 type Examine<'e> = dyn Fn(&[f64]) -> Result<Vec<f64>, DomainError> + 'e;
 
-/// A looked-at point of the unit cube and its quantities.
+/// An examined point of the unit cube and its quantities.
 #[derive(Clone, Debug)]
-struct Looked {
+struct Examined {
     unit: Vec<f64>,
     found: Vec<f64>,
 }
 
-/// Calls of the examination, counted.
+/// Counts the examinations.
 struct Examiner<'e> {
     space: &'e Space,
     examine: &'e Examine<'e>,
@@ -29,15 +29,15 @@ struct Examiner<'e> {
 }
 
 impl Examiner<'_> {
-    fn look(&mut self, unit: Vec<f64>) -> Result<Looked, DomainError> {
+    fn examine_at(&mut self, unit: Vec<f64>) -> Result<Examined, DomainError> {
         self.evaluations += 1;
         let found = (self.examine)(&self.space.state(&unit))?;
-        Ok(Looked { unit, found })
+        Ok(Examined { unit, found })
     }
 
     /// Goes to smaller values of one quantity along the axes, with steps that are halved where
     /// none of them gains (compass search, Fermi & Metropolis 1952).
-    fn descend(&mut self, start: &Looked, quantity: usize) -> Result<Looked, DomainError> {
+    fn descend(&mut self, start: &Examined, quantity: usize) -> Result<Examined, DomainError> {
         let [mut step, last] = STEPS;
         let (mut best, mut moves) = (start.clone(), 0);
         while step >= last && moves < MOVES {
@@ -47,7 +47,7 @@ impl Examiner<'_> {
                     let mut unit = best.unit.clone();
                     unit[axis] = (unit[axis] + direction).clamp(0.0, 1.0);
                     if (unit[axis] - best.unit[axis]).abs() > 0.0 {
-                        let trial = self.look(unit)?;
+                        let trial = self.examine_at(unit)?;
                         if trial.found[quantity] < best.found[quantity] {
                             best = trial;
                         }
@@ -63,7 +63,7 @@ impl Examiner<'_> {
     }
 }
 
-/// Looks at corners and sample, then goes downhill in each quantity.
+/// Examines corners and sample, then descends in each quantity.
 pub(super) fn search(
     space: &Space,
     samples: usize,
@@ -76,15 +76,15 @@ pub(super) fn search(
     };
     let dimension = space.dimension();
     let units = sample::corners(dimension).chain(sample::even(dimension, samples));
-    let mut looked = Vec::new();
+    let mut examined = Vec::new();
     for unit in units {
-        looked.push(examiner.look(unit)?);
+        examined.push(examiner.examine_at(unit)?);
     }
     let mut leasts = Vec::new();
-    for quantity in 0..looked[0].found.len() {
-        looked.sort_by(|a, b| a.found[quantity].total_cmp(&b.found[quantity]));
-        let mut least = looked[0].clone();
-        for start in &looked[..STARTS.min(looked.len())] {
+    for quantity in 0..examined[0].found.len() {
+        examined.sort_by(|a, b| a.found[quantity].total_cmp(&b.found[quantity]));
+        let mut least = examined[0].clone();
+        for start in &examined[..STARTS.min(examined.len())] {
             let lower = examiner.descend(start, quantity)?;
             if lower.found[quantity] < least.found[quantity] {
                 least = lower;
@@ -95,14 +95,5 @@ pub(super) fn search(
             point: space.point(&space.state(&least.unit)),
         });
     }
-    let mut viscosities = leasts.split_off(usize::from(space.is_thermal()));
-    let drag = space
-        .is_last_drag(viscosities.len())
-        .then(|| viscosities.pop());
-    Ok(DomainReport {
-        evaluations: examiner.evaluations,
-        heat_capacity: leasts.pop(),
-        viscosities,
-        drag: drag.flatten(),
-    })
+    Ok(space.report(examiner.evaluations, leasts))
 }

@@ -34,7 +34,6 @@
 //! Comp. 43 (1984) 501–528; as a program transformation Reps & Rall,
 //! Higher-Order and Symbolic Computation 16 (2003).
 
-mod differences;
 mod exponential;
 mod hyperbolic;
 mod inverse;
@@ -45,9 +44,6 @@ mod root;
 mod trigonometric;
 mod whole_power;
 
-pub use primitives::two_sum;
-
-pub use differences::Differences;
 pub use exponential::{exp_dd, exp_dd2, exp_m1_dd, exp_m1_dd2, power_dd, power_dd2, power_dds};
 pub use hyperbolic::{cosh_dd, cosh_dd2, sinh_dd, sinh_dd2, tanh_dd, tanh_dd2};
 pub use inverse::{asinh_dd, asinh_dd2, atan_dd, atan_dd2, atanh_dd, atanh_dd2};
@@ -55,6 +51,7 @@ pub use logarithm::{
     ln_1p_dd, ln_1p_dd2, ln_1p_dds, ln_dd, ln_dd2, ln_dds, log2_dd, log2_dd2, log10_dd, log10_dd2,
 };
 pub use power::{powf_dd, powf_dd2};
+pub use primitives::{Differences, two_sum};
 pub use root::{cbrt_dd, cbrt_dd2, recip_dd, recip_dd2, sqrt_dd, sqrt_dd2};
 pub use trigonometric::{cos_dd, cos_dd2, sin_dd, sin_dd2, tan_dd, tan_dd2};
 pub use whole_power::{powi_dd, powi_dd2};

@@ -4,18 +4,52 @@
 //! the processor; elementary functions are those of the platform's library, lane by lane. Lanes have no
 //! order: comparisons return a mask, and whoever branches on it says what happens where lanes differ.
 
-mod forward;
-mod mask;
 #[cfg(test)]
 mod tests;
 
-use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+use core::ops::{
+    Add, AddAssign, BitAnd, BitOr, Div, DivAssign, Mul, MulAssign, Neg, Not, Sub, SubAssign,
+};
 
 use wide::f64x4;
 
 use crate::number::scalar::{MOST_LANES, Mask, Real, Scalar, Sealed};
-use forward::forward;
-pub use mask::LaneMask;
+
+/// Forwards operators to the packed type.
+macro_rules! forward {
+    ($own:ident: $($operator:ident $method:ident),*; $($unary:ident $unary_method:ident),*) => {
+        $(
+            impl $operator for $own {
+                type Output = Self;
+
+                #[inline]
+                fn $method(self, other: Self) -> Self {
+                    Self::from_packed($operator::$method(self.packed(), other.packed()))
+                }
+            }
+        )*
+        $(
+            impl $unary for $own {
+                type Output = Self;
+
+                #[inline]
+                fn $unary_method(self) -> Self {
+                    Self::from_packed($unary::$unary_method(self.packed()))
+                }
+            }
+        )*
+    };
+    ($own:ident: $($assign:ident $method:ident by $operator:ident $by:ident),*) => {
+        $(
+            impl $assign for $own {
+                #[inline]
+                fn $method(&mut self, other: Self) {
+                    *self = $operator::$by(*self, other);
+                }
+            }
+        )*
+    };
+}
 
 /// How many numbers move together. Wider ones gain nothing with the instructions that every
 /// processor has.
@@ -192,5 +226,40 @@ impl Real for Lanes {
     #[inline]
     fn lane(self, lane: usize) -> f64 {
         self.0[lane]
+    }
+}
+
+/// All bits of a lane where it holds, none where it does not.
+#[derive(Clone, Copy, Debug)]
+pub struct LaneMask(f64x4);
+
+impl LaneMask {
+    #[inline]
+    fn packed(self) -> f64x4 {
+        self.0
+    }
+
+    #[inline]
+    fn from_packed(packed: f64x4) -> Self {
+        Self(packed)
+    }
+}
+
+forward!(LaneMask: BitAnd bitand, BitOr bitor; Not not);
+
+impl Mask for LaneMask {
+    #[inline]
+    fn none() -> Self {
+        Self(f64x4::ZERO)
+    }
+
+    #[inline]
+    fn all(self) -> bool {
+        self.0.all()
+    }
+
+    #[inline]
+    fn any(self) -> bool {
+        self.0.any()
     }
 }

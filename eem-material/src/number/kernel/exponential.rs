@@ -1,7 +1,6 @@
 //! The exponential function, and powers in which base and exponent both vary.
 
-use super::primitives::{ends, phi, phi2, phi3};
-use crate::number::kernel::differences::Differences;
+use super::primitives::{Differences, ends, phi, phi2, phi3};
 use crate::number::scalar::Scalar;
 
 /// `f[a,b]` of the exponential function.

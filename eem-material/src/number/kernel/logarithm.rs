@@ -1,7 +1,6 @@
 //! Logarithms, summed up between close ends and based at the smaller of distant ones.
 
-use super::primitives::{area_tangent_tail, by_definition, half, log_difference};
-use crate::number::kernel::differences::Differences;
+use super::primitives::{Differences, area_tangent_tail, by_definition, half, log_difference};
 use crate::number::scalar::Scalar;
 
 /// Up to this |z| = |b − a|/(a + b), a ratio of 3/2, differences are sums of series.

@@ -72,11 +72,6 @@ impl Mask for bool {
     fn any(self) -> bool {
         self
     }
-
-    #[inline]
-    fn decide(self) -> Result<bool, Discord> {
-        Ok(self)
-    }
 }
 
 /// The largest [`Real::LANES`].
