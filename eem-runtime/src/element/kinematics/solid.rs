@@ -3,10 +3,9 @@
 use core::array;
 
 use crate::element::kinematics::between::Between;
-use crate::element::kinematics::integrals::{functions, jacobian};
+use crate::element::kinematics::integrals::{functions, gauss, jacobian};
 use crate::element::kinematics::measures::Points;
 use crate::element::kinematics::shape::Shape;
-use crate::element::kinematics::shape::rule::gauss;
 use crate::element::kinematics::strain::Measure;
 use crate::element::kinematics::tensor::{Symmetric, Tensor, add, dot, pushed};
 use eem_material::free_energy::Array;
@@ -149,6 +148,16 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
             *b = pushed(tensor, &by.applied(b));
         }
         pulled
+    }
+
+    /// The magnitude of `F A B_i`, given that of the terms of F and of A.
+    pub(super) fn size_of_pull(&self, terms: &Tensor<S, D>, by: &H::Tensor<S>) -> S {
+        let mut steepness = [S::zero(); D];
+        for (sum, b) in (0..D).cycle().zip(self.gradients.as_ref().as_flattened()) {
+            steepness[sum] += b.abs();
+        }
+        let sizes = pushed(terms, &by.applied(&steepness));
+        sizes.iter().fold(S::zero(), |sum, &size| sum + size)
     }
 
     /// `F P B_i` of each measure.

@@ -4,8 +4,7 @@ use core::array;
 
 use crate::element::error::StateError;
 use crate::element::handle::Element;
-use crate::element::kinematics::measures::{Ends, Kinematics};
-use crate::element::kinematics::quadratic_strain::QuadraticStrain;
+use crate::element::kinematics::measures::{Ends, Kinematics, QuadraticStrain};
 use crate::element::kinematics::tensor::dot;
 use eem_material::free_energy::Entry;
 use eem_material::number::scalar::{Mask, Real, Scalar, is_positive};
