@@ -12,7 +12,5 @@ pub(crate) mod outcome;
 pub(crate) mod pattern;
 pub(crate) mod rule;
 pub(crate) mod scheme;
-pub(crate) mod scheme_name;
-mod scheme_needs;
 pub(crate) mod solver;
 pub(crate) mod systems;

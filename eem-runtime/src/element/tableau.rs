@@ -7,6 +7,8 @@
 /// viscous stretches; each of the others has a set of unknowns, `q_i − q⁰`, `γ_i` and a temperature.
 #[derive(Debug)]
 pub(crate) struct Tableau {
+    /// The order of the scheme.
+    pub(crate) order: u8,
     /// c: when the stages are, as shares of the step.
     pub(crate) times: &'static [f64],
     /// How many of the first stages are at the start of the step.
