@@ -9,7 +9,6 @@
 //! unbracketed step may reach.
 
 mod error;
-mod point;
 mod search;
 mod warm;
 

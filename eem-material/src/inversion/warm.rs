@@ -4,9 +4,8 @@
 //! θ ← θ e^((s − S)/C)
 //! ```
 //!
-//! The one warm start of the crate: [`invert`](super::invert) and the schemes begin with it. Where it does
-//! not contract, the [search](search_from) takes over from the start, which finds the temperature from
-//! anywhere on the same stable branch.
+//! [`invert`](super::invert) and the schemes begin with it. Where it does not contract, the [search](search_from) starts
+//! again from the first temperature, and finds the solution from anywhere on the same stable branch.
 
 use super::error::InversionError;
 use super::search::search_from;
@@ -39,19 +38,19 @@ pub fn temperature_near<S: Real, const W: usize>(
     let mut limit = S::from_f64(LARGEST_CORRECTION);
     let mut theta = guess;
     let (mut found, mut found_other) = (theta, [theta; W]);
-    let mut settled = S::Mask::none();
+    let mut converged = S::Mask::none();
     loop {
         let (caloric, mut other) = caloric_at(theta);
-        let lacking = entropy - caloric.entropy;
-        let mut correction = lacking / caloric.heat_capacity;
+        let defect = entropy - caloric.entropy;
+        let mut correction = defect / caloric.heat_capacity;
         let size = correction.abs();
         let is_stable = S::zero().less(caloric.heat_capacity);
-        let is_far = !(settled | (is_stable & size.at_most(limit)));
+        let is_far = !(converged | (is_stable & size.at_most(limit)));
         let mut last = size.at_most(enough);
         if is_far.any() {
-            // Where rounding of the entropy is all that is left, no search finds better.
+            // A residual of rounding cannot be reduced by a search.
             let rounding = S::from_f64(ENTROPY_ROUNDINGS) * S::EPSILON * caloric.magnitude;
-            let is_noise = is_far & is_stable & lacking.abs().at_most(rounding);
+            let is_noise = is_far & is_stable & defect.abs().at_most(rounding);
             let is_far = is_far & !is_noise;
             if is_far.any() {
                 let sought = search_far(|theta| caloric_at(theta).0, entropy, guess, is_far)?;
@@ -63,12 +62,12 @@ pub fn temperature_near<S: Real, const W: usize>(
             correction = S::select(is_noise | is_far, S::zero(), correction);
             last = last | is_noise | is_far;
         }
-        found = unless(settled, found, theta + theta * correction);
+        found = unless(converged, found, theta + theta * correction);
         for (found, other) in found_other.iter_mut().zip(other) {
-            *found = unless(settled, *found, other);
+            *found = unless(converged, *found, other);
         }
-        settled = settled | last;
-        if settled.all() {
+        converged = converged | last;
+        if converged.all() {
             return Ok((found, found_other));
         }
         theta *= correction.exp();
@@ -76,7 +75,7 @@ pub fn temperature_near<S: Real, const W: usize>(
     }
 }
 
-/// The temperatures of the numbers that are far off; several in one are searched one by one.
+/// The temperatures of the lanes that are far off, searched one by one.
 #[cold]
 fn search_far<S: Real>(
     mut caloric_at: impl FnMut(S) -> Caloric<S>,
@@ -90,20 +89,16 @@ fn search_far<S: Real>(
     let mut failure = None;
     let temperatures = S::pack(|lane| {
         let start = guess.lane(lane);
-        let is_needed = S::select(is_far, S::one(), S::zero()).lane(lane) > 0.0;
-        if !is_needed {
+        let is_inactive = S::select(is_far, S::zero(), S::one()).lane(lane) > 0.0;
+        if is_inactive {
             return start;
         }
         let caloric_at = |theta: f64| {
-            let Caloric {
-                entropy,
-                heat_capacity,
-                magnitude,
-            } = caloric_at(S::from_f64(theta));
+            let caloric = caloric_at(S::from_f64(theta));
             Caloric {
-                entropy: entropy.lane(lane),
-                heat_capacity: heat_capacity.lane(lane),
-                magnitude: magnitude.lane(lane),
+                entropy: caloric.entropy.lane(lane),
+                heat_capacity: caloric.heat_capacity.lane(lane),
+                magnitude: caloric.magnitude.lane(lane),
             }
         };
         search_from(caloric_at, entropy.lane(lane), start).unwrap_or_else(|error| {

@@ -44,7 +44,8 @@ mod root;
 mod trigonometric;
 mod whole_power;
 
-pub use exponential::{exp_dd, exp_dd2, exp_m1_dd, exp_m1_dd2, power_dd, power_dd2, power_dds};
+pub use exponential::{exp_dd as exp_m1_dd, exp_dd2 as exp_m1_dd2};
+pub use exponential::{exp_dd, exp_dd2, power_dd, power_dd2, power_dds};
 pub use hyperbolic::{cosh_dd, cosh_dd2, sinh_dd, sinh_dd2, tanh_dd, tanh_dd2};
 pub use inverse::{asinh_dd, asinh_dd2, atan_dd, atan_dd2, atanh_dd, atanh_dd2};
 pub use logarithm::{

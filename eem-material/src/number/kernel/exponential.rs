@@ -3,7 +3,7 @@
 use super::primitives::{Differences, ends, phi, phi2, phi3};
 use crate::number::scalar::Scalar;
 
-/// `f[a,b]` of the exponential function.
+/// `f[a,b]` of the exponential function, and of `eˣ − 1` (`exp_m1_dd`).
 ///
 /// ```text
 /// f = eˣ:  f[a,b] = e^M φ(d),  M = max(a,b),  d = |b − a|,  φ(d) = (1 − e^(−d))/d
@@ -21,7 +21,7 @@ pub fn exp_dd<S: Scalar>(a: S, b: S) -> S {
     high.exp() * phi(d)
 }
 
-/// `f[a,b,b]` of the exponential function.
+/// `f[a,b,b]` of the exponential function, and of `eˣ − 1` (`exp_m1_dd2`).
 ///
 /// ```text
 /// f = eˣ:  f[a,b,b] = e^b φ₂(b − a)  (b ≥ a),   e^a φ₃(a − b)  (b < a)
@@ -35,26 +35,6 @@ pub fn exp_dd<S: Scalar>(a: S, b: S) -> S {
 #[inline]
 pub fn exp_dd2<S: Scalar>(a: S, b: S) -> S {
     power_dd2(a.exp(), b.exp(), a, b)
-}
-
-/// `f[a,b]` of `eˣ − 1`, the same as [`exp_dd`].
-///
-/// ```
-/// assert_eq!(eem_material::kernel::exp_m1_dd(0.0, 0.0), 1.0);
-/// ```
-#[inline]
-pub fn exp_m1_dd<S: Scalar>(a: S, b: S) -> S {
-    exp_dd(a, b)
-}
-
-/// `f[a,b,b]` of `eˣ − 1`, the same as [`exp_dd2`].
-///
-/// ```
-/// assert_eq!(eem_material::kernel::exp_m1_dd2(0.0, 0.0), 0.5);
-/// ```
-#[inline]
-pub fn exp_m1_dd2<S: Scalar>(a: S, b: S) -> S {
-    exp_dd2(a, b)
 }
 
 /// `exp[X_a, X_b]` from values `e^X` that are already known.

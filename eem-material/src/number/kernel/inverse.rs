@@ -57,17 +57,12 @@ pub fn asinh_dd<S: Scalar>(a: S, b: S) -> S {
 #[inline]
 pub fn asinh_dd2<S: Scalar>(a: S, b: S) -> S {
     let difference = asinh_dd(a, b);
-    let step = (b - a) * difference;
     let slope = S::one().hypot(b).recip();
-    near_or_far(
-        step,
-        || {
-            let value = sinhc(half(step));
-            let bend = half(value * value) * (b * slope) - sinhc_tail_near(step);
-            -(difference * difference) * bend
-        },
-        || by_definition(slope, difference, a, b),
-    )
+    second_difference([a, b], difference, slope, |step| {
+        let value = sinhc(half(step));
+        let bend = half(value * value) * (b * slope) - sinhc_tail_near(step);
+        -(difference * difference) * bend
+    })
 }
 
 /// `f[a,b]` of the arc tangent.
@@ -108,13 +103,10 @@ pub fn atan_dd<S: Scalar>(a: S, b: S) -> S {
 #[inline]
 pub fn atan_dd2<S: Scalar>(a: S, b: S) -> S {
     let difference = atan_dd(a, b);
-    let step = (b - a) * difference;
     let slope = (S::one() + b * b).recip();
-    near_or_far(
-        step,
-        || -difference * (b + sinc_prime(step) / sinc(step)) * slope,
-        || by_definition(slope, difference, a, b),
-    )
+    second_difference([a, b], difference, slope, |step| {
+        -difference * (b + sinc_prime(step) / sinc(step)) * slope
+    })
 }
 
 /// `f[a,b]` of the inverse hyperbolic tangent, for `−1 < a, b < 1`.
@@ -152,11 +144,21 @@ pub fn atanh_dd<S: Scalar>(a: S, b: S) -> S {
 #[inline]
 pub fn atanh_dd2<S: Scalar>(a: S, b: S) -> S {
     let difference = atanh_dd(a, b);
-    let step = (b - a) * difference;
     let slope = ((S::one() - b) * (S::one() + b)).recip();
-    near_or_far(
-        step,
-        || difference * (b - sinhc_prime_near(step) / sinhc(step)) * slope,
-        || by_definition(slope, difference, a, b),
-    )
+    second_difference([a, b], difference, slope, |step| {
+        difference * (b - sinhc_prime_near(step) / sinhc(step)) * slope
+    })
+}
+
+/// `f[a,b,b]` from `f[a,b]` and `f′(b)`: `near` of the step `δ = (b − a) f[a,b]` for |δ| < 1, and by definition elsewhere.
+#[inline]
+fn second_difference<S: Scalar>(
+    [a, b]: [S; 2],
+    difference: S,
+    slope: S,
+    near: impl FnOnce(S) -> S,
+) -> S {
+    let step = (b - a) * difference;
+    let far = || by_definition(slope, difference, a, b);
+    near_or_far(step, || near(step), far)
 }

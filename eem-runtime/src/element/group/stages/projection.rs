@@ -16,10 +16,7 @@
 //!
 //! The local unknowns are the increments of γ and s at all stages, the inputs those of C and heat.
 
-mod begin;
-mod certify;
 mod closing;
-mod derivatives;
 mod drag;
 mod exact;
 mod local;
@@ -304,16 +301,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
         next: &mut State<S>,
         tally: &mut Tally<S>,
     ) -> Result<(), StateError> {
-        let booked = self.book(in_state, (view, trial), next, tally);
-        let near = self.temperatures[MOST_POINTS];
-        if let Some(entropy) = in_state.settle(r1, view, near, next)? {
-            self.book_thermostat(&booked, entropy, next);
-        }
-        let energy = &mut next.energies[in_state.element.index()];
-        energy.terms += self.forces_at_end();
-        let magnitude = energy.magnitude;
-        self.certify(in_state, (view, trial), (&booked, magnitude), tally);
-        Ok(())
+        self.close_path(in_state, (view, trial, r1), next, tally)
     }
 
     fn recount(

@@ -10,8 +10,7 @@
 //! supports instead.
 
 use super::Projections;
-use super::derivatives::chained;
-use super::vector::Vector;
+use super::vector::{Vector, chained};
 use crate::element::error::StateError;
 use crate::element::group::stages::local::LocalStages;
 use crate::element::group::stages::member::StatePoint;
