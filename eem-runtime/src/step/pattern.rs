@@ -1,12 +1,12 @@
-//! Which entries of the matrices of a step can differ from zero, found once per scene.
+//! The sparsity patterns of the matrices of a step, found once per scene.
 //!
 //! ```text
-//! tangent   displacements of the masses and temperatures Θ that neighbours see; each iteration
+//! tangent   displacements of the masses and coupled interface temperatures Θ; each iteration
 //! secant    one unknown per mass, the same for every axis of space; once per step, D right sides
 //! ```
 //!
-//! Where elements share nothing but nodes, both are the graph of the masses, and the entries of two
-//! masses are a block with one row per axis of space.
+//! Where elements share only nodes, both are the graph of the masses, and the entries of two masses are a block with one
+//! row per axis of space.
 
 use crate::algebra::pattern::Pattern;
 use crate::element::conduction::{Conduction, Partner};
@@ -92,14 +92,14 @@ fn of_masses<S>(
     })
 }
 
-/// The first unknowns of the nodes that a rocket sees.
+/// The first unknowns of the nodes of a rocket.
 fn nodes_of<'a>(rocket: &PushLine, layout: &'a Layout) -> impl Iterator<Item = usize> + 'a {
     let &PushLine { node, tail, head } = rocket;
     let nodes = [node, tail, head].into_iter();
     nodes.filter_map(|node| layout.nodes[node.index])
 }
 
-/// Names every pair of some unknowns.
+/// Adds every pair of some unknowns.
 fn pair_all<I: Iterator<Item = usize>>(own: impl Fn() -> I, pair: &mut dyn FnMut(usize, usize)) {
     for row in own() {
         own()

@@ -1,4 +1,4 @@
-//! The linear systems of a scheme: their memory is reserved before a scene is taken apart, or the scene refused.
+//! The linear systems of a scheme, whose memory is reserved before a scene is changed.
 
 use crate::algebra::memory::{MemoryLimit, TooLarge};
 use crate::algebra::pattern::Pattern;
@@ -15,14 +15,14 @@ use eem_material::number::scalar::Real;
 /// The linear systems that a scheme solves in a step.
 #[derive(Debug)]
 pub(crate) struct Systems<S, const D: usize> {
-    /// That of an iteration.
+    /// The system of an iteration.
     pub(crate) tangent: LinearSystem<S, 1>,
-    /// That of a stage, where a scheme ends its steps stage by stage.
+    /// The system of a stage, if a scheme ends its steps stage by stage.
     pub(crate) secant: Option<LinearSystem<S, D>>,
 }
 
 impl<S: Real, const D: usize> Systems<S, D> {
-    /// Those of a scheme, unless one takes more memory than it may.
+    /// The systems of a scheme, or an error if one exceeds the memory limit.
     pub(crate) fn new(
         scheme: Scheme,
         (elements, layout): (&[ElementEntry<S>], &Layout),
