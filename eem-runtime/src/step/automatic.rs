@@ -142,8 +142,8 @@ impl Choice {
     pub(crate) fn numbers(&self) -> impl Iterator<Item = f64> {
         let ([a, b], [c, d]) = (self.recent, self.before);
         let on_trial = f64::from(u8::from(self.is_on_trial));
-        let all = [a, b, c, d, self.spent, self.due, self.tried, on_trial];
-        all.into_iter().chain(self.wait)
+        let all = [a, b, c, d, self.spent, self.due, self.tried];
+        all.into_iter().chain(self.wait).chain([on_trial])
     }
 
     pub(crate) const fn new() -> Self {

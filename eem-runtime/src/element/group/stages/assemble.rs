@@ -3,7 +3,7 @@
 use super::local::LocalStages;
 use super::site::{PerPair, StageSite};
 use super::source::Source;
-use crate::element::group::arms::{add_scaled, scale};
+use crate::element::group::arms::add_scaled;
 use crate::element::group::site::Contact;
 use crate::element::group::view::Trial;
 use crate::element::kinematics::{Arms, Blocks, Kinematics};
@@ -122,15 +122,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> Target<'_, K, S, D> {
                 let share = S::from_f64(rule.share(stage, column));
                 add_scaled::<K, S, D>(&mut by_seen, share, impulse);
             }
-            let mut add = |places, factor: S| {
-                let mut arms = by_seen;
-                scale::<K, S, D>(&mut arms, factor);
-                site.add_column(places, &arms, self.values);
-            };
-            add(&contact.column, -contact.conductance());
-            for partner in &contact.partners {
-                add(&partner.column, partner.conductance);
-            }
+            contact.add_pull(site, &by_seen, self.values);
         }
     }
 
