@@ -1,4 +1,4 @@
-//! How errors go with the step, and which are small enough.
+//! The error of a step as a function of its size, and the largest that is accepted.
 
 use eem_material::number::scalar::{Mask, Real};
 
@@ -8,10 +8,10 @@ pub(super) const AIM: f64 = 0.8;
 /// The error beyond which a step in two halves is rejected, in units of the tolerance.
 const MOST: f64 = 1.2;
 
-/// How much of the size is left after a step that was not accurate, at least.
+/// The least fraction of the step size after a rejected step.
 const LEAST_AFTER_ERROR: f64 = 0.2;
 
-/// How the error of a scheme goes with its step.
+/// The error of a scheme as a function of its step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Accuracy {
     /// p: the error of a step is of order p + 1.
@@ -19,20 +19,19 @@ pub(crate) struct Accuracy {
     pub(crate) estimate: Estimate,
 }
 
-/// Where the estimate of the error of a step comes from.
+/// The source of the error estimate of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Estimate {
-    /// From its two halves. Tolerances are those of the state and not of a step.
+    /// The step in two halves. Tolerances are those of the state and not of a step.
     Halves,
-    /// The scheme has one, which is of the order p.
+    /// An embedded scheme; the estimate is of order p.
     Embedded,
 }
 
-/// Roundings in a difference of two states that can be told from an error.
+/// Errors of fewer roundings cannot be distinguished from rounding.
 const ROUNDINGS: f64 = 16.0;
 
 impl Accuracy {
-    /// p.
     pub(crate) fn order(self) -> f64 {
         f64::from(self.order)
     }
@@ -46,7 +45,7 @@ impl Accuracy {
         }
     }
 
-    /// The smallest relative tolerance whose errors can be told from rounding.
+    /// The smallest relative tolerance whose errors are above rounding.
     pub(super) fn floor<S: Real>(self) -> f64 {
         let rounding = ROUNDINGS * S::EPSILON.to_f64();
         if self.estimate == Estimate::Halves {
@@ -56,7 +55,7 @@ impl Accuracy {
         }
     }
 
-    /// Whether a step with this error, in units of the tolerance, is kept.
+    /// Whether a step with this error, in units of the tolerance, is accepted.
     pub(crate) fn accepts<S: Real>(self, error: S) -> bool {
         let most = match self.estimate {
             Estimate::Halves => MOST,
@@ -65,16 +64,16 @@ impl Accuracy {
         error.at_most(S::from_f64(most)).all()
     }
 
-    /// The share of its size with which a step that is not kept is tried again.
+    /// The fraction of its size with which a rejected step is tried again.
     pub(crate) fn left_after<S: Real>(self, error: S) -> S {
         let power = S::from_f64(-1.0 / self.order_of_estimate());
         let left = S::from_f64(AIM) * error.powf(power);
         let least = S::from_f64(LEAST_AFTER_ERROR);
-        // Not a number where the error is none.
+        // NaN if the error is NaN.
         if least.less(left).all() { left } else { least }
     }
 
-    /// The power of the step with which its estimated error goes.
+    /// The power of the step size to which its estimated error is proportional.
     pub(super) fn order_of_estimate(self) -> f64 {
         match self.estimate {
             Estimate::Halves => self.order() + 1.0,

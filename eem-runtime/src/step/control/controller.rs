@@ -6,28 +6,27 @@ use eem_material::number::scalar::Real;
 /// The memory of the filter: b of H211b (Söderlind 2003, *Digital filters in adaptive time-stepping*).
 const MEMORY: f64 = 4.0;
 
-/// How much of the size is left after a step that failed.
+/// The fraction of the step size after a failed step.
 pub(crate) const AFTER_FAILURE: f64 = 0.25;
 
-/// Errors that are smaller say no more than this one.
+/// Smaller errors are treated as this one.
 const LEAST_ERROR: f64 = 1e-10;
 
-/// Of an embedded estimate: the share of the error in the power, and the memory of the one before (Hairer, Nørsett &
-/// Wanner, *Solving ODEs I*, II.4, with less memory than theirs, which would make steps far smaller).
+/// For an embedded estimate: the reduction of the exponent of the error, and the exponent of the error before (Hairer,
+/// Nørsett & Wanner, *Solving ODEs I*, II.4, with a smaller exponent than theirs, which would make steps far smaller).
 const FORGETTING: f64 = 0.03;
 const REMEMBERING: f64 = 0.04;
 
-/// The smallest error that such a memory takes in.
+/// The smallest previous error that is used.
 const LEAST_REMEMBERED: f64 = 1e-4;
 
-/// By how much such a step may change.
+/// The range of the change of step size with an embedded estimate.
 const CHANGES: [f64; 2] = [1.0 / 3.0, 6.0];
 
-/// What makes the next step as large as the errors of the last two allow.
+/// The controller of the step size, by the errors of the last two steps.
 ///
-/// Where two halves of a step tell its error, a digital filter, H211b, with the order k of the error and `b = 4`; its
-/// factor f is limited to `1 + arctan(f − 1)`. Where the scheme has an estimate, of order p, a proportional
-/// controller with some memory.
+/// For errors from two halves of a step it is the digital filter H211b, with the order k of the error and `b = 4`; its
+/// factor f is limited to `1 + arctan(f − 1)`. For an embedded estimate, of order p, it is a PI controller.
 ///
 /// ```text
 /// h₊ = h (0.8/e_n)^(1/bk) (0.8/e_{n−1})^(1/bk) (h_n/h_{n−1})^(−1/b)
@@ -45,7 +44,6 @@ pub(crate) struct Controller<S> {
 }
 
 impl<S: Real> Controller<S> {
-    /// Before the first step.
     pub(crate) const fn new() -> Self {
         Self { last: None }
     }
