@@ -2,11 +2,9 @@
 //!
 //! The entropy form of a scheme carries `s` as the state and needs `θ` from
 //! `S(θ) = s` for free energies whose `S` has no closed inverse. The unknown is
-//! `x = ln θ`, so that temperatures stay positive and `dS/dx = θS_θ = C` is the
-//! heat capacity. Newton's method is safeguarded by three intervals, each of
-//! which only shrinks: where the residual changes sign, where the heat capacity
-//! is known to be positive (beyond a spinodal it is not), and how far an
-//! unbracketed step may reach.
+//! `x = ln θ`, so that temperatures stay positive and `dS/dx = θS_θ = C` is the heat capacity. Newton's method is safeguarded
+//! by two intervals that only shrink: where the residual changes sign, and where the heat capacity may be positive (beyond a
+//! spinodal it is not); and by a limit of steps while the solution is not enclosed.
 
 mod error;
 mod search;

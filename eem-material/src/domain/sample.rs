@@ -2,7 +2,7 @@
 
 use crate::number::scalar::Scalar;
 
-/// Corners are taken in the first variables only, beyond which there would be too many of them.
+/// Corners are taken in the first variables only: there would be too many in all.
 const CORNERED: usize = 10;
 /// Iterations to the root φ of `φ^(d+1) = φ + 1`: each gains more than a bit.
 const ITERATIONS: usize = 64;

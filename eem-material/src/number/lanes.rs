@@ -1,8 +1,8 @@
-//! Four numbers in the place of one: the same scene with four sets of numbers, one per SIMD lane.
+//! SIMD lanes: four numbers as one, for four scenes that differ in numbers only.
 //!
-//! Every lane has the bits that it would have alone. Arithmetic, roots and comparisons are those of
-//! the processor; elementary functions are those of the platform's library, lane by lane. Lanes have no
-//! order: comparisons return a mask, and whoever branches on it says what happens where lanes differ.
+//! Every lane has the bits that it would have alone. Arithmetic, roots and comparisons are those of the processor; elementary
+//! functions are those of the platform's library, lane by lane. Lanes have no order: comparisons return a mask, and a branch
+//! on it must handle lanes that differ.
 
 #[cfg(test)]
 mod tests;
@@ -51,11 +51,10 @@ macro_rules! forward {
     };
 }
 
-/// How many numbers move together. Wider ones gain nothing with the instructions that every
-/// processor has.
+/// The number of lanes. More gain nothing with the instructions that every processor has.
 const LANES: usize = MOST_LANES;
 
-/// See the module.
+/// Four numbers, see the module.
 #[derive(Clone, Copy, Debug)]
 #[repr(align(16))]
 pub struct Lanes([f64; LANES]);
@@ -96,7 +95,7 @@ forward!(
     MulAssign mul_assign by Mul mul, DivAssign div_assign by Div div
 );
 
-/// Equal in all lanes. To branch where lanes may differ there is [`Scalar::equal`].
+/// Equal in all lanes. To branch where lanes may differ, use [`Scalar::equal`].
 impl PartialEq for Lanes {
     #[inline]
     fn eq(&self, other: &Self) -> bool {
@@ -140,7 +139,7 @@ impl Scalar for Lanes {
         LaneMask::from_packed(self.packed().simd_lt(other.packed()))
     }
 
-    /// One closure where the lanes agree: most branches are about rare cases.
+    /// One closure if all lanes agree, as in most branches, which are for rare cases.
     #[inline]
     fn branch(
         mask: LaneMask,
@@ -229,7 +228,7 @@ impl Real for Lanes {
     }
 }
 
-/// All bits of a lane where it holds, none where it does not.
+/// One `bool` per lane: all bits of a lane are set, or none.
 #[derive(Clone, Copy, Debug)]
 pub struct LaneMask(f64x4);
 

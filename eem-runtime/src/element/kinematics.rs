@@ -18,8 +18,6 @@
 //!
 //! and the force `Σ f_a D*π_a` on node i is `Σ_j A_ij r_m,j` with a symmetric matrix A of numbers, one
 //! per pair of arms, that only depends on `f`, `π⁰` and `π¹`.
-//!
-//! All arrays have fixed lengths.
 
 mod between;
 pub(crate) mod integrals;

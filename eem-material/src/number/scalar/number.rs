@@ -1,4 +1,4 @@
-//! What formulas need of their numbers: arithmetic, functions, and a choice without a branch.
+//! The operations of formulas: arithmetic, functions, and a choice without a branch.
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 

@@ -1,4 +1,4 @@
-//! What a time step needs of its numbers to take decisions: comparisons that return masks.
+//! Decisions of a time step: comparisons that return masks.
 
 use core::fmt::Debug;
 use core::ops::{BitAnd, BitOr, Not};
@@ -77,7 +77,7 @@ impl Mask for bool {
 /// The largest [`Real::LANES`].
 pub const MOST_LANES: usize = 4;
 
-/// Keeps [`Real`] closed: what a step decides by masks is known to be right for these types only.
+/// Seals [`Real`]: the decisions of a step by masks are verified for these types only.
 pub(crate) mod sealed {
     pub trait Sealed {}
 
@@ -153,14 +153,12 @@ pub fn is_positive<S: Real>(value: S) -> bool {
     (S::zero().less(value) & value.at_most(S::MAX)).all()
 }
 
-/// `kept` in the lanes that are settled, `new` in all others.
-///
-/// A single number that is settled is not asked any more.
+/// `kept` in the lanes that have converged, `new` in all others. A scalar number is not evaluated again once it has.
 #[inline]
-pub fn unless<S: Real>(settled: S::Mask, kept: S, new: S) -> S {
+pub fn unless<S: Real>(converged: S::Mask, kept: S, new: S) -> S {
     if S::LANES == 1 {
         new
     } else {
-        S::select(settled, kept, new)
+        S::select(converged, kept, new)
     }
 }

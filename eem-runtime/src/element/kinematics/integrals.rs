@@ -59,9 +59,9 @@ pub(crate) fn masses<H: Shape<D>, S: Real, const D: usize>(
     masses
 }
 
-/// Puts the mass on the diagonal: the sum of a row, which is exact for linear shape functions, or, as some
-/// of those are negative otherwise, shares of the whole mass like the diagonal (Hinton, Rock & Zienkiewicz
-/// 1976). The pairs stay, without mass.
+/// Lumps the mass on the diagonal: the sum of a row for linear shape functions, for which it is exact; as some sums are
+/// negative for others, the whole mass in proportion to the diagonal (Hinton, Rock & Zienkiewicz 1976). Off-diagonal entries
+/// become zero.
 pub(crate) fn lump<H: Shape<D>, S: Real, const D: usize>(masses: &mut Pairs<H, S, D>) {
     let rows = masses.as_ref().iter();
     let sums: Vec<S> = rows

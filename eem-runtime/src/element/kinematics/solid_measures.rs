@@ -1,4 +1,4 @@
-//! The measures at a point of a solid, as the groups of elements ask for them.
+//! The measures at a point of a solid as functions of its arms, and its stress.
 
 use nalgebra::SMatrix;
 
@@ -73,8 +73,8 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
         })
     }
 
-    // Of E⁰ + E¹, the slope of E:E, nothing is left where strains vanish, but the rounding of its terms
-    // ½(FᵀF + 1) remains. It acts in all directions, also in those without force.
+    // The slope of E:E, E⁰ + E¹, vanishes without strain, but the rounding of its terms ½(FᵀF + 1) remains. It acts in all
+    // directions, also in those without force.
     fn slope_sizes(&self, r: &PerArm<H, S, D>, _: &[S; N]) -> [S; N] {
         let tensor = self.deformation(r);
         let between = Strains::<H, S, D>::new([&tensor, &tensor]);
@@ -110,7 +110,7 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
             }
         }
         if D == 2 {
-            // What keeps the thickness: P₃₃ of each measure.
+            // The stress that keeps the thickness: P₃₃ of each measure.
             let slopes = self.measures.each_ref().map(|measure| match measure {
                 Measure::Trace => S::one(),
                 Measure::Dilatation => volume,

@@ -70,7 +70,7 @@ impl<S: Real, const D: usize> Kinematics<S, D> for Stretch<D> {
         (least.at_most(lambda) & lambda.at_most(most)).all()
     }
 
-    // The stretch may have under- or overflowed; the message says the true one.
+    // The stretch may have under- or overflowed; the message has the correct value.
     #[cold]
     fn refusal(&self, element: Element, [r]: &[[S; D]; 1]) -> StateError {
         let lambda = r
