@@ -55,14 +55,8 @@ impl<S: Real> StepLoads<S> {
         [time, step]: [S; 2],
         q0: &[S],
     ) -> Result<(), StepFailure> {
-        let half = S::from_f64(0.5);
-        let (middle, end) = (time + half * step, time + step);
-        self.evaluate_forces(loads, middle)?;
-        self.evaluate_rockets(loads, middle)?;
-        self.add_weights(loads, masses);
-        self.evaluate_motions(loads, end, q0)?;
-        self.evaluate_speeds(loads, [time, step], q0, &CUBIC)?;
-        self.evaluate_temperatures(loads, [middle, end])
+        self.evaluate_forces_at(loads, masses, time + S::from_f64(0.5) * step)?;
+        self.evaluate_supports_by(&CUBIC, loads, [time, step], q0)
     }
 
     /// Evaluates prescribed motions and temperatures at the end of the span from `time` by `step`; forces are those of
@@ -70,12 +64,22 @@ impl<S: Real> StepLoads<S> {
     pub(crate) fn evaluate_supports<const D: usize>(
         &mut self,
         loads: &Loads<S, D>,
+        span: [S; 2],
+        q0: &[S],
+    ) -> Result<(), StepFailure> {
+        self.evaluate_supports_by(&SEXTIC, loads, span, q0)
+    }
+
+    fn evaluate_supports_by<const D: usize>(
+        &mut self,
+        polynomial: &Polynomial,
+        loads: &Loads<S, D>,
         [time, step]: [S; 2],
         q0: &[S],
     ) -> Result<(), StepFailure> {
         let (middle, end) = (time + S::from_f64(0.5) * step, time + step);
         self.evaluate_motions(loads, end, q0)?;
-        self.evaluate_speeds(loads, [time, step], q0, &SEXTIC)?;
+        self.evaluate_speeds(loads, [time, step], q0, polynomial)?;
         self.evaluate_temperatures(loads, [middle, end])
     }
 
@@ -84,17 +88,6 @@ impl<S: Real> StepLoads<S> {
         &mut self,
         loads: &Loads<S, D>,
         masses: &Masses<S>,
-        time: S,
-    ) -> Result<(), StepFailure> {
-        self.evaluate_forces(loads, time)?;
-        self.evaluate_rockets(loads, time)?;
-        self.add_weights(loads, masses);
-        Ok(())
-    }
-
-    fn evaluate_forces<const D: usize>(
-        &mut self,
-        loads: &Loads<S, D>,
         time: S,
     ) -> Result<(), StepFailure> {
         self.force.fill(S::zero());
@@ -114,14 +107,6 @@ impl<S: Real> StepLoads<S> {
                 }
             }
         }
-        Ok(())
-    }
-
-    fn evaluate_rockets<const D: usize>(
-        &mut self,
-        loads: &Loads<S, D>,
-        time: S,
-    ) -> Result<(), StepFailure> {
         for (push, rocket) in self.pushes.iter_mut().zip(&loads.rockets) {
             push.thrust = (rocket.thrust)(time);
             if !push.thrust.is_finite() {
@@ -130,6 +115,16 @@ impl<S: Real> StepLoads<S> {
                     value: push.thrust.to_f64(),
                     time: time.to_f64(),
                 });
+            }
+        }
+        let total = self.total_force.as_chunks_mut::<D>().0;
+        for (node, (total, mass)) in total.iter_mut().zip(masses.iter()).enumerate() {
+            *total = point(&self.force, node);
+            weigh(total, mass.unwrap_or(S::zero()), loads);
+        }
+        for ([row, _], mass) in masses.coupled() {
+            if let Some(total) = total.get_mut(row) {
+                weigh(total, mass, loads);
             }
         }
         Ok(())
@@ -233,19 +228,6 @@ impl<S: Real> StepLoads<S> {
             }
         }
         Ok(())
-    }
-
-    fn add_weights<const D: usize>(&mut self, loads: &Loads<S, D>, masses: &Masses<S>) {
-        let total = self.total_force.as_chunks_mut::<D>().0;
-        for (node, (total, mass)) in total.iter_mut().zip(masses.iter()).enumerate() {
-            *total = point(&self.force, node);
-            weigh(total, mass.unwrap_or(S::zero()), loads);
-        }
-        for ([row, _], mass) in masses.coupled() {
-            if let Some(total) = total.get_mut(row) {
-                weigh(total, mass, loads);
-            }
-        }
     }
 }
 

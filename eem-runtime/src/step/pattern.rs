@@ -58,17 +58,8 @@ pub(crate) fn of_tangent<S: Real>(
     })
 }
 
-/// The pattern of the secant matrix.
-pub(crate) fn of_secant<S>(
-    elements: &[ElementEntry<S>],
-    layout: &Layout,
-    dimension: usize,
-) -> Pattern {
-    of_masses(elements, layout, &[], dimension)
-}
-
-/// The graph of the masses, by elements and rockets.
-fn of_masses<S>(
+/// The graph of the masses, by elements and rockets: the pattern of the secant matrix, without rockets.
+pub(crate) fn of_masses<S>(
     elements: &[ElementEntry<S>],
     layout: &Layout,
     rockets: &[PushLine],

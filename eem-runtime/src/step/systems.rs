@@ -44,7 +44,7 @@ impl<S: Real, const D: usize> Systems<S, D> {
         Ok(Self {
             tangent: LinearSystem::new(&pattern, D, limit)?,
             secant: has_secant
-                .then(|| LinearSystem::new(&pattern::of_secant(elements, layout, D), 1, limit))
+                .then(|| LinearSystem::new(&pattern::of_masses(elements, layout, &[], D), 1, limit))
                 .transpose()?,
         })
     }

@@ -86,13 +86,14 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
                 let by_extension = direct + reach * turned[p];
                 self.drag_heat_by_strain[stage][set][p] += (force + force) * by_extension;
                 for q in 0..strains {
-                    by[[q, p]] += eta * by_extension * direction[q] + force * reach * turning[q][p];
+                    *by.at_mut([q, p]) +=
+                        eta * by_extension * direction[q] + force * reach * turning[q][p];
                 }
             }
             for q in 0..strains {
                 for column in (0..Vector::<S, M, K, D>::LEN).filter(|_| M::THERMAL) {
-                    let by_theta = by[[last, column]];
-                    by[[q, column]] += thinning * direction[q] * by_theta;
+                    let by_theta = by.at([last, column]);
+                    *by.at_mut([q, column]) += thinning * direction[q] * by_theta;
                 }
             }
         }

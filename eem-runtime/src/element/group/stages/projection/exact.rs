@@ -61,7 +61,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
                 for (i, &weight) in weights.iter().enumerate() {
                     let rows = 0..Vector::<S, M, K, D>::LEN;
                     let response = rows.fold(S::zero(), |sum, row| {
-                        sum + self.by_rates[i][j][[row, index]] * self.rates[i][row]
+                        sum + self.by_rates[i][j].at([row, index]) * self.rates[i][row]
                     });
                     sum -= S::from_f64(weight) * response;
                 }
@@ -83,10 +83,10 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
                 let along = self.metric[index] * self.rates[i][index];
                 self.conjugates[i][index] += factor * along;
                 self.resolution[i][index] += resolution * along.abs();
-                self.by_rates[i][i][[index, index]] += factor * self.metric[index];
+                *self.by_rates[i][i].at_mut([index, index]) += factor * self.metric[index];
                 for (by, slopes) in self.by_rates[i].iter_mut().zip(slopes).take(stages) {
                     for column in 0..Vector::<S, M, K, D>::LEN {
-                        by[[index, column]] += along * slopes[column];
+                        *by.at_mut([index, column]) += along * slopes[column];
                     }
                 }
             }

@@ -55,15 +55,15 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         local.clear_row();
         for (set, by) in self.by_rates[stage].iter().enumerate().take(sets) {
             for q in 0..strains {
-                local.row[1 + set * strains + q] = by[[index, q]];
+                local.row[1 + set * strains + q] = by.at([index, q]);
             }
             for k in 0..M::DASHPOTS {
-                let entry = by[[index, strains + k]] * self.units[strains + k];
+                let entry = by.at([index, strains + k]) * self.units[strains + k];
                 local.by_unknown[set * M::DASHPOTS + k] = entry;
             }
             if M::THERMAL {
                 let last = Vector::<S, M, K, D>::ENTROPY;
-                let entry = by[[index, last]] * self.units[last];
+                let entry = by.at([index, last]) * self.units[last];
                 local.by_unknown[sets * M::DASHPOTS + set] = entry;
             }
         }

@@ -57,7 +57,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
             let theta = x0[last];
             self.old[entropy] = self.point.entropy;
             self.units[entropy] = -theta * hessian[last][last];
-            self.metric[entropy] = curvatures[[entropy, entropy]];
+            self.metric[entropy] = curvatures.at([entropy, entropy]);
             self.temperatures = [theta; MOST_POINTS + 1];
         }
         self.rates = [Vector::zero(); MOST_STAGES];
@@ -125,7 +125,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
             for index in variables.clone() {
                 self.conjugates[stage][index] += share * slopes[index];
                 let size = variables.clone().fold(S::zero(), |sum, column| {
-                    sum + (curvatures[[index, column]] * sizes[column]).abs()
+                    sum + (curvatures.at([index, column]) * sizes[column]).abs()
                 });
                 self.resolution[stage][index] += share.abs() * size;
             }
@@ -133,7 +133,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
                 let factor = share * S::from_f64(reach);
                 for row in variables.clone() {
                     for column in variables.clone() {
-                        by[[row, column]] += factor * curvatures[[row, column]];
+                        *by.at_mut([row, column]) += factor * curvatures.at([row, column]);
                     }
                 }
             }
@@ -252,7 +252,7 @@ fn steepness<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize
         slope = slope.hypot(slopes[row] / counts(row).sqrt());
         for column in variables.clone() {
             let counted = (counts(row) * counts(column)).sqrt();
-            curvature = curvature.hypot(curvatures[[row, column]] / counted);
+            curvature = curvature.hypot(curvatures.at([row, column]) / counted);
         }
     }
     curvature + slope / unit

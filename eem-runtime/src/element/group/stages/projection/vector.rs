@@ -71,6 +71,28 @@ impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Matrix
             rest: M::Hessian::filled(zeros),
         }
     }
+
+    #[inline]
+    pub(super) fn at(&self, [row, column]: [usize; 2]) -> S {
+        let strains = Vector::<S, M, K, D>::STRAINS;
+        match (row.checked_sub(strains), column.checked_sub(strains)) {
+            (None, None) => self.strains[row][column],
+            (None, Some(beyond)) => self.right[row][M::MEASURES + beyond],
+            (Some(beyond), None) => self.below[column][M::MEASURES + beyond],
+            (Some(row), Some(column)) => self.rest[M::MEASURES + row][M::MEASURES + column],
+        }
+    }
+
+    #[inline]
+    pub(super) fn at_mut(&mut self, [row, column]: [usize; 2]) -> &mut S {
+        let strains = Vector::<S, M, K, D>::STRAINS;
+        match (row.checked_sub(strains), column.checked_sub(strains)) {
+            (None, None) => &mut self.strains[row][column],
+            (None, Some(beyond)) => &mut self.right[row][M::MEASURES + beyond],
+            (Some(beyond), None) => &mut self.below[column][M::MEASURES + beyond],
+            (Some(row), Some(column)) => &mut self.rest[M::MEASURES + row][M::MEASURES + column],
+        }
+    }
 }
 
 impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Clone
@@ -125,38 +147,6 @@ impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> IndexM
     }
 }
 
-impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> Index<[usize; 2]>
-    for Matrix<S, M, K, D>
-{
-    type Output = S;
-
-    #[inline]
-    fn index(&self, [row, column]: [usize; 2]) -> &S {
-        let strains = Vector::<S, M, K, D>::STRAINS;
-        match (row.checked_sub(strains), column.checked_sub(strains)) {
-            (None, None) => &self.strains[row][column],
-            (None, Some(beyond)) => &self.right[row][M::MEASURES + beyond],
-            (Some(beyond), None) => &self.below[column][M::MEASURES + beyond],
-            (Some(row), Some(column)) => &self.rest[M::MEASURES + row][M::MEASURES + column],
-        }
-    }
-}
-
-impl<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> IndexMut<[usize; 2]>
-    for Matrix<S, M, K, D>
-{
-    #[inline]
-    fn index_mut(&mut self, [row, column]: [usize; 2]) -> &mut S {
-        let strains = Vector::<S, M, K, D>::STRAINS;
-        match (row.checked_sub(strains), column.checked_sub(strains)) {
-            (None, None) => &mut self.strains[row][column],
-            (None, Some(beyond)) => &mut self.right[row][M::MEASURES + beyond],
-            (Some(beyond), None) => &mut self.below[column][M::MEASURES + beyond],
-            (Some(row), Some(column)) => &mut self.rest[M::MEASURES + row][M::MEASURES + column],
-        }
-    }
-}
-
 /// `∇ê` and `∇²ê` by `(C, γ, s)` from the derivatives of ψ by `x = (π, γ, θ)`.
 pub(super) fn derivatives<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize>(
     kinematics: &K,
@@ -178,24 +168,24 @@ pub(super) fn derivatives<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, c
             match column.checked_sub(M::MEASURES) {
                 None => {
                     for (p, &slope) in along[column].as_ref().iter().enumerate() {
-                        curvatures[[q, p]] += by * slope;
+                        *curvatures.at_mut([q, p]) += by * slope;
                     }
                 }
                 Some(beyond) => {
-                    curvatures[[q, strains + beyond]] = by;
-                    curvatures[[strains + beyond, q]] = by;
+                    *curvatures.at_mut([q, strains + beyond]) = by;
+                    *curvatures.at_mut([strains + beyond, q]) = by;
                 }
             }
         }
     }
     for (q, row) in turning.as_ref().iter().enumerate() {
         for (p, &entry) in row.as_ref().iter().enumerate() {
-            curvatures[[q, p]] += entry;
+            *curvatures.at_mut([q, p]) += entry;
         }
     }
     for (q, row) in second.as_ref().iter().skip(M::MEASURES).enumerate() {
         for (p, &entry) in row.as_ref().iter().skip(M::MEASURES).enumerate() {
-            curvatures[[strains + q, strains + p]] = entry;
+            *curvatures.at_mut([strains + q, strains + p]) = entry;
         }
     }
     (slopes, curvatures)
