@@ -3,11 +3,8 @@
 use super::primitives::{Differences, ends, phi, phi2, phi3};
 use crate::number::scalar::Scalar;
 
-/// `f[a,b]` of the exponential function, and of `eˣ − 1` (`exp_m1_dd`).
-///
-/// ```text
-/// f = eˣ:  f[a,b] = e^M φ(d),  M = max(a,b),  d = |b − a|,  φ(d) = (1 − e^(−d))/d
-/// ```
+/// `f[a,b]` of the exponential function, and of `eˣ − 1` (`exp_m1_dd`): `e^M φ(d)`
+/// with `M = max(a,b)`, `d = |b − a|`, `φ(d) = (1 − e^(−d))/d`.
 ///
 /// ```
 /// use eem::kernel::exp_dd;

@@ -6,11 +6,7 @@ use super::primitives::{
 };
 use crate::number::scalar::Scalar;
 
-/// `f[a,b]` of the hyperbolic sine.
-///
-/// ```text
-/// f = sinh x:  f[a,b] = ½φ(d)(e^M + e^(−m)),  m = min(a,b),  M = max(a,b),  d = M − m
-/// ```
+/// `f[a,b]` of the hyperbolic sine: `½φ(d)(e^M + e^(−m))` with `m = min(a,b)`, `M = max(a,b)`, `d = M − m`.
 ///
 /// ```
 /// use eem::kernel::sinh_dd;
@@ -49,13 +45,8 @@ pub fn sinh_dd2<S: Scalar>(a: S, b: S) -> S {
     )
 }
 
-/// `f[a,b]` of the hyperbolic cosine.
-///
-/// ```text
-/// f = cosh x:  f[a,b] = ½φ(d)e^M(1 − e^(−s)),  s = a + b ≥ 0,  M = max(a,b),  d = |b − a|
-/// ```
-///
-/// and the mirror image for `s < 0`.
+/// `f[a,b]` of the hyperbolic cosine: `½φ(d)e^M(1 − e^(−s))` with `s = a + b ≥ 0`, `M = max(a,b)`, `d = |b − a|`;
+/// the mirror image for `s < 0`.
 ///
 /// ```
 /// use eem::kernel::cosh_dd;
@@ -72,11 +63,7 @@ pub fn cosh_dd<S: Scalar>(a: S, b: S) -> S {
     S::branch(sum.less(S::zero()), || -size, || size)
 }
 
-/// `f[a,b,b]` of the hyperbolic cosine.
-///
-/// ```text
-/// f = cosh x:  f[a,b,b] = ½(exp[a,b,b] + exp[−a,−b,−b])
-/// ```
+/// `f[a,b,b]` of the hyperbolic cosine: `½(exp[a,b,b] + exp[−a,−b,−b])`.
 ///
 /// ```
 /// let difference: f64 = eem_material::kernel::cosh_dd2(1.0, 0.0);
@@ -87,13 +74,8 @@ pub fn cosh_dd2<S: Scalar>(a: S, b: S) -> S {
     half(exp_dd2(a, b) + exp_dd2(-a, -b))
 }
 
-/// `f[a,b]` of the hyperbolic tangent.
-///
-/// ```text
-/// f = tanh x:  f[a,b] = 4e^(−2μ)φ(2d)/((1 + e^(−2|a|))(1 + e^(−2|b|)))
-/// ```
-///
-/// with `d = |b − a|`, and `μ = min(|a|, |b|)` for ends of one sign, else 0.
+/// `f[a,b]` of the hyperbolic tangent: `4e^(−2μ)φ(2d)/((1 + e^(−2|a|))(1 + e^(−2|b|)))` with
+/// `d = |b − a|`, and `μ = min(|a|, |b|)` for ends of one sign, else 0.
 ///
 /// ```
 /// use eem::kernel::tanh_dd;
@@ -110,13 +92,8 @@ pub fn tanh_dd<S: Scalar>(a: S, b: S) -> S {
     numerator / ((S::one() + decay(a)) * (S::one() + decay(b)))
 }
 
-/// `f[a,b,b]` of the hyperbolic tangent.
-///
-/// ```text
-/// f = tanh x:  f[a,b,b] = (sinhc′d − sinhc d·tanh b)/(cosh a·cosh b),  d = b − a,  |d| < 1
-/// ```
-///
-/// and by definition for |d| ≥ 1.
+/// `f[a,b,b]` of the hyperbolic tangent: `(sinhc′d − sinhc d·tanh b)/(cosh a·cosh b)` with `d = b − a` for `|d| < 1`,
+/// by definition for |d| ≥ 1.
 ///
 /// ```
 /// let difference: f64 = eem_material::kernel::tanh_dd2(1.0, 0.0);

@@ -65,11 +65,7 @@ pub fn asinh_dd2<S: Scalar>(a: S, b: S) -> S {
     })
 }
 
-/// `f[a,b]` of the arc tangent.
-///
-/// ```text
-/// f = arctan x:  f[a,b] = atan2(d, 1 + ab)/d,  d = |b − a|
-/// ```
+/// `f[a,b]` of the arc tangent: `atan2(d, 1 + ab)/d` with `d = |b − a|`.
 ///
 /// ```
 /// use eem::kernel::atan_dd;
@@ -88,13 +84,8 @@ pub fn atan_dd<S: Scalar>(a: S, b: S) -> S {
     )
 }
 
-/// `f[a,b,b]` of the arc tangent.
-///
-/// ```text
-/// f = arctan x:  f[a,b,b] = −F(b + sinc′δ/sinc δ)/(1 + b²),  F = f[a,b],  δ = (b − a)F,  |δ| < 1
-/// ```
-///
-/// and by definition for |δ| ≥ 1.
+/// `f[a,b,b]` of the arc tangent: `−F(b + sinc′δ/sinc δ)/(1 + b²)` with `F = f[a,b]`, `δ = (b − a)F` for `|δ| < 1`,
+/// by definition for |δ| ≥ 1.
 ///
 /// ```
 /// let difference: f64 = eem_material::kernel::atan_dd2(1.0, 0.0);
@@ -109,13 +100,9 @@ pub fn atan_dd2<S: Scalar>(a: S, b: S) -> S {
     })
 }
 
-/// `f[a,b]` of the inverse hyperbolic tangent, for `−1 < a, b < 1`.
-///
-/// ```text
-/// f = artanh x:  f[a,b] = L(2d/w)/w,  w = (1 − M)(1 + m),  d = M − m,  L(u) = ln(1 + u)/u
-/// ```
-///
-/// with `m = min(a,b)` and `M = max(a,b)`.
+/// `f[a,b]` of the inverse hyperbolic tangent, for `−1 < a, b < 1`: `L(2d/w)/w`
+/// with `w = (1 − M)(1 + m)`, `d = M − m`, `L(u) = ln(1 + u)/u`, `m = min(a,b)`,
+/// `M = max(a,b)`.
 ///
 /// ```
 /// use eem::kernel::atanh_dd;
@@ -129,13 +116,8 @@ pub fn atanh_dd<S: Scalar>(a: S, b: S) -> S {
     log_difference(twice(d), (S::one() - high) * (S::one() + low))
 }
 
-/// `f[a,b,b]` of the inverse hyperbolic tangent, for `−1 < a, b < 1`.
-///
-/// ```text
-/// f = artanh x:  f[a,b,b] = F(b − sinhc′δ/sinhc δ)/(1 − b²),  F = f[a,b],  δ = (b − a)F,  |δ| < 1
-/// ```
-///
-/// and by definition for |δ| ≥ 1.
+/// `f[a,b,b]` of the inverse hyperbolic tangent, for `−1 < a, b < 1`: `F(b − sinhc′δ/sinhc δ)/(1 − b²)`
+/// with `F = f[a,b]`, `δ = (b − a)F` for `|δ| < 1`, by definition for |δ| ≥ 1.
 ///
 /// ```
 /// let difference: f64 = eem_material::kernel::atanh_dd2(0.5, 0.0);

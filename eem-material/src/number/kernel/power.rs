@@ -6,13 +6,9 @@ use super::primitives::{
 };
 use crate::number::scalar::Scalar;
 
-/// `f[a,b]` of a power with a constant exponent, for `a, b ≥ 0`.
-///
-/// ```text
-/// f = xᵖ:  f[a,b] = mᵖ expm1(x)/d,  x = p ln(1 + d/m),  m = min(a,b),  d = |b − a|,  |x| < 1
-/// ```
-///
-/// and `(Mᵖ − mᵖ)/d` for |x| ≥ 1, where the quotient of the two powers exceeds e.
+/// `f[a,b]` of a power with a constant exponent, for `a, b ≥ 0`: `mᵖ expm1(x)/d`
+/// with `x = p ln(1 + d/m)`, `m = min(a,b)`, `d = |b − a|` for |x| < 1,
+/// `(Mᵖ − mᵖ)/d` with `M = max(a,b)` for |x| ≥ 1, where the quotient of the two powers exceeds e.
 ///
 /// ```
 /// use eem::kernel::powf_dd;
@@ -38,13 +34,8 @@ pub fn powf_dd<S: Scalar>(a: S, b: S, p: S) -> S {
     )
 }
 
-/// `f[a,b,b]` of a power with a constant exponent, for `a, b ≥ 0`.
-///
-/// ```text
-/// f = xᵖ:  f[a,b,b] = pL bᵖ (p φ₂(pδ)/b − L φ(pδ) φ₂(δ)),  L = ln[a,b],  δ = (b − a)L = ln(b/a)
-/// ```
-///
-/// for |δ|, |pδ| < 1 and by definition elsewhere. For `½ < p < 3/2`, where the
+/// `f[a,b,b]` of a power with a constant exponent, for `a, b ≥ 0`: `pL bᵖ (p φ₂(pδ)/b − L φ(pδ) φ₂(δ))`
+/// with `L = ln[a,b]`, `δ = (b − a)L = ln(b/a)` for |δ|, |pδ| < 1; by definition elsewhere. For `½ < p < 3/2`, where the
 /// terms would cancel, `xᵖ = x·x^(p−1)` with the Leibniz rule.
 ///
 /// ```

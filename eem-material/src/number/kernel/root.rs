@@ -3,11 +3,7 @@
 use super::primitives::{ends, half, in_range_or, twice};
 use crate::number::scalar::Scalar;
 
-/// `f[a,b]` of the reciprocal, for `a` and `b` of any sign.
-///
-/// ```text
-/// f = 1/x:  f[a,b] = −1/(ab)
-/// ```
+/// `f[a,b]` of the reciprocal, for `a` and `b` of any sign: `−1/(ab)`.
 ///
 /// ```
 /// assert_eq!(eem_material::kernel::recip_dd(2.0, 4.0), -0.125);
@@ -19,11 +15,7 @@ pub fn recip_dd<S: Scalar>(a: S, b: S) -> S {
     in_range_or(-(a * b).recip(), || -high.recip() / low)
 }
 
-/// `f[a,b,b]` of the reciprocal.
-///
-/// ```text
-/// f = 1/x:  f[a,b,b] = 1/(ab²)
-/// ```
+/// `f[a,b,b]` of the reciprocal: `1/(ab²)`.
 ///
 /// ```
 /// assert_eq!(eem_material::kernel::recip_dd2(2.0, 4.0), 0.03125);
@@ -33,11 +25,7 @@ pub fn recip_dd2<S: Scalar>(a: S, b: S) -> S {
     -recip_dd(a, b) / b
 }
 
-/// `f[a,b]` of the square root, for `a, b ≥ 0`.
-///
-/// ```text
-/// f = √x:  f[a,b] = 1/(√a + √b)
-/// ```
+/// `f[a,b]` of the square root, for `a, b ≥ 0`: `1/(√a + √b)`.
 ///
 /// ```
 /// assert_eq!(eem_material::kernel::sqrt_dd(4.0, 9.0), 0.2);
@@ -47,11 +35,7 @@ pub fn sqrt_dd<S: Scalar>(a: S, b: S) -> S {
     (a.sqrt() + b.sqrt()).recip()
 }
 
-/// `f[a,b,b]` of the square root, for `a ≥ 0`, `b > 0`.
-///
-/// ```text
-/// f = √x:  f[a,b,b] = −1/(2√b(√a + √b)²)
-/// ```
+/// `f[a,b,b]` of the square root, for `a ≥ 0`, `b > 0`: `−1/(2√b(√a + √b)²)`.
 ///
 /// ```
 /// assert_eq!(eem_material::kernel::sqrt_dd2(9.0, 1.0), -0.03125);
@@ -63,11 +47,8 @@ pub fn sqrt_dd2<S: Scalar>(a: S, b: S) -> S {
     -(twice(y) * sum * sum).recip()
 }
 
-/// `f[a,b]` of the cube root, for `a` and `b` of any sign.
-///
-/// ```text
-/// f = ∛x:  f[a,b] = 1/(x² + xy + y²) = 2/((x + y)² + x² + y²),  x = ∛a, y = ∛b
-/// ```
+/// `f[a,b]` of the cube root, for `a` and `b` of any sign: `1/(x² + xy + y²) = 2/((x + y)² + x² + y²)`
+/// with `x = ∛a, y = ∛b`.
 ///
 /// The error is up to 6 ulp, nearly all of it from the cube roots themselves.
 ///
@@ -80,11 +61,7 @@ pub fn cbrt_dd<S: Scalar>(a: S, b: S) -> S {
     mean_square(a.cbrt(), b.cbrt()).recip()
 }
 
-/// `f[a,b,b]` of the cube root, for `a` of any sign and `b ≠ 0`.
-///
-/// ```text
-/// f = ∛x:  f[a,b,b] = −(x + 2y)/(3y²q²),  q = x² + xy + y²
-/// ```
+/// `f[a,b,b]` of the cube root, for `a` of any sign and `b ≠ 0`: `−(x + 2y)/(3y²q²)` with `q = x² + xy + y²`.
 ///
 /// ```
 /// let difference: f64 = eem_material::kernel::cbrt_dd2(8.0, 1.0);
