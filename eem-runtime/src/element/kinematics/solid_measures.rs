@@ -130,12 +130,12 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
 
     fn numbers(&self, see: &mut dyn FnMut(S)) {
         see(self.volume);
-        let entries = self.gradients.as_ref().iter().flatten();
-        entries.for_each(|&entry| see(entry));
-        for measure in &self.measures {
-            if let Measure::Fibre(along) = measure {
-                along.iter().for_each(|&entry| see(entry));
-            }
+        let fibres = self.measures.iter().filter_map(|measure| match measure {
+            Measure::Fibre(along) => Some(along),
+            _ => None,
+        });
+        for &entry in self.gradients.as_ref().iter().chain(fibres).flatten() {
+            see(entry);
         }
     }
 
