@@ -6,7 +6,6 @@
 
 mod error;
 mod point;
-mod sample;
 mod search;
 mod state;
 

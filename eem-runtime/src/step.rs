@@ -9,7 +9,6 @@ pub(crate) mod law;
 pub(crate) mod loads;
 pub(crate) mod newton;
 pub(crate) mod outcome;
-pub(crate) mod pattern;
 pub(crate) mod rule;
 pub(crate) mod scheme;
 pub(crate) mod solver;

@@ -40,9 +40,7 @@ mod inverse;
 mod logarithm;
 mod power;
 mod primitives;
-mod root;
 mod trigonometric;
-mod whole_power;
 
 pub use exponential::{exp_dd as exp_m1_dd, exp_dd2 as exp_m1_dd2};
 pub use exponential::{exp_dd, exp_dd2, power_dd, power_dd2, power_dds};
@@ -51,8 +49,8 @@ pub use inverse::{asinh_dd, asinh_dd2, atan_dd, atan_dd2, atanh_dd, atanh_dd2};
 pub use logarithm::{
     ln_1p_dd, ln_1p_dd2, ln_1p_dds, ln_dd, ln_dd2, ln_dds, log2_dd, log2_dd2, log10_dd, log10_dd2,
 };
-pub use power::{powf_dd, powf_dd2};
+pub use power::{
+    cbrt_dd, cbrt_dd2, powf_dd, powf_dd2, powi_dd, powi_dd2, recip_dd, recip_dd2, sqrt_dd, sqrt_dd2,
+};
 pub use primitives::{Differences, two_sum};
-pub use root::{cbrt_dd, cbrt_dd2, recip_dd, recip_dd2, sqrt_dd, sqrt_dd2};
 pub use trigonometric::{cos_dd, cos_dd2, sin_dd, sin_dd2, tan_dd, tan_dd2};
-pub use whole_power::{powi_dd, powi_dd2};

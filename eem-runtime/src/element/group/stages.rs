@@ -5,18 +5,16 @@
 //! the path through the step.
 //!
 //! ```text
-//! begin     reads the old state, once                                 (member, values, projection)
-//! evaluate  conjugates of the stages                                  (values, projection, heat)
-//!           local unknowns eliminated                                 (local, values, projection)
+//! begin     reads the old state, once                                 (stage_group, values, projection)
+//! evaluate  conjugates of the stages                                  (values, projection)
+//!           local unknowns eliminated                                 (point, values, projection)
 //!           contributions to the global residual and tangent          (assemble)
-//! correct   local unknowns from the global solution                   (stage_group, heat, values, projection)
+//! correct   local unknowns from the global solution                   (stage_group, point, values, projection)
 //! close     increments of the internal variables, and the new state   (stage_group, values, projection)
 //! ```
 
 mod assemble;
-mod heat;
-mod local;
-mod member;
+mod point;
 mod projection;
 mod site;
 mod source;

@@ -1,6 +1,6 @@
 //! From the stages of the elements to the global system.
 
-use super::local::LocalStages;
+use super::point::LocalStages;
 use super::site::{PerPair, StageSite};
 use super::source::Source;
 use crate::element::group::arms::add_scaled;

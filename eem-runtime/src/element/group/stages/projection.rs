@@ -23,9 +23,7 @@ mod local;
 mod path;
 mod vector;
 
-use super::heat;
-use super::local::LocalStages;
-use super::member::{StageArms, StagePoint, StatePoint};
+use super::point::{LocalStages, StageArms, StagePoint, StatePoint, heat_received};
 use super::site::PerPair;
 use super::source::Source;
 use crate::element::error::StateError;
@@ -146,7 +144,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
         if let Some(slot) = in_state.slots().thermal {
             let rule = self.point.rule;
             for (stage, received) in self.received.iter_mut().enumerate().take(rule.stages()) {
-                *received = heat::received(rule, stage, slot, (view, trial));
+                *received = heat_received(rule, stage, slot, (view, trial));
             }
         }
         self.move_along(in_state, arms)?;

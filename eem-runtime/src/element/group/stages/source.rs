@@ -1,7 +1,6 @@
 //! Where the conjugates of the stages of an element come from.
 
-use super::local::LocalStages;
-use super::member::{StageArms, StagePoint, StatePoint};
+use super::point::{LocalStages, StageArms, StagePoint, StatePoint};
 use crate::element::error::StateError;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, Blocks, Kinematics, Weights};

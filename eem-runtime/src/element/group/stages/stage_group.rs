@@ -5,8 +5,7 @@
 //! to rounding whatever that error is.
 
 use super::assemble::{StageForces, Target};
-use super::local::LocalStages;
-use super::member::{StageArms, StageMember, StagePoint, StateMember};
+use super::point::{LocalStages, StageArms, StageMember, StagePoint, StateMember};
 use super::site::{StageSite, contacts};
 use super::source::Source;
 use crate::algebra::system::LinearSystem;

@@ -10,9 +10,7 @@
 
 mod at_stage;
 
-use super::heat;
-use super::local::LocalStages;
-use super::member::{StageArms, StagePoint, StatePoint};
+use super::point::{LocalStages, StageArms, StagePoint, StatePoint, heat_received};
 use super::source::Source;
 use crate::element::conduction::Partner;
 use crate::element::conjugates::Infeasible;
@@ -103,7 +101,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
                 self.x[stage].as_mut()[..M::MEASURES].copy_from_slice(measures.as_ref());
             }
             let heat = match in_state.slots().thermal {
-                Some(slot) => heat::received(rule, stage, slot, (view, trial)),
+                Some(slot) => heat_received(rule, stage, slot, (view, trial)),
                 None => S::zero(),
             };
             self.evaluate_stage(in_state, view, (stage, heat))?;

@@ -12,7 +12,7 @@ use super::Projections;
 use super::vector::Vector;
 use crate::element::balances::{Balances, Received, reservoir_correction};
 use crate::element::error::StateError;
-use crate::element::group::stages::member::StatePoint;
+use crate::element::group::stages::point::StatePoint;
 use crate::element::group::view::{StepView, Trial};
 use crate::element::kinematics::{Arms, PerStrain, QuadraticStrain};
 use crate::element::state::State;

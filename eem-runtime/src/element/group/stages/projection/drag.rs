@@ -9,7 +9,7 @@
 use super::Projections;
 use super::vector::Vector;
 use crate::element::error::StateError;
-use crate::element::group::stages::member::StatePoint;
+use crate::element::group::stages::point::StatePoint;
 use crate::element::kinematics::{Measures, PerStrain, QuadraticStrain};
 use crate::element::tableau::MOST_SETS;
 use eem_material::free_energy::{Array, Material};

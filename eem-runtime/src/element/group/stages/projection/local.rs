@@ -12,8 +12,7 @@
 use super::Projections;
 use super::vector::{Vector, chained};
 use crate::element::error::StateError;
-use crate::element::group::stages::local::LocalStages;
-use crate::element::group::stages::member::StatePoint;
+use crate::element::group::stages::point::{LocalStages, StatePoint};
 use crate::element::group::view::StepView;
 use crate::element::kinematics::QuadraticStrain;
 use crate::element::tableau::MOST_STAGES;

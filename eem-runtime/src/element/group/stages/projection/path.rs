@@ -7,7 +7,7 @@ use super::{Projections, combined};
 use crate::element::conjugates::{Infeasible, temperature_at};
 use crate::element::error::StateError;
 use crate::element::group::respond::check_measures;
-use crate::element::group::stages::member::{StageArms, StatePoint};
+use crate::element::group::stages::point::{StageArms, StatePoint};
 use crate::element::handle::Element;
 use crate::element::kinematics::{Arms, Measures, PerStrain, QuadraticStrain};
 use crate::element::tableau::{MOST_POINTS, MOST_STAGES, Path};
