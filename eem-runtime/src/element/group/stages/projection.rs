@@ -17,8 +17,8 @@
 //! The local unknowns are the increments of γ and s at all stages, the inputs those of C and heat.
 
 mod closing;
-mod drag;
 mod exact;
+mod kelvin_voigt;
 mod local;
 mod path;
 mod vector;
@@ -69,9 +69,9 @@ pub(crate) struct Projections<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D
     viscosities: [(M::Viscosities, M::Viscosities); MOST_STAGES],
     /// The heat `f ν` of the Kelvin–Voigt dashpot at the stages, J, and its derivatives by the temperature and, for
     /// constant temperature, by the increments of C.
-    drag_heat: [S; MOST_STAGES],
-    drag_heat_by_theta: [S; MOST_STAGES],
-    drag_heat_by_strain: PerPair<PerStrain<K, S, D>>,
+    viscous_heat: [S; MOST_STAGES],
+    heat_by_theta: [S; MOST_STAGES],
+    heat_by_strain: PerPair<PerStrain<K, S, D>>,
     /// Heat from other elements at the stages, W.
     received: [S; MOST_STAGES],
     /// `d_i` and `h ḋ_i`, m.
@@ -114,9 +114,9 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
             by_rates: Box::new([[Matrix::zero(); MOST_SETS]; MOST_SETS]),
             resolution: [zeros; MOST_STAGES],
             viscosities: [(viscosities, viscosities); MOST_STAGES],
-            drag_heat: [none; MOST_STAGES],
-            drag_heat_by_theta: [none; MOST_STAGES],
-            drag_heat_by_strain: [[strain; MOST_SETS]; MOST_SETS],
+            viscous_heat: [none; MOST_STAGES],
+            heat_by_theta: [none; MOST_STAGES],
+            heat_by_strain: [[strain; MOST_SETS]; MOST_SETS],
             received: [none; MOST_STAGES],
             arms: [nowhere; MOST_STAGES],
             motions: [nowhere; MOST_STAGES],
@@ -152,7 +152,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
         let end = self.reach_end(in_state)?;
         self.make_exact(&end);
         self.find_viscosities(in_state)?;
-        self.add_drag(in_state, view.per_step)
+        self.add_kelvin_voigt(in_state, view.per_step)
     }
 
     fn write_equations(
@@ -194,7 +194,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
         &bases.along[stage].as_ref()[component]
     }
 
-    fn turn(&self, set: usize, _: &StageArms<K, S, D>) -> Blocks<K, S, D> {
+    fn geometric_stiffness(&self, set: usize, _: &StageArms<K, S, D>) -> Blocks<K, S, D> {
         let mut blocks = Blocks::<K, S, D>::filled(K::PerArm::filled([[S::zero(); D]; D]));
         let stress = &self.conjugates[set].strain;
         let weights = self.point.kinematics.strain_stiffness(stress);
@@ -279,12 +279,12 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
         }
     }
 
-    fn pull(&self, stage: usize, _: &StageArms<K, S, D>) -> K::PerNode<[S; D]> {
+    fn nodal_force(&self, stage: usize, _: &StageArms<K, S, D>) -> K::PerNode<[S; D]> {
         let (kinematics, stress) = (&self.point.kinematics, &self.conjugates[stage].strain);
         spread::<K, S, D>(&kinematics.strain_force(&self.arms[stage], stress))
     }
 
-    fn magnitude(&self, step: S) -> S {
+    fn impulse_size(&self, step: S) -> S {
         let known =
             |stage: usize, q: usize| self.conjugates[stage][q].abs() + self.resolution[stage][q];
         let stages = 0..self.point.rule.stages();
@@ -315,7 +315,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
             let terms = self.conjugates[stage].entries();
             let work = terms.zip(self.rates[stage].entries());
             let work = work.fold(S::zero(), |sum, (a, rate)| sum + a * rate);
-            found += S::from_f64(weight) * (work - self.drag_heat[stage]);
+            found += S::from_f64(weight) * (work - self.viscous_heat[stage]);
         }
         recount.element(in_state.element, own.by_values, own.by_differences, found);
     }

@@ -95,8 +95,8 @@ where
         stage_and_force: [usize; 2],
     ) -> &'a Arms<K, S, D>;
 
-    /// The derivative of the direction of the forces at the stage of a set by the arms, times the forces.
-    fn turn(&self, set: usize, arms: &StageArms<K, S, D>) -> Blocks<K, S, D>;
+    /// The forces at the stage of a set times the derivative of their directions by the arms.
+    fn geometric_stiffness(&self, set: usize, arms: &StageArms<K, S, D>) -> Blocks<K, S, D>;
 
     /// The temperature of a set, K; its derivatives are written like those of a [force](Self::force).
     fn temperature(&self, local: &mut LocalStages<S>, set: usize) -> S;
@@ -117,7 +117,7 @@ where
     fn apply(&mut self, fraction: S);
 
     /// The forces on the nodes at a stage, N.
-    fn pull(&self, stage: usize, arms: &StageArms<K, S, D>) -> K::PerNode<[S; D]>;
+    fn nodal_force(&self, stage: usize, arms: &StageArms<K, S, D>) -> K::PerNode<[S; D]>;
 
     /// A of the nodal force `A q_i` at a stage, where stages are closed one after the other.
     fn secant(&self, _stage: usize) -> Weights<K, S, D> {
@@ -125,7 +125,7 @@ where
     }
 
     /// The magnitude of the terms of the impulses of the forces in a step, N s; only where steps are certified.
-    fn magnitude(&self, _step: S) -> S {
+    fn impulse_size(&self, _step: S) -> S {
         S::zero()
     }
 

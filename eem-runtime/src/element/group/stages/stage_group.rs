@@ -105,7 +105,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, C: Source<S, M, K, D>, const 
                 target.add_forces(source, &bases);
                 for set in 0..rule.sets() {
                     let blocks = &mut target.forces.blocks[rule.stage_of(set)][set];
-                    add_blocks::<K, S, D>(blocks, &source.turn(set, &arms));
+                    add_blocks::<K, S, D>(blocks, &source.geometric_stiffness(set, &arms));
                 }
                 if let Some(slot) = in_state.slots().thermal {
                     target.add_temperatures(source, &bases, (slot, trial));
@@ -232,14 +232,14 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, C: Source<S, M, K, D>, c
             let nodes = &stages.site.first().nodes;
             let arms = StageArms::new(self.rule, nodes, (view, trial));
             for source in &stages.points {
-                let force = source.pull(stage, &arms);
+                let force = source.nodal_force(stage, &arms);
                 for (&node, force) in nodes.as_ref().iter().zip(force.as_ref()) {
                     for (sum, &force) in impulses.of(node as usize).iter_mut().zip(force) {
                         *sum -= view.step * force;
                     }
                 }
                 if stage == 0 && !magnitudes.is_empty() {
-                    let magnitude = source.magnitude(view.step);
+                    let magnitude = source.impulse_size(view.step);
                     for &node in nodes.as_ref() {
                         magnitudes[node as usize] += magnitude;
                     }

@@ -142,7 +142,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
         &self.gradients[stage].as_ref()[measure]
     }
 
-    fn turn(&self, set: usize, arms: &StageArms<K, S, D>) -> Blocks<K, S, D> {
+    fn geometric_stiffness(&self, set: usize, arms: &StageArms<K, S, D>) -> Blocks<K, S, D> {
         let stage = self.point.rule.stage_of(set);
         let [measures, forces] = self.measures_and_forces(stage);
         let r = arms.of_set(set);
@@ -231,7 +231,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
     }
 
     /// With the forces as found and the directions of the trial.
-    fn pull(&self, stage: usize, arms: &StageArms<K, S, D>) -> K::PerNode<[S; D]> {
+    fn nodal_force(&self, stage: usize, arms: &StageArms<K, S, D>) -> K::PerNode<[S; D]> {
         let (rule, kinematics) = (self.point.rule, &self.point.kinematics);
         let set = rule.set_of(stage);
         let r = set.map_or(arms.old, |set| arms.of_set(set));

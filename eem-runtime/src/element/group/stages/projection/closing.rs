@@ -108,7 +108,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         }
         if M::Drag::LEN > 0 {
             for (stage, &weight) in weights.iter().enumerate() {
-                dissipate(stage, S::from_f64(weight) * self.drag_heat[stage]);
+                dissipate(stage, S::from_f64(weight) * self.viscous_heat[stage]);
             }
         }
         booked

@@ -122,13 +122,9 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
             local.matrix[equation * unknowns + unknown] -= (drag + drag) * self.units[strains + k];
         }
         if M::Drag::LEN > 0 {
-            rest -= self.drag_heat[stage];
-            by_theta -= self.drag_heat_by_theta[stage];
-            for (set, by) in self.drag_heat_by_strain[stage]
-                .iter()
-                .enumerate()
-                .take(sets)
-            {
+            rest -= self.viscous_heat[stage];
+            by_theta -= self.heat_by_theta[stage];
+            for (set, by) in self.heat_by_strain[stage].iter().enumerate().take(sets) {
                 for (q, &by) in by.as_ref().iter().enumerate() {
                     let input = 1 + set * strains + q;
                     self.point.solved[input * unknowns + equation] -= by;

@@ -17,7 +17,7 @@ use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projections<S, M, K, D> {
     /// Adds the forces of the dashpot to conjugates that are exact without them.
-    pub(super) fn add_drag(
+    pub(super) fn add_kelvin_voigt(
         &mut self,
         in_state: &mut StatePoint<S, M, K, D>,
         per_step: S,
@@ -28,18 +28,18 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         for stage in 0..self.point.rule.stages() {
             in_state.find_drag_viscosity(self.mean_temperature(stage))?;
             let (viscosities, slopes) = in_state.drag.viscosity;
-            (self.drag_heat[stage], self.drag_heat_by_theta[stage]) = (S::zero(), S::zero());
-            self.drag_heat_by_strain[stage] = [PerStrain::<K, S, D>::filled(S::zero()); MOST_SETS];
+            (self.viscous_heat[stage], self.heat_by_theta[stage]) = (S::zero(), S::zero());
+            self.heat_by_strain[stage] = [PerStrain::<K, S, D>::filled(S::zero()); MOST_SETS];
             for a in 0..M::Drag::LEN {
                 let per_step = [viscosities[a] * per_step, slopes[a] * per_step];
-                self.add_drag_of(in_state, [stage, a], per_step)?;
+                self.add_kelvin_voigt_of(in_state, [stage, a], per_step)?;
             }
         }
         Ok(())
     }
 
     /// The same of a measure at a stage, given `η/h` and `(dη/dθ)/h`.
-    fn add_drag_of(
+    fn add_kelvin_voigt_of(
         &mut self,
         in_state: &StatePoint<S, M, K, D>,
         [stage, measure]: [usize; 2],
@@ -68,8 +68,8 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         let terms = direction.as_ref().iter().zip(sizes.as_ref());
         let size = terms.fold(S::zero(), |sum, (&slope, &size)| sum + (slope * size).abs());
         let (force, thinning) = (eta * extension, slope * extension);
-        self.drag_heat[stage] += force * extension;
-        self.drag_heat_by_theta[stage] += thinning * extension;
+        self.viscous_heat[stage] += force * extension;
+        self.heat_by_theta[stage] += thinning * extension;
         for q in 0..strains {
             self.conjugates[stage][q] += force * direction[q];
             self.resolution[stage][q] += (direction[q] * eta * size).abs();
@@ -84,7 +84,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
                     S::zero()
                 };
                 let by_extension = direct + reach * turned[p];
-                self.drag_heat_by_strain[stage][set][p] += (force + force) * by_extension;
+                self.heat_by_strain[stage][set][p] += (force + force) * by_extension;
                 for q in 0..strains {
                     *by.at_mut([q, p]) +=
                         eta * by_extension * direction[q] + force * reach * turning[q][p];
