@@ -64,7 +64,7 @@ pub(crate) struct Projections<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D
     /// `∂a_i/∂R_j`.
     by_rates: Box<PerPair<Matrix<S, M, K, D>>>,
     /// `Σ_r |projection_ir| Σ_y |∂²ê/∂x∂y| |y|`: times ε, the conditioning error of the conjugates.
-    resolution: [Vector<S, M, K, D>; MOST_STAGES],
+    conditioning: [Vector<S, M, K, D>; MOST_STAGES],
     /// `η_k` and `dη_k/dθ` at `Θ_i`.
     viscosities: [(M::Viscosities, M::Viscosities); MOST_STAGES],
     /// The heat `f ν` of the Kelvin–Voigt dashpot at the stages, J, and its derivatives by the temperature and, for
@@ -112,7 +112,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
             end_sizes: [strain; 2],
             conjugates: [zeros; MOST_STAGES],
             by_rates: Box::new([[Matrix::zero(); MOST_SETS]; MOST_SETS]),
-            resolution: [zeros; MOST_STAGES],
+            conditioning: [zeros; MOST_STAGES],
             viscosities: [(viscosities, viscosities); MOST_STAGES],
             viscous_heat: [none; MOST_STAGES],
             heat_by_theta: [none; MOST_STAGES],
@@ -209,7 +209,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
     }
 
     fn temperature(&self, local: &mut LocalStages<S>, set: usize) -> S {
-        self.differentiate(local, [set, Vector::<S, M, K, D>::ENTROPY]);
+        self.differentiate(local, [set, Self::ENTROPY]);
         self.point.eliminate(local);
         self.mean_temperature(set)
     }
@@ -262,7 +262,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
             let (stage, index) = if unknown < entropies {
                 (unknown / M::DASHPOTS, Self::FORCES + unknown % M::DASHPOTS)
             } else {
-                (unknown - entropies, Vector::<S, M, K, D>::ENTROPY)
+                (unknown - entropies, Self::ENTROPY)
             };
             self.correction[stage][index] = self.units[index] * change;
             largest = largest.maximum(change.abs());
@@ -272,7 +272,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
 
     fn apply(&mut self, fraction: S) {
         for stage in 0..self.point.rule.stages() {
-            for index in Self::FORCES..Vector::<S, M, K, D>::LEN {
+            for index in Self::FORCES..Self::LEN {
                 let change = fraction * self.correction[stage][index];
                 self.rates[stage][index] = self.previous[stage][index] + change;
             }
@@ -286,7 +286,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
 
     fn impulse_size(&self, step: S) -> S {
         let known =
-            |stage: usize, q: usize| self.conjugates[stage][q].abs() + self.resolution[stage][q];
+            |stage: usize, q: usize| self.conjugates[stage][q].abs() + self.conditioning[stage][q];
         let stages = 0..self.point.rule.stages();
         let forces = stages.map(|stage| self.force_size(stage, |q| known(stage, q)));
         step * forces.fold(S::zero(), S::maximum)
@@ -322,10 +322,15 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
 }
 
 impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projections<S, M, K, D> {
+    /// Number of variables y, of components of the strain among them, and the index of the entropy.
+    const LEN: usize = Vector::<S, M, K, D>::LEN;
+    const STRAINS: usize = Vector::<S, M, K, D>::STRAINS;
+    const ENTROPY: usize = Vector::<S, M, K, D>::ENTROPY;
+
     /// Θ of a stage, K; zero without temperature.
     fn mean_temperature(&self, stage: usize) -> S {
         if M::THERMAL {
-            self.conjugates[stage][Vector::<S, M, K, D>::ENTROPY]
+            self.conjugates[stage][Self::ENTROPY]
         } else {
             S::zero()
         }
@@ -335,7 +340,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     fn increments(&self, shares: &[f64]) -> Vector<S, M, K, D> {
         let mut sum = Vector::zero();
         for (rates, &share) in self.rates.iter().zip(shares) {
-            for index in 0..Vector::<S, M, K, D>::LEN {
+            for index in 0..Self::LEN {
                 sum[index] += S::from_f64(share) * rates[index];
             }
         }
@@ -345,7 +350,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     /// `y = (C, γ, s)` where the path has gone these shares of the increments.
     fn path_at(&self, shares: &[f64]) -> Vector<S, M, K, D> {
         let mut y = self.increments(shares);
-        for index in 0..Vector::<S, M, K, D>::LEN {
+        for index in 0..Self::LEN {
             y[index] += self.old[index];
         }
         y

@@ -80,7 +80,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
         (self.old, self.x) = (*x0, [*x0; MOST_STAGES]);
         let prescribed = self.point.prescribed.into_iter().flatten();
         for (x, theta) in self.x.iter_mut().zip(prescribed) {
-            x[M::Variables::LEN - 1] = theta;
+            x[Self::TEMPERATURE] = theta;
         }
     }
 
@@ -151,7 +151,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
 
     fn temperature(&self, local: &mut LocalStages<S>, set: usize) -> S {
         let mut by = M::Variables::filled(S::zero());
-        by[M::Variables::LEN - 1] = S::one();
+        by[Self::TEMPERATURE] = S::one();
         let stage = self.point.rule.entropies[set].unknown;
         self.differentiate(local, stage, &by);
         self.point.eliminate(local);
@@ -187,7 +187,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
     }
 
     fn correct(&mut self, local: &LocalStages<S>) -> S {
-        let (rule, last) = (self.point.rule, M::Variables::LEN - 1);
+        let rule = self.point.rule;
         let temperatures = rule.sets() * M::DASHPOTS;
         let mut largest = S::zero();
         for u in 0..local.unknowns() {
@@ -198,7 +198,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
                 (stage, index, self.point.viscous_unit)
             } else {
                 let stage = rule.entropies[u - temperatures].unknown;
-                (stage, last, self.theta(stage))
+                (stage, Self::TEMPERATURE, self.theta(stage))
             };
             self.correction[stage][index] = change;
             largest = largest.maximum((change / scale).abs());
@@ -208,7 +208,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
 
     /// Viscous stretches linearly, temperatures in their logarithms, so that they stay positive.
     fn apply(&mut self, fraction: S) {
-        let (rule, last) = (self.point.rule, M::Variables::LEN - 1);
+        let rule = self.point.rule;
         for stage in rule.known..rule.stages() {
             for index in M::MEASURES..M::MEASURES + M::DASHPOTS {
                 let change = fraction * self.correction[stage][index];
@@ -219,12 +219,13 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
             return;
         }
         for stage in rule.entropies.iter().map(|balance| balance.unknown) {
-            let change = fraction * self.correction[stage][last];
-            self.x[stage][last] = grown(self.previous[stage][last], change);
+            let change = fraction * self.correction[stage][Self::TEMPERATURE];
+            self.x[stage][Self::TEMPERATURE] =
+                grown(self.previous[stage][Self::TEMPERATURE], change);
         }
         for (stage, shares) in rule.temperatures.iter().enumerate() {
             let terms = shares.iter().zip(rule.entropies);
-            self.x[stage][last] = terms.fold(S::zero(), |sum, (&share, balance)| {
+            self.x[stage][Self::TEMPERATURE] = terms.fold(S::zero(), |sum, (&share, balance)| {
                 sum + S::from_f64(share) * self.theta(balance.unknown)
             });
         }
@@ -269,9 +270,12 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Source<S, M, 
 }
 
 impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, K, D> {
-    /// The temperature of a stage, K; only for elements that have one.
+    /// The index of the last variable, the temperature of elements that have one.
+    const TEMPERATURE: usize = M::Variables::LEN - 1;
+
+    /// The temperature of a stage, K; without meaning for elements that have none.
     fn theta(&self, stage: usize) -> S {
-        self.x[stage][M::Variables::LEN - 1]
+        self.x[stage][Self::TEMPERATURE]
     }
 
     fn measures_and_forces(&self, stage: usize) -> [K::PerMeasure<S>; 2] {
@@ -303,7 +307,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
         let Some(slot) = in_state.slots().thermal else {
             return Ok(());
         };
-        let slope = at_stage.entropy_by()[M::Variables::LEN - 1];
+        let slope = at_stage.entropy_by()[Self::TEMPERATURE];
         Infeasible::unless_stable(theta * slope, theta)
             .map_err(|infeasible| infeasible.of(in_state.element))?;
         let mut flow = view.conduction.reservoir_flow(slot, theta);
@@ -359,7 +363,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
         (equation, balance): (usize, &EntropyBalance),
         h: S,
     ) {
-        let (rule, last) = (self.point.rule, M::Variables::LEN - 1);
+        let rule = self.point.rule;
         let unknowns = local.unknowns();
         let mut rest = -S::from_f64(balance.old) * self.point.entropy;
         for (stage, &weight) in balance.entropies.iter().enumerate() {
@@ -373,8 +377,12 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
         for (stage, &weight) in balance.rates.iter().enumerate() {
             if weight != 0.0 {
                 let weight = -h * S::from_f64(weight);
-                rest += weight * self.stages[stage].rates[last];
-                self.differentiate(local, stage, &self.stages[stage].rates_by[last]);
+                rest += weight * self.stages[stage].rates[Self::TEMPERATURE];
+                self.differentiate(
+                    local,
+                    stage,
+                    &self.stages[stage].rates_by[Self::TEMPERATURE],
+                );
                 self.point.add_row(local, equation, weight);
                 let heat = 1 + rule.sets() * M::MEASURES + stage;
                 self.point.solved[heat * unknowns + equation] = weight / self.theta(stage);
@@ -409,7 +417,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
             next.dissipated.add(heat);
             return S::zero();
         };
-        let received = over_step(&|stage| stages[stage].rates[M::Variables::LEN - 1]);
+        let received = over_step(&|stage| stages[stage].rates[Self::TEMPERATURE]);
         next.entropies.advance(slot, &old.entropies, received);
         for link in view.conduction.links(slot) {
             if let Partner::Reservoir(index) = link.partner {
@@ -424,7 +432,6 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
     /// Books the heat of the thermostat of an element whose new entropy is given: at the stages it gives what the equations
     /// of the rule lack with the prescribed temperatures, at the last stage the rest of the total.
     fn book_thermostat(&self, h: S, [new_entropy, received]: [S; 2], next: &mut State<S>) {
-        let last = M::Variables::LEN - 1;
         let total = new_entropy - self.point.entropy - received;
         let mut rest = total;
         for balance in self.point.rule.entropies {
@@ -432,7 +439,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
             let terms = balance.entropies.iter().zip(balance.rates);
             for ((&entropy, &rate), stage) in terms.zip(&self.stages) {
                 defect += S::from_f64(entropy) * stage.entropy();
-                defect -= h * S::from_f64(rate) * stage.rates[last];
+                defect -= h * S::from_f64(rate) * stage.rates[Self::TEMPERATURE];
             }
             for (stage, &supply) in balance.supply.iter().enumerate() {
                 let given = S::from_f64(supply) * defect;

@@ -9,7 +9,6 @@
 //! [`conduction`](crate::element::conduction).
 
 use super::Projections;
-use super::vector::Vector;
 use crate::element::balances::{Balances, Received, reservoir_correction};
 use crate::element::error::StateError;
 use crate::element::group::stages::point::StatePoint;
@@ -98,7 +97,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         };
         let creep = self.increments(weights);
         for k in 0..M::DASHPOTS {
-            let index = Vector::<S, M, K, D>::STRAINS + k;
+            let index = Self::STRAINS + k;
             (next.viscous).advance(slots.viscous + k, &view.state.viscous, creep[index]);
             for (stage, &weight) in weights.iter().enumerate() {
                 let rate = self.rates[stage][index];
@@ -148,7 +147,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         let theta = self.mean_temperature(stage);
         let flow = view.conduction.reservoir_flow(slot, theta);
         let weight = share * view.per_step;
-        let taken = weight * theta * self.rates[stage][Vector::<S, M, K, D>::ENTROPY];
+        let taken = weight * theta * self.rates[stage][Self::ENTROPY];
         reservoir_correction(&flow, [share, theta], [taken, S::zero(), heat])
     }
 
@@ -160,7 +159,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         let mut heat = S::zero();
         let mut rest = total;
         for ((stage, &weight), received) in rule.weights.iter().enumerate().zip(booked) {
-            let taken = S::from_f64(weight) * self.rates[stage][Vector::<S, M, K, D>::ENTROPY];
+            let taken = S::from_f64(weight) * self.rates[stage][Self::ENTROPY];
             heat += self.mean_temperature(stage) * (taken - received.entropy);
             rest -= taken;
             total -= received.entropy;
@@ -199,7 +198,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         tally.exchange(impulse);
         for ((stage, &weight), received) in weights.iter().enumerate().zip(booked) {
             for k in 0..M::DASHPOTS {
-                let index = Vector::<S, M, K, D>::STRAINS + k;
+                let index = Self::STRAINS + k;
                 let eta = self.viscosities[stage].0[k];
                 let drag = eta * view.per_step * self.rates[stage][index];
                 let force = self.conjugates[stage][index];
@@ -209,7 +208,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
             if !M::THERMAL {
                 continue;
             }
-            let last = Vector::<S, M, K, D>::ENTROPY;
+            let last = Self::ENTROPY;
             let theta = self.mean_temperature(stage);
             if self.point.prescribed.is_none() {
                 let taken = S::from_f64(weight) * theta * self.rates[stage][last];
@@ -232,7 +231,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         let size = self.conjugates[stage][index].abs();
         match care {
             Care::Quick => size,
-            Care::Thorough => size + self.resolution[stage][index],
+            Care::Thorough => size + self.conditioning[stage][index],
         }
     }
 
@@ -244,7 +243,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     fn amplitude(&self, care: Care) -> S {
         let weights = self.point.rule.weights;
         let mut sum = S::zero();
-        for index in 0..Vector::<S, M, K, D>::ENTROPY {
+        for index in 0..Self::ENTROPY {
             let [old, new] = [0, 1].map(|end| self.size_at_end(end, index));
             sum += S::EPSILON * self.metric[index] * new * new;
             // λ ∂e/∂λ = 2 C ∂ê/∂C
@@ -261,8 +260,8 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
             return sum;
         }
         for (stage, &weight) in weights.iter().enumerate() {
-            for index in 0..Vector::<S, M, K, D>::LEN {
-                let work = self.resolution[stage][index] * self.rates[stage][index];
+            for index in 0..Self::LEN {
+                let work = self.conditioning[stage][index] * self.rates[stage][index];
                 sum += S::from_f64(weight) * work.abs();
             }
         }
@@ -271,7 +270,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
 
     /// The magnitude of the terms of a variable at one of the ends.
     fn size_at_end(&self, end: usize, index: usize) -> S {
-        if index < Vector::<S, M, K, D>::STRAINS {
+        if index < Self::STRAINS {
             self.end_sizes[end][index]
         } else {
             [&self.old, &self.end][end][index]
@@ -280,8 +279,8 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
 
     /// `Σ|f||π| + Σ|g||γ|` of the new state, which the amplitude has for both ends, J.
     fn forces_at_end(&self) -> S {
-        let strains = Vector::<S, M, K, D>::STRAINS;
-        (0..Vector::<S, M, K, D>::ENTROPY).fold(S::zero(), |sum, index| {
+        let strains = Self::STRAINS;
+        (0..Self::ENTROPY).fold(S::zero(), |sum, index| {
             let size = self.size_at_end(1, index);
             let work = (self.end_slopes[1][index] * size).abs();
             // λ ∂e/∂λ = 2 C ∂ê/∂C

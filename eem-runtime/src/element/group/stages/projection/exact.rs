@@ -25,7 +25,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         for (stage, &weight) in self.point.rule.weights.iter().enumerate() {
             let weight = S::from_f64(weight);
             let (a, rates) = (&self.conjugates[stage], &self.rates[stage]);
-            for index in 0..Vector::<S, M, K, D>::LEN {
+            for index in 0..Self::LEN {
                 let rate = weight * rates[index];
                 defect += (mean[index] - a[index]) * rate;
                 terms += (a[index] * rate).abs();
@@ -40,8 +40,8 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         let is_noise = !is_moving | defect.abs().at_most(noise);
         let per_norm = S::select(is_noise, zero, norm.recip());
         let slopes = self.slopes_of_factor(slopes, [factor, per_norm]);
-        let resolution = S::select(is_moving, terms / norm, zero);
-        self.apply_factor([factor, resolution], &slopes);
+        let conditioning = S::select(is_moving, terms / norm, zero);
+        self.apply_factor([factor, conditioning], &slopes);
     }
 
     /// `∂μ/∂R_j`.
@@ -54,12 +54,12 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         let mut by = [Vector::zero(); MOST_STAGES];
         for (j, &weight) in weights.iter().enumerate() {
             let weight = S::from_f64(weight);
-            for index in 0..Vector::<S, M, K, D>::LEN {
+            for index in 0..Self::LEN {
                 let stretched = factor * self.metric[index] * self.rates[j][index];
                 let direct = slopes[index] - self.conjugates[j][index];
                 let mut sum = weight * (direct - stretched - stretched);
                 for (i, &weight) in weights.iter().enumerate() {
-                    let rows = 0..Vector::<S, M, K, D>::LEN;
+                    let rows = 0..Self::LEN;
                     let response = rows.fold(S::zero(), |sum, row| {
                         sum + self.by_rates[i][j].at([row, index]) * self.rates[i][row]
                     });
@@ -74,18 +74,18 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     /// `a_i + μ W R_i` with derivatives, given μ and, in units of ε, its conditioning error.
     fn apply_factor(
         &mut self,
-        [factor, resolution]: [S; 2],
+        [factor, conditioning]: [S; 2],
         slopes: &[Vector<S, M, K, D>; MOST_STAGES],
     ) {
         let stages = self.point.rule.stages();
         for i in 0..stages {
-            for index in 0..Vector::<S, M, K, D>::LEN {
+            for index in 0..Self::LEN {
                 let along = self.metric[index] * self.rates[i][index];
                 self.conjugates[i][index] += factor * along;
-                self.resolution[i][index] += resolution * along.abs();
+                self.conditioning[i][index] += conditioning * along.abs();
                 *self.by_rates[i][i].at_mut([index, index]) += factor * self.metric[index];
                 for (by, slopes) in self.by_rates[i].iter_mut().zip(slopes).take(stages) {
-                    for column in 0..Vector::<S, M, K, D>::LEN {
+                    for column in 0..Self::LEN {
                         *by.at_mut([index, column]) += along * slopes[column];
                     }
                 }

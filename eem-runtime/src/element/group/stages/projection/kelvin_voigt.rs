@@ -7,7 +7,6 @@
 //! with the strain of the path, so that its power is what the nodes lose.
 
 use super::Projections;
-use super::vector::Vector;
 use crate::element::error::StateError;
 use crate::element::group::stages::point::StatePoint;
 use crate::element::kinematics::{Measures, PerStrain, QuadraticStrain};
@@ -45,7 +44,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         [stage, measure]: [usize; 2],
         [eta, slope]: [S; 2],
     ) -> Result<(), StateError> {
-        let (strains, last) = (Vector::<S, M, K, D>::STRAINS, Vector::<S, M, K, D>::ENTROPY);
+        let (strains, last) = (Self::STRAINS, Self::ENTROPY);
         let (kinematics, reaches) = (self.point.kinematics, self.point.rule.rates[stage]);
         let strain = self.path_at(reaches).strain;
         self.measures_in_path(in_state.element, &strain)?;
@@ -72,7 +71,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         self.heat_by_theta[stage] += thinning * extension;
         for q in 0..strains {
             self.conjugates[stage][q] += force * direction[q];
-            self.resolution[stage][q] += (direction[q] * eta * size).abs();
+            self.conditioning[stage][q] += (direction[q] * eta * size).abs();
         }
         for (set, &reach) in reaches.iter().enumerate() {
             let reach = S::from_f64(reach);
@@ -91,7 +90,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
                 }
             }
             for q in 0..strains {
-                for column in (0..Vector::<S, M, K, D>::LEN).filter(|_| M::THERMAL) {
+                for column in (0..Self::LEN).filter(|_| M::THERMAL) {
                     let by_theta = by.at([last, column]);
                     *by.at_mut([q, column]) += thinning * direction[q] * by_theta;
                 }

@@ -10,7 +10,7 @@
 //! supports instead.
 
 use super::Projections;
-use super::vector::{Vector, chained};
+use super::vector::chained;
 use crate::element::error::StateError;
 use crate::element::group::stages::point::{LocalStages, StatePoint};
 use crate::element::group::view::StepView;
@@ -50,7 +50,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
 
     /// Writes the derivatives of a conjugate of a stage to the row of the workspace.
     pub(super) fn differentiate(&self, local: &mut LocalStages<S>, [stage, index]: [usize; 2]) {
-        let (sets, strains) = (self.point.rule.sets(), Vector::<S, M, K, D>::STRAINS);
+        let (sets, strains) = (self.point.rule.sets(), Self::STRAINS);
         local.clear_row();
         for (set, by) in self.by_rates[stage].iter().enumerate().take(sets) {
             for q in 0..strains {
@@ -61,7 +61,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
                 local.by_unknown[set * M::DASHPOTS + k] = entry;
             }
             if M::THERMAL {
-                let last = Vector::<S, M, K, D>::ENTROPY;
+                let last = Self::ENTROPY;
                 let entry = by.at([index, last]) * self.units[last];
                 local.by_unknown[sets * M::DASHPOTS + set] = entry;
             }
@@ -82,7 +82,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
 
     /// The equation of a dashpot at a stage, times the unit of its stretch.
     fn write_creep(&mut self, local: &mut LocalStages<S>, [stage, k]: [usize; 2], per_step: S) {
-        let (equation, index) = (stage * M::DASHPOTS + k, Vector::<S, M, K, D>::STRAINS + k);
+        let (equation, index) = (stage * M::DASHPOTS + k, Self::STRAINS + k);
         let unit = self.units[index];
         let (viscosities, slopes) = &self.viscosities[stage];
         let (drag, slope) = (viscosities[k] * per_step, slopes[k] * per_step);
@@ -93,7 +93,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         local.matrix[diagonal] += unit * unit * drag;
         self.add(local, equation, [stage, index], unit);
         if M::THERMAL {
-            let temperature = [stage, Vector::<S, M, K, D>::ENTROPY];
+            let temperature = [stage, Self::ENTROPY];
             self.add(local, equation, temperature, unit * slope * rate);
         }
     }
@@ -106,8 +106,8 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         stage: usize,
         (view, [heat, conductance]): (&StepView<'_, S>, [S; 2]),
     ) {
-        let (sets, strains) = (self.point.rule.sets(), Vector::<S, M, K, D>::STRAINS);
-        let (unknowns, last) = (local.unknowns(), Vector::<S, M, K, D>::ENTROPY);
+        let (sets, strains) = (self.point.rule.sets(), Self::STRAINS);
+        let (unknowns, last) = (local.unknowns(), Self::ENTROPY);
         let equation = sets * M::DASHPOTS + stage;
         let (theta, rate) = (self.mean_temperature(stage), self.rates[stage][last]);
         let mut rest = theta * rate - view.step * heat;
@@ -149,7 +149,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         let Some(path) = rule.path else {
             return Ok(());
         };
-        let (strains, last) = (Vector::<S, M, K, D>::STRAINS, Vector::<S, M, K, D>::ENTROPY);
+        let (strains, last) = (Self::STRAINS, Self::ENTROPY);
         let (unknowns, first) = (local.unknowns(), rule.sets() * M::DASHPOTS);
         for (at, (shares, &theta)) in path.supports.integrals.iter().zip(prescribed).enumerate() {
             let equation = first + at;

@@ -33,14 +33,14 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         let (slopes, curvatures) = derivatives(kinematics, strain, (x0, &gradient, &hessian));
         self.end_slopes[0] = slopes;
         self.end_sizes[0] = kinematics.strain_sizes(strain);
-        let strains = 0..Vector::<S, M, K, D>::STRAINS;
+        let strains = 0..Self::STRAINS;
         let (counts, unit) = kinematics.strain_metric(strain);
         let derivatives = (&slopes, &curvatures);
         let of_strain = steepness(derivatives, strains.clone(), |q| counts[q], unit);
         for q in strains.clone() {
             self.metric[q] = counts[q] * of_strain;
         }
-        let entropy = Vector::<S, M, K, D>::ENTROPY;
+        let entropy = Self::ENTROPY;
         let components = entropy - M::VISCOUS_STRAIN..entropy;
         for index in strains.end..components.start {
             let unit = self.point.viscous_unit;
@@ -88,7 +88,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
             return Ok(());
         };
         self.conjugates = [Vector::zero(); MOST_STAGES];
-        self.resolution = [Vector::zero(); MOST_STAGES];
+        self.conditioning = [Vector::zero(); MOST_STAGES];
         let stages = rule.stages();
         for row in &mut self.by_rates[..stages] {
             row[..stages].fill(Matrix::zero());
@@ -119,7 +119,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     ) {
         let mut sizes = *y;
         sizes.strain = self.point.kinematics.strain_sizes(&y.strain);
-        let variables = 0..Vector::<S, M, K, D>::LEN;
+        let variables = 0..Self::LEN;
         for (stage, shares) in path.projection.iter().enumerate() {
             let share = S::from_f64(shares[r]);
             for index in variables.clone() {
@@ -127,7 +127,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
                 let size = variables.clone().fold(S::zero(), |sum, column| {
                     sum + (curvatures.at([index, column]) * sizes[column]).abs()
                 });
-                self.resolution[stage][index] += share.abs() * size;
+                self.conditioning[stage][index] += share.abs() * size;
             }
             for (by, &reach) in self.by_rates[stage].iter_mut().zip(path.integrals[r]) {
                 let factor = share * S::from_f64(reach);
@@ -162,7 +162,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         let near = self.temperatures[point];
         let mut x = y.variables(measures.as_ref(), near);
         if M::THERMAL {
-            let entropy = y[Vector::<S, M, K, D>::ENTROPY];
+            let entropy = y[Self::ENTROPY];
             let found = temperature_at(&in_state.model, x, entropy, near);
             let theta = found.map_err(|infeasible| infeasible.of(in_state.element))?;
             (x[M::Variables::LEN - 1], self.temperatures[point]) = (theta, theta);
