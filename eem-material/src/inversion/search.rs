@@ -109,7 +109,7 @@ impl<S: Real> Point<S> {
     }
 }
 
-/// What is known about the solution.
+/// The state of the search.
 struct Search<S> {
     target: S,
     /// The current point.

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! smooth functions of `(a, b)` that are evaluated as such: `f[a,a] = f′(a)`
-//! and `f[a,a,a] = ½f″(a)` are ordinary values, and no distance between `a`
+//! and `f[a,a,a] = ½f″(a)` are regular values, and no distance between `a`
 //! and `b` is too small or too large. The quotient on the left is never formed
 //! for close ends.
 //!

@@ -111,7 +111,7 @@ mod tests {
     // More than any machine has.
     #[test]
     #[cfg(feature = "sparse")]
-    fn the_machine_is_asked_for_what_is_large() {
+    fn large_systems_are_compared_with_the_memory_of_the_machine() {
         assert_eq!(MemoryLimit::NONE.check(1, SMALL), Ok(()));
         assert!(MemoryLimit::NONE.check(1, u64::MAX).is_err());
     }

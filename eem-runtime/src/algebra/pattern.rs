@@ -21,7 +21,7 @@ mod full {
             Self { unknowns }
         }
 
-        /// With a block of so many rows in the place of each entry.
+        /// The pattern with a block of `length` rows for each entry.
         #[expect(
             clippy::unnecessary_wraps,
             reason = "the sparse pattern has blocks of a few sizes only"
@@ -31,7 +31,7 @@ mod full {
             Ok(Self { unknowns })
         }
 
-        /// With so many sets of the unknowns.
+        /// The pattern for several sets of the unknowns.
         pub(crate) fn repeated(self, sets: usize) -> Self {
             let unknowns = sets * self.unknowns;
             Self { unknowns }

@@ -142,7 +142,7 @@ impl Storage {
     }
 }
 
-/// The elimination of a full matrix, in a function of its own, so that small systems do not spill registers for it.
+/// The elimination of a full matrix, in a separate function, so that small systems do not spill registers for it.
 #[inline(never)]
 fn solve_dense<S: Real, const W: usize>(
     values: &mut [S],
@@ -409,9 +409,9 @@ mod tests {
     fn entries_of_anchors_are_not_read() {
         let mut system =
             LinearSystem::<f64, 1>::new(&Pattern::new(1, |_| {}), 1, MemoryLimit::NONE).unwrap();
-        let (own, nobody) = (system.place(Some(0), Some(0)), system.place(Some(0), None));
+        let (own, scratch) = (system.place(Some(0), Some(0)), system.place(Some(0), None));
         let (values, right) = system.parts();
-        (values[own], values[nobody]) = (2.0, 9.0);
+        (values[own], values[scratch]) = (2.0, 9.0);
         (right[0], right[1]) = ([6.0], [9.0]);
         system.solve().unwrap();
         assert_eq!(system.solution()[0].map(f64::to_bits), [3.0_f64.to_bits()]);

@@ -1,6 +1,6 @@
-//! Two independent tasks, at the same time if a thread of the current rayon pool is free.
+//! Two independent tasks, in parallel if a thread of the current rayon pool is free.
 //!
-//! Where work is divided never depends on the number of threads, so that results do not either.
+//! The division of work never depends on the number of threads, so that results do not either.
 
 /// A task, which stores its result itself. Not generic, so that rayon is compiled once and not for each material.
 pub(crate) type Task<'a> = &'a mut (dyn FnMut() + Send);

@@ -73,7 +73,7 @@ const VALUE_ROUNDINGS: f64 = 4.0;
 /// values, and 4 for what values and differences round together.
 const REPORTED_VALUE_ROUNDINGS: f64 = 16.0;
 
-/// A bound above so many times 64 ε of the terms of the energies is wide.
+/// A bound above this multiple of 64 ε of the terms of the energies is wide.
 const WIDE: f64 = 100.0;
 
 /// The motion if every node covers its shortest element in a step: the scale of forces where nothing else moves.

@@ -1,4 +1,4 @@
-//! How accurate steps have to be, and how large the next one is.
+//! Step control: tolerances, error estimates and the size of the next step.
 
 mod accuracy;
 mod controller;

@@ -2,7 +2,7 @@
 //!
 //! Their second differences are those of the inverse function at the images:
 //! with the step `δ = (b − a)f[a,b]` of the value, addition theorems leave only
-//! even functions of `δ` beside `b`, and no difference of close numbers.
+//! even functions of `δ` and `b`, and no difference of close numbers.
 
 use super::primitives::{
     by_definition, ends, half, log_difference, near_or_far, sinc, sinc_prime, sinhc,

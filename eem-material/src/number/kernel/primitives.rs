@@ -257,7 +257,7 @@ pub fn two_sum<S: Scalar>(a: S, b: S) -> (S, S) {
 /// `ab = product + error` exactly in double precision (Dekker 1971), short of overflow.
 ///
 /// In single precision the splitting constant is too large and the error comes
-/// out as zero: the product is then the ordinary one.
+/// out as zero: the product is then rounded as usual.
 #[inline]
 pub(super) fn two_product<S: Scalar>(a: S, b: S) -> (S, S) {
     let product = a * b;

@@ -8,7 +8,7 @@ use eem_material::number::scalar::Real;
 /// `N_a` and `∂N_a/∂ξ` of all nodes.
 pub(crate) type Functions<S, const D: usize> = Vec<(S, [S; D])>;
 
-/// Those at a place of the parent cell.
+/// The shape functions at a place of the parent cell.
 pub(crate) fn functions<H: Shape<D>, S: Real, const D: usize>(place: [S; D]) -> Functions<S, D> {
     let nodes = 0..H::NODES.len();
     nodes.map(|node| H::function(node, place)).collect()

@@ -116,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn the_error_settles_at_the_aim() {
+    fn the_error_converges_to_the_aim() {
         for start in [0.01, 1.0, 7.0] {
             let (sizes, _) = run(|_| start);
             let error = (sizes[59] / start).powi(3);

@@ -54,7 +54,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> StageForces<K, S, D> {
     }
 }
 
-/// What an element is assembled with, and the global system.
+/// The workspace of the assembly of an element, and the global system.
 pub(super) struct Target<'a, K: Kinematics<S, D>, S: Real, const D: usize> {
     pub(super) rule: &'static Tableau,
     pub(super) step: S,

@@ -77,7 +77,7 @@ impl<K: Kinematics<S, D>, S: Real, const D: usize> StageArms<K, S, D> {
         Self { old, changes }
     }
 
-    /// Those at the stage of a set of unknowns.
+    /// The arms at the stage of a set of unknowns.
     pub(super) fn of_set(&self, set: usize) -> Arms<K, S, D> {
         let mut r = self.changes[set];
         add_scaled::<K, S, D>(&mut r, S::one(), &self.old);

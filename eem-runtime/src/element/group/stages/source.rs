@@ -21,7 +21,7 @@ where
     /// Number of forces of a stage.
     const FORCES: usize;
 
-    /// What [`direction`](Self::direction) and [`by_arms`](Self::by_arms) have in common.
+    /// The common part of [`direction`](Self::direction) and [`by_arms`](Self::by_arms).
     type Bases;
 
     /// Number of local unknowns: viscous stretches and temperature, set after set.

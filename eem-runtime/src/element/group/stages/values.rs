@@ -430,7 +430,7 @@ impl<S: Real, M: Material<S>, K: Kinematics<S, D>, const D: usize> Values<S, M, 
     }
 
     /// Books the heat of the thermostat of an element whose new entropy is given: at the stages it gives what the equations
-    /// of the rule lack with the prescribed temperatures, at the last stage the rest of the total.
+    /// of the rule need with the prescribed temperatures, at the last stage the rest of the total.
     fn book_thermostat(&self, h: S, [new_entropy, received]: [S; 2], next: &mut State<S>) {
         let total = new_entropy - self.point.entropy - received;
         let mut rest = total;

@@ -1,4 +1,4 @@
-//! What an element with projected conjugates books at the end of a step and contributes to its certificate.
+//! The end of a step of an element with projected conjugates: balances and certificate.
 //!
 //! ```text
 //! γ¹ = γ⁰ + Σ b ν
@@ -20,7 +20,7 @@ use crate::element::tally::{Care, Tally};
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
-/// What an element has received in a step, stage by stage.
+/// Heat and entropy received in a step, stage by stage.
 type Booked<S> = [Received<S>; MOST_STAGES];
 
 impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projections<S, M, K, D> {
@@ -235,7 +235,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
         }
     }
 
-    /// What its forces contribute to A and, for a thorough bound, to A⁺, J:
+    /// The contribution of its forces to A and, for a thorough bound, to A⁺, J:
     ///
     /// ```text
     /// |∇ê⁰||y⁰| + |∇ê¹||y¹| + Σ b |a||R| + ε Σ |W| y¹²,     Σ b |∂²ê/∂x∂y| |y| |R_x|

@@ -7,8 +7,8 @@ use crate::element::tableau::MOST_STAGES;
 use eem_material::free_energy::Material;
 use eem_material::number::scalar::Real;
 
-/// If `Δê − Σ b a·R` is at most so many roundings of its terms (a product and two sums of a term, in each of the two
-/// parts), it is rounding. The tangent then takes the correction as constant: its derivative would be noise divided by
+/// `Δê − Σ b a·R` is rounding up to this many roundings of its terms: a product and two sums of a term, in each of the two
+/// parts. The tangent then takes the correction as constant: its derivative would be noise divided by
 /// small increments.
 const DEFECT_ROUNDINGS: f64 = 8.0;
 

@@ -239,8 +239,8 @@ fn check_finite<S: Real>(
     })
 }
 
-/// A number of the magnitude of the second derivatives by some variables, each of which counts so many times, and of the
-/// first ones over their unit: the energy is flat in a metric of it only where all derivatives vanish.
+/// The magnitude of the second derivatives by some variables with these weights, and of the first ones over their unit. As
+/// a metric it vanishes only where all derivatives of the energy do.
 fn steepness<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize>(
     (slopes, curvatures): (&Vector<S, M, K, D>, &Matrix<S, M, K, D>),
     variables: Range<usize>,
