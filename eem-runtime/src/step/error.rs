@@ -1,4 +1,4 @@
-//! What can be wrong with a scene, with a state, and with a step.
+//! Why a step failed.
 //!
 //! Every error names the thing, the value and, once time runs, the time. Values are given in `f64`
 //! whatever the scalar of the scene.

@@ -36,7 +36,7 @@ use crate::element::tableau::{MOST_POINTS, MOST_SETS, MOST_STAGES};
 use crate::element::tally::Tally;
 use eem_material::free_energy::{Array, FreeEnergy, Material};
 use eem_material::number::scalar::Real;
-use vector::{Matrix, Vector};
+use vector::{Matrix, Vector, derivatives, steepness};
 
 /// A point with its path through a step, and the projections from it.
 pub(crate) struct Projections<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize> {
@@ -132,7 +132,42 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
     }
 
     fn begin(&mut self, in_state: &StatePoint<S, M, K, D>, x0: &M::Variables, r0: &Arms<K, S, D>) {
-        self.begin_path(in_state, x0, r0);
+        let (kinematics, last) = (&self.point.kinematics, M::Variables::LEN - 1);
+        let (gradient, hessian) = in_state.model.hessian(x0);
+        self.old_form = in_state.model.temperature_form_old(x0);
+        (self.old.rest, self.old.strain) = (*x0, kinematics.strain(r0));
+        let strain = &self.old.strain;
+        let (slopes, curvatures) = derivatives(kinematics, strain, (x0, &gradient, &hessian));
+        self.end_slopes[0] = slopes;
+        self.end_sizes[0] = kinematics.strain_sizes(strain);
+        let strains = 0..Self::STRAINS;
+        let (counts, unit) = kinematics.strain_metric(strain);
+        let derivatives = (&slopes, &curvatures);
+        let of_strain = steepness(derivatives, strains.clone(), |q| counts[q], unit);
+        for q in strains.clone() {
+            self.metric[q] = counts[q] * of_strain;
+        }
+        let entropy = Self::ENTROPY;
+        let components = entropy - M::VISCOUS_STRAIN..entropy;
+        for index in strains.end..components.start {
+            let unit = self.point.viscous_unit;
+            self.units[index] = unit;
+            self.metric[index] = steepness(derivatives, index..index + 1, |_| S::one(), unit);
+        }
+        // Components of a tensor count alike, whatever the axes are.
+        let of_components = steepness(derivatives, components.clone(), |_| S::one(), S::one());
+        for index in components {
+            self.units[index] = self.point.viscous_unit;
+            self.metric[index] = of_components;
+        }
+        if M::THERMAL {
+            let theta = x0[last];
+            self.old[entropy] = self.point.entropy;
+            self.units[entropy] = -theta * hessian[last][last];
+            self.metric[entropy] = curvatures.at([entropy, entropy]);
+            self.temperatures = [theta; MOST_POINTS + 1];
+        }
+        self.rates = [Vector::zero(); MOST_STAGES];
     }
 
     fn evaluate(
@@ -155,13 +190,32 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
         self.add_kelvin_voigt(in_state, view.per_step)
     }
 
+    // All in J; the unknowns are in their units.
     fn write_equations(
         &mut self,
         in_state: &StatePoint<S, M, K, D>,
         local: &mut LocalStages<S>,
         view: &StepView<'_, S>,
     ) -> Result<(), StateError> {
-        self.write_path(in_state, local, view)
+        let stages = 0..self.point.rule.stages();
+        for stage in stages.clone() {
+            for k in 0..M::DASHPOTS {
+                self.write_creep(local, [stage, k], view.per_step);
+            }
+        }
+        let Some(slot) = in_state.slots().thermal else {
+            return Ok(());
+        };
+        if let Some(prescribed) = self.point.prescribed {
+            return self.prescribe(in_state, local, &prescribed);
+        }
+        for stage in stages {
+            let theta = self.mean_temperature(stage);
+            let flow = view.conduction.reservoir_flow(slot, theta);
+            let heat = flow.heat + self.received[stage];
+            self.write_heat(local, stage, (view, [heat, flow.conductance]));
+        }
+        Ok(())
     }
 
     fn force(&self, local: &mut LocalStages<S>, [stage, component]: [usize; 2]) -> S {
@@ -299,7 +353,16 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Source<S
         next: &mut State<S>,
         tally: &mut Tally<S>,
     ) -> Result<(), StateError> {
-        self.close_path(in_state, (view, trial, r1), next, tally)
+        let booked = self.book(in_state, (view, trial), next, tally);
+        let near = self.temperatures[MOST_POINTS];
+        if let Some(entropy) = in_state.settle(r1, view, near, next)? {
+            self.book_thermostat(&booked, entropy, next);
+        }
+        let energy = &mut next.energies[in_state.element.index()];
+        energy.terms += self.forces_at_end();
+        let magnitude = energy.magnitude;
+        self.certify(in_state, (view, trial), (&booked, magnitude), tally);
+        Ok(())
     }
 
     fn recount(

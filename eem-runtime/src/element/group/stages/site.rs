@@ -1,4 +1,4 @@
-//! Where the elements write in the systems of the stages, found once per scene.
+//! The matrix indices of the elements in the systems of the stages, found once per scene.
 //!
 //! The unknowns of an iteration come set after set, so that the matrix has a block for every two sets. An element has a
 //! [`Site`] in each. The secant system, which closes a step stage by stage, has one unknown per mass and a right-hand

@@ -1,4 +1,4 @@
-//! Where the conjugates of the stages of an element come from.
+//! The sources of the conjugates of the stages.
 
 use super::point::{LocalStages, StageArms, StagePoint, StatePoint};
 use crate::element::error::StateError;

@@ -10,42 +10,21 @@
 
 use super::Projections;
 use crate::element::balances::{Balances, Received, reservoir_correction};
-use crate::element::error::StateError;
 use crate::element::group::stages::point::StatePoint;
 use crate::element::group::view::{StepView, Trial};
-use crate::element::kinematics::{Arms, PerStrain, QuadraticStrain};
+use crate::element::kinematics::{PerStrain, QuadraticStrain};
 use crate::element::state::State;
-use crate::element::tableau::{MOST_POINTS, MOST_STAGES};
+use crate::element::tableau::MOST_STAGES;
 use crate::element::tally::{Care, Tally};
 use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
 /// Heat and entropy received in a step, stage by stage.
-type Booked<S> = [Received<S>; MOST_STAGES];
+pub(super) type Booked<S> = [Received<S>; MOST_STAGES];
 
 impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projections<S, M, K, D> {
-    /// See [`Source::close`](crate::element::group::stages::Source::close).
-    pub(super) fn close_path(
-        &self,
-        in_state: &mut StatePoint<S, M, K, D>,
-        (view, trial, r1): (&StepView<'_, S>, &Trial<S, D>, &Arms<K, S, D>),
-        next: &mut State<S>,
-        tally: &mut Tally<S>,
-    ) -> Result<(), StateError> {
-        let booked = self.book(in_state, (view, trial), next, tally);
-        let near = self.temperatures[MOST_POINTS];
-        if let Some(entropy) = in_state.settle(r1, view, near, next)? {
-            self.book_thermostat(&booked, entropy, next);
-        }
-        let energy = &mut next.energies[in_state.element.index()];
-        energy.terms += self.forces_at_end();
-        let magnitude = energy.magnitude;
-        self.certify(in_state, (view, trial), (&booked, magnitude), tally);
-        Ok(())
-    }
-
     /// Books the increments of the internal variables and of the reservoirs' entropies.
-    fn book(
+    pub(super) fn book(
         &self,
         in_state: &StatePoint<S, M, K, D>,
         (view, trial): (&StepView<'_, S>, &Trial<S, D>),
@@ -153,7 +132,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
 
     /// Books the heat of the thermostat of an element whose new entropy is given, stage by stage; the rounding of the
     /// entropy at the last one.
-    fn book_thermostat(&self, booked: &Booked<S>, entropy: S, next: &mut State<S>) {
+    pub(super) fn book_thermostat(&self, booked: &Booked<S>, entropy: S, next: &mut State<S>) {
         let rule = self.point.rule;
         let mut total = entropy - self.point.entropy;
         let mut heat = S::zero();
@@ -179,7 +158,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
 
     /// Adds its forces, and checks the balances of its internal variables, given the magnitude of the terms of its
     /// energy, J.
-    fn certify(
+    pub(super) fn certify(
         &self,
         in_state: &StatePoint<S, M, K, D>,
         (view, trial): (&StepView<'_, S>, &Trial<S, D>),
@@ -278,7 +257,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     }
 
     /// `Σ|f||π| + Σ|g||γ|` of the new state, which the amplitude has for both ends, J.
-    fn forces_at_end(&self) -> S {
+    pub(super) fn forces_at_end(&self) -> S {
         let strains = Self::STRAINS;
         (0..Self::ENTROPY).fold(S::zero(), |sum, index| {
             let size = self.size_at_end(1, index);

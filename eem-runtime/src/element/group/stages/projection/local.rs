@@ -20,34 +20,6 @@ use eem_material::free_energy::{Array, Material};
 use eem_material::number::scalar::Real;
 
 impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projections<S, M, K, D> {
-    /// Writes the equations, all in J; the unknowns are in their units.
-    pub(super) fn write_path(
-        &mut self,
-        in_state: &StatePoint<S, M, K, D>,
-        local: &mut LocalStages<S>,
-        view: &StepView<'_, S>,
-    ) -> Result<(), StateError> {
-        let stages = 0..self.point.rule.stages();
-        for stage in stages.clone() {
-            for k in 0..M::DASHPOTS {
-                self.write_creep(local, [stage, k], view.per_step);
-            }
-        }
-        let Some(slot) = in_state.slots().thermal else {
-            return Ok(());
-        };
-        if let Some(prescribed) = self.point.prescribed {
-            return self.prescribe(in_state, local, &prescribed);
-        }
-        for stage in stages {
-            let theta = self.mean_temperature(stage);
-            let flow = view.conduction.reservoir_flow(slot, theta);
-            let heat = flow.heat + self.received[stage];
-            self.write_heat(local, stage, (view, [heat, flow.conductance]));
-        }
-        Ok(())
-    }
-
     /// Writes the derivatives of a conjugate of a stage to the row of the workspace.
     pub(super) fn differentiate(&self, local: &mut LocalStages<S>, [stage, index]: [usize; 2]) {
         let (sets, strains) = (self.point.rule.sets(), Self::STRAINS);
@@ -81,7 +53,12 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     }
 
     /// The equation of a dashpot at a stage, times the unit of its stretch.
-    fn write_creep(&mut self, local: &mut LocalStages<S>, [stage, k]: [usize; 2], per_step: S) {
+    pub(super) fn write_creep(
+        &mut self,
+        local: &mut LocalStages<S>,
+        [stage, k]: [usize; 2],
+        per_step: S,
+    ) {
         let (equation, index) = (stage * M::DASHPOTS + k, Self::STRAINS + k);
         let unit = self.units[index];
         let (viscosities, slopes) = &self.viscosities[stage];
@@ -100,7 +77,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
 
     /// The balance of heat at a stage, given the heat received from paths, W, and the conductance to
     /// reservoirs.
-    fn write_heat(
+    pub(super) fn write_heat(
         &mut self,
         local: &mut LocalStages<S>,
         stage: usize,
@@ -139,7 +116,7 @@ impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projecti
     }
 
     /// The equations `θ (s(τ) − S(λ, γ, θ)) = 0` where the temperature θ is given.
-    fn prescribe(
+    pub(super) fn prescribe(
         &mut self,
         in_state: &StatePoint<S, M, K, D>,
         local: &mut LocalStages<S>,

@@ -1,7 +1,5 @@
 //! The path of a point through a step: its beginning, its points at a trial, and the projections from them.
 
-use core::ops::Range;
-
 use super::vector::{Matrix, Vector, chained, derivatives};
 use super::{Projections, combined};
 use crate::element::conjugates::{Infeasible, temperature_at};
@@ -9,7 +7,7 @@ use crate::element::error::StateError;
 use crate::element::group::respond::check_measures;
 use crate::element::group::stages::point::{StageArms, StatePoint};
 use crate::element::handle::Element;
-use crate::element::kinematics::{Arms, Measures, PerStrain, QuadraticStrain};
+use crate::element::kinematics::{Measures, PerStrain, QuadraticStrain};
 use crate::element::tableau::{MOST_POINTS, MOST_STAGES, Path};
 use eem_material::free_energy::{Array, FreeEnergy, Material};
 use eem_material::number::scalar::{Real, is_positive};
@@ -18,51 +16,6 @@ use eem_material::number::scalar::{Real, is_positive};
 type PathPoint<S, M, K, const D: usize> = (Vector<S, M, K, D>, <M as FreeEnergy<S>>::Variables);
 
 impl<S: Real, M: Material<S>, K: QuadraticStrain<S, D>, const D: usize> Projections<S, M, K, D> {
-    /// Takes y⁰ from the old variables and arms; all increments are zero.
-    pub(super) fn begin_path(
-        &mut self,
-        in_state: &StatePoint<S, M, K, D>,
-        x0: &M::Variables,
-        r0: &Arms<K, S, D>,
-    ) {
-        let (kinematics, last) = (&self.point.kinematics, M::Variables::LEN - 1);
-        let (gradient, hessian) = in_state.model.hessian(x0);
-        self.old_form = in_state.model.temperature_form_old(x0);
-        (self.old.rest, self.old.strain) = (*x0, kinematics.strain(r0));
-        let strain = &self.old.strain;
-        let (slopes, curvatures) = derivatives(kinematics, strain, (x0, &gradient, &hessian));
-        self.end_slopes[0] = slopes;
-        self.end_sizes[0] = kinematics.strain_sizes(strain);
-        let strains = 0..Self::STRAINS;
-        let (counts, unit) = kinematics.strain_metric(strain);
-        let derivatives = (&slopes, &curvatures);
-        let of_strain = steepness(derivatives, strains.clone(), |q| counts[q], unit);
-        for q in strains.clone() {
-            self.metric[q] = counts[q] * of_strain;
-        }
-        let entropy = Self::ENTROPY;
-        let components = entropy - M::VISCOUS_STRAIN..entropy;
-        for index in strains.end..components.start {
-            let unit = self.point.viscous_unit;
-            self.units[index] = unit;
-            self.metric[index] = steepness(derivatives, index..index + 1, |_| S::one(), unit);
-        }
-        // Components of a tensor count alike, whatever the axes are.
-        let of_components = steepness(derivatives, components.clone(), |_| S::one(), S::one());
-        for index in components {
-            self.units[index] = self.point.viscous_unit;
-            self.metric[index] = of_components;
-        }
-        if M::THERMAL {
-            let theta = x0[last];
-            self.old[entropy] = self.point.entropy;
-            self.units[entropy] = -theta * hessian[last][last];
-            self.metric[entropy] = curvatures.at([entropy, entropy]);
-            self.temperatures = [theta; MOST_POINTS + 1];
-        }
-        self.rates = [Vector::zero(); MOST_STAGES];
-    }
-
     /// Arms, their motion and the increments of C at the stages.
     pub(super) fn move_along(
         &mut self,
@@ -237,23 +190,4 @@ fn check_finite<S: Real>(
         quantity: "force or entropy",
         value: sum.to_f64(),
     })
-}
-
-/// The magnitude of the second derivatives by some variables with these weights, and of the first ones over their unit. As
-/// a metric it vanishes only where all derivatives of the energy do.
-fn steepness<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize>(
-    (slopes, curvatures): (&Vector<S, M, K, D>, &Matrix<S, M, K, D>),
-    variables: Range<usize>,
-    counts: impl Fn(usize) -> S,
-    unit: S,
-) -> S {
-    let (mut curvature, mut slope) = (S::zero(), S::zero());
-    for row in variables.clone() {
-        slope = slope.hypot(slopes[row] / counts(row).sqrt());
-        for column in variables.clone() {
-            let counted = (counts(row) * counts(column)).sqrt();
-            curvature = curvature.hypot(curvatures.at([row, column]) / counted);
-        }
-    }
-    curvature + slope / unit
 }

@@ -5,7 +5,7 @@
 //! ê_C = P e_π,   ê_CC = P e_ππ Pᵀ + Σ e_π ∂²π/∂C²,   ê_Cx = P e_πx,   P = ∂π/∂C
 //! ```
 
-use core::ops::{Index, IndexMut};
+use core::ops::{Index, IndexMut, Range};
 
 use crate::element::group::arms::measures_in;
 use crate::element::kinematics::{PerStrain, QuadraticStrain, StrainMatrix};
@@ -226,4 +226,23 @@ pub(super) fn chained<S: Real, K: QuadraticStrain<S, D>, const D: usize>(
         }
     }
     sum
+}
+
+/// The magnitude of the second derivatives by some variables with these weights, and of the first ones over their unit. As
+/// a metric it vanishes only where all derivatives of the energy do.
+pub(super) fn steepness<S: Real, M: FreeEnergy<S>, K: QuadraticStrain<S, D>, const D: usize>(
+    (slopes, curvatures): (&Vector<S, M, K, D>, &Matrix<S, M, K, D>),
+    variables: Range<usize>,
+    counts: impl Fn(usize) -> S,
+    unit: S,
+) -> S {
+    let (mut curvature, mut slope) = (S::zero(), S::zero());
+    for row in variables.clone() {
+        slope = slope.hypot(slopes[row] / counts(row).sqrt());
+        for column in variables.clone() {
+            let counted = (counts(row) * counts(column)).sqrt();
+            curvature = curvature.hypot(curvatures.at([row, column]) / counted);
+        }
+    }
+    curvature + slope / unit
 }
