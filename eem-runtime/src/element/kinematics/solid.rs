@@ -190,19 +190,6 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> SolidPoint<H, S, N, D
         }
         weights
     }
-
-    /// The deformations at the end and in the middle, and the strains.
-    #[inline]
-    pub(super) fn deformations(&self, arms: [&PerArm<H, S, D>; 2]) -> Deformations<H, S, D> {
-        let [old, new] = arms.map(|r| self.deformation(r));
-        let half = S::from_f64(0.5);
-        let mean = array::from_fn(|i| array::from_fn(|j| half * (old[i][j] + new[i][j])));
-        Deformations {
-            mean,
-            new,
-            strains: Between::new([&old, &new]),
-        }
-    }
 }
 
 /// Deformations and strains of a cell between two states.

@@ -1,5 +1,7 @@
 //! The measures at a point of a solid as functions of its arms, and its stress.
 
+use core::array;
+
 use nalgebra::SMatrix;
 
 use crate::element::error::StateError;
@@ -165,7 +167,14 @@ impl<H: Shape<D>, S: Real, const N: usize, const D: usize> Kinematics<S, D>
 
     #[inline]
     fn between(&self, arms: [&PerArm<H, S, D>; 2]) -> Deformations<H, S, D> {
-        self.deformations(arms)
+        let [old, new] = arms.map(|r| self.deformation(r));
+        let half = S::from_f64(0.5);
+        let mean = array::from_fn(|i| array::from_fn(|j| half * (old[i][j] + new[i][j])));
+        Deformations {
+            mean,
+            new,
+            strains: Between::new([&old, &new]),
+        }
     }
 
     #[inline]
