@@ -35,7 +35,7 @@ pub(super) type StatePoint<S, M, K, const D: usize> = Point<S, M, K, PointRule, 
 /// An element, whose points are [sources](super::source::Source) of conjugates.
 pub(crate) struct StageMember<K: Kinematics<S, D>, S: Real, C, const D: usize> {
     pub(super) site: StageSite<K, S, D>,
-    /// On the heap: those of a cell with many points are large.
+    /// On the heap: cells with many points are large.
     pub(super) points: Vec<C>,
 }
 
@@ -63,7 +63,7 @@ pub(crate) struct StageArms<K: Kinematics<S, D>, S: Real, const D: usize> {
 }
 
 impl<K: Kinematics<S, D>, S: Real, const D: usize> StageArms<K, S, D> {
-    /// Of the element with these nodes.
+    /// The arms of the element with these nodes.
     pub(super) fn new(
         rule: &Tableau,
         nodes: &K::PerNode<u32>,
@@ -91,9 +91,9 @@ pub(crate) struct LocalStages<S> {
     /// `∂r/∂u`, row-major.
     pub(super) matrix: Vec<S>,
     pivots: Vec<usize>,
-    /// The derivatives of one quantity by the local unknowns, and, behind a zero, by the inputs; once the local unknowns
-    /// are eliminated, its change without changes of the inputs in the place of the zero.
+    /// The derivatives of one quantity by the local unknowns.
     pub(super) by_unknown: Vec<S>,
+    /// Its change for constant inputs, zero before the elimination of the local unknowns, then its derivatives by the inputs.
     pub(super) row: Vec<S>,
     /// Changes of the inputs.
     pub(super) inputs: Vec<S>,
