@@ -7,10 +7,8 @@ use crate::number::scalar::Scalar;
 /// with `M = max(a,b)`, `d = |b − a|`, `φ(d) = (1 − e^(−d))/d`.
 ///
 /// ```
-/// use eem::kernel::exp_dd;
-///
-/// assert!((exp_dd(0.0, 1.0) - (1.0_f64.exp() - 1.0)).abs() < 1e-15);
-/// assert_eq!(exp_dd(0.0, 0.0), 1.0);
+/// assert!((eem::kernel::exp_dd(0.0, 1.0) - (1.0_f64.exp() - 1.0)).abs() < 1e-15);
+/// assert_eq!(eem::kernel::exp_dd(0.0, 0.0), 1.0);
 /// ```
 #[inline]
 pub fn exp_dd<S: Scalar>(a: S, b: S) -> S {
@@ -47,10 +45,8 @@ pub fn exp_dd2<S: Scalar>(a: S, b: S) -> S {
 /// this number times that of `h ln g`.
 ///
 /// ```
-/// use eem::kernel::power_dd;
-///
 /// let (x_a, x_b) = (2.0_f64.ln(), 2.0 * 2.0_f64.ln());
-/// let difference = power_dd(2.0, 4.0, x_a, x_b);
+/// let difference = eem::kernel::power_dd(2.0, 4.0, x_a, x_b);
 /// assert!((difference - 2.0 / 2.0_f64.ln()).abs() < 1e-15);
 /// ```
 #[inline]

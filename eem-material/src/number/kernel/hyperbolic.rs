@@ -9,10 +9,8 @@ use crate::number::scalar::Scalar;
 /// `f[a,b]` of the hyperbolic sine: `½φ(d)(e^M + e^(−m))` with `m = min(a,b)`, `M = max(a,b)`, `d = M − m`.
 ///
 /// ```
-/// use eem::kernel::sinh_dd;
-///
-/// assert_eq!(sinh_dd(0.0, 0.0), 1.0);
-/// assert!((sinh_dd(0.0, 1.0) - 1.0_f64.sinh()).abs() < 1e-15);
+/// assert_eq!(eem::kernel::sinh_dd(0.0, 0.0), 1.0);
+/// assert!((eem::kernel::sinh_dd(0.0, 1.0) - 1.0_f64.sinh()).abs() < 1e-15);
 /// ```
 #[inline]
 pub fn sinh_dd<S: Scalar>(a: S, b: S) -> S {
@@ -49,10 +47,8 @@ pub fn sinh_dd2<S: Scalar>(a: S, b: S) -> S {
 /// the mirror image for `s < 0`.
 ///
 /// ```
-/// use eem::kernel::cosh_dd;
-///
-/// assert_eq!(cosh_dd(-2.0, 2.0), 0.0);
-/// assert!((cosh_dd(0.0, 1.0) - (1.0_f64.cosh() - 1.0)).abs() < 1e-15);
+/// assert_eq!(eem::kernel::cosh_dd(-2.0, 2.0), 0.0);
+/// assert!((eem::kernel::cosh_dd(0.0, 1.0) - (1.0_f64.cosh() - 1.0)).abs() < 1e-15);
 /// ```
 #[inline]
 pub fn cosh_dd<S: Scalar>(a: S, b: S) -> S {
@@ -78,10 +74,8 @@ pub fn cosh_dd2<S: Scalar>(a: S, b: S) -> S {
 /// `d = |b − a|`, and `μ = min(|a|, |b|)` for ends of one sign, else 0.
 ///
 /// ```
-/// use eem::kernel::tanh_dd;
-///
-/// assert_eq!(tanh_dd(0.0, 0.0), 1.0);
-/// assert!((tanh_dd(-1.0, 1.0) - 1.0_f64.tanh()).abs() < 1e-15);
+/// assert_eq!(eem::kernel::tanh_dd(0.0, 0.0), 1.0);
+/// assert!((eem::kernel::tanh_dd(-1.0, 1.0) - 1.0_f64.tanh()).abs() < 1e-15);
 /// ```
 #[inline]
 pub fn tanh_dd<S: Scalar>(a: S, b: S) -> S {

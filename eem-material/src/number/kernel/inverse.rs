@@ -20,10 +20,8 @@ use crate::number::scalar::Scalar;
 /// with `m < M` the ends in the order in which `m + M ≥ 0`, mirrored if necessary.
 ///
 /// ```
-/// use eem::kernel::asinh_dd;
-///
-/// assert_eq!(asinh_dd(0.0, 0.0), 1.0);
-/// assert!((asinh_dd(0.0, 1.0) - 1.0_f64.asinh()).abs() < 1e-15);
+/// assert_eq!(eem::kernel::asinh_dd(0.0, 0.0), 1.0);
+/// assert!((eem::kernel::asinh_dd(0.0, 1.0) - 1.0_f64.asinh()).abs() < 1e-15);
 /// ```
 #[inline]
 pub fn asinh_dd<S: Scalar>(a: S, b: S) -> S {
@@ -68,10 +66,8 @@ pub fn asinh_dd2<S: Scalar>(a: S, b: S) -> S {
 /// `f[a,b]` of the arc tangent: `atan2(d, 1 + ab)/d` with `d = |b − a|`.
 ///
 /// ```
-/// use eem::kernel::atan_dd;
-///
-/// assert_eq!(atan_dd(2.0, 2.0), 0.2);
-/// assert!((atan_dd(0.0, 1.0) - core::f64::consts::FRAC_PI_4).abs() < 1e-15);
+/// assert_eq!(eem::kernel::atan_dd(2.0, 2.0), 0.2);
+/// assert!((eem::kernel::atan_dd(0.0, 1.0) - core::f64::consts::FRAC_PI_4).abs() < 1e-15);
 /// ```
 #[inline]
 pub fn atan_dd<S: Scalar>(a: S, b: S) -> S {
@@ -105,10 +101,8 @@ pub fn atan_dd2<S: Scalar>(a: S, b: S) -> S {
 /// `M = max(a,b)`.
 ///
 /// ```
-/// use eem::kernel::atanh_dd;
-///
-/// assert!((atanh_dd(0.0, 0.5) - 3.0_f64.ln()).abs() < 1e-15);
-/// assert_eq!(atanh_dd(0.5, 0.5), 4.0 / 3.0);
+/// assert!((eem::kernel::atanh_dd(0.0, 0.5) - 3.0_f64.ln()).abs() < 1e-15);
+/// assert_eq!(eem::kernel::atanh_dd(0.5, 0.5), 4.0 / 3.0);
 /// ```
 #[inline]
 pub fn atanh_dd<S: Scalar>(a: S, b: S) -> S {

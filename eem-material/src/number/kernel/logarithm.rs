@@ -42,10 +42,8 @@ pub fn ln_1p_dds<S: Scalar>(a: S, b: S) -> Differences<S> {
 /// `m = min(a,b)`, `d = |b − a|` for larger ratios.
 ///
 /// ```
-/// use eem::kernel::ln_dd;
-///
-/// assert!((ln_dd(1.0, 2.0) - 2.0_f64.ln()).abs() < 1e-15);
-/// assert_eq!(ln_dd(4.0, 4.0), 0.25);
+/// assert!((eem::kernel::ln_dd(1.0, 2.0) - 2.0_f64.ln()).abs() < 1e-15);
+/// assert_eq!(eem::kernel::ln_dd(4.0, 4.0), 0.25);
 /// ```
 #[inline]
 pub fn ln_dd<S: Scalar>(a: S, b: S) -> S {

@@ -91,11 +91,9 @@ fn mean_square<S: Scalar>(x: S, y: S) -> S {
 /// `(Mᵖ − mᵖ)/d` with `M = max(a,b)` for |x| ≥ 1, where the quotient of the two powers exceeds e.
 ///
 /// ```
-/// use eem::kernel::powf_dd;
-///
-/// assert_eq!(powf_dd(1.0, 4.0, 1.5), 7.0 / 3.0);
-/// assert_eq!(powf_dd(0.0, 4.0, 0.5), 0.5);
-/// assert_eq!(powf_dd(4.0, 4.0, 1.5), 3.0);
+/// assert_eq!(eem::kernel::powf_dd(1.0, 4.0, 1.5), 7.0 / 3.0);
+/// assert_eq!(eem::kernel::powf_dd(0.0, 4.0, 0.5), 0.5);
+/// assert_eq!(eem::kernel::powf_dd(4.0, 4.0, 1.5), 3.0);
 /// ```
 #[inline]
 pub fn powf_dd<S: Scalar>(a: S, b: S, p: S) -> S {
@@ -119,10 +117,8 @@ pub fn powf_dd<S: Scalar>(a: S, b: S, p: S) -> S {
 /// terms would cancel, `xᵖ = x·x^(p−1)` with the Leibniz rule.
 ///
 /// ```
-/// use eem::kernel::powf_dd2;
-///
-/// assert!((powf_dd2(4.0, 4.0, 1.5_f64) - 0.1875).abs() < 1e-15);
-/// assert_eq!(powf_dd2(1.0, 4.0, 2.0), 1.0);
+/// assert!((eem::kernel::powf_dd2(4.0, 4.0, 1.5_f64) - 0.1875).abs() < 1e-15);
+/// assert_eq!(eem::kernel::powf_dd2(1.0, 4.0, 2.0), 1.0);
 /// ```
 #[inline]
 pub fn powf_dd2<S: Scalar>(a: S, b: S, p: S) -> S {
@@ -198,11 +194,9 @@ fn product_dd2<S: Scalar>(a: S, b: S, q: S) -> S {
 /// positive. The error is at most `½|n| + 1` ulp.
 ///
 /// ```
-/// use eem::kernel::powi_dd;
-///
-/// assert_eq!(powi_dd(2.0, 3.0, 3), 19.0);
-/// assert_eq!(powi_dd(-7.0, 7.0, 4), 0.0);
-/// assert_eq!(powi_dd(2.0, 4.0, -1), -0.125);
+/// assert_eq!(eem::kernel::powi_dd(2.0, 3.0, 3), 19.0);
+/// assert_eq!(eem::kernel::powi_dd(-7.0, 7.0, 4), 0.0);
+/// assert_eq!(eem::kernel::powi_dd(2.0, 4.0, -1), -0.125);
 /// ```
 #[inline]
 pub fn powi_dd<S: Scalar>(a: S, b: S, n: i32) -> S {
@@ -226,10 +220,8 @@ pub fn powi_dd<S: Scalar>(a: S, b: S, n: i32) -> S {
 /// ```
 ///
 /// ```
-/// use eem::kernel::powi_dd2;
-///
-/// assert_eq!(powi_dd2(2.0, 3.0, 3), 8.0);
-/// assert_eq!(powi_dd2(2.0, 4.0, -1), 0.03125);
+/// assert_eq!(eem::kernel::powi_dd2(2.0, 3.0, 3), 8.0);
+/// assert_eq!(eem::kernel::powi_dd2(2.0, 4.0, -1), 0.03125);
 /// ```
 #[inline]
 pub fn powi_dd2<S: Scalar>(a: S, b: S, n: i32) -> S {

@@ -9,10 +9,8 @@ use crate::number::scalar::Scalar;
 /// `f[a,b]` of the sine: `cos(½(a + b))·sinc(½(b − a))`.
 ///
 /// ```
-/// use eem::kernel::sin_dd;
-///
-/// assert_eq!(sin_dd(0.0, 0.0), 1.0);
-/// assert!((sin_dd(0.0, 1.0) - 1.0_f64.sin()).abs() < 1e-15);
+/// assert_eq!(eem::kernel::sin_dd(0.0, 0.0), 1.0);
+/// assert!((eem::kernel::sin_dd(0.0, 1.0) - 1.0_f64.sin()).abs() < 1e-15);
 /// ```
 #[inline]
 pub fn sin_dd<S: Scalar>(a: S, b: S) -> S {
@@ -36,10 +34,8 @@ pub fn sin_dd2<S: Scalar>(a: S, b: S) -> S {
 /// `f[a,b]` of the cosine: `−sin(½(a + b))·sinc(½(b − a))`.
 ///
 /// ```
-/// use eem::kernel::cos_dd;
-///
-/// assert_eq!(cos_dd(-3.0, 3.0), 0.0);
-/// assert!((cos_dd(0.0, 1.0) - (1.0_f64.cos() - 1.0)).abs() < 1e-15);
+/// assert_eq!(eem::kernel::cos_dd(-3.0, 3.0), 0.0);
+/// assert!((eem::kernel::cos_dd(0.0, 1.0) - (1.0_f64.cos() - 1.0)).abs() < 1e-15);
 /// ```
 #[inline]
 pub fn cos_dd<S: Scalar>(a: S, b: S) -> S {
@@ -63,10 +59,8 @@ pub fn cos_dd2<S: Scalar>(a: S, b: S) -> S {
 /// `f[a,b]` of the tangent, for ends with no pole between them: `sinc(b − a)/(cos a·cos b)`.
 ///
 /// ```
-/// use eem::kernel::tan_dd;
-///
-/// assert_eq!(tan_dd(0.0, 0.0), 1.0);
-/// assert!((tan_dd(0.0, 1.0) - 1.0_f64.tan()).abs() < 1e-15);
+/// assert_eq!(eem::kernel::tan_dd(0.0, 0.0), 1.0);
+/// assert!((eem::kernel::tan_dd(0.0, 1.0) - 1.0_f64.tan()).abs() < 1e-15);
 /// ```
 #[inline]
 pub fn tan_dd<S: Scalar>(a: S, b: S) -> S {
