@@ -110,7 +110,13 @@ impl<S: Real, const D: usize> Bivector<S, D> {
     /// The largest `|J_ij|`.
     #[inline]
     pub(crate) fn largest(&self) -> S {
-        planes::<D>().fold(S::zero(), |most, plane| most.maximum(self.at(plane).abs()))
+        let mut most = S::zero();
+        for i in 0..D {
+            for j in i + 1..D {
+                most = most.maximum(self.0[i][j].abs());
+            }
+        }
+        most
     }
 
     /// `Σ_ij a_i J_ij b_j` over all i and j: the component of the plane of two unit vectors.

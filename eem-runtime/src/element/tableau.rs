@@ -7,8 +7,6 @@
 /// viscous stretches; each of the others has a set of unknowns, `q_i − q⁰`, `γ_i` and a temperature.
 #[derive(Debug)]
 pub(crate) struct Tableau {
-    /// The order of the scheme.
-    pub(crate) order: u8,
     /// c: the times of the stages, as fractions of the step.
     pub(crate) times: &'static [f64],
     /// The number of stages at the start of the step.

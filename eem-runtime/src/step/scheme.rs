@@ -178,13 +178,17 @@ impl Rule {
     const fn closed(self, closing: Closing) -> Self {
         Self { closing, ..self }
     }
+
+    const fn through_stages(self, order: u8) -> Self {
+        self.of_order(order).closed(Closing::Stages)
+    }
 }
 
 impl Scheme {
     const fn rule(self) -> Rule {
         use Conjugates::{EntropyForm, Point, Stages, TemperatureForm};
         use PointRule::{Midpoint, MidpointTemperature, Trapezoidal, TrapezoidalTemperature};
-        let rule = match self {
+        match self {
             Self::EemEntropy => Rule::exact("eem-entropy", EntropyForm),
             Self::EemTemperature => Rule::exact("eem-temperature", TemperatureForm),
             // Its elements have no algorithmic quantities of their own.
@@ -200,6 +204,7 @@ impl Scheme {
             Self::Variational => Rule::variational("variational", Point(PointRule::Variational)),
             Self::Variational4 => {
                 Rule::variational("variational-4", Stages(&variational_4::TABLEAU))
+                    .through_stages(4)
             }
             Self::Midpoint => Rule::classical("midpoint", Point(Midpoint)),
             Self::MidpointTemperature => {
@@ -209,13 +214,13 @@ impl Scheme {
             Self::TrapezoidalTemperature => {
                 Rule::classical("trapezoidal-temperature", Point(TrapezoidalTemperature))
             }
-            Self::Gauss4 => Rule::classical("gauss-4", Stages(&gauss_4::TABLEAU)),
-            Self::EemEntropy4 => Rule::exact("eem-entropy-4", Stages(&eem_entropy_4::TABLEAU)),
-            Self::EemEntropy6 => Rule::exact("eem-entropy-6", Stages(&eem_entropy_6::TABLEAU)),
-        };
-        match rule.conjugates {
-            Stages(tableau) => rule.of_order(tableau.order).closed(Closing::Stages),
-            _ => rule,
+            Self::Gauss4 => Rule::classical("gauss-4", Stages(&gauss_4::TABLEAU)).through_stages(4),
+            Self::EemEntropy4 => {
+                Rule::exact("eem-entropy-4", Stages(&eem_entropy_4::TABLEAU)).through_stages(4)
+            }
+            Self::EemEntropy6 => {
+                Rule::exact("eem-entropy-6", Stages(&eem_entropy_6::TABLEAU)).through_stages(6)
+            }
         }
     }
 

@@ -57,7 +57,6 @@ const fn balance(stage: usize) -> EntropyBalance {
 
 /// See the module.
 pub(crate) static TABLEAU: Tableau = Tableau {
-    order: 6,
     times: &[FIRST, 0.5, THIRD],
     known: 0,
     // A²/c.

@@ -38,7 +38,6 @@ pub(crate) static TABLEAU: Tableau = RULE;
 
 /// The same, of which another rule is made.
 pub(super) const RULE: Tableau = Tableau {
-    order: 4,
     times: &[FIRST, SECOND],
     known: 0,
     positions: &[&POSITIONS[0], &POSITIONS[1]],

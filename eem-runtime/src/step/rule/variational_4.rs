@@ -51,7 +51,6 @@ const TO_MIDDLE: [f64; 3] = [5.0 / 24.0, 8.0 / 24.0, -1.0 / 24.0];
 
 /// See the module.
 pub(crate) static TABLEAU: Tableau = Tableau {
-    order: 4,
     times: &[0.0, 0.5, 1.0],
     known: 1,
     positions: &[&[1.0 / 6.0, 1.0 / 12.0, 0.0], &[1.0 / 6.0, 1.0 / 3.0, 0.0]],
