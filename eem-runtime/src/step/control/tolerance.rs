@@ -2,7 +2,7 @@
 
 use crate::element::state::State;
 use crate::scene::error::SceneError;
-use crate::step::control::accuracy::Accuracy;
+use crate::step::control::controller::Accuracy;
 use eem_material::number::scalar::{Mask, Real, is_positive};
 
 /// The ε that separates double and single precision.
@@ -217,7 +217,7 @@ pub(crate) fn norm<S: Real>(x: &[S]) -> S {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::step::control::accuracy::Estimate;
+    use crate::step::control::controller::Estimate;
 
     #[test]
     fn tolerances_of_steps_make_errors_of_the_state_proportional() {
