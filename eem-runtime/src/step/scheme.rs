@@ -32,9 +32,9 @@ use crate::step::rule::{eem_entropy_4, eem_entropy_6, gauss_4, variational_4};
 ///
 /// `Variational4` is stable if vibrations are resolved, `ωh < √8`. The schemes of order 4 have twice as many
 /// unknowns, that of order 6 three times as many. `EemExplicit`, the variational schemes and `Gauss4` are for springs
-/// only, without rockets. `EemEntropy4` and `EemEntropy6` use mean temperatures along the step. One that is not positive is an error; they are positive if no temperature
-/// changes by more than a factor of 13.9 or 7.2 within a step. Dashpots and conduction much faster than a step
-/// decay slowly, as with any Gauss collocation.
+/// only, without rockets. `EemEntropy4` and `EemEntropy6` use mean temperatures along the step, which are positive if no
+/// temperature changes by more than a factor of 13.9 or 7.2 within a step; one that is not is an error. Dashpots and
+/// conduction much faster than a step decay slowly, as with any Gauss collocation.
 ///
 /// ```
 /// use eem::Scheme;

@@ -1,6 +1,7 @@
 //! Conjugates that are projections of the derivatives of the energy along the path through a step, TC-cG(k).
 //!
-//! With the [strain](QuadraticStrain) C, `ê(C, γ, s) = e(π(C), γ, s)` and the polynomials through the increments `R_i = h(Ċ, γ̇, ṡ)_i`,
+//! With the [strain](QuadraticStrain) C, `ê(C, γ, s) = e(π(C), γ, s)` and the polynomials through the increments
+//! `R_i = h(Ċ, γ̇, ṡ)_i`,
 //!
 //! ```text
 //! Ċ_i = ∂C/∂d_i·ḋ_i     (N, −G, Θ)_i = a_i = Σ_r projection_ir ∇ê(y(τ_r)) + μ W R_i
@@ -9,10 +10,9 @@
 //! F_i = N_i ∂C/∂d_i,   γ̇_i = G_i/η(Θ_i),   Θ_i ṡ_i = Σ η γ̇_i² + Σ κ(Θ_f − Θ)_i
 //! ```
 //!
-//! (Groß & Betsch 2011; `C` as an independent path: Betsch & Steinmann 2001). As Ċ has the degree `2k − 1`,
-//! the path of C ends at the strain of d¹; so μ, which vanishes with the error of the quadrature, makes
-//! `Σ b_i a_i·R_i` the change of the energy of the element. `Δê` is that of discrete derivatives between the
-//! ends, without a difference of energies.
+//! (Groß & Betsch 2011; `C` as an independent path: Betsch & Steinmann 2001). As Ċ has the degree `2k − 1`, the path of C ends
+//! at the strain of d¹; so μ, which vanishes with the error of the quadrature, makes `Σ b_i a_i·R_i` the change of the energy
+//! of the element. `Δê` comes from discrete derivatives between the ends, without a difference of energies.
 //!
 //! The local unknowns are the increments of γ and s at all stages, the inputs those of C and heat.
 
