@@ -100,7 +100,7 @@ const CONTRACTION: f64 = 0.25;
 /// Newton's method in ln θ from a temperature that is nearly right, `θ ← θ e^((s − S)/C)`; also returns what else was
 /// evaluated at the last temperature.
 ///
-/// Where it does not contract, the [search](search_from) starts again from the first temperature, and finds the solution
+/// Where it does not contract, a search starts again from the first temperature, and finds the solution
 /// from anywhere on the same stable branch.
 ///
 /// The first correction of ln θ that is at most `enough` is the last one.
